@@ -1,0 +1,2 @@
+//! taut beside its peers.
+fn main() {}

@@ -1,0 +1,85 @@
+//! The minimum enclosing ball of points or of balls, and its certificate.
+
+mod check;
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use taut_points::{Monitor, PointSource, PointsHash};
+
+use crate::{Answer, CheckError, Verdict};
+
+/// What the rows of a source stand for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Items {
+    /// Each row is a point.
+    #[default]
+    Points,
+    /// Each row is a ball: its centre, then its radius ≥ 0 in the last column.
+    Balls,
+}
+
+impl Items {
+    /// The dimension of the space in which rows of `columns` numbers lie.
+    pub fn dim(self, columns: usize) -> usize {
+        match self {
+            Items::Points => columns,
+            Items::Balls => columns.saturating_sub(1),
+        }
+    }
+}
+
+/// A ball in ℝᵈ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ball {
+    /// The d coordinates of the centre.
+    pub center: Vec<f64>,
+    /// What is to be added to `center`, coordinate by coordinate, for the exact centre; empty means nothing.
+    ///
+    /// Given when the points lie so far from the origin that rounding the centre to one `f64` would cost more than
+    /// 1e-15 of the radius.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub center_tail: Vec<f64>,
+    /// The radius.
+    pub radius: f64,
+}
+
+/// Convex multipliers λ over few items: the proof that no much smaller ball exists.
+///
+/// For points, c = Σ λᵢpᵢ and r² = Σ λᵢ|pᵢ − c|² ≤ R*², for any λ ≥ 0 with Σ λᵢ = 1. For balls with radii rᵢ and
+/// r̄ = Σ λᵢrᵢ, c = Σ λᵢcᵢ and r = r̄ + √(Σ λᵢ(|cᵢ − c|² − (rᵢ − r̄)²)) ≤ R*.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BallCertificate {
+    /// Points or balls.
+    pub items: Items,
+    /// Row numbers of the items with λᵢ > 0, from 0, ascending.
+    pub support: Vec<u64>,
+    /// λᵢ, in the order of `support`.
+    pub multipliers: Vec<f64>,
+    /// The gap claimed: radius ≤ (1 + gap)·R*.
+    pub gap: f64,
+    /// The hash of the rows this was made for.
+    #[serde(serialize_with = "hash_to_hex", deserialize_with = "hash_from_hex")]
+    pub points_hash: PointsHash,
+}
+
+fn hash_to_hex<S: Serializer>(hash: &PointsHash, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(hash)
+}
+
+fn hash_from_hex<'de, D: Deserializer<'de>>(deserializer: D) -> Result<PointsHash, D::Error> {
+    String::deserialize(deserializer)?.parse().map_err(serde::de::Error::custom)
+}
+
+impl Answer for Ball {
+    type Certificate = BallCertificate;
+    const KIND: &'static str = "ball";
+
+    fn check(
+        &self,
+        certificate: &BallCertificate,
+        source: &dyn PointSource,
+        monitor: &Monitor<'_>,
+    ) -> Result<Verdict, CheckError> {
+        check::check(self, certificate, source, monitor)
+    }
+}

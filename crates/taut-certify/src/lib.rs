@@ -1,0 +1,41 @@
+//! The answers of taut, the certificate of each, and checkers that share no code with the solvers.
+//!
+//! | answer | certificate | what the checker proves from the input alone |
+//! |---|---|---|
+//! | [`Ball`] | [`BallCertificate`] | every point is inside; no smaller ball than r/(1 + gap) holds them all |
+//!
+//! A [`Solution`] is an answer, its certificate and a trace of counters. [`Solution::check`] reads the points again
+//! and returns a [`Verdict`], or the first [`Violation`] it meets.
+//!
+//! ```
+//! use taut_certify::{Ball, BallCertificate, Items, Solution, Trace};
+//! use taut_points::{Monitor, Points, hash_points};
+//!
+//! let points = Points::new(&[0.0, 0.0, 2.0, 0.0, 1.0, 1.0], 2)?;
+//! let by_hand = Solution {
+//!     answer: Ball { center: vec![1.0, 0.0], center_tail: vec![], radius: 1.0 },
+//!     certificate: BallCertificate {
+//!         items: Items::Points,
+//!         support: vec![0, 1],
+//!         multipliers: vec![0.5, 0.5],
+//!         gap: 0.0,
+//!         points_hash: hash_points(&points, &Monitor::silent())?,
+//!     },
+//!     trace: Trace::default(),
+//! };
+//! assert_eq!(by_hand.check(&points)?.gap, 0.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Not for: finding answers. No solver is imported here, and no solver's arithmetic is called.
+#![forbid(unsafe_code)]
+
+mod ball;
+mod json;
+mod solution;
+mod verdict;
+
+pub use ball::{Ball, BallCertificate, Items};
+pub use json::{AnySolution, JsonError, SCHEMA};
+pub use solution::{Answer, PassBounds, Solution, Stop, Trace};
+pub use verdict::{CheckError, Verdict, Violation};

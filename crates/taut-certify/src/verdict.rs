@@ -1,0 +1,118 @@
+//! What a checker says.
+
+use taut_points::ReadError;
+
+/// What was proved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Verdict {
+    /// No enclosing shape is smaller than this.
+    pub lower: f64,
+    /// The size of the answer, which was found to enclose every point.
+    pub upper: f64,
+    /// `upper / lower − 1`, rounded up; 0 where both are 0.
+    pub gap: f64,
+}
+
+/// Why an answer or its certificate is wrong.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Violation {
+    /// The points are not those the certificate was made for.
+    #[error("the points have hash {found}, the certificate speaks of {claimed}: the data changed")]
+    Hash {
+        /// Hash the certificate names.
+        claimed: String,
+        /// Hash of the points given.
+        found: String,
+    },
+    /// The centre has another dimension than the points.
+    #[error("{what} has {found} numbers, expected {expected}")]
+    Length {
+        /// The list in question.
+        what: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length it should have.
+        expected: usize,
+    },
+    /// A number of the answer or certificate is NaN, infinite or out of its range.
+    #[error("{what} is {value}: expected {expected}")]
+    Number {
+        /// The number in question.
+        what: String,
+        /// Its value.
+        value: f64,
+        /// What would have been accepted.
+        expected: &'static str,
+    },
+    /// A coordinate of the input is NaN or infinite.
+    #[error("coordinate {column} of point {row} is {value}: all coordinates must be finite")]
+    NonFinite {
+        /// Point, from 0.
+        row: u64,
+        /// Coordinate, from 0.
+        column: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// The support names a point that does not exist, or one twice.
+    #[error("support entry {position} names point {point}, {problem}")]
+    Support {
+        /// Position in the list, from 0.
+        position: usize,
+        /// The point it names.
+        point: u64,
+        /// What is wrong with that.
+        problem: &'static str,
+    },
+    /// The multipliers are not convex.
+    #[error("the multipliers sum to {sum}: expected 1")]
+    MultiplierSum {
+        /// What they sum to.
+        sum: f64,
+    },
+    /// The centre is not the combination of the support that the multipliers say.
+    #[error("coordinate {column} of the centre is {claimed}, but the multipliers give {found}")]
+    Center {
+        /// Coordinate, from 0.
+        column: usize,
+        /// What the answer says.
+        claimed: f64,
+        /// What the certificate gives.
+        found: f64,
+    },
+    /// A point lies outside the answer.
+    #[error(
+        "point {row} lies {distance} from the centre, outside the radius {radius}, by {excess:e}"
+    )]
+    Outside {
+        /// The first such point, from 0.
+        row: u64,
+        /// How far it reaches from the centre.
+        distance: f64,
+        /// The claimed radius.
+        radius: f64,
+        /// distance − radius.
+        excess: f64,
+    },
+    /// The gap proved is larger than the gap claimed.
+    #[error("the multipliers prove a gap of {proved:e}, the certificate claims {claimed:e}")]
+    Gap {
+        /// What the certificate says.
+        claimed: f64,
+        /// What the checker finds.
+        proved: f64,
+    },
+}
+
+/// Why a check did not end in a [`Verdict`].
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CheckError {
+    /// The answer or its certificate is wrong.
+    #[error(transparent)]
+    Rejected(#[from] Violation),
+    /// The points could not be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+}

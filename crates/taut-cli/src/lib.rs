@@ -1,0 +1,1 @@
+//! The taut command: tight shapes of point sets, with proof.

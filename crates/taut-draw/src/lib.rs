@@ -1,0 +1,1 @@
+//! Pictures of the answers of taut: SVG, PNG and interactive HTML.

@@ -1,0 +1,119 @@
+//! How to look for the ball.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::Error;
+
+/// The ways to find the ball; all of them end in the same certificate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum BallMethod {
+    /// Batches of far points and an exact active set over their Gram matrix: the best, and the default.
+    #[default]
+    CoreSet,
+    /// Algorithm 1 of the thesis: one far point per pass, a conic solver on the core-set.
+    ThesisPure,
+    /// The thesis' fast variant: d/3 steps of Bădoiu and Clarkson, then Algorithm 1.
+    ThesisFast,
+    /// Algorithm 10 of the thesis: steps of Bădoiu and Clarkson to the farthest point, and nothing else.
+    BadoiuClarkson,
+}
+
+impl BallMethod {
+    /// All methods, the default first.
+    pub const ALL: [BallMethod; 4] = [
+        BallMethod::CoreSet,
+        BallMethod::ThesisPure,
+        BallMethod::ThesisFast,
+        BallMethod::BadoiuClarkson,
+    ];
+
+    /// The name on the command line, in Python and in the trace.
+    pub const fn name(self) -> &'static str {
+        match self {
+            BallMethod::CoreSet => "core-set",
+            BallMethod::ThesisPure => "thesis-pure",
+            BallMethod::ThesisFast => "thesis-fast",
+            BallMethod::BadoiuClarkson => "badoiu-clarkson",
+        }
+    }
+}
+
+impl fmt::Display for BallMethod {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for BallMethod {
+    type Err = Error;
+    fn from_str(name: &str) -> Result<Self, Error> {
+        BallMethod::ALL.into_iter().find(|method| method.name() == name).ok_or_else(|| {
+            Error::Option {
+                name: "method",
+                value: name.to_owned(),
+                expected: "core-set, thesis-pure, thesis-fast or badoiu-clarkson",
+            }
+        })
+    }
+}
+
+/// How to look for the ball. Write `BallOptions { epsilon: 1e-6, ..Default::default() }`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BallOptions {
+    /// Wanted relative gap, R ≤ (1 + ε)·R*; 0 asks for the exact ball, to rounding. Range [0, 1), default 1e-9.
+    pub epsilon: f64,
+    /// The way to find it. Default [`BallMethod::CoreSet`].
+    pub method: BallMethod,
+    /// Far points taken to the core-set per pass, by [`BallMethod::CoreSet`]; `None` chooses by dimension. At least 1.
+    pub batch: Option<usize>,
+    /// Most reads of all points; then the best ball so far is returned with its gap. At least 2, default 1,000,000.
+    pub max_passes: u64,
+    /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
+    pub threads: Option<usize>,
+    /// Chooses the point from which the thesis' methods start. Default 0.
+    pub seed: u64,
+}
+
+impl Default for BallOptions {
+    fn default() -> Self {
+        BallOptions {
+            epsilon: 1e-9,
+            method: BallMethod::default(),
+            batch: None,
+            max_passes: 1_000_000,
+            threads: None,
+            seed: 0,
+        }
+    }
+}
+
+impl BallOptions {
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let wrong = |name, value: String, expected| Err(Error::Option { name, value, expected });
+        if !(0.0..1.0).contains(&self.epsilon) {
+            return wrong("epsilon", self.epsilon.to_string(), "a number in [0, 1)");
+        }
+        if self.epsilon == 0.0 && self.method == BallMethod::BadoiuClarkson {
+            return wrong(
+                "epsilon",
+                "0".into(),
+                "more than 0, as badoiu-clarkson needs about 1/ε² passes",
+            );
+        }
+        if self.batch == Some(0) {
+            return wrong("batch", "0".into(), "at least 1");
+        }
+        if self.max_passes < 2 {
+            return wrong(
+                "max_passes",
+                self.max_passes.to_string(),
+                "at least 2: one to look, one to prove",
+            );
+        }
+        if self.threads == Some(0) {
+            return wrong("threads", "0".into(), "at least 1");
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,60 @@
+//! What an enclosing solver can refuse.
+
+use taut_points::ReadError;
+
+/// Why there is no answer.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// There is nothing to enclose.
+    #[error("the point set is empty: a ball needs at least one point")]
+    Empty,
+    /// A coordinate is NaN or infinite.
+    #[error("coordinate {column} of point {row} is {value}: all coordinates must be finite")]
+    NonFinite {
+        /// Point, from 0.
+        row: u64,
+        /// Coordinate, from 0.
+        column: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// A ball of the input has a negative radius.
+    #[error("ball {row} has radius {value}: radii are the last column and must be at least 0")]
+    NegativeRadius {
+        /// Ball, from 0.
+        row: u64,
+        /// Its radius.
+        value: f64,
+    },
+    /// Balls were announced, but the rows have no room for a centre and a radius.
+    #[error("a ball needs a centre and a radius, but rows have {columns} column")]
+    NoRadius {
+        /// Columns there are.
+        columns: usize,
+    },
+    /// The points reach so far that the radius exceeds the largest `f64`.
+    #[error("the radius exceeds the largest number of double precision: scale the points down")]
+    Overflow,
+    /// An option is outside its range.
+    #[error("option `{name}` is {value}: expected {expected}")]
+    Option {
+        /// The option.
+        name: &'static str,
+        /// What was given.
+        value: String,
+        /// What would have been accepted.
+        expected: &'static str,
+    },
+    /// The conic solver of the thesis' methods gave up on a core-set.
+    #[error("the conic solver stopped with status {status} on a core-set of {points} points")]
+    Conic {
+        /// What it said.
+        status: String,
+        /// Points it was given.
+        points: usize,
+    },
+    /// The points could not be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+}

@@ -1,0 +1,21 @@
+//! Tight enclosing shapes of point sets, each with a certificate anyone can check.
+//!
+//! | you want | call | promise | cost, n points in ℝᵈ |
+//! |---|---|---|---|
+//! | smallest ball around points | [`ball()`] | R ≤ (1 + ε)·R*, proved | few passes of O(nd) |
+//! | smallest ball around balls | [`ball_of_balls()`] | the same | the same |
+//! | either, larger than memory | [`ball_of_source()`] | the same | the same, one block per thread in memory |
+//! ```
+//! let points = taut_points::Points::new(&[0.0, 0.0, 2.0, 0.0, 1.0, 1.0], 2)?;   // n × d, row-major
+//! let found = taut_enclose::ball(&points, &Default::default())?;
+//! assert_eq!(found.answer.radius, 1.0);
+//! assert!(found.check(&points)?.gap <= 1e-9);                                    // a second opinion, not the solver's
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//! Not for: distances other than Euclidean; sets where some points may be left out.
+
+mod ball;
+mod error;
+
+pub use ball::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_source};
+pub use error::Error;

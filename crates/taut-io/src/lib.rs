@@ -1,0 +1,1 @@
+//! Reads and writes point sets and answers, one module per format.

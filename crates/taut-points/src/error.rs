@@ -1,0 +1,79 @@
+//! What can be wrong with a point set before any geometry begins.
+
+use std::path::PathBuf;
+
+use crate::Cancelled;
+
+/// Why a view or a generator could not be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The dimension was zero.
+    #[error("the dimension is 0: a point needs at least one coordinate")]
+    ZeroDimension,
+    /// The number of values is not a multiple of the dimension.
+    #[error("{values} values do not make whole points of dimension {dim}: {rest} are left over")]
+    Ragged {
+        /// How many values there are.
+        values: usize,
+        /// The dimension asked for.
+        dim: usize,
+        /// `values mod dim`.
+        rest: usize,
+    },
+    /// A parameter of a generator is outside its range.
+    #[error("`{name}` is {value}: expected {expected}")]
+    Parameter {
+        /// The parameter.
+        name: &'static str,
+        /// What was given.
+        value: String,
+        /// What would have been accepted.
+        expected: &'static str,
+    },
+}
+
+/// Why a block of points could not be delivered.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The operating system refused or the file ended early.
+    #[error("{}: reading points {first} to {last}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// First point of the block.
+        first: u64,
+        /// Last point of the block.
+        last: u64,
+        /// What the operating system said.
+        source: std::io::Error,
+    },
+    /// The file does not hold as many points as it was said to.
+    #[error("{}: {found} bytes, but {n} points of dimension {dim} need {needed}", path.display())]
+    Truncated {
+        /// The file.
+        path: PathBuf,
+        /// Bytes it has.
+        found: u64,
+        /// Bytes it should have.
+        needed: u64,
+        /// Points it was said to hold.
+        n: u64,
+        /// Their dimension.
+        dim: usize,
+    },
+    /// Points beyond the last were asked for.
+    #[error("points {first}..{end} were asked for, but there are {n}")]
+    OutOfRange {
+        /// First point asked for.
+        first: u64,
+        /// One past the last point asked for.
+        end: u64,
+        /// Number of points.
+        n: u64,
+    },
+    /// The caller's [`Monitor`](crate::Monitor) asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}

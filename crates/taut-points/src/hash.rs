@@ -1,0 +1,184 @@
+//! The hash that ties a certificate to the points it speaks of.
+//!
+//! *Value.* Each block of [`Blocks`] is hashed on its own, over its coordinates as `f64`, so the blocks can be
+//! hashed by any threads in any order, and single-precision points have the hash of their exact copies in double
+//! precision; then the block hashes, n and d are hashed in order. −0 counts as 0.
+//! *Idea.* 32 lanes, each h ← h·P + mix(v) modulo 2⁶⁴ with P odd. The multiplication is one-to-one, so a change
+//! of a single coordinate always changes its lane. mix folds the high half onto the low half, because coordinates
+//! with few digits differ in high bits only, which multiplication would never carry down.
+//! *Not* a cryptographic hash: it tells that data changed, not that somebody meant to deceive.
+
+use crate::{Monitor, PointSource, Points, ReadError, Rows, Scalar, map_blocks};
+
+const LANES: usize = 32;
+/// Odd multiplier with well spread bits: the fractional part of the golden ratio, as in Knuth, TAOCP 3, 6.4.
+const MULTIPLIER: u64 = 0x9E37_79B9_7F4A_7C15;
+
+/// The hash of a point set: equal for equal coordinates in equal order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct PointsHash(pub u64);
+
+/// The hash of one block, to be put together by [`PointsHash::of_blocks`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BlockHash(u64);
+
+impl PointsHash {
+    /// Puts together the hashes of all blocks of n points of dimension d, in block order.
+    pub fn of_blocks(n: u64, dim: usize, blocks: impl IntoIterator<Item = BlockHash>) -> Self {
+        let start = step(step(1, n), dim as u64);
+        PointsHash(finish(blocks.into_iter().fold(start, |h, block| step(h, block.0))))
+    }
+}
+
+impl std::fmt::Display for PointsHash {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:016x}", self.0)
+    }
+}
+
+impl std::str::FromStr for PointsHash {
+    type Err = std::num::ParseIntError;
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        u64::from_str_radix(text, 16).map(PointsHash)
+    }
+}
+
+#[inline(always)]
+fn step(hash: u64, value: u64) -> u64 {
+    hash.wrapping_mul(MULTIPLIER).wrapping_add(value ^ (value >> 32))
+}
+
+/// Spreads the last differences over all bits: the finaliser of SplitMix64 (Steele, Lea, Flood 2014).
+fn finish(mut h: u64) -> u64 {
+    h = (h ^ (h >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    h = (h ^ (h >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    h ^ (h >> 31)
+}
+
+#[inline(always)]
+fn bits<T: Scalar>(value: T) -> u64 {
+    // Adding 0 turns −0 into 0 and leaves every other value as it is.
+    (value.into() + 0.0).to_bits()
+}
+
+/// Inlined into the three functions below, each of which is compiled for another instruction set.
+#[inline(always)]
+fn lanes<T: Scalar>(values: &[T]) -> BlockHash {
+    let mut lanes: [u64; LANES] = std::array::from_fn(|lane| lane as u64 + 1);
+    let chunks = values.chunks_exact(LANES);
+    let rest = chunks.remainder();
+    for chunk in chunks {
+        for (lane, &value) in lanes.iter_mut().zip(chunk) {
+            *lane = step(*lane, bits(value));
+        }
+    }
+    let hash = rest.iter().fold(values.len() as u64, |h, &value| step(h, bits(value)));
+    BlockHash(finish(lanes.into_iter().fold(hash, |h, lane| step(h, finish(lane)))))
+}
+
+/// Integer arithmetic gives the same hash on every machine; wider registers only give it sooner: hashing rides
+/// on the first pass of a solver and would otherwise cost as much as two.
+#[cfg(target_arch = "x86_64")]
+mod dispatch {
+    use super::{BlockHash, Points, Scalar, lanes};
+
+    #[target_feature(enable = "avx512f,avx512dq")]
+    fn avx512<T: Scalar>(values: &[T]) -> BlockHash {
+        lanes(values)
+    }
+
+    #[target_feature(enable = "avx2")]
+    fn avx2<T: Scalar>(values: &[T]) -> BlockHash {
+        lanes(values)
+    }
+
+    #[allow(unsafe_code)]
+    pub(super) fn hash<T: Scalar>(points: &Points<'_, T>) -> BlockHash {
+        if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+            // SAFETY: the processor has just been asked for both features.
+            unsafe { avx512(points.values()) }
+        } else if is_x86_feature_detected!("avx2") {
+            // SAFETY: the processor has just been asked for the feature.
+            unsafe { avx2(points.values()) }
+        } else {
+            lanes(points.values())
+        }
+    }
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+mod dispatch {
+    use super::{BlockHash, Points, Scalar, lanes};
+
+    pub(super) fn hash<T: Scalar>(points: &Points<'_, T>) -> BlockHash {
+        lanes(points.values())
+    }
+}
+
+/// The hash of one block of [`Blocks`](crate::Blocks).
+pub fn hash_block(rows: &Rows<'_>) -> BlockHash {
+    match rows {
+        Rows::F32(points) => dispatch::hash(points),
+        Rows::F64(points) => dispatch::hash(points),
+    }
+}
+
+/// The hash of all points of `source`, in one pass.
+///
+/// # Errors
+/// What reading the points says.
+pub fn hash_points(
+    source: &dyn PointSource,
+    monitor: &Monitor<'_>,
+) -> Result<PointsHash, ReadError> {
+    let blocks = map_blocks(source, monitor, |_, rows| Ok::<_, ReadError>(hash_block(&rows)))?;
+    Ok(PointsHash::of_blocks(source.len(), source.dim(), blocks))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn hash<T: Scalar>(values: &[T], dim: usize) -> PointsHash {
+        hash_points(&Points::new(values, dim).unwrap(), &Monitor::silent()).unwrap()
+    }
+
+    #[test]
+    fn every_instruction_set_gives_the_same_hash() {
+        let values: Vec<f64> = (0..1003).map(|i| (i as f64 * 0.37).sin()).collect();
+        let points = Points::new(&values, 17).unwrap();
+        assert_eq!(dispatch::hash(&points), lanes(&values));
+    }
+
+    #[test]
+    fn single_and_double_precision_agree_on_equal_values() {
+        let narrow: Vec<f32> = (0..999).map(|i| (i as f32 * 0.37).sin()).collect();
+        let wide: Vec<f64> = narrow.iter().map(|&v| v.into()).collect();
+        assert_eq!(hash(&narrow, 3), hash(&wide, 3));
+    }
+
+    #[test]
+    fn each_single_change_shape_and_order_is_seen() {
+        let values: Vec<f64> = (0..120).map(f64::from).collect();
+        let before = hash(&values, 2);
+        assert_ne!(before, hash(&values, 3));
+        assert_ne!(before, hash(&values[..118], 2));
+        for i in 0..values.len() {
+            for changed in
+                [values[i] + 1.0, -values[i] - 1.0, f64::from_bits(values[i].to_bits() + 1)]
+            {
+                let mut other = values.clone();
+                other[i] = changed;
+                assert_ne!(before, hash(&other, 2), "value {i}");
+            }
+        }
+        let mut swapped = values.clone();
+        swapped.swap(0, 64);
+        assert_ne!(before, hash(&swapped, 2));
+    }
+
+    #[test]
+    fn negative_zero_is_zero() {
+        assert_eq!(hash(&[0.0, 1.0], 1), hash(&[-0.0, 1.0], 1));
+    }
+}

@@ -1,0 +1,37 @@
+//! Point sets as every other crate of taut sees them: borrowed views, streams of blocks, generators.
+//!
+//! | you have | you write | cost |
+//! |---|---|---|
+//! | numbers in memory | [`Points::new`] | nothing is copied |
+//! | a raw file of any size | [`FileSource`] or [`MappedSource`] | one block per thread in memory |
+//! | nothing yet | [`generate()`] | n·d draws; point i depends on the seed and i alone |
+//!
+//! ```
+//! use taut_points::{Points, PointSource};
+//!
+//! let points = Points::new(&[0.0, 0.0, 2.0, 0.0, 1.0, 1.0], 2)?;   // n × d, row-major
+//! assert_eq!((points.len(), points.dim()), (3, 2));
+//! assert_eq!(points.row(1), [2.0, 0.0]);
+//! # Ok::<(), taut_points::Error>(())
+//! ```
+//!
+//! Everything that reads points in taut is written against [`PointSource`], in fixed [`Blocks`] whose results
+//! are put together in block order ([`map_blocks`]), so that no answer depends on the number of threads.
+//!
+//! Not for: points of differing dimension, sparse points, or coordinates other than `f32` and `f64`.
+
+mod blocks;
+mod error;
+pub mod generate;
+mod hash;
+mod monitor;
+mod points;
+mod source;
+
+pub use blocks::{Blocks, map_blocks};
+pub use error::{Error, ReadError};
+pub use generate::{Distribution, GeneratedSource, generate};
+pub use hash::{BlockHash, PointsHash, hash_block, hash_points};
+pub use monitor::{Cancelled, Monitor};
+pub use points::{Points, Rows, Scalar, ScalarKind};
+pub use source::{FileSource, MappedSource, PointSource, Scratch, gather, is_empty};

@@ -1,0 +1,179 @@
+//! The borrowed view of points in memory.
+
+use bytemuck::Pod;
+
+use crate::Error;
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for f32 {}
+    impl Sealed for f64 {}
+}
+
+/// A coordinate: `f32` or `f64`. High-dimensional passes read either and calculate in `f64`.
+pub trait Scalar:
+    sealed::Sealed + Pod + Into<f64> + PartialOrd + Send + Sync + std::fmt::Display
+{
+    /// Which of the two it is.
+    const KIND: ScalarKind;
+    /// The coordinate nearest to `value`.
+    fn from_f64(value: f64) -> Self;
+    /// Wraps a view in the variant of [`Rows`] that fits its coordinate.
+    fn rows(points: Points<'_, Self>) -> Rows<'_>;
+}
+
+impl Scalar for f32 {
+    const KIND: ScalarKind = ScalarKind::F32;
+    fn from_f64(value: f64) -> Self {
+        value as f32
+    }
+    fn rows(points: Points<'_, Self>) -> Rows<'_> {
+        Rows::F32(points)
+    }
+}
+
+impl Scalar for f64 {
+    const KIND: ScalarKind = ScalarKind::F64;
+    fn from_f64(value: f64) -> Self {
+        value
+    }
+    fn rows(points: Points<'_, Self>) -> Rows<'_> {
+        Rows::F64(points)
+    }
+}
+
+/// How the coordinates of a source are stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ScalarKind {
+    /// IEEE 754 single precision.
+    F32,
+    /// IEEE 754 double precision.
+    F64,
+}
+
+impl ScalarKind {
+    /// Bytes of one coordinate.
+    pub const fn size(self) -> usize {
+        match self {
+            ScalarKind::F32 => 4,
+            ScalarKind::F64 => 8,
+        }
+    }
+}
+
+/// A borrowed n × d view of points, row-major and without gaps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Points<'a, T> {
+    values: &'a [T],
+    dim: usize,
+}
+
+impl<'a, T: Scalar> Points<'a, T> {
+    /// Views `values` as points of dimension `dim`: row i is `values[i·dim .. (i+1)·dim]`. No values are no points.
+    ///
+    /// # Errors
+    /// [`Error::ZeroDimension`], and [`Error::Ragged`] when a point would be cut short.
+    pub fn new(values: &'a [T], dim: usize) -> Result<Self, Error> {
+        if dim == 0 {
+            return Err(Error::ZeroDimension);
+        }
+        match values.len() % dim {
+            0 => Ok(Points { values, dim }),
+            rest => Err(Error::Ragged { values: values.len(), dim, rest }),
+        }
+    }
+
+    /// Number of points, n.
+    pub fn len(&self) -> usize {
+        self.values.len() / self.dim
+    }
+
+    /// Whether there is no point at all.
+    pub fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
+
+    /// Dimension, d.
+    pub fn dim(&self) -> usize {
+        self.dim
+    }
+
+    /// All n·d values, row after row.
+    pub fn values(&self) -> &'a [T] {
+        self.values
+    }
+
+    /// The d coordinates of point `i`.
+    ///
+    /// # Panics
+    /// When `i ≥ n`.
+    pub fn row(&self, i: usize) -> &'a [T] {
+        &self.values[i * self.dim..(i + 1) * self.dim]
+    }
+
+    /// The points in order.
+    pub fn rows(&self) -> std::slice::ChunksExact<'a, T> {
+        self.values.chunks_exact(self.dim)
+    }
+
+    /// The points `range.start..range.end` as a view of their own.
+    ///
+    /// # Panics
+    /// When the range reaches beyond n.
+    pub fn slice(&self, range: std::ops::Range<usize>) -> Points<'a, T> {
+        Points { values: &self.values[range.start * self.dim..range.end * self.dim], dim: self.dim }
+    }
+}
+
+/// Some points of a source, in the precision in which it keeps them.
+#[derive(Clone, Copy, Debug)]
+pub enum Rows<'a> {
+    /// Single precision.
+    F32(Points<'a, f32>),
+    /// Double precision.
+    F64(Points<'a, f64>),
+}
+
+impl Rows<'_> {
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        match self {
+            Rows::F32(points) => points.len(),
+            Rows::F64(points) => points.len(),
+        }
+    }
+
+    /// Whether there is no point.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Copies point `i` to `out`, widened to `f64`.
+    ///
+    /// # Panics
+    /// When `i` is not below [`len`](Self::len) or `out` is not of length d.
+    pub fn copy_row(&self, i: usize, out: &mut [f64]) {
+        match self {
+            Rows::F32(points) => {
+                let row = points.row(i);
+                assert_eq!(row.len(), out.len());
+                for (o, &v) in out.iter_mut().zip(row) {
+                    *o = v.into();
+                }
+            }
+            Rows::F64(points) => out.copy_from_slice(points.row(i)),
+        }
+    }
+
+    /// The first coordinate that is NaN or infinite, as (row, column, value).
+    pub fn first_non_finite(&self) -> Option<(usize, usize, f64)> {
+        fn find<T: Scalar>(points: &Points<'_, T>) -> Option<(usize, usize, f64)> {
+            let at = points.values().iter().position(|&v| !v.into().is_finite())?;
+            Some((at / points.dim(), at % points.dim(), points.values()[at].into()))
+        }
+        match self {
+            Rows::F32(points) => find(points),
+            Rows::F64(points) => find(points),
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! Where points come from: memory, a mapped file, or a file larger than memory, behind one trait.
+//!
+//! A [`PointSource`] hands out any range of rows, as often as asked, from any thread. That is all a streaming
+//! algorithm of taut needs: it reads fixed blocks, keeps what it needs of each, and rereads a row by its number.
+
+mod file;
+mod mapped;
+
+use std::ops::Range;
+
+pub use file::FileSource;
+pub use mapped::MappedSource;
+
+use crate::{Points, ReadError, Rows, Scalar, ScalarKind};
+
+/// A rewindable set of n points of dimension d, read a range of rows at a time.
+///
+/// Implementations are shared between threads; reading the same rows twice must give the same values.
+pub trait PointSource: Send + Sync {
+    /// Number of points, n.
+    fn len(&self) -> u64;
+
+    /// Dimension, d ≥ 1.
+    fn dim(&self) -> usize;
+
+    /// How coordinates are stored.
+    fn scalar(&self) -> ScalarKind;
+
+    /// The points `range.start..range.end`: borrowed where they already are in memory, else read to `scratch`.
+    ///
+    /// # Errors
+    /// [`ReadError::OutOfRange`], or what the medium says.
+    fn read<'a>(
+        &'a self,
+        range: Range<u64>,
+        scratch: &'a mut Scratch,
+    ) -> Result<Rows<'a>, ReadError>;
+}
+
+/// Whether `source` holds no point.
+pub fn is_empty(source: &dyn PointSource) -> bool {
+    source.len() == 0
+}
+
+/// Memory that a source may read to; keep one per thread and pass it again.
+#[derive(Default)]
+pub struct Scratch {
+    // u64 words, so that a view as f32 or f64 is always aligned.
+    words: Vec<u64>,
+}
+
+impl Scratch {
+    /// An empty scratch; it grows to the largest block asked of it.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Room for `count` values, with whatever they held before.
+    pub fn values<T: Scalar>(&mut self, count: usize) -> &mut [T] {
+        let bytes = count * size_of::<T>();
+        self.words.resize(self.words.len().max(bytes.div_ceil(8)), 0);
+        &mut bytemuck::cast_slice_mut(&mut self.words)[..count]
+    }
+}
+
+pub(crate) fn check_range(range: &Range<u64>, n: u64) -> Result<(), ReadError> {
+    if range.start <= range.end && range.end <= n {
+        Ok(())
+    } else {
+        Err(ReadError::OutOfRange { first: range.start, end: range.end, n })
+    }
+}
+
+impl<T: Scalar> PointSource for Points<'_, T> {
+    fn len(&self) -> u64 {
+        Points::len(self) as u64
+    }
+
+    fn dim(&self) -> usize {
+        Points::dim(self)
+    }
+
+    fn scalar(&self) -> ScalarKind {
+        T::KIND
+    }
+
+    fn read<'a>(&'a self, range: Range<u64>, _: &'a mut Scratch) -> Result<Rows<'a>, ReadError> {
+        check_range(&range, Points::len(self) as u64)?;
+        Ok(T::rows(self.slice(range.start as usize..range.end as usize)))
+    }
+}
+
+/// Copies the points with the given numbers, in that order, widened to `f64`: `ids.len()` × d, row-major.
+///
+/// # Errors
+/// What [`PointSource::read`] says.
+pub fn gather(source: &dyn PointSource, ids: &[u64]) -> Result<Vec<f64>, ReadError> {
+    let dim = source.dim();
+    let mut scratch = Scratch::new();
+    let mut out = vec![0.0; ids.len() * dim];
+    for (&id, row) in ids.iter().zip(out.chunks_exact_mut(dim)) {
+        source.read(id..id.saturating_add(1), &mut scratch)?.copy_row(0, row);
+    }
+    Ok(out)
+}
