@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use taut_certify::Items;
 use taut_points::{
     BlockHash, Monitor, PointSource, Points, PointsHash, Rows, Scalar, gather, hash_block,
-    is_empty, map_blocks,
+    map_blocks,
 };
 
 use crate::Error;
@@ -80,7 +80,7 @@ impl<'a> Scan<'a> {
         if items == Items::Balls && source.dim() < 2 {
             return Err(Error::NoRadius { columns: source.dim() });
         }
-        if is_empty(source) {
+        if source.is_empty() {
             return Err(Error::Empty);
         }
         let dim = items.dim(source.dim());
