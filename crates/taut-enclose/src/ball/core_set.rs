@@ -132,7 +132,7 @@ fn solve_working_set(active: &mut ActiveSet, set: &WorkingSet, radius: f64) -> f
             active.set_radius(set, relative);
         }
         active.maximize(set);
-        let bound = lower_bound(active, set).max(0.0);
+        let bound = lower_bound(set, active.support(), active.lambda()).max(0.0);
         // Newton steps grow until rounding; for points the first is the answer, as nothing depends on R.
         if offset == 0.0 || bound <= relative + f64::EPSILON * (relative + offset) {
             return bound.max(relative) + offset;
@@ -141,9 +141,8 @@ fn solve_working_set(active: &mut ActiveSet, set: &WorkingSet, radius: f64) -> f
     }
 }
 
-/// r̄ + √(Σ λᵢ(|cᵢ − c|² − (rᵢ − r̄)²)), relative to the radius offset.
-fn lower_bound(active: &ActiveSet, set: &WorkingSet) -> f64 {
-    let (support, lambda) = (active.support(), active.lambda());
+/// r̄ + √(Σ λᵢ(|cᵢ − c|² − (rᵢ − r̄)²)), relative to the radius offset, for λ over the items named.
+pub(super) fn lower_bound(set: &WorkingSet, support: &[usize], lambda: &[f64]) -> f64 {
     let center = set.combination(support, lambda);
     let mean: f64 = support.iter().zip(lambda).map(|(&i, l)| l * set.radius(i)).sum();
     let inner: f64 = support
@@ -161,7 +160,7 @@ fn lower_bound(active: &ActiveSet, set: &WorkingSet) -> f64 {
 }
 
 /// The centre as one or two terms: two where rounding it to one would cost more than 1e-15 of the radius.
-fn center(origin: &[f64], offset: &[f64], radius: f64) -> Center {
+pub(super) fn center(origin: &[f64], offset: &[f64], radius: f64) -> Center {
     let terms: Vec<DoubleDouble> =
         origin.iter().zip(offset).map(|(&o, &c)| DoubleDouble::sum(o, c)).collect();
     let high: Vec<f64> = terms.iter().map(|t| t.high).collect();

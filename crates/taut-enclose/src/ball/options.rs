@@ -67,7 +67,8 @@ pub struct BallOptions {
     pub method: BallMethod,
     /// Far points taken to the core-set per pass, by [`BallMethod::CoreSet`]; `None` chooses by dimension. At least 1.
     pub batch: Option<usize>,
-    /// Most reads of all points; then the best ball so far is returned with its gap. At least 2, default 1,000,000.
+    /// Most reads of all points; then the best ball so far is returned with its gap. At least 2, and 4 for the methods
+    /// of the thesis, which read thrice before their first ball. Default 1,000,000.
     pub max_passes: u64,
     /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
@@ -109,6 +110,13 @@ impl BallOptions {
                 "max_passes",
                 self.max_passes.to_string(),
                 "at least 2: one to look, one to prove",
+            );
+        }
+        if self.max_passes < 4 && self.method != BallMethod::CoreSet {
+            return wrong(
+                "max_passes",
+                self.max_passes.to_string(),
+                "at least 4 for the methods of the thesis, which read thrice before their first ball",
             );
         }
         if self.threads == Some(0) {
