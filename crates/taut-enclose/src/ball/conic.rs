@@ -185,3 +185,78 @@ fn aim(set: &WorkingSet, hull: &Hull, lambda: &mut [f64], center: &[f64]) {
         lambda[i] = (lambda[i] + step * c).max(0.0);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The set of `rows`, each with a radius in the last place, relative to the first.
+    fn set_of(rows: &[&[f64]]) -> (WorkingSet, Hull) {
+        let dim = rows[0].len() - 1;
+        let mut set = WorkingSet::new(rows[0][..dim].to_vec(), 0.0);
+        for (id, row) in (0..).zip(rows) {
+            set.add(&[id], row, true);
+        }
+        let mut hull = Hull::default();
+        hull.grow(&set);
+        (set, hull)
+    }
+
+    fn close(found: &[f64], expected: &[f64], tolerance: f64) {
+        assert_eq!(found.len(), expected.len());
+        let near = found.iter().zip(expected).all(|(a, b)| (a - b).abs() <= tolerance);
+        assert!(near, "{found:?} is not {expected:?}");
+    }
+
+    #[test]
+    fn the_hull_keeps_distances_and_has_its_own_dimension() {
+        // A tetrahedron in ℝ⁵, its centroid, and a vertex again: dimension 3.
+        let vertices = [
+            [1.0, 2.0, 3.0, 4.0, 5.0, 0.0],
+            [2.0, 2.0, 1.0, 0.0, 5.0, 0.0],
+            [0.0, 1.0, 0.0, 1.0, 0.0, 0.0],
+            [3.0, 0.0, 2.0, 2.0, 1.0, 0.0],
+        ];
+        let centroid: [f64; 6] =
+            std::array::from_fn(|j| vertices.iter().map(|v| v[j]).sum::<f64>() / 4.0);
+        let mut rows: Vec<&[f64]> = vertices.iter().map(|v| &v[..]).collect();
+        rows.extend([&centroid[..], &vertices[2][..]]);
+        let (_, hull) = set_of(&rows);
+        assert_eq!(hull.dim(), 3);
+        for (i, p) in rows.iter().enumerate() {
+            for (j, q) in rows.iter().enumerate() {
+                let squares = |d: f64| d * d;
+                let there: f64 =
+                    (0..3).map(|k| squares(hull.coordinate(i, k) - hull.coordinate(j, k))).sum();
+                let here: f64 = p.iter().zip(*q).map(|(p, q)| squares(p - q)).sum();
+                assert!((there - here).abs() < 1e-12, "{i} {j}: {there} {here}");
+            }
+        }
+    }
+
+    #[test]
+    fn multipliers_of_points_give_the_circumcentre() {
+        // The right angle is on the sphere, too, and carries nothing: the solver knows λ only to a root there.
+        let (set, hull) =
+            set_of(&[&[0.0, 0.0, 0.0], &[3.0, 0.0, 0.0], &[0.0, 4.0, 0.0], &[1.0, 1.0, 0.0]]);
+        let answer = solve(&set, &hull, 1e-12).unwrap();
+        close(&answer.lambda, &[0.0, 0.5, 0.5, 0.0], 1e-5);
+        assert!(answer.steps > 0);
+        // An equilateral triangle: all the same.
+        let (set, hull) = set_of(&[&[0.0, 0.0, 0.0], &[2.0, 0.0, 0.0], &[1.0, 3f64.sqrt(), 0.0]]);
+        close(&solve(&set, &hull, 1e-12).unwrap().lambda, &[1.0 / 3.0; 3], 1e-10);
+    }
+
+    #[test]
+    fn multipliers_of_balls_weigh_by_the_distance_of_the_centre() {
+        // On a line: radius 1 at 0 and 2 at 7 are held by radius 5 around 4, which is 4 and 3 away from them.
+        let (set, hull) = set_of(&[&[0.0, 1.0], &[7.0, 2.0], &[3.0, 0.5]]);
+        let answer = solve(&set, &hull, 1e-12).unwrap();
+        close(&answer.lambda, &[3.0 / 7.0, 4.0 / 7.0, 0.0], 1e-10);
+        // One ball holds the other, with and without a common centre.
+        let (set, hull) = set_of(&[&[0.0, 1.0], &[1.0, 5.0]]);
+        close(&solve(&set, &hull, 1e-12).unwrap().lambda, &[0.0, 1.0], 1e-6);
+        let (set, hull) = set_of(&[&[2.0, 1.0], &[2.0, 5.0]]);
+        close(&solve(&set, &hull, 1e-12).unwrap().lambda, &[0.0, 1.0], 0.0);
+    }
+}
