@@ -112,7 +112,7 @@ impl WorkingSet {
             .collect();
         let high: Vec<f64> = terms.iter().map(|term| term.high).collect();
         let largest = high.iter().fold(0.0f64, |m, c| m.max(c.abs()));
-        if largest > FAR_OFF * radius {
+        if radius == 0.0 || largest > FAR_OFF * radius {
             return Center { high, low: terms.iter().map(|term| term.low).collect() };
         }
         // A coordinate near 0 would keep digits far below the rounding of the others, and of all distances: a centre
