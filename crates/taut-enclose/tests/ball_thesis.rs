@@ -72,6 +72,8 @@ fn judge(name: &str, values: &[f64], columns: usize, items: Items, options: &Bal
     assert!(reach(values, columns, items, &found.answer) <= radius * (1.0 + 1e-12), "{name}");
     let lower = lower(values, columns, items, &found);
     assert!(radius <= lower * (1.0 + options.epsilon + 1e-12), "{name}: {lower} to {radius}");
+    let verdict = found.check(&Points::new(values, columns).unwrap());
+    assert!(verdict.as_ref().is_ok_and(|v| v.gap <= options.epsilon), "{name}: {verdict:?}");
 
     let best = solve(values, columns, items, &BallOptions::default()).answer.radius;
     assert!(radius >= best * (1.0 - 1e-9), "{name}: {radius} is less than {best}");

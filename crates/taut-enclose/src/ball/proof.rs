@@ -96,7 +96,8 @@ fn upper_bound(scan: &Scan<'_>, best: &Candidate) -> Result<f64, Error> {
     let mut ids: Vec<u64> =
         found.far.iter().take_while(|far| far.reach2 >= threshold).map(|far| far.id).collect();
     // Equal reaches at the end of a full list may go on behind it, hence "below" and not "at most".
-    let all_listed = found.listed_above < threshold;
+    // A reach of 0 is exact: all items are one point.
+    let all_listed = found.listed_above < threshold || found.farthest.reach2 == 0.0;
     if !ids.contains(&found.farthest.id) {
         ids.push(found.farthest.id);
     }
@@ -108,7 +109,7 @@ fn upper_bound(scan: &Scan<'_>, best: &Candidate) -> Result<f64, Error> {
         upper = upper.max(reach_up(exact_squared_distance(x, &best.center), r));
     }
     if !all_listed {
-        upper = upper.max(found.farthest.reach2.sqrt() * (1.0 + error));
+        upper = upper.max((found.farthest.reach2 * (1.0 + error)).sqrt().next_up());
     }
     Ok(upper)
 }

@@ -6,11 +6,11 @@
 use taut_certify::{Items, PassBounds, Stop};
 
 use super::BallOptions;
-use super::core_set::{center, lower_bound};
+use super::core_set::lower_bound;
 use super::outcome::Outcome;
 use super::working_set::WorkingSet;
 use crate::Error;
-use crate::kernel::relative_error;
+use crate::kernel::{Center, relative_error};
 use crate::scan::{Query, Scan};
 
 /// Gap at which ε = 0 counts as reached: what the default method calls rounding.
@@ -85,7 +85,14 @@ impl<'s, 'a> Run<'s, 'a> {
             .map(|i| set.radius(i))
             .fold(lower_bound(set, &support, &weights), f64::max);
 
-        let center = center(set.origin(), &offset, lower);
+        let center = match support[..] {
+            // One item is its own centre, to the last bit.
+            [only] => {
+                let row = self.scan.rows(&[set.id(only)])?;
+                Center { high: row[..self.scan.dim()].to_vec(), low: vec![] }
+            }
+            _ => set.center(&support, &weights, lower),
+        };
         let above = held * held * (1.0 - 4.0 * relative_error(self.scan.dim())).max(0.0);
         let keep = set.len() + 64;
         let query = Query { center: &center, above, keep, by_face_above: None };
