@@ -26,11 +26,21 @@ use crate::scan::Scan;
 pub(super) struct Walk {
     pub(super) set: WorkingSet,
     pub(super) lambda: Vec<f64>,
+    /// The i of the next step.
+    i: u64,
 }
 
 impl Walk {
-    /// The part β of the way to the farthest point of the item that reaches farthest.
-    pub(super) fn step(&mut self, run: &Run<'_, '_>, look: &Look, beta: f64) -> Result<(), Error> {
+    /// c₃, the middle of the pair.
+    pub(super) fn from_middle(pair: WorkingSet) -> Self {
+        Walk { set: pair, lambda: vec![0.5, 0.5], i: 3 }
+    }
+
+    /// The part β = 1/(i + 2) of the way to the farthest point of the item that reaches farthest.
+    pub(super) fn step(&mut self, run: &mut Run<'_, '_>, look: &Look) -> Result<(), Error> {
+        let beta = 1.0 / (self.i + 2) as f64;
+        self.i += 1;
+        run.outcome.iterations += 1;
         let i = match self.set.position(look.farthest) {
             Some(i) => i,
             None => {
@@ -60,17 +70,15 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
         Start::Pair(set) => set,
         Start::Done(stop, set) => return Ok(run.end(stop, &set)),
     };
-    let mut walk = Walk { set, lambda: vec![0.5, 0.5] };
-    for i in 3u64.. {
+    let mut walk = Walk::from_middle(set);
+    loop {
         let look = run.look(&walk.set, &walk.lambda)?;
         if run.reached(&look) {
             return Ok(run.end(Stop::Converged, &walk.set));
         }
         if run.spent() {
-            break;
+            return Ok(run.end(Stop::PassBudget, &walk.set));
         }
-        walk.step(&run, &look, 1.0 / (i + 2) as f64)?;
-        run.outcome.iterations += 1;
+        walk.step(&mut run, &look)?;
     }
-    Ok(run.end(Stop::PassBudget, &walk.set))
 }

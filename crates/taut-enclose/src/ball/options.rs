@@ -13,7 +13,7 @@ pub enum BallMethod {
     CoreSet,
     /// Algorithm 1 of the thesis: one far point per pass, a conic solver on the core-set.
     ThesisPure,
-    /// The thesis' fast variant: d/3 steps of Bădoiu and Clarkson, then Algorithm 1.
+    /// The thesis' fast variant: d/3 steps of Algorithm 10, then Algorithm 1 from the far points these met.
     ThesisFast,
     /// Algorithm 10 of the thesis: steps of Bădoiu and Clarkson to the farthest point, and nothing else.
     BadoiuClarkson,

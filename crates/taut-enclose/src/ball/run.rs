@@ -55,11 +55,11 @@ impl<'s, 'a> Run<'s, 'a> {
         self.options.seed % self.scan.len()
     }
 
-    /// X = {item}; rows will be taken relative to it.
-    pub(super) fn set_of(&self, id: u64) -> Result<WorkingSet, Error> {
-        let row = self.scan.rows(&[id])?;
-        let mut set = WorkingSet::new(row[..self.scan.dim()].to_vec(), 0.0);
-        set.add(&[id], &row, self.scan.items() == Items::Balls);
+    /// The set X of these different items; rows will be taken relative to the first.
+    pub(super) fn set_of(&self, ids: &[u64]) -> Result<WorkingSet, Error> {
+        let rows = self.scan.rows(ids)?;
+        let mut set = WorkingSet::new(rows[..self.scan.dim()].to_vec(), 0.0);
+        set.add(ids, &rows, self.scan.items() == Items::Balls);
         Ok(set)
     }
 
@@ -137,17 +137,12 @@ pub(super) enum Start {
 
 /// The approximate diameter of Lemma 2.1.1: q farthest from p, q′ farthest from q; at least 1/√3 of the diameter.
 pub(super) fn diameter_pair(run: &mut Run<'_, '_>) -> Result<Start, Error> {
-    let p = run.set_of(run.seed_item())?;
+    let p = run.set_of(&[run.seed_item()])?;
     let from_p = run.look(&p, &[1.0])?;
     if run.reached(&from_p) {
         return Ok(Start::Done(Stop::Converged, p));
     }
-    pair_from(run, from_p.farthest)
-}
-
-/// {q, q′} with q′ farthest from q.
-pub(super) fn pair_from(run: &mut Run<'_, '_>, q: u64) -> Result<Start, Error> {
-    let mut set = run.set_of(q)?;
+    let mut set = run.set_of(&[from_p.farthest])?;
     let from_q = run.look(&set, &[1.0])?;
     if run.reached(&from_q) {
         return Ok(Start::Done(Stop::Converged, set));
