@@ -36,10 +36,9 @@ pub(crate) fn ball(
     let items = if balls { Items::Balls } else { Items::Points };
     let rows = Rows::borrow(rows)?;
     let source = rows.source()?;
-    let found = interruptible(py, |monitor| {
-        ball_of_source(source.as_ref(), items, &options, monitor)
-    })?
-    .map_err(raise)?;
+    let found =
+        interruptible(py, |monitor| ball_of_source(source.as_ref(), items, &options, monitor))?
+            .map_err(raise)?;
     Solution::new(py, AnySolution::Ball(found))
 }
 

@@ -21,67 +21,58 @@ pub(crate) fn generate(
     vertices: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<()> {
     let seed = whole("seed", seed, "0 to 2**64 - 1")?;
-    let distribution = named(distribution, thickness, count, spread, vertices)?;
+    let points = out.len()? as u64;
+    let drawn = named(distribution, points, thickness, count, spread, vertices)?;
     if let Ok(out) = out.cast::<PyArray2<f64>>() {
-        fill(py, out, distribution, seed)
+        fill(py, out, drawn, seed)
     } else if let Ok(out) = out.cast::<PyArray2<f32>>() {
-        fill(py, out, distribution, seed)
+        fill(py, out, drawn, seed)
     } else {
         Err(PyTypeError::new_err("expected a two-dimensional array of float32 or float64"))
     }
 }
 
-/// The distribution with a name, which takes the parameters of that name and no others.
+/// The distribution with a name, which takes the parameters of that name and no others; names and defaults are those
+/// of the command line.
 fn named(
     name: &str,
+    n: u64,
     thickness: Option<f64>,
     count: Option<&Bound<'_, PyAny>>,
     spread: Option<f64>,
     vertices: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Distribution> {
-    let wanted: &[&str] = match name {
-        "shell" => &["thickness"],
-        "clusters" => &["count", "spread"],
-        "polygon" => &["vertices"],
-        _ => &[],
-    };
-    for (parameter, given) in [
-        ("thickness", thickness.is_some()),
-        ("count", count.is_some()),
-        ("spread", spread.is_some()),
-        ("vertices", vertices.is_some()),
+    for (parameter, given, owner) in [
+        ("thickness", thickness.is_some(), "shell"),
+        ("count", count.is_some(), "clusters"),
+        ("spread", spread.is_some(), "clusters"),
+        ("vertices", vertices.is_some(), "polygon"),
     ] {
-        if given && !wanted.contains(&parameter) {
-            let message = format!("distribution `{name}` has no parameter `{parameter}`");
+        if given && name != owner {
+            let message = format!("`{parameter}` belongs to {owner}, not to {name}: leave it out");
             return Err(PyValueError::new_err(message));
         }
     }
-    let needs = |parameter| {
-        PyValueError::new_err(format!("distribution `{name}` needs the parameter `{parameter}`"))
-    };
-    let number = |parameter, value: Option<&Bound<'_, PyAny>>| match value {
-        Some(value) => whole(parameter, value, "at least 1"),
-        None => Err(needs(parameter)),
+    let number = |parameter, value: Option<&Bound<'_, PyAny>>, default| {
+        value.map_or(Ok(default), |value| whole(parameter, value, "at least 1"))
     };
     Ok(match name {
-        "uniform" => Distribution::Uniform,
-        "cube-vertices" => Distribution::CubeVertices,
         "normal" => Distribution::Normal,
+        "uniform" => Distribution::Uniform,
+        "cube" => Distribution::CubeVertices,
         "poisson" => Distribution::Poisson,
         "sphere" => Distribution::Sphere,
-        "shell" => {
-            Distribution::Shell { thickness: thickness.ok_or_else(|| needs("thickness"))? }
-        }
+        "shell" => Distribution::Shell { thickness: thickness.unwrap_or(0.1) },
         "clusters" => Distribution::Clusters {
-            count: number("count", count)?,
-            spread: spread.ok_or_else(|| needs("spread"))?,
+            count: number("count", count, 5)?,
+            spread: spread.unwrap_or(0.05),
         },
         "simplex" => Distribution::Simplex,
-        "polygon" => Distribution::Polygon { vertices: number("vertices", vertices)? },
+        "polygon" => Distribution::Polygon { vertices: number("vertices", vertices, n.max(1))? },
         _ => {
             return Err(PyValueError::new_err(format!(
-                "distribution is `{name}`: expected uniform, cube-vertices, normal, poisson, sphere, shell, \
-                 clusters, simplex or polygon"
+                "`distribution` is {name}: expected normal, uniform, cube, poisson, sphere, shell, clusters, \
+                 simplex or polygon"
             )));
         }
     })

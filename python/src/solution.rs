@@ -313,7 +313,9 @@ impl Solution {
                 return Err(PyValueError::new_err("the answer encloses balls: give their radii"));
             }
             (Items::Points, Some(_)) => {
-                return Err(PyValueError::new_err("the answer encloses points, which have no radii"));
+                return Err(PyValueError::new_err(
+                    "the answer encloses points, which have no radii",
+                ));
             }
             _ => {}
         }
@@ -378,9 +380,7 @@ impl Solution {
 }
 
 /// An array that refuses to be written to, as what was proved of it would no longer hold.
-fn read_only<'py, T: numpy::Element>(
-    array: Bound<'py, PyArray1<T>>,
-) -> PyResult<Py<PyArray1<T>>> {
+fn read_only<'py, T: numpy::Element>(array: Bound<'py, PyArray1<T>>) -> PyResult<Py<PyArray1<T>>> {
     array.call_method1("setflags", (false,))?;
     Ok(array.unbind())
 }

@@ -7,8 +7,6 @@ from numpy.typing import ArrayLike, NDArray
 
 Rows = NDArray[np.float32] | NDArray[np.float64]
 
-IN_ORDER = ["C_CONTIGUOUS", "ALIGNED"]
-
 
 def as_rows(points: ArrayLike, radii: ArrayLike | None = None) -> Rows:
     """Rows of float32 or float64 in C order; a fitting array is returned as it is.
@@ -31,7 +29,7 @@ def as_rows(points: ArrayLike, radii: ArrayLike | None = None) -> Rows:
     column = _real("radii", radii, 1)
     if len(column) != len(rows):
         raise ValueError(f"there are {len(rows)} centers, but {len(column)} radii")
-    return np.column_stack([rows, column])
+    return _real("balls", np.column_stack([rows, column]), 2)
 
 
 def _real(name: str, values: ArrayLike, ndim: int) -> Rows:
@@ -43,6 +41,7 @@ def _real(name: str, values: ArrayLike, ndim: int) -> Rows:
     if array.ndim != ndim:
         shape = "(n, d)" if ndim == 2 else "(n,)"
         raise ValueError(f"{name} have shape {array.shape}: expected {shape}")
+    # A fitting array comes back from `require` itself.
     if array.dtype == np.float32:
-        return np.require(array, dtype=np.float32, requirements=IN_ORDER)
-    return np.require(array, dtype=np.float64, requirements=IN_ORDER)
+        return np.require(array, dtype=np.float32, requirements=["C", "ALIGNED"])
+    return np.require(array, dtype=np.float64, requirements=["C", "ALIGNED"])

@@ -11,9 +11,9 @@ from . import _native
 from ._arrays import Rows
 
 Distribution = Literal[
-    "uniform",
-    "cube-vertices",
     "normal",
+    "uniform",
+    "cube",
     "poisson",
     "sphere",
     "shell",
@@ -42,20 +42,26 @@ def generate(
     Parameters
     ----------
     distribution : str
-        ``"uniform"`` in the unit cube; ``"cube-vertices"``, its 2**d vertices; ``"normal"``; ``"poisson"`` with
-        mean 1; ``"sphere"``, uniform on the unit sphere; ``"shell"``, uniform direction at a distance uniform in
-        1 - `thickness` to 1 + `thickness`; ``"clusters"``, `count` normal clouds of standard deviation `spread`
-        around centres uniform in the unit cube; ``"simplex"``, the vertices of a regular simplex with unit
-        edges and points inside; ``"polygon"``, point i is vertex i modulo `vertices` of a regular polygon in the
-        unit circle.
+        ``"normal"``; ``"uniform"`` in the unit cube; ``"cube"``, the vertices of the unit cube; ``"poisson"``
+        with mean 1; ``"sphere"``, uniform on the unit sphere; ``"shell"``, uniform in direction, at a distance
+        uniform in 1 - `thickness` to 1 + `thickness`; ``"clusters"``, `count` normal clouds of standard deviation
+        `spread` around centres uniform in the unit cube; ``"simplex"``, the vertices of a regular simplex with
+        unit edges, then points inside; ``"polygon"``, `vertices` points at equal angles on the unit circle, in
+        turn.
     n, d : int
         Number of points, at least 0, and dimension, at least 1.
     seed : int, default 0
         From 0 to 2**64 - 1.
     dtype : float64 or float32, default float64
         Points are drawn in float64, then rounded.
-    thickness, count, spread, vertices
-        Parameters of the distributions that name them, and of no others.
+    thickness : float >= 0, optional
+        Of a shell; by default 0.1.
+    count : int >= 1, optional
+        Of clusters; by default 5.
+    spread : float >= 0, optional
+        Of clusters; by default 0.05.
+    vertices : int >= 1, optional
+        Of a polygon; by default n.
 
     Returns
     -------
@@ -64,7 +70,7 @@ def generate(
     Raises
     ------
     ValueError
-        When a parameter is missing, superfluous or out of range.
+        When a parameter is out of range, or belongs to another distribution.
 
     Examples
     --------
@@ -72,7 +78,7 @@ def generate(
     >>> points = taut.generate("normal", 1000, 3, seed=42)
     >>> (points[:10] == taut.generate("normal", 10, 3, seed=42)).all()
     np.True_
-    >>> taut.generate("cube-vertices", 3, 2, dtype="float32").dtype
+    >>> taut.generate("cube", 3, 2, dtype="float32").dtype
     dtype('float32')
     """
     if np.dtype(dtype) not in (np.dtype(np.float32), np.dtype(np.float64)):

@@ -3,6 +3,19 @@ from typing import final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+__all__ = [
+    "Ball",
+    "BallCertificate",
+    "PassBounds",
+    "Solution",
+    "Trace",
+    "Verdict",
+    "Violation",
+    "__version__",
+    "ball",
+    "generate",
+]
+
 __version__: str
 
 def ball(

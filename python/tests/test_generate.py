@@ -10,7 +10,7 @@ PARAMETERS = {
     "clusters": {"count": 3, "spread": 0.01},
     "polygon": {"vertices": 7},
 }
-ALL = ["uniform", "cube-vertices", "normal", "poisson", "sphere", "simplex", *PARAMETERS]
+ALL = ["uniform", "cube", "normal", "poisson", "sphere", "simplex", *PARAMETERS]
 
 
 @pytest.mark.parametrize("distribution", ALL)
@@ -26,7 +26,7 @@ def test_a_point_depends_on_seed_and_number_alone(distribution):
 
 
 def test_shapes_are_what_they_say():
-    assert set(np.unique(taut.generate("cube-vertices", 100, 5))) == {0.0, 1.0}
+    assert set(np.unique(taut.generate("cube", 100, 5))) == {0.0, 1.0}
     norms = np.linalg.norm(taut.generate("sphere", 100, 9), axis=1)
     assert norms == pytest.approx(np.ones(100), rel=1e-14)
     assert taut.generate("polygon", 4, 2, vertices=4) == pytest.approx(
@@ -41,10 +41,8 @@ def test_shapes_are_what_they_say():
 @pytest.mark.parametrize(
     ("arguments", "parameters", "message"),
     [
-        (("gauss", 10, 2), {}, "distribution is `gauss`: expected uniform"),
-        (("shell", 10, 2), {}, "`shell` needs the parameter `thickness`"),
-        (("clusters", 10, 2), {"count": 2}, "`clusters` needs the parameter `spread`"),
-        (("normal", 10, 2), {"spread": 1.0}, "`normal` has no parameter `spread`"),
+        (("gauss", 10, 2), {}, "`distribution` is gauss: expected normal"),
+        (("normal", 10, 2), {"spread": 1.0}, "`spread` belongs to clusters, not to normal"),
         (("shell", 10, 2), {"thickness": -1.0}, "`thickness` is -1"),
         (("clusters", 10, 2), {"count": 0, "spread": 1.0}, "`count` is 0"),
         (("polygon", 10, 2), {"vertices": -1}, "`vertices` is -1"),
@@ -57,6 +55,16 @@ def test_shapes_are_what_they_say():
 def test_parameters_out_of_range_are_named(arguments, parameters, message):
     with pytest.raises(ValueError, match=message):
         taut.generate(*arguments, **parameters)
+
+
+def test_defaults_are_those_of_the_command_line():
+    for distribution, parameters in {
+        "shell": {"thickness": 0.1},
+        "clusters": {"count": 5, "spread": 0.05},
+        "polygon": {"vertices": 12},
+    }.items():
+        by_default = taut.generate(distribution, 12, 3)
+        assert (by_default == taut.generate(distribution, 12, 3, **parameters)).all()
 
 
 def test_no_points_are_no_points():
