@@ -29,7 +29,8 @@ def test_json_reads_back_to_the_same_bits(points, found):
     assert document["answer"]["center"] == found.answer.center.tolist()
     assert document["certificate"]["support"] == found.certificate.support.tolist()
     assert document["certificate"]["points_hash"] == found.certificate.points_hash
-    assert document["trace"]["passes"] == found.trace.passes == len(found.trace.history)
+    assert document["trace"]["passes"] == found.trace.passes
+    assert len(document["trace"]["history"]) == len(found.trace.history) > 0
     again = taut.Solution.from_json(text)
     assert again == found
     assert again.to_json() == text
