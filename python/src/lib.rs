@@ -1,8 +1,8 @@
 //! The Python package of taut: thin bindings.
 //!
 //! What a user calls is in `taut/*.py` with its documentation; here is what Python cannot do: view an array as
-//! points without a copy ([`rows`]), work with the interpreter released and still hear Ctrl-C ([`work`]), and hold
-//! a solution ([`solution`]). No geometry is calculated in this crate.
+//! points without a copy (`rows`), work with the interpreter released and still hear Ctrl-C (`work`), and hold
+//! a solution (`solution`). No geometry is calculated in this crate.
 #![forbid(unsafe_code)]
 
 mod ball;
