@@ -92,7 +92,7 @@ def test_budget_of_passes_is_reported_not_hidden():
     found = taut.ball(points, max_passes=3, epsilon=0, batch=1)
     assert found.trace.stop == "pass-budget"
     assert found.certificate.gap > 1e-6
-    assert found.check(points).gap <= found.certificate.gap
+    assert found.check(points).gap <= found.certificate.gap * (1 + 1e-12)
 
 
 @pytest.mark.parametrize("d", [1, 2, 7])
