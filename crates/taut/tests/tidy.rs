@@ -184,14 +184,13 @@ fn files_are_short_and_know_no_machine() {
 /// All text files of ours under `folder`, without what is built or fetched.
 fn sources(folder: &Path) -> Vec<PathBuf> {
     const KINDS: [&str; 8] = ["rs", "py", "pyi", "md", "toml", "sh", "cpp", "js"];
-    const NOT_OURS: [&str; 7] =
-        ["target", "build", "runs", "corpus", ".git", ".venv", "__pycache__"];
+    const NOT_OURS: [&str; 5] = ["target", "build", "runs", "corpus", "__pycache__"];
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).expect("a folder of the repository can be read") {
         let path = entry.expect("an entry of it too").path();
         let name = path.file_name().expect("entries have names").to_string_lossy().into_owned();
         if path.is_dir() {
-            if !NOT_OURS.contains(&name.as_str()) {
+            if !name.starts_with('.') && !NOT_OURS.contains(&name.as_str()) {
                 found.extend(sources(&path));
             }
         } else if path.extension().is_some_and(|e| KINDS.contains(&e.to_string_lossy().as_ref())) {
