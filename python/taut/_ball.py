@@ -66,12 +66,12 @@ def ball(
     Examples
     --------
     >>> import taut
-    >>> found = taut.ball([[0, 0], [2, 0], [1, 1]])
+    >>> found = taut.ball([[0, 1], [2, 1], [1, 2]])
     >>> found.answer.center, found.answer.radius
-    (array([1., 0.]), 1.0)
+    (array([1., 1.]), 1.0)
     >>> found.certificate.support, found.certificate.multipliers
     (array([0, 1]), array([0.5, 0.5]))
-    >>> found.check([[0, 0], [2, 0], [1, 1]]).gap <= 1e-9
+    >>> found.check([[0, 1], [2, 1], [1, 2]]).gap <= 1e-9
     True
     """
     return _native.ball(as_rows(points), False, epsilon, method, batch, max_passes, threads, seed)
@@ -114,10 +114,10 @@ def ball_of_balls(
     Two balls of radius 1 whose centres are 2 apart:
 
     >>> import taut
-    >>> found = taut.ball_of_balls([[0, 0], [2, 0]], [1, 1])
+    >>> found = taut.ball_of_balls([[0, 1], [2, 1]], [1, 1])
     >>> found.answer.center, found.answer.radius
-    (array([1., 0.]), 2.0)
-    >>> found.check([[0, 0], [2, 0]], radii=[1, 1]).upper
+    (array([1., 1.]), 2.0)
+    >>> found.check([[0, 1], [2, 1]], radii=[1, 1]).upper
     2.0
     """
     rows = as_rows(centers, radii)
