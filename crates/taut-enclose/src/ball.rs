@@ -76,5 +76,5 @@ fn solve(
         BallMethod::ThesisFast => thesis::fast(&mut scan, options)?,
         BallMethod::BadoiuClarkson => badoiu_clarkson::solve(&mut scan, options)?,
     };
-    proof::prove(&scan, outcome, options)
+    proof::prove(&mut scan, outcome, options)
 }

@@ -6,11 +6,11 @@
 //! *Multipliers.* The step to an item of X is λ ← (1 − β)λ + βe, so c stays a convex combination of the points visited
 //! and proves a lower bound at every step. For points the bound changes to r² ← (1 − β)(r² + βD²), D the farthest
 //! distance; it may fall, as β does not ask what would be best.
-//! *Balls.* The farthest point of a ball lies beyond its centre cᵢ: the step to it is a step to cᵢ by βD/(D − rᵢ). Where
-//! that would go past cᵢ it ends at cᵢ, which keeps λ convex.
+//! *Balls.* The farthest point of a ball lies beyond its centre cᵢ: the step to it is a step to cᵢ by βD/(D − rᵢ).
+//! Where that would go past cᵢ it ends at cᵢ, which keeps λ convex.
 //! *Guarantee.* R ≤ (1 + ε)·R* after 1/ε² steps of O(nd). The steps end as soon as the multipliers prove the gap, or
 //! with the budget of passes; the trace says what was reached.
-//! *Trap.* The gap falls like 1/i and jumps: ε = 1e-3 takes about a thousand passes where the default method takes four.
+//! *Trap.* The gap falls like 1/i and jumps: ε = 1e-3 takes hundreds of passes where the default method takes three.
 //! *Reference.* Bădoiu and Clarkson, Smaller core-sets for balls, SODA 2003.
 
 use taut_certify::Stop;

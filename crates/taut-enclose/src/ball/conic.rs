@@ -1,10 +1,10 @@
 //! The ball of a core-set by a conic solver: formula (1) of the thesis.
 //!
 //! *Problem.* min r subject to |c − cᵢ| + rᵢ ≤ r for the items of X: one second-order cone (r − rᵢ, c − cᵢ) for each.
-//! *Idea.* All that matters of X lies in its affine hull, of dimension m < |X|. Factoring the Gram matrix of the cᵢ − c₁
-//! gives coordinates there, the same distances to rounding, and a problem whose size does not depend on d.
-//! *Multipliers.* The dual variables of the cones, (tᵢ, zᵢ) with |zᵢ| ≤ tᵢ, satisfy Σ tᵢ = 1 and Σ zᵢ = 0; at the optimum
-//! zᵢ = −tᵢ(c − cᵢ)/|c − cᵢ|. So c = Σ λᵢcᵢ with λᵢ in proportion to tᵢ/|c − cᵢ|, where |c − cᵢ| = r − rᵢ: for points
+//! *Idea.* All that matters of X lies in its affine hull, of dimension m < |X|. Factoring the Gram matrix of the
+//! cᵢ − c₁ gives coordinates there, the same distances to rounding, and a problem whose size does not depend on d.
+//! *Multipliers.* The dual variables of the cones, (tᵢ, zᵢ) with |zᵢ| ≤ tᵢ, satisfy Σ tᵢ = 1 and Σ zᵢ = 0; at the
+//! optimum zᵢ = −tᵢ(c − cᵢ)/|c − cᵢ|. So c = Σ λᵢcᵢ with λᵢ in proportion to tᵢ/|c − cᵢ|, where |c − cᵢ| = r − rᵢ: for points
 //! λᵢ = tᵢ, and a ball that holds all others has all the weight.
 //! *Aim.* The dual is flat at its optimum: a gap γ leaves λ uncertain by √γ, and with it Σ λᵢcᵢ, while the solver's own
 //! centre is good to γ. So λ is moved the least way that takes Σ λᵢcᵢ to that centre ([`aim`]): 1e-7 becomes 1e-12.

@@ -96,7 +96,7 @@ impl<'s, 'a> Run<'s, 'a> {
         let above = held * held * (1.0 - 4.0 * relative_error(self.scan.dim())).max(0.0);
         let keep = set.len() + 64;
         let query = Query { center: &center, above, keep, by_face_above: None };
-        let found = self.scan.farthest(&query)?;
+        let found = self.scan.farthest(query)?;
         let upper = found.farthest.reach2.sqrt();
         let look = Look { farthest: found.farthest.id, upper, held, lower };
         // A single point proves nothing yet, unless it is all there is.

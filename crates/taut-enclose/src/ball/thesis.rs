@@ -9,14 +9,14 @@
 //! (D² + r²)/(2D), more than the 1 + ε²/33 of Lemma 2.3.2.
 //! *Departures.* δ = ε², as in the experiments of the thesis; the analysis asks for ε²/163 ([`delta_of_the_lemma`]),
 //! which is what a core-set is solved to when δ = ε² turns out to be too coarse. The test of step 5 is made from
-//! c = Σ λᵢcᵢ, with as radius what holds X from there, and the stop asks for the proved gap, too. For balls the farthest
-//! is the one with the largest |c − cᵢ| + rᵢ. Clarabel stands in for SDPT3.
-//! *Trap.* A conic solver ends some way above rounding, here at gaps of 1e-13 to 1e-11. What it cannot tell apart must not be added one item a pass for
-//! ever: when everything reaches as far as X does, up to the solver's own gap on X, it is asked for all it can give,
-//! and then the method stops with [`Stop::Rounding`].
-//! *Evidence.* The thesis names Bădoiu and Clarkson for the steps of the fast variant, not its own Algorithm 10. With the
-//! start and the step lengths of Algorithm 10 they meet 29 or 30 points in 85 steps on the USPS data, as the thesis reports (30);
-//! from p with lengths 1/(i + 1) they meet 35 or 36.
+//! c = Σ λᵢcᵢ, with as radius what holds X from there, and the stop asks for the proved gap, too. For balls the
+//! farthest is the one with the largest |c − cᵢ| + rᵢ. Clarabel stands in for SDPT3.
+//! *Trap.* A conic solver ends some way above rounding, here at gaps of 1e-13 to 1e-11. What it cannot tell apart must
+//! not be added one item a pass for ever: when everything reaches as far as X does, up to the solver's own gap on X, it
+//! is asked for all it can give, and then the method stops with [`Stop::Rounding`].
+//! *Evidence.* The thesis names Bădoiu and Clarkson for the steps of the fast variant, not its own Algorithm 10. With
+//! the start and the lengths of Algorithm 10 they meet 29 or 30 points in 85 steps on the USPS data, as the thesis
+//! reports (30); from p with lengths 1/(i + 1) they meet 35 or 36.
 //! *Reference.* Thesis, sections 2.2 to 2.4: Kumar, Mitchell and Yıldırım, ALENEX 2003.
 
 use taut_certify::Stop;
@@ -42,7 +42,7 @@ pub(super) fn pure(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcome
     }
 }
 
-/// Algorithm 1 from the far points that d/3 steps of Bădoiu and Clarkson meet.
+/// Algorithm 1 from the far points that d/3 steps of Algorithm 10 meet.
 pub(super) fn fast(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcome, Error> {
     let mut run = Run::new(scan, options)?;
     let mut walk = match diameter_pair(&mut run)? {
