@@ -1,0 +1,170 @@
+//! `taut ball`: the smallest ball around points or balls.
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use anyhow::bail;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use taut::certify::CheckError;
+use taut::{BallMethod, BallOptions, Items, ball_of_source};
+
+use crate::effort::Effort;
+use crate::exit::Outcome;
+use crate::numbers::seconds;
+use crate::picture::{self, Picture};
+use crate::reading::{Points, Reading};
+use crate::report::{self, Report};
+use crate::writing;
+
+/// Find the smallest ball around a point set, with proof.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
+      3 stopped early, the gap reached is reported
+Example: taut ball points.csv -o ball.json --draw ball.svg && taut verify ball.json points.csv")]
+pub(crate) struct Args {
+    #[command(flatten)]
+    points: Points,
+    /// Rows are balls: the coordinates of a centre, then the radius
+    #[arg(long)]
+    balls: bool,
+    /// Proved relative gap to reach, in [0, 1): radius ≤ (1 + ε) · smallest; 0 is exact to rounding
+    #[arg(long, value_name = "REAL", default_value_t = BallOptions::default().epsilon)]
+    epsilon: f64,
+    /// The way to find it; all end in the same certificate
+    #[arg(long, value_name = "NAME", default_value = BallMethod::default().name(), value_parser = methods())]
+    method: BallMethod,
+    /// Far points taken to the core-set per pass, by core-set; at least 1 [default: by dimension]
+    #[arg(long, value_name = "N")]
+    batch: Option<usize>,
+    /// Most reads of all points, at least 2; then the best ball so far is given with its gap
+    #[arg(long, value_name = "N", default_value_t = BallOptions::default().max_passes)]
+    max_passes: u64,
+    /// Chooses the point from which the thesis' methods start
+    #[arg(long, value_name = "N", default_value_t = BallOptions::default().seed)]
+    seed: u64,
+    /// Do without the independent check, which is one more read of all points
+    #[arg(long)]
+    no_verify: bool,
+
+    /// Write ball and certificate as JSON; - is standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
+    out: Option<PathBuf>,
+    /// Print the JSON instead of the summary
+    #[arg(long, help_heading = "Writing")]
+    json: bool,
+    /// Draw ball and points; .svg and .png show one picture, .html all
+    #[arg(long, value_name = "FILE", help_heading = "Writing")]
+    draw: Option<PathBuf>,
+
+    #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
+    effort: Effort,
+}
+
+fn methods() -> impl TypedValueParser<Value = BallMethod> {
+    let explained = BallMethod::ALL.map(|method| {
+        PossibleValue::new(method.name()).help(match method {
+            BallMethod::CoreSet => "batches of far points, exact on the core-set: the best",
+            BallMethod::ThesisPure => "Algorithm 1: one far point per pass, a conic solver on the core-set",
+            BallMethod::ThesisFast => "d/3 steps of Bădoiu and Clarkson, then Algorithm 1",
+            BallMethod::BadoiuClarkson => "Algorithm 10: steps to the farthest point; needs ε > 0",
+        })
+    });
+    PossibleValuesParser::new(explained).try_map(|name| name.parse::<BallMethod>())
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
+        let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
+        if let Some(out) = &self.out
+            && Picture::of_path(out).is_ok()
+        {
+            bail!("{}: -o writes JSON; draw with --draw {0}", out.display());
+        }
+        let watch = self.effort.start()?;
+        let mut clock = Clock::start();
+        let points = self.reading.open(&self.points.path)?;
+        clock.lap("reading");
+
+        let items = if self.balls { Items::Balls } else { Items::Points };
+        let options = BallOptions {
+            epsilon: self.epsilon,
+            method: self.method,
+            batch: self.batch,
+            max_passes: self.max_passes,
+            threads: None,
+            seed: self.seed,
+        };
+        let found = watch
+            .during("solving", |monitor| ball_of_source(points.source(), items, &options, monitor))
+            .map_err(|error| points.explain(error))?;
+        clock.lap("solving");
+
+        let mut verdict = None;
+        if !self.no_verify {
+            let checked = watch.during("checking", |monitor| {
+                taut::Answer::check(&found.answer, &found.certificate, points.source(), monitor)
+            });
+            match checked {
+                Ok(proved) => verdict = Some(proved),
+                Err(CheckError::Rejected(violation)) => {
+                    eprintln!("taut: {}: the ball found did not pass the check: {violation}", points.name());
+                    return Ok(Outcome::CheckFailed);
+                }
+                Err(CheckError::Read(error)) => return Err(points.reading_failed(error)),
+                Err(error) => return Err(error.into()),
+            }
+            clock.lap("checking");
+        }
+
+        let report = Report { found: &found, points: &points, verdict };
+        let drawn = picture
+            .map(|picture| picture.draw(&report, &picture::Look::default()))
+            .transpose()?;
+
+        if let Some(out) = &self.out {
+            writing::replace(out, json(&found).as_bytes())?;
+        }
+        if let (Some(path), Some(drawn)) = (&self.draw, drawn) {
+            writing::replace(path, &drawn)?;
+        }
+        if self.json {
+            writing::say(json(&found).as_bytes())?;
+        } else if !self.effort.quiet && self.out.as_deref() != Some("-".as_ref()) {
+            let mut facts = report.facts();
+            facts.push(("time", clock.told()));
+            writing::say(report::text(&report.title(), &facts).as_bytes())?;
+        }
+        Ok(report::outcome(&found, self.epsilon))
+    }
+}
+
+fn json(found: &taut::Solution<taut::Ball>) -> String {
+    found.to_json() + "\n"
+}
+
+/// Seconds by step, for people; no result depends on it and no file holds it.
+struct Clock {
+    start: Instant,
+    laps: Vec<(&'static str, Duration)>,
+}
+
+impl Clock {
+    fn start() -> Self {
+        Clock { start: Instant::now(), laps: Vec::new() }
+    }
+
+    fn lap(&mut self, what: &'static str) {
+        let before: Duration = self.laps.iter().map(|(_, time)| time).sum();
+        self.laps.push((what, self.start.elapsed() - before));
+    }
+
+    fn told(&self) -> String {
+        let all: Duration = self.laps.iter().map(|(_, time)| time).sum();
+        let laps: Vec<String> =
+            self.laps.iter().map(|(what, time)| format!("{what} {}", seconds(*time))).collect();
+        format!("{}: {}", seconds(all), laps.join(", "))
+    }
+}
