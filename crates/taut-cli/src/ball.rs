@@ -67,7 +67,9 @@ fn methods() -> impl TypedValueParser<Value = BallMethod> {
     let explained = BallMethod::ALL.map(|method| {
         PossibleValue::new(method.name()).help(match method {
             BallMethod::CoreSet => "batches of far points, exact on the core-set: the best",
-            BallMethod::ThesisPure => "Algorithm 1: one far point per pass, a conic solver on the core-set",
+            BallMethod::ThesisPure => {
+                "Algorithm 1: one far point per pass, a conic solver on the core-set"
+            }
             BallMethod::ThesisFast => "d/3 steps of Bădoiu and Clarkson, then Algorithm 1",
             BallMethod::BadoiuClarkson => "Algorithm 10: steps to the farthest point; needs ε > 0",
         })
@@ -110,7 +112,10 @@ impl Args {
             match checked {
                 Ok(proved) => verdict = Some(proved),
                 Err(CheckError::Rejected(violation)) => {
-                    eprintln!("taut: {}: the ball found did not pass the check: {violation}", points.name());
+                    eprintln!(
+                        "taut: {}: the ball found did not pass the check: {violation}",
+                        points.name()
+                    );
                     return Ok(Outcome::CheckFailed);
                 }
                 Err(CheckError::Read(error)) => return Err(points.reading_failed(error)),
@@ -120,9 +125,8 @@ impl Args {
         }
 
         let report = Report { found: &found, points: &points, verdict };
-        let drawn = picture
-            .map(|picture| picture.draw(&report, &picture::Look::default()))
-            .transpose()?;
+        let drawn =
+            picture.map(|picture| picture.draw(&report, &picture::Look::default())).transpose()?;
 
         if let Some(out) = &self.out {
             writing::replace(out, json(&found).as_bytes())?;

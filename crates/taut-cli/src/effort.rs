@@ -35,10 +35,9 @@ impl Effort {
     /// Starts the threads; to be called once, before any work.
     pub(crate) fn start(&self) -> anyhow::Result<Watch> {
         let threads = self.threads.map_or(0, NonZeroUsize::get);
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build_global()
-            .with_context(|| format!("could not start {threads} threads; try fewer with --threads"))?;
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().with_context(|| {
+            format!("could not start {threads} threads; try fewer with --threads")
+        })?;
         Ok(Watch::new(if self.quiet { Progress::Never } else { self.progress }))
     }
 }

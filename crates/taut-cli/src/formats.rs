@@ -20,17 +20,26 @@ impl Args {
 }
 
 fn table() -> String {
-    let mut text = format!("{:<12}{:<7}{:<7}{:<24}{}\n", "format", "read", "write", "extensions", "what it is");
+    let mut text = format!(
+        "{:<12}{:<7}{:<7}{:<24}{}\n",
+        "format", "read", "write", "extensions", "what it is"
+    );
     let word = |able| if able { "yes" } else { "no" };
     for format in Format::ALL {
         let extensions = format.extensions().join(" ");
         let (read, write) = (word(format.can_read()), word(format.can_write()));
-        writeln!(text, "{:<12}{read:<7}{write:<7}{extensions:<24}{}", format.name(), format.description())
-            .expect("text grows");
+        writeln!(
+            text,
+            "{:<12}{read:<7}{write:<7}{extensions:<24}{}",
+            format.name(),
+            format.description()
+        )
+        .expect("text grows");
     }
     let packed: Vec<&str> =
         Compression::ALL.iter().flat_map(|compression| compression.extensions()).copied().collect();
-    writeln!(text, "\nEach may be compressed: a further extension {}.", packed.join(", ")).expect("text grows");
+    writeln!(text, "\nEach may be compressed: a further extension {}.", packed.join(", "))
+        .expect("text grows");
     text.push_str("Pictures are written as svg, png and html; answers as json.\n");
     text
 }

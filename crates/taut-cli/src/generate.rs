@@ -82,13 +82,18 @@ impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         let distribution = self.distribution()?;
         let refused = |error: Error| anyhow!("taut generate: {error}");
-        let points = GeneratedSource::new(distribution, self.n, self.d, self.seed, self.scalar).map_err(refused)?;
+        let points = GeneratedSource::new(distribution, self.n, self.d, self.seed, self.scalar)
+            .map_err(refused)?;
         let watch = self.effort.start()?;
         let format = match self.format {
             None if self.out == Path::new("-") => Some(Format::Csv),
             given => given,
         };
-        let balls = self.radii.map(|law| Balls::new(points, self.seed, law)).transpose().map_err(refused)?;
+        let balls = self
+            .radii
+            .map(|law| Balls::new(points, self.seed, law))
+            .transpose()
+            .map_err(refused)?;
         let source: &dyn PointSource = match &balls {
             Some(balls) => balls,
             None => &points,

@@ -4,7 +4,9 @@ use std::path::Path;
 
 use anyhow::{anyhow, bail};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use taut_draw::{DrawOptions, Fact, Figure, Page, Section, Style, Theme, ball_figures, to_html, to_svg};
+use taut_draw::{
+    DrawOptions, Fact, Figure, Page, Section, Style, Theme, ball_figures, to_html, to_svg,
+};
 
 use crate::report::Report;
 
@@ -133,7 +135,9 @@ fn png() -> anyhow::Result<Picture> {
 
 #[cfg(not(feature = "png"))]
 fn png() -> anyhow::Result<Picture> {
-    bail!("this build of taut draws no PNG: name a file .svg or .html, or build it with the feature `png`")
+    bail!(
+        "this build of taut draws no PNG: name a file .svg or .html, or build it with the feature `png`"
+    )
 }
 
 #[cfg(feature = "png")]

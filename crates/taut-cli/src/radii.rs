@@ -25,11 +25,14 @@ impl FromStr for Law {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let wrong = || {
-            format!("`{text}` is no law of radii: write equal:R, uniform:A:B or exponential:MEAN with numbers ≥ 0")
+            format!(
+                "`{text}` is no law of radii: write equal:R, uniform:A:B or exponential:MEAN with numbers ≥ 0"
+            )
         };
         let mut parts = text.split(':');
         let name = parts.next();
-        let numbers: Vec<f64> = parts.map(str::parse).collect::<Result<_, _>>().map_err(|_| wrong())?;
+        let numbers: Vec<f64> =
+            parts.map(str::parse).collect::<Result<_, _>>().map_err(|_| wrong())?;
         if !numbers.iter().all(|number| number.is_finite() && *number >= 0.0) {
             return Err(wrong());
         }
@@ -61,13 +64,22 @@ pub(crate) struct Balls {
 }
 
 impl Balls {
-    pub(crate) fn new(centres: GeneratedSource, seed: u64, law: Law) -> Result<Self, taut::points::Error> {
+    pub(crate) fn new(
+        centres: GeneratedSource,
+        seed: u64,
+        law: Law,
+    ) -> Result<Self, taut::points::Error> {
         // The generator keys its streams by the seed, so any other seed is independent of that of the centres.
-        let lots = GeneratedSource::new(Distribution::Uniform, centres.len(), 1, !seed, ScalarKind::F64)?;
+        let lots =
+            GeneratedSource::new(Distribution::Uniform, centres.len(), 1, !seed, ScalarKind::F64)?;
         Ok(Balls { centres, lots, law })
     }
 
-    fn view<'a, T: Scalar>(&'a self, range: Range<u64>, scratch: &'a mut Scratch) -> Result<Rows<'a>, ReadError> {
+    fn view<'a, T: Scalar>(
+        &'a self,
+        range: Range<u64>,
+        scratch: &'a mut Scratch,
+    ) -> Result<Rows<'a>, ReadError> {
         let (mut of_centres, mut of_lots) = (Scratch::new(), Scratch::new());
         let centres = self.centres.read(range.clone(), &mut of_centres)?;
         let lots = self.lots.read(range, &mut of_lots)?;
@@ -98,7 +110,11 @@ impl PointSource for Balls {
         self.centres.scalar()
     }
 
-    fn read<'a>(&'a self, range: Range<u64>, scratch: &'a mut Scratch) -> Result<Rows<'a>, ReadError> {
+    fn read<'a>(
+        &'a self,
+        range: Range<u64>,
+        scratch: &'a mut Scratch,
+    ) -> Result<Rows<'a>, ReadError> {
         match self.scalar() {
             ScalarKind::F32 => self.view::<f32>(range, scratch),
             ScalarKind::F64 => self.view::<f64>(range, scratch),
@@ -144,7 +160,9 @@ mod tests {
 
     #[test]
     fn other_laws_are_refused_and_named() {
-        for text in ["", "equal", "equal:-1", "uniform:2:1", "uniform:1", "exponential:NaN", "normal:1"] {
+        for text in
+            ["", "equal", "equal:-1", "uniform:2:1", "uniform:1", "exponential:NaN", "normal:1"]
+        {
             assert!(text.parse::<Law>().unwrap_err().contains(&format!("`{text}`")));
         }
     }

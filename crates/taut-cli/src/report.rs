@@ -35,7 +35,7 @@ impl Report<'_> {
         let support = self.found.certificate.support.len() as u64;
         let mut centre = coordinates(&answer.center);
         if abridged(&answer.center) {
-            centre += &format!(" {} in all; -o FILE writes them", count(answer.center.len() as u64));
+            centre += &format!(" {} in all", count(answer.center.len() as u64));
         }
         vec![
             ("radius", exact(answer.radius)),
@@ -45,7 +45,11 @@ impl Report<'_> {
             ("method", format!("{}, {}", trace.method, stopped(trace.stop))),
             (
                 "core-set",
-                format!("{}, {} of them in the support", counted(trace.core_set, self.noun()), count(support)),
+                format!(
+                    "{}, {} of them in the support",
+                    counted(trace.core_set, self.noun()),
+                    count(support)
+                ),
             ),
             (
                 "passes",

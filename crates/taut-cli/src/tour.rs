@@ -51,7 +51,8 @@ impl Args {
         };
         for station in STATIONS {
             let clock = Instant::now();
-            let stop = visit(station, &watch).with_context(|| format!("sample {} failed", station.file))?;
+            let stop = visit(station, &watch)
+                .with_context(|| format!("sample {} failed", station.file))?;
             let verified = if stop.verified { "yes" } else { "NO" };
             if !stop.verified {
                 outcome = Outcome::CheckFailed;
@@ -87,7 +88,9 @@ fn visit(station: &Station, watch: &Watch) -> anyhow::Result<Stop> {
     let points = Opened::of_bytes(station.bytes, station.file)?;
     let options = BallOptions { epsilon: 0.0, ..BallOptions::default() };
     let found = watch
-        .during("solving", |monitor| ball_of_source(points.source(), station.items, &options, monitor))
+        .during("solving", |monitor| {
+            ball_of_source(points.source(), station.items, &options, monitor)
+        })
         .map_err(|error| points.explain(error))?;
 
     let mut verdict = None;
@@ -105,12 +108,16 @@ fn visit(station: &Station, watch: &Watch) -> anyhow::Result<Stop> {
         doctored.answer.radius *= 1.0 - 1e-6;
         match judge(&AnySolution::Ball(doctored), &points, watch)? {
             Ok(_) => verified = false,
-            Err(violation) => further.push(Fact::new("a millionth smaller", format!("rejected: {violation}"))),
+            Err(violation) => {
+                further.push(Fact::new("a millionth smaller", format!("rejected: {violation}")))
+            }
         }
     }
     let report = Report { found: &found, points: &points, verdict };
     let said = match verdict {
-        Some(proved) => format!("radius {:<12} gap {}", short(found.answer.radius), gap(proved.gap)),
+        Some(proved) => {
+            format!("radius {:<12} gap {}", short(found.answer.radius), gap(proved.gap))
+        }
         None => format!("radius {}", exact(found.answer.radius)),
     };
     let section = Section {
@@ -137,8 +144,11 @@ fn page(sections: Vec<Section>) -> String {
 }
 
 fn write_samples(folder: &Path) -> anyhow::Result<()> {
-    std::fs::create_dir_all(folder).map_err(|source| anyhow!("{}: could not be made: {source}", folder.display()))?;
-    STATIONS.iter().try_for_each(|station| writing::replace(&folder.join(station.file), station.bytes))
+    std::fs::create_dir_all(folder)
+        .map_err(|source| anyhow!("{}: could not be made: {source}", folder.display()))?;
+    STATIONS
+        .iter()
+        .try_for_each(|station| writing::replace(&folder.join(station.file), station.bytes))
 }
 
 /// Hands the page to whatever the system opens pages with.

@@ -37,10 +37,13 @@ impl Args {
         let answer = read_answer(&self.answer, &self.points.path)?;
         let points = self.reading.open(&self.points.path)?;
         let (outcome, said) = match judge(&answer, &points, &watch)? {
-            Ok(verdict) => {
-                (Outcome::Done, report::text(&format!("Verified: {}", claim(&answer)), &facts(&verdict)))
+            Ok(verdict) => (
+                Outcome::Done,
+                report::text(&format!("Verified: {}", claim(&answer)), &facts(&verdict)),
+            ),
+            Err(violation) => {
+                (Outcome::CheckFailed, format!("Rejected: {}: {violation}\n", points.name()))
             }
-            Err(violation) => (Outcome::CheckFailed, format!("Rejected: {}: {violation}\n", points.name())),
         };
         if !self.effort.quiet {
             writing::say(said.as_bytes())?;
@@ -65,7 +68,8 @@ pub(crate) fn judge(
 
 /// Reads an answer; `points` is the other input, as both cannot be standard input.
 pub(crate) fn read_answer(path: &Path, points: &Path) -> anyhow::Result<AnySolution> {
-    let name = if path == Path::new("-") { "standard input".into() } else { path.display().to_string() };
+    let name =
+        if path == Path::new("-") { "standard input".into() } else { path.display().to_string() };
     let mut text = String::new();
     let read = match path == Path::new("-") {
         true if points == Path::new("-") => {
@@ -86,7 +90,10 @@ fn claim(answer: &AnySolution) -> String {
 
 fn facts(verdict: &Verdict) -> Vec<report::Fact> {
     vec![
-        ("bracket", format!("{} ≤ smallest radius ≤ {}", exact(verdict.lower), exact(verdict.upper))),
+        (
+            "bracket",
+            format!("{} ≤ smallest radius ≤ {}", exact(verdict.lower), exact(verdict.upper)),
+        ),
         ("gap", format!("{}, relative", gap(verdict.gap))),
     ]
 }

@@ -53,9 +53,7 @@ impl Watch {
     pub(crate) fn new(progress: Progress) -> Self {
         let terminal = std::io::stderr().is_terminal();
         let target = match progress {
-            Progress::Auto | Progress::Always if terminal => {
-                ProgressDrawTarget::stderr_with_hz(10)
-            }
+            Progress::Auto | Progress::Always if terminal => ProgressDrawTarget::stderr_with_hz(10),
             _ => ProgressDrawTarget::hidden(),
         };
         let bar = ProgressBar::with_draw_target(Some(0), target).with_style(
@@ -63,11 +61,7 @@ impl Watch {
                 .expect("the template is well formed")
                 .progress_chars("=> "),
         );
-        Watch {
-            bar,
-            lines: progress == Progress::Always && !terminal,
-            done: AtomicU64::new(0),
-        }
+        Watch { bar, lines: progress == Progress::Always && !terminal, done: AtomicU64::new(0) }
     }
 
     /// Does one step of work with a monitor that shows it as `what` and hears interrupts.

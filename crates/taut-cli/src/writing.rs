@@ -13,7 +13,10 @@ pub(crate) fn replace(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     }
     let mut file = taut_io::create(path)?;
     file.write_all(bytes).map_err(|source| {
-        anyhow!("{}: writing failed: {source}; an earlier file of that name is as it was", file.path())
+        anyhow!(
+            "{}: writing failed: {source}; an earlier file of that name is as it was",
+            file.path()
+        )
     })?;
     Ok(file.commit()?)
 }
