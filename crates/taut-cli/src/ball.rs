@@ -29,7 +29,7 @@ pub(crate) struct Args {
     #[arg(long)]
     balls: bool,
     /// Proved relative gap to reach, in [0, 1): radius ≤ (1 + ε) · smallest; 0 is exact to rounding
-    #[arg(long, value_name = "REAL", default_value_t = BallOptions::default().epsilon)]
+    #[arg(long, value_name = "REAL", default_value = "1e-9")]
     epsilon: f64,
     /// The way to find it; all end in the same certificate
     #[arg(long, value_name = "NAME", default_value = BallMethod::default().name(), value_parser = methods())]
@@ -91,14 +91,7 @@ impl Args {
         clock.lap("reading");
 
         let items = if self.balls { Items::Balls } else { Items::Points };
-        let options = BallOptions {
-            epsilon: self.epsilon,
-            method: self.method,
-            batch: self.batch,
-            max_passes: self.max_passes,
-            threads: None,
-            seed: self.seed,
-        };
+        let options = self.options();
         let found = watch
             .during("solving", |monitor| ball_of_source(points.source(), items, &options, monitor))
             .map_err(|error| points.explain(error))?;
@@ -143,6 +136,17 @@ impl Args {
         }
         Ok(report::outcome(&found, self.epsilon))
     }
+
+    fn options(&self) -> BallOptions {
+        BallOptions {
+            epsilon: self.epsilon,
+            method: self.method,
+            batch: self.batch,
+            max_passes: self.max_passes,
+            threads: None, // those of the pool, which reading and checking use as well
+            seed: self.seed,
+        }
+    }
 }
 
 fn json(found: &taut::Solution<taut::Ball>) -> String {
@@ -170,5 +174,18 @@ impl Clock {
         let laps: Vec<String> =
             self.laps.iter().map(|(what, time)| format!("{what} {}", seconds(*time))).collect();
         format!("{}: {}", seconds(all), laps.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{Args as _, FromArgMatches};
+
+    #[test]
+    fn the_defaults_are_those_of_the_library() {
+        let command = super::Args::augment_args(clap::Command::new("ball"));
+        let matches = command.get_matches_from(["ball", "points.csv"]);
+        let args = super::Args::from_arg_matches(&matches).unwrap();
+        assert_eq!(args.options(), taut::BallOptions::default());
     }
 }

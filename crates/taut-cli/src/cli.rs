@@ -7,7 +7,7 @@ use crate::{ball, completions, draw, formats, generate, man, tour, verify};
 
 /// Tight shapes around, through and inside point sets, with proof.
 #[derive(Debug, Parser)]
-#[command(name = "taut", version, propagate_version = true, max_term_width = 100)]
+#[command(name = "taut", version, max_term_width = 100)]
 #[command(after_help = "\
 Exit: 0 done and as asked · 1 a check failed · 2 bad input or usage, nothing written ·
       3 stopped early by a budget, the gap reached is reported · 130 interrupted

@@ -9,11 +9,11 @@ use crate::watch::Watch;
 /// When progress is shown on standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Progress {
-    /// When standard error is a terminal.
+    /// if it is a terminal
     Auto,
-    /// Always: as lines where standard error is no terminal.
+    /// as a bar, or as lines where it is no terminal
     Always,
-    /// Never.
+    /// not at all
     Never,
 }
 

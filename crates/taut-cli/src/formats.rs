@@ -1,7 +1,5 @@
 //! `taut formats`: what can be read and written.
 
-use std::fmt::Write;
-
 use taut_io::{Compression, Format};
 
 use crate::exit::Outcome;
@@ -20,26 +18,36 @@ impl Args {
 }
 
 fn table() -> String {
-    let mut text = format!(
-        "{:<12}{:<7}{:<7}{:<24}{}\n",
-        "format", "read", "write", "extensions", "what it is"
-    );
     let word = |able| if able { "yes" } else { "no" };
-    for format in Format::ALL {
+    let row = |format: Format| {
         let extensions = format.extensions().join(" ");
-        let (read, write) = (word(format.can_read()), word(format.can_write()));
-        writeln!(
-            text,
-            "{:<12}{read:<7}{write:<7}{extensions:<24}{}",
-            format.name(),
-            format.description()
-        )
-        .expect("text grows");
+        [
+            format.name().to_owned(),
+            word(format.can_read()).to_owned(),
+            word(format.can_write()).to_owned(),
+            extensions,
+        ]
+    };
+    let head = ["format", "read", "write", "extensions"].map(str::to_owned);
+    let rows: Vec<[String; 4]> = std::iter::once(head).chain(Format::ALL.map(row)).collect();
+    let notes = std::iter::once("what it is").chain(Format::ALL.map(Format::description));
+    let widths: [usize; 4] =
+        std::array::from_fn(|i| rows.iter().map(|row| row[i].len()).max().unwrap_or(0));
+
+    let mut text = String::new();
+    for (row, note) in rows.iter().zip(notes) {
+        for (cell, width) in row.iter().zip(widths) {
+            text += &format!("{cell:<width$}  ");
+        }
+        text += note;
+        text.push('\n');
     }
     let packed: Vec<&str> =
-        Compression::ALL.iter().flat_map(|compression| compression.extensions()).copied().collect();
-    writeln!(text, "\nEach may be compressed: a further extension {}.", packed.join(", "))
-        .expect("text grows");
-    text.push_str("Pictures are written as svg, png and html; answers as json.\n");
+        Compression::ALL.iter().flat_map(|packed| packed.extensions()).copied().collect();
+    text += &format!(
+        "\nAny of them may be compressed, with one of {} as a further extension.\n",
+        packed.join(", ")
+    );
+    text += "Answers are written as json, pictures as svg, png and html.\n";
     text
 }

@@ -1,0 +1,11 @@
+//! The command line, through the real binary: what goes in, what comes out, and how it ends.
+
+mod bad_input;
+mod ball;
+mod desk;
+mod generate;
+mod pictures;
+mod threads;
+mod usps;
+mod verify;
+mod words;
