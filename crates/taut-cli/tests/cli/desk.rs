@@ -11,7 +11,6 @@ pub(crate) struct Desk {
 }
 
 /// How a run ended and what it said.
-#[derive(Debug)]
 pub(crate) struct Run {
     pub(crate) code: i32,
     pub(crate) out: String,
@@ -112,5 +111,13 @@ impl Run {
 
     pub(crate) fn json(&self) -> serde_json::Value {
         serde_json::from_str(&self.out).unwrap_or_else(|error| panic!("{error} in {self:#?}"))
+    }
+}
+
+/// What a failed assertion shows: enough to see what happened.
+impl std::fmt::Debug for Run {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let some = |text: &str| text.chars().take(2000).collect::<String>();
+        write!(f, "exit code {}\n--- output\n{}\n--- errors\n{}", self.code, some(&self.out), some(&self.err))
     }
 }

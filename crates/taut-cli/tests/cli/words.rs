@@ -40,7 +40,7 @@ fn shells_complete_and_the_manual_has_a_page_for_each_command() {
         desk.taut(&format!("completions {shell}")).ends(0).says(&[
             "taut",
             "epsilon",
-            "thesis-pure",
+            "max-passes",
         ]);
     }
     desk.taut("completions tcsh").ends(2);
