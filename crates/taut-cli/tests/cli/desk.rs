@@ -118,6 +118,12 @@ impl Run {
 impl std::fmt::Debug for Run {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let some = |text: &str| text.chars().take(2000).collect::<String>();
-        write!(f, "exit code {}\n--- output\n{}\n--- errors\n{}", self.code, some(&self.out), some(&self.err))
+        write!(
+            f,
+            "exit code {}\n--- output\n{}\n--- errors\n{}",
+            self.code,
+            some(&self.out),
+            some(&self.err)
+        )
     }
 }

@@ -37,11 +37,7 @@ fn formats_lists_what_is_read_and_written() {
 fn shells_complete_and_the_manual_has_a_page_for_each_command() {
     let desk = Desk::new();
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
-        desk.taut(&format!("completions {shell}")).ends(0).says(&[
-            "taut",
-            "epsilon",
-            "max-passes",
-        ]);
+        desk.taut(&format!("completions {shell}")).ends(0).says(&["taut", "epsilon", "max-passes"]);
     }
     desk.taut("completions tcsh").ends(2);
     desk.taut("man pages/man1").ends(0);
