@@ -5,15 +5,16 @@ use std::time::{Duration, Instant};
 
 use anyhow::bail;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::certify::CheckError;
-use taut::{BallMethod, BallOptions, Items, ball_of_source};
+use taut::{AnySolution, BallMethod, BallOptions, Items, ball_of_source};
+use taut_io::AtomicFile;
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::numbers::seconds;
+use crate::numbers::{abridged, seconds};
 use crate::picture::{self, Picture};
 use crate::reading::{Points, Reading};
 use crate::report::{self, Report};
+use crate::verify::judge;
 use crate::writing;
 
 /// Find the smallest ball around a point set, with proof.
@@ -97,44 +98,46 @@ impl Args {
             .map_err(|error| points.explain(error))?;
         clock.lap("solving");
 
+        let found = AnySolution::Ball(found);
         let mut verdict = None;
         if !self.no_verify {
-            let checked = watch.during("checking", |monitor| {
-                taut::Answer::check(&found.answer, &found.certificate, points.source(), monitor)
-            });
-            match checked {
+            match judge(&found, &points, &watch)? {
                 Ok(proved) => verdict = Some(proved),
-                Err(CheckError::Rejected(violation)) => {
+                Err(violation) => {
                     eprintln!(
-                        "taut: {}: the ball found did not pass the check: {violation}",
+                        "taut: {}: the ball found failed its check: {violation}",
                         points.name()
                     );
                     return Ok(Outcome::CheckFailed);
                 }
-                Err(CheckError::Read(error)) => return Err(points.reading_failed(error)),
-                Err(error) => return Err(error.into()),
             }
             clock.lap("checking");
         }
+        let AnySolution::Ball(found) = &found;
 
-        let report = Report { found: &found, points: &points, verdict };
+        let report = Report { found, points: &points, verdict };
         let drawn =
             picture.map(|picture| picture.draw(&report, &picture::Look::default())).transpose()?;
 
+        let mut files = Vec::new();
         if let Some(out) = &self.out {
-            writing::replace(out, json(&found).as_bytes())?;
+            files.push(writing::stage(out, json(found).as_bytes())?);
         }
         if let (Some(path), Some(drawn)) = (&self.draw, drawn) {
-            writing::replace(path, &drawn)?;
+            files.push(writing::stage(path, &drawn)?);
         }
+        files.into_iter().try_for_each(AtomicFile::commit)?;
         if self.json {
-            writing::say(json(&found).as_bytes())?;
+            writing::say(json(found).as_bytes())?;
         } else if !self.effort.quiet && self.out.as_deref() != Some("-".as_ref()) {
             let mut facts = report.facts();
+            if self.out.is_none() && abridged(&found.answer.center) {
+                facts.push(("", "-o FILE writes all coordinates of the centre".to_owned()));
+            }
             facts.push(("time", clock.told()));
             writing::say(report::text(&report.title(), &facts).as_bytes())?;
         }
-        Ok(report::outcome(&found, self.epsilon))
+        Ok(report::outcome(found, self.epsilon))
     }
 
     fn options(&self) -> BallOptions {

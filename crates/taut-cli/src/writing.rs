@@ -3,29 +3,31 @@
 use std::io::Write;
 use std::path::Path;
 
-use anyhow::anyhow;
+use taut_io::AtomicFile;
 
-/// Replaces the file `path` by `bytes`, or writes them to standard output for `-`; an earlier file stays as it was
-/// until the last byte is on the disk.
+/// Replaces the file `path` by `bytes`, or writes them to standard output for `-`.
 pub(crate) fn replace(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    if path == Path::new("-") {
-        return say(bytes);
-    }
+    Ok(stage(path, bytes)?.commit()?)
+}
+
+/// Writes `bytes` where they take the place of `path` once they are committed; until then an earlier file stays as
+/// it was. Of several files, all are staged before the first is committed.
+pub(crate) fn stage(path: &Path, bytes: &[u8]) -> anyhow::Result<AtomicFile> {
     let mut file = taut_io::create(path)?;
-    file.write_all(bytes).map_err(|source| {
-        anyhow!(
-            "{}: writing failed: {source}; an earlier file of that name is as it was",
-            file.path()
-        )
-    })?;
-    Ok(file.commit()?)
+    match file.write_all(bytes) {
+        Ok(()) => Ok(file),
+        Err(source) => Err(failed(file.path(), source)),
+    }
 }
 
 /// Writes to standard output, at once.
 pub(crate) fn say(bytes: &[u8]) -> anyhow::Result<()> {
     let mut out = std::io::stdout().lock();
-    out.write_all(bytes).and_then(|()| out.flush()).map_err(|source| {
-        let said = format!("standard output: writing failed: {source}");
-        anyhow::Error::new(source).context(said)
-    })
+    let written = out.write_all(bytes).and_then(|()| out.flush());
+    written.map_err(|source| failed("standard output", source))
+}
+
+fn failed(what: &str, source: std::io::Error) -> anyhow::Error {
+    let said = format!("{what}: writing failed: {source}");
+    anyhow::Error::new(source).context(said)
 }

@@ -4,6 +4,8 @@ mod bad_input;
 mod ball;
 mod desk;
 mod generate;
+#[cfg(unix)]
+mod interrupt;
 mod pictures;
 mod threads;
 mod usps;

@@ -69,8 +69,7 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
         let found = scan.farthest(&Query { center: &center, above, keep, by_face })?;
         let upper = found.farthest.reach2.sqrt();
         outcome.bounds(PassBounds { lower: radius, upper, working_set: set.len() as u64 });
-        let violators: Vec<u64> = found
-            .far
+        let violators: Vec<u64> = if by_face { &found.by_face } else { &found.far }
             .iter()
             .filter(|far| far.reach2 > radius * radius * (1.0 + TOLERANCE) && !set.contains(far.id))
             .map(|far| far.id)
