@@ -35,8 +35,8 @@ pub(crate) struct Query<'c> {
     pub(crate) above: f64,
     /// How many of them at most.
     pub(crate) keep: usize,
-    /// List at most two items per face of the cube around the centre, too.
-    pub(crate) by_face: bool,
+    /// List at most two items per face of the cube around the centre, too, of those with a squared reach above this.
+    pub(crate) by_face_above: Option<f64>,
 }
 
 /// What a pass found.
@@ -128,7 +128,7 @@ impl<'a> Scan<'a> {
     pub(crate) fn first(&mut self, keep: usize) -> Result<(Center, Found), Error> {
         let center = self.sample_mean()?;
         let (found, overflow) =
-            self.pass(&Query { center: &center, above: 0.0, keep, by_face: false }, true)?;
+            self.pass(&Query { center: &center, above: 0.0, keep, by_face_above: None }, true)?;
         let exponent = exponent(found.farthest.reach2);
         if !overflow && found.farthest.reach2 > 0.0 && exponent.abs() <= SAFE_EXPONENT {
             return Ok((center, found));
@@ -137,7 +137,8 @@ impl<'a> Scan<'a> {
             return Ok((center, found));
         }
         let center = self.sample_mean()?;
-        let found = self.farthest(&Query { center: &center, above: 0.0, keep, by_face: false })?;
+        let found =
+            self.farthest(&Query { center: &center, above: 0.0, keep, by_face_above: None })?;
         Ok((center, found))
     }
 
@@ -236,25 +237,26 @@ impl<'a> Scan<'a> {
             // bound set by another block may still win by its number, and `Top` decides.
             let shared = f64::from_bits(bound.load(Ordering::Relaxed));
             let worth = |reach2: f64, here: &Top| {
-                reach2 > query.above && (query.by_face || reach2 > here.bound() && reach2 >= shared)
+                reach2 > query.above.max(here.bound()) && reach2 >= shared
             };
+            let face_above = query.by_face_above.unwrap_or(f64::INFINITY);
             for (group, chunk) in reaches.chunks(64).enumerate() {
                 let farthest = largest(chunk);
                 if farthest > report.farthest.reach2 {
                     let at = chunk.iter().position(|&v| v == farthest).expect("it is one of them");
                     report.farthest = Far { id: base + (group * 64 + at) as u64, reach2: farthest };
                 }
-                if !worth(farthest, &here) {
+                if !worth(farthest, &here) && farthest <= face_above {
                     continue;
                 }
                 for (at, &reach2) in chunk.iter().enumerate() {
+                    let row = group * 64 + at;
+                    let far = Far { id: base + row as u64, reach2 };
                     if worth(reach2, &here) {
-                        let row = group * 64 + at;
-                        let far = Far { id: base + row as u64, reach2 };
                         here.offer(far);
-                        if query.by_face {
-                            faces.offer(face(&part.row(row)[..self.dim], query.center), far);
-                        }
+                    }
+                    if reach2 > face_above {
+                        faces.offer(face(&part.row(row)[..self.dim], query.center), far);
                     }
                 }
             }
