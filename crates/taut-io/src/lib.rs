@@ -25,11 +25,15 @@
 #![forbid(unsafe_code)]
 
 mod columns;
+mod compress;
 mod create;
 mod error;
 mod format;
 mod input;
 mod options;
+mod read;
+mod sink;
+mod write;
 
 pub use columns::Columns;
 pub use create::{AtomicFile, create};
@@ -38,5 +42,3 @@ pub use format::{Compression, Format};
 pub use input::{Input, open, open_bytes};
 pub use options::{Header, RawLayout, ReadOptions};
 pub use write::write_points;
-
-mod write;
