@@ -17,7 +17,7 @@ fn said(case: &Case, threads: usize) -> String {
             )
         }
         Err(CheckError::Rejected(violation)) => format!("{violation:?}"),
-        Err(CheckError::Read(error)) => panic!("{error}"),
+        Err(error) => panic!("{error}"),
     }
 }
 

@@ -124,6 +124,11 @@ impl Compensated {
         self.steps += other.steps;
     }
 
+    /// The sum of the negative terms.
+    pub(crate) fn negated(self) -> Self {
+        Compensated { sum: -self.sum, low: -self.low, ..self }
+    }
+
     /// What was summed up.
     pub(crate) fn known(self) -> Known {
         let (high, low) = two_sum(self.sum, self.low);

@@ -181,20 +181,25 @@ impl<'a> Enclosure<'a> {
         difference.fill(position, self.ball, self.scale);
         let length = difference.square().known().high.sqrt();
         let rho = (radius - r) * self.scale.up;
-        if length.is_finite() && rho >= 0.0 {
+        if (1e-70..1e70).contains(&length) && rho >= 0.0 {
             let excess = excess_square(difference, radius, r, self.scale).high / (length + rho);
             let distance = length * self.scale.down + r;
             return Violation::Outside { row, distance, radius, excess: excess * self.scale.down };
         }
-        // Too far for the scale of this ball, or a ball larger than it: no small excess is at stake.
-        let half = |(&x, &c): (&T, &f64)| x.into() / 2.0 - c / 2.0;
-        let far =
-            position.iter().zip(&self.ball.center).map(|pair| half(pair).abs()).fold(0.0, f64::max);
-        let squares: f64 =
-            position.iter().zip(&self.ball.center).map(|pair| (half(pair) / far).powi(2)).sum();
-        let distance = if far > 0.0 { 2.0 * far * squares.sqrt() } else { 0.0 } + r;
+        // Far from the scale of this ball no small excess is at stake, nor the tail of the centre.
+        let distance = distance(position, &self.ball.center) + r;
         Violation::Outside { row, distance, radius, excess: distance - radius }
     }
+}
+
+/// |p − c| to a few units in the last place, whatever its size.
+fn distance<T: Scalar>(position: &[T], center: &[f64]) -> f64 {
+    let differences = || position.iter().zip(center).map(|(&x, &c)| x.into() - c);
+    let largest = differences().fold(0.0, |m: f64, d| m.max(d.abs()));
+    if largest == 0.0 || largest.is_infinite() {
+        return largest;
+    }
+    largest * differences().map(|d| (d / largest).powi(2)).sum::<f64>().sqrt()
 }
 
 /// |p − c|² − (R − r)² for the difference p − c that was filled in, all of it scaled; [`underflow`] comes on top.

@@ -2,6 +2,8 @@
 //!
 //! *Formulas.* Those of the head of the checker: W, T = Σλᵢtᵢ with tᵢ = |pᵢ − c|² − (R − rᵢ)², M = Σλᵢ(pᵢ − c), so that
 //! p̄ − c = M/W, and g = Σλᵢ(R − rᵢ)/W. Then σ = |M/W|² − T/W, and x = σ/(g + √(g² − σ)) is at least R − L.
+//! Where the bound is weak, the root is nearly 0 or x nearly g, and g² − σ would lose digits; there x is found as
+//! g − √V with W²V = (Σλᵢ(R − rᵢ))² + WT − |M|² in compensated arithmetic. The smaller of the two is the answer.
 //! *Bounds.* tᵢ and the sums T and M are compensated, with running bounds. What follows is a handful of operations on
 //! numbers that are not negative, in plain `f64`: each costs a relative u, and each is rounded the safe way by a factor
 //! 1 ± 8u or more. x grows with σ and falls with g, so σ is taken from above and g from below. When nothing is
@@ -22,7 +24,7 @@ use super::super::{Ball, BallCertificate, Items};
 use super::difference::{Difference, is_tame_number, underflow};
 use super::enclosure::{excess_square, item};
 use super::scale::Scale;
-use crate::arithmetic::{Compensated, U, two_product, two_sum};
+use crate::arithmetic::{Compensated, Known, U, two_product, two_sum};
 use crate::{CheckError, Violation};
 
 /// Multipliers below this count as 0.
@@ -55,8 +57,8 @@ pub(super) fn prove(
             Rows::F64(points) => sums.add(lambda, points.row(0)),
         }
     }
-    let offset_square = sums.offset_square()?;
-    Ok(sums.bound(offset_square))
+    let moment = sums.moment_square()?;
+    Ok(sums.bound(&moment))
 }
 
 /// The sums over the support, all of them scaled.
@@ -74,8 +76,8 @@ struct Sums<'a> {
     moment: [Vec<f64>; 3],
     /// Whether anything may have underflowed.
     underflows: bool,
-    /// Σλᵢ(R − rᵢ), in plain arithmetic.
-    slack: f64,
+    /// Σλᵢ(R − rᵢ).
+    slack: Compensated,
     /// The least R − rᵢ.
     slack_min: f64,
     /// Rows on which all this stands.
@@ -95,7 +97,7 @@ impl<'a> Sums<'a> {
             excess_error: 0.0,
             moment: std::array::from_fn(|_| vec![0.0; dim]),
             underflows: false,
-            slack: 0.0,
+            slack: Compensated::default(),
             slack_min: f64::INFINITY,
             count: 0,
         }
@@ -116,8 +118,10 @@ impl<'a> Sums<'a> {
         self.excess.add_product(lambda, excess.high);
         self.excess.add_small(lambda * excess.low, (lambda * excess.low).abs());
         self.excess_error += lambda * excess.error;
-        self.slack += lambda * (rho * self.scale.up);
-        self.slack_min = self.slack_min.min(rho * self.scale.up);
+        let (rho, rho_low) = (rho * self.scale.up, rho_low * self.scale.up);
+        self.slack.add_product(lambda, rho);
+        self.slack.add_small(lambda * rho_low, (lambda * rho_low).abs());
+        self.slack_min = self.slack_min.min(rho);
         self.add_moment(lambda);
     }
 
@@ -141,11 +145,11 @@ impl<'a> Sums<'a> {
         self.weight.known().high * (1.0 - 8.0 * U)
     }
 
-    /// |M/W|² rounded up, if no coordinate of it is larger than rounding explains.
-    fn offset_square(&self) -> Result<f64, Violation> {
+    /// |M|², if no coordinate of M/W is larger than rounding explains.
+    fn moment_square(&self) -> Result<MomentSquare, Violation> {
         let Ball { center, center_tail, radius } = self.ball;
         let [sums, lows, sizes] = &self.moment;
-        let mut square = 0.0;
+        let mut square = MomentSquare::default();
         for (column, &c) in center.iter().enumerate() {
             let sum = Compensated {
                 sum: sums[column],
@@ -153,9 +157,8 @@ impl<'a> Sums<'a> {
                 size: sizes[column],
                 steps: self.count,
             };
-            let moment = sum.known();
-            let lost = if self.underflows { underflow(self.count) } else { 0.0 };
-            let offset = (moment.size() + lost) / self.weight_min() * (1.0 + 8.0 * U);
+            let moment = self.widened(sum.known(), 0.0);
+            let offset = moment.size() / self.weight_min() * (1.0 + 8.0 * U);
             let tolerance = match center_tail.is_empty() {
                 true => 4.0 * U * (c.abs() * self.scale.up + radius * self.scale.up),
                 false => {
@@ -174,15 +177,24 @@ impl<'a> Sums<'a> {
                     difference: beside,
                 });
             }
-            square += offset * offset;
+            square.sum.add_square(1.0, moment.high, moment.low);
+            square.error += (2.0 * moment.size() + moment.error) * moment.error;
+            square.max += moment.size() * moment.size();
         }
-        Ok(square * (1.0 + (center.len() + 8) as f64 * U))
+        let rounding = 1.0 + (center.len() + 8) as f64 * U;
+        Ok(MomentSquare { error: square.error * rounding, max: square.max * rounding, ..square })
+    }
+
+    /// A sum with what its terms are off by, and with what may have underflowed.
+    fn widened(&self, sum: Known, error: f64) -> Known {
+        let lost = if self.underflows { underflow(self.count) } else { 0.0 };
+        Known { error: (sum.error + error) * (1.0 + (self.count + 8) as f64 * U) + lost, ..sum }
     }
 
     /// From the sums to x, and from x to the bounds.
-    fn bound(&self, offset_square: f64) -> Bound {
+    fn bound(&self, moment: &MomentSquare) -> Bound {
         let radius = self.ball.radius * self.scale.up;
-        let x = self.surplus(radius, offset_square);
+        let x = self.surplus(moment);
         if x == 0.0 {
             return Bound { lower: self.ball.radius, gap: 0.0 };
         }
@@ -194,30 +206,56 @@ impl<'a> Sums<'a> {
     }
 
     /// x, rounded up.
-    fn surplus(&self, radius: f64, offset_square: f64) -> f64 {
-        let rounding = (self.count + 32) as f64 * U;
-        let excess = self.excess.known();
-        let error = (excess.error + self.excess_error) * (1.0 + rounding)
-            + if self.underflows { underflow(self.count) } else { 0.0 };
-        let shortfall = error - excess.high * (1.0 - 4.0 * U * excess.high.signum());
+    fn surplus(&self, moment: &MomentSquare) -> f64 {
+        let (weight, excess) =
+            (self.weight_min(), self.widened(self.excess.known(), self.excess_error));
+        // −T, rounded up; where it is not positive, rounding is all there is.
+        let shortfall = excess.error - excess.high * (1.0 - 4.0 * U * excess.high.signum());
         let shortfall = if shortfall <= 0.0 { 0.0 } else { shortfall };
-        let sigma = (shortfall / self.weight_min() + offset_square) * (1.0 + 16.0 * U);
+        let sigma = (shortfall / weight + moment.max / (weight * weight)) * (1.0 + 16.0 * U);
         if sigma == 0.0 {
             return 0.0;
         }
-        let (slack_min, slack_max) = match self.items {
-            Items::Points => (radius, radius),
-            Items::Balls => {
-                let slack = self.slack / self.weight.known().high;
-                (slack * (1.0 - rounding), slack * (1.0 + rounding))
-            }
-        };
+        let slack = self.widened(self.slack.known(), 0.0);
+        let slack_min = (slack.high - slack.error) / self.weight.known().high * (1.0 - 16.0 * U);
+        let slack_max = slack.size() / weight * (1.0 + 8.0 * U);
         let radicand = slack_min * slack_min * (1.0 - 8.0 * U) - sigma;
-        let by_multipliers = if radicand >= 0.0 {
-            sigma / (slack_min + radicand.sqrt()) * (1.0 + 16.0 * U)
-        } else {
-            slack_max
+        let directly = match radicand > 0.0 && slack_min > 0.0 {
+            true => sigma / (slack_min + radicand.sqrt()) * (1.0 + 16.0 * U),
+            false => slack_max,
         };
-        by_multipliers.min(self.slack_min * (1.0 + 8.0 * U))
+        let by_root = (slack_max - self.root(moment, excess, slack)).max(0.0) * (1.0 + 8.0 * U);
+        directly.min(by_root).min(self.slack_min * (1.0 + 8.0 * U))
     }
+
+    /// √V, rounded down; 0 where V is not known to be positive.
+    fn root(&self, moment: &MomentSquare, excess: Known, slack: Known) -> f64 {
+        let weight = self.weight.known();
+        let mut sum = moment.sum.negated();
+        sum.add_square(1.0, slack.high, slack.low);
+        sum.add_product(excess.high, weight.high);
+        for (a, b) in
+            [(excess.high, weight.low), (excess.low, weight.high), (excess.low, weight.low)]
+        {
+            sum.add_small(a * b, (a * b).abs());
+        }
+        let errors = moment.error
+            + (2.0 * slack.size() + slack.error) * slack.error
+            + excess.size() * weight.error
+            + weight.size() * excess.error
+            + underflow(self.count);
+        let square = sum.known();
+        let least = square.high * (1.0 - 4.0 * U) - (square.error + errors) * (1.0 + 32.0 * U);
+        if least > 0.0 { least.sqrt() / weight.size() * (1.0 - 8.0 * U) } else { 0.0 }
+    }
+}
+
+/// |M|² in three forms.
+#[derive(Default)]
+struct MomentSquare {
+    sum: Compensated,
+    /// What `sum` may be off by, beside its own bound.
+    error: f64,
+    /// |M|², rounded up.
+    max: f64,
 }
