@@ -132,7 +132,8 @@ impl Args {
         } else if !self.effort.quiet && self.out.as_deref() != Some("-".as_ref()) {
             let mut facts = report.facts();
             if self.out.is_none() && abridged(&found.answer.center) {
-                facts.push(("", "-o FILE writes all coordinates of the centre".to_owned()));
+                let centre = facts.iter_mut().find(|(name, _)| *name == "centre");
+                centre.into_iter().for_each(|(_, value)| *value += "; -o FILE writes them");
             }
             facts.push(("time", clock.told()));
             writing::say(report::text(&report.title(), &facts).as_bytes())?;

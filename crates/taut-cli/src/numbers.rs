@@ -37,10 +37,14 @@ pub(crate) fn counted(value: u64, noun: &str) -> String {
     format!("{} {noun}{}", count(value), if value == 1 { "" } else { "s" })
 }
 
-/// Seconds.
+/// A span of time in seconds, or below one in milliseconds.
 pub(crate) fn seconds(time: Duration) -> String {
     let time = time.as_secs_f64();
-    if time < 0.1 { format!("{time:.3} s") } else { format!("{time:.2} s") }
+    match time {
+        ..0.01 => format!("{:.1} ms", time * 1e3),
+        ..1.0 => format!("{:.0} ms", time * 1e3),
+        _ => format!("{time:.2} s"),
+    }
 }
 
 /// Coordinates of a point; of many, the first few.

@@ -19,7 +19,7 @@ fn the_summary_names_every_number() {
         "\n  core-set  ",
         "of them in the support\n",
         "\n  passes    ",
-        " s: reading ",
+        "s: reading ",
         ", checking ",
     ]);
     assert_eq!(run.err, "");
@@ -30,7 +30,7 @@ fn the_summary_names_every_number() {
 fn many_coordinates_are_cut_short_on_the_terminal_and_whole_in_the_file() {
     let desk = Desk::new();
     desk.taut("generate normal -n 40 -d 20 -o points.npy").ends(0);
-    desk.taut("ball points.npy -o ball.json").ends(0).says(&[", …) 20 in all\n"]);
+    desk.taut("ball points.npy -o ball.json").ends(0).says(&[", …) 20 in all\n", "s: reading "]);
     let written: serde_json::Value = serde_json::from_str(&desk.text("ball.json")).unwrap();
     assert_eq!(written["answer"]["center"].as_array().unwrap().len(), 20);
 }
