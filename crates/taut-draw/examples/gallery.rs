@@ -44,7 +44,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         page.sections.push(Section {
             heading: format!("The set “{name}”"),
             text: "The points are generated from a seed.".into(),
-            command: format!("taut ball {name}.csv -o {name}.json && taut verify {name}.json {name}.csv"),
+            command: format!(
+                "taut ball {name}.csv -o {name}.json && taut verify {name}.json {name}.csv"
+            ),
             facts: vec![
                 Fact::new("radius", found.answer.radius),
                 Fact::new("relative gap, proved", format!("{:.1e}", found.certificate.gap)),

@@ -10,7 +10,11 @@ use crate::number::{short, superscript};
 /// The power of two near the largest of `values`; 1 if all are 0.
 pub(crate) fn unit(values: impl Iterator<Item = f64>) -> f64 {
     let largest = values.filter(|v| v.is_finite()).fold(0.0_f64, |a, v| a.max(v.abs()));
-    if largest == 0.0 { 1.0 } else { 2.0_f64.powi((largest.log2().floor() as i32).clamp(-1022, 1023)) }
+    if largest == 0.0 {
+        1.0
+    } else {
+        2.0_f64.powi((largest.log2().floor() as i32).clamp(-1022, 1023))
+    }
 }
 
 /// An interval of an axis, in multiples of a unit, and the pixels it covers.
@@ -110,14 +114,15 @@ pub(crate) fn linear(span: &Span, most: usize) -> Ticks {
     // The power of ten that labels count in, a multiple of three where the plain form would be long.
     let top = (from.abs().max(to.abs()).log10().floor() as i32) + shift;
     let bottom = exponent + shift;
-    let counted = if top >= 5 || bottom < -4 { top.div_euclid(3) * 3 } else { 0 };
+    let counted = if top >= 5 || bottom < -3 { top.div_euclid(3) * 3 } else { 0 };
     let decimals = (counted - bottom).max(0) as usize;
     let first = (from / stride).ceil() as i64;
     let last = (to / stride).floor() as i64;
     let ticks = (first..=last)
         .map(|i| {
             let value = i as f64 * stride;
-            let label = format!("{:.*}", decimals, i as f64 * digit * 10.0_f64.powi(bottom - counted));
+            let label =
+                format!("{:.*}", decimals, i as f64 * digit * 10.0_f64.powi(bottom - counted));
             Tick { fraction: (value - from) / width, label: sign(&label) }
         })
         .collect();
@@ -129,7 +134,11 @@ pub(crate) fn linear(span: &Span, most: usize) -> Ticks {
             o if o < 0.0 => format!(" + {}", short(-o, 16)),
             o => format!(" − {}", short(o, 16)),
         },
-        scale: if counted == 0 { String::new() } else { format!(", in 10{}", superscript(counted)) },
+        scale: if counted == 0 {
+            String::new()
+        } else {
+            format!(", in 10{}", superscript(counted))
+        },
     }
 }
 
@@ -146,9 +155,11 @@ pub(crate) fn logarithmic(span: &Span, most: usize) -> Ticks {
     let width = span.high - span.low;
     let (first, last) = (span.low.ceil() as i32, span.high.floor() as i32);
     let stride = ((width / most.max(1) as f64).ceil() as i32).max(1);
+    // All plain or all raised, so that neighbours compare at a glance.
+    let plain = first >= -3 && last <= 4;
     let mut marks: Vec<(f64, String)> = (first..=last)
         .filter(|e| e.rem_euclid(stride) == 0)
-        .map(|e| (f64::from(e), power(e)))
+        .map(|e| (f64::from(e), if plain { power(e) } else { raised(e) }))
         .collect();
     if marks.len() < 3 {
         for e in first - 1..=last {
@@ -167,12 +178,12 @@ pub(crate) fn logarithmic(span: &Span, most: usize) -> Ticks {
     Ticks { ticks, ..Ticks::default() }
 }
 
-/// A power of ten, plain where that is short.
 fn power(exponent: i32) -> String {
-    match exponent {
-        -3..=4 => short(10.0_f64.powi(exponent), 6),
-        e => format!("10{}", superscript(e)),
-    }
+    short(10.0_f64.powi(exponent), 6)
+}
+
+fn raised(exponent: i32) -> String {
+    if exponent == 0 { "1".into() } else { format!("10{}", superscript(exponent)) }
 }
 
 fn multiple(digit: f64, exponent: i32) -> String {
@@ -200,7 +211,10 @@ mod tests {
     fn labels_are_round() {
         assert_eq!(labels(-1.0, 1.0).0, ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
         assert_eq!(labels(0.0, 100.0).0, ["0", "20", "40", "60", "80", "100"]);
-        assert_eq!(labels(0.0, 1e7), (vec_of(&["0", "2", "4", "6", "8", "10"]), "".into(), ", in 10⁶".into()));
+        assert_eq!(
+            labels(0.0, 1e7),
+            (vec_of(&["0", "2", "4", "6", "8", "10"]), "".into(), ", in 10⁶".into())
+        );
         assert_eq!(labels(0.0, 5e-300).2, ", in 10⁻³⁰⁰");
     }
 
@@ -236,7 +250,7 @@ mod tests {
             let ticks = logarithmic(&Span { unit: 1.0, low, high, pixels: [0.0, 1.0] }, 6).ticks;
             ticks.into_iter().map(|t| t.label).collect::<Vec<_>>()
         };
-        assert_eq!(at(-6.1, 0.2), ["10⁻⁶", "10⁻⁴", "0.01", "1"]);
+        assert_eq!(at(-6.1, 0.2), ["10⁻⁶", "10⁻⁴", "10⁻²", "1"]);
         assert_eq!(at(0.1, 1.2), ["2", "5", "10"]);
     }
 

@@ -103,21 +103,29 @@ fn check(solution: &Solution<Ball>, source: &dyn PointSource) -> Result<(), Erro
     if dim == 0 {
         return Err(Error::Mismatch { what: "number of coordinates", expected: 1, found: 0 });
     }
-    agree("number of multipliers", certificate.support.len(), certificate.multipliers.len() as u64)?;
+    agree(
+        "number of multipliers",
+        certificate.support.len(),
+        certificate.multipliers.len() as u64,
+    )?;
     if let Some(&beyond) = certificate.support.iter().find(|&&id| id >= source.len()) {
         let found = source.len();
         return Err(Error::Mismatch { what: "number of points", expected: beyond + 1, found });
     }
-    let numbers = (ball.center.iter().chain(&ball.center_tail).map(|&v| ("a coordinate of the centre", v)))
-        .chain([("the radius", ball.radius)])
-        .chain(certificate.multipliers.iter().map(|&v| ("a multiplier", v)));
+    let numbers =
+        (ball.center.iter().chain(&ball.center_tail).map(|&v| ("a coordinate of the centre", v)))
+            .chain([("the radius", ball.radius)])
+            .chain(certificate.multipliers.iter().map(|&v| ("a multiplier", v)));
     for (what, value) in numbers {
         if !value.is_finite() {
             return Err(Error::NonFinite { what: what.into(), value });
         }
     }
     if ball.radius < 0.0 {
-        return Err(Error::NonFinite { what: "the square root of the squared radius".into(), value: f64::NAN });
+        return Err(Error::NonFinite {
+            what: "the square root of the squared radius".into(),
+            value: f64::NAN,
+        });
     }
     Ok(())
 }
@@ -153,7 +161,11 @@ impl Picture<'_> {
     }
 
     fn title(&self) -> String {
-        format!("Smallest ball around {}, d = {}", counted(self.source.len(), self.thing()), self.dim())
+        format!(
+            "Smallest ball around {}, d = {}",
+            counted(self.source.len(), self.thing()),
+            self.dim()
+        )
     }
 
     /// The lower bound on the radius that the certificate claims.
@@ -171,11 +183,19 @@ impl Picture<'_> {
     /// Radius and gap in words.
     fn facts(&self) -> String {
         let gap = match self.certificate().gap {
-            0.0 => "it is proved to be the smallest".to_owned(),
-            gap if !gap.is_finite() => "no gap is proved".to_owned(),
-            gap => format!("relative gap {}", short(gap, 3)),
+            gap if !gap.is_finite() => "no gap is certified".to_owned(),
+            gap => format!("certified relative gap {}", short(gap, 3)),
         };
-        format!("Radius {}; {gap}.", short(self.ball().radius, 8))
+        let bound = match (self.lower_is_visible(), self.dim()) {
+            (false, _) => "",
+            (true, 1) => " The dashed line is the lower bound: no enclosing interval is shorter.",
+            (true, 2) => " The dashed circle is the lower bound: no enclosing ball is smaller.",
+            (true, 3) => " The dashed sphere is the lower bound: no enclosing ball is smaller.",
+            (true, _) => {
+                " The dashed circle has the radius of the lower bound: no enclosing ball is smaller."
+            }
+        };
+        format!("Radius {}; {gap}.{bound}", short(self.ball().radius, 8))
     }
 
     /// What is drawn of how many, and what the support is.
@@ -183,11 +203,13 @@ impl Picture<'_> {
         let (n, drawn) = (self.source.len(), self.survey.ids.len() as u64);
         let thing = self.thing();
         let support = self.certificate().support.len() as u64;
-        let mut words = format!(
-            " {} of the support, which {} the ball: the larger the mark, the larger the multiplier.",
-            counted(support, thing),
-            if support == 1 { "decides" } else { "decide" },
-        );
+        let mut words = match support {
+            1 => format!(" One support {thing} decides the ball."),
+            k => format!(
+                " {} support {thing}s decide the ball: the larger the mark, the larger the multiplier.",
+                count(k)
+            ),
+        };
         if drawn == n {
             words += &match n {
                 1 => format!(" The one {thing} is drawn."),
@@ -238,7 +260,11 @@ impl Picture<'_> {
     fn support(&self) -> impl Iterator<Item = (u64, f64, String)> + '_ {
         let certificate = self.certificate();
         certificate.support.iter().zip(&certificate.multipliers).map(|(&id, &multiplier)| {
-            (id, self.support_size(multiplier), format!("support, multiplier {}", short(multiplier, 4)))
+            (
+                id,
+                self.support_size(multiplier),
+                format!("support, multiplier {}", short(multiplier, 4)),
+            )
         })
     }
 
@@ -272,7 +298,11 @@ impl Picture<'_> {
         let balls = self.certificate().items == Items::Balls;
         if !others.is_empty() {
             let shape = if balls {
-                let circle = |(&id, &(center, radius)): (&u64, &([f64; 2], f64))| Circle2 { id: Some(id), center, radius };
+                let circle = |(&id, &(center, radius)): (&u64, &([f64; 2], f64))| Circle2 {
+                    id: Some(id),
+                    center,
+                    radius,
+                };
                 Shape2::Circles(others.iter().zip(&places).map(circle).collect())
             } else {
                 let point = |(&id, &(at, _)): (&u64, &([f64; 2], f64))| Point2 {
@@ -283,11 +313,16 @@ impl Picture<'_> {
                 };
                 Shape2::Points(others.iter().zip(&places).map(point).collect())
             };
-            layers.push(Layer2 { name: self.others_name(), tone: Tone::Point, look: Look::Filled, shape });
+            layers.push(Layer2 {
+                name: self.others_name(),
+                tone: Tone::Point,
+                look: Look::Filled,
+                shape,
+            });
         }
         if self.lower_is_visible() {
             layers.push(Layer2 {
-                name: "lower bound: no smaller radius is possible".into(),
+                name: "lower bound".into(),
                 tone: Tone::Bound,
                 look: Look::Dashed,
                 shape: Shape2::Circles(vec![Circle2 { id: None, center, radius: self.lower() }]),
@@ -350,7 +385,9 @@ impl Picture<'_> {
                     _ => Shape2::Polylines(
                         circles
                             .iter()
-                            .map(|c| vec![[c.center[0] - c.radius, 0.0], [c.center[0] + c.radius, 0.0]])
+                            .map(|c| {
+                                vec![[c.center[0] - c.radius, 0.0], [c.center[0] + c.radius, 0.0]]
+                            })
                             .collect(),
                     ),
                 };
@@ -358,7 +395,11 @@ impl Picture<'_> {
         }
         Ok(Scene2 {
             title: self.title(),
-            caption: format!("{}{} The vertical direction has no meaning.", self.facts(), self.counts()),
+            caption: format!(
+                "{}{} The vertical direction has no meaning.",
+                self.facts(),
+                self.counts()
+            ),
             x: self.options.axis(0, 1),
             y: Axis::default(),
             aspect: Aspect::Free,
@@ -406,19 +447,32 @@ impl Picture<'_> {
         if !others.is_empty() {
             let each = others.iter().zip(rows.chunks_exact(self.source.dim()));
             let shape = if balls {
-                let ball = |(&id, row): (&u64, &[f64])| Sphere3 { id: Some(id), center: at(row), radius: row[3] };
+                let ball = |(&id, row): (&u64, &[f64])| Sphere3 {
+                    id: Some(id),
+                    center: at(row),
+                    radius: row[3],
+                };
                 Shape3::Spheres(each.map(ball).collect())
             } else {
                 let size = self.dot_size();
-                let point =
-                    |(&id, row): (&u64, &[f64])| Point3 { id: Some(id), at: at(row), size, label: String::new() };
+                let point = |(&id, row): (&u64, &[f64])| Point3 {
+                    id: Some(id),
+                    at: at(row),
+                    size,
+                    label: String::new(),
+                };
                 Shape3::Points(each.map(point).collect())
             };
-            layers.push(Layer3 { name: self.others_name(), tone: Tone::Point, look: Look::Filled, shape });
+            layers.push(Layer3 {
+                name: self.others_name(),
+                tone: Tone::Point,
+                look: Look::Filled,
+                shape,
+            });
         }
         if self.lower_is_visible() {
             layers.push(Layer3 {
-                name: "lower bound: no smaller radius is possible".into(),
+                name: "lower bound".into(),
                 tone: Tone::Bound,
                 look: Look::Dashed,
                 shape: Shape3::Spheres(vec![sphere(None, self.lower())]),
@@ -428,7 +482,11 @@ impl Picture<'_> {
         for (id, size, label) in self.support() {
             let row = self.row(id)?;
             marks.push(Point3 { id: Some(id), at: at(&row), size, label });
-            spheres.push(Sphere3 { id: None, center: at(&row), radius: row.get(3).copied().unwrap_or(0.0) });
+            spheres.push(Sphere3 {
+                id: None,
+                center: at(&row),
+                radius: row.get(3).copied().unwrap_or(0.0),
+            });
         }
         if balls {
             layers.push(Layer3 {
@@ -508,7 +566,9 @@ impl Picture<'_> {
         let dim = self.dim();
         // The heaviest multipliers decide; more than this many rows of a high dimension would fill the memory.
         let mut heavy: Vec<usize> = (0..certificate.support.len()).collect();
-        heavy.sort_by(|&a, &b| certificate.multipliers[b].total_cmp(&certificate.multipliers[a]).then(a.cmp(&b)));
+        heavy.sort_by(|&a, &b| {
+            certificate.multipliers[b].total_cmp(&certificate.multipliers[a]).then(a.cmp(&b))
+        });
         heavy.truncate(256);
         let mut vectors = Vec::with_capacity(heavy.len() * dim);
         let mut weights = Vec::new();
@@ -584,7 +644,11 @@ impl Picture<'_> {
                 count(self.survey.close),
                 counted(self.source.len(), thing),
                 short(100.0 * CLOSE, 2),
-                if y_scale == Scale::Log { "; the count is logarithmic, so that few are seen beside many" } else { "" },
+                if y_scale == Scale::Log {
+                    "; the count is logarithmic, so that few are seen beside many"
+                } else {
+                    ""
+                },
             ),
             x: Axis::named(farthest),
             y: Axis::named(format!("{thing}s")),
@@ -597,7 +661,11 @@ impl Picture<'_> {
                 points: support,
             }],
             bars,
-            levels: vec![Level::AtX { x: radius, tone: Tone::Answer, label: format!("radius {}", short(radius, 6)) }],
+            levels: vec![Level::AtX {
+                x: radius,
+                tone: Tone::Answer,
+                label: format!("radius {}", short(radius, 6)),
+            }],
             width: self.options.width,
             height: (self.options.height * 0.62).max(180.0),
         }))
@@ -622,7 +690,11 @@ impl Picture<'_> {
                 .collect(),
         };
         let shown = if drawn.len() < history.len() {
-            format!(" {} of {} are drawn.", count(drawn.len() as u64), counted(history.len() as u64, "pass").replace("passs", "passes"))
+            format!(
+                " {} of {} are drawn.",
+                count(drawn.len() as u64),
+                counted(history.len() as u64, "pass").replace("passs", "passes")
+            )
         } else {
             String::new()
         };
@@ -644,9 +716,17 @@ impl Picture<'_> {
         let gap = |i: usize| if history[i].upper == 0.0 { 0.0 } else { gap(i).max(0.0) };
         let unbounded = history.iter().filter(|pass| pass.lower <= 0.0 && pass.upper > 0.0).count();
         let exact = drawn.iter().any(|&i| gap(i) == 0.0);
-        let mut gap_words = format!("Upper bound divided by lower bound, minus 1, on a logarithmic scale.{shown}");
+        let mut gap_words =
+            format!("Upper bound divided by lower bound, minus 1, on a logarithmic scale.{shown}");
         if unbounded > 0 {
-            gap_words += &format!(" The first {} had no lower bound yet.", if unbounded == 1 { "pass".to_owned() } else { format!("{} passes", count(unbounded as u64)) });
+            gap_words += &format!(
+                " The first {} had no lower bound yet.",
+                if unbounded == 1 {
+                    "pass".to_owned()
+                } else {
+                    format!("{} passes", count(unbounded as u64))
+                }
+            );
         }
         if exact {
             gap_words += " An open mark at the lower edge is a gap of 0.";
@@ -659,7 +739,12 @@ impl Picture<'_> {
                 Scale::Linear,
                 vec![
                     series("upper bound: encloses all", Tone::Answer, look, &|i| history[i].upper),
-                    series("lower bound: proved", Tone::Bound, if long { SeriesLook::Dashed } else { look }, &|i| history[i].lower),
+                    series(
+                        "lower bound: proved",
+                        Tone::Bound,
+                        if long { SeriesLook::Dashed } else { look },
+                        &|i| history[i].lower,
+                    ),
                 ],
             ),
             plot(

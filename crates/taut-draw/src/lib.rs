@@ -32,9 +32,9 @@ mod figure;
 mod html;
 mod number;
 mod plot;
-mod project;
 #[cfg(feature = "png")]
 mod png;
+mod project;
 mod scene2;
 mod scene3;
 mod style;

@@ -2,7 +2,8 @@
 
 /// A pixel coordinate: two decimals, no trailing zeros, always finite.
 pub(crate) fn px(value: f64) -> String {
-    let rounded = if value.is_finite() { (value.clamp(-1e6, 1e6) * 100.0).round() / 100.0 } else { 0.0 };
+    let rounded =
+        if value.is_finite() { (value.clamp(-1e6, 1e6) * 100.0).round() / 100.0 } else { 0.0 };
     // Adding 0 turns −0 into 0.
     format!("{}", rounded + 0.0)
 }

@@ -19,19 +19,22 @@ const MAX_PIXELS: f64 = 67_108_864.0;
 /// [`Error::Option`] for a scale out of range, [`Error::Png`] for a picture of more than 67 million pixels.
 pub fn to_png(figure: &Figure, style: &Style, scale: f32) -> Result<Vec<u8>, Error> {
     if !(0.1..=10.0).contains(&scale) {
-        return Err(Error::Option { name: "scale", value: scale.to_string(), expected: "0.1 to 10" });
+        return Err(Error::Option {
+            name: "scale",
+            value: scale.to_string(),
+            expected: "0.1 to 10",
+        });
     }
     let wrong = |reason: String| Error::Png { reason };
-    let options = usvg::Options {
-        font_family: "Inter".into(),
-        fontdb: fonts(),
-        ..usvg::Options::default()
-    };
+    let options =
+        usvg::Options { font_family: "Inter".into(), fontdb: fonts(), ..usvg::Options::default() };
     let tree =
         usvg::Tree::from_str(&to_svg(figure, style), &options).map_err(|e| wrong(e.to_string()))?;
     let [width, height] = [tree.size().width(), tree.size().height()].map(|s| (s * scale).ceil());
     if f64::from(width) * f64::from(height) > MAX_PIXELS {
-        return Err(wrong(format!("{width} × {height} pixels are more than 67,108,864; ask for a smaller scale")));
+        return Err(wrong(format!(
+            "{width} × {height} pixels are more than 67,108,864; ask for a smaller scale"
+        )));
     }
     let mut pixels = tiny_skia::Pixmap::new(width as u32, height as u32)
         .ok_or_else(|| wrong(format!("{width} × {height} pixels cannot be held")))?;

@@ -16,7 +16,8 @@ pub(crate) fn plane(vectors: &[f64], weights: &[f64], dim: usize) -> [Vec<f64>; 
         .map(|(v, w)| (w * dot(v, v), v))
         .fold((0.0, None), |best, (size, v)| if size > best.0 { (size, Some(v)) } else { best });
     let mut u = heaviest.1.map_or_else(|| axis(dim, 0), <[f64]>::to_vec);
-    let mut v = (0..dim).map(|j| ((j + 1) as f64 * 0.754_877_666).fract() - 0.5).collect::<Vec<_>>();
+    let mut v =
+        (0..dim).map(|j| ((j + 1) as f64 * 0.754_877_666).fract() - 0.5).collect::<Vec<_>>();
     frame(&mut u, &mut v);
     for _ in 0..ITERATIONS {
         let (mut next_u, mut next_v) = (vec![0.0; dim], vec![0.0; dim]);

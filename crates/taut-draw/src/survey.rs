@@ -105,7 +105,8 @@ pub(crate) fn survey(
     let all = n <= most as u64;
     let support: BTreeSet<u64> = certificate.support.iter().copied().collect();
     let room = most.saturating_sub(support.len());
-    let (far_room, sample_room) = (room / 4, room - room / 4);
+    // More far items than this would show as a ring where their density meets that of the sample.
+    let far_room = room / 50;
     let directions = if all { Vec::new() } else { directions(scaled.center.len()) };
     let mut extreme: Vec<Option<(f64, u64)>> = vec![None; directions.len()];
     // Distances are at least 0, so their bits order as they do; ties go to the lower number.
@@ -136,7 +137,7 @@ pub(crate) fn survey(
                 continue;
             }
             keep(&mut far, Reverse((reach.to_bits(), Reverse(id))), far_room);
-            keep(&mut sample, (spread(id), id), sample_room);
+            keep(&mut sample, (spread(id), id), room);
             for (direction, best) in directions.iter().zip(&mut extreme) {
                 let along: f64 = scaled.offset(&row).zip(direction).map(|(v, u)| v * u).sum();
                 if best.is_none_or(|(most, _)| along > most) {
@@ -161,7 +162,8 @@ pub(crate) fn survey(
         }
         ids.len()
     };
-    let far: Vec<_> = far.into_sorted_vec().into_iter().map(|Reverse((_, Reverse(id)))| id).collect();
+    let far: Vec<_> =
+        far.into_sorted_vec().into_iter().map(|Reverse((_, Reverse(id)))| id).collect();
     let with_far = fill(far, before + far_room);
     found.far = (with_far - before) as u64;
     fill(sample.into_sorted_vec().into_iter().map(|(_, id)| id).collect(), most);

@@ -166,7 +166,8 @@ fn figure(out: &mut String, figure: &Figure, [width, height]: [f64; 2]) {
     let mut sized = figure.clone();
     match &mut sized {
         Figure::Plane(scene) => {
-            (scene.width, scene.height) = (width, (scene.height / scene.width * width).clamp(200.0, height));
+            (scene.width, scene.height) =
+                (width, (scene.height / scene.width * width).clamp(200.0, height));
         }
         Figure::Space(scene) => (scene.width, scene.height) = (width, height),
         Figure::Plot(plot) => (plot.width, plot.height) = (width, height.min(BESIDE[1])),
@@ -206,7 +207,13 @@ fn flat(out: &mut String, svg: &str, names: &[&str], hovers: &[Hover]) {
         let id = hover.id.map_or_else(|| "null".to_owned(), |id| id.to_string());
         let words: Vec<_> = hover.words.iter().map(|w| json(w)).collect();
         let comma = if i == 0 { "" } else { ",\n" };
-        let _ = write!(out, "{comma}[{},{},{id},{}]", px(hover.at[0]), px(hover.at[1]), words.join(","));
+        let _ = write!(
+            out,
+            "{comma}[{},{},{id},{}]",
+            px(hover.at[0]),
+            px(hover.at[1]),
+            words.join(",")
+        );
     }
     out.push_str("]}</script>\n");
 }

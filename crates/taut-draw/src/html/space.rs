@@ -59,11 +59,16 @@ fn layer(layer: &Layer3, stage: &Stage) -> String {
             "points"
         }
         Shape3::Crosses(places) => {
-            marks.extend(places.iter().filter(|p| finite(p)).map(|p| mark(stage.place(p), 6.0, None, &[])));
+            marks.extend(
+                places.iter().filter(|p| finite(p)).map(|p| mark(stage.place(p), 6.0, None, &[])),
+            );
             "crosses"
         }
         Shape3::Spheres(spheres) => {
-            for s in spheres.iter().filter(|s| finite(&s.center) && s.radius.is_finite() && s.radius >= 0.0) {
+            for s in spheres
+                .iter()
+                .filter(|s| finite(&s.center) && s.radius.is_finite() && s.radius >= 0.0)
+            {
                 let words = said(&s.center, format!("radius {}", short(s.radius, 6)));
                 marks.push(mark(stage.place(&s.center), stage.length(s.radius), s.id, &words));
             }
@@ -80,11 +85,16 @@ fn layer(layer: &Layer3, stage: &Stage) -> String {
             "polylines"
         }
         Shape3::Mesh(mesh) => {
-            let drawable = |t: &&[usize; 3]| t.iter().all(|&i| mesh.vertices.get(i).is_some_and(finite));
+            let drawable =
+                |t: &&[usize; 3]| t.iter().all(|&i| mesh.vertices.get(i).is_some_and(finite));
             let vertices: Vec<_> = mesh.vertices.iter().map(|p| place(stage.place(p))).collect();
             let triangles: Vec<_> =
                 mesh.triangles.iter().filter(drawable).map(|t| format!("{t:?}")).collect();
-            more = format!(",\"vertices\":[{}],\"triangles\":[{}]", vertices.join(","), triangles.join(","));
+            more = format!(
+                ",\"vertices\":[{}],\"triangles\":[{}]",
+                vertices.join(","),
+                triangles.join(",")
+            );
             "mesh"
         }
     };

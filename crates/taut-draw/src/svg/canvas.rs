@@ -78,7 +78,8 @@ impl Canvas {
 
     pub(super) fn cross(&mut self, at: [f64; 2], arm: f64) {
         let [x, y, a] = [at[0], at[1], arm].map(px);
-        let _ = write!(self.body, "<path d=\"M{x} {y}m-{a} 0h{t}m-{a} -{a}v{t}\"/>", t = px(2.0 * arm));
+        let _ =
+            write!(self.body, "<path d=\"M{x} {y}m-{a} 0h{t}m-{a} -{a}v{t}\"/>", t = px(2.0 * arm));
     }
 
     /// A chain of segments; fewer than two places make none.
@@ -88,7 +89,13 @@ impl Canvas {
         }
         self.body.push_str("<path d=\"");
         for (i, place) in places.iter().enumerate() {
-            let _ = write!(self.body, "{}{} {}", if i == 0 { 'M' } else { 'L' }, px(place[0]), px(place[1]));
+            let _ = write!(
+                self.body,
+                "{}{} {}",
+                if i == 0 { 'M' } else { 'L' },
+                px(place[0]),
+                px(place[1])
+            );
         }
         self.body.push_str(if closed { "Z\"/>" } else { "\"/>" });
     }
@@ -101,7 +108,8 @@ impl Canvas {
         };
         let [x, y] = at.map(px);
         let text = escape(text);
-        let _ = write!(self.body, "<text class=\"{class}\" x=\"{x}\" y=\"{y}\"{anchor}>{text}</text>");
+        let _ =
+            write!(self.body, "<text class=\"{class}\" x=\"{x}\" y=\"{y}\"{anchor}>{text}</text>");
     }
 
     /// A word that reads upwards, centred on its place.
@@ -129,7 +137,10 @@ impl Canvas {
             // The caption stands below; a title element would follow the pointer everywhere.
             Chrome::Bare => format!(" role=\"img\" aria-label=\"{title}\">\n"),
         };
-        format!("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\"{head}{}</svg>\n", self.body)
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\"{head}{}</svg>\n",
+            self.body
+        )
     }
 
     /// What was written, without a document around it.

@@ -55,9 +55,11 @@ pub(super) fn begin(
     entries: &[Entry<'_>],
 ) -> Room {
     let [w, mut h] = size.map(|s| if s.is_finite() { s.clamp(160.0, 20_000.0) } else { 600.0 });
-    let room = w - 2.0 * MARGIN;
-    let mut top = 14.0;
-    let bottom = h - 12.0;
+    // A page has margins of its own.
+    let margin = if chrome == Chrome::Bare { 4.0 } else { MARGIN };
+    let room = w - 2.0 * margin;
+    let mut top = if chrome == Chrome::Bare { 2.0 } else { 14.0 };
+    let bottom = if chrome == Chrome::Bare { h - 2.0 } else { h - 12.0 };
     let mut lines = Vec::new();
     if let Chrome::Full(_) = chrome {
         // Semi-bold letters are about 5 % wider than those the table of widths knows.
@@ -77,9 +79,9 @@ pub(super) fn begin(
     }
     canvas.size = [w, h];
     for (y, class, line) in lines {
-        canvas.text([MARGIN, y], class, Anchor::Start, &line);
+        canvas.text([margin, y], class, Anchor::Start, &line);
     }
-    let mut x = MARGIN;
+    let mut x = margin;
     let shown: Vec<_> = entries.iter().filter(|e| !e.name.is_empty()).collect();
     if !shown.is_empty() {
         top += 12.0;
@@ -87,15 +89,15 @@ pub(super) fn begin(
     for entry in shown {
         let name = fit(entry.name, room - KEY - 8.0, 12.5);
         let needed = KEY + 8.0 + width(&name, 12.5);
-        if x > MARGIN && x + needed > w - MARGIN {
-            x = MARGIN;
+        if x > margin && x + needed > w - margin {
+            x = margin;
             top += LINE + 2.0;
         }
         key(canvas, entry, [x + KEY / 2.0, top]);
         canvas.text([x + KEY + 7.0, top + 4.3], "t-legend", Anchor::Start, &name);
         x += needed + 20.0;
     }
-    Room { left: MARGIN, top: top + 18.0, right: w - MARGIN, bottom }
+    Room { left: margin, top: top + 18.0, right: w - margin, bottom }
 }
 
 /// The sample of an entry around a place.
@@ -122,7 +124,8 @@ pub(super) fn key(canvas: &mut Canvas, entry: &Entry<'_>, at: [f64; 2]) {
             canvas.disc(at, 2.2, "");
         }
         Key::Area => {
-            canvas.open(&format!("f-{name} e-{name}"), "stroke-width=\"1.6\" fill-opacity=\"0.15\"");
+            canvas
+                .open(&format!("f-{name} e-{name}"), "stroke-width=\"1.6\" fill-opacity=\"0.15\"");
             canvas.disc(at, 6.0, "");
         }
     }

@@ -1,8 +1,8 @@
 //! A scene of the plane as SVG.
 
+use super::Hover;
 use super::canvas::{Anchor, Canvas, stroke};
 use super::frame::{self, Chrome, Entry, Key, Room};
-use super::Hover;
 use crate::axes::{Span, linear, padded, unit};
 use crate::number::short;
 use crate::{Aspect, Axis, Layer2, Look, Scene2, Shape2};
@@ -61,14 +61,17 @@ impl Extent {
             match &layer.shape {
                 Shape2::Points(points) => boxes.extend(points.iter().map(|p| (p.at, 0.0))),
                 Shape2::Crosses(places) => boxes.extend(places.iter().map(|&p| (p, 0.0))),
-                Shape2::Circles(circles) => boxes.extend(circles.iter().map(|c| (c.center, c.radius))),
+                Shape2::Circles(circles) => {
+                    boxes.extend(circles.iter().map(|c| (c.center, c.radius)))
+                }
                 Shape2::Polylines(chains) | Shape2::Polygons(chains) => {
                     boxes.extend(chains.iter().flatten().map(|&p| (p, 0.0)));
                 }
                 Shape2::Texts(texts) => boxes.extend(texts.iter().map(|t| (t.at, 0.0))),
             }
         }
-        boxes.retain(|(at, r)| at[0].is_finite() && at[1].is_finite() && r.is_finite() && *r >= 0.0);
+        boxes
+            .retain(|(at, r)| at[0].is_finite() && at[1].is_finite() && r.is_finite() && *r >= 0.0);
         numbers.extend(boxes.iter().flat_map(|(at, r)| [at[0], at[1], *r]));
         let unit = unit(numbers.into_iter());
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -121,13 +124,20 @@ fn marks(canvas: &mut Canvas, layer: &Layer2, x: &Span, y: &Span, axes: [&Axis; 
     let place = |p: &[f64; 2]| [x.place(p[0]), y.place(p[1])];
     let finite = |p: &[f64; 2]| p[0].is_finite() && p[1].is_finite();
     let title = |id: Option<u64>, at: [f64; 2], label: &str| {
-        let who = id.map(|id| format!("point {id}: ")).unwrap_or_default();
+        let who = id.map(|id| format!("row {id}: ")).unwrap_or_default();
         let what = if label.is_empty() { String::new() } else { format!("; {label}") };
-        format!("{who}{} = {}, {} = {}{what}", axes[0].name, short(at[0], 6), axes[1].name, short(at[1], 6))
+        format!(
+            "{who}{} = {}, {} = {}{what}",
+            axes[0].name,
+            short(at[0], 6),
+            axes[1].name,
+            short(at[1], 6)
+        )
     };
     match &layer.shape {
         Shape2::Points(points) => {
-            let classes = if points.len() <= 200 { format!("f-{name} t-halo") } else { format!("f-{name}") };
+            let classes =
+                if points.len() <= 200 { format!("f-{name} t-halo") } else { format!("f-{name}") };
             let opacity = match points.len() {
                 0..=200 => "0.95",
                 201..=2000 => "0.6",
@@ -155,7 +165,8 @@ fn marks(canvas: &mut Canvas, layer: &Layer2, x: &Span, y: &Span, axes: [&Axis; 
         }
         Shape2::Circles(circles) => {
             let (classes, attributes) = stroke(layer.tone, layer.look);
-            let thin = if circles.len() > 3 { " style=\"stroke-width:1;stroke-opacity:.7\"" } else { "" };
+            let thin =
+                if circles.len() > 3 { " style=\"stroke-width:1;stroke-opacity:.7\"" } else { "" };
             canvas.open(&classes, &format!("data-layer=\"circles\" {attributes}{thin}"));
             for circle in circles.iter().filter(|c| finite(&c.center) && c.radius.is_finite()) {
                 let at = place(&circle.center);

@@ -1,9 +1,9 @@
 //! A chart as SVG.
 
+use super::Hover;
 use super::canvas::{Anchor, Canvas, stroke};
 use super::frame::{self, Chrome, Entry, Key};
 use super::plane::ticks_along;
-use super::Hover;
 use crate::axes::{Span, Ticks, linear, logarithmic, padded, unit};
 use crate::number::short;
 use crate::text::width;
@@ -61,12 +61,16 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
     frame::axes(canvas, room, [&plot.x, &plot.y], [&x.span, &y.span], [&x_ticks, &y_ticks]);
 
     for bar in &plot.bars {
-        let [Some(left), Some(right), Some(top)] = [x.at(bar.span[0]), x.at(bar.span[1]), y.at(bar.height)]
+        let [Some(left), Some(right), Some(top)] =
+            [x.at(bar.span[0]), x.at(bar.span[1]), y.at(bar.height)]
         else {
             continue;
         };
         if bar.height > 0.0 {
-            canvas.open(&format!("f-{}", bar.tone.name()), "data-layer=\"bars\" fill-opacity=\"0.55\"");
+            canvas.open(
+                &format!("f-{}", bar.tone.name()),
+                "data-layer=\"bars\" fill-opacity=\"0.55\"",
+            );
             // Half a pixel at each side keeps neighbours apart.
             let inset = ((right - left).abs() / 4.0).min(0.5);
             canvas.rect([left.min(right) + inset, top], [left.max(right) - inset, room.bottom]);
@@ -78,8 +82,16 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
             Level::AtX { x: value, tone, label } => {
                 let Some(at) = x.at(*value) else { continue };
                 let half = width(label, 12.0) / 2.0 + 2.0;
-                let middle = at.clamp(room.left + half.min(100.0), (room.right - half).max(room.left));
-                (tone, label, [at, room.top - 4.0], [at, room.bottom], [middle, room.top - 10.0], Anchor::Middle)
+                let middle =
+                    at.clamp(room.left + half.min(100.0), (room.right - half).max(room.left));
+                (
+                    tone,
+                    label,
+                    [at, room.top - 4.0],
+                    [at, room.bottom],
+                    [middle, room.top - 10.0],
+                    Anchor::Middle,
+                )
             }
             Level::AtY { y: value, tone, label } => {
                 let Some(at) = y.at(*value) else { continue };

@@ -256,7 +256,8 @@ pub(crate) fn legend(scene: &Scene3) -> String {
         let mut canvas = Canvas::default();
         frame::key(&mut canvas, &entry, [11.0, 7.0]);
         let (key, name) = (canvas.into_body(), escape(entry.name));
-        out += &format!("<li><svg viewBox=\"0 0 22 14\" aria-hidden=\"true\">{key}</svg>{name}</li>");
+        out +=
+            &format!("<li><svg viewBox=\"0 0 22 14\" aria-hidden=\"true\">{key}</svg>{name}</li>");
     }
     out + "</ul>\n"
 }
@@ -348,9 +349,13 @@ fn collect(
                 let title = if point.label.is_empty() {
                     String::new()
                 } else {
-                    let places: Vec<_> =
-                        scene.axes.iter().zip(&words).map(|(a, w)| format!("{} = {w}", a.name)).collect();
-                    let who = point.id.map(|id| format!("point {id}: ")).unwrap_or_default();
+                    let places: Vec<_> = scene
+                        .axes
+                        .iter()
+                        .zip(&words)
+                        .map(|(a, w)| format!("{} = {w}", a.name))
+                        .collect();
+                    let who = point.id.map(|id| format!("row {id}: ")).unwrap_or_default();
                     format!("{who}{}; {}", places.join(", "), point.label)
                 };
                 words.push(point.label.clone());
@@ -381,11 +386,20 @@ fn collect(
                     .collect();
                 if let [a, b, c] = corners[..] {
                     let [u, w] = [add(b, a, -1.0), add(c, a, -1.0)];
-                    let n = [u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]];
+                    let n = [
+                        u[1] * w[2] - u[2] * w[1],
+                        u[2] * w[0] - u[0] * w[2],
+                        u[0] * w[1] - u[1] * w[0],
+                    ];
                     let norm = dot(n, n).sqrt();
-                    let light = if norm > 0.0 { (dot(n, [-0.3, 0.5, 0.81]) / norm).abs() } else { 0.0 };
+                    let light =
+                        if norm > 0.0 { (dot(n, [-0.3, 0.5, 0.81]) / norm).abs() } else { 0.0 };
                     let corners = vec![camera.pixel(a), camera.pixel(b), camera.pixel(c)];
-                    pieces.push(((a[2] + b[2] + c[2]) / 3.0, layer.tone, Piece::Face { corners, light }));
+                    pieces.push((
+                        (a[2] + b[2] + c[2]) / 3.0,
+                        layer.tone,
+                        Piece::Face { corners, light },
+                    ));
                 }
             }
         }
@@ -409,7 +423,10 @@ fn paint(canvas: &mut Canvas, tone: Tone, piece: &Piece) {
         }
         Piece::Face { corners, light } => {
             let opacity = px(0.25 + 0.5 * light);
-            canvas.open(&format!("f-{0} e-{0}", tone.name()), &format!("style=\"fill-opacity:{opacity};stroke-width:.4\""));
+            canvas.open(
+                &format!("f-{0} e-{0}", tone.name()),
+                &format!("style=\"fill-opacity:{opacity};stroke-width:.4\""),
+            );
             canvas.chain(corners, true);
             canvas.close();
         }
