@@ -47,11 +47,14 @@ pub(crate) fn seconds(time: Duration) -> String {
     }
 }
 
-/// Coordinates of a point; of many, the first few.
-pub(crate) fn coordinates(point: &[f64]) -> String {
+/// Coordinates of a point in a picture of this size; of many, the first few. What is nothing beside the size is 0.
+pub(crate) fn coordinates(point: &[f64], size: f64) -> String {
     const SHOWN: usize = 6;
     let shown = if point.len() <= SHOWN + 2 { point.len() } else { SHOWN };
-    let list: Vec<String> = point[..shown].iter().map(|&value| short(value)).collect();
+    let list: Vec<String> = point[..shown]
+        .iter()
+        .map(|&value| if value.abs() < 1e-12 * size { "0".to_owned() } else { short(value) })
+        .collect();
     match point.len() - shown {
         0 => format!("({})", list.join(", ")),
         _ => format!("({}, …)", list.join(", ")),
@@ -60,7 +63,7 @@ pub(crate) fn coordinates(point: &[f64]) -> String {
 
 /// Whether [`coordinates`] leaves some out.
 pub(crate) fn abridged(point: &[f64]) -> bool {
-    coordinates(point).ends_with("…)")
+    coordinates(point, 0.0).ends_with("…)")
 }
 
 #[cfg(test)]
@@ -81,8 +84,8 @@ mod tests {
         assert_eq!(count(10_000), "10,000");
         assert_eq!(count(1_234_567), "1,234,567");
         assert_eq!(counted(1, "point"), "1 point");
-        assert_eq!(coordinates(&[1.0, -0.5]), "(1, -0.5)");
-        assert_eq!(coordinates(&[0.0; 9]), "(0, 0, 0, 0, 0, 0, …)");
+        assert_eq!(coordinates(&[1.0, -0.5, -1e-13], 1.0), "(1, -0.5, 0)");
+        assert_eq!(coordinates(&[0.0; 9], 1.0), "(0, 0, 0, 0, 0, 0, …)");
         assert!(!abridged(&[0.0; 8]) && abridged(&[0.0; 9]));
     }
 }

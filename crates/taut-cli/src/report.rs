@@ -33,7 +33,7 @@ impl Report<'_> {
     pub(crate) fn facts(&self) -> Vec<Fact> {
         let (answer, trace) = (&self.found.answer, &self.found.trace);
         let support = self.found.certificate.support.len() as u64;
-        let mut centre = coordinates(&answer.center);
+        let mut centre = coordinates(&answer.center, answer.radius);
         if abridged(&answer.center) {
             centre += &format!(" {} in all", count(answer.center.len() as u64));
         }
