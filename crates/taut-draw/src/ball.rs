@@ -130,6 +130,14 @@ fn check(solution: &Solution<Ball>, source: &dyn PointSource) -> Result<(), Erro
     Ok(())
 }
 
+/// A plane to project on.
+struct Shadow {
+    /// Two orthonormal directions.
+    directions: [Vec<f64>; 2],
+    /// Part of the squared radius that lies along each, where the multipliers tell.
+    shares: Option<[f64; 2]>,
+}
+
 /// What all pictures of one ball share.
 struct Picture<'a> {
     solution: &'a Solution<Ball>,
@@ -524,7 +532,7 @@ impl Picture<'_> {
     /// d > 3: where the support spreads most.
     fn projection(&self) -> Result<Scene2, Error> {
         let dim = self.dim();
-        let (directions, shares) = self.directions()?;
+        let Shadow { directions, shares } = self.directions()?;
         let place = |id| {
             let row = self.row(id)?;
             let offset: Vec<f64> = self.scaled.offset(&row).collect();
@@ -561,7 +569,7 @@ impl Picture<'_> {
     }
 
     /// Two directions, and the part of the squared radius that lies along each.
-    fn directions(&self) -> Result<([Vec<f64>; 2], Option<[f64; 2]>), Error> {
+    fn directions(&self) -> Result<Shadow, Error> {
         let certificate = self.certificate();
         let dim = self.dim();
         // The heaviest multipliers decide; more than this many rows of a high dimension would fill the memory.
@@ -603,7 +611,7 @@ impl Picture<'_> {
         };
         let whole = certificate.items == Items::Points && heavy.len() == certificate.support.len();
         let shares = (whole && total > 0.0).then(|| [share(&directions[0]), share(&directions[1])]);
-        Ok((directions, shares))
+        Ok(Shadow { directions, shares })
     }
 
     /// d > 3: how far every item reaches from the centre.
