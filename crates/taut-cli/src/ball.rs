@@ -10,10 +10,10 @@ use taut_io::AtomicFile;
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::numbers::{abridged, seconds};
+use crate::numbers::seconds;
 use crate::picture::{self, Picture};
 use crate::reading::{Points, Reading};
-use crate::report::{self, Report};
+use crate::report::{self, Fact, Report};
 use crate::verify::judge;
 use crate::writing;
 
@@ -104,10 +104,8 @@ impl Args {
             match judge(&found, &points, &watch)? {
                 Ok(proved) => verdict = Some(proved),
                 Err(violation) => {
-                    eprintln!(
-                        "taut: {}: the ball found failed its check: {violation}",
-                        points.name()
-                    );
+                    let violation = points.explain_violation(&violation);
+                    eprintln!("taut: the ball found failed its check: {violation}");
                     return Ok(Outcome::CheckFailed);
                 }
             }
@@ -131,11 +129,7 @@ impl Args {
             writing::say(json(found).as_bytes())?;
         } else if !self.effort.quiet && self.out.as_deref() != Some("-".as_ref()) {
             let mut facts = report.facts();
-            if self.out.is_none() && abridged(&found.answer.center) {
-                let centre = facts.iter_mut().find(|(name, _)| *name == "centre");
-                centre.into_iter().for_each(|(_, value)| *value += "; -o FILE writes them");
-            }
-            facts.push(("time", clock.told()));
+            facts.push(clock.fact());
             writing::say(report::text(&report.title(), &facts).as_bytes())?;
         }
         Ok(report::outcome(found, self.epsilon))
@@ -173,11 +167,11 @@ impl Clock {
         self.laps.push((what, self.start.elapsed() - before));
     }
 
-    fn told(&self) -> String {
+    fn fact(&self) -> Fact {
         let all: Duration = self.laps.iter().map(|(_, time)| time).sum();
         let laps: Vec<String> =
             self.laps.iter().map(|(what, time)| format!("{what} {}", seconds(*time))).collect();
-        format!("{}: {}", seconds(all), laps.join(", "))
+        Fact::new("time", seconds(all)).remark(laps.join(", "))
     }
 }
 

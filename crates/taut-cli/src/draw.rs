@@ -47,7 +47,8 @@ impl Args {
             false => match judge(&answer, &points, &watch)? {
                 Ok(verdict) => Some(verdict),
                 Err(violation) => {
-                    eprintln!("taut: {}: rejected: {violation}; nothing was drawn", points.name());
+                    let violation = points.explain_violation(&violation);
+                    eprintln!("taut: rejected, so not drawn: {violation}");
                     return Ok(Outcome::CheckFailed);
                 }
             },

@@ -113,7 +113,7 @@ pub(crate) fn figures(report: &Report<'_>, look: &Look) -> anyhow::Result<Vec<Fi
 
 /// The facts of an answer as a page shows them.
 pub(crate) fn facts(report: &Report<'_>) -> Vec<Fact> {
-    report.facts().into_iter().map(|(name, value)| Fact::new(name, value)).collect()
+    report.facts().into_iter().map(|fact| Fact::new(fact.name, fact.value)).collect()
 }
 
 /// The command that is running, as it would be typed.

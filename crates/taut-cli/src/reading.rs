@@ -6,7 +6,7 @@ use anyhow::anyhow;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use taut::enclose::Error as SolveError;
 use taut::points::{ReadError, ScalarKind};
-use taut::{Items, PointSource};
+use taut::{Items, PointSource, Violation};
 use taut_io::{Columns, Format, Header, Input, RawLayout, ReadOptions};
 
 use crate::size;
@@ -134,6 +134,20 @@ impl Opened {
             ),
             SolveError::Empty | SolveError::Overflow => anyhow!("{}: {error}", self.name()),
             other => other.into(),
+        }
+    }
+
+    /// Why an answer was rejected, with the place in the file, which a checker cannot know.
+    pub(crate) fn explain_violation(&self, violation: &Violation) -> String {
+        match *violation {
+            Violation::NonFinite { row, column, .. } => {
+                format!("{}: {violation}", self.input.describe_cell(row, column))
+            }
+            Violation::Outside { row, .. } => {
+                let row = self.input.describe_cell(row, 0).row;
+                format!("{}: row {row} of the data: {violation}", self.name())
+            }
+            _ => format!("{}: {violation}", self.name()),
         }
     }
 

@@ -14,8 +14,23 @@ pub(crate) struct Report<'a> {
     pub(crate) verdict: Option<Verdict>,
 }
 
-/// A name and what stands behind it.
-pub(crate) type Fact = (&'static str, String);
+/// A number with its name, and what there is to say about it where there is room for words.
+pub(crate) struct Fact {
+    pub(crate) name: &'static str,
+    pub(crate) value: String,
+    pub(crate) remark: Option<String>,
+}
+
+impl Fact {
+    pub(crate) fn new(name: &'static str, value: impl Into<String>) -> Self {
+        Fact { name, value: value.into(), remark: None }
+    }
+
+    pub(crate) fn remark(mut self, remark: impl Into<String>) -> Self {
+        self.remark = Some(remark.into());
+        self
+    }
+}
 
 impl Report<'_> {
     /// What this is, in one line.
@@ -32,48 +47,36 @@ impl Report<'_> {
     /// The numbers, each with its name.
     pub(crate) fn facts(&self) -> Vec<Fact> {
         let (answer, trace) = (&self.found.answer, &self.found.trace);
-        let support = self.found.certificate.support.len() as u64;
-        let mut centre = coordinates(&answer.center, answer.radius);
+        let support = count(self.found.certificate.support.len() as u64);
+        let mut centre = Fact::new("centre", coordinates(&answer.center, answer.radius));
         if abridged(&answer.center) {
-            centre += &format!(" {} in all", count(answer.center.len() as u64));
+            centre.value += &format!(" {} in all", count(answer.center.len() as u64));
+            centre = centre.remark("the JSON holds them (-o FILE)");
         }
+        let (gap, verified) = match &self.verdict {
+            Some(proved) => (
+                Fact::new("gap", gap(proved.gap)).remark(format!(
+                    "no enclosing ball has a radius below {}",
+                    exact(proved.lower)
+                )),
+                Fact::new("verified", "yes")
+                    .remark(format!("every {} is inside, and the gap is proved", self.noun())),
+            ),
+            None => (
+                Fact::new("gap", gap(self.found.certificate.gap)).remark("as the solver says"),
+                Fact::new("verified", "not checked"),
+            ),
+        };
         vec![
-            ("radius", exact(answer.radius)),
-            ("centre", centre),
-            ("gap", self.gap()),
-            ("verified", self.verified()),
-            ("method", format!("{}, {}", trace.method, stopped(trace.stop))),
-            (
-                "core-set",
-                format!(
-                    "{}, {} of them in the support",
-                    counted(trace.core_set, self.noun()),
-                    count(support)
-                ),
-            ),
-            (
-                "passes",
-                format!("{}; {}", count(trace.passes), counted(trace.iterations, "iteration")),
-            ),
+            Fact::new("radius", exact(answer.radius)),
+            centre,
+            gap,
+            verified,
+            Fact::new("method", &*trace.method).remark(stopped(trace.stop)),
+            Fact::new("core-set", counted(trace.core_set, self.noun()))
+                .remark(format!("{support} of them in the support")),
+            Fact::new("passes", count(trace.passes)).remark(counted(trace.iterations, "iteration")),
         ]
-    }
-
-    fn gap(&self) -> String {
-        match &self.verdict {
-            Some(proved) => format!(
-                "{}: no enclosing ball has a radius below {}",
-                gap(proved.gap),
-                exact(proved.lower)
-            ),
-            None => format!("{}, as the solver says", gap(self.found.certificate.gap)),
-        }
-    }
-
-    fn verified(&self) -> String {
-        match self.verdict {
-            Some(_) => format!("yes: every {} is inside, and the gap is proved", self.noun()),
-            None => "not checked".to_owned(),
-        }
     }
 
     fn items(&self) -> Items {
@@ -98,7 +101,10 @@ fn stopped(stop: Stop) -> &'static str {
 
 /// Title and facts as text, a fact a line.
 pub(crate) fn text(title: &str, facts: &[Fact]) -> String {
-    let lines = facts.iter().map(|(name, value)| format!("  {name:<10}{value}\n"));
+    let lines = facts.iter().map(|Fact { name, value, remark }| match remark {
+        Some(remark) => format!("  {name:<10}{value}; {remark}\n"),
+        None => format!("  {name:<10}{value}\n"),
+    });
     std::iter::once(format!("{title}\n")).chain(lines).collect()
 }
 

@@ -7,7 +7,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use anyhow::{Context, anyhow};
-use taut::{AnySolution, BallOptions, ball_of_source};
+use taut::{AnySolution, BallOptions, Violation, ball_of_source};
 use taut_draw::{Fact, Page, Section, to_html};
 
 use crate::effort::Effort;
@@ -100,17 +100,18 @@ fn visit(station: &Station, watch: &Watch) -> anyhow::Result<Stop> {
         Ok(proved) => verdict = Some(proved),
         Err(violation) => {
             verified = false;
-            further.push(Fact::new("rejected", violation));
+            further.push(Fact::new("rejected", points.explain_violation(&violation)));
         }
     }
     if station.doctored {
         let mut doctored = found.clone();
         doctored.answer.radius *= 1.0 - 1e-6;
         match judge(&AnySolution::Ball(doctored), &points, watch)? {
-            Ok(_) => verified = false,
-            Err(violation) => {
-                further.push(Fact::new("a millionth smaller", format!("rejected: {violation}")))
-            }
+            Err(Violation::Outside { row, excess, .. }) => further.push(Fact::new(
+                "a millionth smaller",
+                format!("rejected: point {row} is outside by {}", gap(excess)),
+            )),
+            _ => verified = false,
         }
     }
     let report = Report { found: &found, points: &points, verdict };
@@ -122,7 +123,7 @@ fn visit(station: &Station, watch: &Watch) -> anyhow::Result<Stop> {
     };
     let section = Section {
         heading: station.heading.to_owned(),
-        text: format!("{}\n\n{}.", station.text, report.title()),
+        text: station.text.to_owned(),
         command: station.command.to_owned(),
         facts: facts(&report).into_iter().chain(further).collect(),
         figures: figures(&report, &Look::default())?,

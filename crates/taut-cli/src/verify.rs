@@ -5,14 +5,15 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
 use taut::certify::CheckError;
-use taut::{AnySolution, Verdict};
+use taut::{AnySolution, Verdict, Violation};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::numbers::{exact, gap};
 use crate::reading::{Opened, Points, Reading};
+use crate::report::{self, Fact};
 use crate::watch::Watch;
-use crate::{report, writing};
+use crate::writing;
 
 /// Check an answer and its certificate against the points, trusting neither.
 #[derive(Debug, clap::Args)]
@@ -42,7 +43,8 @@ impl Args {
                 report::text(&format!("Verified: {}", claim(&answer)), &facts(&verdict)),
             ),
             Err(violation) => {
-                (Outcome::CheckFailed, format!("Rejected: {}: {violation}\n", points.name()))
+                let said = format!("Rejected: {}\n", points.explain_violation(&violation));
+                (Outcome::CheckFailed, said)
             }
         };
         if !self.effort.quiet {
@@ -52,15 +54,15 @@ impl Args {
     }
 }
 
-/// The verdict, or the first violation in words; an error where the points cannot be read.
+/// The verdict, or the first violation; an error where the points cannot be read.
 pub(crate) fn judge(
     answer: &AnySolution,
     points: &Opened,
     watch: &Watch,
-) -> anyhow::Result<Result<Verdict, String>> {
+) -> anyhow::Result<Result<Verdict, Violation>> {
     match watch.during("checking", |monitor| answer.check(points.source(), monitor)) {
         Ok(verdict) => Ok(Ok(verdict)),
-        Err(CheckError::Rejected(violation)) => Ok(Err(violation.to_string())),
+        Err(CheckError::Rejected(violation)) => Ok(Err(violation)),
         Err(CheckError::Read(error)) => Err(points.reading_failed(error)),
         Err(error) => Err(error.into()),
     }
@@ -88,12 +90,10 @@ fn claim(answer: &AnySolution) -> String {
     }
 }
 
-fn facts(verdict: &Verdict) -> Vec<report::Fact> {
+fn facts(verdict: &Verdict) -> Vec<Fact> {
+    let bracket = format!("{} ≤ smallest radius ≤ {}", exact(verdict.lower), exact(verdict.upper));
     vec![
-        (
-            "bracket",
-            format!("{} ≤ smallest radius ≤ {}", exact(verdict.lower), exact(verdict.upper)),
-        ),
-        ("gap", format!("{}, relative", gap(verdict.gap))),
+        Fact::new("bracket", bracket),
+        Fact::new("gap", gap(verdict.gap)).remark("relative, proved from the points alone"),
     ]
 }

@@ -14,12 +14,12 @@ fn the_summary_names_every_number() {
         "\n  radius    1",
         "\n  centre    (1, 0)\n",
         "\n  gap       ",
-        "\n  verified  yes: every point is inside, and the gap is proved\n",
-        "\n  method    core-set, converged\n",
+        "\n  verified  yes; every point is inside, and the gap is proved\n",
+        "\n  method    core-set; converged\n",
         "\n  core-set  ",
         "of them in the support\n",
         "\n  passes    ",
-        "s: reading ",
+        "s; reading ",
         ", checking ",
     ]);
     assert_eq!(run.err, "");
@@ -30,7 +30,9 @@ fn the_summary_names_every_number() {
 fn many_coordinates_are_cut_short_on_the_terminal_and_whole_in_the_file() {
     let desk = Desk::new();
     desk.taut("generate normal -n 40 -d 20 -o points.npy").ends(0);
-    desk.taut("ball points.npy -o ball.json").ends(0).says(&[", …) 20 in all\n", "s: reading "]);
+    desk.taut("ball points.npy -o ball.json")
+        .ends(0)
+        .says(&[", …) 20 in all; the JSON holds them (-o FILE)\n", "s; reading "]);
     let written: serde_json::Value = serde_json::from_str(&desk.text("ball.json")).unwrap();
     assert_eq!(written["answer"]["center"].as_array().unwrap().len(), 20);
 }

@@ -61,7 +61,7 @@ fn a_smaller_radius_leaves_a_point_outside() {
     let run = desk
         .taut("verify doctored.json points.csv")
         .ends(1)
-        .says(&["Rejected", "point ", "outside"]);
+        .says(&["Rejected: points.csv: row 1 of the data: point 0 ", "outside"]);
     assert!(run.err.is_empty());
     assert_eq!(desk.taut("verify doctored.json points.csv -q").ends(1).out, "");
 }
