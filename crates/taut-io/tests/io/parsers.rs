@@ -6,8 +6,10 @@
 use taut_io::{Format, Header, Input, RawLayout, ReadOptions, open_bytes};
 use taut_points::{Monitor, ScalarKind, Scratch, hash_points};
 
+type Parser = (&'static str, fn(&[u8]));
+
 /// Every parser by the name of its fuzz target.
-pub(crate) const ALL: [(&str, fn(&[u8])); 8] = [
+pub(crate) const ALL: [Parser; 8] = [
     ("csv", csv),
     ("npy", npy),
     ("parquet", parquet),
