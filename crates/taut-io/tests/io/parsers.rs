@@ -89,7 +89,7 @@ fn read(bytes: &[u8], format: Format, options: ReadOptions) -> Option<Input> {
             return None;
         }
     };
-    assert!(!taut_points::is_empty(&*input.source));
+    assert!(!input.source.is_empty());
     assert!(input.columns.is_empty() || input.columns.len() == input.source.dim());
     let mut scratch = Scratch::new();
     let rows = input.source.read(0..input.source.len(), &mut scratch).expect("in memory");
