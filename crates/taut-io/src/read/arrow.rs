@@ -52,14 +52,12 @@ impl<'a> Batches<'a> {
     fn new(job: &'a Job<'a>, mut stream: Box<dyn BufRead>) -> Result<Self, Error> {
         let head = upto(job, &mut stream, MAGIC.len() as u64)?;
         let file = head == MAGIC;
-        // The mark of a file is padded to 8 bytes; the first bytes of a stream belong to its first message.
-        let stream: Box<dyn BufRead> = match file {
-            true => {
-                upto(job, &mut stream, 2)?;
-                stream
-            }
-            false => Box::new(io::Cursor::new(head).chain(stream)),
+        // The first bytes of a stream belong to its first message.
+        let head = match file {
+            true => after_padding(job, &mut stream)?,
+            false => head,
         };
+        let stream = Box::new(io::Cursor::new(head).chain(stream));
         let schema = SchemaRef::new(Schema::empty());
         let mut batches =
             Batches { job, stream, file, schema, held: Vec::new(), count: 0, ended: false };
@@ -201,6 +199,18 @@ impl Iterator for Batches<'_> {
         self.ended = !matches!(step, Some(Ok(_)));
         step
     }
+}
+
+/// The first bytes after the mark of a file, which some writers pad to 8 bytes and others to 64.
+fn after_padding(job: &Job<'_>, stream: &mut dyn BufRead) -> Result<Vec<u8>, Error> {
+    upto(job, stream, 2)?;
+    for _ in 0..16 {
+        let word = upto(job, stream, 4)?;
+        if word != [0; 4] {
+            return Ok(word);
+        }
+    }
+    Err(damaged(job, "it does not begin with a schema"))
 }
 
 /// Up to `count` bytes; memory grows with the bytes that are there, not with a count that a file claims.

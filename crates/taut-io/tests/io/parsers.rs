@@ -6,8 +6,10 @@
 use taut_io::{Format, Header, Input, RawLayout, ReadOptions, open_bytes};
 use taut_points::{Monitor, ScalarKind, Scratch, hash_points};
 
+type Parser = (&'static str, fn(&[u8]));
+
 /// Every parser by the name of its fuzz target.
-pub const ALL: [(&str, fn(&[u8])); 8] = [
+pub(crate) const ALL: [Parser; 8] = [
     ("csv", csv),
     ("npy", npy),
     ("parquet", parquet),
@@ -19,7 +21,7 @@ pub const ALL: [(&str, fn(&[u8])); 8] = [
 ];
 
 /// Comma, tab and space; with all columns and with some.
-pub fn csv(bytes: &[u8]) {
+pub(crate) fn csv(bytes: &[u8]) {
     for format in [Format::Csv, Format::Tsv, Format::Whitespace] {
         let all = read(bytes, format, ReadOptions::default());
         for header in [Header::Present, Header::Absent] {
@@ -36,32 +38,32 @@ pub fn csv(bytes: &[u8]) {
     }
 }
 
-pub fn npy(bytes: &[u8]) {
+pub(crate) fn npy(bytes: &[u8]) {
     read(bytes, Format::Npy, ReadOptions::default());
     let columns = Some("0".parse().expect("a number"));
     read(bytes, Format::Npy, ReadOptions { columns, ..Default::default() });
 }
 
-pub fn parquet(bytes: &[u8]) {
+pub(crate) fn parquet(bytes: &[u8]) {
     read(bytes, Format::Parquet, ReadOptions::default());
 }
 
-pub fn arrow(bytes: &[u8]) {
+pub(crate) fn arrow(bytes: &[u8]) {
     read(bytes, Format::Arrow, ReadOptions::default());
 }
 
-pub fn tsplib(bytes: &[u8]) {
+pub(crate) fn tsplib(bytes: &[u8]) {
     read(bytes, Format::Tsplib, ReadOptions::default());
 }
 
-pub fn xyz(bytes: &[u8]) {
+pub(crate) fn xyz(bytes: &[u8]) {
     read(bytes, Format::Xyz, ReadOptions::default());
     let columns = Some("0-".parse().expect("a range"));
     read(bytes, Format::Xyz, ReadOptions { columns, ..Default::default() });
 }
 
 /// The first bytes are the layout.
-pub fn raw(bytes: &[u8]) {
+pub(crate) fn raw(bytes: &[u8]) {
     let [dim, offset, narrow, values @ ..] = bytes else { return };
     let scalar = if narrow % 2 == 0 { ScalarKind::F64 } else { ScalarKind::F32 };
     let layout = RawLayout { dim: (*dim).into(), scalar, offset: (*offset).into() };
@@ -69,15 +71,12 @@ pub fn raw(bytes: &[u8]) {
 }
 
 /// An answer that is read is written and read again, to the same.
-pub fn json(bytes: &[u8]) {
+pub(crate) fn json(bytes: &[u8]) {
     use taut_certify::AnySolution;
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     let Ok(found) = AnySolution::from_json(text) else { return };
-    #[allow(unreachable_patterns)]
-    let again = match &found {
-        AnySolution::Ball(found) => found.to_json(),
-        _ => return,
-    };
+    let AnySolution::Ball(solution) = &found;
+    let again = solution.to_json();
     assert_eq!(AnySolution::from_json(&again).expect("written by us"), found);
 }
 
@@ -90,7 +89,7 @@ fn read(bytes: &[u8], format: Format, options: ReadOptions) -> Option<Input> {
             return None;
         }
     };
-    assert!(!taut_points::is_empty(&*input.source));
+    assert!(!input.source.is_empty());
     assert!(input.columns.is_empty() || input.columns.len() == input.source.dim());
     let mut scratch = Scratch::new();
     let rows = input.source.read(0..input.source.len(), &mut scratch).expect("in memory");

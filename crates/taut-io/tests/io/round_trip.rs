@@ -2,13 +2,10 @@
 
 use taut_io::{Format, RawLayout, ReadOptions, open, write_points};
 use taut_points::{
-    Distribution, GeneratedSource, Monitor, Points, Scalar, ScalarKind, generate,
-    hash_points,
+    Distribution, GeneratedSource, Monitor, Points, Scalar, ScalarKind, generate, hash_points,
 };
 
 use super::hash;
-
-const COMPRESSIONS: [&str; 4] = ["", ".gz", ".xz", ".zst"];
 
 /// Hard values beside easy ones: long decimals, huge, tiny, subnormal, negative zero.
 fn points<T: Scalar>(n: usize, dim: usize, extremes: &[T]) -> Vec<T> {
@@ -17,11 +14,11 @@ fn points<T: Scalar>(n: usize, dim: usize, extremes: &[T]) -> Vec<T> {
     values
 }
 
-fn round_trips<T: Scalar>(values: &[T], dim: usize, format: Format) {
+fn round_trips<T: Scalar>(values: &[T], dim: usize, format: Format, compressions: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     let source = Points::new(values, dim).unwrap();
     let wanted = hash_points(&source, &Monitor::silent()).unwrap();
-    for compression in COMPRESSIONS {
+    for compression in compressions {
         let name = format!("points.{}{compression}", format.extensions()[0]);
         let path = folder.path().join(&name);
         write_points(&source, &[], &path, None, &Monitor::silent()).unwrap();
@@ -54,16 +51,16 @@ fn every_format_precision_and_compression_keeps_every_bit() {
     let wide = points(701, 3, &[1e300, 5e-324, -0.0, f64::MAX, f64::MIN_POSITIVE, 0.1, -1e-7]);
     let narrow = points(701, 3, &[1e30_f32, 1e-45, -0.0, f32::MAX, f32::MIN_POSITIVE, 0.1, -1e-7]);
     for format in Format::ALL.into_iter().filter(|format| format.can_write()) {
-        round_trips(&wide, 3, format);
-        round_trips(&narrow, 3, format);
+        round_trips(&wide, 3, format, &["", ".gz", ".xz", ".zst"]);
+        round_trips(&narrow, 3, format, &["", ".gz", ".xz", ".zst"]);
     }
 }
 
 #[test]
 fn many_columns_and_many_blocks_keep_every_bit() {
     for format in Format::ALL.into_iter().filter(|f| f.can_write() && *f != Format::Xyz) {
-        round_trips(&points::<f32>(300, 1001, &[]), 1001, format);
-        round_trips(&points::<f64>(150_000, 1, &[]), 1, format);
+        round_trips(&points::<f32>(100, 1001, &[]), 1001, format, &[""]);
+        round_trips(&points::<f64>(70_000, 1, &[]), 1, format, &[""]);
     }
 }
 
