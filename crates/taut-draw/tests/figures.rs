@@ -215,6 +215,15 @@ fn thinning_keeps_the_support_and_says_how_many() {
         };
         assert_eq!(drawn, [298, 2], "d = {dim}");
     }
+    // The same choice again, and the same bytes.
+    let (values, found) = unit_ball(5000, 4);
+    let options = DrawOptions { max_points: 300, ..Default::default() };
+    let [first, second] = [0, 1].map(|_| figures(&values, 4, &found, &options));
+    assert_eq!(first, second);
+    assert_eq!(
+        to_svg(&first[0], &Style::default()).as_bytes(),
+        to_svg(&second[0], &Style::default()).as_bytes()
+    );
     // More support than room: all of it is drawn, and nothing else.
     let (values, found) = unit_ball(100, 2);
     let figures = figures(&values, 2, &found, &DrawOptions { max_points: 1, ..Default::default() });
