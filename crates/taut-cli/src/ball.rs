@@ -125,14 +125,19 @@ impl Args {
             files.push(writing::stage(path, &drawn)?);
         }
         files.into_iter().try_for_each(AtomicFile::commit)?;
+        let outcome = report::outcome(found, self.epsilon);
+        if self.out.as_deref() == Some("-".as_ref()) {
+            // The JSON is on standard output, and nothing else is to be.
+            return Ok(outcome);
+        }
         if self.json {
             writing::say(json(found).as_bytes())?;
-        } else if !self.effort.quiet && self.out.as_deref() != Some("-".as_ref()) {
+        } else if !self.effort.quiet {
             let mut facts = report.facts();
             facts.push(clock.fact());
             writing::say(report::text(&report.title(), &facts).as_bytes())?;
         }
-        Ok(report::outcome(found, self.epsilon))
+        Ok(outcome)
     }
 
     fn options(&self) -> BallOptions {

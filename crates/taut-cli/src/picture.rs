@@ -5,9 +5,11 @@ use std::path::Path;
 use anyhow::{anyhow, bail};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use taut_draw::{
-    DrawOptions, Fact, Figure, Page, Section, Style, Theme, ball_figures, to_html, to_svg,
+    DrawOptions, Error as DrawError, Fact, Figure, Page, Section, Style, Theme, ball_figures,
+    to_html, to_svg,
 };
 
+use crate::reading::wrong_option;
 use crate::report::Report;
 
 /// The kinds of picture file.
@@ -107,8 +109,11 @@ pub(crate) fn figures(report: &Report<'_>, look: &Look) -> anyhow::Result<Vec<Fi
         height: look.height,
         columns: report.points.columns(report.found.certificate.items),
     };
-    ball_figures(report.found, report.points.source(), &options)
-        .map_err(|error| anyhow!("{}: {error}", report.points.name()))
+    ball_figures(report.found, report.points.source(), &options).map_err(|error| match error {
+        DrawError::Option { name, value, expected } => wrong_option(name, &value, expected),
+        DrawError::Read(error) => report.points.reading_failed(error),
+        other => anyhow!("{}: {other}", report.points.name()),
+    })
 }
 
 /// The facts of an answer as a page shows them.
@@ -142,7 +147,10 @@ fn png() -> anyhow::Result<Picture> {
 
 #[cfg(feature = "png")]
 fn to_png(figure: &Figure, style: &Style, scale: f32) -> anyhow::Result<Vec<u8>> {
-    Ok(taut_draw::to_png(figure, style, scale)?)
+    taut_draw::to_png(figure, style, scale).map_err(|error| match error {
+        DrawError::Option { name, value, expected } => wrong_option(name, &value, expected),
+        other => other.into(),
+    })
 }
 
 #[cfg(not(feature = "png"))]

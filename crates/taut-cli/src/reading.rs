@@ -132,6 +132,7 @@ impl Opened {
                  or choose more with --columns",
                 self.name()
             ),
+            SolveError::Option { name, value, expected } => wrong_option(name, &value, expected),
             SolveError::Empty | SolveError::Overflow => anyhow!("{}: {error}", self.name()),
             other => other.into(),
         }
@@ -159,6 +160,11 @@ impl Opened {
             other => anyhow!("{}: {other}", self.name()),
         }
     }
+}
+
+/// What a library says of an option, under the name that the command line gives it.
+pub(crate) fn wrong_option(name: &str, value: &str, expected: &str) -> anyhow::Error {
+    anyhow!("option `--{}` is {value}: expected {expected}", name.replace('_', "-"))
 }
 
 /// The file of points, as every subcommand takes it.

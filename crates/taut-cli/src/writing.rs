@@ -3,7 +3,10 @@
 use std::io::Write;
 use std::path::Path;
 
+use anyhow::bail;
 use taut_io::AtomicFile;
+
+use crate::watch::interrupted;
 
 /// Replaces the file `path` by `bytes`, or writes them to standard output for `-`.
 pub(crate) fn replace(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
@@ -13,6 +16,9 @@ pub(crate) fn replace(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
 /// Writes `bytes` where they take the place of `path` once they are committed; until then an earlier file stays as
 /// it was. Of several files, all are staged before the first is committed.
 pub(crate) fn stage(path: &Path, bytes: &[u8]) -> anyhow::Result<AtomicFile> {
+    if interrupted() {
+        bail!("interrupted: {} is as it was", path.display());
+    }
     let mut file = taut_io::create(path)?;
     match file.write_all(bytes) {
         Ok(()) => Ok(file),

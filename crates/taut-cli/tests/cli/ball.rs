@@ -57,7 +57,9 @@ fn the_json_is_one_document_with_the_names_at_the_door() {
     assert!((document["answer"]["radius"].as_f64().unwrap() - 1.0).abs() < 1e-14);
     assert_eq!(document["certificate"]["support"], serde_json::json!([0, 1]));
     assert_eq!(desk.text("ball.json"), run.out);
-    assert_eq!(desk.taut("ball points.csv -o - --epsilon 0").ends(0).out, run.out);
+    for line in ["ball points.csv -o - --epsilon 0", "ball points.csv -o - --json --epsilon 0"] {
+        assert_eq!(desk.taut(line).ends(0).out, run.out, "{line}");
+    }
     assert!(!run.out.contains("seconds") && !run.out.contains("time"), "no clock in the JSON");
 }
 

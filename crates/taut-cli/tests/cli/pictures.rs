@@ -47,7 +47,7 @@ fn further_figures_and_the_dark_are_a_choice() {
     desk.taut("draw ball.json points.csv -o 99.svg --figure 99")
         .ends(2)
         .complains(&["--figure", "99"]);
-    desk.taut("draw ball.json points.csv -o thin.svg --width 1").ends(2).complains(&["width"]);
+    desk.taut("draw ball.json points.csv -o thin.svg --width 1").ends(2).complains(&["--width"]);
 }
 
 #[test]
