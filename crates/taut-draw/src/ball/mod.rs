@@ -24,8 +24,8 @@ pub use options::DrawOptions;
 /// centre beyond; then the bounds and the gap by pass, where the trace has them.
 ///
 /// # Errors
-/// [`Error::Mismatch`] when `source` is not what the ball was made for, [`Error::NonFinite`], [`Error::Option`],
-/// [`Error::Read`].
+/// [`Error::Mismatch`] when `source` is not what the ball was made for, [`Error::NonFinite`],
+/// [`Error::NegativeRadius`], [`Error::Option`], [`Error::Read`].
 pub fn ball_figures(
     solution: &Solution<Ball>,
     source: &dyn PointSource,
@@ -81,10 +81,7 @@ fn check(solution: &Solution<Ball>, source: &dyn PointSource) -> Result<(), Erro
         }
     }
     if ball.radius < 0.0 {
-        return Err(Error::NonFinite {
-            what: "the square root of the squared radius".into(),
-            value: f64::NAN,
-        });
+        return Err(Error::NegativeRadius { what: "the radius".into(), value: ball.radius });
     }
     Ok(())
 }
