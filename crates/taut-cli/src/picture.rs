@@ -16,6 +16,7 @@ use crate::report::Report;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Picture {
     Svg,
+    #[cfg(feature = "png")]
     Png,
     Html,
 }
@@ -37,6 +38,7 @@ pub(crate) struct Look {
     #[arg(long, value_name = "PX", default_value_t = DrawOptions::default().height)]
     height: f64,
     /// Pixels of a PNG for each pixel of width, from 0.1 to 10
+    #[cfg(feature = "png")]
     #[arg(long, value_name = "REAL", default_value_t = 2.0)]
     scale: f32,
     /// Most points drawn, at least 1; the support is always drawn
@@ -47,7 +49,15 @@ pub(crate) struct Look {
 impl Default for Look {
     fn default() -> Self {
         let DrawOptions { width, height, max_points, .. } = DrawOptions::default();
-        Look { figure: 1, theme: Theme::Light, width, height, scale: 2.0, max_points }
+        Look {
+            figure: 1,
+            theme: Theme::Light,
+            width,
+            height,
+            #[cfg(feature = "png")]
+            scale: 2.0,
+            max_points,
+        }
     }
 }
 
@@ -95,10 +105,21 @@ impl Picture {
         }
         let figure = figures.swap_remove(look.figure - 1);
         match self {
-            Picture::Png => to_png(&figure, &style, look.scale),
+            #[cfg(feature = "png")]
+            Picture::Png => taut_draw::to_png(&figure, &style, look.scale).map_err(explain),
             _ => Ok(to_svg(&figure, &style).into_bytes()),
         }
     }
+}
+
+#[cfg(feature = "png")]
+fn png() -> anyhow::Result<Picture> {
+    Ok(Picture::Png)
+}
+
+#[cfg(not(feature = "png"))]
+fn png() -> anyhow::Result<Picture> {
+    bail!("this build of taut draws no PNG: draw SVG or HTML, or build it with the feature `png`")
 }
 
 /// All pictures of an answer.
@@ -110,10 +131,17 @@ pub(crate) fn figures(report: &Report<'_>, look: &Look) -> anyhow::Result<Vec<Fi
         columns: report.points.columns(report.found.certificate.items),
     };
     ball_figures(report.found, report.points.source(), &options).map_err(|error| match error {
-        DrawError::Option { name, value, expected } => wrong_option(name, &value, expected),
         DrawError::Read(error) => report.points.reading_failed(error),
+        DrawError::Option { .. } => explain(error),
         other => anyhow!("{}: {other}", report.points.name()),
     })
+}
+
+fn explain(error: DrawError) -> anyhow::Error {
+    match error {
+        DrawError::Option { name, value, expected } => wrong_option(name, &value, expected),
+        other => other.into(),
+    }
 }
 
 /// The facts of an answer as a page shows them.
@@ -123,7 +151,8 @@ pub(crate) fn facts(report: &Report<'_>) -> Vec<Fact> {
 
 /// The command that is running, as it would be typed.
 fn command() -> String {
-    let typed = std::env::args().skip(1).map(|word| {
+    let typed = std::env::args_os().skip(1).map(|word| {
+        let word = word.to_string_lossy().into_owned();
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,:=+@%".contains(c);
         match word.chars().all(plain) && !word.is_empty() {
             true => word,
@@ -131,29 +160,4 @@ fn command() -> String {
         }
     });
     std::iter::once("taut".to_owned()).chain(typed).collect::<Vec<_>>().join(" ")
-}
-
-#[cfg(feature = "png")]
-fn png() -> anyhow::Result<Picture> {
-    Ok(Picture::Png)
-}
-
-#[cfg(not(feature = "png"))]
-fn png() -> anyhow::Result<Picture> {
-    bail!(
-        "this build of taut draws no PNG: name a file .svg or .html, or build it with the feature `png`"
-    )
-}
-
-#[cfg(feature = "png")]
-fn to_png(figure: &Figure, style: &Style, scale: f32) -> anyhow::Result<Vec<u8>> {
-    taut_draw::to_png(figure, style, scale).map_err(|error| match error {
-        DrawError::Option { name, value, expected } => wrong_option(name, &value, expected),
-        other => other.into(),
-    })
-}
-
-#[cfg(not(feature = "png"))]
-fn to_png(_: &Figure, _: &Style, _: f32) -> anyhow::Result<Vec<u8>> {
-    png().map(|_| Vec::new())
 }

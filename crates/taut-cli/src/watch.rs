@@ -44,41 +44,36 @@ pub(crate) fn interrupted() -> bool {
 
 /// Watches one step of work after the other.
 pub(crate) struct Watch {
-    bar: ProgressBar,
-    lines: bool,
-    done: AtomicU64,
+    how: Progress,
+    terminal: bool,
 }
 
 impl Watch {
-    pub(crate) fn new(progress: Progress) -> Self {
-        let terminal = std::io::stderr().is_terminal();
-        let target = match progress {
-            Progress::Auto | Progress::Always if terminal => ProgressDrawTarget::stderr_with_hz(10),
-            _ => ProgressDrawTarget::hidden(),
-        };
-        let bar = ProgressBar::with_draw_target(Some(0), target).with_style(
-            ProgressStyle::with_template("{prefix} [{bar:32}] {human_pos} of {human_len} points")
-                .expect("the template is well formed")
-                .progress_chars("=> "),
-        );
-        Watch { bar, lines: progress == Progress::Always && !terminal, done: AtomicU64::new(0) }
+    pub(crate) fn new(how: Progress) -> Self {
+        Watch { how, terminal: std::io::stderr().is_terminal() }
     }
 
     /// Does one step of work with a monitor that shows it as `what` and hears interrupts.
     pub(crate) fn during<R>(&self, what: &str, work: impl FnOnce(&Monitor<'_>) -> R) -> R {
-        let start = Instant::now();
+        let lines = self.how == Progress::Always && !self.terminal;
+        let bars = self.how != Progress::Never && self.terminal;
+        let bar = hidden_bar();
+        let (done, shown, start) = (AtomicU64::new(0), AtomicBool::new(false), Instant::now());
         let on_pass = |pass: u64, points: u64| {
-            if self.lines {
+            if lines {
                 eprintln!("{what}: pass {pass} over {points} points");
             }
-            self.done.store(0, Ordering::Relaxed);
-            self.bar.set_length(points);
-            self.bar.set_prefix(format!("{what}: pass {pass}"));
+            done.store(0, Ordering::Relaxed);
+            bar.set_length(points);
+            bar.set_prefix(format!("{what}, pass {pass}"));
         };
         let on_points = |points: u64| {
-            let done = self.done.fetch_add(points, Ordering::Relaxed) + points;
-            if start.elapsed() > PATIENCE {
-                self.bar.set_position(done);
+            let done = done.fetch_add(points, Ordering::Relaxed) + points;
+            if bars && start.elapsed() > PATIENCE {
+                if !shown.swap(true, Ordering::Relaxed) {
+                    bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(10));
+                }
+                bar.set_position(done);
             }
         };
         WATCHED.store(true, Ordering::SeqCst);
@@ -88,8 +83,17 @@ impl Watch {
             cancel: Some(&STOP),
         });
         WATCHED.store(false, Ordering::SeqCst);
-        self.bar.finish_and_clear();
-        self.bar.reset();
+        bar.finish_and_clear();
         result
     }
+}
+
+/// A bar that is drawn nowhere until it is given a target.
+fn hidden_bar() -> ProgressBar {
+    let template = "{prefix} [{bar:32}] {human_pos} of {human_len} points, {elapsed}";
+    ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::hidden()).with_style(
+        ProgressStyle::with_template(template)
+            .expect("the template is well formed")
+            .progress_chars("=> "),
+    )
 }

@@ -80,6 +80,7 @@ fn a_truncated_npy() {
     }
 }
 
+#[cfg(feature = "arrow")]
 #[test]
 fn a_truncated_parquet() {
     let desk = Desk::new();

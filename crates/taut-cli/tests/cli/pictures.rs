@@ -14,8 +14,10 @@ fn each_kind_of_picture_is_drawn() {
     let desk = solved();
     desk.taut("draw ball.json points.csv -o ball.svg").ends(0);
     assert!(desk.text("ball.svg").starts_with("<svg"));
-    desk.taut("draw ball.json points.csv -o ball.png --scale 1").ends(0);
-    assert!(desk.bytes("ball.png").starts_with(b"\x89PNG\r\n\x1a\n"));
+    if cfg!(feature = "png") {
+        desk.taut("draw ball.json points.csv -o ball.png").ends(0);
+        assert!(desk.bytes("ball.png").starts_with(b"\x89PNG\r\n\x1a\n"));
+    }
     desk.taut("draw ball.json points.csv -o ball.html").ends(0);
     let page = desk.text("ball.html");
     for part in [

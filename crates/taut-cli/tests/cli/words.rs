@@ -25,6 +25,9 @@ fn help_explains_every_command_with_an_example() {
 fn formats_lists_what_is_read_and_written() {
     let run = Desk::new().taut("formats").ends(0);
     for format in ["csv", "tsv", "whitespace", "npy", "parquet", "arrow", "tsplib", "xyz", "raw"] {
+        if !cfg!(feature = "arrow") && matches!(format, "parquet" | "arrow") {
+            continue;
+        }
         let line = run.out.lines().find(|line| line.split_whitespace().next() == Some(format));
         let words: Vec<&str> =
             line.unwrap_or_else(|| panic!("no {format}")).split_whitespace().collect();
