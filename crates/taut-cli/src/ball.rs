@@ -30,7 +30,7 @@ pub(crate) struct Args {
     #[arg(long)]
     balls: bool,
     /// Proved relative gap to reach, in [0, 1): radius ≤ (1 + ε) · smallest; 0 is exact to rounding
-    #[arg(long, value_name = "REAL", default_value = "1e-9")]
+    #[arg(long, value_name = "REAL", default_value = "1e-9", allow_negative_numbers = true)]
     epsilon: f64,
     /// The way to find it; all end in the same certificate
     #[arg(long, value_name = "NAME", default_value = BallMethod::default().name(), value_parser = methods())]

@@ -32,13 +32,13 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
     /// Half the thickness of a shell, at least 0 [default: 0.1]
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
     thickness: Option<f64>,
     /// Number of clusters, at least 1 [default: 5]
     #[arg(long, value_name = "K")]
     count: Option<u64>,
     /// Standard deviation of a cluster, at least 0 [default: 0.05]
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
     spread: Option<f64>,
     /// Vertices of a polygon, at least 1 [default: N]
     #[arg(long, value_name = "K")]
@@ -81,7 +81,7 @@ fn distributions() -> PossibleValuesParser {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         let distribution = self.distribution()?;
-        let refused = |error: Error| anyhow!("taut generate: {error}");
+        let refused = |error: Error| anyhow!("{error}");
         let points = GeneratedSource::new(distribution, self.n, self.d, self.seed, self.scalar)
             .map_err(refused)?;
         let watch = self.effort.start()?;

@@ -93,7 +93,7 @@ impl Picture {
                     text: String::new(),
                     command: command(),
                     facts: facts(report),
-                    figures,
+                    figures: telling(figures),
                 }],
                 footer: format!("Drawn by taut {}.", env!("CARGO_PKG_VERSION")),
             };
@@ -135,6 +135,17 @@ pub(crate) fn figures(report: &Report<'_>, look: &Look) -> anyhow::Result<Vec<Fi
         DrawError::Option { .. } => explain(error),
         other => anyhow!("{}: {other}", report.points.name()),
     })
+}
+
+/// The pictures without charts of a single value, such as the gap by pass after one pass.
+pub(crate) fn telling(figures: Vec<Figure>) -> Vec<Figure> {
+    let tells = |figure: &Figure| match figure {
+        Figure::Plot(plot) => {
+            !plot.bars.is_empty() || plot.series.iter().any(|series| series.points.len() > 1)
+        }
+        _ => true,
+    };
+    figures.into_iter().filter(tells).collect()
 }
 
 fn explain(error: DrawError) -> anyhow::Error {

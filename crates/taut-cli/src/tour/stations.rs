@@ -39,13 +39,13 @@ pub(super) const STATIONS: &[Station] = &[
     },
     Station {
         heading: "Many dimensions",
-        text: "Normal points in a hundred dimensions, single precision, in a NumPy file. They all lie close to a \
+        text: "Normal points in 64 dimensions, single precision, in a NumPy file. They all lie close to a \
                sphere, so many of them touch the ball; still a few passes over the points suffice. The pictures \
                are projections and the distances from the centre.",
-        file: "normal-100.npy",
-        bytes: include_bytes!("../../samples/normal-100.npy"),
+        file: "normal-64.npy",
+        bytes: include_bytes!("../../samples/normal-64.npy"),
         items: Items::Points,
-        command: "taut ball normal-100.npy --epsilon 0 --draw normal-100.html",
+        command: "taut ball normal-64.npy --epsilon 0 --draw normal-64.html",
         doctored: false,
     },
     Station {

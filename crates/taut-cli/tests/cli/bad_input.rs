@@ -176,6 +176,7 @@ fn unknown_names_and_options_out_of_range() {
         ("ball points.csv --format excel", "excel"),
         ("ball points.xls", "points.xls"),
         ("ball points.csv --epsilon 1.5", "1.5"),
+        ("ball points.csv --epsilon -1", "--epsilon` is -1"),
         ("ball points.csv --epsilon NaN", "NaN"),
         ("ball points.csv --epsilon 0 --method badoiu-clarkson", "badoiu-clarkson"),
         ("ball points.csv --max-passes 1", "--max-passes"),
