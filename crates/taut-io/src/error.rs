@@ -248,8 +248,10 @@ pub enum Error {
         /// Its text.
         value: String,
     },
-    /// The first row holds nothing but numbers where a header was promised.
-    #[error("{path}: a quote that opens on line {line} never closes")]
+    /// A quoted field has no end.
+    #[error(
+        "{path}: a quote that opens on line {line} never closes: add the closing quote, or remove the opening one"
+    )]
     OpenQuote {
         /// The file.
         path: String,

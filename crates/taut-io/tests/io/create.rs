@@ -76,7 +76,48 @@ fn a_full_device_is_said_and_stays_a_device() {
     assert!(std::fs::metadata(full).unwrap().file_type().is_char_device());
 }
 
-/// A real disk cannot be filled here; a limit on the size of files stops the writer in the same place.
+/// A disk cannot be filled here, but a limit on the size of files stops a write in the same place: this test runs
+/// itself again under such a limit.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_disk_that_fills_up_leaves_the_earlier_file() {
+    use taut_points::{Monitor, Points};
+    const LIMITED: &str = "TAUT_TEST_LIMITED";
+    if std::env::var_os(LIMITED).is_none() {
+        let limited = std::process::Command::new("sh")
+            .args(["-c", "trap '' XFSZ; ulimit -f 64; exec \"$0\" --exact \"$1\" --nocapture"])
+            .arg(std::env::current_exe().unwrap())
+            .arg("create::a_disk_that_fills_up_leaves_the_earlier_file")
+            .env(LIMITED, "1")
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&limited.stdout);
+        assert!(limited.status.success() && said.contains("1 passed"), "{said}");
+        return;
+    }
+    let values = vec![0.1; 300_000];
+    let points = Points::new(&values, 3).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["p.csv", "p.npy", "p.raw"] {
+        let path = folder.path().join(name);
+        std::fs::write(&path, "earlier").unwrap();
+        let written = taut_io::write_points(&points, &[], &path, None, &Monitor::silent());
+        let said = written.unwrap_err().to_string();
+        assert!(said.contains("writing failed") && said.contains("is as it was"), "{said}");
+        assert_eq!(std::fs::read(&path).unwrap(), b"earlier");
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 3);
+    // So does the temporary file of points that do not fit into memory.
+    let text = "1,2\n".repeat(10_000);
+    let options = taut_io::ReadOptions {
+        memory: Some(10),
+        temp_dir: Some(folder.path().to_owned()),
+        ..Default::default()
+    };
+    let said = super::message(super::text_with("p.csv", &text, &options));
+    assert!(said.contains("name a folder with more room"), "{said}");
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_write_that_fails_half_way_leaves_the_earlier_file() {
