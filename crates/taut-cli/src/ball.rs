@@ -21,7 +21,7 @@ use crate::writing;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
-      3 stopped early, the gap reached is reported
+      3 the gap asked for was not reached, for a budget or for rounding; the one reached is reported
 Example: taut ball points.csv -o ball.json --draw ball.svg && taut verify ball.json points.csv")]
 pub(crate) struct Args {
     #[command(flatten)]

@@ -1,5 +1,6 @@
 //! How points are read, the same for every subcommand that reads some.
 
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
@@ -83,6 +84,9 @@ impl Reading {
 
     /// Opens the points of `path`; `-` is standard input.
     pub(crate) fn open(&self, path: &Path) -> anyhow::Result<Opened> {
+        if path == Path::new("-") && std::io::stdin().is_terminal() {
+            eprintln!("taut: reading points from the terminal; Ctrl-D ends them");
+        }
         Ok(Opened { input: taut_io::open(path, &self.options()?)? })
     }
 }

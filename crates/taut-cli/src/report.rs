@@ -117,3 +117,27 @@ pub(crate) fn outcome(found: &Solution<Ball>, epsilon: f64) -> Outcome {
         Stop::Rounding | Stop::Converged => Outcome::Done,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taut::{BallOptions, Points};
+
+    #[test]
+    fn a_promise_that_was_not_kept_is_no_success() {
+        let points = Points::new(&[0.0, 0.0, 2.0, 0.0], 2).unwrap();
+        let mut found = taut::ball(&points, &BallOptions::default()).unwrap();
+        found.certificate.gap = 1e-12;
+        for (stop, epsilon, expected) in [
+            (Stop::Converged, 1e-9, Outcome::Done),
+            (Stop::Converged, 0.0, Outcome::Done),
+            (Stop::Rounding, 0.0, Outcome::Done),
+            (Stop::Rounding, 1e-9, Outcome::Done),
+            (Stop::Rounding, 1e-15, Outcome::StoppedEarly),
+            (Stop::PassBudget, 1e-9, Outcome::StoppedEarly),
+        ] {
+            found.trace.stop = stop;
+            assert_eq!(outcome(&found, epsilon), expected, "{stop:?} with ε = {epsilon}");
+        }
+    }
+}

@@ -154,6 +154,14 @@ fn a_budget_ends_the_work_with_its_gap_and_code_3() {
 }
 
 #[test]
+fn a_gap_below_rounding_is_not_claimed() {
+    let desk = Desk::new();
+    desk.taut("generate normal -n 300 -d 5 -o points.npy").ends(0);
+    desk.taut("ball points.npy --epsilon 1e-300").ends(3).says(&["rounding", "verified  yes"]);
+    desk.taut("ball points.npy --epsilon 0").ends(0);
+}
+
+#[test]
 fn every_method_ends_in_the_same_ball() {
     let desk = Desk::new();
     desk.put("points.csv", TRIANGLE);
