@@ -1,0 +1,1 @@
+//! Placeholder to warm the build.
