@@ -1,1 +1,0 @@
-//! Placeholder to warm the build.
