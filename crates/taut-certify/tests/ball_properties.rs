@@ -173,6 +173,36 @@ proptest! {
     }
 }
 
+/// Ties, and departures from them so small that only exact arithmetic sees them, in squares that do not fit one `f64`.
+#[test]
+fn departures_below_the_reach_of_rounded_sums() {
+    for (x, radius) in [([0.1, 0.0], 0.1), ([0.3, 0.4], 0.5), ([-0.7e-5, 0.0], 0.7e-5)] {
+        let values = [0.0, 0.0, x[0], x[1], -x[0], x[1]];
+        for tail in [0.0, 1e-40, -1e-40, 1e-300, -5e-324] {
+            let (center, center_tail) = (vec![0.0, 0.0], vec![0.0, 0.0]);
+            let mut ball = Ball { center, center_tail, radius };
+            agree(&values, 2, Items::Points, ball.clone());
+            // Moved away from 0, so that the tail is one: row 1 or row 2 now stands out by the tail.
+            ball.center = vec![0.0, 1.0];
+            ball.center_tail = vec![0.0, tail];
+            let shifted = [0.0, 1.0, 0.0, 1.0 + x[0], 0.0, 1.0 - x[0]];
+            agree(&shifted, 2, Items::Points, ball);
+        }
+    }
+    // Without a tail: balls whose radius is far below the rounding of the sum.
+    for r in [0.0, 5e-324, 1e-300, 1e-40] {
+        let values = [0.1, 0.0, 0.0, 0.0, 0.1, r, 0.1, 0.0, 2.0 * r];
+        let ball = Ball { center: vec![0.0, 0.0], center_tail: vec![], radius: 0.1 };
+        let expected = if r == 0.0 { None } else { Some(1) };
+        assert_eq!(first_outside(&values, 3, Items::Balls, ball), expected, "{r:e}");
+    }
+    // The same at powers of two, where squares are exact and only the radius is not.
+    let unit = 2f64.powi(-100);
+    let values = [unit, 0.0, 0.0, 0.0, unit, f64::from_bits(1)];
+    let ball = Ball { center: vec![0.0, 0.0], center_tail: vec![], radius: unit };
+    assert_eq!(first_outside(&values, 3, Items::Balls, ball), Some(1));
+}
+
 /// Small integers bring ties, duplicates and lines; the smallest ball must be accepted, and its gap be rounding.
 #[test]
 fn smallest_balls_by_brute_force_are_accepted() {

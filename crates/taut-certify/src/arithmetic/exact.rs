@@ -83,3 +83,65 @@ impl ExactSum {
         self.positive.iter().rev().cmp(self.negative.iter().rev())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use num_rational::BigRational;
+    use num_traits::{Signed, Zero};
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Numbers that cancel each other now and then, of any exponent.
+    fn number() -> impl Strategy<Value = f64> {
+        prop_oneof![
+            any::<u64>().prop_map(f64::from_bits).prop_filter("finite", |v| v.is_finite()),
+            (-3i32..4).prop_map(f64::from),
+            Just(f64::MAX),
+            Just(-f64::from_bits(1)),
+        ]
+    }
+
+    fn square(terms: &[f64]) -> BigRational {
+        let sum: BigRational = terms.iter().map(|&t| BigRational::from_float(t).unwrap()).sum();
+        &sum * &sum
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn signs_are_those_of_fractions(plus in vec(vec(number(), 1..4), 0..4), minus in vec(vec(number(), 1..4), 0..4),
+                                        same in any::<bool>()) {
+            let minus = if same { plus.iter().rev().cloned().collect() } else { minus };
+            let mut sum = ExactSum::zero();
+            let mut truth = BigRational::zero();
+            for terms in &plus {
+                sum.add_square(terms);
+                truth += square(terms);
+            }
+            for terms in &minus {
+                sum.subtract_square(terms);
+                truth -= square(terms);
+            }
+            let expected = if truth.is_zero() { Ordering::Equal }
+                else if truth.is_positive() { Ordering::Greater } else { Ordering::Less };
+            prop_assert_eq!(sum.sign(), expected);
+        }
+    }
+
+    #[test]
+    fn carries_run_as_far_as_they_must() {
+        // The square of 2⁵³ − 1 is all ones at both ends; 2²⁰ copies of it carry across limbs.
+        let ones = (2f64.powi(53) - 1.0) * 2f64.powi(-1074);
+        let mut sum = ExactSum::zero();
+        for _ in 0..1 << 20 {
+            sum.add_square(&[ones]);
+        }
+        sum.subtract_square(&[ones * 1024.0]);
+        assert_eq!(sum.sign(), Ordering::Equal);
+        sum.add_square(&[f64::from_bits(1)]);
+        assert_eq!(sum.sign(), Ordering::Greater);
+    }
+}

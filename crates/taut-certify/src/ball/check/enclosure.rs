@@ -7,8 +7,8 @@
 //!    |p − c| lies within |t| of √S·(1 ± κ) for κ ≥ mu/2 + 4u; κ = (m + 16)u also covers the rounding of the two
 //!    thresholds with which S is compared, and what underflows: less than 2⁻¹⁰⁰⁰, beside ρ² ≥ 2⁻⁵⁰⁸, as ρ ≠ 0 is
 //!    no less than 2⁻⁵⁴R.
-//! 2. Compensated: |p − c|² − ρ² with the running bound of [`Compensated`](crate::arithmetic::Compensated), a relative
-//!    1e-29 for d = 1000. Exact ties of rows like the vertices of a cube end here, when nothing was rounded at all.
+//! 2. Compensated: |p − c|² − ρ² with the running bound of [`Compensated`](crate::arithmetic::Compensated), at most
+//!    1e-27·ρ² for d = 1000. Exact ties of rows like the vertices of a cube end here, when nothing was rounded at all.
 //! 3. Exact: the sign of the same in fixed-point numbers of 4352 bits.
 //!
 //! *Guarantee.* No row is misjudged, so the first row found outside does not depend on threads or instruction sets.

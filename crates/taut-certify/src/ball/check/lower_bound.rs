@@ -198,9 +198,11 @@ impl<'a> Sums<'a> {
         if x == 0.0 {
             return Bound { lower: self.ball.radius, gap: 0.0 };
         }
-        // One step down for the difference, one for a scaling back into the subnormal numbers.
         let least = (radius - x).next_down();
-        let lower = (least * self.scale.down).next_down().max(0.0);
+        let scaled = least * self.scale.down;
+        // Scaling back into the subnormal numbers may round up.
+        let is_exact = scaled * self.scale.up == least;
+        let lower = if is_exact { scaled } else { scaled.next_down() }.max(0.0);
         let gap = if least > 0.0 { x / least * (1.0 + 8.0 * U) } else { f64::INFINITY };
         Bound { lower, gap }
     }
