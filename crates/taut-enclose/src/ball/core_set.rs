@@ -42,7 +42,7 @@ fn batch_for(dim: usize) -> usize {
 
 pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcome, Error> {
     let mut batch = options.batch.unwrap_or_else(|| batch_for(scan.dim()));
-    let (middle, found) = scan.first(batch + 64)?;
+    let (middle, found) = scan.first(batch.saturating_add(64))?;
     if found.farthest.reach2 == 0.0 {
         return Outcome::single(scan, found.farthest.id);
     }
@@ -65,7 +65,7 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
         let by_face = telling && 8 * entered < could_enter;
 
         let center = center(set.origin(), &offset, radius);
-        let keep = batch + active.support().len() + 64;
+        let keep = batch.saturating_add(active.support().len() + 64);
         let slack = 4.0 * relative_error(scan.dim());
         let above = radius * radius * (1.0 - slack).max(0.0);
         let violating = radius * radius * (1.0 + TOLERANCE);
