@@ -53,6 +53,13 @@ fn one_point_or_one_place() {
                 let found = exact("one place", &one.repeat(copies), dim, 0.0);
                 assert_eq!(found.answer.radius, 0.0, "{copies} copies in {dim} dimensions");
                 assert_eq!(found.answer.center, one);
+                let points = one.repeat(copies);
+                let found = ball(&Points::new(&points, dim).unwrap(), &Default::default()).unwrap();
+                assert_eq!(
+                    found.trace.stop,
+                    Stop::Converged,
+                    "{copies} copies in {dim} dimensions"
+                );
             }
         }
     }

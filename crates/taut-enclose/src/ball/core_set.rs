@@ -48,7 +48,8 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
     }
     let mut set = empty_set(scan, middle)?;
     let mut outcome = Outcome::new();
-    add(&mut set, scan, found.far.iter().map(|far| far.id), batch)?;
+    // Two at least, as one alone proves no lower bound.
+    add(&mut set, scan, found.far.iter().map(|far| far.id), batch.max(2))?;
     let mut active = ActiveSet::new(&set, 4.0 * found.farthest.reach2);
     let mut radius = 0.0;
     let mut last_batch = 0..set.len();
@@ -78,7 +79,7 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
             .filter(|far| far.reach2 > violating && !set.contains(far.id))
             .map(|far| far.id)
             .collect();
-        let gap = upper / radius - 1.0;
+        let gap = if upper == 0.0 { 0.0 } else { upper / radius - 1.0 };
         outcome.offer(gap, || {
             let support = active.support().iter().map(|&i| set.id(i)).collect();
             (support, active.lambda().to_vec(), center, found)
@@ -88,7 +89,7 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
             Some(Stop::Converged)
         } else if violators.is_empty() {
             Some(if options.epsilon == 0.0 { Stop::Converged } else { Stop::Rounding })
-        } else if scan.passes() >= options.max_passes {
+        } else if scan.passes() >= options.max_passes && radius > 0.0 {
             Some(Stop::PassBudget)
         } else {
             None

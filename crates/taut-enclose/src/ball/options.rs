@@ -68,6 +68,8 @@ pub struct BallOptions {
     /// Far points taken to the core-set per pass, by [`BallMethod::CoreSet`]; `None` chooses by dimension. At least 1.
     pub batch: Option<usize>,
     /// Most reads of all points; then the best ball so far is returned with its gap. At least 2, default 1,000,000.
+    /// Up to three more are made where, without them, nothing could be proved: when the coordinates are so large or so
+    /// small that a scale has to be found first, and when all far points of the first read are copies of one.
     pub max_passes: u64,
     /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,

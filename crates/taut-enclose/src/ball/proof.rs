@@ -29,10 +29,12 @@ pub(super) fn prove(
     if !radius.is_finite() {
         return Err(Error::Overflow);
     }
-    let gap = if upper > 0.0 {
+    let gap = if upper == 0.0 {
+        0.0
+    } else if lower > DoubleDouble::ZERO {
         DoubleDouble::from(upper).div(lower).sub(1.0.into()).round_up().max(0.0)
     } else {
-        0.0
+        f64::MAX
     };
     let mut stop = outcome.stop.expect("a method says why it stopped");
     if stop == Stop::Converged && options.epsilon > 0.0 && gap > options.epsilon {

@@ -124,7 +124,9 @@ pub fn judge(values: &[f64], columns: usize, found: &Solution<Ball>) -> Result<P
     let verdict = found
         .check(&Points::new(values, columns).map_err(|e| e.to_string())?)
         .map_err(|e| format!("the checker says: {e}"))?;
-    if verdict.gap > certificate.gap * (1.0 + 1e-12) + 4.0 * f64::EPSILON || verdict.upper != answer.radius {
+    if verdict.gap > certificate.gap * (1.0 + 1e-12) + 4.0 * f64::EPSILON
+        || verdict.upper != answer.radius
+    {
         return Err(format!("the checker proves {verdict:?}, {:e} claimed", certificate.gap));
     }
     Ok(proof)
