@@ -354,6 +354,7 @@ fn stress() {
     let (rounds, dim_max) = soak.map_or((150, 40), |rounds| (rounds, 200));
     let mut worst = (0.0f64, 0, 0, 0u64);
     let mut failures = vec![];
+    let mut told = 0;
     for seed in start..start + rounds {
         let instance = instance(seed, dim_max);
         let options = BallOptions { epsilon: 0.0, batch: instance.batch, ..Default::default() };
@@ -397,6 +398,10 @@ fn stress() {
         }
         worst =
             (worst.0, worst.1.max(found.trace.passes), worst.2.max(stalls), worst.3.max(pivots));
+        if soak.is_some() {
+            failures.iter().skip(told).for_each(|failure| println!("{failure}"));
+            told = failures.len();
+        }
         if soak.is_some() && seed % 500 == 499 {
             println!(
                 "{} rounds: gap {:e}, passes {}, stalls {}, pivots {}; {} failures",

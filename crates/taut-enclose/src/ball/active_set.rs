@@ -86,6 +86,14 @@ impl ActiveSet {
         (norm + r) * (norm - r) + 2.0 * self.radius * r
     }
 
+    /// Takes a larger σ where the set has outgrown the one there is.
+    pub(super) fn widen(&mut self, set: &WorkingSet, sigma: f64) {
+        if sigma > 4.0 * self.sigma {
+            self.sigma = sigma;
+            self.rebuild(set);
+        }
+    }
+
     /// Sets R of the balls' problem and settles the support for it.
     pub(super) fn set_radius(&mut self, set: &WorkingSet, radius: f64) {
         self.radius = radius;

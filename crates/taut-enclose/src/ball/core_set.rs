@@ -50,7 +50,8 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
     let mut outcome = Outcome::new();
     // Two at least, as one alone proves no lower bound.
     add(&mut set, scan, found.far.iter().map(|far| far.id), batch.max(2))?;
-    let mut active = ActiveSet::new(&set, 4.0 * found.farthest.reach2);
+    let mut active = ActiveSet::new(&set, sigma(&set, found.farthest.reach2));
+    let first_reach2 = found.farthest.reach2;
     let mut radius = 0.0;
     let mut last_batch = 0..set.len();
     loop {
@@ -103,7 +104,18 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
         let before = set.len();
         add(&mut set, scan, violators.into_iter(), batch)?;
         last_batch = before..set.len();
+        active.widen(&set, sigma(&set, first_reach2));
     }
+}
+
+/// About the largest squared norm in the set. For points that of the first pass; the centres of balls may lie much
+/// closer together than the balls reach, but not so close that it no longer matters to any digit of the radius.
+fn sigma(set: &WorkingSet, reach2: f64) -> f64 {
+    if set.radius_offset() == 0.0 {
+        return 4.0 * reach2;
+    }
+    let longest = (0..set.len()).map(|i| set.norm2(i)).fold(0.0, f64::max);
+    4.0 * longest.max(f64::EPSILON * f64::EPSILON * reach2)
 }
 
 /// The working set before its first batch: for balls it holds the largest, which is its origin.
