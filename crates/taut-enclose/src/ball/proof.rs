@@ -22,13 +22,17 @@ pub(super) fn prove(
     let (mut best, outcome) = outcome.into_best();
     sort_by_id(&mut best);
     let rows = scan.rows(&best.support)?;
-    let upper = upper_bound(scan, &best)?;
-    let lower = lower_bound(scan, &best, &rows);
     let scale = scan.scale();
-    let radius = upper / scale;
-    if !radius.is_finite() {
+    let upper = add_up(upper_bound(scan, &best)?, round_center(&mut best.center, scale));
+    let mut radius = upper / scale;
+    if !radius.is_finite() || best.center.high.iter().any(|c| !c.is_finite()) {
         return Err(Error::Overflow);
     }
+    if radius * scale < upper {
+        radius = radius.next_up();
+    }
+    let upper = radius * scale;
+    let lower = lower_bound(scan, &best, &rows);
     let gap = if upper == 0.0 {
         0.0
     } else if lower > DoubleDouble::ZERO {
@@ -52,7 +56,8 @@ pub(super) fn prove(
             .into_iter()
             .map(|b| taut_certify::PassBounds {
                 lower: b.lower / scale,
-                upper: b.upper / scale,
+                // An early ball may exceed what `f64` can say, and JSON knows no infinity.
+                upper: (b.upper / scale).min(f64::MAX),
                 ..b
             })
             .collect(),
@@ -68,6 +73,25 @@ pub(super) fn prove(
         points_hash: scan.hash(),
     };
     Ok(Solution { answer, certificate, trace })
+}
+
+/// Moves the centre to one that `f64` can say at the scale of the input, where subnormal numbers are coarse. Returns a
+/// bound on the distance; 0 for all but the smallest inputs.
+fn round_center(center: &mut Center, scale: f64) -> f64 {
+    let mut moved2 = 0.0;
+    let whole = center.high.iter_mut().chain(&mut center.low);
+    for value in whole {
+        let rounded = *value / scale * scale;
+        moved2 += (*value - rounded).powi(2);
+        *value = rounded;
+    }
+    // Two terms move together at most by the sum of their moves; twice that covers all roundings.
+    2.0 * (2.0 * moved2).sqrt()
+}
+
+/// a + b, rounded up; a where b is 0.
+fn add_up(a: f64, b: f64) -> f64 {
+    DoubleDouble::sum(a, b).round_up()
 }
 
 fn sort_by_id(best: &mut Candidate) {
@@ -107,12 +131,20 @@ fn upper_bound(scan: &Scan<'_>, best: &Candidate) -> Result<f64, Error> {
     let mut upper = 0.0f64;
     for row in rows.chunks_exact(columns) {
         let (x, r) = split(scan, row);
-        upper = upper.max(reach_up(exact_squared_distance(x, &best.center), r));
+        let reach = reach_up(exact_squared_distance(x, &best.center), r);
+        // Beside a reach of about 1 what a vanishing square leaves out is far less than one unit of the last place.
+        upper =
+            upper.max(if has_vanishing_square(x, &best.center) { reach.next_up() } else { reach });
     }
     if !all_listed {
         upper = upper.max(found.farthest.reach2.sqrt() * (1.0 + error));
     }
     Ok(upper)
+}
+
+/// Whether some difference is not 0, but so small that its square loses digits to the end of the range.
+fn has_vanishing_square(x: &[f64], center: &Center) -> bool {
+    x.iter().zip(&center.high).any(|(x, c)| x != c && (x - c).abs() < 2f64.powi(-450))
 }
 
 /// The smallest `f64` radius that is not below √distance² + r.
