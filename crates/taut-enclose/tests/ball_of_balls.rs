@@ -67,8 +67,9 @@ fn common_centre() {
             values.extend(vec![0.1; dim]);
             values.push(f64::from(i * 7 % 50));
         }
-        let found = exact_of_balls("one centre", &values, dim + 1, 0.0);
-        assert_eq!(found.answer.radius, 49.0);
+        // The centre may be rounded to the digits that matter beside the radius.
+        let found = exact_of_balls("one centre", &values, dim + 1, 1e-15);
+        close(found.answer.radius, 49.0, 1e-15);
     }
 }
 

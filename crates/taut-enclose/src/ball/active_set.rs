@@ -52,13 +52,15 @@ pub(super) struct ActiveSet {
 }
 
 impl ActiveSet {
-    /// The support is item 0 alone. `sigma` is about the largest squared norm that will occur.
-    pub(super) fn new(set: &WorkingSet, sigma: f64) -> Self {
+    /// The support is item 0 alone; `reach2` is about the squared radius, radii of balls included.
+    pub(super) fn new(set: &WorkingSet, reach2: f64) -> Self {
+        // What lies closer together than the rounding of the radius need not be told apart.
+        let least = f64::EPSILON * f64::EPSILON * reach2;
         let mut active = ActiveSet {
             support: vec![0],
             lambda: vec![1.0],
             factor: Factor::default(),
-            sigma,
+            sigma: least.max(largest_norm2(set)),
             radius: 0.0,
             deletions: 0,
             pivots: 0,
@@ -86,10 +88,11 @@ impl ActiveSet {
         (norm + r) * (norm - r) + 2.0 * self.radius * r
     }
 
-    /// Takes a larger σ where the set has outgrown the one there is.
-    pub(super) fn widen(&mut self, set: &WorkingSet, sigma: f64) {
-        if sigma > 4.0 * self.sigma {
-            self.sigma = sigma;
+    /// Takes a larger σ where the set has outgrown it: the first balls may lie much closer together than others.
+    pub(super) fn widen(&mut self, set: &WorkingSet) {
+        let largest = largest_norm2(set);
+        if largest > 16.0 * self.sigma {
+            self.sigma = largest;
             self.rebuild(set);
         }
     }
@@ -275,9 +278,8 @@ impl ActiveSet {
         self.lambda.iter_mut().for_each(|l| *l /= sum);
     }
 
-    /// One correction of λ from distances taken in the coordinates: evens them out to the last digits. Returns c
-    /// relative to the origin.
-    pub(super) fn refine(&mut self, set: &WorkingSet) -> Vec<f64> {
+    /// One correction of λ from distances taken in the coordinates: evens them out to the last digits.
+    pub(super) fn refine(&mut self, set: &WorkingSet) {
         let center = set.combination(&self.support, &self.lambda);
         let rows: Vec<f64> = self.support.iter().flat_map(|&i| set.row(i)).copied().collect();
         let mut halves = vec![0.0; self.support.len()];
@@ -292,11 +294,17 @@ impl ActiveSet {
         let correction = self.factor.correction(&halves);
         let corrected: Vec<f64> = self.lambda.iter().zip(&correction).map(|(l, d)| l + d).collect();
         if corrected.iter().all(|&l| l > 0.0) {
-            let sum: f64 = corrected.iter().sum();
-            self.lambda = corrected.into_iter().map(|l| l / sum).collect();
+            self.lambda = corrected;
         }
-        set.combination(&self.support, &self.lambda)
+        // What solving left beside 1 is more than the certificate may state.
+        let sum: f64 = self.lambda.iter().sum();
+        self.lambda.iter_mut().for_each(|l| *l /= sum);
     }
+}
+
+/// Any positive σ would do; of the size of the squared norms it takes no digits from them.
+fn largest_norm2(set: &WorkingSet) -> f64 {
+    (0..set.len()).map(|i| set.norm2(i)).fold(0.0, f64::max)
 }
 
 /// How far weight can move along y to the entering item, and who stops it: the least λᵢ/yᵢ, ties to the largest yᵢ.

@@ -23,7 +23,7 @@ use super::active_set::{ActiveSet, TOLERANCE};
 use super::outcome::Outcome;
 use super::working_set::WorkingSet;
 use crate::Error;
-use crate::kernel::{Center, DoubleDouble, relative_error};
+use crate::kernel::{Center, relative_error};
 use crate::scan::{Query, Scan};
 
 /// Largest batch that doubling reaches.
@@ -50,13 +50,12 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
     let mut outcome = Outcome::new();
     // Two at least, as one alone proves no lower bound.
     add(&mut set, scan, found.far.iter().map(|far| far.id), batch.max(2))?;
-    let mut active = ActiveSet::new(&set, sigma(&set, found.farthest.reach2));
-    let first_reach2 = found.farthest.reach2;
+    let mut active = ActiveSet::new(&set, found.farthest.reach2);
     let mut radius = 0.0;
     let mut last_batch = 0..set.len();
     loop {
         radius = solve_working_set(&mut active, &set, radius);
-        let offset = active.refine(&set);
+        active.refine(&set);
         let entered = active.support().iter().filter(|i| last_batch.contains(i)).count();
         // No more than d + 1 can enter at all.
         let could_enter = last_batch.len().min(scan.dim() + 1);
@@ -66,7 +65,7 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
         }
         let by_face = telling && 8 * entered < could_enter;
 
-        let center = center(set.origin(), &offset, radius);
+        let center = set.center(active.support(), active.lambda(), radius);
         let keep = batch.saturating_add(active.support().len() + 64);
         let slack = 4.0 * relative_error(scan.dim());
         let above = radius * radius * (1.0 - slack).max(0.0);
@@ -104,18 +103,8 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
         let before = set.len();
         add(&mut set, scan, violators.into_iter(), batch)?;
         last_batch = before..set.len();
-        active.widen(&set, sigma(&set, first_reach2));
+        active.widen(&set);
     }
-}
-
-/// About the largest squared norm in the set. For points that of the first pass; the centres of balls may lie much
-/// closer together than the balls reach, but not so close that it no longer matters to any digit of the radius.
-fn sigma(set: &WorkingSet, reach2: f64) -> f64 {
-    if set.radius_offset() == 0.0 {
-        return 4.0 * reach2;
-    }
-    let longest = (0..set.len()).map(|i| set.norm2(i)).fold(0.0, f64::max);
-    4.0 * longest.max(f64::EPSILON * f64::EPSILON * reach2)
 }
 
 /// The working set before its first batch: for balls it holds the largest, which is its origin.
@@ -173,14 +162,4 @@ fn lower_bound(active: &ActiveSet, set: &WorkingSet) -> f64 {
         })
         .sum();
     mean + inner.max(0.0).sqrt()
-}
-
-/// The centre as one or two terms: two where rounding it to one would cost more than 1e-15 of the radius.
-fn center(origin: &[f64], offset: &[f64], radius: f64) -> Center {
-    let terms: Vec<DoubleDouble> =
-        origin.iter().zip(offset).map(|(&o, &c)| DoubleDouble::sum(o, c)).collect();
-    let high: Vec<f64> = terms.iter().map(|t| t.high).collect();
-    let largest = high.iter().fold(0.0f64, |m, c| m.max(c.abs()));
-    let low = if largest > 8.0 * radius { terms.iter().map(|t| t.low).collect() } else { vec![] };
-    Center { high, low }
 }

@@ -122,7 +122,8 @@ fn upper_bound(scan: &Scan<'_>, best: &Candidate) -> Result<f64, Error> {
     let mut ids: Vec<u64> =
         found.far.iter().take_while(|far| far.reach2 >= threshold).map(|far| far.id).collect();
     // Equal reaches at the end of a full list may go on behind it, hence "below" and not "at most".
-    let all_listed = found.listed_above < threshold;
+    // Where all items are one place there is nothing to list.
+    let all_listed = found.listed_above < threshold || found.farthest.reach2 == 0.0;
     if !ids.contains(&found.farthest.id) {
         ids.push(found.farthest.id);
     }
@@ -137,7 +138,7 @@ fn upper_bound(scan: &Scan<'_>, best: &Candidate) -> Result<f64, Error> {
             upper.max(if has_vanishing_square(x, &best.center) { reach.next_up() } else { reach });
     }
     if !all_listed {
-        upper = upper.max(found.farthest.reach2.sqrt() * (1.0 + error));
+        upper = upper.max((found.farthest.reach2 * (1.0 + error)).sqrt().next_up());
     }
     Ok(upper)
 }
