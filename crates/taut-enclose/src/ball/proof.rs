@@ -6,65 +6,56 @@
 //! *Lower.* r² = Σ λᵢ|pᵢ − c|² − |c − Σ λᵢpᵢ|² with Σλ = 1, in double-double; for balls the bound of
 //! [`super::core_set`]. Nothing is taken from the solver's state.
 
-use taut_certify::{Ball, BallCertificate, Items, Solution, Stop, Trace};
+use taut_certify::{Ball, BallCertificate, Items, PassBounds, Solution, Stop, Trace};
 
 use super::BallOptions;
 use super::outcome::{Candidate, Outcome};
 use crate::Error;
 use crate::kernel::{Center, DoubleDouble, exact_squared_distance, relative_error};
-use crate::scan::Scan;
+use crate::scan::{Query, Scan};
 
 pub(super) fn prove(
-    scan: &Scan<'_>,
+    scan: &mut Scan<'_>,
     outcome: Outcome,
     options: &BallOptions,
 ) -> Result<Solution<Ball>, Error> {
     let (mut best, outcome) = outcome.into_best();
     sort_by_id(&mut best);
+    settle_center(scan, &mut best)?;
     let rows = scan.rows(&best.support)?;
+    let upper = upper_bound(scan, &best)?;
+    let lower = lower_bound(scan, &best, &rows);
     let scale = scan.scale();
-    let upper = add_up(upper_bound(scan, &best)?, round_center(&mut best.center, scale));
-    let mut radius = upper / scale;
-    if !radius.is_finite() || best.center.high.iter().any(|c| !c.is_finite()) {
+    let radius = unscale_up(upper, scale);
+    if !radius.is_finite() || best.center.high.iter().any(|c| !(c / scale).is_finite()) {
         return Err(Error::Overflow);
     }
-    if radius * scale < upper {
-        radius = radius.next_up();
-    }
-    let upper = radius * scale;
-    let lower = lower_bound(scan, &best, &rows);
-    let gap = if upper == 0.0 {
-        0.0
-    } else if lower > DoubleDouble::ZERO {
-        DoubleDouble::from(upper).div(lower).sub(1.0.into()).round_up().max(0.0)
-    } else {
-        f64::MAX
+    let gap = match radius {
+        0.0 => 0.0,
+        // Against the radius as it is returned: below 1e-308 rounding it up costs digits.
+        _ => DoubleDouble::from(radius * scale).div(lower).sub(1.0.into()).round_up().max(0.0),
     };
     let mut stop = outcome.stop.expect("a method says why it stopped");
     if stop == Stop::Converged && options.epsilon > 0.0 && gap > options.epsilon {
         stop = Stop::Rounding;
     }
-    let unscaled = |values: Vec<f64>| values.into_iter().map(|v| v / scale).collect();
+    // An early ball may exceed what `f64` can say, and JSON knows no infinity.
+    let said = |value: f64| (value / scale).min(f64::MAX);
+    let bounds = |b: PassBounds| PassBounds { lower: said(b.lower), upper: said(b.upper), ..b };
     let trace = Trace {
         method: options.method.name().to_owned(),
         stop,
         passes: scan.passes(),
         iterations: outcome.iterations,
         core_set: outcome.core_set,
-        history: outcome
-            .history
-            .into_iter()
-            .map(|b| taut_certify::PassBounds {
-                lower: b.lower / scale,
-                // An early ball may exceed what `f64` can say, and JSON knows no infinity.
-                upper: (b.upper / scale).min(f64::MAX),
-                ..b
-            })
-            .collect(),
+        history: outcome.history.into_iter().map(bounds).collect(),
         counters: outcome.counters,
     };
-    let answer =
-        Ball { center: unscaled(best.center.high), center_tail: unscaled(best.center.low), radius };
+    let answer = Ball {
+        center: unscale(&best.center.high, scale),
+        center_tail: unscale(&best.center.low, scale),
+        radius,
+    };
     let certificate = BallCertificate {
         items: scan.items(),
         support: best.support,
@@ -75,23 +66,32 @@ pub(super) fn prove(
     Ok(Solution { answer, certificate, trace })
 }
 
-/// Moves the centre to one that `f64` can say at the scale of the input, where subnormal numbers are coarse. Returns a
-/// bound on the distance; 0 for all but the smallest inputs.
-fn round_center(center: &mut Center, scale: f64) -> f64 {
-    let mut moved2 = 0.0;
-    let whole = center.high.iter_mut().chain(&mut center.low);
-    for value in whole {
-        let rounded = *value / scale * scale;
-        moved2 += (*value - rounded).powi(2);
-        *value = rounded;
-    }
-    // Two terms move together at most by the sum of their moves; twice that covers all roundings.
-    2.0 * (2.0 * moved2).sqrt()
+fn unscale(values: &[f64], scale: f64) -> Vec<f64> {
+    values.iter().map(|v| v / scale).collect()
 }
 
-/// a + b, rounded up; a where b is 0.
-fn add_up(a: f64, b: f64) -> f64 {
-    DoubleDouble::sum(a, b).round_up()
+/// value / scale; where that cannot be exact, because it is subnormal, rounded up.
+fn unscale_up(value: f64, scale: f64) -> f64 {
+    let unscaled = value / scale;
+    if unscaled * scale < value { unscaled.next_up() } else { unscaled }
+}
+
+/// Makes the centre one that survives being scaled back. Only subnormal coordinates do not: then the centre is the
+/// rounded one, and one more pass finds what is farthest from that.
+fn settle_center(scan: &mut Scan<'_>, best: &mut Candidate) -> Result<(), Error> {
+    let scale = scan.scale();
+    let rescale =
+        |values: &[f64]| -> Vec<f64> { values.iter().map(|v| v / scale * scale).collect() };
+    let center = Center { high: rescale(&best.center.high), low: rescale(&best.center.low) };
+    if center == best.center {
+        return Ok(());
+    }
+    let keep = best.found.far.len().max(64);
+    let query =
+        Query { center: &center, above: best.found.listed_above / 2.0, keep, by_face_above: None };
+    best.found = scan.farthest(query)?;
+    best.center = center;
+    Ok(())
 }
 
 fn sort_by_id(best: &mut Candidate) {
@@ -122,8 +122,7 @@ fn upper_bound(scan: &Scan<'_>, best: &Candidate) -> Result<f64, Error> {
     let mut ids: Vec<u64> =
         found.far.iter().take_while(|far| far.reach2 >= threshold).map(|far| far.id).collect();
     // Equal reaches at the end of a full list may go on behind it, hence "below" and not "at most".
-    // Where all items are one place there is nothing to list.
-    let all_listed = found.listed_above < threshold || found.farthest.reach2 == 0.0;
+    let all_listed = found.listed_above < threshold;
     if !ids.contains(&found.farthest.id) {
         ids.push(found.farthest.id);
     }
@@ -137,7 +136,7 @@ fn upper_bound(scan: &Scan<'_>, best: &Candidate) -> Result<f64, Error> {
         upper =
             upper.max(if has_vanishing_square(x, &best.center) { reach.next_up() } else { reach });
     }
-    if !all_listed {
+    if !all_listed && found.farthest.reach2 > 0.0 {
         upper = upper.max((found.farthest.reach2 * (1.0 + error)).sqrt().next_up());
     }
     Ok(upper)
