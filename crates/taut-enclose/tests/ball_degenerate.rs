@@ -27,7 +27,7 @@ fn effort(name: &str, trace: &taut_certify::Trace, dim: usize) {
     assert!(
         trace.passes <= 60
             && trace.iterations <= 400 + 100 * dim as u64
-            && stalls <= 50 + 5 * trace.passes,
+            && stalls <= 50 + trace.iterations / 2,
         "{name}: {} passes, {} pivots, {stalls} stalls in {dim} dimensions",
         trace.passes,
         trace.iterations
@@ -273,10 +273,7 @@ fn far_from_the_origin() {
             let values: Vec<f64> =
                 random.normals(500 * dim).into_iter().map(|v| v + offset).collect();
             let found = exact(&format!("offset {offset:e} in {dim}"), &values, dim, GAP);
-            assert_eq!(
-                found.answer.center_tail.is_empty(),
-                offset <= 10.0 && dim > 1 || offset <= 10.0
-            );
+            assert_eq!(found.answer.center_tail.is_empty(), offset <= 10.0);
         }
     }
     // Neighbours among the numbers of double precision.
@@ -394,7 +391,7 @@ fn stress() {
             Some(m) => 60 + 10 * instance.dim as u64 / m as u64 + 3 * pivots,
         };
         if found.trace.passes > passes_max
-            || stalls > 50 + 5 * found.trace.passes
+            || stalls > 50 + pivots / 2
             || pivots > 400 + 100 * instance.dim as u64
         {
             failures.push(format!(

@@ -87,7 +87,7 @@ proptest! {
 
     /// A turn keeps the radius; a shift, too, when the points can be shifted exactly.
     #[test]
-    fn turns_and_shifts((values, dim) in points(), angle in 0.0f64..6.28, offset in prop_oneof![Just(1e8), Just(-3e5), Just(1e11)]) {
+    fn turns_and_shifts((values, dim) in points(), angle in 0.0f64..std::f64::consts::TAU, offset in prop_oneof![Just(1e8), Just(-3e5), Just(1e11)]) {
         // Multiples of 2⁻¹⁰ survive the shift.
         let values: Vec<f64> = values.iter().map(|v| (v * 1024.0).round() / 1024.0).collect();
         let plain = exact("plain", &values, dim, GAP);
