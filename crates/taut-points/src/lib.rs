@@ -31,7 +31,7 @@ mod source;
 
 pub use blocks::{Blocks, map_blocks};
 pub use error::{Error, ReadError};
-pub use generate::{Distribution, GeneratedSource, generate};
+pub use generate::{Distribution, GeneratedSource, generate, generate_into};
 pub use hash::{BlockHash, PointsHash, hash_block, hash_points};
 pub use monitor::{Cancelled, Monitor};
 pub use points::{Points, Rows, Scalar, ScalarKind};

@@ -16,3 +16,12 @@ pub use taut_enclose as enclose;
 pub use taut_enclose::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_source};
 pub use taut_points as points;
 pub use taut_points::{Distribution, Monitor, PointSource, Points, generate};
+
+/// The Rust in the pages for people, compiled and run with the tests.
+#[cfg(doctest)]
+mod pages {
+    #[doc = include_str!("../../../README.md")]
+    struct Readme;
+    #[doc = include_str!("../../../docs/ball.md")]
+    struct Ball;
+}

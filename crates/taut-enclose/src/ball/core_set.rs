@@ -17,13 +17,14 @@
 //! tried and each cost more than they saved: so few points are ever scanned again that nothing is left to save.
 
 use taut_certify::{Items, PassBounds, Stop};
+use taut_points::{Cancelled, Monitor, ReadError};
 
 use super::BallOptions;
 use super::active_set::{ActiveSet, TOLERANCE};
 use super::outcome::Outcome;
 use super::working_set::WorkingSet;
 use crate::Error;
-use crate::kernel::{Center, DoubleDouble, relative_error};
+use crate::kernel::{Center, relative_error};
 use crate::scan::{Query, Scan};
 
 /// Largest batch that doubling reaches.
@@ -49,12 +50,13 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
     let mut set = empty_set(scan, middle)?;
     let mut outcome = Outcome::new();
     add(&mut set, scan, found.far.iter().map(|far| far.id), batch)?;
-    let mut active = ActiveSet::new(&set, 4.0 * found.farthest.reach2);
+    let mut active = ActiveSet::new(&set);
     let mut radius = 0.0;
     let mut last_batch = 0..set.len();
     loop {
-        radius = solve_working_set(&mut active, &set, radius);
-        let offset = active.refine(&set);
+        radius = solve_working_set(&mut active, &set, radius, scan.monitor())
+            .map_err(ReadError::from)?;
+        active.refine(&set);
         let entered = active.support().iter().filter(|i| last_batch.contains(i)).count();
         // No more than d + 1 can enter at all.
         let could_enter = last_batch.len().min(scan.dim() + 1);
@@ -64,13 +66,13 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
         }
         let by_face = telling && 8 * entered < could_enter;
 
-        let center = center(set.origin(), &offset, radius);
+        let center = set.center(active.support(), active.lambda(), radius);
         let keep = batch + active.support().len() + 64;
         let slack = 4.0 * relative_error(scan.dim());
         let above = radius * radius * (1.0 - slack).max(0.0);
         let violating = radius * radius * (1.0 + TOLERANCE);
         let by_face_above = by_face.then_some(violating);
-        let found = scan.farthest(&Query { center: &center, above, keep, by_face_above })?;
+        let found = scan.farthest(Query { center: &center, above, keep, by_face_above })?;
         let upper = found.farthest.reach2.sqrt();
         outcome.bounds(PassBounds { lower: radius, upper, working_set: set.len() as u64 });
         let violators: Vec<u64> = if by_face { &found.by_face } else { &found.far }
@@ -88,7 +90,7 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
             Some(Stop::Converged)
         } else if violators.is_empty() {
             Some(if options.epsilon == 0.0 { Stop::Converged } else { Stop::Rounding })
-        } else if scan.passes() >= options.max_passes {
+        } else if scan.passes() >= options.max_passes && radius > 0.0 {
             Some(Stop::PassBudget)
         } else {
             None
@@ -126,18 +128,23 @@ fn add(
 }
 
 /// The exact ball of the working set; returns its radius. `radius` is a lower bound on it, from before the last batch.
-fn solve_working_set(active: &mut ActiveSet, set: &WorkingSet, radius: f64) -> f64 {
+fn solve_working_set(
+    active: &mut ActiveSet,
+    set: &WorkingSet,
+    radius: f64,
+    monitor: &Monitor<'_>,
+) -> Result<f64, Cancelled> {
     let offset = set.radius_offset();
     let mut relative = (radius - offset).max(0.0);
     loop {
         if offset > 0.0 {
             active.set_radius(set, relative);
         }
-        active.maximize(set);
+        active.maximize(set, monitor)?;
         let bound = lower_bound(active, set).max(0.0);
         // Newton steps grow until rounding; for points the first is the answer, as nothing depends on R.
         if offset == 0.0 || bound <= relative + f64::EPSILON * (relative + offset) {
-            return bound.max(relative) + offset;
+            return Ok(bound.max(relative) + offset);
         }
         relative = bound;
     }
@@ -160,14 +167,4 @@ fn lower_bound(active: &ActiveSet, set: &WorkingSet) -> f64 {
         })
         .sum();
     mean + inner.max(0.0).sqrt()
-}
-
-/// The centre as one or two terms: two where rounding it to one would cost more than 1e-15 of the radius.
-fn center(origin: &[f64], offset: &[f64], radius: f64) -> Center {
-    let terms: Vec<DoubleDouble> =
-        origin.iter().zip(offset).map(|(&o, &c)| DoubleDouble::sum(o, c)).collect();
-    let high: Vec<f64> = terms.iter().map(|t| t.high).collect();
-    let largest = high.iter().fold(0.0f64, |m, c| m.max(c.abs()));
-    let low = if largest > 8.0 * radius { terms.iter().map(|t| t.low).collect() } else { vec![] };
-    Center { high, low }
 }
