@@ -11,7 +11,7 @@ use taut_certify::{Ball, BallCertificate, Items, PassBounds, Solution, Stop, Tra
 use super::BallOptions;
 use super::outcome::{Candidate, Outcome};
 use crate::Error;
-use crate::kernel::{Center, DoubleDouble, exact_squared_distance, relative_error};
+use crate::kernel::{Center, DoubleDouble, exact_squared_distance, is_within, relative_error};
 use crate::scan::{Query, Scan};
 
 pub(super) fn prove(
@@ -131,7 +131,7 @@ fn upper_bound(scan: &Scan<'_>, best: &Candidate) -> Result<f64, Error> {
     let mut upper = 0.0f64;
     for row in rows.chunks_exact(columns) {
         let (x, r) = split(scan, row);
-        let reach = reach_up(exact_squared_distance(x, &best.center), r);
+        let reach = reach_up(x, &best.center, r);
         // Beside a reach of about 1 what a vanishing square leaves out is far less than one unit of the last place.
         upper =
             upper.max(if has_vanishing_square(x, &best.center) { reach.next_up() } else { reach });
@@ -147,11 +147,17 @@ fn has_vanishing_square(x: &[f64], center: &Center) -> bool {
     x.iter().zip(&center.high).any(|(x, c)| x != c && (x - c).abs() < 2f64.powi(-450))
 }
 
-/// The smallest `f64` radius that is not below √distance² + r.
-fn reach_up(distance2: DoubleDouble, r: f64) -> f64 {
+/// The smallest `f64` radius that is not below |x − c| + r.
+fn reach_up(x: &[f64], center: &Center, r: f64) -> f64 {
+    let distance2 = exact_squared_distance(x, center);
+    // More than double-double can be off by, in parts of the square: what is nearer is a tie, to be told exactly.
+    let doubt = distance2.high * (x.len() as f64 + 8.0) * 2f64.powi(-98);
+    let holds = |reach: f64| {
+        let beyond = DoubleDouble::sum(reach, -r).square().sub(distance2).high;
+        if beyond.abs() > doubt { beyond > 0.0 } else { is_within(x, center, reach, r) }
+    };
+    // The root carries one rounding of its own: make sure that the reach holds, and that nothing less does.
     let mut reach = distance2.sqrt().add(r.into()).round_up();
-    // The root carries one rounding of its own: make sure of (reach − r)² ≥ distance², and of no more than needed.
-    let holds = |reach: f64| DoubleDouble::sum(reach, -r).square() >= distance2;
     while reach > r && holds(reach.next_down()) {
         reach = reach.next_down();
     }

@@ -149,3 +149,43 @@ fn squared_distance(x: &[f64], center: &Center) -> DoubleDouble {
     }
     sums.into_iter().fold(DoubleDouble::ZERO, DoubleDouble::add)
 }
+
+/// Whether |x − c| ≤ reach − r, decided exactly, for the ties that double-double cannot tell.
+///
+/// Both squares are written out as sums of products, each product as two `f64` without error, and the sum of all is
+/// kept as an expansion whose last component has its sign (Shewchuk 1997, theorem 10). Exact as long as no product
+/// falls below the range of `f64`.
+pub(crate) fn is_within(x: &[f64], center: &Center, reach: f64, r: f64) -> bool {
+    let mut expansion = Vec::new();
+    let mut add_square = |terms: &[f64], sign: f64| {
+        for (i, &a) in terms.iter().enumerate() {
+            for (k, &b) in terms.iter().enumerate().skip(i) {
+                let (product, error) = two_product(a, b);
+                let times = if i == k { sign } else { 2.0 * sign };
+                grow(&mut expansion, times * product);
+                grow(&mut expansion, times * error);
+            }
+        }
+    };
+    let (high, low) = two_sum(reach, -r);
+    add_square(&[high, low], 1.0);
+    for j in 0..x.len() {
+        let (high, low) = two_sum(x[j], -center.high[j]);
+        add_square(&[high, low, -center.low.get(j).copied().unwrap_or(0.0)], -1.0);
+    }
+    expansion.last().is_none_or(|&sign| sign > 0.0)
+}
+
+/// Adds b to an expansion of components that do not overlap, smallest first; no component is 0.
+fn grow(expansion: &mut Vec<f64>, b: f64) {
+    let mut carry = b;
+    expansion.retain_mut(|component| {
+        let (sum, error) = two_sum(carry, *component);
+        carry = sum;
+        *component = error;
+        error != 0.0
+    });
+    if carry != 0.0 {
+        expansion.push(carry);
+    }
+}

@@ -77,3 +77,20 @@ fn double_double_keeps_what_double_loses() {
     assert_eq!(sum.round_up(), 1f64.next_up());
     assert_eq!(DoubleDouble::from(1.0).round_up(), 1.0);
 }
+
+#[test]
+fn ties_are_told_exactly() {
+    let center = |high: f64, low: f64| Center { high: vec![high, 0.0], low: vec![low, 0.0] };
+    // 0.1² + 0² against 0.1²: a tie whose squares do not fit into one f64.
+    assert!(is_within(&[0.1, 0.0], &center(0.0, 0.0), 0.1, 0.0));
+    assert!(!is_within(&[0.1, 0.0], &center(0.0, 0.0), 0.1f64.next_down(), 0.0));
+    // What double-double cannot hold decides: a tail of 2⁻²⁰⁰ in the centre, or a second coordinate of that size.
+    let tiny = 2f64.powi(-200);
+    assert!(is_within(&[1.0, 0.0], &center(0.0, tiny), 1.0, 0.0));
+    assert!(!is_within(&[1.0, 0.0], &center(0.0, -tiny), 1.0, 0.0));
+    assert!(!is_within(&[1.0, tiny], &center(0.0, 0.0), 1.0, 0.0));
+    // |x − c| + r with r = 1/3: the difference of reach and r has two terms.
+    let r = 1.0 / 3.0;
+    assert!(is_within(&[3.0, 4.0], &center(0.0, 0.0), 6.0, 1.0));
+    assert!(!is_within(&[3.0, 4.0], &center(0.0, 0.0), 5.0 + r - 1e-15, r));
+}
