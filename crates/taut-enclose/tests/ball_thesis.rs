@@ -128,6 +128,16 @@ fn balls_are_solved_to_epsilon() {
     }
 }
 
+/// Radii ten thousand times the spread of the centres, all but equal: what counts is what is left of them.
+#[test]
+fn large_balls_close_together_are_solved() {
+    let mut values = balls(80, 3, 21, 0.3);
+    values.chunks_mut(4).for_each(|row| row[3] += 1e4);
+    for method in CONIC {
+        judge("large balls", &values, 4, Items::Balls, &options(method, 1e-12));
+    }
+}
+
 #[test]
 fn a_ball_that_covers_the_others_is_the_answer() {
     let mut covering = balls(100, 4, 3, 1.0);
@@ -213,6 +223,25 @@ fn the_limit_of_the_conic_solver_is_reported_and_ends_the_method() {
                         <= found.answer.radius * (1.0 + 1e-14)
                 );
             }
+        }
+    }
+}
+
+/// Inputs on which the conic solver once gave up, or left multipliers that missed its own centre.
+#[test]
+fn nearly_cospherical_sets_and_lattices_are_solved() {
+    let normal = |n, seed| generate::<f64>(Distribution::Normal, n, 5, seed).unwrap();
+    let near_cube: Vec<f64> =
+        normal(40, 75).iter().map(|x| x.signum() * (1.0 + 1e-8 * x)).collect();
+    let many: Vec<f64> = normal(90, 237).iter().map(|x| x.signum() * (1.0 + 1e-8 * x)).collect();
+    let lattice: Vec<f64> = normal(90, 307).iter().map(|x| (2.0 * x).round()).collect();
+    for (values, seed) in [(&near_cube, 75), (&many, 237), (&lattice, 307)] {
+        for method in CONIC {
+            let exact = BallOptions { seed, ..options(method, 0.0) };
+            let found = solve(values, 5, Items::Points, &exact);
+            let gap = found.certificate.gap;
+            assert!(gap < 1e-8, "{method}, seed {seed}: {gap}");
+            assert!(found.check(&Points::new(values, 5).unwrap()).is_ok());
         }
     }
 }

@@ -29,6 +29,10 @@ const NEGLIGIBLE: f64 = 1e-9;
 /// An item depends on others when its pivot is below this part of its squared norm, as in the default method.
 const DEPENDENT: f64 = 1e-11;
 
+/// When the solver gets nowhere, it is asked for less in steps of this factor, down to [`COARSEST`].
+const COARSER: f64 = 100.0;
+const COARSEST: f64 = 1e-6;
+
 /// The items of a set in coordinates of their affine hull, with item 0 as origin.
 #[derive(Default)]
 pub(super) struct Hull {
@@ -86,12 +90,14 @@ pub(super) fn solve(set: &WorkingSet, hull: &Hull, tolerance: f64) -> Result<Ans
         lambda[largest] = 1.0;
         return Ok(Answer { lambda, steps: 0 });
     }
-    // Variables c₁ … c_m and r, in units of the spread; slack of item i: (r − rᵢ, c − cᵢ) = b − A(c, r).
+    // Variables c₁ … c_m and r, in units of the spread; slack of item i: (r − rᵢ, c − cᵢ) = b − A(c, r). All radii are
+    // less the largest, which changes r by as much and keeps digits where the radii are much larger than the spread.
+    let largest = (0..items).map(|i| set.radius(i)).fold(0.0, f64::max);
     let rows = items * (dim + 1);
     let b: Vec<f64> = (0..items)
         .flat_map(|i| {
             let center = (0..dim).map(move |k| -hull.coordinate(i, k) / spread);
-            std::iter::once(-set.radius(i) / spread).chain(center)
+            std::iter::once((largest - set.radius(i)) / spread).chain(center)
         })
         .collect();
     let a = CscMatrix::new(
@@ -104,23 +110,29 @@ pub(super) fn solve(set: &WorkingSet, hull: &Hull, tolerance: f64) -> Result<Ans
     let mut objective = vec![0.0; dim + 1];
     objective[dim] = 1.0;
     let cones = vec![SecondOrderConeT(dim + 1); items];
-    let settings = DefaultSettingsBuilder::default()
-        .verbose(false)
-        .max_threads(1)
-        .tol_gap_abs(tolerance)
-        .tol_gap_rel(tolerance)
-        .tol_feas(tolerance)
-        .build()
-        .expect("the settings are in range");
     let quadratic = CscMatrix::zeros((dim + 1, dim + 1));
     let failed = |status: String| Error::Conic { status, points: items };
-    let mut solver = DefaultSolver::new(&quadratic, &objective, &a, &b, &cones, settings)
-        .map_err(|error| failed(error.to_string()))?;
-    solver.solve();
-    let solution = &solver.solution;
-    if !matches!(solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved) {
-        return Err(failed(solution.status.to_string()));
-    }
+    let (mut tolerance, mut steps) = (tolerance, 0);
+    let solution = loop {
+        let settings = DefaultSettingsBuilder::default()
+            .verbose(false)
+            .max_threads(1)
+            .tol_gap_abs(tolerance)
+            .tol_gap_rel(tolerance)
+            .tol_feas(tolerance)
+            .build()
+            .expect("the settings are in range");
+        let mut solver = DefaultSolver::new(&quadratic, &objective, &a, &b, &cones, settings)
+            .map_err(|error| failed(error.to_string()))?;
+        solver.solve();
+        steps += u64::from(solver.solution.iterations);
+        match solver.solution.status {
+            SolverStatus::Solved | SolverStatus::AlmostSolved => break solver.solution,
+            // On nearly cospherical items a tolerance out of reach can end in nothing at all.
+            SolverStatus::InsufficientProgress if tolerance < COARSEST => tolerance *= COARSER,
+            status => return Err(failed(status.to_string())),
+        }
+    };
     let duals: Vec<f64> = solution.z.chunks_exact(dim + 1).map(|z| z[0]).collect();
     let distances: Vec<f64> = (0..items)
         .map(|i| {
@@ -134,7 +146,7 @@ pub(super) fn solve(set: &WorkingSet, hull: &Hull, tolerance: f64) -> Result<Ans
     let mut lambda = multipliers(&duals, &distances);
     let center: Vec<f64> = solution.x[..dim].iter().map(|c| c * spread).collect();
     aim(set, hull, &mut lambda, &center);
-    Ok(Answer { lambda, steps: solution.iterations.into() })
+    Ok(Answer { lambda, steps })
 }
 
 /// λᵢ in proportion to tᵢ/|c − cᵢ|, without what stands for 0.
@@ -153,8 +165,8 @@ fn multipliers(duals: &[f64], distances: &[f64]) -> Vec<f64> {
     lambda
 }
 
-/// Moves λ the least way, in the norm of its own Gram matrix, that takes Σ λᵢcᵢ to `center`, or as far towards it as
-/// λ ≥ 0 allows. Only items that are affinely independent are moved, those with the largest λ first.
+/// Moves λ the way that takes Σ λᵢcᵢ to `center`, or as near as λ ≥ 0 allows. Only items that are affinely independent
+/// are moved, chosen by their λ, the largest first; there is one way to move these.
 fn aim(set: &WorkingSet, hull: &Hull, lambda: &mut [f64], center: &[f64]) {
     let sigma = (0..set.len()).map(|i| set.norm2(i)).fold(0.0, f64::max);
     let mut order: Vec<usize> = (0..set.len()).filter(|&i| lambda[i] > 0.0).collect();
@@ -170,19 +182,31 @@ fn aim(set: &WorkingSet, hull: &Hull, lambda: &mut [f64], center: &[f64]) {
             support.push(i);
         }
     }
-    let mut missing = center.to_vec();
-    for (i, &l) in lambda.iter().enumerate() {
-        missing.iter_mut().zip(&hull.coordinates[i]).for_each(|(m, x)| *m -= l * x);
-    }
-    let along: Vec<f64> = support
-        .iter()
-        .map(|&i| hull.coordinates[i].iter().zip(&missing).map(|(x, m)| x * m).sum())
-        .collect();
-    let change = factor.correction(&along);
-    let room = support.iter().zip(&change).filter(|(_, c)| **c < 0.0);
-    let step = room.map(|(&i, c)| lambda[i] / -c).fold(1.0, f64::min);
-    for (&i, c) in support.iter().zip(&change) {
-        lambda[i] = (lambda[i] + step * c).max(0.0);
+    while !support.is_empty() {
+        let mut missing = center.to_vec();
+        for (i, &l) in lambda.iter().enumerate() {
+            missing.iter_mut().zip(&hull.coordinates[i]).for_each(|(m, x)| *m -= l * x);
+        }
+        let along: Vec<f64> = support
+            .iter()
+            .map(|&i| hull.coordinates[i].iter().zip(&missing).map(|(x, m)| x * m).sum())
+            .collect();
+        let change = factor.correction(&along);
+        // The first to become 0 leaves, and the others go on.
+        let mut first = None;
+        let mut step = 1.0;
+        for (position, (&i, &c)) in support.iter().zip(&change).enumerate() {
+            if c < 0.0 && lambda[i] < -c * step {
+                (first, step) = (Some(position), lambda[i] / -c);
+            }
+        }
+        for (&i, c) in support.iter().zip(&change) {
+            lambda[i] = (lambda[i] + step * c).max(0.0);
+        }
+        let Some(first) = first else { return };
+        lambda[support[first]] = 0.0;
+        factor.delete(first);
+        support.remove(first);
     }
 }
 
