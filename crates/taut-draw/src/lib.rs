@@ -1,1 +1,50 @@
-//! Pictures of the answers of taut: SVG, PNG and interactive HTML.
+//! Pictures of the answers of taut: SVG, PNG and one self-contained interactive HTML page.
+//!
+//! | you have | you call | you get |
+//! |---|---|---|
+//! | a ball and its points | [`ball_figures`] | scenes of the plane or of space, and plots |
+//! | a [`Figure`] | [`to_svg`] | SVG text, with a title and a description for screen readers |
+//! | a [`Figure`] | `to_png` (feature `png`) | PNG bytes, the same on every machine: the font is bundled |
+//! | a [`Page`] of figures | [`to_html`] | one file: no network, no library; light, dark and print |
+//!
+//! A figure is data, not drawing calls: an answer of another kind brings another function that returns figures,
+//! and every renderer shows them.
+//!
+//! ```
+//! use taut_draw::{DrawOptions, Figure, Style, ball_figures, to_svg};
+//!
+//! let points = taut_points::Points::new(&[0.0, 0.0, 2.0, 0.0, 1.0, 1.0], 2)?;
+//! let found = taut_enclose::ball(&points, &Default::default())?;
+//! let figures = ball_figures(&found, &points, &DrawOptions::default())?;
+//! assert!(matches!(figures[0], Figure::Plane(_)));
+//! assert!(to_svg(&figures[0], &Style::default()).starts_with("<svg"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Not for: maps, animation, or charts in general; pictures of millions of points (they are thinned, and the
+//! caption says so).
+#![forbid(unsafe_code)]
+
+mod ball;
+mod error;
+mod figure;
+mod html;
+mod plot;
+#[cfg(feature = "png")]
+mod png;
+mod scene2;
+mod scene3;
+mod style;
+mod svg;
+
+pub use ball::{DrawOptions, ball_figures};
+pub use error::Error;
+pub use figure::Figure;
+pub use html::{Fact, Page, Section, to_html};
+pub use plot::{Bar, Level, Plot, Scale, Series, SeriesLook};
+#[cfg(feature = "png")]
+pub use png::to_png;
+pub use scene2::{Aspect, Axis, Circle2, Layer2, Point2, Scene2, Shape2, Text2};
+pub use scene3::{Layer3, Mesh3, Point3, Projection, Scene3, Shape3, Sphere3};
+pub use style::{Look, Style, Theme, Tone};
+pub use svg::to_svg;

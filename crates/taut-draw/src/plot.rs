@@ -1,0 +1,101 @@
+//! Line charts and histograms, with linear or logarithmic axes.
+
+use crate::{Axis, Tone};
+
+/// A chart: series, bars and levels over two axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plot {
+    /// What the chart is of.
+    pub title: String,
+    /// What it shows, in sentences, with every count named.
+    pub caption: String,
+    /// Horizontal axis.
+    pub x: Axis,
+    /// Vertical axis.
+    pub y: Axis,
+    /// Scale of the horizontal axis.
+    pub x_scale: Scale,
+    /// Scale of the vertical axis.
+    pub y_scale: Scale,
+    /// Curves and scatters.
+    pub series: Vec<Series>,
+    /// Bars, drawn below the series.
+    pub bars: Vec<Bar>,
+    /// Straight lines across the chart.
+    pub levels: Vec<Level>,
+    /// Width of the picture, pixels.
+    pub width: f64,
+    /// Height of the picture without caption, pixels.
+    pub height: f64,
+}
+
+/// How numbers become places on an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Scale {
+    /// Equal differences are equally long.
+    #[default]
+    Linear,
+    /// Equal ratios are equally long. Values of at most 0 are drawn at the lower edge, as open marks.
+    Log,
+}
+
+/// A curve or a scatter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// The entry in the legend; an empty name makes none.
+    pub name: String,
+    /// What it stands for.
+    pub tone: Tone,
+    /// A curve, dots or both.
+    pub look: SeriesLook,
+    /// (x, y) in data units.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// How a series is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum SeriesLook {
+    /// A curve with a dot at each value.
+    #[default]
+    LineAndDots,
+    /// A curve.
+    Line,
+    /// A broken curve.
+    Dashed,
+    /// Dots.
+    Dots,
+}
+
+/// A bar of a histogram, from 0 up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bar {
+    /// Left and right end, in data units.
+    pub span: [f64; 2],
+    /// Height, in data units.
+    pub height: f64,
+    /// What it stands for.
+    pub tone: Tone,
+}
+
+/// A straight line across the chart.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Level {
+    /// At one x, from bottom to top.
+    AtX {
+        /// Where.
+        x: f64,
+        /// What it stands for.
+        tone: Tone,
+        /// The word beside it.
+        label: String,
+    },
+    /// At one y, from left to right.
+    AtY {
+        /// Where.
+        y: f64,
+        /// What it stands for.
+        tone: Tone,
+        /// The word above it.
+        label: String,
+    },
+}

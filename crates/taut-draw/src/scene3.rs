@@ -1,0 +1,99 @@
+//! Pictures of space: layers of marks in data coordinates, and the view of them.
+
+use crate::{Axis, Look, Tone};
+
+/// A picture in space, in data coordinates: layers of marks and a view.
+///
+/// In HTML the view is where turning starts; in SVG and PNG it is all there is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene3 {
+    /// What the picture is of.
+    pub title: String,
+    /// What it shows, in sentences, with every count named.
+    pub caption: String,
+    /// The three axes.
+    pub axes: [Axis; 3],
+    /// The marks.
+    pub layers: Vec<Layer3>,
+    /// How space is shown on the plane.
+    pub projection: Projection,
+    /// Turn of the view around the third axis, degrees.
+    pub azimuth: f64,
+    /// Height of the eye above the plane of the first two axes, degrees, −90 to 90.
+    pub elevation: f64,
+    /// Width of the picture, pixels.
+    pub width: f64,
+    /// Height of the picture without caption, pixels.
+    pub height: f64,
+}
+
+/// How space is shown on the plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Projection {
+    /// What is far is smaller.
+    #[default]
+    Perspective,
+    /// Parallel lines stay parallel.
+    Orthographic,
+}
+
+/// Marks of one meaning.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer3 {
+    /// The entry in the legend; an empty name makes none.
+    pub name: String,
+    /// What the marks stand for.
+    pub tone: Tone,
+    /// How lines and areas are drawn; points ignore it.
+    pub look: Look,
+    /// The marks.
+    pub shape: Shape3,
+}
+
+/// The marks a layer can have; all coordinates are data coordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape3 {
+    /// Discs of a size in pixels, smaller the farther they are.
+    Points(Vec<Point3>),
+    /// Crosses of a fixed size in pixels.
+    Crosses(Vec<[f64; 3]>),
+    /// Spheres, as an outline with circles of latitude and longitude.
+    Spheres(Vec<Sphere3>),
+    /// Open chains of segments.
+    Polylines(Vec<Vec<[f64; 3]>>),
+    /// A surface of triangles.
+    Mesh(Mesh3),
+}
+
+/// A point as a disc.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point3 {
+    /// Its number in the input, from 0, shown on hovering.
+    pub id: Option<u64>,
+    /// Where it is.
+    pub at: [f64; 3],
+    /// Radius of the disc, pixels.
+    pub size: f64,
+    /// What else to say on hovering; may be empty.
+    pub label: String,
+}
+
+/// A sphere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sphere3 {
+    /// Its number in the input, from 0, shown on hovering.
+    pub id: Option<u64>,
+    /// Its centre.
+    pub center: [f64; 3],
+    /// Its radius, at least 0, in data units.
+    pub radius: f64,
+}
+
+/// A surface of triangles.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh3 {
+    /// The corners.
+    pub vertices: Vec<[f64; 3]>,
+    /// Three corners each, counter-clockwise from outside. A triangle that names a missing corner is not drawn.
+    pub triangles: Vec<[usize; 3]>,
+}
