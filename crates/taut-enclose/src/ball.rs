@@ -1,12 +1,18 @@
 //! The minimum enclosing ball of points or of balls.
 
-mod frank_wolfe;
+mod active_set;
+mod core_set;
+mod factor;
 mod options;
+mod outcome;
+mod proof;
+mod working_set;
 
 use taut_certify::{Ball, Items, Solution};
 use taut_points::{Monitor, PointSource, Points, Scalar};
 
 use crate::Error;
+use crate::scan::Scan;
 pub use options::{BallMethod, BallOptions};
 
 /// The smallest ball that encloses `points`.
@@ -42,5 +48,24 @@ pub fn ball_of_source(
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Ball>, Error> {
     options.check()?;
-    frank_wolfe::solve(source, items, options, monitor)
+    let Some(threads) = options.threads else { return solve(source, items, options, monitor) };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|_| {
+        Error::Option {
+            name: "threads",
+            value: threads.to_string(),
+            expected: "as many threads as the system grants",
+        }
+    })?;
+    pool.install(|| solve(source, items, options, monitor))
+}
+
+fn solve(
+    source: &dyn PointSource,
+    items: Items,
+    options: &BallOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Ball>, Error> {
+    let mut scan = Scan::new(source, items, monitor)?;
+    let outcome = core_set::solve(&mut scan, options)?;
+    proof::prove(&scan, outcome, options)
 }

@@ -16,6 +16,9 @@
 
 mod ball;
 mod error;
+mod kernel;
+mod scan;
+mod top;
 
 pub use ball::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_source};
 pub use error::Error;

@@ -1,0 +1,320 @@
+//! The exact ball of a working set: an active-set method on the dual, in the coordinates of the Gram matrix.
+//!
+//! *Problem.* Over λ ≥ 0 with Σλ = 1, maximise Σ λᵢbᵢ − |Σ λᵢpᵢ|²; for points bᵢ = |pᵢ|². With c = Σ λᵢpᵢ and
+//! fᵢ = bᵢ − 2pᵢ·c + |c|² the value is h = Σ λᵢfᵢ, and λ is optimal when no fᵢ exceeds h.
+//! *Idea.* Keep a support S of affinely independent items and the factor of A = G + σ11ᵀ over it (on the simplex σ
+//! changes nothing, and A is definite exactly when S is affinely independent, so no item is special). Take the item
+//! with the largest f to the support, go to the stationary point of the new support, and drop whatever would get a
+//! negative multiplier on the way. An item that depends on the support is exchanged: weight moves along the null
+//! direction until a multiplier is zero.
+//! *Guarantee.* The value never falls. Pivots are about |S| and a few on ordinary data.
+//! *Trap.* On near-copies of points, rounding can make pairs swap for ever. When the value has not risen since the
+//! last entry, the factor is rebuilt; when that does not help, the items entered since the last rise are barred until
+//! it rises again. Choosing the least index instead (Bland's rule) takes eight times the pivots on cube vertices.
+//! *Balls.* For a fixed R, minimising maxᵢ |c − cᵢ|² + 2Rrᵢ − rᵢ² is the same problem with another b; see
+//! [`super::core_set`] for the steps in R.
+//! *Reference.* Active sets on this dual: Gärtner and Schönherr, SoCG 2000; Fischer, Gärtner and Kutz, ESA 2003, walk
+//! the same path in d dimensions.
+
+use rayon::prelude::*;
+
+use super::factor::Factor;
+use super::working_set::WorkingSet;
+use crate::kernel::vector::{add_combination, add_scaled, dot};
+use crate::kernel::{Center, squared_distances};
+
+/// An item violates when its f exceeds the level by this part of the squared radius. Below 1e-13 the steps of a
+/// full-rank cospherical set become exchanges at rounding level (tens of pivots for each one that matters).
+pub(super) const TOLERANCE: f64 = 1e-13;
+/// A new item depends on the support when its squared distance to it is below this part of its squared length.
+const DEPENDENT: f64 = 1e-11;
+/// Below this part the squared distance is worked out again from the coordinates.
+const SUSPECT: f64 = 1e-5;
+/// Deletions after which the factor is rebuilt.
+const REBUILD_AFTER: u32 = 400;
+/// Products beyond which the sweep over the Gram matrix is shared between threads.
+const PARALLEL_SWEEP: usize = 1 << 18;
+
+pub(super) struct ActiveSet {
+    /// Positions in the working set.
+    support: Vec<usize>,
+    /// Multipliers of the support.
+    lambda: Vec<f64>,
+    factor: Factor,
+    sigma: f64,
+    /// R of the balls' problem, relative to the radius offset; irrelevant for points.
+    radius: f64,
+    deletions: u32,
+    /// Items taken to the support so far.
+    pub(super) pivots: u64,
+    /// Times the factor was rebuilt because the value stood still.
+    pub(super) stalls: u64,
+}
+
+impl ActiveSet {
+    /// The support is item 0 alone. `sigma` is about the largest squared norm that will occur.
+    pub(super) fn new(set: &WorkingSet, sigma: f64) -> Self {
+        let mut active = ActiveSet {
+            support: vec![0],
+            lambda: vec![1.0],
+            factor: Factor::default(),
+            sigma,
+            radius: 0.0,
+            deletions: 0,
+            pivots: 0,
+            stalls: 0,
+        };
+        active.rebuild(set);
+        active
+    }
+
+    pub(super) fn support(&self) -> &[usize] {
+        &self.support
+    }
+
+    pub(super) fn lambda(&self) -> &[f64] {
+        &self.lambda
+    }
+
+    /// bᵢ = |cᵢ|² + 2Rrᵢ − rᵢ², with the difference of squares as a product so that near-tangent balls keep digits.
+    fn b(&self, set: &WorkingSet, i: usize) -> f64 {
+        let r = set.radius(i);
+        if r == 0.0 {
+            return set.norm2(i);
+        }
+        let norm = set.norm2(i).sqrt();
+        (norm + r) * (norm - r) + 2.0 * self.radius * r
+    }
+
+    /// Sets R of the balls' problem and settles the support for it.
+    pub(super) fn set_radius(&mut self, set: &WorkingSet, radius: f64) {
+        self.radius = radius;
+        let half_b: Vec<f64> = self.support.iter().map(|&i| self.b(set, i) / 2.0).collect();
+        self.factor.set_half_b(&half_b);
+        self.settle(set);
+    }
+
+    /// Makes λ optimal over the whole working set.
+    pub(super) fn maximize(&mut self, set: &WorkingSet) {
+        let mut best = f64::NEG_INFINITY;
+        let mut entered: Vec<usize> = vec![];
+        let mut barred = vec![false; set.len()];
+        let mut rebuilt = false;
+        loop {
+            let f = self.values(set);
+            let value = dot(&self.lambda, &self.support.iter().map(|&i| f[i]).collect::<Vec<_>>());
+            if value > best {
+                best = value;
+                entered.clear();
+                barred.fill(false);
+                rebuilt = false;
+            } else if !rebuilt {
+                self.stalls += 1;
+                self.rebuild(set);
+                self.settle(set);
+                rebuilt = true;
+                continue;
+            } else {
+                entered.drain(..).for_each(|i| barred[i] = true);
+            }
+            let Some(next) = self.violator(set, &f, value, &barred) else { return };
+            entered.push(next);
+            self.pivots += 1;
+            if self.enter(set, next) {
+                self.settle(set);
+            } else {
+                barred[next] = true;
+            }
+        }
+    }
+
+    /// fᵢ of every item: its squared distance from c, for balls with the terms of the radii.
+    fn values(&self, set: &WorkingSet) -> Vec<f64> {
+        let k = set.len();
+        let mut product = vec![0.0; k];
+        let sweep = |first: usize, out: &mut [f64]| {
+            let end = first + out.len();
+            add_combination(out, &self.lambda, |i| &set.gram_row(self.support[i])[first..end]);
+        };
+        if k * self.support.len() >= PARALLEL_SWEEP {
+            product.par_chunks_mut(256).enumerate().for_each(|(part, out)| sweep(part * 256, out));
+        } else {
+            sweep(0, &mut product);
+        }
+        let norm2: f64 = self.support.iter().zip(&self.lambda).map(|(&i, l)| l * product[i]).sum();
+        (0..k).map(|i| self.b(set, i) - 2.0 * product[i] + norm2).collect()
+    }
+
+    /// The item with the largest f among those outside the support that violate the ball; ties to the lower position.
+    fn violator(&self, set: &WorkingSet, f: &[f64], value: f64, barred: &[bool]) -> Option<usize> {
+        let level = self.support.iter().map(|&i| f[i]).fold(value, f64::max);
+        let whole = self.radius + set.radius_offset();
+        let slack = |i: usize| match set.radius_offset() {
+            0.0 => TOLERANCE * level,
+            // An excess δ of the reach is about 2δ(R − r) of f: ask for the same δ/R as for points.
+            _ => TOLERANCE * (self.radius - set.radius(i)) * whole,
+        };
+        let mut inside = vec![false; f.len()];
+        self.support.iter().for_each(|&i| inside[i] = true);
+        let mut found = None;
+        let mut largest = f64::NEG_INFINITY;
+        for i in 0..f.len() {
+            if f[i] > largest && !inside[i] && !barred[i] && f[i] > level + slack(i) {
+                largest = f[i];
+                found = Some(i);
+            }
+        }
+        found
+    }
+
+    /// Takes item `j` to the support, exchanging it for others while it depends on them. False if it cannot be.
+    fn enter(&mut self, set: &WorkingSet, j: usize) -> bool {
+        let mut weight = 0.0;
+        loop {
+            let length2 = set.norm2(j) + self.sigma;
+            let a: Vec<f64> =
+                self.support.iter().map(|&i| set.gram_row(j)[i] + self.sigma).collect();
+            let mut z = self.factor.forward(&a);
+            let mut y = self.factor.back(&z);
+            let mut distance2 = length2 - dot(&z, &z);
+            if distance2.min(self.factor.smallest_pivot()) < SUSPECT * length2 {
+                distance2 = self.distance_from_coordinates(set, j, &mut y);
+                z = self.factor.times(&y);
+            }
+            // More than d + 1 affinely independent points do not exist: a fact, where the tolerance is a guess.
+            if distance2 > DEPENDENT * length2 && self.support.len() <= set.dim() {
+                self.factor.append(&z, distance2.sqrt(), self.b(set, j) / 2.0);
+                self.support.push(j);
+                self.lambda.push(weight);
+                return true;
+            }
+            let Some((blocker, step)) = exchange(&self.lambda, &y) else { return false };
+            add_scaled(&mut self.lambda, -step, &y);
+            weight += step;
+            self.delete(set, blocker);
+            let sum = weight + self.lambda.iter().sum::<f64>();
+            self.lambda.iter_mut().for_each(|l| *l = l.max(0.0) / sum);
+            weight /= sum;
+        }
+    }
+
+    /// |p_j − P_S y|² + σ(1 − Σy)², with y corrected once: what the Gram matrix gives too coarsely near dependence.
+    fn distance_from_coordinates(&self, set: &WorkingSet, j: usize, y: &mut [f64]) -> f64 {
+        let residual = |y: &[f64]| {
+            let mut e = set.row(j).to_vec();
+            let negated: Vec<f64> = y.iter().map(|v| -v).collect();
+            add_combination(&mut e, &negated, |i| set.row(self.support[i]));
+            (e, 1.0 - y.iter().sum::<f64>())
+        };
+        let (e, s) = residual(y);
+        let right: Vec<f64> =
+            self.support.iter().map(|&i| dot(set.row(i), &e) + self.sigma * s).collect();
+        let dy = self.factor.back(&self.factor.forward(&right));
+        add_scaled(y, 1.0, &dy);
+        let (e, s) = residual(y);
+        dot(&e, &e) + self.sigma * s * s
+    }
+
+    /// Goes to the stationary point of the support, dropping what would get a negative multiplier on the way.
+    fn settle(&mut self, set: &WorkingSet) {
+        loop {
+            let s = self.factor.stationary();
+            let Some((blocker, step)) = first_zero(&self.lambda, &s) else {
+                self.lambda = s;
+                return;
+            };
+            for (l, s) in self.lambda.iter_mut().zip(&s) {
+                *l = (*l + step * (s - *l)).max(0.0);
+            }
+            self.delete(set, blocker);
+        }
+    }
+
+    fn delete(&mut self, set: &WorkingSet, position: usize) {
+        self.support.remove(position);
+        self.lambda.remove(position);
+        self.deletions += 1;
+        if self.deletions % REBUILD_AFTER == 0 {
+            self.rebuild(set);
+        } else {
+            self.factor.delete(position);
+        }
+    }
+
+    /// The factor of the support, afresh. An item that has come to depend on those before it is dropped.
+    fn rebuild(&mut self, set: &WorkingSet) {
+        self.factor.clear();
+        let (support, lambda) =
+            (std::mem::take(&mut self.support), std::mem::take(&mut self.lambda));
+        for (i, l) in support.into_iter().zip(lambda) {
+            let a: Vec<f64> =
+                self.support.iter().map(|&k| set.gram_row(i)[k] + self.sigma).collect();
+            let mut z = self.factor.forward(&a);
+            let length2 = set.norm2(i) + self.sigma;
+            let mut distance2 = length2 - dot(&z, &z);
+            if distance2 < SUSPECT * length2 {
+                let mut y = self.factor.back(&z);
+                distance2 = self.distance_from_coordinates(set, i, &mut y);
+                z = self.factor.times(&y);
+            }
+            if distance2 > f64::EPSILON * f64::EPSILON * length2 {
+                self.factor.append(&z, distance2.sqrt(), self.b(set, i) / 2.0);
+                self.support.push(i);
+                self.lambda.push(l);
+            }
+        }
+        let sum: f64 = self.lambda.iter().sum();
+        self.lambda.iter_mut().for_each(|l| *l /= sum);
+    }
+
+    /// One correction of λ from distances taken in the coordinates: evens them out to the last digits. Returns c
+    /// relative to the origin.
+    pub(super) fn refine(&mut self, set: &WorkingSet) -> Vec<f64> {
+        let center = set.combination(&self.support, &self.lambda);
+        let rows: Vec<f64> = self.support.iter().flat_map(|&i| set.row(i)).copied().collect();
+        let mut halves = vec![0.0; self.support.len()];
+        let origin_center = Center { high: center, low: vec![] };
+        squared_distances(&rows, set.dim(), &origin_center, &mut halves);
+        for (value, &i) in halves.iter_mut().zip(&self.support) {
+            let r = set.radius(i);
+            *value = (*value + (2.0 * self.radius - r) * r) / 2.0;
+        }
+        let mean = halves.iter().sum::<f64>() / halves.len() as f64;
+        halves.iter_mut().for_each(|v| *v -= mean);
+        let correction = self.factor.correction(&halves);
+        let corrected: Vec<f64> = self.lambda.iter().zip(&correction).map(|(l, d)| l + d).collect();
+        if corrected.iter().all(|&l| l > 0.0) {
+            let sum: f64 = corrected.iter().sum();
+            self.lambda = corrected.into_iter().map(|l| l / sum).collect();
+        }
+        set.combination(&self.support, &self.lambda)
+    }
+}
+
+/// How far weight can move along y to the entering item, and who stops it: the least λᵢ/yᵢ, ties to the largest yᵢ.
+fn exchange(lambda: &[f64], y: &[f64]) -> Option<(usize, f64)> {
+    let mut found: Option<(usize, f64)> = None;
+    for i in 0..y.len() {
+        if y[i] > 1e-12 {
+            let step = lambda[i] / y[i];
+            if found.is_none_or(|(k, least)| step < least || (step == least && y[i] > y[k])) {
+                found = Some((i, step));
+            }
+        }
+    }
+    found
+}
+
+/// Where the way from λ to s first meets a zero: None if all of s is positive.
+fn first_zero(lambda: &[f64], s: &[f64]) -> Option<(usize, f64)> {
+    let mut found: Option<(usize, f64)> = None;
+    for i in 0..s.len() {
+        if s[i] <= 0.0 {
+            let step = if lambda[i] > 0.0 { lambda[i] / (lambda[i] - s[i]) } else { 0.0 };
+            if found.is_none_or(|(k, least)| step < least || (step == least && s[i] < s[k])) {
+                found = Some((i, step));
+            }
+        }
+    }
+    found
+}

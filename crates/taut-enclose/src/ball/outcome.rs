@@ -1,0 +1,80 @@
+//! What a method hands over to be proved: the best centre so far, its multipliers, and what the pass from it found.
+
+use std::collections::BTreeMap;
+
+use taut_certify::{PassBounds, Stop};
+
+use crate::kernel::Center;
+use crate::scan::{Found, Scan};
+use crate::top::Far;
+
+/// A centre with its multipliers, and the pass that was made from it.
+pub(super) struct Candidate {
+    pub(super) support: Vec<u64>,
+    pub(super) lambda: Vec<f64>,
+    pub(super) center: Center,
+    pub(super) found: Found,
+}
+
+/// The result of a method, in the units of its scan.
+pub(super) struct Outcome {
+    best: Option<(f64, Candidate)>,
+    pub(super) stop: Option<Stop>,
+    pub(super) iterations: u64,
+    pub(super) core_set: u64,
+    pub(super) history: Vec<PassBounds>,
+    pub(super) counters: BTreeMap<String, u64>,
+}
+
+impl Outcome {
+    pub(super) fn new() -> Self {
+        Outcome {
+            best: None,
+            stop: None,
+            iterations: 0,
+            core_set: 0,
+            history: vec![],
+            counters: BTreeMap::new(),
+        }
+    }
+
+    /// All items are one point: it is the centre.
+    pub(super) fn single(scan: &Scan<'_>, id: u64) -> Result<Self, crate::Error> {
+        let center = Center { high: scan.rows(&[id])?[..scan.dim()].to_vec(), low: vec![] };
+        let found = Found { farthest: Far { id, reach2: 0.0 }, far: vec![], listed_above: 0.0 };
+        let mut outcome = Outcome::new();
+        outcome.offer(0.0, || (vec![id], vec![1.0], center, found));
+        outcome.bounds(PassBounds { lower: 0.0, upper: 0.0, working_set: 1 });
+        outcome.core_set = 1;
+        outcome.stop = Some(Stop::Converged);
+        Ok(outcome)
+    }
+
+    /// Keeps a candidate if its gap is smaller than that of the best so far.
+    pub(super) fn offer(
+        &mut self,
+        gap: f64,
+        candidate: impl FnOnce() -> (Vec<u64>, Vec<f64>, Center, Found),
+    ) {
+        if self.best.as_ref().is_none_or(|(least, _)| gap < *least) {
+            let (support, lambda, center, found) = candidate();
+            self.best = Some((gap, Candidate { support, lambda, center, found }));
+        }
+    }
+
+    pub(super) fn bounds(&mut self, bounds: PassBounds) {
+        self.history.push(bounds);
+    }
+
+    pub(super) fn count(&mut self, name: &str, events: u64) {
+        if events > 0 {
+            self.counters.insert(name.to_owned(), events);
+        }
+    }
+
+    /// The best candidate; every method makes a pass before it ends.
+    pub(super) fn into_best(mut self) -> (Candidate, Self) {
+        let (_, candidate) = self.best.take().expect("every method makes a pass before it ends");
+        (candidate, self)
+    }
+}

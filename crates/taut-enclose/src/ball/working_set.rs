@@ -1,0 +1,198 @@
+//! The items a solver works on: their rows relative to an origin, and the Gram matrix of these.
+//!
+//! Only new rows are multiplied when the set grows, as one matrix product. Everything the active set needs of the
+//! d-dimensional points is in the k × k matrix, which is why its steps do not depend on d.
+
+use std::collections::HashMap;
+
+use faer::linalg::matmul::matmul;
+use faer::{Accum, MatMut, MatRef, Par};
+use rayon::prelude::*;
+
+use crate::kernel::vector::add_combination;
+
+/// Columns of the Gram matrix that one task multiplies: fixed, so that the result does not depend on threads.
+const TILE: usize = 128;
+
+pub(super) struct WorkingSet {
+    dim: usize,
+    origin: Vec<f64>,
+    /// Radius of the largest ball, subtracted from all radii; 0 for points.
+    radius_offset: f64,
+    ids: Vec<u64>,
+    position: HashMap<u64, usize>,
+    /// k × d, row-major, relative to the origin.
+    rows: Vec<f64>,
+    /// Radii less `radius_offset`, so all ≤ 0; all 0 for points.
+    radii: Vec<f64>,
+    /// Row i, symmetric, `stride` apart.
+    gram: Vec<f64>,
+    stride: usize,
+}
+
+impl WorkingSet {
+    /// An empty set. Rows will be taken relative to `origin`, radii relative to `radius_offset`.
+    pub(super) fn new(origin: Vec<f64>, radius_offset: f64) -> Self {
+        WorkingSet {
+            dim: origin.len(),
+            origin,
+            radius_offset,
+            ids: vec![],
+            position: HashMap::new(),
+            rows: vec![],
+            radii: vec![],
+            gram: vec![],
+            stride: 0,
+        }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.ids.len()
+    }
+
+    pub(super) fn dim(&self) -> usize {
+        self.dim
+    }
+
+    pub(super) fn origin(&self) -> &[f64] {
+        &self.origin
+    }
+
+    pub(super) fn radius_offset(&self) -> f64 {
+        self.radius_offset
+    }
+
+    pub(super) fn id(&self, i: usize) -> u64 {
+        self.ids[i]
+    }
+
+    pub(super) fn contains(&self, id: u64) -> bool {
+        self.position.contains_key(&id)
+    }
+
+    /// The row of item `i`, relative to the origin.
+    pub(super) fn row(&self, i: usize) -> &[f64] {
+        &self.rows[i * self.dim..(i + 1) * self.dim]
+    }
+
+    /// Its radius, relative to the offset: 0 for a point.
+    pub(super) fn radius(&self, i: usize) -> f64 {
+        self.radii[i]
+    }
+
+    /// Products of item `i` with all items.
+    pub(super) fn gram_row(&self, i: usize) -> &[f64] {
+        &self.gram[i * self.stride..i * self.stride + self.len()]
+    }
+
+    /// The squared norm of item `i`.
+    pub(super) fn norm2(&self, i: usize) -> f64 {
+        self.gram[i * self.stride + i]
+    }
+
+    /// Σ λᵢ·rowᵢ over the items named.
+    pub(super) fn combination(&self, items: &[usize], lambda: &[f64]) -> Vec<f64> {
+        let mut sum = vec![0.0; self.dim];
+        add_combination(&mut sum, lambda, |i| self.row(items[i]));
+        sum
+    }
+
+    /// Adds items that are not in the set yet. `rows` holds for each its coordinates, and its radius if `with_radius`.
+    pub(super) fn add(&mut self, ids: &[u64], rows: &[f64], with_radius: bool) {
+        let before = self.len();
+        let columns = self.dim + usize::from(with_radius);
+        for (&id, row) in ids.iter().zip(rows.chunks_exact(columns)) {
+            debug_assert!(!self.contains(id));
+            self.position.insert(id, self.ids.len());
+            self.ids.push(id);
+            self.rows.extend(row.iter().zip(&self.origin).map(|(x, o)| x - o));
+            self.radii.push(if with_radius { row[self.dim] - self.radius_offset } else { 0.0 });
+        }
+        self.grow(before);
+        self.multiply(before);
+    }
+
+    /// Makes room for all items in the Gram matrix; the first `before` are kept.
+    fn grow(&mut self, before: usize) {
+        let k = self.len();
+        if k <= self.stride {
+            return;
+        }
+        let stride = (2 * self.stride).max(k).next_multiple_of(8);
+        let mut gram = vec![0.0; stride * stride];
+        for i in 0..before {
+            gram[i * stride..i * stride + before]
+                .copy_from_slice(&self.gram[i * self.stride..][..before]);
+        }
+        (self.gram, self.stride) = (gram, stride);
+    }
+
+    /// New rows times all rows.
+    fn multiply(&mut self, before: usize) {
+        let (k, dim) = (self.len(), self.dim);
+        let new = MatRef::from_row_major_slice(&self.rows[before * dim..], k - before, dim);
+        let tile = |first: usize| {
+            let count = TILE.min(k - first);
+            let mut product = vec![0.0; (k - before) * count];
+            let other = MatRef::from_row_major_slice(
+                &self.rows[first * dim..(first + count) * dim],
+                count,
+                dim,
+            );
+            let target = MatMut::from_row_major_slice_mut(&mut product, k - before, count);
+            matmul(target, Accum::Replace, new, other.transpose(), 1.0, Par::Seq);
+            (first, count, product)
+        };
+        let firsts: Vec<usize> = (0..k).step_by(TILE).collect();
+        let tiles: Vec<_> = if (k - before) * k * dim < 1 << 18 {
+            firsts.into_iter().map(tile).collect()
+        } else {
+            firsts.into_par_iter().map(tile).collect()
+        };
+        for (first, count, product) in tiles {
+            for (i, row) in (before..k).zip(product.chunks_exact(count)) {
+                self.gram[i * self.stride + first..][..count].copy_from_slice(row);
+                for (j, &value) in (first..).zip(row) {
+                    self.gram[j * self.stride + i] = value;
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::vector::dot;
+    use taut_points::{Distribution, generate};
+
+    #[test]
+    fn the_gram_matrix_is_right_however_the_set_grew() {
+        let (n, dim) = (300, 37);
+        let rows: Vec<f64> = generate(Distribution::Normal, n, dim, 4).unwrap();
+        let mut set = WorkingSet::new(vec![0.5; dim], 0.0);
+        for (first, end) in [(0, 1), (1, 20), (20, 150), (150, 300)] {
+            let ids: Vec<u64> = (first..end).collect();
+            set.add(&ids, &rows[first as usize * dim..end as usize * dim], false);
+        }
+        assert_eq!(
+            (set.len(), set.id(7), set.contains(299), set.contains(300)),
+            (300, 7, true, false)
+        );
+        for i in 0..n {
+            for j in 0..n {
+                let wanted = dot(set.row(i), set.row(j));
+                assert!((set.gram_row(i)[j] - wanted).abs() < 1e-11, "{i}, {j}");
+            }
+        }
+    }
+
+    #[test]
+    fn radii_are_relative_to_the_largest() {
+        let mut set = WorkingSet::new(vec![1.0, 1.0], 5.0);
+        set.add(&[3, 8], &[1.0, 2.0, 5.0, 4.0, 5.0, 0.5], true);
+        assert_eq!((set.radius(0), set.radius(1)), (0.0, -4.5));
+        assert_eq!(set.row(1), [3.0, 4.0]);
+        assert_eq!(set.norm2(1), 25.0);
+    }
+}

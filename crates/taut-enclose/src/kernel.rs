@@ -1,0 +1,120 @@
+//! Squared distances of many rows to one centre: the loop in which every enclosing solver spends its time.
+//!
+//! *Problem.* For each row x of a block, |x − c|² in `f64`, from `f32` or `f64` coordinates, at the speed at which
+//! memory delivers them.
+//! *Idea.* Eight lanes of `f64` ([`Lanes`]), one file per instruction set, chosen at run time. Rows of up to
+//! [`EIGHT_ROWS_MAX`] coordinates are taken eight at a time, which shares the loads of the centre and leaves one
+//! transposing sum for eight rows; longer rows are taken one at a time with four accumulators.
+//! *Guarantee.* A row's value depends on the row and the centre alone, not on its neighbours or on threads. Its
+//! relative error is at most [`relative_error`]. `f32` rows are widened first, so every pass is a certificate:
+//! out of cache this costs nothing, because memory is the bottleneck.
+//! *Trap.* |x|² − 2x·c + |c|² would save a subtraction and lose all digits far from the origin; it is no faster.
+//! A centre that needs more than one `f64` per coordinate is subtracted in two terms, which costs one more load and
+//! subtraction, so it is only done where it matters.
+
+mod exact;
+mod lanes;
+mod portable;
+pub(crate) mod vector;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+use taut_points::Scalar;
+
+pub(crate) use exact::{DoubleDouble, exact_squared_distance};
+use lanes::{Lanes, eight_rows, one_row, one_short_row};
+
+/// Up to this many coordinates eight rows are taken together. Beyond, eight streams of memory are more than the
+/// hardware prefetchers follow, and rows near a multiple of 4096 bytes fall on the same cache sets.
+const EIGHT_ROWS_MAX: usize = 96;
+
+/// A centre as `high`, or as `high + low` where one `f64` per coordinate is too coarse.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Center {
+    /// The coordinates, rounded.
+    pub(crate) high: Vec<f64>,
+    /// What rounding took away; empty stands for zeros.
+    pub(crate) low: Vec<f64>,
+}
+
+impl Center {
+    /// Dimension.
+    pub(crate) fn dim(&self) -> usize {
+        self.high.len()
+    }
+}
+
+/// Bound on the relative error of a squared distance in d dimensions.
+///
+/// Each lane sums at most d/8 + 1 squares in turn and eight lanes are summed in three steps; each term carries three
+/// roundings of its own (two differences, one square). The bound is first order with room for the second.
+pub(crate) fn relative_error(dim: usize) -> f64 {
+    (dim.div_ceil(8) as f64 + 12.0) * f64::EPSILON
+}
+
+/// Writes |x − c|² for each row of `values` to `out`.
+///
+/// Rows are `stride` values long, of which the first `center.dim()` are coordinates; `out` has one place per row.
+pub(crate) fn squared_distances<T: Scalar>(
+    values: &[T],
+    stride: usize,
+    center: &Center,
+    out: &mut [f64],
+) {
+    assert!(center.dim() <= stride && center.dim() > 0);
+    assert_eq!(values.len(), stride * out.len());
+    assert!(center.low.is_empty() || center.low.len() == center.dim());
+    #[cfg(target_arch = "x86_64")]
+    if x86::squared_distances(values, stride, center, out) {
+        return;
+    }
+    // SAFETY: the portable lanes need no feature of the processor; the lengths were checked above.
+    #[allow(unsafe_code)]
+    unsafe {
+        all_rows::<portable::Portable, T>(values, stride, center, out)
+    }
+}
+
+/// The loop over rows, inlined once for each instruction set.
+///
+/// # Safety
+/// The processor must have the features of `L`; lengths must be as [`squared_distances`] checks them.
+#[inline(always)]
+#[allow(unsafe_code)]
+unsafe fn all_rows<L: Lanes, T: Scalar>(
+    values: &[T],
+    stride: usize,
+    center: &Center,
+    out: &mut [f64],
+) {
+    let dim = center.dim();
+    // SAFETY (each call below): features are the caller's promise; row i starts at i·stride and `out` has a place
+    // for it, so all reads stay within `values` and the two slices of the centre.
+    if dim <= EIGHT_ROWS_MAX {
+        for (group, out) in out.chunks_mut(8).enumerate() {
+            let rows = &values[group * 8 * stride..(group * 8 + out.len()) * stride];
+            let sums = unsafe { eight_rows::<L, T>(rows, out.len(), stride, center) };
+            out.copy_from_slice(&sums[..out.len()]);
+        }
+    } else {
+        for (row, out) in values.chunks_exact(stride).zip(out) {
+            *out = unsafe { one_row::<L, T>(&row[..dim], center) };
+        }
+    }
+}
+
+/// Plain loops for rows of few coordinates, which the compiler turns into shuffles and full registers.
+#[inline(always)]
+fn short_rows<T: Scalar>(values: &[T], stride: usize, center: &Center, out: &mut [f64]) -> bool {
+    match (center.dim(), stride, center.low.is_empty()) {
+        (1, 1, true) => one_short_row::<1, T>(values, center, out),
+        (2, 2, true) => one_short_row::<2, T>(values, center, out),
+        (3, 3, true) => one_short_row::<3, T>(values, center, out),
+        (4, 4, true) => one_short_row::<4, T>(values, center, out),
+        _ => return false,
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests;

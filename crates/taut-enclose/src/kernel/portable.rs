@@ -1,0 +1,54 @@
+//! Lanes for any processor: plain arrays, which the compiler turns into what registers there are.
+//!
+//! No fused multiply-add: where the processor has none, it would be a function call.
+#![allow(unsafe_code)]
+
+use taut_points::Scalar;
+
+use super::lanes::Lanes;
+
+#[derive(Clone, Copy)]
+pub(super) struct Portable([f64; 8]);
+
+impl Lanes for Portable {
+    #[inline(always)]
+    unsafe fn zero() -> Self {
+        Portable([0.0; 8])
+    }
+
+    #[inline(always)]
+    unsafe fn load<T: Scalar>(from: *const T) -> Self {
+        // SAFETY: eight values are readable at `from`, by the caller's promise.
+        Portable(std::array::from_fn(|i| unsafe { from.add(i).read_unaligned() }.into()))
+    }
+
+    #[inline(always)]
+    unsafe fn load_first<T: Scalar>(from: *const T, count: usize) -> Self {
+        let mut lanes = [0.0; 8];
+        for (i, lane) in lanes.iter_mut().enumerate().take(count) {
+            // SAFETY: `count` values are readable at `from`, by the caller's promise.
+            *lane = unsafe { from.add(i).read_unaligned() }.into();
+        }
+        Portable(lanes)
+    }
+
+    #[inline(always)]
+    unsafe fn sub(self, other: Self) -> Self {
+        Portable(std::array::from_fn(|i| self.0[i] - other.0[i]))
+    }
+
+    #[inline(always)]
+    unsafe fn add(self, other: Self) -> Self {
+        Portable(std::array::from_fn(|i| self.0[i] + other.0[i]))
+    }
+
+    #[inline(always)]
+    unsafe fn square_add(self, sum: Self) -> Self {
+        Portable(std::array::from_fn(|i| sum.0[i] + self.0[i] * self.0[i]))
+    }
+
+    #[inline(always)]
+    unsafe fn sum_each(rows: [Self; 8]) -> [f64; 8] {
+        rows.map(|Portable([a, b, c, d, e, f, g, h])| ((a + b) + (c + d)) + ((e + f) + (g + h)))
+    }
+}

@@ -1,0 +1,79 @@
+//! The kernel against double-double, on every instruction set the machine has.
+
+use taut_points::{Distribution, Scalar, generate};
+
+use super::*;
+
+fn each<T: Scalar>(values: &[T], stride: usize, center: &Center, rows: usize) -> Vec<Vec<f64>> {
+    let mut results = vec![vec![0.0; rows]];
+    // SAFETY: the portable lanes need no feature; lengths match.
+    #[allow(unsafe_code)]
+    unsafe {
+        all_rows::<portable::Portable, T>(values, stride, center, &mut results[0])
+    };
+    #[cfg(target_arch = "x86_64")]
+    results.extend(x86::each_instruction_set(values, stride, center, rows));
+    let mut chosen = vec![0.0; rows];
+    squared_distances(values, stride, center, &mut chosen);
+    results.push(chosen);
+    results
+}
+
+fn check<T: Scalar>(dim: usize, stride: usize, rows: usize, offset: f64, two_terms: bool) {
+    let values: Vec<T> = generate::<f64>(Distribution::Normal, rows, stride, 3)
+        .unwrap()
+        .into_iter()
+        .map(|v| T::from_f64(v + offset))
+        .collect();
+    let low =
+        if two_terms { (0..dim).map(|j| offset * 1e-17 * j as f64).collect() } else { vec![] };
+    let center = Center { high: (0..dim).map(|j| offset + 0.1 * (j as f64).sin()).collect(), low };
+    for found in each(&values, stride, &center, rows) {
+        for (i, &value) in found.iter().enumerate() {
+            let row: Vec<f64> = values[i * stride..][..dim].iter().map(|&v| v.into()).collect();
+            let exact = exact_squared_distance(&row, &center).high;
+            let bound = relative_error(dim) * exact;
+            assert!((value - exact).abs() <= bound, "d {dim}, row {i}: {value} against {exact}");
+        }
+    }
+}
+
+#[test]
+fn squared_distances_agree_with_double_double() {
+    for dim in (1..40).chain([63, 64, 65, 95, 96, 97, 100, 127, 129, 1000]) {
+        for rows in [1, 7, 8, 9, 16] {
+            check::<f64>(dim, dim, rows, 0.0, false);
+            check::<f32>(dim, dim, rows, 0.0, false);
+            check::<f64>(dim, dim + 1, rows, 0.0, false);
+            check::<f64>(dim, dim, rows, 1e9, true);
+        }
+    }
+}
+
+#[test]
+fn a_row_does_not_depend_on_its_neighbours() {
+    for dim in [2, 5, 17, 200] {
+        let values: Vec<f64> = generate(Distribution::Normal, 40, dim, 1).unwrap();
+        let center = Center { high: vec![0.25; dim], low: vec![] };
+        let mut all = vec![0.0; 40];
+        squared_distances(&values, dim, &center, &mut all);
+        for i in 0..40 {
+            let mut one = [0.0];
+            squared_distances(&values[i * dim..][..dim], dim, &center, &mut one);
+            assert_eq!(one[0], all[i], "d {dim}, row {i}");
+        }
+    }
+}
+
+#[test]
+fn double_double_keeps_what_double_loses() {
+    let tiny = 2f64.powi(-70);
+    let sum = DoubleDouble::sum(1.0, tiny);
+    assert_eq!(sum.sub(1.0.into()).high, tiny);
+    let third = DoubleDouble::from(1.0).div(3.0.into());
+    assert!(third.mul(3.0.into()).sub(1.0.into()).high.abs() < 1e-31);
+    let root = DoubleDouble::from(2.0).sqrt();
+    assert!(root.square().sub(2.0.into()).high.abs() < 1e-31);
+    assert_eq!(sum.round_up(), 1f64.next_up());
+    assert_eq!(DoubleDouble::from(1.0).round_up(), 1.0);
+}

@@ -1,0 +1,148 @@
+//! Dot products and sums of vectors, in registers as wide as the processor has.
+//!
+//! Strict `f64` sums do not vectorise, and the baseline of x86-64 has no fused multiply-add, so the small dense
+//! algebra of the solvers goes through here: eight running sums, the same on every run.
+
+/// Calls the body, which must be `#[inline(always)]` code, compiled for the best instruction set there is.
+macro_rules! dispatched {
+    ($(#[$doc:meta])* $name:ident($($arg:ident: $type:ty),*) $(-> $result:ty)?, $body:ident) => {
+        $(#[$doc])*
+        pub(crate) fn $name($($arg: $type),*) $(-> $result)? {
+            #[cfg(target_arch = "x86_64")]
+            {
+                #[target_feature(enable = "avx512f,fma")]
+                fn with_avx512($($arg: $type),*) $(-> $result)? {
+                    $body::<true>($($arg),*)
+                }
+                #[target_feature(enable = "avx2,fma")]
+                fn with_avx2($($arg: $type),*) $(-> $result)? {
+                    $body::<true>($($arg),*)
+                }
+                if is_x86_feature_detected!("avx512f") {
+                    // SAFETY: the processor has just been asked for the feature; every one with it has FMA.
+                    #[allow(unsafe_code)]
+                    return unsafe { with_avx512($($arg),*) };
+                }
+                if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+                    // SAFETY: the processor has just been asked for both features.
+                    #[allow(unsafe_code)]
+                    return unsafe { with_avx2($($arg),*) };
+                }
+            }
+            $body::<false>($($arg),*)
+        }
+    };
+}
+
+#[inline(always)]
+fn multiply_add<const FUSED: bool>(a: f64, b: f64, sum: f64) -> f64 {
+    if FUSED { a.mul_add(b, sum) } else { sum + a * b }
+}
+
+dispatched! {
+    /// Σ aᵢbᵢ.
+    dot(a: &[f64], b: &[f64]) -> f64, dot_body
+}
+
+#[inline(always)]
+fn dot_body<const FUSED: bool>(a: &[f64], b: &[f64]) -> f64 {
+    let (a, a_rest) = a.as_chunks::<8>();
+    let (b, b_rest) = b.as_chunks::<8>();
+    let mut even = [0.0; 8];
+    let mut odd = [0.0; 8];
+    let (a_pairs, a_last) = a.as_chunks::<2>();
+    let (b_pairs, b_last) = b.as_chunks::<2>();
+    for (a, b) in a_pairs.iter().zip(b_pairs) {
+        for i in 0..8 {
+            even[i] = multiply_add::<FUSED>(a[0][i], b[0][i], even[i]);
+            odd[i] = multiply_add::<FUSED>(a[1][i], b[1][i], odd[i]);
+        }
+    }
+    for (a, b) in a_last.iter().zip(b_last) {
+        for i in 0..8 {
+            even[i] = multiply_add::<FUSED>(a[i], b[i], even[i]);
+        }
+    }
+    let mut sum = 0.0;
+    for i in 0..8 {
+        sum += even[i] + odd[i];
+    }
+    for (&a, &b) in a_rest.iter().zip(b_rest) {
+        sum = multiply_add::<FUSED>(a, b, sum);
+    }
+    sum
+}
+
+dispatched! {
+    /// y ← y + a·x.
+    add_scaled(y: &mut [f64], a: f64, x: &[f64]), add_scaled_body
+}
+
+#[inline(always)]
+fn add_scaled_body<const FUSED: bool>(y: &mut [f64], a: f64, x: &[f64]) {
+    for (y, &x) in y.iter_mut().zip(x) {
+        *y = multiply_add::<FUSED>(a, x, *y);
+    }
+}
+
+dispatched! {
+    /// y ← y + a₀x₀ + a₁x₁ + a₂x₂ + a₃x₃: one load and store of y for four terms.
+    add_four(y: &mut [f64], a: [f64; 4], x: [&[f64]; 4]), add_four_body
+}
+
+#[inline(always)]
+fn add_four_body<const FUSED: bool>(y: &mut [f64], a: [f64; 4], x: [&[f64]; 4]) {
+    let n = y.len();
+    let [x0, x1, x2, x3] = x.map(|x| &x[..n]);
+    for i in 0..n {
+        let sum = multiply_add::<FUSED>(a[1], x1[i], multiply_add::<FUSED>(a[0], x0[i], y[i]));
+        y[i] = multiply_add::<FUSED>(a[3], x3[i], multiply_add::<FUSED>(a[2], x2[i], sum));
+    }
+}
+
+dispatched! {
+    /// The plane rotation (a, b) ← (c·a + s·b, c·b − s·a) of two rows.
+    rotate(a: &mut [f64], b: &mut [f64], c: f64, s: f64), rotate_body
+}
+
+#[inline(always)]
+fn rotate_body<const FUSED: bool>(a: &mut [f64], b: &mut [f64], c: f64, s: f64) {
+    for (a, b) in a.iter_mut().zip(b) {
+        (*a, *b) = (multiply_add::<FUSED>(s, *b, c * *a), multiply_add::<FUSED>(-s, *a, c * *b));
+    }
+}
+
+/// Σ aᵢ·rowᵢ added to y, the rows taken from `row(i)`.
+pub(crate) fn add_combination<'r>(y: &mut [f64], a: &[f64], row: impl Fn(usize) -> &'r [f64]) {
+    let (fours, rest) = a.as_chunks::<4>();
+    for (k, &a) in fours.iter().enumerate() {
+        add_four(y, a, std::array::from_fn(|i| row(4 * k + i)));
+    }
+    for (k, &a) in rest.iter().enumerate() {
+        add_scaled(y, a, row(4 * fours.len() + k));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_agree_with_plain_loops_for_every_length() {
+        for n in 0..70 {
+            let a: Vec<f64> = (0..n).map(|i| f64::from(i) - 3.0).collect();
+            let b: Vec<f64> = (0..n).map(|i| f64::from(i * i % 7)).collect();
+            // Small integers: every sum is exact, whatever the order.
+            assert_eq!(dot(&a, &b), a.iter().zip(&b).map(|(a, b)| a * b).sum::<f64>());
+            let rows = [&a, &b, &a, &b, &a, &b];
+            let mut y = vec![1.0; a.len()];
+            add_combination(&mut y, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], |i| rows[i]);
+            for i in 0..a.len() {
+                assert_eq!(y[i], 1.0 + 9.0 * a[i] + 12.0 * b[i]);
+            }
+            let (mut p, mut q) = (a.clone(), b.clone());
+            rotate(&mut p, &mut q, 0.0, 1.0);
+            assert_eq!((p, q), (b.clone(), a.iter().map(|v| -v).collect()));
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! The kernel on x86-64: AVX-512 or AVX2 with FMA, as the processor has them.
+#![allow(unsafe_code)]
+
+mod avx2;
+mod avx512;
+
+use taut_points::Scalar;
+
+use super::{Center, all_rows, short_rows};
+use avx2::Avx2;
+use avx512::Avx512;
+
+/// As [`super::squared_distances`], or false when the processor has none of the features.
+pub(super) fn squared_distances<T: Scalar>(
+    values: &[T],
+    stride: usize,
+    center: &Center,
+    out: &mut [f64],
+) -> bool {
+    if is_x86_feature_detected!("avx512f") {
+        // SAFETY: the processor has just been asked; the lengths were checked by the caller.
+        unsafe { with_avx512(values, stride, center, out) };
+        true
+    } else if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+        // SAFETY: the processor has just been asked; the lengths were checked by the caller.
+        unsafe { with_avx2(values, stride, center, out) };
+        true
+    } else {
+        false
+    }
+}
+
+/// # Safety
+/// The processor has AVX-512F; lengths as [`super::squared_distances`] checks them.
+#[target_feature(enable = "avx512f,fma")]
+unsafe fn with_avx512<T: Scalar>(values: &[T], stride: usize, center: &Center, out: &mut [f64]) {
+    if !short_rows(values, stride, center, out) {
+        // SAFETY: the caller's promise.
+        unsafe { all_rows::<Avx512, T>(values, stride, center, out) }
+    }
+}
+
+/// # Safety
+/// The processor has AVX2 and FMA; lengths as [`super::squared_distances`] checks them.
+#[target_feature(enable = "avx2,fma")]
+unsafe fn with_avx2<T: Scalar>(values: &[T], stride: usize, center: &Center, out: &mut [f64]) {
+    if !short_rows(values, stride, center, out) {
+        // SAFETY: the caller's promise.
+        unsafe { all_rows::<Avx2, T>(values, stride, center, out) }
+    }
+}
+
+/// Both instruction sets, for the tests to compare, each if the processor has it.
+#[cfg(test)]
+pub(super) fn each_instruction_set<T: Scalar>(
+    values: &[T],
+    stride: usize,
+    center: &Center,
+    rows: usize,
+) -> Vec<Vec<f64>> {
+    let mut results = Vec::new();
+    if is_x86_feature_detected!("avx512f") {
+        let mut out = vec![0.0; rows];
+        // SAFETY: the processor has just been asked; the tests pass matching lengths.
+        unsafe { with_avx512(values, stride, center, &mut out) };
+        results.push(out);
+    }
+    if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+        let mut out = vec![0.0; rows];
+        // SAFETY: the processor has just been asked; the tests pass matching lengths.
+        unsafe { with_avx2(values, stride, center, &mut out) };
+        results.push(out);
+    }
+    results
+}

@@ -1,0 +1,98 @@
+//! Eight lanes in two 256-bit registers.
+
+use std::arch::x86_64::*;
+
+use taut_points::{Scalar, ScalarKind};
+
+use crate::kernel::lanes::Lanes;
+
+#[derive(Clone, Copy)]
+pub(super) struct Avx2(__m256d, __m256d);
+
+// SAFETY (all blocks of this implementation): the caller promises AVX2 and FMA, and readable memory where one is
+// given. `T` is f32 or f64 and nothing else (the trait is sealed), so a cast guided by `KIND` keeps the type.
+impl Lanes for Avx2 {
+    #[inline(always)]
+    unsafe fn zero() -> Self {
+        // SAFETY: see above.
+        unsafe { Avx2(_mm256_setzero_pd(), _mm256_setzero_pd()) }
+    }
+
+    #[inline(always)]
+    unsafe fn load<T: Scalar>(from: *const T) -> Self {
+        // SAFETY: see above.
+        unsafe {
+            match T::KIND {
+                ScalarKind::F32 => {
+                    let from: *const f32 = from.cast();
+                    Avx2(
+                        _mm256_cvtps_pd(_mm_loadu_ps(from)),
+                        _mm256_cvtps_pd(_mm_loadu_ps(from.add(4))),
+                    )
+                }
+                ScalarKind::F64 => {
+                    let from: *const f64 = from.cast();
+                    Avx2(_mm256_loadu_pd(from), _mm256_loadu_pd(from.add(4)))
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn load_first<T: Scalar>(from: *const T, count: usize) -> Self {
+        let mut lanes = [0.0f64; 8];
+        // SAFETY: see above; only `count` values are read.
+        unsafe {
+            for (i, lane) in lanes.iter_mut().enumerate().take(count) {
+                *lane = from.add(i).read_unaligned().into();
+            }
+            Self::load(lanes.as_ptr())
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn sub(self, other: Self) -> Self {
+        // SAFETY: see above.
+        unsafe { Avx2(_mm256_sub_pd(self.0, other.0), _mm256_sub_pd(self.1, other.1)) }
+    }
+
+    #[inline(always)]
+    unsafe fn add(self, other: Self) -> Self {
+        // SAFETY: see above.
+        unsafe { Avx2(_mm256_add_pd(self.0, other.0), _mm256_add_pd(self.1, other.1)) }
+    }
+
+    #[inline(always)]
+    unsafe fn square_add(self, sum: Self) -> Self {
+        // SAFETY: see above.
+        unsafe {
+            Avx2(_mm256_fmadd_pd(self.0, self.0, sum.0), _mm256_fmadd_pd(self.1, self.1, sum.1))
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn sum_each(rows: [Self; 8]) -> [f64; 8] {
+        // SAFETY: see above.
+        unsafe {
+            // Of two rows: [a₀₁, b₀₁, a₂₃, b₂₃] with both halves of each row already added.
+            let pair =
+                |a: Self, b: Self| _mm256_hadd_pd(_mm256_add_pd(a.0, a.1), _mm256_add_pd(b.0, b.1));
+            let four = |a, b| {
+                _mm256_add_pd(
+                    _mm256_permute2f128_pd::<0x20>(a, b),
+                    _mm256_permute2f128_pd::<0x31>(a, b),
+                )
+            };
+            let mut sums = [0.0; 8];
+            _mm256_storeu_pd(
+                sums.as_mut_ptr(),
+                four(pair(rows[0], rows[1]), pair(rows[2], rows[3])),
+            );
+            _mm256_storeu_pd(
+                sums.as_mut_ptr().add(4),
+                four(pair(rows[4], rows[5]), pair(rows[6], rows[7])),
+            );
+            sums
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! Eight lanes in one 512-bit register.
+
+use std::arch::x86_64::*;
+
+use taut_points::{Scalar, ScalarKind};
+
+use crate::kernel::lanes::Lanes;
+
+#[derive(Clone, Copy)]
+pub(super) struct Avx512(__m512d);
+
+// SAFETY (all blocks of this implementation): the caller promises AVX-512F, and readable memory where one is given.
+// `T` is f32 or f64 and nothing else (the trait is sealed), so a cast guided by `KIND` keeps the type.
+impl Lanes for Avx512 {
+    #[inline(always)]
+    unsafe fn zero() -> Self {
+        // SAFETY: see above.
+        Avx512(unsafe { _mm512_setzero_pd() })
+    }
+
+    #[inline(always)]
+    unsafe fn load<T: Scalar>(from: *const T) -> Self {
+        // SAFETY: see above.
+        Avx512(unsafe {
+            match T::KIND {
+                ScalarKind::F32 => _mm512_cvtps_pd(_mm256_loadu_ps(from.cast())),
+                ScalarKind::F64 => _mm512_loadu_pd(from.cast()),
+            }
+        })
+    }
+
+    #[inline(always)]
+    unsafe fn load_first<T: Scalar>(from: *const T, count: usize) -> Self {
+        let mask = (1u16 << count) - 1;
+        // SAFETY: see above; a masked load does not touch what the mask leaves out.
+        Avx512(unsafe {
+            match T::KIND {
+                ScalarKind::F32 => _mm512_cvtps_pd(_mm512_castps512_ps256(_mm512_maskz_loadu_ps(
+                    mask,
+                    from.cast(),
+                ))),
+                ScalarKind::F64 => _mm512_maskz_loadu_pd(mask as u8, from.cast()),
+            }
+        })
+    }
+
+    #[inline(always)]
+    unsafe fn sub(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Avx512(unsafe { _mm512_sub_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn add(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Avx512(unsafe { _mm512_add_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn square_add(self, sum: Self) -> Self {
+        // SAFETY: see above.
+        Avx512(unsafe { _mm512_fmadd_pd(self.0, self.0, sum.0) })
+    }
+
+    /// A tree of shuffles: pairs of lanes, then pairs of 128-bit quarters, twice; row i ends in lane i.
+    #[inline(always)]
+    unsafe fn sum_each(rows: [Self; 8]) -> [f64; 8] {
+        // SAFETY: see above.
+        unsafe {
+            let pair = |a: Self, b: Self| {
+                _mm512_add_pd(_mm512_unpacklo_pd(a.0, b.0), _mm512_unpackhi_pd(a.0, b.0))
+            };
+            // Even and odd quarters of both operands.
+            let quarters = |a, b| {
+                _mm512_add_pd(
+                    _mm512_shuffle_f64x2::<0b10_00_10_00>(a, b),
+                    _mm512_shuffle_f64x2::<0b11_01_11_01>(a, b),
+                )
+            };
+            let low = quarters(pair(rows[0], rows[1]), pair(rows[2], rows[3]));
+            let high = quarters(pair(rows[4], rows[5]), pair(rows[6], rows[7]));
+            let mut sums = [0.0; 8];
+            _mm512_storeu_pd(sums.as_mut_ptr(), quarters(low, high));
+            sums
+        }
+    }
+}
