@@ -50,7 +50,8 @@ impl Input {
         let centers: Vec<f64> = generate(Distribution::Normal, n, d, SEED)?;
         let radii = law.radii(&centers, d)?;
         let rows = centers.chunks_exact(d).zip(&radii);
-        let values = rows.flat_map(|(center, &radius)| center.iter().copied().chain([radius])).collect();
+        let values =
+            rows.flat_map(|(center, &radius)| center.iter().copied().chain([radius])).collect();
         let what = format!("normal centres, radii {}, {n} balls, d = {d}, f64", law.name());
         Ok(Input { what, values: Values::F64(values), columns: d + 1, items: Items::Balls })
     }
@@ -59,7 +60,8 @@ impl Input {
     pub(crate) fn usps() -> Result<Option<Self>> {
         let Some(folder) = std::env::var_os("TAUT_DATA") else { return Ok(None) };
         let file = "usps_train.csv.xz";
-        let candidates = [Path::new(&folder).join("ball").join(file), Path::new(&folder).join(file)];
+        let candidates =
+            [Path::new(&folder).join("ball").join(file), Path::new(&folder).join(file)];
         let Some(path) = candidates.iter().find(|path| path.exists()) else { return Ok(None) };
         let opened = std::fs::File::open(path).with_context(|| path.display().to_string())?;
         let mut text = String::new();
@@ -77,7 +79,12 @@ impl Input {
                 values.push(value);
             }
             let found = values.len() - before;
-            ensure!(found == 256, "{}, line {}: {found} values after the label", path.display(), at + 1);
+            ensure!(
+                found == 256,
+                "{}, line {}: {found} values after the label",
+                path.display(),
+                at + 1
+            );
         }
         let what = format!("USPS train, {} × 256, f64", values.len() / 256);
         Ok(Some(Input { what, values: Values::F64(values), columns: 256, items: Items::Points }))
@@ -203,10 +210,13 @@ mod tests {
     fn the_covering_ball_covers_and_the_almost_covering_one_does_not() {
         for (law, covered) in [(RadiusLaw::Covering, true), (RadiusLaw::AlmostCovering, false)] {
             let input = Input::balls(law, 100, 3).unwrap();
-            let Values::F64(values) = &input.values else { panic!("balls are in double precision") };
+            let Values::F64(values) = &input.values else {
+                panic!("balls are in double precision")
+            };
             let rows: Vec<&[f64]> = values.chunks_exact(4).collect();
             let all = rows[1..].iter().all(|row| {
-                let distance: f64 = (0..3).map(|k| (row[k] - rows[0][k]).powi(2)).sum::<f64>().sqrt();
+                let distance: f64 =
+                    (0..3).map(|k| (row[k] - rows[0][k]).powi(2)).sum::<f64>().sqrt();
                 distance + row[3] <= rows[0][3]
             });
             assert_eq!(all, covered, "{law:?}");

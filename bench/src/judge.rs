@@ -28,15 +28,26 @@ pub(crate) struct Judgement {
 impl Judgement {
     /// Whether the ball leaves something outside or is not the smallest, by more than the tenth digit.
     pub(crate) fn is_wrong(&self) -> bool {
-        // Written so that NaN is wrong.
-        !(self.excess <= WRONG && self.off.abs() <= WRONG)
+        !self.is_within(WRONG)
+    }
+
+    /// Whether the ball encloses everything and is the smallest, to rounding.
+    pub(crate) fn is_right(&self) -> bool {
+        self.is_within(ROUNDING)
+    }
+
+    fn is_within(&self, tolerance: f64) -> bool {
+        // NaN is within nothing.
+        self.excess <= tolerance && self.off.abs() <= tolerance
     }
 }
 
 impl std::fmt::Display for Judgement {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        if self.is_wrong() {
-            write!(f, "WRONG: ")?;
+        match (self.is_wrong(), self.is_right()) {
+            (true, _) => write!(f, "WRONG: ")?,
+            (_, false) => write!(f, "INEXACT: ")?,
+            _ => {}
         }
         match self.outside {
             0 => write!(f, "encloses ({:.1e})", self.excess)?,
@@ -74,9 +85,8 @@ pub(crate) fn judge(
         }
         Ok::<_, ReadError>((reach, outside))
     })?;
-    let (reach, outside) = reaches
-        .into_iter()
-        .fold((f64::NEG_INFINITY, 0), |a, b| (a.0.max(b.0), a.1 + b.1));
+    let (reach, outside) =
+        reaches.into_iter().fold((f64::NEG_INFINITY, 0), |a, b| (a.0.max(b.0), a.1 + b.1));
     let excess = if radius > 0.0 { reach / radius - 1.0 } else { reach };
     let off = match radius {
         r if r < bracket.lower => r / bracket.lower - 1.0,
@@ -103,7 +113,9 @@ mod tests {
     fn a_right_answer_is_right() {
         let right = of(&[1.0, 0.0], 1.0);
         assert_eq!((right.outside, right.excess, right.off), (0, 0.0, 0.0));
-        assert!(!right.is_wrong());
+        assert!(!right.is_wrong() && right.is_right());
+        let inexact = of(&[1.0, 0.0], 1.0 - 1e-11);
+        assert!(!inexact.is_wrong() && !inexact.is_right());
     }
 
     #[test]

@@ -47,6 +47,9 @@ mod tests {
     fn columns_line_up_and_the_head_is_ruled() {
         let mut table = Table::new(&["who", "µs"]);
         table.push(vec!["somebody".into(), "1".into()]);
-        assert_eq!(table.to_string(), "| who      | µs  |\n|----------|-----|\n| somebody | 1   |\n");
+        assert_eq!(
+            table.to_string(),
+            "| who      | µs  |\n|----------|-----|\n| somebody | 1   |\n"
+        );
     }
 }

@@ -191,7 +191,10 @@ pub(super) const CASES: &[Case] = &[
             &["cgal-spheres-2-native", "cgal-min-sphere-2-native", "miniball-crate"],
         ),
         must: &[EXACT, PLANE_THIRD],
-        aim: &[Goal::ShareOf { peers: &["cgal-spheres-2-native", "cgal-min-sphere-2-native"], share: 0.1 }],
+        aim: &[Goal::ShareOf {
+            peers: &["cgal-spheres-2-native", "cgal-min-sphere-2-native"],
+            share: 0.1,
+        }],
     },
     Case {
         name: "space",
@@ -203,7 +206,10 @@ pub(super) const CASES: &[Case] = &[
             &["cgal-spheres-3-native", "cgal-min-sphere-3-native", "miniball-crate"],
         ),
         must: &[EXACT, SPACE_THIRD],
-        aim: &[Goal::ShareOf { peers: &["cgal-spheres-3-native", "cgal-min-sphere-3-native"], share: 0.1 }],
+        aim: &[Goal::ShareOf {
+            peers: &["cgal-spheres-3-native", "cgal-min-sphere-3-native"],
+            share: 0.1,
+        }],
     },
     Case {
         name: "ten",
@@ -223,14 +229,14 @@ pub(super) const CASES: &[Case] = &[
         name: "balls-3",
         about: "10⁴ balls in ℝ³ under six radius laws, beside CGAL.",
         kind: balls(10_000, 3, &["cgal-balls-3-native"]),
-        must: &[EXACT],
+        must: &[EXACT, Goal::Judged { peers: &["cgal-balls-3-native"] }],
         aim: &[],
     },
     Case {
         name: "balls-10",
         about: "10⁴ balls in ℝ¹⁰ under six radius laws, beside CGAL.",
         kind: balls(10_000, 10, &["cgal-balls-10-native"]),
-        must: &[EXACT],
+        must: &[EXACT, Goal::Judged { peers: &["cgal-balls-10-native"] }],
         aim: &[],
     },
     Case {

@@ -44,7 +44,9 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
     }
     match Input::usps()? {
         Some(input) => instances.push(Instance { input, said: "30 (fast)" }),
-        None => println!("USPS is left out: set TAUT_DATA to a folder with ball/usps_train.csv.xz\n"),
+        None => {
+            println!("USPS is left out: set TAUT_DATA to a folder with ball/usps_train.csv.xz\n")
+        }
     }
 
     let ways = [
@@ -54,7 +56,15 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
         ("core-set, default", BallMethod::CoreSet, None),
     ];
     let mut table = Table::new(&[
-        "input", "method", "core-set", "support", "passes", "radius", "verified gap", "time", "the thesis",
+        "input",
+        "method",
+        "core-set",
+        "support",
+        "passes",
+        "radius",
+        "verified gap",
+        "time",
+        "the thesis",
     ]);
     let mut rows = Vec::new();
     for Instance { input, said } in &instances {
@@ -73,7 +83,9 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
                 support.to_string(),
                 found.trace.passes.to_string(),
                 format!("{:.4}", found.answer.radius),
-                verdict.as_ref().map_or_else(|e| format!("REJECTED: {e}"), |v| format!("{:.1e}", v.gap)),
+                verdict
+                    .as_ref()
+                    .map_or_else(|e| format!("REJECTED: {e}"), |v| format!("{:.1e}", v.gap)),
                 seconds(time),
                 (*said).to_owned(),
             ]);

@@ -14,7 +14,8 @@ use serde_json::json;
 use taut_certify::{Items, Stop, Verdict};
 use taut_enclose::{BallOptions, ball_of_source};
 use taut_points::{
-    Blocks, Distribution, FileSource, GeneratedSource, Monitor, PointSource, Rows, ScalarKind, Scratch,
+    Blocks, Distribution, FileSource, GeneratedSource, Monitor, PointSource, Rows, ScalarKind,
+    Scratch,
 };
 
 use super::Context;
@@ -56,8 +57,7 @@ struct Solved {
 
 /// Solves the file, verifies the answer, and prints one line of JSON.
 pub(crate) fn solve(arguments: &SolveArguments) -> Result<()> {
-    let source =
-        FileSource::open(&arguments.path, 0, arguments.n, arguments.dim, ScalarKind::F32)?;
+    let source = FileSource::open(&arguments.path, 0, arguments.n, arguments.dim, ScalarKind::F32)?;
     // Of each pass: when it began, how many of its points are done, when the last was.
     let clock: Mutex<Vec<(Instant, u64, Instant)>> = Mutex::new(Vec::new());
     let lock = || clock.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
@@ -122,7 +122,14 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
     let threads = context.threads[context.threads.len() - 1];
 
     let mut table = Table::new(&[
-        "run", "cat before", "cat after", "solve", "passes", "seconds of each pass", "speed of each pass", "peak memory",
+        "run",
+        "cat before",
+        "cat after",
+        "solve",
+        "passes",
+        "seconds of each pass",
+        "speed of each pass",
+        "peak memory",
     ]);
     let (mut of_cat, mut all) = (Vec::new(), Vec::new());
     let mut last = None;
@@ -140,7 +147,9 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
         let after = cat(&path)?;
         let beside = 0.5 * (before + after);
         of_cat.extend(solved.passes.iter().map(|pass| beside / pass));
-        let join = |show: &dyn Fn(f64) -> String| solved.passes.iter().map(|&p| show(p)).collect::<Vec<_>>().join(" ");
+        let join = |show: &dyn Fn(f64) -> String| {
+            solved.passes.iter().map(|&p| show(p)).collect::<Vec<_>>().join(" ")
+        };
         table.push(vec![
             (run + 1).to_string(),
             seconds(before),

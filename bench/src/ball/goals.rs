@@ -42,6 +42,11 @@ pub(super) enum Goal {
         /// The share.
         share: f64,
     },
+    /// Each of these peers gave the ball we proved, or what is wrong with its own is shown.
+    Judged {
+        /// The peers.
+        peers: &'static [&'static str],
+    },
     /// Peak memory of the solving process is at most this, in bytes.
     PeakMemory(u64),
     /// Each pass runs at least at this share of the speed of `cat`.
@@ -70,12 +75,22 @@ pub(super) struct Measured<'a> {
 impl Goal {
     /// The goal in words, what was measured, and whether the goal is met (`None`: not measured).
     fn judge(self, found: &Measured<'_>) -> (String, String, Option<bool>) {
-        let spread = |s: Summary| format!("{} (range {}–{}, {} runs)", times(s.median), times(s.min), times(s.max), s.count);
+        let spread = |s: Summary| {
+            format!(
+                "{} (range {}–{}, {} runs)",
+                times(s.median),
+                times(s.min),
+                times(s.max),
+                s.count
+            )
+        };
         let radius = found.verdict.map(|verdict| verdict.upper);
         match self {
             Goal::Gap(bound) => (
                 format!("gap ≤ {bound:e}"),
-                found.verdict.map_or("rejected by the checker".into(), |v| format!("{:.1e}, verified", v.gap)),
+                found.verdict.map_or("rejected by the checker".into(), |v| {
+                    format!("{:.1e}, verified", v.gap)
+                }),
                 Some(found.verdict.is_some_and(|v| v.gap <= bound)),
             ),
             Goal::Radius { value, tolerance } => (
@@ -87,26 +102,38 @@ impl Goal {
                 let value = 0.5 * (found.dim as f64).sqrt();
                 (
                     format!("radius √{} / 2 = {value:.13} to 1e-12", found.dim),
-                    radius.map_or("none".into(), |r| format!("{r:.13}, {:+.1e} off", r / value - 1.0)),
+                    radius.map_or("none".into(), |r| {
+                        format!("{r:.13}, {:+.1e} off", r / value - 1.0)
+                    }),
                     Some(radius.is_some_and(|r| (r / value - 1.0).abs() <= 1e-12)),
                 )
             }
-            Goal::Converged => {
-                ("no cap reached".into(), format!("{:?}", found.stop).to_lowercase(), Some(found.stop == Stop::Converged))
-            }
+            Goal::Converged => (
+                "no cap reached".into(),
+                format!("{:?}", found.stop).to_lowercase(),
+                Some(found.stop == Stop::Converged),
+            ),
             Goal::Seconds(bound) => {
                 let time = found.paired.and_then(Paired::taut_time);
                 (
                     format!("at most {}", seconds(bound)),
                     time.map_or("none".into(), |s| {
-                        format!("{} (range {}–{}, {} runs)", seconds(s.median), seconds(s.min), seconds(s.max), s.count)
+                        format!(
+                            "{} (range {}–{}, {} runs)",
+                            seconds(s.median),
+                            seconds(s.min),
+                            seconds(s.max),
+                            s.count
+                        )
                     }),
                     time.map(|s| s.median <= bound),
                 )
             }
-            Goal::Passes(bound) => {
-                (format!("at most {bound} passes"), found.passes.to_string(), Some(found.passes <= bound))
-            }
+            Goal::Passes(bound) => (
+                format!("at most {bound} passes"),
+                found.passes.to_string(),
+                Some(found.passes <= bound),
+            ),
             Goal::Reads(bound) => {
                 let reads = found.paired.and_then(Paired::reads);
                 (
@@ -131,7 +158,13 @@ impl Goal {
                     .filter_map(|peer| found.paired.and_then(|paired| paired.fastest(&[peer])))
                     .collect();
                 let said = all.iter().map(|(name, s, note)| {
-                    format!("1/{} (range 1/{}–1/{}, {} runs) of {name}{note}", times(s.median), times(s.max), times(s.min), s.count)
+                    format!(
+                        "1/{} (range 1/{}–1/{}, {} runs) of {name}{note}",
+                        times(s.median),
+                        times(s.max),
+                        times(s.min),
+                        s.count
+                    )
                 });
                 let said = said.collect::<Vec<_>>().join("; ");
                 (
@@ -140,9 +173,24 @@ impl Goal {
                     (!all.is_empty()).then(|| all.iter().all(|(_, s, _)| 1.0 / s.median <= share)),
                 )
             }
+            Goal::Judged { peers } => {
+                let all = found.paired.map_or(Vec::new(), |paired| paired.judgements(peers));
+                let said = all.iter().map(|(name, judgement)| format!("{name} {judgement}"));
+                let said = said.collect::<Vec<_>>().join("; ");
+                (
+                    format!(
+                        "{} inside our certified bracket, or shown to be wrong",
+                        peers.join(" and ")
+                    ),
+                    if said.is_empty() { "no peer answered".into() } else { said },
+                    (!all.is_empty()).then_some(true),
+                )
+            }
             Goal::PeakMemory(bound) => (
                 format!("peak memory at most {} MiB", bound >> 20),
-                found.peak.map_or("not measured".into(), |peak| format!("{:.0} MiB", peak as f64 / f64::from(1 << 20))),
+                found.peak.map_or("not measured".into(), |peak| {
+                    format!("{:.0} MiB", peak as f64 / f64::from(1 << 20))
+                }),
                 found.peak.map(|peak| peak <= bound),
             ),
             Goal::ShareOfCat(share) => (

@@ -12,7 +12,7 @@ use taut_points::Monitor;
 use super::Context;
 use crate::input::Input;
 use crate::judge::{Judgement, judge};
-use crate::peer::{Peer, Silence};
+use crate::peer::{Answer, Peer, Silence};
 use crate::read::plain_read;
 use crate::stats::{Summary, seconds, times};
 use crate::table::Table;
@@ -45,13 +45,19 @@ pub(super) fn run(
     peers: &[&str],
 ) -> Result<Paired> {
     let source = input.source()?;
-    let solve = |threads: usize| -> Result<(f64, Solution<Ball>)> {
-        let options = BallOptions { threads: Some(threads), ..options.clone() };
-        let start = Instant::now();
-        let found = ball_of_source(&*source, input.items, &options, &Monitor::silent())?;
-        Ok((start.elapsed().as_secs_f64(), found))
+    // Pools are built once, outside the times: a program of the user's has its pool, too.
+    let pools = context.threads.iter().map(|&threads| {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().context("a pool of threads")
+    });
+    let pools = pools.collect::<Result<Vec<_>>>()?;
+    let solve = |pool: &rayon::ThreadPool| -> Result<(f64, Solution<Ball>)> {
+        pool.install(|| {
+            let start = Instant::now();
+            let found = ball_of_source(&*source, input.items, options, &Monitor::silent())?;
+            Ok((start.elapsed().as_secs_f64(), found))
+        })
     };
-    let (_, found) = solve(context.threads[context.threads.len() - 1])?;
+    let (_, found) = solve(&pools[pools.len() - 1])?;
     let verdict = found.check(&*source).map_err(|error| error.to_string());
     // Where our own answer is rejected, peers are judged by what it claims, and the table says so.
     let bracket = verdict.clone().unwrap_or(Verdict {
@@ -60,46 +66,76 @@ pub(super) fn run(
         gap: found.certificate.gap,
     });
 
-    let pools = context.threads.iter().map(|&threads| {
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build().context("a pool for plain reads")
-    });
-    let pools = pools.collect::<Result<Vec<_>>>()?;
-    let mut taut: Vec<(usize, Vec<f64>)> = context.threads.iter().map(|&t| (t, Vec::new())).collect();
+    let mut taut: Vec<(usize, Vec<f64>)> =
+        context.threads.iter().map(|&t| (t, Vec::new())).collect();
     let mut reads = taut.clone();
     let mut running = start_peers(context, input, peers)?;
 
-    for _ in 0..context.runs {
-        for ((threads, times), (pool, (_, reads))) in taut.iter_mut().zip(pools.iter().zip(&mut reads)) {
+    let mut ours = || -> Result<()> {
+        for ((threads, times), (pool, (_, reads))) in
+            taut.iter_mut().zip(pools.iter().zip(&mut reads))
+        {
             reads.push(plain_read(input.bytes(), pool));
-            let (time, again) = solve(*threads)?;
-            ensure!(again == found, "two runs of taut on {} differ ({threads} threads)", input.what);
+            let (time, again) = solve(pool)?;
+            ensure!(
+                again == found,
+                "two runs of taut on {} differ ({threads} threads)",
+                input.what
+            );
             times.push(time);
         }
-        for (peer, runs) in &mut running {
-            let used: f64 = runs.times.iter().sum();
-            if Duration::from_secs_f64(used) > context.peer_budget {
-                continue;
-            }
-            let Some(process) = peer else { continue };
-            match process.solve(context.limit)? {
-                Ok(answer) => {
-                    runs.times.push(answer.seconds);
-                    let this =
-                        judge(&*source, input.items, &answer.center, answer.radius, &bracket)?;
-                    runs.radius = answer.radius;
-                    // The worst of its answers counts.
-                    let worse = runs.judgement.is_none_or(|before| this.is_wrong() || !before.is_wrong());
-                    runs.judgement = if worse { Some(this) } else { runs.judgement };
-                }
-                Err(silence) => {
-                    runs.silence = Some(silence);
-                    *peer = None;
-                }
-            }
+        Ok(())
+    };
+    let mut theirs = || {
+        running.iter_mut().try_for_each(|(peer, runs)| {
+            runs.once_more(peer, context, |answer| {
+                Ok(judge(&*source, input.items, &answer.center, answer.radius, &bracket)?)
+            })
+        })
+    };
+    for run in 0..context.runs {
+        // Who goes first changes, so that nobody always finds the caches of the other.
+        if run % 2 == 0 {
+            ours()?;
+            theirs()?;
+        } else {
+            theirs()?;
+            ours()?;
         }
     }
     let peers = running.into_iter().map(|(_, runs)| runs).collect();
     Ok(Paired { found, verdict, taut, reads, peers })
+}
+
+impl PeerRuns {
+    /// Lets the peer solve once more, unless it is gone or has used up its time.
+    fn once_more(
+        &mut self,
+        peer: &mut Option<Peer>,
+        context: &Context,
+        judge: impl Fn(&Answer) -> Result<Judgement>,
+    ) -> Result<()> {
+        let used = Duration::from_secs_f64(self.times.iter().sum());
+        let Some(process) = peer.as_mut().filter(|_| used <= context.peer_budget) else {
+            return Ok(());
+        };
+        match process.solve(context.limit)? {
+            Ok(answer) => {
+                let this = judge(&answer)?;
+                self.times.push(answer.seconds);
+                self.radius = answer.radius;
+                // The worst of its answers counts.
+                if self.judgement.is_none_or(|before| this.is_wrong() || !before.is_wrong()) {
+                    self.judgement = Some(this);
+                }
+            }
+            Err(silence) => {
+                self.silence = Some(silence);
+                *peer = None;
+            }
+        }
+        Ok(())
+    }
 }
 
 fn start_peers(
@@ -155,10 +191,25 @@ impl Paired {
         Some((best.name.clone(), Summary::of_ratios(&best.times, taut)?, note.to_owned()))
     }
 
+    /// What was found about each of `names` that answered.
+    pub(super) fn judgements(&self, names: &[&str]) -> Vec<(&str, Judgement)> {
+        let named = self.peers.iter().filter(|runs| names.contains(&runs.name.as_str()));
+        named.filter_map(|runs| Some((runs.name.as_str(), runs.judgement?))).collect()
+    }
+
     /// The table of this input.
     pub(super) fn table(&self) -> Table {
-        let mut table =
-            Table::new(&["program", "threads", "min", "median", "max", "runs", "÷ taut (range)", "radius", "judgement"]);
+        let mut table = Table::new(&[
+            "program",
+            "threads",
+            "min",
+            "median",
+            "max",
+            "runs",
+            "÷ taut (range)",
+            "radius",
+            "judgement",
+        ]);
         let verdict = match &self.verdict {
             Ok(verdict) => format!("gap {:.1e}, verified", verdict.gap),
             Err(reason) => format!("REJECTED: {reason}"),
@@ -188,7 +239,8 @@ impl Paired {
             let judgement = peer.judgement.map(|j| j.to_string());
             let silence = peer.silence.as_ref().map(|s| s.to_string());
             let said = [judgement, silence].into_iter().flatten().collect::<Vec<_>>().join("; ");
-            let radius = if peer.times.is_empty() { String::new() } else { format!("{:.12}", peer.radius) };
+            let radius =
+                if peer.times.is_empty() { String::new() } else { format!("{:.12}", peer.radius) };
             table.push(row(&peer.name, &1, &peer.times, ratio, radius, said));
         }
         table
@@ -212,7 +264,9 @@ impl Paired {
             })
         });
         let of = |runs: &[(usize, Vec<f64>)]| -> Value {
-            runs.iter().map(|(threads, times)| json!({ "threads": threads, "seconds": times })).collect()
+            runs.iter()
+                .map(|(threads, times)| json!({ "threads": threads, "seconds": times }))
+                .collect()
         };
         json!({
             "taut": of(&self.taut),

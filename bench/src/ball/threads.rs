@@ -42,20 +42,35 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
                 _ => 1e-3,
             };
             let solve = |threads| -> Result<String> {
-                let options =
-                    BallOptions { epsilon, method, threads: Some(threads), ..BallOptions::default() };
+                let options = BallOptions {
+                    epsilon,
+                    method,
+                    threads: Some(threads),
+                    ..BallOptions::default()
+                };
                 let source = input.source()?;
                 Ok(ball_of_source(&*source, input.items, &options, &Monitor::silent())?.to_json())
             };
             let one = solve(1)?;
             for threads in [2, 8] {
-                ensure!(one == solve(threads)?, "{}: {method} with {threads} threads differs", input.what);
+                ensure!(
+                    one == solve(threads)?,
+                    "{}: {method} with {threads} threads differs",
+                    input.what
+                );
             }
-            table.push(vec![input.what.clone(), method.to_string(), one.len().to_string(), "1, 2, 8".into()]);
+            table.push(vec![
+                input.what.clone(),
+                method.to_string(),
+                one.len().to_string(),
+                "1, 2, 8".into(),
+            ]);
             compared += 1;
         }
     }
-    println!("{table}\n- must: byte-identical for 1, 2 and 8 threads: {compared} of {compared} solutions: met");
+    println!(
+        "{table}\n- must: byte-identical for 1, 2 and 8 threads: {compared} of {compared} solutions: met"
+    );
     context.report.add(json!({ "name": case.name, "identical": compared }));
     Ok(())
 }
