@@ -88,16 +88,16 @@ unsafe fn all_rows<L: Lanes, T: Scalar>(
     out: &mut [f64],
 ) {
     let dim = center.dim();
-    // SAFETY (each call below): features are the caller's promise; row i starts at i·stride and `out` has a place
-    // for it, so all reads stay within `values` and the two slices of the centre.
     if dim <= EIGHT_ROWS_MAX {
         for (group, out) in out.chunks_mut(8).enumerate() {
             let rows = &values[group * 8 * stride..(group * 8 + out.len()) * stride];
+            // SAFETY: features are the caller's promise; `rows` holds as many rows as `out` has places.
             let sums = unsafe { eight_rows::<L, T>(rows, out.len(), stride, center) };
             out.copy_from_slice(&sums[..out.len()]);
         }
     } else {
         for (row, out) in values.chunks_exact(stride).zip(out) {
+            // SAFETY: features are the caller's promise; the slice has as many coordinates as the centre.
             *out = unsafe { one_row::<L, T>(&row[..dim], center) };
         }
     }

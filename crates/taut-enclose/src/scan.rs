@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use taut_certify::Items;
 use taut_points::{
     BlockHash, Monitor, PointSource, Points, PointsHash, Rows, Scalar, gather, hash_block,
-    is_empty, map_blocks,
+    map_blocks,
 };
 
 use crate::Error;
@@ -35,8 +35,8 @@ pub(crate) struct Query<'c> {
     pub(crate) above: f64,
     /// How many of them at most.
     pub(crate) keep: usize,
-    /// List at most two items per face of the cube around the centre.
-    pub(crate) by_face: bool,
+    /// List at most two items per face of the cube around the centre, too, of those with a squared reach above this.
+    pub(crate) by_face_above: Option<f64>,
 }
 
 /// What a pass found.
@@ -45,8 +45,10 @@ pub(crate) struct Found {
     pub(crate) farthest: Far,
     /// The items above the threshold, farthest first.
     pub(crate) far: Vec<Far>,
-    /// Every item that reaches farther than this (squared) is listed; infinite where faces limited the list.
+    /// Every item that reaches farther than this (squared) is in `far`.
     pub(crate) listed_above: f64,
+    /// Where asked for: at most two items per face of the cube around the centre, farthest first.
+    pub(crate) by_face: Vec<Far>,
 }
 
 /// The items of a source, as seen by a solver.
@@ -80,7 +82,7 @@ impl<'a> Scan<'a> {
         if items == Items::Balls && source.dim() < 2 {
             return Err(Error::NoRadius { columns: source.dim() });
         }
-        if is_empty(source) {
+        if source.is_empty() {
             return Err(Error::Empty);
         }
         let dim = items.dim(source.dim());
@@ -126,7 +128,7 @@ impl<'a> Scan<'a> {
     pub(crate) fn first(&mut self, keep: usize) -> Result<(Center, Found), Error> {
         let center = self.sample_mean()?;
         let (found, overflow) =
-            self.pass(&Query { center: &center, above: 0.0, keep, by_face: false }, true)?;
+            self.pass(&Query { center: &center, above: 0.0, keep, by_face_above: None }, true)?;
         let exponent = exponent(found.farthest.reach2);
         if !overflow && found.farthest.reach2 > 0.0 && exponent.abs() <= SAFE_EXPONENT {
             return Ok((center, found));
@@ -135,7 +137,8 @@ impl<'a> Scan<'a> {
             return Ok((center, found));
         }
         let center = self.sample_mean()?;
-        let found = self.farthest(&Query { center: &center, above: 0.0, keep, by_face: false })?;
+        let found =
+            self.farthest(&Query { center: &center, above: 0.0, keep, by_face_above: None })?;
         Ok((center, found))
     }
 
@@ -170,13 +173,15 @@ impl<'a> Scan<'a> {
                 .reduce(|a, b| if b.reach2 > a.reach2 { b } else { a });
         }
         let (top, by_face) = top.into_inner().expect("no thread panics while it holds the list");
-        let far = if query.by_face { by_face.into_sorted(query.keep) } else { top.into_sorted() };
+        let far = top.into_sorted();
         let listed_above = match far.last() {
-            _ if query.by_face => f64::INFINITY,
             Some(last) if far.len() == query.keep => last.reach2,
             _ => query.above,
         };
-        Ok((Found { farthest, far, listed_above }, overflow))
+        Ok((
+            Found { farthest, far, listed_above, by_face: by_face.into_sorted(query.keep) },
+            overflow,
+        ))
     }
 
     /// The part of a pass that one block is.
@@ -228,26 +233,30 @@ impl<'a> Scan<'a> {
             if first {
                 self.inspect(base, &part, reaches, &mut report)?;
             }
-            let above = f64::from_bits(bound.load(Ordering::Relaxed));
+            // Rows come in order, so what equals the bound of this block loses to the row that set it; what equals a
+            // bound set by another block may still win by its number, and `Top` decides.
+            let shared = f64::from_bits(bound.load(Ordering::Relaxed));
+            let worth = |reach2: f64, here: &Top| {
+                reach2 > query.above.max(here.bound()) && reach2 >= shared
+            };
+            let face_above = query.by_face_above.unwrap_or(f64::INFINITY);
             for (group, chunk) in reaches.chunks(64).enumerate() {
                 let farthest = largest(chunk);
                 if farthest > report.farthest.reach2 {
                     let at = chunk.iter().position(|&v| v == farthest).expect("it is one of them");
                     report.farthest = Far { id: base + (group * 64 + at) as u64, reach2: farthest };
                 }
-                // What equals a bound set by another block may still win by its row number; `Top` decides.
-                if farthest <= query.above || farthest < above.max(here.bound()) {
+                if !worth(farthest, &here) && farthest <= face_above {
                     continue;
                 }
                 for (at, &reach2) in chunk.iter().enumerate() {
-                    if reach2 > query.above && reach2 >= above.max(here.bound()) {
-                        let row = group * 64 + at;
-                        let far = Far { id: base + row as u64, reach2 };
-                        if query.by_face {
-                            faces.offer(face(&part.row(row)[..self.dim], query.center), far);
-                        } else {
-                            here.offer(far);
-                        }
+                    let row = group * 64 + at;
+                    let far = Far { id: base + row as u64, reach2 };
+                    if worth(reach2, &here) {
+                        here.offer(far);
+                    }
+                    if reach2 > face_above {
+                        faces.offer(face(&part.row(row)[..self.dim], query.center), far);
                     }
                 }
             }

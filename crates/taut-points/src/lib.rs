@@ -34,4 +34,4 @@ pub use generate::{Distribution, GeneratedSource, generate};
 pub use hash::{BlockHash, PointsHash, hash_block, hash_points};
 pub use monitor::{Cancelled, Monitor};
 pub use points::{Points, Rows, Scalar, ScalarKind};
-pub use source::{FileSource, MappedSource, PointSource, Scratch, gather, is_empty};
+pub use source::{FileSource, MappedSource, PointSource, Scratch, gather};

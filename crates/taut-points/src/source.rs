@@ -20,6 +20,11 @@ pub trait PointSource: Send + Sync {
     /// Number of points, n.
     fn len(&self) -> u64;
 
+    /// Whether there is no point at all.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// Dimension, d ≥ 1.
     fn dim(&self) -> usize;
 
@@ -35,11 +40,6 @@ pub trait PointSource: Send + Sync {
         range: Range<u64>,
         scratch: &'a mut Scratch,
     ) -> Result<Rows<'a>, ReadError>;
-}
-
-/// Whether `source` holds no point.
-pub fn is_empty(source: &dyn PointSource) -> bool {
-    source.len() == 0
 }
 
 /// Memory that a source may read to; keep one per thread and pass it again.

@@ -234,7 +234,7 @@ impl ActiveSet {
         self.support.remove(position);
         self.lambda.remove(position);
         self.deletions += 1;
-        if self.deletions % REBUILD_AFTER == 0 {
+        if self.deletions.is_multiple_of(REBUILD_AFTER) {
             self.rebuild(set);
         } else {
             self.factor.delete(position);

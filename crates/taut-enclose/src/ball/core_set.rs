@@ -66,13 +66,14 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
         let keep = batch + active.support().len() + 64;
         let slack = 4.0 * relative_error(scan.dim());
         let above = radius * radius * (1.0 - slack).max(0.0);
-        let found = scan.farthest(&Query { center: &center, above, keep, by_face })?;
+        let violating = radius * radius * (1.0 + TOLERANCE);
+        let by_face_above = by_face.then_some(violating);
+        let found = scan.farthest(&Query { center: &center, above, keep, by_face_above })?;
         let upper = found.farthest.reach2.sqrt();
         outcome.bounds(PassBounds { lower: radius, upper, working_set: set.len() as u64 });
-        let violators: Vec<u64> = found
-            .far
+        let violators: Vec<u64> = if by_face { &found.by_face } else { &found.far }
             .iter()
-            .filter(|far| far.reach2 > radius * radius * (1.0 + TOLERANCE) && !set.contains(far.id))
+            .filter(|far| far.reach2 > violating && !set.contains(far.id))
             .map(|far| far.id)
             .collect();
         let gap = upper / radius - 1.0;

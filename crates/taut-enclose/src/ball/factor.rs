@@ -124,7 +124,9 @@ mod tests {
     }
 
     fn points() -> Vec<Vec<f64>> {
-        (0..6).map(|i| (0..8).map(|j| ((i * 8 + j) as f64 * 1.7).sin()).collect()).collect()
+        let values: Vec<f64> =
+            taut_points::generate(taut_points::Distribution::Normal, 6, 8, 1).unwrap();
+        values.chunks(8).map(<[f64]>::to_vec).collect()
     }
 
     #[test]

@@ -41,7 +41,12 @@ impl Outcome {
     /// All items are one point: it is the centre.
     pub(super) fn single(scan: &Scan<'_>, id: u64) -> Result<Self, crate::Error> {
         let center = Center { high: scan.rows(&[id])?[..scan.dim()].to_vec(), low: vec![] };
-        let found = Found { farthest: Far { id, reach2: 0.0 }, far: vec![], listed_above: 0.0 };
+        let found = Found {
+            farthest: Far { id, reach2: 0.0 },
+            far: vec![],
+            listed_above: 0.0,
+            by_face: vec![],
+        };
         let mut outcome = Outcome::new();
         outcome.offer(0.0, || (vec![id], vec![1.0], center, found));
         outcome.bounds(PassBounds { lower: 0.0, upper: 0.0, working_set: 1 });
