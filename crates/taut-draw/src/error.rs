@@ -7,7 +7,9 @@ use taut_points::ReadError;
 #[non_exhaustive]
 pub enum Error {
     /// The points given are not those of the answer.
-    #[error("{what}: the answer has {expected}, the points have {found}; draw an answer with its own points")]
+    #[error(
+        "{what}: the answer has {expected}, the points have {found}; draw an answer with its own points"
+    )]
     Mismatch {
         /// What does not fit.
         what: &'static str,

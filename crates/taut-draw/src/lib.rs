@@ -25,17 +25,22 @@
 //! caption says so).
 #![forbid(unsafe_code)]
 
+mod axes;
 mod ball;
 mod error;
 mod figure;
 mod html;
+mod number;
 mod plot;
 #[cfg(feature = "png")]
 mod png;
+mod project;
 mod scene2;
 mod scene3;
 mod style;
+mod survey;
 mod svg;
+mod text;
 
 pub use ball::{DrawOptions, ball_figures};
 pub use error::Error;

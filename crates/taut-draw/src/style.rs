@@ -56,3 +56,104 @@ pub enum Look {
     /// A line around a translucent area.
     Filled,
 }
+
+impl Tone {
+    /// All tones, in the order of the palette.
+    pub const ALL: [Tone; 9] = [
+        Tone::Point,
+        Tone::Support,
+        Tone::Answer,
+        Tone::Bound,
+        Tone::Second,
+        Tone::Third,
+        Tone::Fourth,
+        Tone::Ink,
+        Tone::Muted,
+    ];
+
+    /// The name, as it stands in classes and variables of the style sheet.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Tone::Point => "point",
+            Tone::Support => "support",
+            Tone::Answer => "answer",
+            Tone::Bound => "bound",
+            Tone::Second => "second",
+            Tone::Third => "third",
+            Tone::Fourth => "fourth",
+            Tone::Ink => "ink",
+            Tone::Muted => "muted",
+        }
+    }
+}
+
+/// Colours beside the tones: the ground, the grid.
+const GROUND: [&str; 2] = ["#ffffff", "#14181d"];
+const GRID: [&str; 2] = ["#e4e8ec", "#2b333b"];
+
+impl Theme {
+    fn pick(self, pair: [&'static str; 2]) -> &'static str {
+        pair[usize::from(self == Theme::Dark)]
+    }
+
+    /// The colour of a tone.
+    pub(crate) fn color(self, tone: Tone) -> &'static str {
+        self.pick(match tone {
+            Tone::Point => ["#52697c", "#9db2c4"],
+            Tone::Support => ["#d55e00", "#ff8c42"],
+            Tone::Answer => ["#0072b2", "#5db4ee"],
+            Tone::Bound => ["#00856a", "#3fd0a3"],
+            Tone::Second => ["#b87f00", "#f0b93a"],
+            Tone::Third => ["#b4588a", "#e39ac4"],
+            Tone::Fourth => ["#3d8fc4", "#8fd0f7"],
+            Tone::Ink => ["#17212b", "#e9eef2"],
+            Tone::Muted => ["#586673", "#9aa8b5"],
+        })
+    }
+
+    /// The variables of the theme for a page: `--point:#52697c;…`.
+    pub(crate) fn variables(self) -> String {
+        let mut out = format!("--ground:{};--grid:{};", self.pick(GROUND), self.pick(GRID));
+        for tone in Tone::ALL {
+            out += &format!("--{}:{};", tone.name(), self.color(tone));
+        }
+        out
+    }
+
+    /// The classes with the colours of this theme, for a document that stands alone.
+    pub(crate) fn classes(self) -> String {
+        classes(|name| match name {
+            "ground" => self.pick(GROUND).into(),
+            "grid" => self.pick(GRID).into(),
+            name => Tone::ALL
+                .into_iter()
+                .find(|tone| tone.name() == name)
+                .map(|tone| self.color(tone).into())
+                .unwrap_or_default(),
+        })
+    }
+}
+
+/// The classes every drawing uses; `color` says what stands for a name.
+pub(crate) fn classes(color: impl Fn(&str) -> String) -> String {
+    let mut out = format!(
+        ".t-ground{{fill:{ground}}}.t-grid{{stroke:{grid};fill:none;stroke-width:1}}\
+         .t-axis{{stroke:{muted};fill:none;stroke-width:1;stroke-opacity:.6}}\
+         .t-halo{{stroke:{ground};stroke-width:1.4}}\
+         .t-title{{fill:{ink};font-weight:600;font-size:17px}}.t-name{{fill:{ink};font-size:13px}}\
+         .t-tick{{fill:{muted};font-size:12px}}.t-caption{{fill:{muted};font-size:12.5px}}\
+         .t-legend{{fill:{ink};font-size:12.5px}}.t-level{{font-size:12px;font-weight:600}}\
+         .t-back{{opacity:.3}}.t-front{{opacity:.6}}",
+        ground = color("ground"),
+        grid = color("grid"),
+        muted = color("muted"),
+        ink = color("ink"),
+    );
+    for tone in Tone::ALL {
+        let (name, color) = (tone.name(), color(tone.name()));
+        out += &format!(
+            ".f-{name}{{fill:{color}}}.e-{name}{{stroke:{color}}}.s-{name}{{stroke:{color};fill:none}}"
+        );
+    }
+    out
+}

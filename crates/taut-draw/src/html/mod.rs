@@ -1,6 +1,19 @@
 //! A report as one HTML file.
+//!
+//! *Idea.* Pictures of the plane and charts are inline SVG that takes its colours from variables of the page, so that
+//! one picture serves bright and dark screens and paper. Scenes of space are numbers for a small viewer of our own.
+//! *Guarantee.* The file asks for nothing from anywhere, and its content policy forbids that it could.
+//! *Trap.* Words from outside stand in markup and in scripts: each has its own escape.
 
-use crate::Figure;
+mod space;
+
+use std::fmt::Write as _;
+
+use crate::number::px;
+use crate::style::classes;
+use crate::svg::{Chrome, Hover, draw, legend};
+use crate::text::{escape, json};
+use crate::{Figure, Theme};
 
 /// A report: what [`to_html`] writes as one file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -46,7 +59,161 @@ impl Fact {
     }
 }
 
+/// Width at which the first figure of a section is drawn, and its height, pixels.
+const LEAD: [f64; 2] = [740.0, 560.0];
+/// The same for figures that stand side by side.
+const BESIDE: [f64; 2] = [540.0, 330.0];
+
 /// The page as one HTML file that needs nothing else: figures inline, scenes of space to be turned by hand.
+///
+/// Figures are drawn in sizes that suit the page; their own widths and heights do not matter here.
 pub fn to_html(page: &Page) -> String {
-    page.title.clone()
+    let title = escape(&page.title);
+    let [light, dark] = [Theme::Light, Theme::Dark].map(Theme::variables);
+    let mut out = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; \
+         script-src 'unsafe-inline'\">\n\
+         <title>{title}</title>\n<style>\n:root{{{light}}}\n\
+         @media screen and (prefers-color-scheme: dark){{:root{{{dark}}}}}\n{}{}\n</style>\n</head>\n<body>\n\
+         <header>\n<h1>{title}</h1>\n{}</header>\n<main>\n",
+        include_str!("page.css"),
+        classes(|name| format!("var(--{name})")),
+        paragraphs(&page.intro),
+    );
+    for part in &page.sections {
+        section(&mut out, part);
+    }
+    out.push_str("</main>\n");
+    if !page.footer.is_empty() {
+        let _ = writeln!(out, "<footer>{}</footer>", escape(&page.footer));
+    }
+    let _ = write!(
+        out,
+        "<div id=\"tip\" role=\"status\"></div>\n<script>\n{}</script>\n</body>\n</html>\n",
+        include_str!("viewer.js")
+    );
+    out
+}
+
+/// Plain text as paragraphs, divided at blank lines.
+fn paragraphs(text: &str) -> String {
+    let mut out = String::new();
+    let mut paragraph = String::new();
+    for line in text.lines().chain([""]) {
+        if !line.trim().is_empty() {
+            paragraph += if paragraph.is_empty() { "" } else { " " };
+            paragraph += line.trim();
+        } else if !paragraph.is_empty() {
+            let _ = writeln!(out, "<p>{}</p>", escape(&paragraph));
+            paragraph.clear();
+        }
+    }
+    out
+}
+
+fn section(out: &mut String, part: &Section) {
+    out.push_str("<section>\n");
+    if !part.heading.is_empty() {
+        let _ = writeln!(out, "<h2>{}</h2>", escape(&part.heading));
+    }
+    out.push_str(&paragraphs(&part.text));
+    let words = !part.facts.is_empty() || !part.command.is_empty();
+    let (lead, rest) = match part.figures.split_first() {
+        Some((lead @ (Figure::Plane(_) | Figure::Space(_)), rest)) => (Some(lead), rest),
+        _ => (None, &part.figures[..]),
+    };
+    if words || lead.is_some() {
+        let columns = if words && lead.is_some() { "top two" } else { "top" };
+        let _ = writeln!(out, "<div class=\"{columns}\">");
+        if words {
+            out.push_str("<div>\n");
+            facts(out, part);
+            out.push_str("</div>\n");
+        }
+        if let Some(lead) = lead {
+            figure(out, lead, LEAD);
+        }
+        out.push_str("</div>\n");
+    }
+    if !rest.is_empty() {
+        out.push_str("<div class=\"rest\">\n");
+        for each in rest {
+            figure(out, each, BESIDE);
+        }
+        out.push_str("</div>\n");
+    }
+    out.push_str("</section>\n");
+}
+
+fn facts(out: &mut String, part: &Section) {
+    if !part.facts.is_empty() {
+        out.push_str("<table>\n");
+        for fact in &part.facts {
+            let (name, value) = (escape(&fact.name), escape(&fact.value));
+            let _ = writeln!(out, "<tr><th scope=\"row\">{name}</th><td>{value}</td></tr>");
+        }
+        out.push_str("</table>\n");
+    }
+    if !part.command.is_empty() {
+        let _ = writeln!(out, "<pre><code>{}</code></pre>", escape(&part.command));
+    }
+}
+
+fn figure(out: &mut String, figure: &Figure, [width, height]: [f64; 2]) {
+    let mut sized = figure.clone();
+    match &mut sized {
+        Figure::Plane(scene) => {
+            (scene.width, scene.height) =
+                (width, (scene.height / scene.width * width).clamp(200.0, height));
+        }
+        Figure::Space(scene) => (scene.width, scene.height) = (width, height),
+        Figure::Plot(plot) => (plot.width, plot.height) = (width, height.min(BESIDE[1])),
+    }
+    let (title, caption) = (escape(figure.title()), escape(figure.caption()));
+    let (svg, _, hovers) = draw(&sized, Chrome::Bare);
+    let kind = if matches!(figure, Figure::Space(_)) { "space" } else { "flat" };
+    let _ = writeln!(out, "<figure class=\"{kind}\">\n<h3>{title}</h3>");
+    match &sized {
+        Figure::Space(scene) => {
+            let _ = writeln!(
+                out,
+                "{}<div class=\"sheet\"><canvas width=\"{w}\" height=\"{h}\" tabindex=\"0\" role=\"img\" \
+                 aria-label=\"{title}. {caption}\"></canvas></div>\n<noscript>{svg}</noscript>\n\
+                 <div class=\"hint\">Drag to turn, pinch or click and wheel to zoom; arrow keys, + and − do the \
+                 same, 0 goes back.</div>\n<script type=\"application/json\" class=\"data\">{}</script>",
+                legend(scene),
+                space::data(scene),
+                w = px(scene.width),
+                h = px(scene.height),
+            );
+        }
+        Figure::Plane(scene) => flat(out, &svg, &[&scene.x.name, &scene.y.name], &hovers),
+        Figure::Plot(plot) => flat(out, &svg, &[&plot.x.name, &plot.y.name], &hovers),
+    }
+    let _ = writeln!(out, "<figcaption>{caption}</figcaption>\n</figure>");
+}
+
+fn flat(out: &mut String, svg: &str, names: &[&str], hovers: &[Hover]) {
+    let names: Vec<_> = names.iter().map(|name| json(name)).collect();
+    let _ = write!(
+        out,
+        "<div class=\"sheet\">{svg}</div>\n<script type=\"application/json\" class=\"data\">{{\"names\":[{}],\"marks\":[",
+        names.join(",")
+    );
+    for (i, hover) in hovers.iter().enumerate() {
+        let id = hover.id.map_or_else(|| "null".to_owned(), |id| id.to_string());
+        let words: Vec<_> = hover.words.iter().map(|w| json(w)).collect();
+        let comma = if i == 0 { "" } else { ",\n" };
+        let _ = write!(
+            out,
+            "{comma}[{},{},{id},{}]",
+            px(hover.at[0]),
+            px(hover.at[1]),
+            words.join(",")
+        );
+    }
+    out.push_str("]}</script>\n");
 }

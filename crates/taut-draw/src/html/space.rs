@@ -1,0 +1,106 @@
+//! A scene of space as the data of the page's viewer.
+
+use crate::number::short;
+use crate::svg::{EYE, Stage, WIRED, finite, stage};
+use crate::text::json;
+use crate::{Layer3, Look, Projection, Scene3, Shape3};
+
+/// The scene as JSON: places in the unit ball of the view, words as they are to be shown.
+pub(super) fn data(scene: &Scene3) -> String {
+    let stage = stage(scene);
+    let names: Vec<_> = scene.axes.iter().map(|axis| json(&axis.name)).collect();
+    let layers: Vec<_> = scene.layers.iter().map(|l| layer(l, &stage)).collect();
+    format!(
+        "{{\"names\":[{}],\"eye\":{EYE},\"wired\":{WIRED},\"perspective\":{},\"azimuth\":{},\"elevation\":{},\
+         \"width\":{},\"height\":{},\"layers\":[{}]}}",
+        names.join(","),
+        scene.projection == Projection::Perspective,
+        number(scene.azimuth),
+        number(scene.elevation.clamp(-90.0, 90.0)),
+        number(scene.width.max(1.0)),
+        number(scene.height.max(1.0)),
+        layers.join(",\n"),
+    )
+}
+
+/// Four decimals: a tenth of a pixel on any screen.
+fn number(value: f64) -> String {
+    let value = if value.is_finite() { (value * 1e4).round() / 1e4 } else { 0.0 };
+    format!("{}", value + 0.0)
+}
+
+fn place(p: [f64; 3]) -> String {
+    format!("[{}]", p.map(number).join(","))
+}
+
+fn mark(at: [f64; 3], size: f64, id: Option<u64>, words: &[String]) -> String {
+    let id = id.map_or_else(|| "null".to_owned(), |id| id.to_string());
+    let words: Vec<_> = words.iter().map(|w| json(w)).collect();
+    let (at, size) = (place(at), number(size));
+    format!("{{\"at\":{at},\"size\":{size},\"id\":{id},\"words\":[{}]}}", words.join(","))
+}
+
+fn layer(layer: &Layer3, stage: &Stage) -> String {
+    let look = match layer.look {
+        Look::Solid => "solid",
+        Look::Dashed => "dashed",
+        Look::Filled => "filled",
+    };
+    let mut marks = Vec::new();
+    let mut more = String::new();
+    let said = |at: &[f64; 3], last: String| -> Vec<String> {
+        at.iter().map(|&v| short(v, 6)).chain([last]).collect()
+    };
+    let kind = match &layer.shape {
+        Shape3::Points(points) => {
+            for p in points.iter().filter(|p| finite(&p.at)) {
+                marks.push(mark(stage.place(&p.at), p.size, p.id, &said(&p.at, p.label.clone())));
+            }
+            "points"
+        }
+        Shape3::Crosses(places) => {
+            marks.extend(
+                places.iter().filter(|p| finite(p)).map(|p| mark(stage.place(p), 6.0, None, &[])),
+            );
+            "crosses"
+        }
+        Shape3::Spheres(spheres) => {
+            for s in spheres
+                .iter()
+                .filter(|s| finite(&s.center) && s.radius.is_finite() && s.radius >= 0.0)
+            {
+                let words = said(&s.center, format!("radius {}", short(s.radius, 6)));
+                marks.push(mark(stage.place(&s.center), stage.length(s.radius), s.id, &words));
+            }
+            "spheres"
+        }
+        Shape3::Polylines(chains) => {
+            let chain = |chain: &Vec<[f64; 3]>| {
+                let places: Vec<_> =
+                    chain.iter().filter(|p| finite(p)).map(|p| place(stage.place(p))).collect();
+                format!("[{}]", places.join(","))
+            };
+            let chains: Vec<_> = chains.iter().map(chain).collect();
+            more = format!(",\"chains\":[{}]", chains.join(","));
+            "polylines"
+        }
+        Shape3::Mesh(mesh) => {
+            let drawable =
+                |t: &&[usize; 3]| t.iter().all(|&i| mesh.vertices.get(i).is_some_and(finite));
+            let vertices: Vec<_> = mesh.vertices.iter().map(|p| place(stage.place(p))).collect();
+            let triangles: Vec<_> =
+                mesh.triangles.iter().filter(drawable).map(|t| format!("{t:?}")).collect();
+            more = format!(
+                ",\"vertices\":[{}],\"triangles\":[{}]",
+                vertices.join(","),
+                triangles.join(",")
+            );
+            "mesh"
+        }
+    };
+    format!(
+        "{{\"tone\":\"{}\",\"look\":\"{look}\",\"kind\":\"{kind}\",\"marks\":[{}]{more}}}",
+        layer.tone.name(),
+        marks.join(",\n"),
+    )
+}

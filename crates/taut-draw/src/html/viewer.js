@@ -1,0 +1,212 @@
+// The page's two hands: words for the mark under the pointer, and scenes of space that can be turned.
+"use strict";
+(() => {
+  const tip = document.getElementById("tip");
+  const data = (figure) => JSON.parse(figure.querySelector("script.data").textContent);
+
+  // Words: the row of the input, a line for each named coordinate, then what else there is to say.
+  const words = (names, mark) => {
+    const lines = mark.id === null ? [] : ["row " + mark.id];
+    names.forEach((name, k) => { if (name) lines.push(name + ": " + mark.words[k]); });
+    return lines.concat(mark.words.slice(names.length).filter(Boolean)).join("\n");
+  };
+  const show = (text, event) => {
+    tip.textContent = text;
+    const x = Math.min(event.clientX + 14, innerWidth - tip.offsetWidth - 8);
+    const y = Math.min(event.clientY + 14, innerHeight - tip.offsetHeight - 8);
+    tip.style.transform = "translate(" + Math.max(8, x) + "px," + Math.max(8, y) + "px)";
+    tip.style.visibility = "visible";
+  };
+  const hide = () => { tip.style.visibility = "hidden"; };
+  const nearest = (marks, x, y, reach) => {
+    let best = null, square = reach * reach;
+    for (const mark of marks) {
+      const d = (mark.at[0] - x) ** 2 + (mark.at[1] - y) ** 2;
+      if (d <= square) { square = d; best = mark; }
+    }
+    return best;
+  };
+  const mark = (list) => ({ at: [list[0], list[1]], id: list[2], words: list.slice(3) });
+
+  for (const figure of document.querySelectorAll("figure.flat")) {
+    const { names, marks } = data(figure), svg = figure.querySelector(".sheet svg");
+    const all = marks.map(mark), box = svg.viewBox.baseVal;
+    svg.addEventListener("pointermove", (event) => {
+      const at = svg.getBoundingClientRect(), zoom = box.width / at.width;
+      const found = nearest(all, (event.clientX - at.left) * zoom, (event.clientY - at.top) * zoom, 12 * zoom);
+      if (found) show(words(names, found), event); else hide();
+    });
+    svg.addEventListener("pointerleave", hide);
+  }
+
+  const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  const along = (a, b, t) => [a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]];
+  const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+  const unit = (a) => along([0, 0, 0], a, 1 / Math.sqrt(dot(a, a)));
+  const range = (n, f) => Array.from({ length: n }, (_, i) => f(i));
+  const turn = Math.PI / 180;
+  const wires = range(5, (k) => range(73, (i) => {
+    const t = (k - 2) * 30 * turn, s = i * 5 * turn;
+    return [Math.cos(t) * Math.cos(s), Math.cos(t) * Math.sin(s), Math.sin(t)];
+  })).concat(range(6, (k) => range(73, (i) => {
+    const t = k * 30 * turn, s = i * 5 * turn;
+    return [Math.cos(s) * Math.cos(t), Math.cos(s) * Math.sin(t), Math.sin(s)];
+  })));
+
+  const view = (figure) => {
+    const scene = data(figure), canvas = figure.querySelector("canvas"), pen = canvas.getContext("2d");
+    const eye = scene.eye, perspective = scene.perspective, count = scene.layers.reduce((n, l) => n + l.marks.length, 0);
+    let azimuth = scene.azimuth, elevation = scene.elevation, zoom = 1, marks = [], queued = false;
+
+    const draw = () => {
+      queued = false;
+      const css = getComputedStyle(document.documentElement), color = (name) => css.getPropertyValue("--" + name).trim();
+      const w = canvas.clientWidth || scene.width, h = w * scene.height / scene.width, dpr = devicePixelRatio || 1;
+      canvas.width = Math.round(w * dpr); canvas.height = Math.round(h * dpr);
+      pen.setTransform(dpr, 0, 0, dpr, 0, 0);
+      pen.lineJoin = "round";
+      const [sa, ca, se, ce] = [Math.sin(azimuth * turn), Math.cos(azimuth * turn), Math.sin(elevation * turn), Math.cos(elevation * turn)];
+      const frame = [[-sa, ca, 0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]];
+      const scale = zoom * 0.47 * Math.min(w, h) / (perspective ? eye / Math.sqrt(eye * eye - 1) : 1);
+      const turned = (p) => frame.map((axis) => dot(axis, p));
+      const grow = (z) => perspective ? eye / (eye - z) : 1;
+      const pixel = (v) => { const s = scale * grow(v[2]); return [w / 2 + s * v[0], h / 2 - s * v[1]]; };
+      const toEye = (v) => perspective ? [-v[0], -v[1], eye - v[2]] : [0, 0, 1];
+      const path = (chain, closed) => {
+        if (chain.length < 2) return;
+        pen.beginPath();
+        chain.forEach((at, i) => i ? pen.lineTo(at[0], at[1]) : pen.moveTo(at[0], at[1]));
+        if (closed) pen.closePath();
+      };
+      marks = [];
+
+      for (const layer of scene.layers) if (layer.kind === "spheres") {
+        const wired = layer.marks.length <= scene.wired, ink = color(layer.tone);
+        const balls = layer.marks.map((m) => ({ c: turned(m.at), r: m.size, m })).sort((a, b) => a.c[2] - b.c[2]);
+        pen.strokeStyle = ink; pen.setLineDash(layer.look === "dashed" ? [6, 5] : []);
+        for (const { c, r, m } of balls) {
+          const e = toEye(c), sine = perspective ? Math.min(0.999, r / Math.sqrt(dot(e, e))) : 0, axis = unit(e);
+          const ring = r * Math.sqrt(1 - sine * sine), u = unit(cross(axis, Math.abs(axis[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0])), v = cross(axis, u);
+          path(range(96, (i) => {
+            const t = i / 96 * 2 * Math.PI;
+            return pixel(along(along(along(c, axis, r * sine), u, ring * Math.cos(t)), v, ring * Math.sin(t)));
+          }), true);
+          if (layer.look === "filled") {
+            if (wired && r > 0) {
+              const at = pixel(c), size = r * scale * grow(c[2]);
+              const shade = pen.createRadialGradient(at[0] - .28 * size, at[1] - .4 * size, 0, at[0] - .28 * size, at[1] - .4 * size, 1.5 * size);
+              [[0, "05"], [.7, "17"], [1, "3d"]].forEach(([t, alpha]) => shade.addColorStop(t, ink + alpha));
+              pen.fillStyle = shade; pen.globalAlpha = 1;
+            } else { pen.fillStyle = ink; pen.globalAlpha = .08; }
+            pen.fill();
+          }
+          pen.globalAlpha = wired ? 1 : .7; pen.lineWidth = wired ? 2 : .8; pen.stroke();
+          if (m.id !== null) marks.push({ at: pixel(c), id: m.id, words: m.words });
+        }
+        pen.setLineDash([]);
+        if (!wired || layer.look === "dashed") continue;
+        pen.lineWidth = .8;
+        for (const front of [false, true]) {
+          pen.globalAlpha = front ? .6 : .3;
+          for (const { c, r } of balls) for (const wire of wires) {
+            let chain = [];
+            for (const n of wire) {
+              const normal = turned(n), at = along(c, normal, r);
+              if ((dot(normal, toEye(at)) > 0) === front) chain.push(pixel(at));
+              else { path(chain, false); if (chain.length > 1) pen.stroke(); chain = []; }
+            }
+            path(chain, false); if (chain.length > 1) pen.stroke();
+          }
+        }
+      }
+
+      const pieces = [];
+      for (const layer of scene.layers) {
+        if (layer.kind === "points" || layer.kind === "crosses") for (const m of layer.marks) {
+          const v = turned(m.at), at = pixel(v);
+          pieces.push({ z: v[2], layer, at, size: m.size * grow(v[2]) * Math.sqrt(zoom) });
+          if (layer.kind === "points") marks.push({ at, id: m.id, words: m.words });
+        }
+        for (const chain of layer.chains || []) for (let i = 1; i < chain.length; i++) {
+          const a = turned(chain[i - 1]), b = turned(chain[i]);
+          pieces.push({ z: (a[2] + b[2]) / 2, layer, chain: [pixel(a), pixel(b)] });
+        }
+        for (const t of layer.triangles || []) {
+          const [a, b, c] = t.map((i) => turned(layer.vertices[i])), n = cross(along(b, a, -1), along(c, a, -1)), size = Math.sqrt(dot(n, n));
+          const light = size > 0 ? Math.abs(dot(n, [-.3, .5, .81])) / size : 0;
+          pieces.push({ z: (a[2] + b[2] + c[2]) / 3, layer, face: [pixel(a), pixel(b), pixel(c)], light });
+        }
+      }
+      pieces.sort((a, b) => a.z - b.z);
+      const many = count > 2000, inks = {}, ground = color("ground");
+      for (const p of pieces) {
+        const tone = p.layer.tone, ink = inks[tone] || (inks[tone] = color(tone)), bulk = tone === "point";
+        const low = bulk ? (many ? .12 : .25) : .6, high = bulk && many ? .6 : .95;
+        pen.globalAlpha = low + (high - low) * Math.min(1, Math.max(0, (p.z + 1) / 2));
+        pen.fillStyle = pen.strokeStyle = ink;
+        if (p.face) { pen.globalAlpha = .25 + .5 * p.light; path(p.face, true); pen.fill(); pen.lineWidth = .4; pen.stroke(); }
+        else if (p.chain) { pen.lineWidth = 2; pen.setLineDash(p.layer.look === "dashed" ? [6, 5] : []); path(p.chain, false); pen.stroke(); pen.setLineDash([]); }
+        else if (p.layer.kind === "crosses") {
+          pen.lineWidth = 2; pen.beginPath();
+          pen.moveTo(p.at[0] - 6, p.at[1]); pen.lineTo(p.at[0] + 6, p.at[1]); pen.moveTo(p.at[0], p.at[1] - 6); pen.lineTo(p.at[0], p.at[1] + 6);
+          pen.stroke();
+        } else {
+          pen.beginPath(); pen.arc(p.at[0], p.at[1], p.size, 0, 2 * Math.PI); pen.fill();
+          if (!bulk) { pen.strokeStyle = ground; pen.lineWidth = 1.4; pen.stroke(); }
+        }
+      }
+
+      pen.globalAlpha = 1; pen.font = "12px " + css.fontFamily; pen.fillStyle = pen.strokeStyle = color("muted");
+      pen.textAlign = "center"; pen.textBaseline = "middle"; pen.lineWidth = 1;
+      scene.names.forEach((name, k) => {
+        const v = turned([0, 1, 2].map((j) => j === k ? 1 : 0)), tip = (t) => [56 + t * v[0], h - 56 - t * v[1]];
+        path([tip(0), tip(26)], false); pen.stroke();
+        pen.fillText(name.length > 14 ? name.slice(0, 13) + "…" : name, ...tip(37));
+      });
+    };
+    const redraw = () => { if (!queued) { queued = true; requestAnimationFrame(draw); } };
+    const rotate = (dx, dy) => {
+      azimuth = (azimuth - dx) % 360; elevation = Math.min(90, Math.max(-90, elevation + dy)); redraw();
+    };
+    const enlarge = (factor) => { zoom = Math.min(20, Math.max(.3, zoom * factor)); redraw(); };
+
+    const held = new Map();
+    canvas.addEventListener("pointerdown", (event) => {
+      canvas.setPointerCapture(event.pointerId); held.set(event.pointerId, [event.clientX, event.clientY]); hide();
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      const before = held.get(event.pointerId), now = [event.clientX, event.clientY];
+      if (!before) {
+        const at = canvas.getBoundingClientRect(), found = nearest(marks, now[0] - at.left, now[1] - at.top, 10);
+        if (found) show(words(scene.names, found), event); else hide();
+        return;
+      }
+      if (held.size === 2) {
+        const other = [...held].find(([id]) => id !== event.pointerId)[1];
+        const gap = (p) => Math.hypot(p[0] - other[0], p[1] - other[1]);
+        if (gap(before) > 0) enlarge(gap(now) / gap(before));
+      } else rotate((now[0] - before[0]) * .45, (now[1] - before[1]) * .45);
+      held.set(event.pointerId, now);
+    });
+    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (event) => held.delete(event.pointerId));
+    canvas.addEventListener("pointerleave", hide);
+    // The wheel scrolls the page until the picture was clicked.
+    canvas.addEventListener("wheel", (event) => {
+      if (document.activeElement !== canvas && !event.ctrlKey) return;
+      event.preventDefault(); enlarge(Math.exp(-event.deltaY * .0015));
+    }, { passive: false });
+    canvas.addEventListener("keydown", (event) => {
+      const keys = { ArrowLeft: [-6, 0], ArrowRight: [6, 0], ArrowUp: [0, 6], ArrowDown: [0, -6] };
+      if (keys[event.key]) rotate(...keys[event.key]);
+      else if (event.key === "+" || event.key === "=") enlarge(1.15);
+      else if (event.key === "-") enlarge(1 / 1.15);
+      else if (event.key === "0") { azimuth = scene.azimuth; elevation = scene.elevation; zoom = 1; redraw(); }
+      else return;
+      event.preventDefault();
+    });
+    addEventListener("resize", redraw);
+    for (const query of ["(prefers-color-scheme: dark)", "print"]) matchMedia(query).addEventListener("change", draw);
+    draw();
+  };
+  document.querySelectorAll("figure.space").forEach(view);
+})();

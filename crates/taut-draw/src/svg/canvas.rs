@@ -1,0 +1,160 @@
+//! The writer of SVG elements; the one place where numbers and words become markup.
+
+use std::fmt::Write as _;
+
+use super::{Chrome, Hover};
+use crate::number::px;
+use crate::text::escape;
+use crate::{Look, Tone};
+
+/// Elements written so far.
+#[derive(Default)]
+pub(super) struct Canvas {
+    body: String,
+    /// Width and height of the document, pixels.
+    pub(super) size: [f64; 2],
+    /// Marks for the pointer.
+    pub(super) hovers: Vec<Hover>,
+    /// Whether marks carry titles of their own; a page shows their words itself.
+    pub(super) titled: bool,
+}
+
+/// Where a word stands relative to its place.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+impl Canvas {
+    /// Opens a group with classes and further attributes, which must be safe as they are.
+    pub(super) fn open(&mut self, classes: &str, attributes: &str) {
+        let space = if attributes.is_empty() { "" } else { " " };
+        let _ = write!(self.body, "<g class=\"{classes}\"{space}{attributes}>");
+    }
+
+    pub(super) fn close(&mut self) {
+        self.body.push_str("</g>\n");
+    }
+
+    pub(super) fn raw(&mut self, markup: &str) {
+        self.body.push_str(markup);
+    }
+
+    pub(super) fn line(&mut self, from: [f64; 2], to: [f64; 2]) {
+        let [x1, y1, x2, y2] = [from[0], from[1], to[0], to[1]].map(px);
+        let _ = write!(self.body, "<line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"/>");
+    }
+
+    pub(super) fn disc(&mut self, at: [f64; 2], radius: f64, title: &str) {
+        let [x, y, r] = [at[0], at[1], radius].map(px);
+        let _ = write!(self.body, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\"");
+        self.end("circle", title);
+    }
+
+    pub(super) fn ellipse(&mut self, at: [f64; 2], radii: [f64; 2], title: &str) {
+        if px(radii[0]) == px(radii[1]) {
+            return self.disc(at, radii[0], title);
+        }
+        let [x, y, rx, ry] = [at[0], at[1], radii[0], radii[1]].map(px);
+        let _ = write!(self.body, "<ellipse cx=\"{x}\" cy=\"{y}\" rx=\"{rx}\" ry=\"{ry}\"");
+        self.end("ellipse", title);
+    }
+
+    fn end(&mut self, tag: &str, title: &str) {
+        if title.is_empty() || !self.titled {
+            self.body.push_str("/>");
+        } else {
+            let _ = write!(self.body, "><title>{}</title></{tag}>", escape(title));
+        }
+    }
+
+    pub(super) fn rect(&mut self, from: [f64; 2], to: [f64; 2]) {
+        let [x, y] = [from[0].min(to[0]), from[1].min(to[1])].map(px);
+        let [w, h] = [(to[0] - from[0]).abs(), (to[1] - from[1]).abs()].map(px);
+        let _ = write!(self.body, "<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"/>");
+    }
+
+    pub(super) fn cross(&mut self, at: [f64; 2], arm: f64) {
+        let [x, y, a] = [at[0], at[1], arm].map(px);
+        let _ =
+            write!(self.body, "<path d=\"M{x} {y}m-{a} 0h{t}m-{a} -{a}v{t}\"/>", t = px(2.0 * arm));
+    }
+
+    /// A chain of segments; fewer than two places make none.
+    pub(super) fn chain(&mut self, places: &[[f64; 2]], closed: bool) {
+        if places.len() < 2 {
+            return;
+        }
+        self.body.push_str("<path d=\"");
+        for (i, place) in places.iter().enumerate() {
+            let _ = write!(
+                self.body,
+                "{}{} {}",
+                if i == 0 { 'M' } else { 'L' },
+                px(place[0]),
+                px(place[1])
+            );
+        }
+        self.body.push_str(if closed { "Z\"/>" } else { "\"/>" });
+    }
+
+    pub(super) fn text(&mut self, at: [f64; 2], class: &str, anchor: Anchor, text: &str) {
+        let anchor = match anchor {
+            Anchor::Start => "",
+            Anchor::Middle => " text-anchor=\"middle\"",
+            Anchor::End => " text-anchor=\"end\"",
+        };
+        let [x, y] = at.map(px);
+        let text = escape(text);
+        let _ =
+            write!(self.body, "<text class=\"{class}\" x=\"{x}\" y=\"{y}\"{anchor}>{text}</text>");
+    }
+
+    /// A word that reads upwards, centred on its place.
+    pub(super) fn text_upwards(&mut self, at: [f64; 2], class: &str, text: &str) {
+        let [x, y] = at.map(px);
+        let text = escape(text);
+        let _ = write!(
+            self.body,
+            "<text class=\"{class}\" transform=\"translate({x} {y}) rotate(-90)\" text-anchor=\"middle\">{text}</text>"
+        );
+    }
+
+    /// The whole document.
+    pub(super) fn document(self, title: &str, caption: &str, chrome: Chrome) -> String {
+        let [w, h] = self.size.map(px);
+        let (title, caption) = (escape(title), escape(caption));
+        let head = match chrome {
+            Chrome::Full(theme) => format!(
+                " width=\"{w}\" height=\"{h}\" role=\"img\" \
+                 font-family=\"Inter, system-ui, 'Helvetica Neue', Arial, sans-serif\">\n\
+                 <title>{title}</title>\n<desc>{caption}</desc>\n<style>{}</style>\n\
+                 <rect class=\"t-ground\" width=\"{w}\" height=\"{h}\"/>\n",
+                theme.classes()
+            ),
+            // The caption stands below; a title element would follow the pointer everywhere.
+            Chrome::Bare => format!(" role=\"img\" aria-label=\"{title}\">\n"),
+        };
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\"{head}{}</svg>\n",
+            self.body
+        )
+    }
+
+    /// What was written, without a document around it.
+    pub(super) fn into_body(self) -> String {
+        self.body
+    }
+}
+
+/// The classes of lines and areas of a layer, and the attributes that go with its look.
+pub(super) fn stroke(tone: Tone, look: Look) -> (String, &'static str) {
+    let name = tone.name();
+    match look {
+        Look::Solid => (format!("s-{name}"), "stroke-width=\"2\" stroke-linejoin=\"round\""),
+        Look::Dashed => (format!("s-{name}"), "stroke-width=\"1.8\" stroke-dasharray=\"6 5\""),
+        Look::Filled => (format!("f-{name} e-{name}"), "stroke-width=\"2\" fill-opacity=\"0.07\""),
+    }
+}
