@@ -142,7 +142,7 @@ impl Peer {
         let text = text.replace("-nan", "null").replace("nan", "null").replace("inf", "null");
         let line: Line = serde_json::from_str(&text).with_context(|| text.clone())?;
         let bytes = std::fs::read(&self.center)?;
-        let center = bytemuck::pod_collect_to_vec(&bytes);
+        let center = doubles(&bytes);
         Ok(Ok(Answer { seconds: line.seconds, radius: line.radius.unwrap_or(f64::NAN), center }))
     }
 
@@ -162,13 +162,19 @@ impl Drop for Peer {
     }
 }
 
+/// Little-endian doubles; bytes beyond the last whole one are none.
+fn doubles(bytes: &[u8]) -> Vec<f64> {
+    let (whole, _) = bytes.as_chunks::<8>();
+    whole.iter().map(|&bytes| f64::from_le_bytes(bytes)).collect()
+}
+
 /// Serves the crate `miniball`, whose dimension is fixed when it is compiled.
 pub(crate) fn serve_crate(input: &Path, center: &Path) -> Result<()> {
     let bytes = std::fs::read(input)?;
     ensure!(bytes.len() >= 16, "{}: no header of rows and columns", input.display());
     let (head, values) = bytes.split_at(16);
     let columns = u64::from_le_bytes(head[8..].try_into()?);
-    let values: Vec<f64> = bytemuck::pod_collect_to_vec(values);
+    let values = doubles(values);
     // A macro, as the bounds of a function generic in the dimension would be longer than its body.
     macro_rules! serve {
         ($($dim:literal)*) => {
