@@ -147,7 +147,13 @@ impl Goal {
                 (
                     format!("{bound}× faster than {}", peers.join(" and ")),
                     best.as_ref().map_or("no peer answered".into(), |(name, s, note)| {
-                        format!("{}× against {name}{note}", spread(*s))
+                        format!(
+                            "{}× (range {}–{}, {} runs) against {name}{note}",
+                            times(s.median),
+                            times(s.min),
+                            times(s.max),
+                            s.count
+                        )
                     }),
                     best.map(|(_, s, _)| s.median >= bound),
                 )

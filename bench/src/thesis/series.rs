@@ -42,6 +42,13 @@ impl Way {
         }
     }
 
+    /// taut's default method held to one far point per pass, as the thesis has it.
+    fn one_per_pass(name: impl Into<String>, epsilon: f64) -> Self {
+        let mut way = Way::new(name, BallMethod::CoreSet, epsilon);
+        way.options.batch = Some(1);
+        way
+    }
+
     /// taut's default method, to the last digit.
     fn default_exact(name: impl Into<String>) -> Self {
         Way::new(name, BallMethod::CoreSet, 0.0)
@@ -159,7 +166,7 @@ impl Pair {
         self.times.notes.extend(notes.iter().cloned());
         self.sizes.notes.extend(notes);
         self.times.curves.push(curve(&way.name, &values, |v| v.seconds));
-        if way.options.method == BallMethod::CoreSet {
+        if way.options.method == BallMethod::CoreSet && way.options.batch.is_none() {
             self.sizes.curves.push(curve(format!("{}: support", way.name), &values, |v| v.support));
             self.sizes
                 .curves
@@ -190,6 +197,7 @@ fn pure_and_fast(plan: &Plan) -> Result<Vec<Figure>> {
     for way in [
         Way::new("Algorithm 1, pure", BallMethod::ThesisPure, EPSILON),
         Way::new("Algorithm 1, fast", BallMethod::ThesisFast, EPSILON),
+        Way::one_per_pass("taut, one far point per pass", EPSILON),
         Way::default_exact("taut, exact"),
     ] {
         pair.add(plan, &way, dims, input)?;
@@ -213,6 +221,8 @@ fn two_numbers_of_points(plan: &Plan) -> Result<Vec<Figure>> {
             dims,
             input,
         )?;
+        let one = Way::one_per_pass(format!("taut, one far point per pass, n = {n}"), EPSILON);
+        pair.add(plan, &one, dims, input)?;
         pair.add(plan, &Way::default_exact(format!("taut, exact, n = {n}")), dims, input)?;
     }
     pair.note(
