@@ -36,7 +36,7 @@ pub struct Ball {
     /// What is to be added to `center`, coordinate by coordinate, for the exact centre; empty means nothing.
     ///
     /// Given when the points lie so far from the origin that rounding the centre to one `f64` would cost more than
-    /// 1e-15 of the radius.
+    /// 1e-15 of the radius. It is what that rounding leaves over: adding it to `center` in `f64` changes nothing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub center_tail: Vec<f64>,
     /// The radius.
@@ -47,6 +47,9 @@ pub struct Ball {
 ///
 /// For points, c = Σ λᵢpᵢ and r² = Σ λᵢ|pᵢ − c|² ≤ R*², for any λ ≥ 0 with Σ λᵢ = 1. For balls with radii rᵢ and
 /// r̄ = Σ λᵢrᵢ, c = Σ λᵢcᵢ and r = r̄ + √(Σ λᵢ(|cᵢ − c|² − (rᵢ − r̄)²)) ≤ R*.
+///
+/// With u = 2⁻⁵³, the checker grants |Σ λᵢ − 1| ≤ 2(k + 2)u for k multipliers, and takes λᵢ/Σ λᵢ in their place. The
+/// centre of the ball is Σ λᵢpᵢ/Σ λᵢ, each coordinate to 4u(|cⱼ| + R), with a tail to 4uR + 8u²|cⱼ|.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BallCertificate {
     /// Points or balls.
@@ -55,7 +58,7 @@ pub struct BallCertificate {
     pub support: Vec<u64>,
     /// λᵢ, in the order of `support`.
     pub multipliers: Vec<f64>,
-    /// The gap claimed: radius ≤ (1 + gap)·R*.
+    /// The gap claimed: radius ≤ (1 + gap)·r. Accepted when the gap found is at most gap·(1 + 1e-9) + 4e-16.
     pub gap: f64,
     /// The hash of the rows this was made for.
     #[serde(serialize_with = "hash_to_hex", deserialize_with = "hash_from_hex")]

@@ -30,6 +30,7 @@
 //! Not for: finding answers. No solver is imported here, and no solver's arithmetic is called.
 #![forbid(unsafe_code)]
 
+mod arithmetic;
 mod ball;
 mod json;
 mod solution;

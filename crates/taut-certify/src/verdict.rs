@@ -9,7 +9,8 @@ pub struct Verdict {
     pub lower: f64,
     /// The size of the answer, which was found to enclose every point.
     pub upper: f64,
-    /// `upper / lower − 1`, rounded up; 0 where both are 0.
+    /// `upper / lower − 1`, rounded up, for the lower bound as it was before it was rounded down to one `f64`; 0 where
+    /// both are 0.
     pub gap: f64,
 }
 
@@ -55,6 +56,23 @@ pub enum Violation {
         /// Its value.
         value: f64,
     },
+    /// A ball of the input has a negative radius.
+    #[error("ball {row} has radius {value}: radii are the last column and must be at least 0")]
+    NegativeRadius {
+        /// Ball, from 0.
+        row: u64,
+        /// Its radius.
+        value: f64,
+    },
+    /// The certificate speaks of balls, but the rows have no room for a centre and a radius.
+    #[error("a ball needs a centre and a radius, but rows have {columns} column")]
+    NoRadius {
+        /// Columns there are.
+        columns: usize,
+    },
+    /// The certificate names no point at all.
+    #[error("the support is empty: a bound needs at least one point")]
+    EmptySupport,
     /// The support names a point that does not exist, or one twice.
     #[error("support entry {position} names point {point}, {problem}")]
     Support {
@@ -72,7 +90,9 @@ pub enum Violation {
         sum: f64,
     },
     /// The centre is not the combination of the support that the multipliers say.
-    #[error("coordinate {column} of the centre is {claimed}, but the multipliers give {found}")]
+    #[error(
+        "coordinate {column} of the centre is {claimed}, but the multipliers give {found}, {difference:e} beside it"
+    )]
     Center {
         /// Coordinate, from 0.
         column: usize,
@@ -80,6 +100,8 @@ pub enum Violation {
         claimed: f64,
         /// What the certificate gives.
         found: f64,
+        /// found − claimed, with the tail of the centre and before both were rounded to one `f64`.
+        difference: f64,
     },
     /// A point lies outside the answer.
     #[error(

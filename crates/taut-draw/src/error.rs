@@ -26,6 +26,14 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
+    /// A radius is below 0.
+    #[error("{what} is {value}: a radius is at least 0")]
+    NegativeRadius {
+        /// Which radius.
+        what: String,
+        /// Its value.
+        value: f64,
+    },
     /// An option is outside its range.
     #[error("option `{name}` is {value}: expected {expected}")]
     Option {

@@ -128,7 +128,17 @@ pub(crate) fn survey(
                 let what = format!("coordinate {column} of point {id}");
                 return Err(Error::NonFinite { what, value: row[column] });
             }
+            if let (Items::Balls, Some(&value)) = (certificate.items, row.last())
+                && value < 0.0
+            {
+                return Err(Error::NegativeRadius { what: format!("radius of ball {id}"), value });
+            }
             let reach = scaled.reach(&row, certificate.items);
+            if !reach.is_finite() {
+                // Only beside a ball many orders of magnitude smaller, which cannot be the answer for this point.
+                let what = format!("distance of point {id} from the centre, in radii,");
+                return Err(Error::NonFinite { what, value: reach });
+            }
             let part = if scaled.radius > 0.0 { reach / scaled.radius } else { 1.0 };
             found.fine[((part * FINE as f64) as usize).min(FINE)] += 1;
             found.close += u64::from(part >= 1.0 - CLOSE);

@@ -215,6 +215,15 @@ fn thinning_keeps_the_support_and_says_how_many() {
         };
         assert_eq!(drawn, [298, 2], "d = {dim}");
     }
+    // The same choice again, and the same bytes.
+    let (values, found) = unit_ball(5000, 4);
+    let options = DrawOptions { max_points: 300, ..Default::default() };
+    let [first, second] = [0, 1].map(|_| figures(&values, 4, &found, &options));
+    assert_eq!(first, second);
+    assert_eq!(
+        to_svg(&first[0], &Style::default()).as_bytes(),
+        to_svg(&second[0], &Style::default()).as_bytes()
+    );
     // More support than room: all of it is drawn, and nothing else.
     let (values, found) = unit_ball(100, 2);
     let figures = figures(&values, 2, &found, &DrawOptions { max_points: 1, ..Default::default() });
@@ -334,6 +343,19 @@ fn what_does_not_fit_is_refused() {
     assert!(
         matches!(answer, Err(Error::NonFinite { what, .. }) if what == "coordinate 1 of point 1")
     );
+    let negative = [0.0, 1.0, 2.0, -1.0];
+    let mut of_balls = found.clone();
+    of_balls.answer.center.pop();
+    of_balls.certificate.items = Items::Balls;
+    let answer = ball_figures(&of_balls, &Points::new(&negative, 2).unwrap(), &plain);
+    assert!(
+        matches!(answer, Err(Error::NegativeRadius { what, .. }) if what == "radius of ball 1")
+    );
+    let beyond = [1e308, 0.0, -1e308, 0.0];
+    let mut dot = found.clone();
+    (dot.answer.center, dot.answer.radius) = (vec![1e-300, 0.0], 1e-300);
+    let answer = ball_figures(&dot, &Points::new(&beyond, 2).unwrap(), &plain);
+    assert!(matches!(answer, Err(Error::NonFinite { .. })));
     // A ball that is too small is drawn, and the caption says so.
     let mut small = found;
     small.answer.radius = 0.99;

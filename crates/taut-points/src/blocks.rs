@@ -1,8 +1,8 @@
 //! Fixed blocks of rows, worked on by all threads and put together in block order.
 
 use std::ops::Range;
-
-use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use crate::{Monitor, PointSource, ReadError, Rows, Scratch};
 
@@ -65,12 +65,32 @@ where
         monitor.points(points);
         result
     };
-    if blocks.count() <= 1 {
-        return (0..blocks.count()).map(|block| one(&mut Scratch::new(), block)).collect();
+    let workers = (rayon::current_num_threads() as u64).min(blocks.count());
+    if workers <= 1 {
+        let mut scratch = Scratch::new();
+        return (0..blocks.count()).map(|block| one(&mut scratch, block)).collect();
     }
-    let results: Vec<Result<R, E>> = (0..blocks.count())
-        .into_par_iter()
-        .map_init(Scratch::new, |scratch, block| one(scratch, block))
-        .collect();
-    results.into_iter().collect()
+    // Blocks are handed out in order, so that a file is read nearly in order too, which is what read-ahead expects.
+    // After a failure no more are handed out; all before it were, so the first failure in block order is known.
+    let next = AtomicU64::new(0);
+    let failed = AtomicBool::new(false);
+    let done = Mutex::new(Vec::with_capacity(blocks.count() as usize));
+    let worker = || {
+        let mut scratch = Scratch::new();
+        let mut mine = Vec::new();
+        while !failed.load(Ordering::Relaxed) {
+            let block = next.fetch_add(1, Ordering::Relaxed);
+            if block >= blocks.count() {
+                break;
+            }
+            let result = one(&mut scratch, block);
+            failed.fetch_or(result.is_err(), Ordering::Relaxed);
+            mine.push((block, result));
+        }
+        done.lock().unwrap_or_else(PoisonError::into_inner).append(&mut mine);
+    };
+    rayon::scope(|scope| (0..workers).for_each(|_| scope.spawn(|_| worker())));
+    let mut done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
+    done.sort_unstable_by_key(|(block, _)| *block);
+    done.into_iter().map(|(_, result)| result).collect()
 }

@@ -5,6 +5,7 @@
 //! *Guarantee.* The file asks for nothing from anywhere, and its content policy forbids that it could.
 //! *Trap.* Words from outside stand in markup and in scripts: each has its own escape.
 
+mod font;
 mod space;
 
 use std::fmt::Write as _;
@@ -75,10 +76,11 @@ pub fn to_html(page: &Page) -> String {
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta name=\"color-scheme\" content=\"light dark\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; \
-         script-src 'unsafe-inline'\">\n\
-         <title>{title}</title>\n<style>\n:root{{{light}}}\n\
+         script-src 'unsafe-inline'; font-src data:\">\n\
+         <title>{title}</title>\n<style>\n{}:root{{{light}}}\n\
          @media screen and (prefers-color-scheme: dark){{:root{{{dark}}}}}\n{}{}\n</style>\n</head>\n<body>\n\
          <header>\n<h1>{title}</h1>\n{}</header>\n<main>\n",
+        font::faces(),
         include_str!("page.css"),
         classes(|name| format!("var(--{name})")),
         paragraphs(&page.intro),

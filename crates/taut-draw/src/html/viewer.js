@@ -156,7 +156,7 @@
         }
       }
 
-      pen.globalAlpha = 1; pen.font = "12px " + css.fontFamily; pen.fillStyle = pen.strokeStyle = color("muted");
+      pen.globalAlpha = 1; pen.font = "12px " + getComputedStyle(document.body).fontFamily; pen.fillStyle = pen.strokeStyle = color("muted");
       pen.textAlign = "center"; pen.textBaseline = "middle"; pen.lineWidth = 1;
       scene.names.forEach((name, k) => {
         const v = turned([0, 1, 2].map((j) => j === k ? 1 : 0)), tip = (t) => [56 + t * v[0], h - 56 - t * v[1]];
@@ -205,6 +205,7 @@
       event.preventDefault();
     });
     addEventListener("resize", redraw);
+    document.fonts.ready.then(redraw);
     for (const query of ["(prefers-color-scheme: dark)", "print"]) matchMedia(query).addEventListener("change", draw);
     draw();
   };

@@ -97,7 +97,7 @@ pub(super) fn begin(
         canvas.text([x + KEY + 7.0, top + 4.3], "t-legend", Anchor::Start, &name);
         x += needed + 20.0;
     }
-    Room { left: margin, top: top + 18.0, right: w - margin, bottom }
+    Room { left: margin, top: top + 18.0, right: w - margin.max(16.0), bottom }
 }
 
 /// The sample of an entry around a place.

@@ -13,17 +13,19 @@ pub(super) fn draw(scene: &Scene2, chrome: Chrome, canvas: &mut Canvas) {
     let mut room = frame::begin(canvas, chrome, &scene.title, &scene.caption, size, &entries);
     room.bottom -= frame::height_below(&scene.x);
     let extent = Extent::of(scene);
+    // On equal scales equal distances of ticks give equal steps on both axes.
+    let apart = if scene.aspect == Aspect::Equal { [72.0, 72.0] } else { [85.0, 55.0] };
     // The labels of the vertical axis decide how much room is left, which decides the labels: twice is enough.
     let left = room.left;
     let mut spans = extent.spans(scene.aspect, room);
-    let mut y_ticks = linear(&spans[1], ticks_along(room.bottom - room.top, 55.0));
+    let mut y_ticks = linear(&spans[1], ticks_along(room.bottom - room.top, apart[1]));
     for _ in 0..2 {
         room.left = left + frame::width_left(&scene.y, &y_ticks);
         spans = extent.spans(scene.aspect, room);
-        y_ticks = linear(&spans[1], ticks_along(room.bottom - room.top, 55.0));
+        y_ticks = linear(&spans[1], ticks_along(room.bottom - room.top, apart[1]));
     }
     let [x, y] = spans;
-    let x_ticks = linear(&x, ticks_along(room.right - room.left, 85.0));
+    let x_ticks = linear(&x, ticks_along(room.right - room.left, apart[0]));
     frame::axes(canvas, room, [&scene.x, &scene.y], [&x, &y], [&x_ticks, &y_ticks]);
     for layer in &scene.layers {
         marks(canvas, layer, &x, &y, [&scene.x, &scene.y]);

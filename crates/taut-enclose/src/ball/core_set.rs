@@ -56,11 +56,13 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
         radius = solve_working_set(&mut active, &set, radius);
         let offset = active.refine(&set);
         let entered = active.support().iter().filter(|i| last_batch.contains(i)).count();
-        let telling = options.batch.is_none() && last_batch.len() >= TELLING_BATCH;
+        // No more than d + 1 can enter at all.
+        let could_enter = last_batch.len().min(scan.dim() + 1);
+        let telling = options.batch.is_none() && could_enter >= TELLING_BATCH;
         if telling && 2 * entered > last_batch.len() {
             batch = (2 * batch).min(BATCH_MAX);
         }
-        let by_face = telling && 8 * entered < last_batch.len();
+        let by_face = telling && 8 * entered < could_enter;
 
         let center = center(set.origin(), &offset, radius);
         let keep = batch + active.support().len() + 64;

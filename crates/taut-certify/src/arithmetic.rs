@@ -1,0 +1,7 @@
+//! The checkers' own arithmetic: sums to twice the precision of `f64` with proved bounds, and exact signs.
+
+mod double_double;
+mod exact;
+
+pub(crate) use double_double::{Compensated, Known, U, square, two_product, two_sum};
+pub(crate) use exact::ExactSum;

@@ -1,0 +1,251 @@
+//! Whether every row lies in the ball, decided exactly; and whether the rows are those the certificate speaks of.
+//!
+//! *Problem.* |p − c| ≤ ρ with ρ = R − r (R for points), for each of n rows, in one pass.
+//! *Idea.* Three stages, each asked only about what the one before left open.
+//! 1. Plain: S = Σ fl(pⱼ − cⱼ)² in `f64`, with eight partial sums. Each difference is off by a factor 1 ± u, each
+//!    square passes at most m = d/8 + 16 roundings, and the tail t of the centre moves the point by at most |t|. So
+//!    |p − c| lies within |t| of √S·(1 ± κ) for κ ≥ mu/2 + 4u; κ = (m + 16)u also covers the rounding of the two
+//!    thresholds with which S is compared, and what underflows: less than 2⁻¹⁰⁰⁰, beside ρ² ≥ 2⁻⁵⁰⁸, as ρ ≠ 0 is
+//!    no less than 2⁻⁵⁴R.
+//! 2. Compensated: |p − c|² − ρ² with the running bound of [`Compensated`](crate::arithmetic::Compensated), at most
+//!    1e-27·ρ² for d = 1000. Exact ties of rows like the vertices of a cube end here, when nothing was rounded at all.
+//! 3. Exact: the sign of the same in fixed-point numbers of 4352 bits.
+//!
+//! *Guarantee.* No row is misjudged, so the first row found outside does not depend on threads or instruction sets.
+//! *Trap.* NaN satisfies no comparison, so it falls through to the check of finiteness before stage 2.
+
+use std::cmp::Ordering;
+
+use taut_points::{
+    BlockHash, Monitor, PointSource, Points, PointsHash, Rows, Scalar, hash_block, map_blocks,
+};
+
+use super::super::{Ball, Items};
+use super::difference::{Difference, is_tame_number, underflow};
+use super::scale::Scale;
+use crate::arithmetic::{ExactSum, Known, U, two_sum};
+use crate::{CheckError, Violation};
+
+const LANES: usize = 8;
+
+/// One ball, ready to be compared with rows.
+pub(super) struct Enclosure<'a> {
+    ball: &'a Ball,
+    items: Items,
+    scale: Scale,
+    /// κ of stage 1.
+    kappa: f64,
+    /// |t| of stage 1, scaled and rounded up.
+    tail: f64,
+}
+
+/// What one block of rows has to say.
+struct Block {
+    hash: BlockHash,
+    outside: Option<Violation>,
+}
+
+impl<'a> Enclosure<'a> {
+    pub(super) fn of(ball: &'a Ball, items: Items) -> Self {
+        let dim = ball.center.len();
+        let scale = Scale::of(ball.radius);
+        let kappa = ((dim / LANES + 16) + 16) as f64 * U;
+        let squares: f64 = ball.center_tail.iter().map(|t| (t * scale.up).powi(2)).sum();
+        // The second term is there for squares that underflow.
+        let tail = match ball.center_tail.iter().all(|&t| t == 0.0) {
+            true => 0.0,
+            false => squares.sqrt() * (1.0 + (dim + 8) as f64 * U) + dim as f64 * 2f64.powi(-500),
+        };
+        Enclosure { ball, items, scale, kappa, tail }
+    }
+
+    /// Reads all rows once.
+    pub(super) fn check(
+        &self,
+        source: &dyn PointSource,
+        claimed: PointsHash,
+        monitor: &Monitor<'_>,
+    ) -> Result<(), CheckError> {
+        let blocks = map_blocks(source, monitor, |first, rows| self.block(first, &rows))?;
+        let found =
+            PointsHash::of_blocks(source.len(), source.dim(), blocks.iter().map(|b| b.hash));
+        if found != claimed {
+            let (claimed, found) = (claimed.to_string(), found.to_string());
+            return Err(Violation::Hash { claimed, found }.into());
+        }
+        match blocks.into_iter().find_map(|block| block.outside) {
+            Some(violation) => Err(violation.into()),
+            None => Ok(()),
+        }
+    }
+
+    fn block(&self, first: u64, rows: &Rows<'_>) -> Result<Block, CheckError> {
+        let outside = match (rows, self.scale.is_needed()) {
+            (Rows::F32(points), false) => self.rows::<f32, false>(first, points),
+            (Rows::F32(points), true) => self.rows::<f32, true>(first, points),
+            (Rows::F64(points), false) => self.rows::<f64, false>(first, points),
+            (Rows::F64(points), true) => self.rows::<f64, true>(first, points),
+        }?;
+        Ok(Block { hash: hash_block(rows), outside })
+    }
+
+    /// The first row outside; an error if a row is no point or ball at all.
+    fn rows<T: Scalar, const SCALED: bool>(
+        &self,
+        first: u64,
+        points: &Points<'_, T>,
+    ) -> Result<Option<Violation>, Violation> {
+        let mut outside = None;
+        let mut difference = Difference::new(self.ball.center.len());
+        let thresholds_of_points = self.thresholds(self.ball.radius);
+        for (number, row) in (first..).zip(points.rows()) {
+            let (position, r) = item(self.items, row);
+            let plain = plain_square::<T, SCALED>(position, &self.ball.center, self.scale.up);
+            let (inside, beyond) = match self.items {
+                Items::Points => thresholds_of_points,
+                Items::Balls => self.thresholds(self.ball.radius - r),
+            };
+            if plain < inside && r >= 0.0 {
+                continue;
+            }
+            is_valid(number, row, r)?;
+            if outside.is_some() {
+                continue;
+            }
+            if plain > beyond
+                || self.ball.radius < r
+                || self.is_outside(position, r, &mut difference)
+            {
+                outside = Some(self.violation(number, position, r, &mut difference));
+            }
+        }
+        Ok(outside)
+    }
+
+    /// The values below and above which the plain square tells a row at distance at most `rho` from others.
+    #[inline(always)]
+    fn thresholds(&self, rho: f64) -> (f64, f64) {
+        let rho = rho * self.scale.up;
+        let inside = (rho * (1.0 - self.kappa) - self.tail).max(0.0);
+        let beyond = (rho + self.tail) * (1.0 + self.kappa);
+        (inside * inside, beyond * beyond)
+    }
+
+    /// Stages 2 and 3, for finite rows with r ≤ R.
+    fn is_outside<T: Scalar>(&self, position: &[T], r: f64, difference: &mut Difference) -> bool {
+        let Ball { center, center_tail, radius } = self.ball;
+        if *radius == r {
+            // Only the centre itself is left. A tail other than 0 is no part of any f64.
+            return center_tail.iter().any(|&t| t != 0.0)
+                || position.iter().zip(center).any(|(&x, &c)| x.into() != c);
+        }
+        difference.fill(position, self.ball, self.scale);
+        let excess = excess_square(difference, *radius, r, self.scale);
+        let bound = excess.error + underflow(position.len());
+        if excess.high.abs() * (1.0 - 4.0 * U) > bound {
+            return excess.high > 0.0;
+        }
+        let is_exact = excess.error == 0.0
+            && is_tame_number(two_sum(*radius, -r).1)
+            && difference.is_tame(self.scale);
+        if excess.high == 0.0 && is_exact {
+            return false;
+        }
+        self.is_outside_exactly(position, r)
+    }
+
+    fn is_outside_exactly<T: Scalar>(&self, position: &[T], r: f64) -> bool {
+        let Ball { center, center_tail, radius } = self.ball;
+        let mut sum = ExactSum::zero();
+        for (column, (&x, &c)) in position.iter().zip(center).enumerate() {
+            let (high, low) = match two_sum(x.into(), -c) {
+                (high, low) if high.is_finite() => (high, low),
+                _ => (x.into(), -c),
+            };
+            let tail = center_tail.get(column).map_or(0.0, |t| -t);
+            sum.add_square(&[high, low, tail]);
+        }
+        sum.subtract_square(&[*radius, -r]);
+        sum.sign() == Ordering::Greater
+    }
+
+    /// How far row `number` reaches from the centre, for people to read.
+    fn violation<T: Scalar>(
+        &self,
+        row: u64,
+        position: &[T],
+        r: f64,
+        difference: &mut Difference,
+    ) -> Violation {
+        let radius = self.ball.radius;
+        difference.fill(position, self.ball, self.scale);
+        let length = difference.square().known().high.sqrt();
+        let rho = (radius - r) * self.scale.up;
+        if (1e-70..1e70).contains(&length) && rho >= 0.0 {
+            let excess = excess_square(difference, radius, r, self.scale).high / (length + rho);
+            let distance = length * self.scale.down + r;
+            return Violation::Outside { row, distance, radius, excess: excess * self.scale.down };
+        }
+        // Far from the scale of this ball no small excess is at stake, nor the tail of the centre.
+        let distance = distance(position, &self.ball.center) + r;
+        Violation::Outside { row, distance, radius, excess: distance - radius }
+    }
+}
+
+/// |p − c| to a few units in the last place, whatever its size.
+fn distance<T: Scalar>(position: &[T], center: &[f64]) -> f64 {
+    let differences = || position.iter().zip(center).map(|(&x, &c)| x.into() - c);
+    let largest = differences().fold(0.0, |m: f64, d| m.max(d.abs()));
+    if largest == 0.0 || largest.is_infinite() {
+        return largest;
+    }
+    largest * differences().map(|d| (d / largest).powi(2)).sum::<f64>().sqrt()
+}
+
+/// |p − c|² − (R − r)² for the difference p − c that was filled in, all of it scaled; [`underflow`] comes on top.
+pub(super) fn excess_square(difference: &Difference, radius: f64, r: f64, scale: Scale) -> Known {
+    let mut sum = difference.square();
+    let (rho, error) = two_sum(radius, -r);
+    sum.add_square(-1.0, rho * scale.up, error * scale.up);
+    sum.known()
+}
+
+/// Position and radius of a row.
+#[inline(always)]
+pub(super) fn item<T: Scalar>(items: Items, row: &[T]) -> (&[T], f64) {
+    match (items, row) {
+        (Items::Balls, [position @ .., r]) => (position, (*r).into()),
+        _ => (row, 0.0),
+    }
+}
+
+/// Refuses rows that are no point or ball.
+fn is_valid<T: Scalar>(number: u64, row: &[T], r: f64) -> Result<(), Violation> {
+    for (column, &value) in row.iter().enumerate() {
+        let value: f64 = value.into();
+        if !value.is_finite() {
+            return Err(Violation::NonFinite { row: number, column, value });
+        }
+    }
+    if r >= 0.0 { Ok(()) } else { Err(Violation::NegativeRadius { row: number, value: r }) }
+}
+
+/// Σ (pⱼ − cⱼ)² in plain arithmetic; without `SCALED` the factor is 1.
+#[inline(always)]
+fn plain_square<T: Scalar, const SCALED: bool>(position: &[T], center: &[f64], factor: f64) -> f64 {
+    let square = |x: T, c: f64| {
+        let difference = if SCALED { (x.into() - c) * factor } else { x.into() - c };
+        difference * difference
+    };
+    let (head, rest) = position.as_chunks::<LANES>();
+    let (center_head, center_rest) = center.as_chunks::<LANES>();
+    let mut sums = [0.0; LANES];
+    for (x, c) in head.iter().zip(center_head) {
+        for lane in 0..LANES {
+            sums[lane] += square(x[lane], c[lane]);
+        }
+    }
+    let [a, b, c, d, e, f, g, h] = sums;
+    let head = ((a + e) + (c + g)) + ((b + f) + (d + h));
+    rest.iter().zip(center_rest).fold(head, |sum, (&x, &c)| sum + square(x, c))
+}

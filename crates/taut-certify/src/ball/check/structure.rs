@@ -1,0 +1,98 @@
+//! What can be refused before any point is read: lengths, ranges, the support and the sum of the multipliers.
+
+use taut_points::PointSource;
+
+use super::super::{Ball, BallCertificate, Items};
+use crate::Violation;
+use crate::arithmetic::{Compensated, U, two_sum};
+
+pub(super) fn check(
+    ball: &Ball,
+    certificate: &BallCertificate,
+    source: &dyn PointSource,
+) -> Result<(), Violation> {
+    let dim = certificate.items.dim(source.dim());
+    if certificate.items == Items::Balls && dim == 0 {
+        return Err(Violation::NoRadius { columns: source.dim() });
+    }
+    answer(ball, dim)?;
+    number("the claimed gap", certificate.gap)?;
+    support(certificate, source.len())?;
+    multipliers(&certificate.multipliers)
+}
+
+fn answer(ball: &Ball, dim: usize) -> Result<(), Violation> {
+    length("the centre", ball.center.len(), dim)?;
+    number("the radius", ball.radius)?;
+    for (column, &value) in ball.center.iter().enumerate() {
+        if !value.is_finite() {
+            let what = format!("coordinate {column} of the centre");
+            return Err(Violation::Number { what, value, expected: "a finite number" });
+        }
+    }
+    if ball.center_tail.is_empty() {
+        return Ok(());
+    }
+    length("the tail of the centre", ball.center_tail.len(), dim)?;
+    for (column, (&center, &value)) in ball.center.iter().zip(&ball.center_tail).enumerate() {
+        // One centre has one form: the nearest f64, and what is left.
+        if two_sum(center, value) != (center, value) {
+            let what = format!("coordinate {column} of the tail of the centre");
+            let expected = "a number so small that adding it to the coordinate changes nothing";
+            return Err(Violation::Number { what, value, expected });
+        }
+    }
+    Ok(())
+}
+
+fn support(certificate: &BallCertificate, n: u64) -> Result<(), Violation> {
+    let support = &certificate.support;
+    if support.is_empty() {
+        return Err(Violation::EmptySupport);
+    }
+    length("the list of multipliers", certificate.multipliers.len(), support.len())?;
+    for (position, &point) in support.iter().enumerate() {
+        let before = position.checked_sub(1).map(|before| support[before]);
+        let problem = match before {
+            _ if point >= n => "but there are not so many",
+            Some(before) if before == point => "as does the entry before it",
+            Some(before) if before > point => "which is less than the entry before it",
+            _ => continue,
+        };
+        return Err(Violation::Support { position, point, problem });
+    }
+    Ok(())
+}
+
+/// Multipliers are positive, and sum to 1 as well as so many `f64` can.
+///
+/// Rounding each quotient λᵢ/Σλ to `f64` moves their sum by at most u, and a sum Σλ taken in plain `f64` moves all of
+/// them by k·u for k numbers; twice that, and a little for small k, is granted.
+fn multipliers(multipliers: &[f64]) -> Result<(), Violation> {
+    let mut sum = Compensated::default();
+    for (position, &value) in multipliers.iter().enumerate() {
+        if !(value > 0.0 && value.is_finite()) {
+            let what = format!("multiplier {position}");
+            return Err(Violation::Number { what, value, expected: "a finite number above 0" });
+        }
+        sum.add(value);
+    }
+    let mut beside_one = sum;
+    beside_one.add(-1.0);
+    if beside_one.known().size() <= 2.0 * (multipliers.len() + 2) as f64 * U {
+        Ok(())
+    } else {
+        Err(Violation::MultiplierSum { sum: sum.known().high })
+    }
+}
+
+fn length(what: &'static str, found: usize, expected: usize) -> Result<(), Violation> {
+    if found == expected { Ok(()) } else { Err(Violation::Length { what, found, expected }) }
+}
+
+fn number(what: &str, value: f64) -> Result<(), Violation> {
+    if value >= 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(Violation::Number { what: what.into(), value, expected: "a finite number, at least 0" })
+}

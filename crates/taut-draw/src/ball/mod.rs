@@ -1,0 +1,242 @@
+//! Figures of a minimum enclosing ball.
+//!
+//! *Idea.* In the plane and in space the ball is drawn as it is. Beyond, a projection of it hides what matters: almost
+//! all points seem to lie deep inside, though many may touch the boundary. So there are two pictures: a projection
+//! along the two directions in which the support spreads most, and the distances of all points from the centre.
+//! *Guarantee.* The items are read twice at most (once for all, once more for those drawn); what is left out is counted
+//! in the caption.
+
+mod options;
+mod passes;
+mod plane;
+mod shadow;
+mod space;
+
+use taut_certify::{Ball, BallCertificate, Items, Solution};
+use taut_points::{PointSource, gather};
+
+use crate::number::{count, counted, short};
+use crate::survey::{Scaled, Survey, survey};
+use crate::{Error, Figure};
+pub use options::DrawOptions;
+
+/// Pictures of a ball and its points: the plane for d ≤ 2, space for d = 3, a projection and the distances from the
+/// centre beyond; then the bounds and the gap by pass, where the trace has them.
+///
+/// # Errors
+/// [`Error::Mismatch`] when `source` is not what the ball was made for, [`Error::NonFinite`],
+/// [`Error::NegativeRadius`], [`Error::Option`], [`Error::Read`].
+pub fn ball_figures(
+    solution: &Solution<Ball>,
+    source: &dyn PointSource,
+    options: &DrawOptions,
+) -> Result<Vec<Figure>, Error> {
+    options.check()?;
+    check(solution, source)?;
+    let scaled = Scaled::new(&solution.answer);
+    let survey = survey(&scaled, &solution.certificate, source, options.max_points)?;
+    let picture = Picture { solution, source, options, scaled, survey };
+    let mut figures = match solution.answer.center.len() {
+        1 => vec![Figure::Plane(picture.line()?)],
+        2 => vec![Figure::Plane(picture.plane()?)],
+        3 => vec![Figure::Space(picture.space()?)],
+        _ => {
+            let mut figures = vec![Figure::Plane(picture.projection()?)];
+            figures.extend(picture.distances()?.map(Figure::Plot));
+            figures
+        }
+    };
+    figures.extend(picture.passes().into_iter().map(Figure::Plot));
+    Ok(figures)
+}
+
+/// What the answer and its points must agree in before anything is drawn.
+fn check(solution: &Solution<Ball>, source: &dyn PointSource) -> Result<(), Error> {
+    let (ball, certificate) = (&solution.answer, &solution.certificate);
+    let agree = |what, expected: usize, found: u64| match expected as u64 == found {
+        true => Ok(()),
+        false => Err(Error::Mismatch { what, expected: expected as u64, found }),
+    };
+    let dim = certificate.items.dim(source.dim());
+    agree("number of coordinates", ball.center.len(), dim as u64)?;
+    if dim == 0 {
+        return Err(Error::Mismatch { what: "number of coordinates", expected: 1, found: 0 });
+    }
+    agree(
+        "number of multipliers",
+        certificate.support.len(),
+        certificate.multipliers.len() as u64,
+    )?;
+    if let Some(&beyond) = certificate.support.iter().find(|&&id| id >= source.len()) {
+        let found = source.len();
+        return Err(Error::Mismatch { what: "number of points", expected: beyond + 1, found });
+    }
+    let numbers =
+        (ball.center.iter().chain(&ball.center_tail).map(|&v| ("a coordinate of the centre", v)))
+            .chain([("the radius", ball.radius)])
+            .chain(certificate.multipliers.iter().map(|&v| ("a multiplier", v)));
+    for (what, value) in numbers {
+        if !value.is_finite() {
+            return Err(Error::NonFinite { what: what.into(), value });
+        }
+    }
+    if ball.radius < 0.0 {
+        return Err(Error::NegativeRadius { what: "the radius".into(), value: ball.radius });
+    }
+    Ok(())
+}
+
+/// What all pictures of one ball share.
+struct Picture<'a> {
+    solution: &'a Solution<Ball>,
+    source: &'a dyn PointSource,
+    options: &'a DrawOptions,
+    scaled: Scaled,
+    survey: Survey,
+}
+
+impl Picture<'_> {
+    fn ball(&self) -> &Ball {
+        &self.solution.answer
+    }
+
+    fn certificate(&self) -> &BallCertificate {
+        &self.solution.certificate
+    }
+
+    fn dim(&self) -> usize {
+        self.ball().center.len()
+    }
+
+    /// "point" or "ball".
+    fn thing(&self) -> &'static str {
+        match self.certificate().items {
+            Items::Points => "point",
+            Items::Balls => "ball",
+        }
+    }
+
+    fn title(&self) -> String {
+        format!(
+            "Smallest ball around {}, d = {}",
+            counted(self.source.len(), self.thing()),
+            self.dim()
+        )
+    }
+
+    /// The lower bound on the radius that the certificate claims.
+    fn lower(&self) -> f64 {
+        let gap = self.certificate().gap;
+        if gap.is_finite() && gap >= 0.0 { self.ball().radius / (1.0 + gap) } else { 0.0 }
+    }
+
+    /// Whether the lower bound can be told from the ball by eye.
+    fn lower_is_visible(&self) -> bool {
+        let lower = self.lower();
+        lower > 0.0 && self.ball().radius - lower > 0.004 * self.ball().radius
+    }
+
+    /// Radius and gap in words.
+    fn facts(&self) -> String {
+        let gap = match self.certificate().gap {
+            gap if !gap.is_finite() => "no gap is certified".to_owned(),
+            gap => format!("certified relative gap {}", short(gap, 3)),
+        };
+        let bound = match (self.lower_is_visible(), self.dim()) {
+            (false, _) => "",
+            (true, 1) => " The dashed line is the lower bound: no enclosing interval is shorter.",
+            (true, 2) => " The dashed circle is the lower bound: no enclosing ball is smaller.",
+            (true, 3) => " The dashed sphere is the lower bound: no enclosing ball is smaller.",
+            (true, _) => {
+                " The dashed circle has the radius of the lower bound: no enclosing ball is smaller."
+            }
+        };
+        format!("Radius {}; {gap}.{bound}", short(self.ball().radius, 8))
+    }
+
+    /// What is drawn of how many, and what the support is.
+    fn counts(&self) -> String {
+        let (n, drawn) = (self.source.len(), self.survey.ids.len() as u64);
+        let thing = self.thing();
+        let support = self.certificate().support.len() as u64;
+        let mut words = match support {
+            1 => format!(" One support {thing} decides the ball."),
+            k => format!(
+                " {} support {thing}s decide the ball: the larger the mark, the larger the multiplier.",
+                count(k)
+            ),
+        };
+        if drawn == n {
+            words += &match n {
+                1 => format!(" The one {thing} is drawn."),
+                n => format!(" All {} are drawn.", counted(n, thing)),
+            };
+        } else {
+            words += &format!(
+                " {} of {} are drawn: the support, {} more that reach far, and an even sample of the others.",
+                count(drawn),
+                counted(n, thing),
+                count(self.survey.far),
+            );
+        }
+        if self.survey.outside > 0 {
+            words += &format!(
+                " {} {} outside the ball: the answer does not fit these {thing}s.",
+                counted(self.survey.outside, thing),
+                if self.survey.outside == 1 { "reaches" } else { "reach" },
+            );
+        }
+        words
+    }
+
+    /// Radius of the disc of a point that is not of the support, pixels.
+    fn dot_size(&self) -> f64 {
+        match self.survey.ids.len() {
+            0..=100 => 3.6,
+            101..=1000 => 2.8,
+            1001..=5000 => 2.0,
+            _ => 1.4,
+        }
+    }
+
+    /// Radius of the disc of a support point, pixels: its area grows with the multiplier.
+    fn support_size(&self, multiplier: f64) -> f64 {
+        let largest = self.certificate().multipliers.iter().fold(0.0_f64, |a, &m| a.max(m));
+        if largest > 0.0 { 4.0 + 4.5 * (multiplier.max(0.0) / largest).sqrt() } else { 4.0 }
+    }
+
+    /// The items to draw that are not of the support.
+    fn others(&self) -> Vec<u64> {
+        let mut support = self.certificate().support.clone();
+        support.sort_unstable();
+        self.survey.ids.iter().copied().filter(|id| support.binary_search(id).is_err()).collect()
+    }
+
+    /// The marks of the support: number, size, and the multiplier in words.
+    fn support(&self) -> impl Iterator<Item = (u64, f64, String)> + '_ {
+        let certificate = self.certificate();
+        certificate.support.iter().zip(&certificate.multipliers).map(|(&id, &multiplier)| {
+            (
+                id,
+                self.support_size(multiplier),
+                format!("support, multiplier {}", short(multiplier, 4)),
+            )
+        })
+    }
+
+    fn others_name(&self) -> String {
+        match self.certificate().items {
+            Items::Points => "points".into(),
+            Items::Balls => "balls of the input".into(),
+        }
+    }
+
+    fn support_name(&self) -> String {
+        format!("support ({})", counted(self.certificate().support.len() as u64, self.thing()))
+    }
+
+    /// The row of an item.
+    fn row(&self, id: u64) -> Result<Vec<f64>, Error> {
+        Ok(gather(self.source, &[id])?)
+    }
+}

@@ -1,0 +1,47 @@
+//! How to draw a ball.
+
+use crate::{Axis, Error};
+
+/// How to draw. Write `DrawOptions { max_points: 5_000, ..Default::default() }`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawOptions {
+    /// Most items drawn, at least 1, default 20,000; the support is always drawn, and the caption names both counts.
+    pub max_points: usize,
+    /// Width of a figure, pixels, from 240 to 10,000, default 720.
+    pub width: f64,
+    /// Height of a figure without its caption, pixels, from 180 to 10,000, default 560; plots are lower.
+    pub height: f64,
+    /// Names of the columns, for the axes; where one is missing, x, y, z or the number of the column stands in.
+    pub columns: Vec<String>,
+}
+
+impl Default for DrawOptions {
+    fn default() -> Self {
+        DrawOptions { max_points: 20_000, width: 720.0, height: 560.0, columns: Vec::new() }
+    }
+}
+
+impl DrawOptions {
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let wrong = |name, value: String, expected| Err(Error::Option { name, value, expected });
+        if self.max_points == 0 {
+            return wrong("max_points", "0".into(), "at least 1");
+        }
+        if !(240.0..=10_000.0).contains(&self.width) {
+            return wrong("width", self.width.to_string(), "240 to 10,000");
+        }
+        if !(180.0..=10_000.0).contains(&self.height) {
+            return wrong("height", self.height.to_string(), "180 to 10,000");
+        }
+        Ok(())
+    }
+
+    /// The axis of a column in a space of `dim` dimensions.
+    pub(super) fn axis(&self, column: usize, dim: usize) -> Axis {
+        match self.columns.get(column) {
+            Some(name) if !name.trim().is_empty() => Axis::named(name.trim()),
+            _ if dim <= 3 => Axis::named(["x", "y", "z"][column]),
+            _ => Axis::named(format!("column {column}")),
+        }
+    }
+}
