@@ -79,8 +79,9 @@ pub(crate) fn judge(
                 Items::Points => distance,
                 Items::Balls => distance + row[center.len()],
             };
-            // A NaN of the peer must not be lost in a maximum.
-            outside += u64::from(!(this <= radius * (1.0 + ROUNDING)));
+            // A NaN of the peer, in centre or radius, must be lost neither in a comparison nor in a maximum.
+            let inside = this <= radius * (1.0 + ROUNDING);
+            outside += u64::from(!inside);
             reach = if this.is_nan() { f64::INFINITY } else { reach.max(this) };
         }
         Ok::<_, ReadError>((reach, outside))
