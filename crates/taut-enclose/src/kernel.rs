@@ -44,12 +44,13 @@ impl Center {
     }
 }
 
-/// Bound on the relative error of a squared distance in d dimensions.
+/// Bound on the relative error of a squared distance in d dimensions, and of the squared reach of a ball from it.
 ///
-/// Each lane sums at most d/8 + 1 squares in turn and eight lanes are summed in three steps; each term carries three
-/// roundings of its own (two differences, one square). The bound is first order with room for the second.
+/// In units of the rounding 2⁻⁵³: each lane sums at most d/8 squares in turn and eight lanes are summed in three steps;
+/// the two differences of a term count twice, its square once; the root, the radius and the square of a reach add five.
+/// That makes d/8 + 13; the rest is room for second-order terms.
 pub(crate) fn relative_error(dim: usize) -> f64 {
-    (dim.div_ceil(8) as f64 + 12.0) * f64::EPSILON
+    (dim.div_ceil(8) as f64 + 16.0) * (f64::EPSILON / 2.0)
 }
 
 /// Writes |x − c|² for each row of `values` to `out`.

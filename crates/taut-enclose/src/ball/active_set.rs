@@ -52,8 +52,11 @@ pub(super) struct ActiveSet {
 }
 
 impl ActiveSet {
-    /// The support is item 0 alone. `sigma` is about the largest squared norm that will occur.
-    pub(super) fn new(set: &WorkingSet, sigma: f64) -> Self {
+    /// The support is item 0 alone.
+    pub(super) fn new(set: &WorkingSet) -> Self {
+        // Any positive σ would do; of the size of the squared norms it takes no digits from them.
+        let largest = (0..set.len()).map(|i| set.norm2(i)).fold(0.0, f64::max);
+        let sigma = if largest > 0.0 { largest } else { 1.0 };
         let mut active = ActiveSet {
             support: vec![0],
             lambda: vec![1.0],
@@ -267,9 +270,8 @@ impl ActiveSet {
         self.lambda.iter_mut().for_each(|l| *l /= sum);
     }
 
-    /// One correction of λ from distances taken in the coordinates: evens them out to the last digits. Returns c
-    /// relative to the origin.
-    pub(super) fn refine(&mut self, set: &WorkingSet) -> Vec<f64> {
+    /// One correction of λ from distances taken in the coordinates: evens them out to the last digits.
+    pub(super) fn refine(&mut self, set: &WorkingSet) {
         let center = set.combination(&self.support, &self.lambda);
         let rows: Vec<f64> = self.support.iter().flat_map(|&i| set.row(i)).copied().collect();
         let mut halves = vec![0.0; self.support.len()];
@@ -284,10 +286,11 @@ impl ActiveSet {
         let correction = self.factor.correction(&halves);
         let corrected: Vec<f64> = self.lambda.iter().zip(&correction).map(|(l, d)| l + d).collect();
         if corrected.iter().all(|&l| l > 0.0) {
-            let sum: f64 = corrected.iter().sum();
-            self.lambda = corrected.into_iter().map(|l| l / sum).collect();
+            self.lambda = corrected;
         }
-        set.combination(&self.support, &self.lambda)
+        // What solving left beside 1 is more than the certificate may state.
+        let sum: f64 = self.lambda.iter().sum();
+        self.lambda.iter_mut().for_each(|l| *l /= sum);
     }
 }
 

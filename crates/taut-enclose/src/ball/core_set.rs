@@ -23,7 +23,7 @@ use super::active_set::{ActiveSet, TOLERANCE};
 use super::outcome::Outcome;
 use super::working_set::WorkingSet;
 use crate::Error;
-use crate::kernel::{Center, DoubleDouble, relative_error};
+use crate::kernel::{Center, relative_error};
 use crate::scan::{Query, Scan};
 
 /// Largest batch that doubling reaches.
@@ -49,12 +49,12 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
     let mut set = empty_set(scan, middle)?;
     let mut outcome = Outcome::new();
     add(&mut set, scan, found.far.iter().map(|far| far.id), batch)?;
-    let mut active = ActiveSet::new(&set, 4.0 * found.farthest.reach2);
+    let mut active = ActiveSet::new(&set);
     let mut radius = 0.0;
     let mut last_batch = 0..set.len();
     loop {
         radius = solve_working_set(&mut active, &set, radius);
-        let offset = active.refine(&set);
+        active.refine(&set);
         let entered = active.support().iter().filter(|i| last_batch.contains(i)).count();
         // No more than d + 1 can enter at all.
         let could_enter = last_batch.len().min(scan.dim() + 1);
@@ -64,7 +64,7 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
         }
         let by_face = telling && 8 * entered < could_enter;
 
-        let center = center(set.origin(), &offset, radius);
+        let center = set.center(active.support(), active.lambda(), radius);
         let keep = batch + active.support().len() + 64;
         let slack = 4.0 * relative_error(scan.dim());
         let above = radius * radius * (1.0 - slack).max(0.0);
@@ -160,14 +160,4 @@ fn lower_bound(active: &ActiveSet, set: &WorkingSet) -> f64 {
         })
         .sum();
     mean + inner.max(0.0).sqrt()
-}
-
-/// The centre as one or two terms: two where rounding it to one would cost more than 1e-15 of the radius.
-fn center(origin: &[f64], offset: &[f64], radius: f64) -> Center {
-    let terms: Vec<DoubleDouble> =
-        origin.iter().zip(offset).map(|(&o, &c)| DoubleDouble::sum(o, c)).collect();
-    let high: Vec<f64> = terms.iter().map(|t| t.high).collect();
-    let largest = high.iter().fold(0.0f64, |m, c| m.max(c.abs()));
-    let low = if largest > 8.0 * radius { terms.iter().map(|t| t.low).collect() } else { vec![] };
-    Center { high, low }
 }

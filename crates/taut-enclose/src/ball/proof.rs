@@ -108,7 +108,7 @@ fn upper_bound(scan: &Scan<'_>, best: &Candidate) -> Result<f64, Error> {
         upper = upper.max(reach_up(exact_squared_distance(x, &best.center), r));
     }
     if !all_listed {
-        upper = upper.max(found.farthest.reach2.sqrt() * (1.0 + error));
+        upper = upper.max((found.farthest.reach2 * (1.0 + error)).sqrt().next_up());
     }
     Ok(upper)
 }

@@ -9,10 +9,13 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
 use rayon::prelude::*;
 
-use crate::kernel::vector::add_combination;
+use crate::kernel::vector::{add_combination, add_scaled_exactly};
+use crate::kernel::{Center, DoubleDouble};
 
 /// Columns of the Gram matrix that one task multiplies: fixed, so that the result does not depend on threads.
 const TILE: usize = 128;
+/// A centre with a coordinate beyond this many radii is kept in two terms: rounding it to one would cost 8·2⁻⁵³ radii.
+const FAR_OFF: f64 = 8.0;
 
 pub(super) struct WorkingSet {
     dim: usize,
@@ -54,10 +57,6 @@ impl WorkingSet {
         self.dim
     }
 
-    pub(super) fn origin(&self) -> &[f64] {
-        &self.origin
-    }
-
     pub(super) fn radius_offset(&self) -> f64 {
         self.radius_offset
     }
@@ -95,6 +94,31 @@ impl WorkingSet {
         let mut sum = vec![0.0; self.dim];
         add_combination(&mut sum, lambda, |i| self.row(items[i]));
         sum
+    }
+
+    /// The centre that the multipliers mean, Σ λᵢpᵢ/Σλᵢ, to twice the precision of `f64`, as one or two terms: two
+    /// where rounding it to one would cost more than about 1e-15 of the radius.
+    pub(super) fn center(&self, items: &[usize], lambda: &[f64], radius: f64) -> Center {
+        let (mut sums, mut errors) = (vec![0.0; self.dim], vec![0.0; self.dim]);
+        let mut total = DoubleDouble::ZERO;
+        for (&i, &l) in items.iter().zip(lambda) {
+            add_scaled_exactly(&mut sums, &mut errors, l, self.row(i));
+            total = total.add(l.into());
+        }
+        let terms: Vec<DoubleDouble> = (self.origin.iter().zip(sums.into_iter().zip(errors)))
+            .map(|(&origin, (sum, error))| {
+                DoubleDouble::sum(sum, error).div(total).add(origin.into())
+            })
+            .collect();
+        let high: Vec<f64> = terms.iter().map(|term| term.high).collect();
+        let largest = high.iter().fold(0.0f64, |m, c| m.max(c.abs()));
+        if radius == 0.0 || largest > FAR_OFF * radius {
+            return Center { high, low: terms.iter().map(|term| term.low).collect() };
+        }
+        // A coordinate near 0 would keep digits far below the rounding of the others, and of all distances: a centre
+        // that should be 0 would be 1e-17 and cost the radius an ulp.
+        let grid = 2f64.powi(radius.log2().floor() as i32 - 53);
+        Center { high: high.into_iter().map(|c| (c / grid).round() * grid).collect(), low: vec![] }
     }
 
     /// Adds items that are not in the set yet. `rows` holds for each its coordinates, and its radius if `with_radius`.

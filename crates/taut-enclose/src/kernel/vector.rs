@@ -112,6 +112,28 @@ fn rotate_body<const FUSED: bool>(a: &mut [f64], b: &mut [f64], c: f64, s: f64) 
     }
 }
 
+dispatched! {
+    /// high + low ← high + low + a·x, the rounding errors of products and sums being caught in `low`.
+    add_scaled_exactly(high: &mut [f64], low: &mut [f64], a: f64, x: &[f64]), add_scaled_exactly_body
+}
+
+#[inline(always)]
+fn add_scaled_exactly_body<const FUSED: bool>(
+    high: &mut [f64],
+    low: &mut [f64],
+    a: f64,
+    x: &[f64],
+) {
+    // The error of a product needs the fused operation itself; where it is no instruction, it is a function call.
+    for ((high, low), &x) in high.iter_mut().zip(low).zip(x) {
+        let product = a * x;
+        let sum = *high + product;
+        let of_product = sum - *high;
+        *low += a.mul_add(x, -product) + ((*high - (sum - of_product)) + (product - of_product));
+        *high = sum;
+    }
+}
+
 /// Σ aᵢ·rowᵢ added to y, the rows taken from `row(i)`.
 pub(crate) fn add_combination<'r>(y: &mut [f64], a: &[f64], row: impl Fn(usize) -> &'r [f64]) {
     let (fours, rest) = a.as_chunks::<4>();
