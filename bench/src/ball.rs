@@ -21,7 +21,7 @@ use case::{CASES, Kind};
 /// Cases and how often.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Cases to run, by name or by the beginning of it; none means all. `--list` shows them.
+    /// Cases to run, by whole name, else by the beginning of it; none means all. `--list` shows them.
     cases: Vec<String>,
     /// Show the cases and do nothing.
     #[arg(long)]
@@ -70,7 +70,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         return Ok(());
     }
     for wanted in &arguments.cases {
-        let known = CASES.iter().any(|case| case.name.starts_with(wanted.as_str()));
+        let known = CASES.iter().any(|case| case::means(wanted, case.name));
         ensure!(known, "no case begins with `{wanted}`: see `bench ball --list`");
     }
     ensure!(
@@ -91,7 +91,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         println!("Quick: inputs are smaller than the cases say. Not to be quoted.\n");
     }
     let wanted = |name: &str| {
-        arguments.cases.is_empty() || arguments.cases.iter().any(|w| name.starts_with(w.as_str()))
+        arguments.cases.is_empty() || arguments.cases.iter().any(|w| case::means(w, name))
     };
     for case in CASES.iter().filter(|case| wanted(case.name)) {
         println!("## {}\n{}\n", case.name, case.about);
