@@ -1,1 +1,29 @@
 //! The Python package of taut: thin bindings.
+//!
+//! What a user calls is in `taut/*.py` with its documentation; here is what Python cannot do: view an array as
+//! points without a copy (`rows`), work with the interpreter released and still hear Ctrl-C (`work`), and hold
+//! a solution (`solution`). No geometry is calculated in this crate.
+#![forbid(unsafe_code)]
+
+mod ball;
+mod generate;
+mod rows;
+mod solution;
+mod work;
+
+use pyo3::prelude::*;
+
+/// The compiled part of `taut`; import `taut` instead.
+#[pymodule]
+mod _native {
+    #[pymodule_export]
+    use crate::ball::ball;
+    #[pymodule_export]
+    use crate::generate::generate;
+    #[pymodule_export]
+    use crate::solution::{Ball, BallCertificate, PassBounds, Solution, Trace, Verdict, Violation};
+
+    #[pymodule_export]
+    #[allow(non_upper_case_globals)]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}

@@ -67,5 +67,5 @@ fn solve(
 ) -> Result<Solution<Ball>, Error> {
     let mut scan = Scan::new(source, items, monitor)?;
     let outcome = core_set::solve(&mut scan, options)?;
-    proof::prove(&scan, outcome, options)
+    proof::prove(&mut scan, outcome, options)
 }

@@ -1,27 +1,22 @@
 //! Passes over all items: who reaches farthest from a centre.
 //!
-//! *Idea.* A pass is one read of the source in fixed blocks on all threads; it returns the farthest items under a
-//! total order, so it does not depend on how threads meet them. The first pass also hashes the points and refuses
-//! coordinates that are not finite.
+//! *Idea.* A pass is one read of the source in fixed blocks on all threads ([`pass`]); it returns the farthest items
+//! under a total order, so it does not depend on how threads meet them. The first pass also hashes the points and
+//! refuses coordinates that are not finite.
 //! *Scale.* Squares overflow beyond 1e154 and vanish below 1e-162. When the first pass finds itself near either end,
 //! all later reads multiply by an exact power of two that brings the points to about 1. Centres, reaches and rows
 //! that leave this module are in those units; [`Scan::scale`] says which.
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
+mod pass;
 
 use taut_certify::Items;
-use taut_points::{
-    BlockHash, Monitor, PointSource, Points, PointsHash, Rows, Scalar, gather, hash_block,
-    map_blocks,
-};
+use taut_points::{Monitor, PointSource, PointsHash, gather, map_blocks};
 
+use self::pass::Pass;
 use crate::Error;
-use crate::kernel::{Center, squared_distances};
-use crate::top::{Face, Far, Top, TopByFace};
+use crate::kernel::Center;
+use crate::top::Far;
 
-/// Rows whose distances are worked out before they are compared: 4 KiB of results.
-const ROWS_AT_ONCE: usize = 512;
 /// Rows of the sample whose mean is the origin of a solver's calculations.
 const SAMPLE: u64 = 256;
 /// Squared distances between 2⁻⁴⁰⁰ and 2⁴⁰⁰ leave room for every product the solvers form.
@@ -63,15 +58,6 @@ pub(crate) struct Scan<'a> {
     largest: Option<Far>,
 }
 
-/// What one block adds to the first pass.
-struct BlockReport {
-    farthest: Far,
-    hash: Option<BlockHash>,
-    /// The largest radius, as a reach; balls only.
-    largest: Option<Far>,
-    overflow: bool,
-}
-
 impl<'a> Scan<'a> {
     /// Looks at the shape of the source; reads nothing yet.
     pub(crate) fn new(
@@ -104,6 +90,11 @@ impl<'a> Scan<'a> {
         self.items
     }
 
+    /// The caller's monitor.
+    pub(crate) fn monitor(&self) -> &'a Monitor<'a> {
+        self.monitor
+    }
+
     /// Passes made so far.
     pub(crate) fn passes(&self) -> u64 {
         self.passes
@@ -127,174 +118,32 @@ impl<'a> Scan<'a> {
     /// The first pass: from the mean of a sample, after settling the scale. Returns the mean, too.
     pub(crate) fn first(&mut self, keep: usize) -> Result<(Center, Found), Error> {
         let center = self.sample_mean()?;
-        let (found, overflow) =
-            self.pass(&Query { center: &center, above: 0.0, keep, by_face_above: None }, true)?;
-        let exponent = exponent(found.farthest.reach2);
-        if !overflow && found.farthest.reach2 > 0.0 && exponent.abs() <= SAFE_EXPONENT {
-            return Ok((center, found));
-        }
-        if !self.choose_scale(&center)? {
+        self.begin_pass();
+        let report =
+            Pass::new(self, Query { center: &center, above: 0.0, keep, by_face_above: None })
+                .first()?;
+        self.hash = Some(report.hash);
+        self.largest = report.largest;
+        let found = report.found;
+        let safe = exponent(found.farthest.reach2).abs() <= SAFE_EXPONENT && !report.overflow;
+        if safe || !self.choose_scale(&center)? {
             return Ok((center, found));
         }
         let center = self.sample_mean()?;
         let found =
-            self.farthest(&Query { center: &center, above: 0.0, keep, by_face_above: None })?;
+            self.farthest(Query { center: &center, above: 0.0, keep, by_face_above: None })?;
         Ok((center, found))
     }
 
     /// One pass.
-    pub(crate) fn farthest(&mut self, query: &Query<'_>) -> Result<Found, Error> {
-        Ok(self.pass(query, false)?.0)
+    pub(crate) fn farthest(&mut self, query: Query<'_>) -> Result<Found, Error> {
+        self.begin_pass();
+        Pass::new(self, query).run()
     }
 
-    fn pass(&mut self, query: &Query<'_>, first: bool) -> Result<(Found, bool), Error> {
+    fn begin_pass(&mut self) {
         self.passes += 1;
         self.monitor.pass(self.passes, self.len());
-        let top = Mutex::new((Top::new(query.keep), TopByFace::default()));
-        let bound = AtomicU64::new(query.above.to_bits());
-        let this = &*self;
-        let reports = map_blocks(self.source, self.monitor, |row, rows| match rows {
-            Rows::F32(points) => this.block(row, &points, query, first, &top, &bound),
-            Rows::F64(points) => this.block(row, &points, query, first, &top, &bound),
-        })?;
-        let mut farthest = reports[0].farthest;
-        for report in &reports {
-            if report.farthest.reach2 > farthest.reach2 {
-                farthest = report.farthest;
-            }
-        }
-        let overflow = reports.iter().any(|report| report.overflow);
-        if first {
-            let hashes = reports.iter().filter_map(|report| report.hash);
-            self.hash = Some(PointsHash::of_blocks(self.len(), self.source.dim(), hashes));
-            self.largest = reports
-                .iter()
-                .filter_map(|r| r.largest)
-                .reduce(|a, b| if b.reach2 > a.reach2 { b } else { a });
-        }
-        let (top, by_face) = top.into_inner().expect("no thread panics while it holds the list");
-        let far = top.into_sorted();
-        let listed_above = match far.last() {
-            Some(last) if far.len() == query.keep => last.reach2,
-            _ => query.above,
-        };
-        Ok((
-            Found { farthest, far, listed_above, by_face: by_face.into_sorted(query.keep) },
-            overflow,
-        ))
-    }
-
-    /// The part of a pass that one block is.
-    fn block<T: Scalar>(
-        &self,
-        first_row: u64,
-        points: &Points<'_, T>,
-        query: &Query<'_>,
-        first: bool,
-        top: &Mutex<(Top, TopByFace)>,
-        bound: &AtomicU64,
-    ) -> Result<BlockReport, Error> {
-        if self.scale != 1.0 {
-            // Rare and not worth a kernel of its own: scale the block, then go on as usual.
-            let scaled: Vec<f64> = points.values().iter().map(|&v| v.into() * self.scale).collect();
-            let scaled =
-                Points::new(&scaled, points.dim()).expect("the shape is that of the block");
-            return self.block_at_scale(first_row, &scaled, query, first, top, bound);
-        }
-        self.block_at_scale(first_row, points, query, first, top, bound)
-    }
-
-    fn block_at_scale<T: Scalar>(
-        &self,
-        first_row: u64,
-        points: &Points<'_, T>,
-        query: &Query<'_>,
-        first: bool,
-        top: &Mutex<(Top, TopByFace)>,
-        bound: &AtomicU64,
-    ) -> Result<BlockReport, Error> {
-        let mut report = BlockReport {
-            farthest: Far { id: first_row, reach2: 0.0 },
-            hash: first.then(|| hash_block(&T::rows(*points))),
-            largest: None,
-            overflow: false,
-        };
-        let mut here = Top::new(query.keep);
-        let mut faces = TopByFace::default();
-        let mut reaches = [0.0; ROWS_AT_ONCE];
-        for start in (0..points.len()).step_by(ROWS_AT_ONCE) {
-            let part = points.slice(start..points.len().min(start + ROWS_AT_ONCE));
-            let reaches = &mut reaches[..part.len()];
-            squared_distances(part.values(), part.dim(), query.center, reaches);
-            if self.items == Items::Balls {
-                add_radii(&part, reaches);
-            }
-            let base = first_row + start as u64;
-            if first {
-                self.inspect(base, &part, reaches, &mut report)?;
-            }
-            // Rows come in order, so what equals the bound of this block loses to the row that set it; what equals a
-            // bound set by another block may still win by its number, and `Top` decides.
-            let shared = f64::from_bits(bound.load(Ordering::Relaxed));
-            let worth = |reach2: f64, here: &Top| {
-                reach2 > query.above.max(here.bound()) && reach2 >= shared
-            };
-            let face_above = query.by_face_above.unwrap_or(f64::INFINITY);
-            for (group, chunk) in reaches.chunks(64).enumerate() {
-                let farthest = largest(chunk);
-                if farthest > report.farthest.reach2 {
-                    let at = chunk.iter().position(|&v| v == farthest).expect("it is one of them");
-                    report.farthest = Far { id: base + (group * 64 + at) as u64, reach2: farthest };
-                }
-                if !worth(farthest, &here) && farthest <= face_above {
-                    continue;
-                }
-                for (at, &reach2) in chunk.iter().enumerate() {
-                    let row = group * 64 + at;
-                    let far = Far { id: base + row as u64, reach2 };
-                    if worth(reach2, &here) {
-                        here.offer(far);
-                    }
-                    if reach2 > face_above {
-                        faces.offer(face(&part.row(row)[..self.dim], query.center), far);
-                    }
-                }
-            }
-        }
-        let mut shared = top.lock().expect("no thread panics while it holds the list");
-        shared.0.merge(here);
-        shared.1.merge(faces);
-        bound.fetch_max(shared.0.bound().to_bits(), Ordering::Relaxed);
-        Ok(report)
-    }
-
-    /// What only the first pass looks at: finite coordinates, radii, and whether squares overflow.
-    fn inspect<T: Scalar>(
-        &self,
-        first_row: u64,
-        points: &Points<'_, T>,
-        reaches: &[f64],
-        report: &mut BlockReport,
-    ) -> Result<(), Error> {
-        let finite = reaches.iter().fold(true, |all, v| all & v.is_finite());
-        if !finite {
-            if let Some((row, column, value)) = T::rows(*points).first_non_finite() {
-                return Err(Error::NonFinite { row: first_row + row as u64, column, value });
-            }
-            report.overflow = true;
-        }
-        if self.items == Items::Balls {
-            for (id, ball) in (first_row..).zip(points.rows()) {
-                let radius: f64 = ball[self.dim].into();
-                if radius < 0.0 {
-                    return Err(Error::NegativeRadius { row: id, value: radius });
-                }
-                if report.largest.is_none_or(|largest| radius > largest.reach2) {
-                    report.largest = Some(Far { id, reach2: radius });
-                }
-            }
-        }
-        Ok(())
     }
 
     /// The mean of up to 256 rows at equal distances: an origin near the middle of the points.
@@ -313,8 +162,7 @@ impl<'a> Scan<'a> {
 
     /// A pass for the largest |xⱼ − cⱼ|, and the scale from it; false when all items are one point.
     fn choose_scale(&mut self, center: &Center) -> Result<bool, Error> {
-        self.passes += 1;
-        self.monitor.pass(self.passes, self.len());
+        self.begin_pass();
         let dim = self.dim;
         let spreads = map_blocks(self.source, self.monitor, |_, rows| {
             let mut row = vec![0.0; self.source.dim()];
@@ -339,7 +187,7 @@ impl<'a> Scan<'a> {
         Ok(true)
     }
 
-    /// The rows with the given numbers, in the units of this scan: n × (d, or d + 1 with the radius).
+    /// The rows with the given numbers, in the units of this scan: n × d, or n × (d + 1) with the radius.
     pub(crate) fn rows(&self, ids: &[u64]) -> Result<Vec<f64>, Error> {
         let mut rows = gather(self.source, ids)?;
         if self.scale != 1.0 {
@@ -352,37 +200,4 @@ impl<'a> Scan<'a> {
 /// The exponent of the leading bit: 2ᵉ ≤ |value| < 2ᵉ⁺¹; that of the smallest `f64` for 0, of the largest for ∞.
 fn exponent(value: f64) -> i32 {
     if value == 0.0 { -1074 } else { value.abs().min(f64::MAX).log2().floor() as i32 }
-}
-
-/// Turns |x − c|² into (|x − c| + r)², the radius r being the last value of each row.
-fn add_radii<T: Scalar>(balls: &Points<'_, T>, reaches: &mut [f64]) {
-    for (reach2, ball) in reaches.iter_mut().zip(balls.rows()) {
-        let reach = reach2.sqrt() + ball[balls.dim() - 1].into();
-        *reach2 = reach * reach;
-    }
-}
-
-/// The largest value, by eight running maxima; values that are not numbers are passed over.
-fn largest(values: &[f64]) -> f64 {
-    let mut lanes = [0.0f64; 8];
-    let (chunks, rest) = values.as_chunks::<8>();
-    for chunk in chunks {
-        for (lane, &value) in lanes.iter_mut().zip(chunk) {
-            *lane = if value > *lane { value } else { *lane };
-        }
-    }
-    lanes.iter().chain(rest).fold(0.0, |m, &v| if v > m { v } else { m })
-}
-
-fn face<T: Scalar>(row: &[T], center: &Center) -> Face {
-    let mut face = (0, false);
-    let mut largest = -1.0;
-    for (j, (&x, &c)) in row.iter().zip(&center.high).enumerate() {
-        let difference = x.into() - c;
-        if difference.abs() > largest {
-            largest = difference.abs();
-            face = (j, difference < 0.0);
-        }
-    }
-    face
 }

@@ -1,1 +1,44 @@
-//! Reads and writes point sets and answers, one module per format.
+//! Points in and files out: one [`open`], one [`create`], one [`write_points`], one module per format.
+//!
+//! | you want | call | promise |
+//! |---|---|---|
+//! | points of a file or of standard input | [`open`] | every point or an error that names file, row, column and value |
+//! | points of bytes in memory | [`open_bytes`] | the same |
+//! | a file | [`create`] | the earlier file stays as it was until [`AtomicFile::commit`] |
+//! | points as a file | [`write_points`] | block by block, so the points may be larger than memory |
+//!
+//! ```
+//! use taut_io::{ReadOptions, open_bytes};
+//!
+//! let input = open_bytes(b"x,y\n0,0\n2,0\n1,1\n".to_vec(), "points.csv", &ReadOptions::default())?;
+//! assert_eq!((input.source.len(), input.source.dim()), (3, 2));
+//! assert_eq!(input.columns, ["x", "y"]);
+//! # Ok::<(), taut_io::Error>(())
+//! ```
+//!
+//! Uncompressed npy files (C order, little-endian floats) and raw files are read in place and never parsed.
+//! Everything else is decoded once, to memory or, when it outgrows [`ReadOptions::memory`], to a temporary file of
+//! raw values. The names `.gz`, `.xz` and `.zst` compress any format.
+//!
+//! Not for: points of differing dimension, meshes, images.
+
+#![forbid(unsafe_code)]
+
+mod columns;
+mod compress;
+mod create;
+mod error;
+mod format;
+mod input;
+mod options;
+mod read;
+mod sink;
+mod write;
+
+pub use columns::Columns;
+pub use create::{AtomicFile, create};
+pub use error::{Error, Place};
+pub use format::{Compression, Format};
+pub use input::{Input, open, open_bytes};
+pub use options::{Header, RawLayout, ReadOptions};
+pub use write::write_points;

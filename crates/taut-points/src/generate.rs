@@ -241,15 +241,29 @@ pub fn generate<T: Scalar>(
     dim: usize,
     seed: u64,
 ) -> Result<Vec<T>, Error> {
-    let source = GeneratedSource::new(distribution, n as u64, dim, seed, T::KIND)?;
-    let blocks = Blocks::of(&source);
     let mut values = vec![T::from_f64(0.0); n * dim];
+    generate_into(distribution, dim, seed, &mut values)?;
+    Ok(values)
+}
+
+/// Draws as many points of dimension `dim` as `out` has room for, as [`generate`] would, to memory of the caller.
+///
+/// # Errors
+/// As [`GeneratedSource::new`], and [`Error::Ragged`] when `out` would end within a point.
+pub fn generate_into<T: Scalar>(
+    distribution: Distribution,
+    dim: usize,
+    seed: u64,
+    out: &mut [T],
+) -> Result<(), Error> {
+    let n = Points::new(out, dim)?.len() as u64;
+    let source = GeneratedSource::new(distribution, n, dim, seed, T::KIND)?;
+    let blocks = Blocks::of(&source);
     let rows = blocks.range(0).end.max(1) as usize;
-    values
-        .par_chunks_mut(rows * dim)
+    out.par_chunks_mut(rows * dim)
         .enumerate()
         .for_each(|(block, out)| source.fill(blocks.range(block as u64).start, out));
-    Ok(values)
+    Ok(())
 }
 
 #[cfg(test)]

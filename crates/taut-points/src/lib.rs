@@ -3,6 +3,7 @@
 //! | you have | you write | cost |
 //! |---|---|---|
 //! | numbers in memory | [`Points::new`] | nothing is copied |
+//! | a decoded file | [`OwnedPoints::new`] | the values are taken, not copied |
 //! | a raw file of any size | [`FileSource`] or [`MappedSource`] | one block per thread in memory |
 //! | nothing yet | [`generate()`] | n·d draws; point i depends on the seed and i alone |
 //!
@@ -30,8 +31,8 @@ mod source;
 
 pub use blocks::{Blocks, map_blocks};
 pub use error::{Error, ReadError};
-pub use generate::{Distribution, GeneratedSource, generate};
+pub use generate::{Distribution, GeneratedSource, generate, generate_into};
 pub use hash::{BlockHash, PointsHash, hash_block, hash_points};
 pub use monitor::{Cancelled, Monitor};
 pub use points::{Points, Rows, Scalar, ScalarKind};
-pub use source::{FileSource, MappedSource, PointSource, Scratch, gather};
+pub use source::{FileSource, MappedSource, OwnedPoints, PointSource, Scratch, gather};

@@ -5,11 +5,13 @@
 
 mod file;
 mod mapped;
+mod owned;
 
 use std::ops::Range;
 
 pub use file::FileSource;
 pub use mapped::MappedSource;
+pub use owned::OwnedPoints;
 
 use crate::{Points, ReadError, Rows, Scalar, ScalarKind};
 

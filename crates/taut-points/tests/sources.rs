@@ -3,8 +3,8 @@
 use std::io::Write;
 
 use taut_points::{
-    Blocks, Distribution, Error, FileSource, MappedSource, Monitor, PointSource, Points, ReadError,
-    Rows, ScalarKind, Scratch, gather, generate, hash_points, map_blocks,
+    Blocks, Distribution, Error, FileSource, MappedSource, Monitor, OwnedPoints, PointSource,
+    Points, ReadError, Rows, ScalarKind, Scratch, gather, generate, hash_points, map_blocks,
 };
 
 fn raw_file(header: &[u8], values: &[f32]) -> tempfile::NamedTempFile {
@@ -28,7 +28,8 @@ fn memory_file_and_map_deliver_the_same_points() {
         let at = header.len() as u64;
         let read = FileSource::open(file.path(), at, 5000, 33, ScalarKind::F32).unwrap();
         let mapped = MappedSource::open(file.path(), at, 5000, 33, ScalarKind::F32).unwrap();
-        for source in [&read as &dyn PointSource, &mapped] {
+        let owned = OwnedPoints::new(values.clone(), 33).unwrap();
+        for source in [&read as &dyn PointSource, &mapped, &owned] {
             assert_eq!((source.len(), source.dim(), source.scalar()), (5000, 33, ScalarKind::F32));
             assert_eq!(hash_points(source, &Monitor::silent()).unwrap(), wanted);
             assert_eq!(gather(source, &[4999, 17]).unwrap(), gather(&memory, &[4999, 17]).unwrap());

@@ -1,11 +1,40 @@
-//! Tight shapes around, through and inside point sets, with proof.
+//! Tight shapes around, through and inside point sets, with proof: every tool behind one door.
+//!
+//! | you want | call | promise | more |
+//! |---|---|---|---|
+//! | the smallest ball around points | [`ball()`] | R ≤ (1 + ε)·R*, proved | [`enclose`] |
+//! | the smallest ball around balls | [`ball_of_balls()`] | the same | [`enclose`] |
+//! | either, of more points than memory holds | [`ball_of_source()`] | the same | [`enclose`] |
+//! | a second opinion on any answer | [`Solution::check`] | a proved bracket, or the first violation | [`certify`] |
+//! | an answer of yesterday | [`AnySolution::from_json`] | the same bits | [`certify`] |
+//! | points to try with | [`generate()`] | point i depends on the seed and i alone | [`points`] |
 //!
 //! ```
-//! let points = taut::Points::new(&[0.0, 0.0, 2.0, 0.0, 1.0, 1.0], 2)?;
+//! let points = taut::Points::new(&[0.0, 0.0, 2.0, 0.0, 1.0, 1.0], 2)?;   // n × d, row-major
 //! let found = taut::ball(&points, &taut::BallOptions::default())?;
-//! assert!(found.check(&points)?.gap <= 1e-9);
+//! assert_eq!(found.answer.center, [1.0, 0.0]);
+//! assert!(found.check(&points)?.gap <= 1e-9);                            // not the solver's word: a proof
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! An answer is data: it travels as JSON, and whoever has the points can judge it.
+//!
+//! ```
+//! # let points = taut::Points::new(&[0.0, 0.0, 2.0, 0.0, 1.0, 1.0], 2)?;
+//! let json = taut::ball(&points, &taut::BallOptions::default())?.to_json();
+//! let received = taut::AnySolution::from_json(&json)?;
+//! assert!(received.check(&points, &taut::Monitor::silent()).is_ok());
+//!
+//! let other = taut::Points::new(&[0.0, 0.0, 2.0, 0.0, 1.0, 9.0], 2)?;
+//! let refused = received.check(&other, &taut::Monitor::silent()).unwrap_err();
+//! assert!(refused.to_string().contains("the data changed"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Nothing but names lives here; each crate behind the door can be used on its own. Files are read and written by
+//! `taut-io`, pictures drawn by `taut-draw`, and the command `taut` is the crate `taut-cli`.
+//!
+//! Not for: distances other than Euclidean, or sets where some points may be left out.
 #![forbid(unsafe_code)]
 
 pub use taut_certify as certify;
@@ -16,3 +45,12 @@ pub use taut_enclose as enclose;
 pub use taut_enclose::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_source};
 pub use taut_points as points;
 pub use taut_points::{Distribution, Monitor, PointSource, Points, generate};
+
+/// The Rust in the pages for people, compiled and run with the tests.
+#[cfg(doctest)]
+mod pages {
+    #[doc = include_str!("../../../README.md")]
+    struct Readme;
+    #[doc = include_str!("../../../docs/ball.md")]
+    struct Ball;
+}

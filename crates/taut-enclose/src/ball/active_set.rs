@@ -17,6 +17,7 @@
 //! the same path in d dimensions.
 
 use rayon::prelude::*;
+use taut_points::{Cancelled, Monitor};
 
 use super::factor::Factor;
 use super::working_set::WorkingSet;
@@ -98,12 +99,17 @@ impl ActiveSet {
     }
 
     /// Makes λ optimal over the whole working set.
-    pub(super) fn maximize(&mut self, set: &WorkingSet) {
+    pub(super) fn maximize(
+        &mut self,
+        set: &WorkingSet,
+        monitor: &Monitor<'_>,
+    ) -> Result<(), Cancelled> {
         let mut best = f64::NEG_INFINITY;
         let mut entered: Vec<usize> = vec![];
         let mut barred = vec![false; set.len()];
         let mut rebuilt = false;
         loop {
+            monitor.check()?;
             let f = self.values(set);
             let value = dot(&self.lambda, &self.support.iter().map(|&i| f[i]).collect::<Vec<_>>());
             if value > best {
@@ -120,7 +126,7 @@ impl ActiveSet {
             } else {
                 entered.drain(..).for_each(|i| barred[i] = true);
             }
-            let Some(next) = self.violator(set, &f, value, &barred) else { return };
+            let Some(next) = self.violator(set, &f, value, &barred) else { return Ok(()) };
             entered.push(next);
             self.pivots += 1;
             if self.enter(set, next) {

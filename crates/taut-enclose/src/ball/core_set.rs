@@ -17,6 +17,7 @@
 //! tried and each cost more than they saved: so few points are ever scanned again that nothing is left to save.
 
 use taut_certify::{Items, PassBounds, Stop};
+use taut_points::{Cancelled, Monitor, ReadError};
 
 use super::BallOptions;
 use super::active_set::{ActiveSet, TOLERANCE};
@@ -53,7 +54,8 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
     let mut radius = 0.0;
     let mut last_batch = 0..set.len();
     loop {
-        radius = solve_working_set(&mut active, &set, radius);
+        radius = solve_working_set(&mut active, &set, radius, scan.monitor())
+            .map_err(ReadError::from)?;
         active.refine(&set);
         let entered = active.support().iter().filter(|i| last_batch.contains(i)).count();
         // No more than d + 1 can enter at all.
@@ -70,7 +72,7 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
         let above = radius * radius * (1.0 - slack).max(0.0);
         let violating = radius * radius * (1.0 + TOLERANCE);
         let by_face_above = by_face.then_some(violating);
-        let found = scan.farthest(&Query { center: &center, above, keep, by_face_above })?;
+        let found = scan.farthest(Query { center: &center, above, keep, by_face_above })?;
         let upper = found.farthest.reach2.sqrt();
         outcome.bounds(PassBounds { lower: radius, upper, working_set: set.len() as u64 });
         let violators: Vec<u64> = if by_face { &found.by_face } else { &found.far }
@@ -88,7 +90,7 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
             Some(Stop::Converged)
         } else if violators.is_empty() {
             Some(if options.epsilon == 0.0 { Stop::Converged } else { Stop::Rounding })
-        } else if scan.passes() >= options.max_passes {
+        } else if scan.passes() >= options.max_passes && radius > 0.0 {
             Some(Stop::PassBudget)
         } else {
             None
@@ -126,18 +128,23 @@ fn add(
 }
 
 /// The exact ball of the working set; returns its radius. `radius` is a lower bound on it, from before the last batch.
-fn solve_working_set(active: &mut ActiveSet, set: &WorkingSet, radius: f64) -> f64 {
+fn solve_working_set(
+    active: &mut ActiveSet,
+    set: &WorkingSet,
+    radius: f64,
+    monitor: &Monitor<'_>,
+) -> Result<f64, Cancelled> {
     let offset = set.radius_offset();
     let mut relative = (radius - offset).max(0.0);
     loop {
         if offset > 0.0 {
             active.set_radius(set, relative);
         }
-        active.maximize(set);
+        active.maximize(set, monitor)?;
         let bound = lower_bound(active, set).max(0.0);
         // Newton steps grow until rounding; for points the first is the answer, as nothing depends on R.
         if offset == 0.0 || bound <= relative + f64::EPSILON * (relative + offset) {
-            return bound.max(relative) + offset;
+            return Ok(bound.max(relative) + offset);
         }
         relative = bound;
     }

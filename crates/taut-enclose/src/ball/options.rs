@@ -67,7 +67,8 @@ pub struct BallOptions {
     pub method: BallMethod,
     /// Far points taken to the core-set per pass, by [`BallMethod::CoreSet`]; `None` chooses by dimension. At least 1.
     pub batch: Option<usize>,
-    /// Most reads of all points; then the best ball so far is returned with its gap. At least 2, default 1,000,000.
+    /// Most reads of all points; then the best ball so far is returned with its gap. At least 3, default 1,000,000.
+    /// A read or two more are made where nothing could be said of the radius otherwise.
     pub max_passes: u64,
     /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
@@ -104,11 +105,11 @@ impl BallOptions {
         if self.batch == Some(0) {
             return wrong("batch", "0".into(), "at least 1");
         }
-        if self.max_passes < 2 {
+        if self.max_passes < 3 {
             return wrong(
                 "max_passes",
                 self.max_passes.to_string(),
-                "at least 2: one to look, one to prove",
+                "at least 3: two to find a diameter, one to prove",
             );
         }
         if self.threads == Some(0) {

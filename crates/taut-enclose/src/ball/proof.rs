@@ -6,58 +6,54 @@
 //! *Lower.* r² = Σ λᵢ|pᵢ − c|² − |c − Σ λᵢpᵢ|² with Σλ = 1, in double-double; for balls the bound of
 //! [`super::core_set`]. Nothing is taken from the solver's state.
 
-use taut_certify::{Ball, BallCertificate, Items, Solution, Stop, Trace};
+use taut_certify::{Ball, BallCertificate, Items, PassBounds, Solution, Stop, Trace};
 
 use super::BallOptions;
 use super::outcome::{Candidate, Outcome};
 use crate::Error;
 use crate::kernel::{Center, DoubleDouble, exact_squared_distance, relative_error};
-use crate::scan::Scan;
+use crate::scan::{Query, Scan};
 
 pub(super) fn prove(
-    scan: &Scan<'_>,
+    scan: &mut Scan<'_>,
     outcome: Outcome,
     options: &BallOptions,
 ) -> Result<Solution<Ball>, Error> {
     let (mut best, outcome) = outcome.into_best();
     sort_by_id(&mut best);
+    settle_center(scan, &mut best)?;
     let rows = scan.rows(&best.support)?;
     let upper = upper_bound(scan, &best)?;
     let lower = lower_bound(scan, &best, &rows);
     let scale = scan.scale();
-    let radius = upper / scale;
+    let radius = unscale_up(upper, scale);
     if !radius.is_finite() {
         return Err(Error::Overflow);
     }
-    let gap = if upper > 0.0 {
-        DoubleDouble::from(upper).div(lower).sub(1.0.into()).round_up().max(0.0)
-    } else {
-        0.0
+    let gap = match radius {
+        0.0 => 0.0,
+        // Against the radius as it is returned: below 1e-308 rounding it up costs digits.
+        _ => DoubleDouble::from(radius * scale).div(lower).sub(1.0.into()).round_up().max(0.0),
     };
     let mut stop = outcome.stop.expect("a method says why it stopped");
     if stop == Stop::Converged && options.epsilon > 0.0 && gap > options.epsilon {
         stop = Stop::Rounding;
     }
-    let unscaled = |values: Vec<f64>| values.into_iter().map(|v| v / scale).collect();
+    let bounds = |b: PassBounds| PassBounds { lower: b.lower / scale, upper: b.upper / scale, ..b };
     let trace = Trace {
         method: options.method.name().to_owned(),
         stop,
         passes: scan.passes(),
         iterations: outcome.iterations,
         core_set: outcome.core_set,
-        history: outcome
-            .history
-            .into_iter()
-            .map(|b| taut_certify::PassBounds {
-                lower: b.lower / scale,
-                upper: b.upper / scale,
-                ..b
-            })
-            .collect(),
+        history: outcome.history.into_iter().map(bounds).collect(),
         counters: outcome.counters,
     };
-    let answer =
-        Ball { center: unscaled(best.center.high), center_tail: unscaled(best.center.low), radius };
+    let answer = Ball {
+        center: unscale(&best.center.high, scale),
+        center_tail: unscale(&best.center.low, scale),
+        radius,
+    };
     let certificate = BallCertificate {
         items: scan.items(),
         support: best.support,
@@ -66,6 +62,34 @@ pub(super) fn prove(
         points_hash: scan.hash(),
     };
     Ok(Solution { answer, certificate, trace })
+}
+
+fn unscale(values: &[f64], scale: f64) -> Vec<f64> {
+    values.iter().map(|v| v / scale).collect()
+}
+
+/// value / scale; where that cannot be exact, because it is subnormal, rounded up.
+fn unscale_up(value: f64, scale: f64) -> f64 {
+    let unscaled = value / scale;
+    if unscaled * scale < value { unscaled.next_up() } else { unscaled }
+}
+
+/// Makes the centre one that survives being scaled back. Only subnormal coordinates do not: then the centre is the
+/// rounded one, and one more pass finds what is farthest from that.
+fn settle_center(scan: &mut Scan<'_>, best: &mut Candidate) -> Result<(), Error> {
+    let scale = scan.scale();
+    let rescale =
+        |values: &[f64]| -> Vec<f64> { values.iter().map(|v| v / scale * scale).collect() };
+    let center = Center { high: rescale(&best.center.high), low: rescale(&best.center.low) };
+    if center == best.center {
+        return Ok(());
+    }
+    let keep = best.found.far.len().max(64);
+    let query =
+        Query { center: &center, above: best.found.listed_above / 2.0, keep, by_face_above: None };
+    best.found = scan.farthest(query)?;
+    best.center = center;
+    Ok(())
 }
 
 fn sort_by_id(best: &mut Candidate) {
@@ -107,7 +131,7 @@ fn upper_bound(scan: &Scan<'_>, best: &Candidate) -> Result<f64, Error> {
         let (x, r) = split(scan, row);
         upper = upper.max(reach_up(exact_squared_distance(x, &best.center), r));
     }
-    if !all_listed {
+    if !all_listed && found.farthest.reach2 > 0.0 {
         upper = upper.max((found.farthest.reach2 * (1.0 + error)).sqrt().next_up());
     }
     Ok(upper)

@@ -118,7 +118,10 @@ impl WorkingSet {
         // A coordinate near 0 would keep digits far below the rounding of the others, and of all distances: a centre
         // that should be 0 would be 1e-17 and cost the radius an ulp.
         let grid = 2f64.powi(radius.log2().floor() as i32 - 53);
-        Center { high: high.into_iter().map(|c| (c / grid).round() * grid).collect(), low: vec![] }
+        Center {
+            high: high.into_iter().map(|c| (c / grid).round() * grid + 0.0).collect(),
+            low: vec![],
+        }
     }
 
     /// Adds items that are not in the set yet. `rows` holds for each its coordinates, and its radius if `with_radius`.

@@ -1,0 +1,194 @@
+//! `taut ball`: the smallest ball around points or balls.
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use anyhow::bail;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use taut::{AnySolution, BallMethod, BallOptions, Items, ball_of_source};
+use taut_io::AtomicFile;
+
+use crate::effort::Effort;
+use crate::exit::Outcome;
+use crate::numbers::seconds;
+use crate::picture::{self, Picture};
+use crate::reading::{Points, Reading};
+use crate::report::{self, Fact, Report};
+use crate::verify::judge;
+use crate::writing;
+
+/// Find the smallest ball around a point set, with proof.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
+      3 the gap asked for was not reached, for a budget or for rounding; the one reached is reported
+Example: taut ball points.csv -o ball.json --draw ball.svg && taut verify ball.json points.csv")]
+pub(crate) struct Args {
+    #[command(flatten)]
+    points: Points,
+    /// Rows are balls: the coordinates of a centre, then the radius
+    #[arg(long)]
+    balls: bool,
+    /// Proved relative gap to reach, in [0, 1): radius ≤ (1 + ε) · smallest; 0 is exact to rounding
+    #[arg(long, value_name = "REAL", default_value = "1e-9", allow_negative_numbers = true)]
+    epsilon: f64,
+    /// The way to find it; all end in the same certificate
+    #[arg(long, value_name = "NAME", default_value = BallMethod::default().name(), value_parser = methods())]
+    method: BallMethod,
+    /// Far points taken to the core-set per pass, by core-set; at least 1 [default: by dimension]
+    #[arg(long, value_name = "N")]
+    batch: Option<usize>,
+    /// Most reads of all points, at least 2; then the best ball so far is given with its gap
+    #[arg(long, value_name = "N", default_value_t = BallOptions::default().max_passes)]
+    max_passes: u64,
+    /// Chooses the point from which the thesis' methods start
+    #[arg(long, value_name = "N", default_value_t = BallOptions::default().seed)]
+    seed: u64,
+    /// Do without the independent check, which is one more read of all points
+    #[arg(long)]
+    no_verify: bool,
+
+    /// Write ball and certificate as JSON; - is standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
+    out: Option<PathBuf>,
+    /// Print the JSON instead of the summary
+    #[arg(long, help_heading = "Writing")]
+    json: bool,
+    /// Draw ball and points; .svg and .png show one picture, .html all
+    #[arg(long, value_name = "FILE", help_heading = "Writing")]
+    draw: Option<PathBuf>,
+
+    #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
+    effort: Effort,
+}
+
+fn methods() -> impl TypedValueParser<Value = BallMethod> {
+    let explained = BallMethod::ALL.map(|method| {
+        PossibleValue::new(method.name()).help(match method {
+            BallMethod::CoreSet => "batches of far points, exact on the core-set: the best",
+            BallMethod::ThesisPure => {
+                "Algorithm 1: one far point per pass, a conic solver on the core-set"
+            }
+            BallMethod::ThesisFast => "d/3 steps of Bădoiu and Clarkson, then Algorithm 1",
+            BallMethod::BadoiuClarkson => "Algorithm 10: steps to the farthest point; needs ε > 0",
+        })
+    });
+    PossibleValuesParser::new(explained).try_map(|name| name.parse::<BallMethod>())
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
+        let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
+        if let Some(out) = &self.out
+            && Picture::of_path(out).is_ok()
+        {
+            bail!("{}: -o writes JSON; draw with --draw {0}", out.display());
+        }
+        let watch = self.effort.start()?;
+        let mut clock = Clock::start();
+        let points = self.reading.open(&self.points.path)?;
+        clock.lap("reading");
+
+        let items = if self.balls { Items::Balls } else { Items::Points };
+        let options = self.options();
+        let found = watch
+            .during("solving", |monitor| ball_of_source(points.source(), items, &options, monitor))
+            .map_err(|error| points.explain(error))?;
+        clock.lap("solving");
+
+        let found = AnySolution::Ball(found);
+        let mut verdict = None;
+        if !self.no_verify {
+            match judge(&found, &points, &watch)? {
+                Ok(proved) => verdict = Some(proved),
+                Err(violation) => {
+                    let violation = points.explain_violation(&violation);
+                    eprintln!("taut: the ball found failed its check: {violation}");
+                    return Ok(Outcome::CheckFailed);
+                }
+            }
+            clock.lap("checking");
+        }
+        let AnySolution::Ball(found) = &found;
+
+        let report = Report { found, points: &points, verdict };
+        let drawn =
+            picture.map(|picture| picture.draw(&report, &picture::Look::default())).transpose()?;
+
+        let mut files = Vec::new();
+        if let Some(out) = &self.out {
+            files.push(writing::stage(out, json(found).as_bytes())?);
+        }
+        if let (Some(path), Some(drawn)) = (&self.draw, drawn) {
+            files.push(writing::stage(path, &drawn)?);
+        }
+        files.into_iter().try_for_each(AtomicFile::commit)?;
+        let outcome = report::outcome(found, self.epsilon);
+        if self.out.as_deref() == Some("-".as_ref()) {
+            // The JSON is on standard output, and nothing else is to be.
+            return Ok(outcome);
+        }
+        if self.json {
+            writing::say(json(found).as_bytes())?;
+        } else if !self.effort.quiet {
+            let mut facts = report.facts();
+            facts.push(clock.fact());
+            writing::say(report::text(&report.title(), &facts).as_bytes())?;
+        }
+        Ok(outcome)
+    }
+
+    fn options(&self) -> BallOptions {
+        BallOptions {
+            epsilon: self.epsilon,
+            method: self.method,
+            batch: self.batch,
+            max_passes: self.max_passes,
+            threads: None, // those of the pool, which reading and checking use as well
+            seed: self.seed,
+        }
+    }
+}
+
+fn json(found: &taut::Solution<taut::Ball>) -> String {
+    found.to_json() + "\n"
+}
+
+/// Seconds by step, for people; no result depends on it and no file holds it.
+struct Clock {
+    start: Instant,
+    laps: Vec<(&'static str, Duration)>,
+}
+
+impl Clock {
+    fn start() -> Self {
+        Clock { start: Instant::now(), laps: Vec::new() }
+    }
+
+    fn lap(&mut self, what: &'static str) {
+        let before: Duration = self.laps.iter().map(|(_, time)| time).sum();
+        self.laps.push((what, self.start.elapsed() - before));
+    }
+
+    fn fact(&self) -> Fact {
+        let all: Duration = self.laps.iter().map(|(_, time)| time).sum();
+        let laps: Vec<String> =
+            self.laps.iter().map(|(what, time)| format!("{what} {}", seconds(*time))).collect();
+        Fact::new("time", seconds(all)).remark(laps.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{Args as _, FromArgMatches};
+
+    #[test]
+    fn the_defaults_are_those_of_the_library() {
+        let command = super::Args::augment_args(clap::Command::new("ball"));
+        let matches = command.get_matches_from(["ball", "points.csv"]);
+        let args = super::Args::from_arg_matches(&matches).unwrap();
+        assert_eq!(args.options(), taut::BallOptions::default());
+    }
+}

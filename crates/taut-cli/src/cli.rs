@@ -1,0 +1,67 @@
+//! The top of the command line: the subcommands and what is said about all of them.
+
+use clap::{Parser, Subcommand};
+
+use crate::exit::Outcome;
+use crate::{ball, completions, draw, formats, generate, man, tour, verify};
+
+/// Tight shapes around, through and inside point sets, with proof.
+#[derive(Debug, Parser)]
+#[command(name = "taut", version, max_term_width = 100)]
+#[command(after_help = "\
+Exit: 0 done and as asked · 1 a check failed · 2 bad input or usage, nothing written ·
+      3 stopped early by a budget, the gap reached is reported · 130 interrupted
+Start: taut tour, then open tour.html")]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Ball(ball::Args),
+    Verify(verify::Args),
+    Draw(draw::Args),
+    Generate(generate::Args),
+    Tour(tour::Args),
+    Formats(formats::Args),
+    Completions(completions::Args),
+    Man(man::Args),
+}
+
+impl Cli {
+    pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
+        match &self.command {
+            Command::Ball(args) => args.run(),
+            Command::Verify(args) => args.run(),
+            Command::Draw(args) => args.run(),
+            Command::Generate(args) => args.run(),
+            Command::Tour(args) => args.run(),
+            Command::Formats(args) => args.run(),
+            Command::Completions(args) => args.run(),
+            Command::Man(args) => args.run(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_declaration_is_sound() {
+        super::Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn every_subcommand_and_option_is_explained() {
+        for command in super::Cli::command().get_subcommands() {
+            let name = command.get_name();
+            assert!(command.get_about().is_some(), "{name} has no description");
+            assert!(command.get_after_help().is_some(), "{name} has no example");
+            for argument in command.get_arguments() {
+                assert!(argument.get_help().is_some(), "{name}: {} has no help", argument.get_id());
+            }
+        }
+    }
+}

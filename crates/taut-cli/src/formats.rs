@@ -1,0 +1,53 @@
+//! `taut formats`: what can be read and written.
+
+use taut_io::{Compression, Format};
+
+use crate::exit::Outcome;
+use crate::writing;
+
+/// List the formats of points, with what this build reads and writes.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example: taut formats")]
+pub(crate) struct Args {}
+
+impl Args {
+    pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
+        writing::say(table().as_bytes())?;
+        Ok(Outcome::Done)
+    }
+}
+
+fn table() -> String {
+    let word = |able| if able { "yes" } else { "no" };
+    let row = |format: Format| {
+        let extensions = format.extensions().join(" ");
+        [
+            format.name().to_owned(),
+            word(format.can_read()).to_owned(),
+            word(format.can_write()).to_owned(),
+            extensions,
+        ]
+    };
+    let head = ["format", "read", "write", "extensions"].map(str::to_owned);
+    let rows: Vec<[String; 4]> = std::iter::once(head).chain(Format::ALL.map(row)).collect();
+    let notes = std::iter::once("what it is").chain(Format::ALL.map(Format::description));
+    let widths: [usize; 4] =
+        std::array::from_fn(|i| rows.iter().map(|row| row[i].len()).max().unwrap_or(0));
+
+    let mut text = String::new();
+    for (row, note) in rows.iter().zip(notes) {
+        for (cell, width) in row.iter().zip(widths) {
+            text += &format!("{cell:<width$}  ");
+        }
+        text += note;
+        text.push('\n');
+    }
+    let packed: Vec<&str> =
+        Compression::ALL.iter().flat_map(|packed| packed.extensions()).copied().collect();
+    text += &format!(
+        "\nAny of them may be compressed, with one of {} as a further extension.\n",
+        packed.join(", ")
+    );
+    text += "Answers are written as json, pictures as svg, png and html.\n";
+    text
+}

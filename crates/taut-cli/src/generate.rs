@@ -1,0 +1,135 @@
+//! `taut generate`: seeded point sets of the literature, of any size.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{anyhow, bail};
+use clap::builder::{PossibleValue, PossibleValuesParser};
+use taut::points::{Error, GeneratedSource, ScalarKind};
+use taut::{Distribution, PointSource};
+use taut_io::{Format, write_points};
+
+use crate::effort::Effort;
+use crate::exit::Outcome;
+use crate::radii::{Balls, Law};
+use crate::reading::{formats, scalar};
+
+/// Generate a seeded point set; point i depends on the seed and i alone.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Points are written as they are drawn, so there may be more of them than memory holds.
+Example: taut generate normal -n 10000 -d 300 -o normal.npy && taut ball normal.npy")]
+pub(crate) struct Args {
+    /// What the points are drawn from
+    #[arg(value_parser = distributions())]
+    distribution: String,
+    /// Number of points
+    #[arg(short, long = "points", value_name = "N")]
+    n: u64,
+    /// Dimension, at least 1
+    #[arg(short, long = "dim", value_name = "D")]
+    d: usize,
+    /// Chooses the set
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Half the thickness of a shell, at least 0 [default: 0.1]
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    thickness: Option<f64>,
+    /// Number of clusters, at least 1 [default: 5]
+    #[arg(long, value_name = "K")]
+    count: Option<u64>,
+    /// Standard deviation of a cluster, at least 0 [default: 0.05]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    spread: Option<f64>,
+    /// Vertices of a polygon, at least 1 [default: N]
+    #[arg(long, value_name = "K")]
+    vertices: Option<u64>,
+    /// Make balls: a last column of radii, equal:R, uniform:A:B or exponential:MEAN
+    #[arg(long, value_name = "LAW")]
+    radii: Option<Law>,
+
+    /// Where to write; - is standard output
+    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Writing")]
+    out: PathBuf,
+    /// Format of the points; `taut formats` lists them [default: told by the name, csv for -]
+    #[arg(long, value_name = "F", value_parser = formats(Format::can_write), hide_possible_values = true, help_heading = "Writing")]
+    format: Option<Format>,
+    /// Type of a coordinate; points are drawn in f64, then rounded
+    #[arg(long = "type", value_name = "TYPE", default_value = "f64", value_parser = scalar(), help_heading = "Writing")]
+    scalar: ScalarKind,
+
+    #[command(flatten)]
+    effort: Effort,
+}
+
+fn distributions() -> PossibleValuesParser {
+    PossibleValuesParser::new(
+        [
+            ("normal", "each coordinate standard normal"),
+            ("uniform", "uniform in the unit cube"),
+            ("cube", "vertices of the unit cube: cospherical, with duplicates in low dimension"),
+            ("poisson", "each coordinate Poisson with mean 1: a lattice with many ties"),
+            ("sphere", "uniform on the unit sphere"),
+            ("shell", "uniform in direction, 1 ± T from the origin"),
+            ("clusters", "normal clouds around K centres in the unit cube"),
+            ("simplex", "vertices of a regular simplex with unit edges, then points inside"),
+            ("polygon", "K points at equal angles on the unit circle, in turn"),
+        ]
+        .map(|(name, help)| PossibleValue::new(name).help(help)),
+    )
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
+        let distribution = self.distribution()?;
+        let refused = |error: Error| anyhow!("{error}");
+        let points = GeneratedSource::new(distribution, self.n, self.d, self.seed, self.scalar)
+            .map_err(refused)?;
+        let watch = self.effort.start()?;
+        let format = match self.format {
+            None if self.out == Path::new("-") => Some(Format::Csv),
+            given => given,
+        };
+        let balls = self
+            .radii
+            .map(|law| Balls::new(points, self.seed, law))
+            .transpose()
+            .map_err(refused)?;
+        let source: &dyn PointSource = match &balls {
+            Some(balls) => balls,
+            None => &points,
+        };
+        watch.during("writing", |monitor| {
+            monitor.pass(1, source.len());
+            write_points(source, &[], &self.out, format, monitor)
+        })?;
+        Ok(Outcome::Done)
+    }
+
+    fn distribution(&self) -> anyhow::Result<Distribution> {
+        let name = self.distribution.as_str();
+        for (option, given, owner) in [
+            ("--thickness", self.thickness.is_some(), "shell"),
+            ("--count", self.count.is_some(), "clusters"),
+            ("--spread", self.spread.is_some(), "clusters"),
+            ("--vertices", self.vertices.is_some(), "polygon"),
+        ] {
+            if given && name != owner {
+                bail!("{option} belongs to {owner}, not to {name}: leave it out");
+            }
+        }
+        Ok(match name {
+            "normal" => Distribution::Normal,
+            "uniform" => Distribution::Uniform,
+            "cube" => Distribution::CubeVertices,
+            "poisson" => Distribution::Poisson,
+            "sphere" => Distribution::Sphere,
+            "shell" => Distribution::Shell { thickness: self.thickness.unwrap_or(0.1) },
+            "clusters" => Distribution::Clusters {
+                count: self.count.unwrap_or(5),
+                spread: self.spread.unwrap_or(0.05),
+            },
+            "simplex" => Distribution::Simplex,
+            _ => Distribution::Polygon { vertices: self.vertices.unwrap_or(self.n.max(1)) },
+        })
+    }
+}

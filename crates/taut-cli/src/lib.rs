@@ -1,1 +1,0 @@
-//! The taut command: tight shapes of point sets, with proof.

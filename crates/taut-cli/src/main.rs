@@ -1,0 +1,36 @@
+//! The `taut` command: tight shapes of point sets, with proof.
+//!
+//! Each subcommand is a file of its own and the same four steps: open, solve, write, say. What they share (how
+//! points are read, how much effort is spent, how files are replaced) lies beside them, one thought per file.
+//! Nothing is calculated here: the answers are those of the library crates, and so are the checks.
+#![forbid(unsafe_code)]
+
+mod ball;
+mod cli;
+mod completions;
+mod draw;
+mod effort;
+mod exit;
+mod formats;
+mod generate;
+mod man;
+mod numbers;
+mod picture;
+mod radii;
+mod reading;
+mod report;
+mod size;
+mod tour;
+mod verify;
+mod watch;
+mod writing;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+fn main() -> ExitCode {
+    let cli = cli::Cli::parse();
+    watch::stop_on_interrupt();
+    exit::code(cli.run())
+}

@@ -1,0 +1,36 @@
+//! `taut man`: the manual, one page per subcommand, from the same words as `--help`.
+
+use std::path::PathBuf;
+
+use anyhow::Context;
+use clap::CommandFactory;
+
+use crate::cli::Cli;
+use crate::exit::Outcome;
+use crate::writing;
+
+/// Write the manual pages to a folder.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example: taut man ~/.local/share/man/man1 && man taut-ball")]
+pub(crate) struct Args {
+    /// Folder for the pages; made if it is not there
+    dir: PathBuf,
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
+        let mut top = Cli::command().disable_help_subcommand(true);
+        top.build();
+        let pages: Vec<clap::Command> =
+            std::iter::once(top.clone()).chain(top.get_subcommands().cloned()).collect();
+        std::fs::create_dir_all(&self.dir)
+            .with_context(|| format!("{}: could not be made", self.dir.display()))?;
+        for page in pages {
+            let page = clap_mangen::Man::new(page);
+            let mut text = Vec::new();
+            page.render(&mut text)?;
+            writing::replace(&self.dir.join(page.get_filename()), &text)?;
+        }
+        Ok(Outcome::Done)
+    }
+}

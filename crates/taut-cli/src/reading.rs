@@ -1,0 +1,180 @@
+//! How points are read, the same for every subcommand that reads some.
+
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use taut::enclose::Error as SolveError;
+use taut::points::{ReadError, ScalarKind};
+use taut::{Items, PointSource, Violation};
+use taut_io::{Columns, Format, Header, Input, RawLayout, ReadOptions};
+
+use crate::size;
+
+#[derive(Clone, Debug, clap::Args)]
+#[command(next_help_heading = "Reading")]
+pub(crate) struct Reading {
+    /// Format of the points; `taut formats` lists them [default: told by the name]
+    #[arg(long, value_name = "F", value_parser = formats(Format::can_read), hide_possible_values = true)]
+    format: Option<Format>,
+    /// Columns that are coordinates, by name, number from 0 or range: x,y,z or 0-2,5 or 1- [default: all]
+    #[arg(long, value_name = "LIST")]
+    columns: Option<Columns>,
+    /// Whether the first row of a text file holds names
+    #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = header())]
+    header: Header,
+    /// Most memory for points, such as 512M or 2GiB; what is larger is read from disk [default: all]
+    #[arg(long, value_name = "SIZE", value_parser = size::parse)]
+    memory: Option<u64>,
+    /// Coordinates of a point in a raw file, at least 1
+    #[arg(long, value_name = "D")]
+    raw_dim: Option<usize>,
+    /// Type of a coordinate in a raw file, little-endian
+    #[arg(long, value_name = "TYPE", value_parser = scalar())]
+    raw_type: Option<ScalarKind>,
+    /// Bytes before the first coordinate in a raw file [default: 0]
+    #[arg(long, value_name = "BYTES")]
+    raw_offset: Option<u64>,
+}
+
+/// A parser of the names of formats.
+pub(crate) fn formats(usable: fn(Format) -> bool) -> impl TypedValueParser<Value = Format> {
+    let names = Format::ALL
+        .into_iter()
+        .filter(move |&format| usable(format))
+        .map(|format| PossibleValue::new(format.name()).help(format.description()));
+    PossibleValuesParser::new(names).try_map(|name| name.parse::<Format>())
+}
+
+/// A parser of the names of number types.
+pub(crate) fn scalar() -> impl TypedValueParser<Value = ScalarKind> {
+    PossibleValuesParser::new(["f32", "f64"]).map(|name| match name.as_str() {
+        "f32" => ScalarKind::F32,
+        _ => ScalarKind::F64,
+    })
+}
+
+fn header() -> impl TypedValueParser<Value = Header> {
+    PossibleValuesParser::new(["auto", "present", "absent"]).map(|name| match name.as_str() {
+        "present" => Header::Present,
+        "absent" => Header::Absent,
+        _ => Header::Auto,
+    })
+}
+
+impl Reading {
+    fn options(&self) -> anyhow::Result<ReadOptions> {
+        let raw = match (self.raw_dim, self.raw_type) {
+            (Some(dim), Some(scalar)) => {
+                Some(RawLayout { dim, scalar, offset: self.raw_offset.unwrap_or(0) })
+            }
+            (None, None) if self.raw_offset.is_none() => None,
+            _ => return Err(anyhow!("a raw file needs both --raw-dim D and --raw-type f32|f64")),
+        };
+        Ok(ReadOptions {
+            format: self.format.or(raw.map(|_| Format::Raw)),
+            columns: self.columns.clone(),
+            header: self.header,
+            memory: self.memory,
+            raw,
+            temp_dir: None,
+        })
+    }
+
+    /// Opens the points of `path`; `-` is standard input.
+    pub(crate) fn open(&self, path: &Path) -> anyhow::Result<Opened> {
+        if path == Path::new("-") && std::io::stdin().is_terminal() {
+            eprintln!("taut: reading points from the terminal; Ctrl-D ends them");
+        }
+        Ok(Opened { input: taut_io::open(path, &self.options()?)? })
+    }
+}
+
+/// Points that were opened, and what is known of their file.
+pub(crate) struct Opened {
+    input: Input,
+}
+
+impl Opened {
+    pub(crate) fn of_bytes(bytes: &[u8], name: &str) -> anyhow::Result<Self> {
+        let input = taut_io::open_bytes(bytes.to_vec(), name, &ReadOptions::default())?;
+        Ok(Opened { input })
+    }
+
+    pub(crate) fn source(&self) -> &dyn PointSource {
+        &*self.input.source
+    }
+
+    /// The file as shown to people.
+    pub(crate) fn name(&self) -> &str {
+        &self.input.path
+    }
+
+    /// Names of the coordinates, as far as the file has some.
+    pub(crate) fn columns(&self, items: Items) -> Vec<String> {
+        let dim = items.dim(self.input.source.dim());
+        self.input.columns.iter().take(dim).cloned().collect()
+    }
+
+    /// What a solver refused, with the place in the file, which it cannot know.
+    pub(crate) fn explain(&self, error: SolveError) -> anyhow::Error {
+        let last = self.input.source.dim() - 1;
+        match error {
+            SolveError::NonFinite { row, column, value } => anyhow!(
+                "{}: the value is {value}, and all coordinates must be finite: repair or remove that row, or \
+                 choose other columns with --columns",
+                self.input.describe_cell(row, column)
+            ),
+            SolveError::NegativeRadius { row, value } => anyhow!(
+                "{}: the radius is {value}, and radii (the last column with --balls) must be at least 0: repair \
+                 or remove that row, or choose the columns with --columns",
+                self.input.describe_cell(row, last)
+            ),
+            SolveError::NoRadius { .. } => anyhow!(
+                "{}: a ball needs a centre and a radius, at least two columns, but there is one: leave out --balls \
+                 or choose more with --columns",
+                self.name()
+            ),
+            SolveError::Option { name, value, expected } => wrong_option(name, &value, expected),
+            SolveError::Empty | SolveError::Overflow => anyhow!("{}: {error}", self.name()),
+            other => other.into(),
+        }
+    }
+
+    /// Why an answer was rejected, with the place in the file, which a checker cannot know.
+    pub(crate) fn explain_violation(&self, violation: &Violation) -> String {
+        match *violation {
+            Violation::NonFinite { row, column, .. } => {
+                format!("{}: {violation}", self.input.describe_cell(row, column))
+            }
+            Violation::Outside { row, .. } => {
+                let row = self.input.describe_cell(row, 0).row;
+                format!("{}: row {row} of the data: {violation}", self.name())
+            }
+            _ => format!("{}: {violation}", self.name()),
+        }
+    }
+
+    /// What went wrong while the points were read again.
+    pub(crate) fn reading_failed(&self, error: ReadError) -> anyhow::Error {
+        match error {
+            // These name the file themselves.
+            ReadError::Io { .. } | ReadError::Truncated { .. } => error.into(),
+            other => anyhow!("{}: {other}", self.name()),
+        }
+    }
+}
+
+/// What a library says of an option, under the name that the command line gives it.
+pub(crate) fn wrong_option(name: &str, value: &str, expected: &str) -> anyhow::Error {
+    anyhow!("option `--{}` is {value}: expected {expected}", name.replace('_', "-"))
+}
+
+/// The file of points, as every subcommand takes it.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct Points {
+    /// Points, in any format of `taut formats`; - is standard input
+    #[arg(value_name = "POINTS")]
+    pub(crate) path: PathBuf,
+}

@@ -1,0 +1,143 @@
+//! What is said about a ball: the same facts on the terminal, beside pictures and in the tour.
+
+use taut::certify::Stop;
+use taut::{Ball, Items, Solution, Verdict};
+
+use crate::exit::Outcome;
+use crate::numbers::{abridged, coordinates, count, counted, exact, gap};
+use crate::reading::Opened;
+
+/// A ball, the points it belongs to, and what the checker proved (`None` where it was not asked).
+pub(crate) struct Report<'a> {
+    pub(crate) found: &'a Solution<Ball>,
+    pub(crate) points: &'a Opened,
+    pub(crate) verdict: Option<Verdict>,
+}
+
+/// A number with its name, and what there is to say about it where there is room for words.
+pub(crate) struct Fact {
+    pub(crate) name: &'static str,
+    pub(crate) value: String,
+    pub(crate) remark: Option<String>,
+}
+
+impl Fact {
+    pub(crate) fn new(name: &'static str, value: impl Into<String>) -> Self {
+        Fact { name, value: value.into(), remark: None }
+    }
+
+    pub(crate) fn remark(mut self, remark: impl Into<String>) -> Self {
+        self.remark = Some(remark.into());
+        self
+    }
+}
+
+impl Report<'_> {
+    /// What this is, in one line.
+    pub(crate) fn title(&self) -> String {
+        let source = self.points.source();
+        let dim = self.items().dim(source.dim()) as u64;
+        format!(
+            "Smallest ball around {} in {}",
+            counted(source.len(), self.noun()),
+            counted(dim, "dimension")
+        )
+    }
+
+    /// The numbers, each with its name.
+    pub(crate) fn facts(&self) -> Vec<Fact> {
+        let (answer, trace) = (&self.found.answer, &self.found.trace);
+        let support = count(self.found.certificate.support.len() as u64);
+        let mut centre = Fact::new("centre", coordinates(&answer.center, answer.radius));
+        if abridged(&answer.center) {
+            centre.value += &format!(" {} in all", count(answer.center.len() as u64));
+            centre = centre.remark("the JSON holds them (-o FILE)");
+        }
+        let (gap, verified) = match &self.verdict {
+            Some(proved) => (
+                Fact::new("gap", gap(proved.gap)).remark(format!(
+                    "no enclosing ball has a radius below {}",
+                    exact(proved.lower)
+                )),
+                Fact::new("verified", "yes")
+                    .remark(format!("every {} is inside, and the gap is proved", self.noun())),
+            ),
+            None => (
+                Fact::new("gap", gap(self.found.certificate.gap)).remark("as the solver says"),
+                Fact::new("verified", "not checked"),
+            ),
+        };
+        vec![
+            Fact::new("radius", exact(answer.radius)),
+            centre,
+            gap,
+            verified,
+            Fact::new("method", &*trace.method).remark(stopped(trace.stop)),
+            Fact::new("core-set", counted(trace.core_set, self.noun()))
+                .remark(format!("{support} of them in the support")),
+            Fact::new("passes", count(trace.passes)).remark(counted(trace.iterations, "iteration")),
+        ]
+    }
+
+    fn items(&self) -> Items {
+        self.found.certificate.items
+    }
+
+    fn noun(&self) -> &'static str {
+        match self.items() {
+            Items::Points => "point",
+            Items::Balls => "ball",
+        }
+    }
+}
+
+fn stopped(stop: Stop) -> &'static str {
+    match stop {
+        Stop::Converged => "converged",
+        Stop::Rounding => "stopped where rounding hides any smaller gap",
+        Stop::PassBudget => "stopped early by the budget of passes",
+    }
+}
+
+/// Title and facts as text, a fact a line.
+pub(crate) fn text(title: &str, facts: &[Fact]) -> String {
+    let lines = facts.iter().map(|Fact { name, value, remark }| match remark {
+        Some(remark) => format!("  {name:<10}{value}; {remark}\n"),
+        None => format!("  {name:<10}{value}\n"),
+    });
+    std::iter::once(format!("{title}\n")).chain(lines).collect()
+}
+
+/// Whether a run that asked for the gap `epsilon` got it.
+pub(crate) fn outcome(found: &Solution<Ball>, epsilon: f64) -> Outcome {
+    match found.trace.stop {
+        Stop::PassBudget => Outcome::StoppedEarly,
+        // ε = 0 asks for what rounding allows, and has it; a positive ε is a promise that was not kept.
+        Stop::Rounding if epsilon > 0.0 && found.certificate.gap > epsilon => Outcome::StoppedEarly,
+        Stop::Rounding | Stop::Converged => Outcome::Done,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taut::{BallOptions, Points};
+
+    #[test]
+    fn a_promise_that_was_not_kept_is_no_success() {
+        let points = Points::new(&[0.0, 0.0, 2.0, 0.0], 2).unwrap();
+        let mut found = taut::ball(&points, &BallOptions::default()).unwrap();
+        found.certificate.gap = 1e-12;
+        for (stop, epsilon, expected) in [
+            (Stop::Converged, 1e-9, Outcome::Done),
+            (Stop::Converged, 0.0, Outcome::Done),
+            (Stop::Rounding, 0.0, Outcome::Done),
+            (Stop::Rounding, 1e-9, Outcome::Done),
+            (Stop::Rounding, 1e-15, Outcome::StoppedEarly),
+            (Stop::PassBudget, 1e-9, Outcome::StoppedEarly),
+        ] {
+            found.trace.stop = stop;
+            assert_eq!(outcome(&found, epsilon), expected, "{stop:?} with ε = {epsilon}");
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! What goes wrong is named (file, row, column, value, remedy), the exit code is 2, and files stay as they were.
+
+use crate::desk::Desk;
+
+const GOOD: &str = "x,y,z\n0,0,0\n2,0,0\n1,0.5,0\n";
+
+/// Runs `taut ball FILE -o ball.json --draw ball.svg` over earlier outputs, which must survive.
+#[track_caller]
+fn refused(desk: &Desk, file: &str, parts: &[&str]) {
+    desk.put("ball.json", "earlier answer");
+    desk.put("ball.svg", "earlier picture");
+    let before = desk.files();
+    let run =
+        desk.taut(&format!("ball {file} -o ball.json --draw ball.svg")).ends(2).complains(parts);
+    assert_eq!(run.out, "");
+    assert_eq!(desk.text("ball.json"), "earlier answer");
+    assert_eq!(desk.text("ball.svg"), "earlier picture");
+    assert_eq!(desk.files(), before, "something was left behind");
+}
+
+#[test]
+fn a_ragged_row() {
+    let desk = Desk::new();
+    desk.put("ragged.csv", "x,y,z\n0,0,0\n2,0\n1,1,1\n");
+    refused(&desk, "ragged.csv", &["ragged.csv", "row 2", "line 3", "2 columns", "3 are expected"]);
+}
+
+#[test]
+fn not_a_number() {
+    let desk = Desk::new();
+    desk.put("nan.csv", GOOD.replace("0.5", "NaN"));
+    refused(&desk, "nan.csv", &["nan.csv", "row 3", "column 1", "`y`", "NaN"]);
+    desk.put("word.csv", GOOD.replace("0.5", "half"));
+    refused(&desk, "word.csv", &["word.csv", "row 3", "column 1", "`y`", "`half`"]);
+}
+
+#[test]
+fn not_a_number_in_a_binary_file() {
+    let desk = Desk::new();
+    desk.put("nan.f64", [0.0, 1.0, 2.0, f64::NAN].map(f64::to_le_bytes).concat());
+    refused(&desk, "nan.f64 --raw-dim 2 --raw-type f64", &["nan.f64", "row 2", "column 1", "NaN"]);
+}
+
+#[test]
+fn infinity() {
+    let desk = Desk::new();
+    desk.put("inf.csv", GOOD.replace("0.5", "-inf"));
+    refused(&desk, "inf.csv", &["inf.csv", "row 3", "column 1", "`y`", "inf"]);
+    desk.put("inf.f32", [0.0, f32::INFINITY].map(f32::to_le_bytes).concat());
+    refused(&desk, "inf.f32 --raw-dim 1 --raw-type f32", &["inf.f32", "row 2", "column 0", "inf"]);
+}
+
+#[test]
+fn a_negative_radius() {
+    let desk = Desk::new();
+    desk.put("discs.csv", "x,y,radius\n0,0,1\n1,1,-0.25\n");
+    refused(&desk, "discs.csv --balls", &["discs.csv", "row 2", "column 2", "`radius`", "-0.25"]);
+    desk.put("line.csv", "1\n2\n");
+    refused(&desk, "line.csv --balls", &["line.csv", "a centre and a radius"]);
+}
+
+#[test]
+fn an_empty_file() {
+    let desk = Desk::new();
+    desk.put("empty.csv", "");
+    refused(&desk, "empty.csv", &["empty.csv", "empty"]);
+    desk.put("header.csv", "x,y\n");
+    refused(&desk, "header.csv", &["header.csv", "no point"]);
+    desk.pipe("", "ball -").ends(2).complains(&["standard input"]);
+}
+
+#[test]
+fn a_truncated_npy() {
+    let desk = Desk::new();
+    desk.taut("generate normal -n 100 -d 3 -o whole.npy").ends(0);
+    let whole = desk.bytes("whole.npy");
+    for keep in [whole.len() - 1, whole.len() / 2, 40, 5] {
+        desk.put("cut.npy", &whole[..keep]);
+        refused(&desk, "cut.npy", &["cut.npy"]);
+    }
+}
+
+#[cfg(feature = "arrow")]
+#[test]
+fn a_truncated_parquet() {
+    let desk = Desk::new();
+    desk.taut("generate normal -n 100 -d 3 -o whole.parquet").ends(0);
+    let whole = desk.bytes("whole.parquet");
+    for keep in [whole.len() - 1, whole.len() / 2, 6] {
+        desk.put("cut.parquet", &whole[..keep]);
+        refused(&desk, "cut.parquet", &["cut.parquet"]);
+    }
+}
+
+#[test]
+fn a_truncated_archive() {
+    let desk = Desk::new();
+    desk.taut("generate normal -n 100 -d 3 -o whole.csv.gz").ends(0);
+    let whole = desk.bytes("whole.csv.gz");
+    desk.put("cut.csv.gz", &whole[..whole.len() / 2]);
+    refused(&desk, "cut.csv.gz", &["cut.csv.gz"]);
+}
+
+#[test]
+fn a_folder() {
+    let desk = Desk::new();
+    std::fs::create_dir(desk.path("folder.csv")).unwrap();
+    refused(&desk, "folder.csv", &["folder.csv", "folder"]);
+    desk.put("points.csv", GOOD);
+    desk.taut("ball points.csv -o folder.csv").ends(2).complains(&["folder.csv"]);
+    desk.taut("ball points.csv -o nowhere/ball.json").ends(2).complains(&["nowhere/ball.json"]);
+}
+
+#[test]
+fn a_missing_file() {
+    refused(&Desk::new(), "missing.csv", &["missing.csv", "no such file"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn no_permission() {
+    use std::os::unix::fs::PermissionsExt;
+    let desk = Desk::new();
+    desk.put("secret.csv", GOOD);
+    std::fs::set_permissions(desk.path("secret.csv"), PermissionsExt::from_mode(0o000)).unwrap();
+    if std::fs::read(desk.path("secret.csv")).is_ok() {
+        eprintln!("skipped: no_permission, as this user may read everything");
+        return;
+    }
+    refused(&desk, "secret.csv", &["secret.csv", "permission"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk() {
+    let desk = Desk::new();
+    desk.put("points.csv", GOOD);
+    for line in [
+        "ball points.csv -o /dev/full",
+        "ball points.csv --json -o /dev/full",
+        "generate normal -n 10 -d 2 --format csv -o /dev/full",
+        "tour -o /dev/full --quiet",
+    ] {
+        let run = desk.taut(line).ends(2).complains(&["/dev/full", "No space left"]);
+        assert!(!run.out.contains('{'), "{line} printed an answer that was not written");
+    }
+    desk.shell("taut ball points.csv > /dev/full")
+        .ends(2)
+        .complains(&["standard output", "No space left"]);
+}
+
+/// A file may not grow beyond one block: as on a full disk, a write fails halfway.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_write_that_fails_halfway_leaves_the_earlier_file() {
+    let desk = Desk::new();
+    desk.taut("generate normal -n 300 -d 200 -o points.npy").ends(0);
+    desk.put("ball.json", "earlier answer");
+    let before = desk.files();
+    desk.shell(
+        "trap '' XFSZ; ulimit -f 1; taut ball points.npy --quiet --epsilon 0.1 -o ball.json",
+    )
+    .ends(2)
+    .complains(&["ball.json"]);
+    assert_eq!(desk.text("ball.json"), "earlier answer");
+    assert_eq!(desk.files(), before);
+}
+
+#[test]
+fn unknown_names_and_options_out_of_range() {
+    let desk = Desk::new();
+    desk.put("points.csv", GOOD);
+    desk.put("points.xls", GOOD);
+    for (line, part) in [
+        ("ball points.csv --method simplex", "simplex"),
+        ("ball points.csv --format excel", "excel"),
+        ("ball points.xls", "points.xls"),
+        ("ball points.csv --epsilon 1.5", "1.5"),
+        ("ball points.csv --epsilon -1", "--epsilon` is -1"),
+        ("ball points.csv --epsilon NaN", "NaN"),
+        ("ball points.csv --epsilon 0 --method badoiu-clarkson", "badoiu-clarkson"),
+        ("ball points.csv --max-passes 1", "--max-passes"),
+        ("ball points.csv --batch 0", "--batch"),
+        ("ball points.csv --threads 0", "threads"),
+        ("ball points.csv --columns w", "`w`"),
+        ("ball points.csv --columns 7", "7"),
+        ("ball points.csv --draw ball.bmp", "ball.bmp"),
+        ("ball points.csv -o ball.svg", "--draw"),
+        ("ball", "<POINTS>"),
+        ("dance", "dance"),
+        ("", "Usage"),
+    ] {
+        let run = desk.taut(line).ends(2);
+        assert!(run.err.contains(part), "no `{part}` after `taut {line}`: {run:?}");
+        assert_eq!(run.out, "", "{line}");
+    }
+    assert_eq!(desk.files(), ["points.csv", "points.xls"]);
+}

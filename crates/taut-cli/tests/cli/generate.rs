@@ -1,0 +1,91 @@
+//! `taut generate`: each distribution, each format, and the same bytes whatever the threads.
+
+use crate::desk::Desk;
+
+fn rows(text: &str) -> Vec<Vec<f64>> {
+    text.lines().map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect()
+}
+
+#[test]
+fn every_distribution_is_drawn() {
+    let desk = Desk::new();
+    for name in [
+        "normal", "uniform", "cube", "poisson", "sphere", "shell", "clusters", "simplex", "polygon",
+    ] {
+        let run = desk.taut(&format!("generate {name} -n 12 -d 3")).ends(0);
+        let rows = rows(&run.out);
+        assert_eq!(rows.len(), 12, "{name}");
+        assert!(rows.iter().all(|row| row.len() == 3), "{name}");
+    }
+}
+
+#[test]
+fn parameters_reach_their_distribution() {
+    let desk = Desk::new();
+    let norm = |row: &Vec<f64>| row.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let shell = rows(&desk.taut("generate shell -n 50 -d 4 --thickness 0.5").ends(0).out);
+    assert!(shell.iter().map(norm).all(|r| (0.5..=1.5).contains(&r)));
+    assert!(shell.iter().map(norm).any(|r| (r - 1.0).abs() > 0.2));
+    let square = rows(&desk.taut("generate polygon -n 8 -d 2 --vertices 4").ends(0).out);
+    assert_eq!(square[..4], square[4..]);
+    let points = desk.taut("generate clusters -n 9 -d 2 --count 3 --spread 0").ends(0).out;
+    assert_eq!(rows(&points)[..3], rows(&points)[6..]);
+    desk.taut("generate normal -n 2 -d 2 --thickness 1")
+        .ends(2)
+        .complains(&["--thickness", "shell"]);
+    desk.taut("generate shell -n 2 -d 2 --thickness -1").ends(2).complains(&["`thickness` is -1"]);
+    desk.taut("generate normal -n 2 -d 0").ends(2).complains(&["dimension"]);
+    desk.taut("generate weibull -n 2 -d 2").ends(2);
+}
+
+#[test]
+fn point_i_depends_on_the_seed_and_i_alone() {
+    let desk = Desk::new();
+    let few = desk.taut("generate normal -n 5 -d 3 --seed 9 --threads 1").ends(0).out;
+    let many = desk.taut("generate normal -n 50000 -d 3 --seed 9 --threads 8").ends(0).out;
+    assert!(many.starts_with(&few));
+    assert_ne!(desk.taut("generate normal -n 5 -d 3 --seed 10").ends(0).out, few);
+}
+
+#[test]
+fn what_is_written_is_read_back_whatever_the_format() {
+    let desk = Desk::new();
+    let mut answers = Vec::new();
+    let files = "p.csv p.tsv p.txt p.npy p.xyz p.csv.gz p.npy.zst p.xyz.xz";
+    let columnar = if cfg!(feature = "arrow") { "p.parquet p.arrow" } else { "" };
+    for file in files.split(' ').chain(columnar.split_whitespace()) {
+        desk.taut(&format!("generate uniform -n 200 -d 3 --type f32 -o {file}")).ends(0);
+        let answer = desk.taut(&format!("ball {file} --json")).ends(0).json();
+        answers.push((
+            file,
+            answer["certificate"]["points_hash"].clone(),
+            answer["answer"].clone(),
+        ));
+    }
+    for (file, hash, answer) in &answers {
+        assert_eq!((hash, answer), (&answers[0].1, &answers[0].2), "{file}");
+    }
+    desk.taut("generate uniform -n 2 -d 2 -o p.xls").ends(2).complains(&["p.xls"]);
+    desk.taut("generate uniform -n 2 -d 2 -o p.tsp").ends(2).complains(&["p.tsp"]);
+}
+
+#[test]
+fn radii_make_balls() {
+    let desk = Desk::new();
+    let balls = rows(&desk.taut("generate normal -n 300 -d 2 --radii uniform:1:2").ends(0).out);
+    assert!(balls.iter().all(|ball| ball.len() == 3 && (1.0..=2.0).contains(&ball[2])));
+    let centres = rows(&desk.taut("generate normal -n 300 -d 2").ends(0).out);
+    assert!(balls.iter().zip(&centres).all(|(ball, centre)| ball[..2] == centre[..]));
+    desk.taut("generate normal -n 300 -d 2 --radii exponential:0.1 -o balls.csv").ends(0);
+    desk.taut("ball balls.csv --balls")
+        .ends(0)
+        .says(&["300 balls in 2 dimensions", "verified  yes"]);
+    desk.taut("generate normal -n 3 -d 2 --radii big").ends(2);
+}
+
+#[test]
+fn no_points_are_refused_by_what_reads_them() {
+    let desk = Desk::new();
+    desk.taut("generate normal -n 0 -d 2 -o none.npy").ends(0);
+    desk.taut("ball none.npy").ends(2).complains(&["none.npy"]);
+}

@@ -1,0 +1,34 @@
+//! Ctrl-C ends the work with code 130 and leaves files as they were.
+
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use crate::desk::Desk;
+
+#[test]
+fn an_interrupt_leaves_the_earlier_file_and_nothing_else() {
+    let desk = Desk::new();
+    desk.put("points.csv", "earlier points");
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin!("taut"))
+        .current_dir(desk.path(""))
+        .args("generate normal -n 100000000000 -d 3 -o points.csv --threads 1".split(' '))
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // It has begun once its temporary file stands beside the earlier one.
+    for _ in 0..500 {
+        if desk.files().len() > 1 {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    assert!(desk.files().len() > 1, "not begun: {:?}", child.wait_with_output());
+    let id = child.id().to_string();
+    assert!(
+        Command::new("sh").args(["-c", &format!("kill -INT {id}")]).status().unwrap().success()
+    );
+    let ended = child.wait().unwrap();
+    assert_eq!(ended.code(), Some(130));
+    assert_eq!(desk.files(), ["points.csv"]);
+    assert_eq!(desk.text("points.csv"), "earlier points");
+}

@@ -1,0 +1,13 @@
+//! The command line, through the real binary: what goes in, what comes out, and how it ends.
+
+mod bad_input;
+mod ball;
+mod desk;
+mod generate;
+#[cfg(unix)]
+mod interrupt;
+mod pictures;
+mod threads;
+mod usps;
+mod verify;
+mod words;

@@ -1,0 +1,35 @@
+//! Results are the same bytes for any number of threads.
+
+use crate::desk::Desk;
+
+#[test]
+fn results_are_the_same_bytes_for_1_2_and_8_threads() {
+    let desk = Desk::new();
+    // Several blocks of points, so that threads have something to share.
+    desk.taut("generate normal -n 30000 -d 8 -o points.npy").ends(0);
+    desk.taut("generate cube -n 9000 -d 20 --type f32 -o cube.npy").ends(0);
+    for line in [
+        "ball points.npy --json",
+        "ball points.npy --json --epsilon 1e-3 --method thesis-fast",
+        "ball cube.npy --json",
+        "generate clusters -n 20000 -d 5",
+    ] {
+        let one = desk.taut(&format!("{line} --threads 1")).ends(0).out;
+        for threads in [2, 8] {
+            assert_eq!(
+                desk.taut(&format!("{line} --threads {threads}")).ends(0).out,
+                one,
+                "{line}, {threads} threads"
+            );
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn the_environment_sets_the_threads() {
+    let desk = Desk::new();
+    desk.put("points.csv", "0,0\n1,1\n");
+    desk.shell("TAUT_THREADS=2 taut ball points.csv").ends(0);
+    desk.shell("TAUT_THREADS=none taut ball points.csv").ends(2);
+}

@@ -1,0 +1,53 @@
+//! Help, versions, formats, completions and the manual.
+
+use crate::desk::Desk;
+
+const COMMANDS: [&str; 8] =
+    ["ball", "verify", "draw", "generate", "tour", "formats", "completions", "man"];
+
+#[test]
+fn help_explains_every_command_with_an_example() {
+    let desk = Desk::new();
+    let top = desk.taut("--help").ends(0).says(&["Exit: 0"]).out;
+    for command in COMMANDS {
+        assert!(top.contains(&format!("  {command} ")), "{command}");
+        desk.taut(&format!("{command} --help")).ends(0).says(&[
+            "Usage: taut ",
+            "Example: ",
+            &format!("taut {command}"),
+        ]);
+    }
+    desk.taut("ball --help").ends(0).says(&["[default: 1e-9]", "TAUT_THREADS", "Exit: 0 reached"]);
+    desk.taut("--version").ends(0).says(&[concat!("taut ", env!("CARGO_PKG_VERSION"))]);
+}
+
+#[test]
+fn formats_lists_what_is_read_and_written() {
+    let run = Desk::new().taut("formats").ends(0);
+    for format in ["csv", "tsv", "whitespace", "npy", "parquet", "arrow", "tsplib", "xyz", "raw"] {
+        if !cfg!(feature = "arrow") && matches!(format, "parquet" | "arrow") {
+            continue;
+        }
+        let line = run.out.lines().find(|line| line.split_whitespace().next() == Some(format));
+        let words: Vec<&str> =
+            line.unwrap_or_else(|| panic!("no {format}")).split_whitespace().collect();
+        assert_eq!(words[1..3], ["yes", if format == "tsplib" { "no" } else { "yes" }], "{format}");
+    }
+    assert!(run.out.contains("gz, xz, zst"));
+}
+
+#[test]
+fn shells_complete_and_the_manual_has_a_page_for_each_command() {
+    let desk = Desk::new();
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        desk.taut(&format!("completions {shell}")).ends(0).says(&["taut", "epsilon", "max-passes"]);
+    }
+    desk.taut("completions tcsh").ends(2);
+    desk.taut("man pages/man1").ends(0);
+    let page = desk.text("pages/man1/taut.1");
+    assert!(page.contains(".TH taut 1"), "{page}");
+    for command in COMMANDS {
+        let page = desk.text(&format!("pages/man1/taut-{command}.1"));
+        assert!(page.contains(&format!("taut\\-{command}")) && page.contains("Example"), "{page}");
+    }
+}

@@ -1,0 +1,453 @@
+//! What can be wrong with a file, said so that a person can mend it: file, row, column, value, remedy.
+
+use std::fmt;
+use std::io;
+
+use taut_points::ReadError;
+
+use crate::{Compression, Format};
+
+/// Where a value stands in a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The file as shown to people.
+    pub path: String,
+    /// Number of the row of data, from 1; a header is not counted.
+    pub row: u64,
+    /// Line of a text file, from 1, where known.
+    pub line: Option<u64>,
+    /// Number of the column in the file, from 0 as in [`Columns`](crate::Columns).
+    pub column: usize,
+    /// Its name, where the file has names.
+    pub name: Option<String>,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}, column {}", self.path, Row(self.row, self.line), self.column)?;
+        match &self.name {
+            Some(name) => write!(f, " (`{name}`)"),
+            None => write!(f, " (counted from 0)"),
+        }
+    }
+}
+
+/// A row with its line, for messages.
+struct Row(u64, Option<u64>);
+
+impl fmt::Display for Row {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.1 {
+            Some(line) => write!(f, "row {} (line {line})", self.0),
+            None => write!(f, "row {}", self.0),
+        }
+    }
+}
+
+/// The first few of a list.
+struct Few<'a>(&'a [String]);
+
+impl fmt::Display for Few<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        const SHOWN: usize = 8;
+        for (i, item) in self.0.iter().take(SHOWN).enumerate() {
+            write!(f, "{}`{item}`", if i == 0 { "" } else { ", " })?;
+        }
+        match self.0.len() {
+            n if n > SHOWN => write!(f, " and {} more", n - SHOWN),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Why points could not be read or a file could not be written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// There is no such file, or no such folder to write to.
+    #[error("{path}: no such file or folder")]
+    NotFound {
+        /// The file.
+        path: String,
+    },
+    /// A folder stands where a file was expected.
+    #[error("{path} is a folder: name a file in it")]
+    Directory {
+        /// The folder.
+        path: String,
+    },
+    /// The operating system forbids it.
+    #[error("{path}: no permission to {action} it")]
+    Permission {
+        /// The file.
+        path: String,
+        /// `read` or `write`.
+        action: &'static str,
+    },
+    /// Reading failed.
+    #[error("{path}: reading failed: {source}")]
+    Read {
+        /// The file.
+        path: String,
+        /// What the operating system said.
+        source: io::Error,
+    },
+    /// Writing failed; what stood there before is untouched.
+    #[error("{path}: writing failed: {source}; an earlier file of that name is as it was")]
+    Write {
+        /// The file.
+        path: String,
+        /// What the operating system said.
+        source: io::Error,
+    },
+    /// The temporary file for points that do not fit into memory could not be written.
+    #[error(
+        "{path}: its points need a temporary file in {folder}, and writing that failed: {source}; name a folder with more room"
+    )]
+    Spill {
+        /// The file whose points were read.
+        path: String,
+        /// The folder of the temporary file.
+        folder: String,
+        /// What the operating system said.
+        source: io::Error,
+    },
+    /// Not one byte.
+    #[error("{path} is empty: it holds no byte")]
+    Empty {
+        /// The file.
+        path: String,
+    },
+    /// No row of data.
+    #[error("{path} holds no point: it has a shape or a header, but no row of data")]
+    NoRows {
+        /// The file.
+        path: String,
+    },
+    /// Neither name nor content tells the format.
+    #[error("{path}: the format cannot be told from the name; name it (one of {})", Format::ALL.map(Format::name).join(", "))]
+    UnknownFormat {
+        /// The file.
+        path: String,
+    },
+    /// No format has this name.
+    #[error("`{name}` is no format; the formats are {}", Format::ALL.map(Format::name).join(", "))]
+    FormatName {
+        /// What was asked for.
+        name: String,
+    },
+    /// The format can be read, not written.
+    #[error("{path}: {format} files are read, not written; write one of {}", Format::ALL.into_iter().filter(|f| f.can_write()).map(Format::name).collect::<Vec<_>>().join(", "))]
+    NotWritable {
+        /// The file.
+        path: String,
+        /// The format.
+        format: Format,
+    },
+    /// The format was left out of this build.
+    #[error(
+        "{path}: this build of taut reads and writes no {format} files; build it with the feature `arrow`"
+    )]
+    NotBuilt {
+        /// The file.
+        path: String,
+        /// The format.
+        format: Format,
+    },
+    /// The compressed stream is damaged or ends early.
+    #[error(
+        "{path}: the {compression} stream is damaged or ends early: {source}; fetch or compress the file again"
+    )]
+    Compressed {
+        /// The file.
+        path: String,
+        /// The compression.
+        compression: Compression,
+        /// What the decoder said.
+        source: io::Error,
+    },
+    /// A row has more or fewer columns than the first.
+    #[error("{path}: {} has {found} columns, but {expected} are expected {why}: add or remove values there", Row(*row, Some(*line)))]
+    Ragged {
+        /// The file.
+        path: String,
+        /// The row, from 1.
+        row: u64,
+        /// The line, from 1.
+        line: u64,
+        /// Columns of this row.
+        found: usize,
+        /// Columns of the first.
+        expected: usize,
+        /// What sets the number expected.
+        why: &'static str,
+    },
+    /// A point of a list column has another dimension than the first.
+    #[error(
+        "{path}: row {row} of column `{column}` is a list of {found} values, but the first has {expected}: all points must have one dimension"
+    )]
+    RaggedList {
+        /// The file.
+        path: String,
+        /// The row, from 1.
+        row: u64,
+        /// The column.
+        column: String,
+        /// Values in this list.
+        found: usize,
+        /// Values in the first.
+        expected: usize,
+    },
+    /// A field of text is not a number.
+    #[error("{place}: `{value}` is not a number; {hint}")]
+    NotANumber {
+        /// Where.
+        place: Place,
+        /// The field, shortened if long.
+        value: String,
+        /// What to do.
+        hint: &'static str,
+    },
+    /// A number is NaN, infinite, or too large for its type.
+    #[error(
+        "{place}: the value is {value}, and all coordinates must be finite: repair or remove that row"
+    )]
+    NonFinite {
+        /// Where.
+        place: Place,
+        /// The value.
+        value: String,
+    },
+    /// A value is missing (null).
+    #[error(
+        "{place}: the value is missing (null), and all coordinates must be given: fill or remove that row"
+    )]
+    Missing {
+        /// Where.
+        place: Place,
+    },
+    /// An integer that no `f64` holds exactly.
+    #[error("{place}: the integer {value} is not exact as f64: scale or shift that column")]
+    Inexact {
+        /// Where.
+        place: Place,
+        /// The integer.
+        value: String,
+    },
+    /// The first row holds both names and numbers, so it is neither a header nor a point.
+    #[error(
+        "{path}: row 1 (line {line}) mixes numbers with other text (`{value}` in column {column}, counted from 0): say whether it is a header, select the numeric columns, or repair the value"
+    )]
+    MixedHeader {
+        /// The file.
+        path: String,
+        /// The line, from 1.
+        line: u64,
+        /// The first column that is no number.
+        column: usize,
+        /// Its text.
+        value: String,
+    },
+    /// A quoted field has no end.
+    #[error(
+        "{path}: a quote that opens on line {line} never closes: add the closing quote, or remove the opening one"
+    )]
+    OpenQuote {
+        /// The file.
+        path: String,
+        /// The line, from 1.
+        line: u64,
+    },
+    /// A selection of columns cannot be read.
+    #[error("columns `{text}`: expected {expected}, such as `x,y,z`, `0-2,5` or `1-`")]
+    Columns {
+        /// The selection.
+        text: String,
+        /// What would have been accepted.
+        expected: &'static str,
+    },
+    /// A column of this number does not exist.
+    #[error("{path}: there is no column {number}: it has {width} columns, counted from 0")]
+    ColumnNumber {
+        /// The file.
+        path: String,
+        /// The number asked for.
+        number: usize,
+        /// How many there are.
+        width: usize,
+    },
+    /// A column of this name does not exist.
+    #[error("{path}: there is no column `{name}`; there are {}", Few(known))]
+    ColumnName {
+        /// The file.
+        path: String,
+        /// The name asked for.
+        name: String,
+        /// The names there are.
+        known: Vec<String>,
+    },
+    /// A column was asked for by name, but the file has no names.
+    #[error(
+        "{path}: column `{name}` was asked for by name, but the file has no header: select columns by number, counted from 0"
+    )]
+    NoNames {
+        /// The file.
+        path: String,
+        /// The name asked for.
+        name: String,
+    },
+    /// A selected column does not hold numbers.
+    #[error("{path}: column `{column}` holds {kind}, not numbers: select other columns")]
+    NotNumeric {
+        /// The file.
+        path: String,
+        /// The column.
+        column: String,
+        /// Its type.
+        kind: String,
+    },
+    /// No column holds numbers, or several could be the points.
+    #[error(
+        "{path}: {problem} among its columns {}: select the columns that are coordinates",
+        Few(columns)
+    )]
+    NoCoordinates {
+        /// The file.
+        path: String,
+        /// What was looked for in vain.
+        problem: &'static str,
+        /// The columns there are, with types.
+        columns: Vec<String>,
+    },
+    /// The file is not what its format demands.
+    #[error("{path} is damaged or no {format} file: {problem}")]
+    Damaged {
+        /// The file.
+        path: String,
+        /// The format.
+        format: Format,
+        /// What is wrong.
+        problem: String,
+    },
+    /// The file holds another number of values or rows than it says.
+    #[error(
+        "{path} is cut short or damaged: its {format} header promises {expected} {unit}, but there are {found}"
+    )]
+    Count {
+        /// The file.
+        path: String,
+        /// The format.
+        format: Format,
+        /// What the header says.
+        expected: u64,
+        /// What there is.
+        found: u64,
+        /// Of what.
+        unit: &'static str,
+    },
+    /// An array whose element type or shape is not that of points.
+    #[error("{path}: {problem}; {remedy}")]
+    Array {
+        /// The file.
+        path: String,
+        /// What it holds.
+        problem: String,
+        /// How to make it points.
+        remedy: &'static str,
+    },
+    /// The points must fit into memory to be brought into order, and do not.
+    #[error(
+        "{path}: its {problem} must be transposed in memory, which takes {bytes} bytes, but {memory} are allowed: {remedy}"
+    )]
+    TooLarge {
+        /// The file.
+        path: String,
+        /// What asks for it.
+        problem: &'static str,
+        /// Bytes needed.
+        bytes: u64,
+        /// Bytes allowed.
+        memory: u64,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// Raw values without a layout, or with a dimension of 0.
+    #[error(
+        "{path}: raw values tell neither dimension nor type: give both (dimension at least 1, f32 or f64)"
+    )]
+    RawLayout {
+        /// The file.
+        path: String,
+    },
+    /// Raw values that do not make whole points.
+    #[error(
+        "{path}: {bytes} bytes after the first {offset} do not make whole points of {size} bytes: {rest} are left over; check dimension, type and offset"
+    )]
+    RawRagged {
+        /// The file.
+        path: String,
+        /// Bytes of values.
+        bytes: u64,
+        /// Bytes before them.
+        offset: u64,
+        /// Bytes of a point.
+        size: u64,
+        /// Bytes left over.
+        rest: u64,
+    },
+    /// The format holds points of another dimension.
+    #[error(
+        "{path}: {format} files hold points of dimension {expected}, not {dim}: write another format"
+    )]
+    Dimension {
+        /// The file.
+        path: String,
+        /// The format.
+        format: Format,
+        /// The dimension it holds.
+        expected: usize,
+        /// The dimension of the points.
+        dim: usize,
+    },
+    /// Names for another number of columns than the points have.
+    #[error("{path}: {names} column names were given for points of dimension {dim}")]
+    Names {
+        /// The file.
+        path: String,
+        /// How many names.
+        names: usize,
+        /// The dimension.
+        dim: usize,
+    },
+    /// A block of points could not be delivered.
+    #[error(transparent)]
+    Points(#[from] ReadError),
+}
+
+impl Error {
+    /// What an error of opening or reading `path` means.
+    pub(crate) fn reading(path: &str, source: io::Error) -> Error {
+        let path = path.to_owned();
+        match source.kind() {
+            io::ErrorKind::NotFound => Error::NotFound { path },
+            io::ErrorKind::IsADirectory => Error::Directory { path },
+            io::ErrorKind::PermissionDenied => Error::Permission { path, action: "read" },
+            // A decoder of ours has said it better, at the place where it happened.
+            _ => match source.downcast::<Error>() {
+                Ok(inner) => inner,
+                Err(source) => Error::Read { path, source },
+            },
+        }
+    }
+
+    /// What an error of creating or writing `path` means.
+    pub(crate) fn writing(path: &str, source: io::Error) -> Error {
+        let path = path.to_owned();
+        match source.kind() {
+            io::ErrorKind::NotFound => Error::NotFound { path },
+            io::ErrorKind::IsADirectory => Error::Directory { path },
+            io::ErrorKind::PermissionDenied => Error::Permission { path, action: "write" },
+            _ => Error::Write { path, source },
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! From a path, a stream or bytes to points: what format it is, what compresses it, and who reads it.
+
+use std::fs::{self, File};
+use std::io::{self, BufRead, BufReader, Cursor, Read};
+use std::path::{Path, PathBuf};
+
+use bytes::Bytes;
+use taut_points::PointSource;
+
+use crate::read::{self, Decoded};
+use crate::{Compression, Error, Format, Place, ReadOptions, compress};
+
+/// Points of a file, and what is known of it.
+pub struct Input {
+    /// The points. They keep any temporary file alive.
+    pub source: Box<dyn PointSource>,
+    /// A name for each coordinate; empty where the file has none.
+    pub columns: Vec<String>,
+    /// The format that was read.
+    pub format: Format,
+    /// The file as shown to people; `standard input` for `-`.
+    pub path: String,
+    /// The column of the file for each coordinate, where some were selected.
+    numbers: Option<Vec<usize>>,
+}
+
+impl std::fmt::Debug for Input {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Input")
+            .field("path", &self.path)
+            .field("format", &self.format)
+            .field("len", &self.source.len())
+            .field("dim", &self.source.dim())
+            .field("scalar", &self.source.scalar())
+            .field("columns", &self.columns)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Input {
+    /// Where coordinate `column` of point `row` (both from 0, as solvers count) stands in the file.
+    pub fn describe_cell(&self, row: u64, column: usize) -> Place {
+        let number = self.numbers.as_ref().and_then(|numbers| numbers.get(column).copied());
+        Place {
+            path: self.path.clone(),
+            row: row.saturating_add(1),
+            line: None,
+            column: number.unwrap_or(column),
+            name: self.columns.get(column).cloned(),
+        }
+    }
+}
+
+/// What every reader is told.
+pub(crate) struct Job<'a> {
+    /// The file as shown to people.
+    pub(crate) path: &'a str,
+    pub(crate) format: Format,
+    pub(crate) options: &'a ReadOptions,
+}
+
+/// Where bytes come from.
+pub(crate) enum Medium {
+    /// A regular file, at its beginning.
+    File(File, PathBuf),
+    Stream(Box<dyn BufRead>),
+    Bytes(Bytes),
+}
+
+impl Medium {
+    pub(crate) fn stream(self) -> Box<dyn BufRead> {
+        match self {
+            Medium::File(file, _) => Box::new(BufReader::with_capacity(1 << 18, file)),
+            Medium::Stream(stream) => stream,
+            Medium::Bytes(bytes) => Box::new(Cursor::new(bytes)),
+        }
+    }
+
+    /// For readers that jump about: a stream is first copied to a temporary file.
+    #[cfg(feature = "arrow")]
+    pub(crate) fn seekable(self, job: &Job<'_>) -> Result<read::Seekable, Error> {
+        Ok(match self {
+            Medium::File(file, _) => read::Seekable::File(file),
+            Medium::Bytes(bytes) => read::Seekable::Bytes(bytes),
+            Medium::Stream(mut stream) => {
+                let mut copy = crate::sink::temporary(job)?.into_file();
+                let mut failed = None;
+                // Told apart here, because a copy only says that one of the two sides failed.
+                loop {
+                    let chunk = stream.fill_buf().map_err(|e| Error::reading(job.path, e))?;
+                    if chunk.is_empty() {
+                        break;
+                    }
+                    failed = failed.or(io::Write::write_all(&mut copy, chunk).err());
+                    let used = chunk.len();
+                    stream.consume(used);
+                }
+                match failed {
+                    Some(source) => return Err(crate::sink::failed(job, source)),
+                    None => read::Seekable::File(copy),
+                }
+            }
+        })
+    }
+
+    /// The first bytes (up to 8), which stay to be read.
+    fn peek(self, path: &str) -> Result<(Vec<u8>, Medium), Error> {
+        let failed = |source| Error::reading(path, source);
+        let mut head = Vec::new();
+        Ok(match self {
+            Medium::Bytes(bytes) => (bytes[..bytes.len().min(8)].to_vec(), Medium::Bytes(bytes)),
+            Medium::File(mut file, at) => {
+                (&mut file).take(8).read_to_end(&mut head).map_err(failed)?;
+                io::Seek::rewind(&mut file).map_err(failed)?;
+                (head, Medium::File(file, at))
+            }
+            Medium::Stream(mut stream) => {
+                (&mut stream).take(8).read_to_end(&mut head).map_err(failed)?;
+                let whole = Cursor::new(head.clone()).chain(stream);
+                (head, Medium::Stream(Box::new(whole)))
+            }
+        })
+    }
+}
+
+/// Opens the points of `path`; `-` is standard input.
+///
+/// What is compressed is told by the extension or by the first bytes. A file that is read in place (npy, raw) must
+/// not change while its points are in use.
+///
+/// # Errors
+/// [`Error`], with file, row, column and value. Values of files that are read in place are not looked at: a solver
+/// reports what it finds there, and [`Input::describe_cell`] says where that is.
+pub fn open(path: &Path, options: &ReadOptions) -> Result<Input, Error> {
+    if path.as_os_str() == "-" {
+        let stream = Box::new(BufReader::with_capacity(1 << 18, io::stdin()));
+        return open_medium(Medium::Stream(stream), None, "standard input", options);
+    }
+    let shown = path.display().to_string();
+    let failed = |source| Error::reading(&shown, source);
+    let kind = fs::metadata(path).map_err(failed)?;
+    if kind.is_dir() {
+        return Err(Error::Directory { path: shown });
+    }
+    let file = File::open(path).map_err(failed)?;
+    // A pipe has a path on some systems, but no place to go back to.
+    let medium = match kind.is_file() {
+        true => Medium::File(file, path.to_owned()),
+        false => Medium::Stream(Box::new(BufReader::with_capacity(1 << 18, file))),
+    };
+    open_medium(medium, Some(path).filter(|_| kind.is_file()), &shown, options)
+}
+
+/// Opens the points of a file whose bytes are in memory; `name` tells the format as a path would.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_bytes(bytes: Vec<u8>, name: &str, options: &ReadOptions) -> Result<Input, Error> {
+    open_medium(Medium::Bytes(bytes.into()), Some(Path::new(name)), name, options)
+}
+
+fn open_medium(
+    medium: Medium,
+    name: Option<&Path>,
+    shown: &str,
+    options: &ReadOptions,
+) -> Result<Input, Error> {
+    let (named_format, named_compression) = name.map_or((None, None), Format::of_path);
+    let known = options.format.or(named_format);
+    let (mut head, mut medium) = medium.peek(shown)?;
+    if head.is_empty() {
+        return Err(Error::Empty { path: shown.to_owned() });
+    }
+    // Raw values may begin with any bytes, so only a name says that they are compressed.
+    let sniffed = Compression::of_magic(&head).filter(|_| known != Some(Format::Raw));
+    if let Some(compression) = named_compression.or(sniffed) {
+        let stream = compress::decoder(compression, medium.stream(), shown)?;
+        (head, medium) = Medium::Stream(stream).peek(shown)?;
+        if head.is_empty() {
+            return Err(Error::Empty { path: shown.to_owned() });
+        }
+    }
+    let format = known
+        .or_else(|| read::format_of_magic(&head))
+        .or(name.is_none().then_some(Format::Csv))
+        .ok_or_else(|| Error::UnknownFormat { path: shown.to_owned() })?;
+    let job = Job { path: shown, format, options };
+    let Decoded { source, columns, numbers } = read::read(&job, medium)?;
+    Ok(Input { source, columns, format, path: shown.to_owned(), numbers })
+}

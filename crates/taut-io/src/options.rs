@@ -1,0 +1,47 @@
+//! How to read points.
+
+use std::path::PathBuf;
+
+use taut_points::ScalarKind;
+
+use crate::{Columns, Format};
+
+/// How to read points. Write `ReadOptions { memory: Some(1 << 30), ..Default::default() }`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ReadOptions {
+    /// The format; by default that of the extension, or of the first bytes on standard input (CSV if they say nothing).
+    pub format: Option<Format>,
+    /// The columns that are coordinates, in this order; by default all (of parquet and arrow: all numeric ones).
+    pub columns: Option<Columns>,
+    /// Whether the first row of a text file holds names. Default [`Header::Auto`].
+    pub header: Header,
+    /// Most bytes of points held in memory; what is larger stays in its file or goes to a temporary one. Default: all.
+    pub memory: Option<u64>,
+    /// Shape and type of raw values, which no raw file tells itself. Needed for [`Format::Raw`] only.
+    pub raw: Option<RawLayout>,
+    /// Folder of temporary files. Default: that of the system.
+    pub temp_dir: Option<PathBuf>,
+}
+
+/// Whether the first row of a text file holds the names of the columns.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Header {
+    /// It does if none of its selected fields is a number; a row with both names and numbers is refused.
+    #[default]
+    Auto,
+    /// It does.
+    Present,
+    /// It does not: the first row is a point.
+    Absent,
+}
+
+/// How little-endian values without a header lie in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct RawLayout {
+    /// Dimension d of a point, at least 1.
+    pub dim: usize,
+    /// Type of a coordinate.
+    pub scalar: ScalarKind,
+    /// Bytes before the first coordinate.
+    pub offset: u64,
+}

@@ -1,0 +1,124 @@
+//! A reader per format. Each takes bytes and returns points or says where and why not.
+
+#[cfg(feature = "arrow")]
+mod arrow;
+#[cfg(feature = "arrow")]
+mod columnar;
+mod delimited;
+mod lines;
+mod literal;
+mod npy;
+#[cfg(feature = "arrow")]
+mod parquet;
+mod raw;
+mod rows;
+mod tsplib;
+mod xyz;
+
+#[cfg(feature = "arrow")]
+pub(crate) use parquet::Seekable;
+
+use std::io::BufReader;
+use std::path::Path;
+
+use taut_points::{FileSource, MappedSource, PointSource, ScalarKind};
+
+use crate::input::{Job, Medium};
+use crate::{Error, Format};
+
+/// Points, and what the file says of them.
+pub(crate) struct Decoded {
+    pub(crate) source: Box<dyn PointSource>,
+    /// Names of the coordinates; empty where there are none.
+    pub(crate) columns: Vec<String>,
+    /// The column of the file for each coordinate; the same numbers where none.
+    pub(crate) numbers: Option<Vec<usize>>,
+}
+
+/// The format whose files begin with these bytes.
+pub(crate) fn format_of_magic(bytes: &[u8]) -> Option<Format> {
+    const MAGIC: [(&[u8], Format); 3] =
+        [(npy::MAGIC, Format::Npy), (b"PAR1", Format::Parquet), (b"ARROW1", Format::Arrow)];
+    if let Some((_, format)) = MAGIC.into_iter().find(|(magic, _)| bytes.starts_with(magic)) {
+        return Some(format);
+    }
+    // An Arrow stream begins with the continuation mark of its first message.
+    bytes.starts_with(&[0xff; 4]).then_some(Format::Arrow)
+}
+
+/// Reads `medium` as the format of `job`.
+pub(crate) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
+    match job.format {
+        Format::Csv | Format::Tsv | Format::Whitespace => delimited::read(job, medium.stream()),
+        Format::Tsplib => tsplib::read(job, medium.stream()),
+        Format::Xyz => xyz::read(job, medium.stream()),
+        Format::Npy => read_npy(job, medium),
+        Format::Raw => read_raw(job, medium),
+        #[cfg(feature = "arrow")]
+        Format::Parquet => parquet::read(job, medium),
+        #[cfg(feature = "arrow")]
+        Format::Arrow => arrow::read(job, medium.stream()),
+        #[cfg(not(feature = "arrow"))]
+        Format::Parquet | Format::Arrow => {
+            Err(Error::NotBuilt { path: job.path.to_owned(), format: job.format })
+        }
+    }
+}
+
+fn read_npy(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
+    if let Medium::File(file, path) = medium {
+        let failed = |source| Error::reading(job.path, source);
+        let length = file.metadata().map_err(failed)?.len();
+        let mut stream = BufReader::new(file);
+        let header = npy::header(job, &mut stream)?;
+        header.check_bytes(job, length.saturating_sub(header.offset))?;
+        return match header.in_place().filter(|_| job.options.columns.is_none()) {
+            Some((n, dim, scalar)) => in_place(job, &path, header.offset, n, dim, scalar),
+            None => npy::decode(job, &header, Box::new(stream)),
+        };
+    }
+    let mut stream = medium.stream();
+    let header = npy::header(job, &mut stream)?;
+    npy::decode(job, &header, stream)
+}
+
+fn read_raw(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
+    let layout = raw::layout(job)?;
+    if let (Medium::File(file, path), None) = (&medium, &job.options.columns) {
+        let length = file.metadata().map_err(|source| Error::reading(job.path, source))?.len();
+        let n = raw::count(job, layout, length)?;
+        return in_place(job, path, layout.offset, n, layout.dim, layout.scalar);
+    }
+    raw::decode(job, medium.stream())
+}
+
+/// Values that lie in the file as points do: mapped if they fit into the allowed memory, else read block by block.
+fn in_place(
+    job: &Job<'_>,
+    path: &Path,
+    offset: u64,
+    n: u64,
+    dim: usize,
+    scalar: ScalarKind,
+) -> Result<Decoded, Error> {
+    let bytes = n.saturating_mul(dim as u64).saturating_mul(scalar.size() as u64);
+    let source: Box<dyn PointSource> = match job.options.memory {
+        Some(memory) if memory < bytes => Box::new(FileSource::open(path, offset, n, dim, scalar)?),
+        _ => Box::new(MappedSource::open(path, offset, n, dim, scalar)?),
+    };
+    Ok(Decoded { source, columns: Vec::new(), numbers: None })
+}
+
+/// Runs a reader whose crate may panic on damaged bytes, and makes an error of that.
+///
+/// The parquet and arrow crates check most, but not all, of what a damaged file can hold before they index into it.
+#[cfg(feature = "arrow")]
+fn guarded(job: &Job<'_>, read: impl FnOnce() -> Result<Decoded, Error>) -> Result<Decoded, Error> {
+    std::panic::catch_unwind(std::panic::AssertUnwindSafe(read)).unwrap_or_else(|_| {
+        Err(Error::Damaged {
+            path: job.path.to_owned(),
+            format: job.format,
+            problem: "its decoder stumbled over bytes that contradict each other".to_owned(),
+        })
+    })
+}

@@ -1,0 +1,96 @@
+//! Text with columns: csv, tsv and whitespace.
+//!
+//! *Idea.* The first row of data decides: what parts the columns (in CSV the first of `,` `;` tab and spaces that
+//! makes all fields numbers, else the most frequent), how many there are, and whether it is a header.
+//! *Trap.* A mistyped number in the first row must not turn it into a header and so lose a point: a row with both
+//! names and numbers is refused.
+
+use std::borrow::Cow;
+use std::io::BufRead;
+
+use super::Decoded;
+use super::lines::Lines;
+use super::rows::{Delimiter, Rows, number, shown, split};
+use crate::input::Job;
+use crate::sink::Sink;
+use crate::{Columns, Error, Format, Header};
+
+pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, Error> {
+    let mut lines = Lines::new(stream, job.path, job.format);
+    let Some((line, text)) = lines.next_data()? else {
+        return Err(Error::NoRows { path: job.path.to_owned() });
+    };
+    let delimiter = match job.format {
+        Format::Tsv => Delimiter::Byte(b'\t'),
+        Format::Whitespace => Delimiter::White,
+        _ => find_delimiter(text),
+    };
+    let first = split(text, delimiter);
+    let mut rows = Rows::new(job, delimiter, 0, first.len());
+    let header = is_header(job, &first, line)?;
+    if header {
+        rows.names = first.iter().map(|name| String::from_utf8_lossy(name).into_owned()).collect();
+        rows.why = "as in the header";
+    }
+    if let Some(columns) = &job.options.columns {
+        rows.numbers = Some(columns.resolve(job.path, &rows.names, rows.width)?);
+    }
+    let mut sink = Sink::new(job, rows.dim());
+    if !header {
+        rows.push((line, text), &mut sink)?;
+    }
+    while let Some(next) = lines.next_data()? {
+        rows.push(next, &mut sink)?;
+    }
+    let (columns, numbers) = (rows.coordinate_names(), rows.numbers.take());
+    Ok(Decoded { source: sink.finish()?, columns, numbers })
+}
+
+fn find_delimiter(line: &[u8]) -> Delimiter {
+    const CANDIDATES: [Delimiter; 4] =
+        [Delimiter::Byte(b','), Delimiter::Byte(b';'), Delimiter::Byte(b'\t'), Delimiter::White];
+    let numeric =
+        |&delimiter: &Delimiter| split(line, delimiter).iter().all(|field| number(field).is_some());
+    if let Some(found) = CANDIDATES.into_iter().find(numeric) {
+        return found;
+    }
+    // Spaces are the last resort only: they stand inside names and labels.
+    let fields = |delimiter: Delimiter| split(line, delimiter).len();
+    let mut best = CANDIDATES[0];
+    for other in &CANDIDATES[1..3] {
+        if fields(*other) > fields(best) {
+            best = *other;
+        }
+    }
+    if fields(best) == 1 { Delimiter::White } else { best }
+}
+
+/// Whether the first row holds names.
+fn is_header(job: &Job<'_>, first: &[Cow<'_, [u8]>], line: u64) -> Result<bool, Error> {
+    let columns = job.options.columns.as_ref();
+    match job.options.header {
+        Header::Present => return Ok(true),
+        Header::Absent => return Ok(false),
+        Header::Auto => {}
+    }
+    // Who asks for names says that there are some, unless the row holds nothing but numbers.
+    let numbers = match columns {
+        Some(columns) if columns.has_names() => {
+            return Ok(!first.iter().all(|field| number(field).is_some()));
+        }
+        Some(columns) => Columns::resolve(columns, job.path, &[], first.len())?,
+        None => (0..first.len()).collect(),
+    };
+    let text = numbers.iter().copied().find(|&column| number(&first[column]).is_none());
+    let value = numbers.iter().copied().find(|&column| number(&first[column]).is_some());
+    match (text, value) {
+        (None, _) => Ok(false),
+        (Some(_), None) => Ok(true),
+        (Some(column), Some(_)) => Err(Error::MixedHeader {
+            path: job.path.to_owned(),
+            line,
+            column,
+            value: shown(&first[column]),
+        }),
+    }
+}

@@ -1,0 +1,124 @@
+//! Lines of a stream, without a copy, numbered from 1.
+
+use std::io::{BufRead, ErrorKind};
+
+use memchr::{memchr, memchr_iter};
+
+use crate::{Error, Format};
+
+/// A quote that is still open after this many bytes is a mistake, not a field.
+const LONGEST_QUOTE: usize = 1 << 20;
+
+/// Lines without their ends (`\n` or `\r\n`) and without the byte order mark of UTF-8.
+pub(super) struct Lines<'a> {
+    stream: Box<dyn BufRead>,
+    path: &'a str,
+    format: Format,
+    buffer: Vec<u8>,
+    /// Where the bytes not yet handed out begin.
+    start: usize,
+    ended: bool,
+    /// Lines handed out.
+    number: u64,
+}
+
+impl<'a> Lines<'a> {
+    pub(super) fn new(stream: Box<dyn BufRead>, path: &'a str, format: Format) -> Self {
+        Lines { stream, path, format, buffer: Vec::new(), start: 0, ended: false, number: 0 }
+    }
+
+    /// The next line and its number.
+    pub(super) fn next(&mut self) -> Result<Option<(u64, &[u8])>, Error> {
+        let Some(length) = self.length()? else { return Ok(None) };
+        self.number += 1;
+        Ok(Some((self.number, self.take(length))))
+    }
+
+    /// The next line that holds anything but spaces and a comment. A line that ends within quotes goes on.
+    pub(super) fn next_data(&mut self) -> Result<Option<(u64, &[u8])>, Error> {
+        loop {
+            let Some(mut length) = self.length()? else { return Ok(None) };
+            self.number += 1;
+            let number = self.number;
+            let line = &self.buffer[self.start..self.start + length];
+            // The mark is not white, so it must be looked past here too.
+            let line = if number == 1 { without_mark(line) } else { line };
+            if matches!(line.trim_ascii_start().first(), None | Some(b'#')) {
+                self.take(length);
+                continue;
+            }
+            let mut open = memchr_iter(b'"', line).count() % 2 == 1;
+            while open {
+                if self.start + length >= self.buffer.len() || length > LONGEST_QUOTE {
+                    return Err(Error::OpenQuote { path: self.path.to_owned(), line: number });
+                }
+                let from = length + 1;
+                length = self.end_after(from)?;
+                self.number += 1;
+                let more = &self.buffer[self.start + from..self.start + length];
+                open ^= memchr_iter(b'"', more).count() % 2 == 1;
+            }
+            let line = self.take(length);
+            return Ok(Some((number, if number == 1 { without_mark(line) } else { line })));
+        }
+    }
+
+    /// Bytes to the end of the next line; none when there is no further line.
+    fn length(&mut self) -> Result<Option<usize>, Error> {
+        let length = self.end_after(0)?;
+        Ok((self.start < self.buffer.len()).then_some(length))
+    }
+
+    /// Hands out a line of `length` bytes and steps over its end.
+    fn take(&mut self, length: usize) -> &[u8] {
+        let line = self.start..self.start + length;
+        self.start = (line.end + 1).min(self.buffer.len());
+        let line = &self.buffer[line];
+        line.strip_suffix(b"\r").unwrap_or(line)
+    }
+
+    /// The distance from `start` to the first line feed at or after distance `from`, or to the end of the stream.
+    fn end_after(&mut self, mut from: usize) -> Result<usize, Error> {
+        loop {
+            let rest = &self.buffer[(self.start + from).min(self.buffer.len())..];
+            if let Some(at) = memchr(b'\n', rest) {
+                return Ok(from + at);
+            }
+            from = self.buffer.len() - self.start;
+            if self.ended {
+                return Ok(from);
+            }
+            self.fill()?;
+        }
+    }
+
+    /// Reads on, after moving what is left to the front.
+    fn fill(&mut self) -> Result<(), Error> {
+        self.buffer.drain(..self.start);
+        self.start = 0;
+        let chunk = loop {
+            match self.stream.fill_buf() {
+                Err(e) if e.kind() == ErrorKind::Interrupted => {}
+                // Asked again because a borrow may not leave a loop that goes on.
+                Ok(_) => break self.stream.fill_buf().map_err(|e| Error::reading(self.path, e))?,
+                Err(e) => return Err(Error::reading(self.path, e)),
+            }
+        };
+        if self.number == 0 && chunk.contains(&0) {
+            return Err(Error::Damaged {
+                path: self.path.to_owned(),
+                format: self.format,
+                problem: "it holds zero bytes, so it is no text in UTF-8".to_owned(),
+            });
+        }
+        self.ended = chunk.is_empty();
+        self.buffer.extend_from_slice(chunk);
+        let used = chunk.len();
+        self.stream.consume(used);
+        Ok(())
+    }
+}
+
+fn without_mark(line: &[u8]) -> &[u8] {
+    line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line)
+}

@@ -1,0 +1,106 @@
+//! Points to a file, block by block.
+//!
+//! *Guarantee.* What is read back has the same values: text holds the shortest decimals that give the same `f64`,
+//! of `f32` points too, so a certificate of one file holds for the other.
+
+#[cfg(feature = "arrow")]
+mod columnar;
+mod npy;
+mod text;
+
+use std::io::Write;
+use std::path::Path;
+
+use taut_points::{Blocks, Monitor, PointSource, ReadError, Rows, Scratch};
+
+use crate::compress::Encoder;
+use crate::create::{AtomicFile, create};
+use crate::{Error, Format};
+
+/// Writes `source` to `path` in the given format, or in that of the extension; `-` is standard output (CSV).
+///
+/// `columns` names the coordinates; empty means no names (parquet and arrow then call them `x0`, `x1`, …). A header
+/// that could be taken for numbers is left out. The extensions `.gz`, `.xz` and `.zst` compress.
+///
+/// # Errors
+/// [`Error`]; an earlier file of that name is then as it was.
+pub fn write_points(
+    source: &dyn PointSource,
+    columns: &[String],
+    path: &Path,
+    format: Option<Format>,
+    monitor: &Monitor<'_>,
+) -> Result<(), Error> {
+    let shown = path.display().to_string();
+    let stdout = path.as_os_str() == "-";
+    let (named, compression) = Format::of_path(path);
+    let format = format
+        .or(named)
+        .or(stdout.then_some(Format::Csv))
+        .ok_or_else(|| Error::UnknownFormat { path: shown.clone() })?;
+    if !columns.is_empty() && columns.len() != source.dim() {
+        return Err(Error::Names { path: shown, names: columns.len(), dim: source.dim() });
+    }
+    if format == Format::Xyz && source.dim() != 3 {
+        return Err(Error::Dimension { path: shown, format, expected: 3, dim: source.dim() });
+    }
+    if !format.can_write() {
+        return Err(match format.can_read() {
+            true => Error::NotWritable { path: shown, format },
+            false => Error::NotBuilt { path: shown, format },
+        });
+    }
+    let failed = |source| Error::writing(&shown, source);
+    let file = create(path)?;
+    let mut out = Out { to: Encoder::new(compression, file).map_err(failed)?, path: &shown };
+    let points = Points { source, columns, monitor };
+    match format {
+        Format::Csv => text::write(&points, b',', &mut out)?,
+        Format::Tsv => text::write(&points, b'\t', &mut out)?,
+        Format::Whitespace | Format::Xyz => text::write(&points, b' ', &mut out)?,
+        Format::Npy => npy::write(&points, &mut out)?,
+        Format::Raw => npy::write_values(&points, &mut out)?,
+        #[cfg(feature = "arrow")]
+        Format::Parquet => columnar::write_parquet(&points, &mut out)?,
+        #[cfg(feature = "arrow")]
+        Format::Arrow => columnar::write_arrow(&points, &mut out)?,
+        _ => return Err(Error::NotWritable { path: shown, format }),
+    }
+    out.to.finish().map_err(failed)?.commit()
+}
+
+/// Points to be written.
+struct Points<'a> {
+    source: &'a dyn PointSource,
+    columns: &'a [String],
+    monitor: &'a Monitor<'a>,
+}
+
+impl Points<'_> {
+    /// Calls `write` for each block in order.
+    fn blocks(&self, mut write: impl FnMut(Rows<'_>) -> Result<(), Error>) -> Result<(), Error> {
+        let blocks = Blocks::of(self.source);
+        let mut scratch = Scratch::new();
+        self.monitor.pass(1, self.source.len());
+        for block in 0..blocks.count() {
+            self.monitor.check().map_err(ReadError::from)?;
+            let range = blocks.range(block);
+            let points = range.end - range.start;
+            write(self.source.read(range, &mut scratch)?)?;
+            self.monitor.points(points);
+        }
+        Ok(())
+    }
+}
+
+/// The file being written, with its name for messages.
+struct Out<'a> {
+    to: Encoder<AtomicFile>,
+    path: &'a str,
+}
+
+impl Out<'_> {
+    fn put(&mut self, bytes: &[u8]) -> Result<(), Error> {
+        self.to.write_all(bytes).map_err(|source| Error::writing(self.path, source))
+    }
+}

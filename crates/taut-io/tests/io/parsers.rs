@@ -1,0 +1,98 @@
+//! One function per parser: what the fuzzers call with any bytes, and the tests with the kept ones.
+//!
+//! Each panics when a promise is broken: points that are not finite, names that do not fit, two ways to read the
+//! same bytes that differ.
+
+use taut_io::{Format, Header, Input, RawLayout, ReadOptions, open_bytes};
+use taut_points::{Monitor, ScalarKind, Scratch, hash_points};
+
+type Parser = (&'static str, fn(&[u8]));
+
+/// Every parser by the name of its fuzz target.
+pub(crate) const ALL: [Parser; 8] = [
+    ("csv", csv),
+    ("npy", npy),
+    ("parquet", parquet),
+    ("arrow", arrow),
+    ("tsplib", tsplib),
+    ("xyz", xyz),
+    ("raw", raw),
+    ("json", json),
+];
+
+/// Comma, tab and space; with all columns and with some.
+pub(crate) fn csv(bytes: &[u8]) {
+    for format in [Format::Csv, Format::Tsv, Format::Whitespace] {
+        let all = read(bytes, format, ReadOptions::default());
+        for header in [Header::Present, Header::Absent] {
+            read(bytes, format, ReadOptions { header, ..Default::default() });
+        }
+        // A selection of everything takes the slow way through each row, which must give the same points.
+        let columns = Some("0-".parse().expect("a range"));
+        let selected = read(bytes, format, ReadOptions { columns, ..Default::default() });
+        if let (Some(all), Some(selected)) = (all, selected) {
+            let hash =
+                |input: &Input| hash_points(&*input.source, &Monitor::silent()).expect("in memory");
+            assert_eq!(hash(&all), hash(&selected));
+        }
+    }
+}
+
+pub(crate) fn npy(bytes: &[u8]) {
+    read(bytes, Format::Npy, ReadOptions::default());
+    let columns = Some("0".parse().expect("a number"));
+    read(bytes, Format::Npy, ReadOptions { columns, ..Default::default() });
+}
+
+pub(crate) fn parquet(bytes: &[u8]) {
+    read(bytes, Format::Parquet, ReadOptions::default());
+}
+
+pub(crate) fn arrow(bytes: &[u8]) {
+    read(bytes, Format::Arrow, ReadOptions::default());
+}
+
+pub(crate) fn tsplib(bytes: &[u8]) {
+    read(bytes, Format::Tsplib, ReadOptions::default());
+}
+
+pub(crate) fn xyz(bytes: &[u8]) {
+    read(bytes, Format::Xyz, ReadOptions::default());
+    let columns = Some("0-".parse().expect("a range"));
+    read(bytes, Format::Xyz, ReadOptions { columns, ..Default::default() });
+}
+
+/// The first bytes are the layout.
+pub(crate) fn raw(bytes: &[u8]) {
+    let [dim, offset, narrow, values @ ..] = bytes else { return };
+    let scalar = if narrow % 2 == 0 { ScalarKind::F64 } else { ScalarKind::F32 };
+    let layout = RawLayout { dim: (*dim).into(), scalar, offset: (*offset).into() };
+    read(values, Format::Raw, ReadOptions { raw: Some(layout), ..Default::default() });
+}
+
+/// An answer that is read is written and read again, to the same.
+pub(crate) fn json(bytes: &[u8]) {
+    use taut_certify::AnySolution;
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    let Ok(found) = AnySolution::from_json(text) else { return };
+    let AnySolution::Ball(solution) = &found;
+    let again = solution.to_json();
+    assert_eq!(AnySolution::from_json(&again).expect("written by us"), found);
+}
+
+fn read(bytes: &[u8], format: Format, options: ReadOptions) -> Option<Input> {
+    let options = ReadOptions { format: Some(format), ..options };
+    let input = match open_bytes(bytes.to_vec(), "fuzz", &options) {
+        Ok(input) => input,
+        Err(refused) => {
+            assert!(!refused.to_string().is_empty());
+            return None;
+        }
+    };
+    assert!(!input.source.is_empty());
+    assert!(input.columns.is_empty() || input.columns.len() == input.source.dim());
+    let mut scratch = Scratch::new();
+    let rows = input.source.read(0..input.source.len(), &mut scratch).expect("in memory");
+    assert_eq!(rows.first_non_finite(), None);
+    Some(input)
+}

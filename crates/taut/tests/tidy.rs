@@ -1,0 +1,205 @@
+//! The rules of the house that a machine can check: who may import whom, what a file may hold.
+//!
+//! `ARCHITECTURE.md` draws the floors; the table below is the same picture for `cargo metadata`.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+
+/// The floor of each package, the threshold below the ground: an arrow may only go to a lower one.
+const FLOORS: [(&str, i32); 15] = [
+    ("taut-points", -1),
+    ("taut-certify", 0),
+    ("taut-io", 0),
+    ("taut-mesh", 0),
+    ("taut-oblivious", 0),
+    ("taut-predicates", 0),
+    ("taut-delaunay", 1),
+    ("taut-enclose", 1),
+    ("taut-inscribe", 2),
+    ("taut-recognize", 2),
+    ("taut-reconstruct", 2),
+    ("taut-draw", 3),
+    ("taut", 3),
+    ("taut-cli", 4),
+    ("taut-python", 4),
+];
+
+/// The arrows that stay on one floor.
+const LEVEL: [(&str, &str); 3] =
+    [("taut-mesh", "taut-predicates"), ("taut-io", "taut-mesh"), ("taut-certify", "taut-mesh")];
+
+/// Tools beside the house, which nothing imports: they may import everything.
+const BESIDE: [&str; 2] = ["bench", "fuzz"];
+
+/// The crates with named kernels, where `unsafe` is denied but can be allowed with a reason.
+const KERNELS: [&str; 2] = ["taut-points", "taut-enclose"];
+
+/// Lines a source file may have before it must be two.
+const LINES_MAX: usize = 700;
+
+fn root() -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    root.canonicalize().expect("the root of the workspace is two folders up")
+}
+
+/// One package of the workspace.
+struct Package {
+    name: String,
+    /// Roots of its library and its programs.
+    roots: Vec<PathBuf>,
+    /// What it is built from; what only its tests use is left out, as a test may call upstairs.
+    imports: Vec<String>,
+    /// All it names from outside the workspace, tests included.
+    outside: Vec<String>,
+}
+
+fn packages() -> Vec<Package> {
+    let output = Command::new(env!("CARGO"))
+        .args(["metadata", "--format-version", "1", "--no-deps", "--offline"])
+        .current_dir(root())
+        .output()
+        .expect("cargo runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let metadata: Value = serde_json::from_slice(&output.stdout).expect("cargo writes JSON");
+    let text = |value: &Value| value.as_str().expect("a string").to_owned();
+    let list = |value: &Value| value.as_array().expect("a list").clone();
+    list(&metadata["packages"])
+        .iter()
+        .map(|package| {
+            let dependencies = list(&package["dependencies"]);
+            let named = |keep: &dyn Fn(&Value) -> bool| {
+                dependencies.iter().filter(|&d| keep(d)).map(|d| text(&d["name"])).collect()
+            };
+            let roots = list(&package["targets"])
+                .iter()
+                .filter(|target| {
+                    let kind = text(&target["kind"][0]);
+                    ["lib", "cdylib", "bin"].contains(&kind.as_str())
+                })
+                .map(|target| PathBuf::from(text(&target["src_path"])))
+                .collect();
+            Package {
+                name: text(&package["name"]),
+                roots,
+                imports: named(&|d| d["path"].is_string() && d["kind"] != "dev"),
+                outside: named(&|d| d["path"].is_null()),
+            }
+        })
+        .collect()
+}
+
+#[test]
+fn arrows_only_go_down() {
+    let floors = BTreeMap::from(FLOORS);
+    let floor = |name: &str| {
+        *floors.get(name).unwrap_or_else(|| panic!("{name} has no floor: give it one above"))
+    };
+    let packages = packages();
+    assert!(packages.len() >= 9, "cargo metadata shows the whole workspace");
+    for package in &packages {
+        if BESIDE.contains(&package.name.as_str()) {
+            continue;
+        }
+        for import in &package.imports {
+            let (from, to) = (package.name.as_str(), import.as_str());
+            assert!(
+                floor(from) > floor(to) || LEVEL.contains(&(from, to)),
+                "{from} (floor {}) imports {to} (floor {}): move the type downstairs",
+                floor(from),
+                floor(to)
+            );
+        }
+    }
+}
+
+#[test]
+fn checkers_import_no_solver() {
+    for package in packages().iter().filter(|package| package.name == "taut-certify") {
+        assert_eq!(package.imports, ["taut-points"]);
+    }
+}
+
+#[test]
+fn unsafe_code_stays_in_the_kernels() {
+    for package in packages() {
+        assert!(!package.roots.is_empty(), "{} has a library or a program", package.name);
+        for path in &package.roots {
+            let forbids = read(path).contains("#![forbid(unsafe_code)]");
+            let kernel = KERNELS.contains(&package.name.as_str());
+            assert!(forbids != kernel, "{}: forbid(unsafe_code) or be a kernel", path.display());
+        }
+    }
+}
+
+#[test]
+fn every_dependency_is_justified() {
+    let page = read(&root().join("ARCHITECTURE.md"));
+    let packages = packages();
+    let used: BTreeSet<_> = packages.iter().flat_map(|package| &package.outside).collect();
+    let all = used.iter().copied().chain(packages.iter().map(|package| &package.name));
+    let unexplained: Vec<_> = all.filter(|name| !page.contains(&format!("`{name}`"))).collect();
+    assert!(unexplained.is_empty(), "ARCHITECTURE.md does not say why: {unexplained:?}");
+    // Names in the first column of the last table, which stand between backquotes.
+    let table = page.split("## Dependencies").nth(1).expect("the page has that section");
+    let rows = table.lines().filter_map(|line| line.strip_prefix("| `")?.split(" |").next());
+    let stale: Vec<_> = rows
+        .flat_map(|row| row.split(", "))
+        .map(|name| name.trim_matches('`').to_owned())
+        .filter(|name| !used.contains(name))
+        .collect();
+    assert!(stale.is_empty(), "ARCHITECTURE.md speaks of {stale:?}, which nothing uses");
+}
+
+#[test]
+fn files_are_short_and_know_no_machine() {
+    let files = sources(&root());
+    assert!(files.len() > 50, "{} files found", files.len());
+    // Written in two parts, so that this file passes.
+    let machine =
+        [["/wo", "rk/"], ["/ro", "ot/"], ["/ho", "me/"], ["C:", "\\Users"]].map(|p| p.concat());
+    let mut problems = Vec::new();
+    for path in files {
+        let text = read(&path);
+        let lines = text.lines().count();
+        let prose = path.extension().is_some_and(|extension| extension == "md");
+        if !prose && lines > LINES_MAX {
+            problems.push(format!("{}: {lines} lines", path.display()));
+        }
+        for (number, line) in (1..).zip(text.lines()) {
+            for part in machine.iter().filter(|&part| line.contains(part)) {
+                problems.push(format!("{}:{number}: names {part}", path.display()));
+            }
+            if line.ends_with(' ') {
+                problems.push(format!("{}:{number}: ends in a blank", path.display()));
+            }
+        }
+    }
+    assert!(problems.is_empty(), "{}", problems.join("\n"));
+}
+
+/// All text files of ours under `folder`, without what is built or fetched.
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    const KINDS: [&str; 8] = ["rs", "py", "pyi", "md", "toml", "sh", "cpp", "js"];
+    const NOT_OURS: [&str; 5] = ["target", "build", "runs", "corpus", "__pycache__"];
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).expect("a folder of the repository can be read") {
+        let path = entry.expect("an entry of it too").path();
+        let name = path.file_name().expect("entries have names").to_string_lossy().into_owned();
+        if path.is_dir() {
+            if !name.starts_with('.') && !NOT_OURS.contains(&name.as_str()) {
+                found.extend(sources(&path));
+            }
+        } else if path.extension().is_some_and(|e| KINDS.contains(&e.to_string_lossy().as_ref())) {
+            found.push(path);
+        }
+    }
+    found
+}
+
+fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}

@@ -1,0 +1,391 @@
+//! Solutions as Python sees them: attributes that mirror the Rust fields, arrays that cannot be written to.
+
+use numpy::PyArray1;
+use pyo3::create_exception;
+use pyo3::exceptions::{PyException, PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+use taut::Items;
+use taut::certify::{self, AnySolution, CheckError, Stop};
+
+use crate::rows::Rows;
+use crate::work::interruptible;
+
+create_exception!(
+    taut,
+    Violation,
+    PyException,
+    "An answer or its certificate is wrong for these points; the message says what and by how much."
+);
+
+/// A ball in d dimensions.
+///
+/// Attributes
+/// ----------
+/// center : ndarray of shape (d,)
+///     The centre, rounded to float64. Read-only.
+/// center_tail : ndarray of shape (d,)
+///     What is to be added to `center` for the exact centre: zeros, unless the points lie so far from the origin
+///     that the rounding would cost more than 1e-15 of the radius. Read-only.
+/// radius : float
+///     The radius.
+#[pyclass(frozen, get_all, module = "taut")]
+pub(crate) struct Ball {
+    center: Py<PyArray1<f64>>,
+    center_tail: Py<PyArray1<f64>>,
+    radius: f64,
+}
+
+#[pymethods]
+impl Ball {
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let d = self.center.bind(py).len()?;
+        Ok(format!("Ball(radius={}, center=<{d} coordinates>)", float(py, self.radius)?))
+    }
+}
+
+/// Convex multipliers over few rows: the proof that no much smaller ball exists.
+///
+/// Attributes
+/// ----------
+/// items : str
+///     ``"points"`` or ``"balls"``.
+/// support : ndarray of int64, shape (s,)
+///     Row numbers with a positive multiplier, ascending. Read-only.
+/// multipliers : ndarray of float64, shape (s,)
+///     The multipliers, in the order of `support`; they sum to 1. Read-only.
+/// gap : float
+///     The gap claimed: radius <= (1 + gap) R*.
+/// points_hash : str
+///     Hash of the rows this was made for, 16 hexadecimal digits.
+#[pyclass(frozen, get_all, module = "taut")]
+pub(crate) struct BallCertificate {
+    items: &'static str,
+    support: Py<PyArray1<i64>>,
+    multipliers: Py<PyArray1<f64>>,
+    gap: f64,
+    points_hash: String,
+}
+
+#[pymethods]
+impl BallCertificate {
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let s = self.support.bind(py).len()?;
+        let gap = float(py, self.gap)?;
+        Ok(format!("BallCertificate(gap={gap}, support=<{s} {}>)", self.items))
+    }
+}
+
+/// The bounds known after one pass over all points.
+///
+/// Attributes
+/// ----------
+/// lower, upper : float
+///     Proved lower bound on the optimal radius, and a radius that encloses all points.
+/// working_set : int
+///     Points in the working set then.
+#[pyclass(frozen, get_all, module = "taut")]
+pub(crate) struct PassBounds {
+    lower: f64,
+    upper: f64,
+    working_set: u64,
+}
+
+#[pymethods]
+impl PassBounds {
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let (lower, upper) = (float(py, self.lower)?, float(py, self.upper)?);
+        let working_set = self.working_set;
+        Ok(format!("PassBounds(lower={lower}, upper={upper}, working_set={working_set})"))
+    }
+}
+
+/// How an answer came about: counters of events, the same on every run and for every number of threads.
+///
+/// Attributes
+/// ----------
+/// method : str
+///     The method.
+/// stop : str
+///     ``"converged"``, ``"rounding"`` (no smaller gap can be proved in float64) or ``"pass-budget"``.
+/// passes : int
+///     Reads of all points.
+/// iterations : int
+///     Steps of the inner solver.
+/// core_set : int
+///     Points the method chose to work on; the support is a part of them.
+/// history : tuple of PassBounds
+///     Bounds by pass.
+/// counters : dict of str to int
+///     Other events worth counting, by name. A fresh copy each time.
+#[pyclass(frozen, module = "taut")]
+pub(crate) struct Trace {
+    trace: taut::Trace,
+}
+
+#[pymethods]
+impl Trace {
+    #[getter]
+    fn method(&self) -> &str {
+        &self.trace.method
+    }
+
+    #[getter]
+    fn stop(&self) -> &'static str {
+        match self.trace.stop {
+            Stop::Converged => "converged",
+            Stop::Rounding => "rounding",
+            Stop::PassBudget => "pass-budget",
+        }
+    }
+
+    #[getter]
+    fn passes(&self) -> u64 {
+        self.trace.passes
+    }
+
+    #[getter]
+    fn iterations(&self) -> u64 {
+        self.trace.iterations
+    }
+
+    #[getter]
+    fn core_set(&self) -> u64 {
+        self.trace.core_set
+    }
+
+    #[getter]
+    fn history<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(
+            py,
+            self.trace.history.iter().map(|&certify::PassBounds { lower, upper, working_set }| {
+                PassBounds { lower, upper, working_set }
+            }),
+        )
+    }
+
+    #[getter]
+    fn counters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let counters = PyDict::new(py);
+        self.trace.counters.iter().try_for_each(|(name, count)| counters.set_item(name, count))?;
+        Ok(counters)
+    }
+
+    fn __repr__(&self) -> String {
+        let taut::Trace { method, passes, iterations, core_set, .. } = &self.trace;
+        let stop = self.stop();
+        format!(
+            "Trace(method='{method}', stop='{stop}', passes={passes}, iterations={iterations}, core_set={core_set})"
+        )
+    }
+}
+
+/// What the checker proved.
+///
+/// Attributes
+/// ----------
+/// lower : float
+///     No enclosing shape is smaller than this.
+/// upper : float
+///     The size of the answer, which was found to enclose every point.
+/// gap : float
+///     ``upper / lower - 1``, rounded up; 0 where both are 0.
+#[pyclass(frozen, get_all, module = "taut")]
+pub(crate) struct Verdict {
+    lower: f64,
+    upper: f64,
+    gap: f64,
+}
+
+#[pymethods]
+impl Verdict {
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let [lower, upper, gap] = [self.lower, self.upper, self.gap].map(|value| float(py, value));
+        Ok(format!("Verdict(lower={}, upper={}, gap={})", lower?, upper?, gap?))
+    }
+}
+
+/// An answer, what proves it, and how it came about.
+///
+/// Two solutions are equal when all their numbers are. Solutions can be pickled.
+///
+/// Attributes
+/// ----------
+/// kind : str
+///     ``"ball"``.
+/// answer : Ball
+///     The shape.
+/// certificate : BallCertificate
+///     Its proof.
+/// trace : Trace
+///     Counters of the run.
+#[pyclass(frozen, module = "taut")]
+pub(crate) struct Solution {
+    solution: AnySolution,
+    #[pyo3(get)]
+    answer: Py<Ball>,
+    #[pyo3(get)]
+    certificate: Py<BallCertificate>,
+    #[pyo3(get)]
+    trace: Py<Trace>,
+}
+
+impl Solution {
+    pub(crate) fn new(py: Python<'_>, solution: AnySolution) -> PyResult<Self> {
+        let AnySolution::Ball(found) = &solution;
+        let (ball, proof) = (&found.answer, &found.certificate);
+        let tail = if ball.center_tail.is_empty() {
+            vec![0.0; ball.center.len()]
+        } else {
+            ball.center_tail.clone()
+        };
+        let support = proof.support.iter().map(|&row| i64::try_from(row)).collect::<Result<_, _>>();
+        let support: Vec<i64> = support
+            .map_err(|_| PyValueError::new_err("a row number of the support exceeds 2**63 - 1"))?;
+        let answer = Ball {
+            center: read_only(PyArray1::from_slice(py, &ball.center))?,
+            center_tail: read_only(PyArray1::from_vec(py, tail))?,
+            radius: ball.radius,
+        };
+        let certificate = BallCertificate {
+            items: match proof.items {
+                Items::Points => "points",
+                Items::Balls => "balls",
+            },
+            support: read_only(PyArray1::from_vec(py, support))?,
+            multipliers: read_only(PyArray1::from_slice(py, &proof.multipliers))?,
+            gap: proof.gap,
+            points_hash: proof.points_hash.to_string(),
+        };
+        let trace = Py::new(py, Trace { trace: found.trace.clone() })?;
+        let (answer, certificate) = (Py::new(py, answer)?, Py::new(py, certificate)?);
+        Ok(Solution { solution, answer, certificate, trace })
+    }
+}
+
+#[pymethods]
+impl Solution {
+    #[getter]
+    fn kind(&self) -> &'static str {
+        match self.solution {
+            AnySolution::Ball(_) => "ball",
+        }
+    }
+
+    /// A second opinion: judges the answer over the points, with code that shares nothing with the solver.
+    ///
+    /// Parameters
+    /// ----------
+    /// points : array_like of shape (n, d)
+    ///     The points, or the centres of the balls, that the answer was found for.
+    /// radii : array_like of shape (n,), optional
+    ///     The radii, when the answer encloses balls.
+    ///
+    /// Returns
+    /// -------
+    /// Verdict
+    ///     Proved bounds ``lower`` and ``upper``, and their ``gap``.
+    ///
+    /// Raises
+    /// ------
+    /// Violation
+    ///     When the answer or its certificate is wrong for these points, with the first place where.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import taut
+    /// >>> found = taut.ball([[0, 0], [2, 0], [1, 1]])
+    /// >>> found.check([[0, 0], [2, 0], [1, 1]]).upper
+    /// 1.0
+    /// >>> found.check([[0, 0], [2, 0], [1, 2]])
+    /// Traceback (most recent call last):
+    /// taut.Violation: ...
+    #[pyo3(signature = (points, radii=None))]
+    fn check(
+        &self,
+        py: Python<'_>,
+        points: &Bound<'_, PyAny>,
+        radii: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Verdict> {
+        let AnySolution::Ball(found) = &self.solution;
+        match (found.certificate.items, radii) {
+            (Items::Balls, None) => {
+                return Err(PyValueError::new_err("the answer encloses balls: give their radii"));
+            }
+            (Items::Points, Some(_)) => {
+                return Err(PyValueError::new_err(
+                    "the answer encloses points, which have no radii",
+                ));
+            }
+            _ => {}
+        }
+        // Arrays are put in order in one place, and that is written in Python.
+        let rows = py.import("taut._arrays")?.getattr("as_rows")?.call1((points, radii))?;
+        let rows = Rows::borrow(&rows)?;
+        let source = rows.source()?;
+        let verdict = interruptible(py, |monitor| self.solution.check(source.as_ref(), monitor))?;
+        match verdict {
+            Ok(certify::Verdict { lower, upper, gap }) => Ok(Verdict { lower, upper, gap }),
+            Err(CheckError::Rejected(violation)) => Err(Violation::new_err(violation.to_string())),
+            Err(error) => Err(PyRuntimeError::new_err(error.to_string())),
+        }
+    }
+
+    /// The solution as a JSON document, as the command line writes it; numbers read back to the same bits.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    fn to_json(&self) -> String {
+        match &self.solution {
+            AnySolution::Ball(found) => found.to_json(),
+        }
+    }
+
+    /// Reads what `to_json` or the command line wrote.
+    ///
+    /// Parameters
+    /// ----------
+    /// text : str
+    ///     The document. Nothing in it is believed until `check` has judged it.
+    ///
+    /// Returns
+    /// -------
+    /// Solution
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     When the text is not an answer of taut, or of a newer schema.
+    #[staticmethod]
+    fn from_json(py: Python<'_>, text: &str) -> PyResult<Self> {
+        let solution = AnySolution::from_json(text)
+            .map_err(|error| PyValueError::new_err(error.to_string()))?;
+        Solution::new(py, solution)
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other.cast::<Solution>().is_ok_and(|other| self.solution == other.get().solution)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        Ok((py.get_type::<Solution>().getattr("from_json")?, (self.to_json(),)))
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let AnySolution::Ball(found) = &self.solution;
+        let (radius, gap) = (float(py, found.answer.radius)?, float(py, found.certificate.gap)?);
+        Ok(format!("Solution(kind='{}', radius={radius}, gap={gap})", self.kind()))
+    }
+}
+
+/// An array that refuses to be written to, as what was proved of it would no longer hold.
+fn read_only<'py, T: numpy::Element>(array: Bound<'py, PyArray1<T>>) -> PyResult<Py<PyArray1<T>>> {
+    array.call_method1("setflags", (false,))?;
+    Ok(array.unbind())
+}
+
+/// A number as Python writes it.
+fn float(py: Python<'_>, value: f64) -> PyResult<String> {
+    Ok(value.into_pyobject(py)?.repr()?.to_string())
+}

@@ -1,0 +1,41 @@
+"""Tight shapes around, through and inside point sets, with proof.
+
+Each function returns a `Solution`: the answer, a certificate that proves it, and a trace of how it came about.
+
+>>> import taut
+>>> points = taut.generate("normal", 1000, 3)
+>>> found = taut.ball(points)
+>>> found.check(points).gap <= 1e-9        # a second opinion, not the solver's
+True
+
+The names, options and defaults are those of the Rust library and of the command line.
+"""
+
+from ._ball import ball, ball_of_balls
+from ._generate import generate
+from ._native import (
+    Ball,
+    BallCertificate,
+    PassBounds,
+    Solution,
+    Trace,
+    Verdict,
+    Violation,
+    __version__,
+)
+from ._verify import verify
+
+__all__ = [
+    "Ball",
+    "BallCertificate",
+    "PassBounds",
+    "Solution",
+    "Trace",
+    "Verdict",
+    "Violation",
+    "__version__",
+    "ball",
+    "ball_of_balls",
+    "generate",
+    "verify",
+]

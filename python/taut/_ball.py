@@ -1,0 +1,124 @@
+"""Smallest enclosing balls."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from numpy.typing import ArrayLike
+
+from . import _native
+from ._arrays import as_rows
+from ._native import Solution
+
+BallMethod = Literal["core-set", "thesis-pure", "thesis-fast", "badoiu-clarkson"]
+
+
+def ball(
+    points: ArrayLike,
+    *,
+    epsilon: float = 1e-9,
+    method: BallMethod = "core-set",
+    batch: int | None = None,
+    max_passes: int = 1_000_000,
+    threads: int | None = None,
+    seed: int = 0,
+) -> Solution:
+    """Smallest ball enclosing a point set, with a certificate.
+
+    Parameters
+    ----------
+    points : array_like of shape (n, d)
+        Finite real numbers. An array of float32 or float64 in C order is read where it lies, without a copy,
+        also when it is read-only; anything else is first converted by NumPy (integers and other precisions to
+        float64). Other threads must not write to it meanwhile.
+    epsilon : float in [0, 1), default 1e-9
+        Relative gap to prove, R <= (1 + epsilon) R*; 0 asks for the exact ball, to rounding.
+    method : {"core-set", "thesis-pure", "thesis-fast", "badoiu-clarkson"}, default "core-set"
+        The way to find it; all end in the same certificate. The first is the fastest, the others are those of
+        the literature it grew from, kept so that their tables can be rerun.
+    batch : int >= 1, optional
+        Far points taken to the core-set per pass, by "core-set"; by default chosen by dimension.
+    max_passes : int >= 2, default 1,000,000
+        Reads of all points before the best ball so far is returned with its gap.
+    threads : int >= 1, optional
+        Threads to use, by default all cores. The answer does not depend on it.
+    seed : int >= 0, default 0
+        Chooses the point from which the methods of the literature start.
+
+    Returns
+    -------
+    Solution
+        ``answer.center`` of shape (d,), ``answer.radius``, ``certificate``, ``trace``.
+
+    Raises
+    ------
+    ValueError
+        When there is no point, a coordinate is NaN or infinite (the message names its row and column), the
+        radius exceeds float64, or an option is out of range.
+    KeyboardInterrupt
+        Ctrl-C stops the work within a block of points.
+
+    See Also
+    --------
+    ball_of_balls : the smallest ball around balls.
+    verify : checks an answer that was stored.
+
+    Examples
+    --------
+    >>> import taut
+    >>> found = taut.ball([[0, 1], [2, 1], [1, 2]])
+    >>> found.answer.center, found.answer.radius
+    (array([1., 1.]), 1.0)
+    >>> found.certificate.support, found.certificate.multipliers
+    (array([0, 1]), array([0.5, 0.5]))
+    >>> found.check([[0, 1], [2, 1], [1, 2]]).gap <= 1e-9
+    True
+    """
+    return _native.ball(as_rows(points), False, epsilon, method, batch, max_passes, threads, seed)
+
+
+def ball_of_balls(
+    centers: ArrayLike,
+    radii: ArrayLike,
+    *,
+    epsilon: float = 1e-9,
+    method: BallMethod = "core-set",
+    batch: int | None = None,
+    max_passes: int = 1_000_000,
+    threads: int | None = None,
+    seed: int = 0,
+) -> Solution:
+    """Smallest ball enclosing balls, with a certificate.
+
+    Parameters
+    ----------
+    centers : array_like of shape (n, d)
+        Finite real numbers. Centres and radii are copied to one array, float32 if both are, else float64.
+    radii : array_like of shape (n,)
+        Finite real numbers, at least 0.
+    epsilon, method, batch, max_passes, threads, seed
+        As in `ball`.
+
+    Returns
+    -------
+    Solution
+        As from `ball`; ``certificate.items`` is ``"balls"``, and ``check`` takes the radii as well.
+
+    Raises
+    ------
+    ValueError
+        As `ball`, and when a radius is negative or there are more or fewer radii than centres.
+
+    Examples
+    --------
+    Two balls of radius 1 whose centres are 2 apart:
+
+    >>> import taut
+    >>> found = taut.ball_of_balls([[0, 1], [2, 1]], [1, 1])
+    >>> found.answer.center, found.answer.radius
+    (array([1., 1.]), 2.0)
+    >>> found.check([[0, 1], [2, 1]], radii=[1, 1]).upper
+    2.0
+    """
+    rows = as_rows(centers, radii)
+    return _native.ball(rows, True, epsilon, method, batch, max_passes, threads, seed)

@@ -1,0 +1,113 @@
+from typing import final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = [
+    "Ball",
+    "BallCertificate",
+    "PassBounds",
+    "Solution",
+    "Trace",
+    "Verdict",
+    "Violation",
+    "__version__",
+    "ball",
+    "generate",
+]
+
+__version__: str
+
+def ball(
+    rows: NDArray[np.float32] | NDArray[np.float64],
+    balls: bool,
+    epsilon: float,
+    method: str,
+    batch: int | None,
+    max_passes: int,
+    threads: int | None,
+    seed: int,
+) -> Solution: ...
+def generate(
+    out: NDArray[np.float32] | NDArray[np.float64],
+    distribution: str,
+    seed: int,
+    thickness: float | None,
+    count: int | None,
+    spread: float | None,
+    vertices: int | None,
+) -> None: ...
+
+class Violation(Exception): ...
+
+@final
+class Ball:
+    @property
+    def center(self) -> NDArray[np.float64]: ...
+    @property
+    def center_tail(self) -> NDArray[np.float64]: ...
+    @property
+    def radius(self) -> float: ...
+
+@final
+class BallCertificate:
+    @property
+    def items(self) -> str: ...
+    @property
+    def support(self) -> NDArray[np.int64]: ...
+    @property
+    def multipliers(self) -> NDArray[np.float64]: ...
+    @property
+    def gap(self) -> float: ...
+    @property
+    def points_hash(self) -> str: ...
+
+@final
+class PassBounds:
+    @property
+    def lower(self) -> float: ...
+    @property
+    def upper(self) -> float: ...
+    @property
+    def working_set(self) -> int: ...
+
+@final
+class Trace:
+    @property
+    def method(self) -> str: ...
+    @property
+    def stop(self) -> str: ...
+    @property
+    def passes(self) -> int: ...
+    @property
+    def iterations(self) -> int: ...
+    @property
+    def core_set(self) -> int: ...
+    @property
+    def history(self) -> tuple[PassBounds, ...]: ...
+    @property
+    def counters(self) -> dict[str, int]: ...
+
+@final
+class Verdict:
+    @property
+    def lower(self) -> float: ...
+    @property
+    def upper(self) -> float: ...
+    @property
+    def gap(self) -> float: ...
+
+@final
+class Solution:
+    @property
+    def kind(self) -> str: ...
+    @property
+    def answer(self) -> Ball: ...
+    @property
+    def certificate(self) -> BallCertificate: ...
+    @property
+    def trace(self) -> Trace: ...
+    def check(self, points: ArrayLike, radii: ArrayLike | None = None) -> Verdict: ...
+    def to_json(self) -> str: ...
+    @staticmethod
+    def from_json(text: str) -> Solution: ...

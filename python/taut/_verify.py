@@ -1,0 +1,43 @@
+"""Checking answers that were stored."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from ._native import Solution, Verdict
+
+
+def verify(solution: Solution | str, points: ArrayLike, radii: ArrayLike | None = None) -> Verdict:
+    """Check an answer over the points it was found for.
+
+    Parameters
+    ----------
+    solution : Solution or str
+        The answer with its certificate, or their JSON as `Solution.to_json` and the command line write it.
+    points : array_like of shape (n, d)
+        The points, or the centres of the balls.
+    radii : array_like of shape (n,), optional
+        The radii, when the answer encloses balls.
+
+    Returns
+    -------
+    Verdict
+        Proved bounds ``lower`` and ``upper``, and their ``gap``.
+
+    Raises
+    ------
+    Violation
+        When the answer or its certificate is wrong for these points.
+    ValueError
+        When the text is not an answer of taut.
+
+    Examples
+    --------
+    >>> import taut
+    >>> text = taut.ball([[0, 0], [2, 0], [1, 1]]).to_json()
+    >>> taut.verify(text, [[0, 0], [2, 0], [1, 1]]).upper
+    1.0
+    """
+    if isinstance(solution, str):
+        solution = Solution.from_json(solution)
+    return solution.check(points, radii)

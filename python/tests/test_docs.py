@@ -1,0 +1,45 @@
+"""Every example in the documentation runs, and everything public has documentation."""
+
+import doctest
+import inspect
+import re
+from pathlib import Path
+
+import pytest
+
+import taut
+from taut import _ball, _generate, _verify
+
+
+FLAGS = doctest.ELLIPSIS | doctest.IGNORE_EXCEPTION_DETAIL
+
+
+@pytest.mark.parametrize("module", [taut, _ball, _generate, _verify], ids=lambda m: m.__name__)
+def test_examples_run(module):
+    # The classes of the compiled part are found as members of `taut`, which they say they are.
+    failed, attempted = doctest.testmod(module, optionflags=FLAGS)
+    assert failed == 0
+    assert attempted > 0
+
+
+@pytest.mark.parametrize("name", taut.__all__)
+def test_everything_public_is_documented(name):
+    public = getattr(taut, name)
+    if name == "__version__":
+        return
+    assert inspect.getdoc(public)
+    if inspect.isclass(public):
+        for attribute, member in vars(public).items():
+            if callable(member) and not attribute.startswith("_"):
+                assert inspect.getdoc(member), attribute
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/ball.md"])
+def test_examples_of_the_pages_run(page):
+    text = (Path(__file__).parents[2] / page).read_text(encoding="utf-8")
+    blocks = re.findall(r"```pycon\n(.*?)```", text, re.DOTALL)
+    assert blocks
+    runner = doctest.DocTestRunner(optionflags=FLAGS)
+    for block in blocks:
+        runner.run(doctest.DocTestParser().get_doctest(block, {}, page, page, 0))
+    assert runner.summarize().failed == 0
