@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     /// Numbers of threads taut is run with; ratios are those of the last.
     #[arg(long, value_delimiter = ',', default_values_t = [1, 2])]
     threads: Vec<usize>,
-    /// Seconds after which one run of a peer is stopped.
+    /// Seconds after which one run of a peer, or of a method in the case `core-sets`, is stopped.
     #[arg(long, default_value_t = 60)]
     limit: u64,
     /// Seconds after which a peer that is slow takes part in no further run of a case.

@@ -1,6 +1,8 @@
 //! Core-set sizes as the thesis counts them: one far point per pass, ε = 1e-3.
 
-use std::time::Instant;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::{Duration, Instant};
 
 use anyhow::Result;
 use serde_json::{Value, json};
@@ -72,7 +74,19 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
         for (name, method, batch) in ways {
             let options = BallOptions { epsilon: 1e-3, method, batch, ..BallOptions::default() };
             let start = Instant::now();
-            let found = ball_of_source(&*source, input.items, &options, &Monitor::silent())?;
+            let Some(found) = within(context.limit, |monitor| {
+                ball_of_source(&*source, input.items, &options, monitor)
+            })?
+            else {
+                let silence = format!("none in {} s", context.limit.as_secs());
+                println!("{}: {name}: no answer in {} s", input.what, context.limit.as_secs());
+                rows.push(json!({ "input": input.what, "method": name, "silence": &silence }));
+                let mut row = vec![input.what.clone(), name.to_owned(), silence];
+                row.extend(vec![String::new(); 5]);
+                row.push((*said).to_owned());
+                table.push(row);
+                continue;
+            };
             let time = start.elapsed().as_secs_f64();
             let verdict = found.check(&*source);
             let support = found.certificate.support.len();
@@ -99,4 +113,29 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
     println!("{table}");
     context.report.add(json!({ "name": case.name, "rows": Value::from(rows) }));
     Ok(())
+}
+
+/// What `solve` answers, or `None` once it has been stopped, at the first pass after `limit`.
+fn within<T>(
+    limit: Duration,
+    solve: impl FnOnce(&Monitor<'_>) -> Result<T, taut_enclose::Error>,
+) -> Result<Option<T>> {
+    let late = AtomicBool::new(false);
+    let flag = &late;
+    let answer = std::thread::scope(|scope| {
+        let (done, wait) = channel::<()>();
+        scope.spawn(move || {
+            if wait.recv_timeout(limit) == Err(RecvTimeoutError::Timeout) {
+                flag.store(true, Ordering::Relaxed);
+            }
+        });
+        let answer = solve(&Monitor { cancel: Some(flag), ..Monitor::silent() });
+        drop(done);
+        answer
+    });
+    match answer {
+        Ok(answer) => Ok(Some(answer)),
+        Err(_) if late.load(Ordering::Relaxed) => Ok(None),
+        Err(error) => Err(error.into()),
+    }
 }
