@@ -1,11 +1,15 @@
 //! The minimum enclosing ball of points or of balls.
 
 mod active_set;
+mod badoiu_clarkson;
+mod conic;
 mod core_set;
 mod factor;
 mod options;
 mod outcome;
 mod proof;
+mod run;
+mod thesis;
 mod working_set;
 
 use taut_certify::{Ball, Items, Solution};
@@ -66,6 +70,11 @@ fn solve(
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Ball>, Error> {
     let mut scan = Scan::new(source, items, monitor)?;
-    let outcome = core_set::solve(&mut scan, options)?;
+    let outcome = match options.method {
+        BallMethod::CoreSet => core_set::solve(&mut scan, options)?,
+        BallMethod::ThesisPure => thesis::pure(&mut scan, options)?,
+        BallMethod::ThesisFast => thesis::fast(&mut scan, options)?,
+        BallMethod::BadoiuClarkson => badoiu_clarkson::solve(&mut scan, options)?,
+    };
     proof::prove(&mut scan, outcome, options)
 }

@@ -41,7 +41,7 @@ impl Top {
             return;
         }
         self.items.push(far);
-        if self.items.len() >= 2 * self.keep {
+        if self.items.len() / 2 >= self.keep {
             self.trim();
         }
     }

@@ -53,16 +53,15 @@ pub(super) struct ActiveSet {
 }
 
 impl ActiveSet {
-    /// The support is item 0 alone.
-    pub(super) fn new(set: &WorkingSet) -> Self {
-        // Any positive σ would do; of the size of the squared norms it takes no digits from them.
-        let largest = (0..set.len()).map(|i| set.norm2(i)).fold(0.0, f64::max);
-        let sigma = if largest > 0.0 { largest } else { 1.0 };
+    /// The support is item 0 alone; `reach2` is about the squared radius, radii of balls included.
+    pub(super) fn new(set: &WorkingSet, reach2: f64) -> Self {
+        // What lies closer together than the rounding of the radius need not be told apart.
+        let least = f64::EPSILON * f64::EPSILON * reach2;
         let mut active = ActiveSet {
             support: vec![0],
             lambda: vec![1.0],
             factor: Factor::default(),
-            sigma,
+            sigma: least.max(largest_norm2(set)),
             radius: 0.0,
             deletions: 0,
             pivots: 0,
@@ -88,6 +87,15 @@ impl ActiveSet {
         }
         let norm = set.norm2(i).sqrt();
         (norm + r) * (norm - r) + 2.0 * self.radius * r
+    }
+
+    /// Takes a larger σ where the set has outgrown it: the first balls may lie much closer together than others.
+    pub(super) fn widen(&mut self, set: &WorkingSet) {
+        let largest = largest_norm2(set);
+        if largest > 16.0 * self.sigma {
+            self.sigma = largest;
+            self.rebuild(set);
+        }
     }
 
     /// Sets R of the balls' problem and settles the support for it.
@@ -298,6 +306,11 @@ impl ActiveSet {
         let sum: f64 = self.lambda.iter().sum();
         self.lambda.iter_mut().for_each(|l| *l /= sum);
     }
+}
+
+/// Any positive σ would do; of the size of the squared norms it takes no digits from them.
+fn largest_norm2(set: &WorkingSet) -> f64 {
+    (0..set.len()).map(|i| set.norm2(i)).fold(0.0, f64::max)
 }
 
 /// How far weight can move along y to the entering item, and who stops it: the least λᵢ/yᵢ, ties to the largest yᵢ.

@@ -43,14 +43,15 @@ fn batch_for(dim: usize) -> usize {
 
 pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcome, Error> {
     let mut batch = options.batch.unwrap_or_else(|| batch_for(scan.dim()));
-    let (middle, found) = scan.first(batch + 64)?;
+    let (middle, found) = scan.first(batch.saturating_add(64))?;
     if found.farthest.reach2 == 0.0 {
         return Outcome::single(scan, found.farthest.id);
     }
     let mut set = empty_set(scan, middle)?;
     let mut outcome = Outcome::new();
-    add(&mut set, scan, found.far.iter().map(|far| far.id), batch)?;
-    let mut active = ActiveSet::new(&set);
+    // Two at least, as one alone proves no lower bound.
+    add(&mut set, scan, found.far.iter().map(|far| far.id), batch.max(2))?;
+    let mut active = ActiveSet::new(&set, found.farthest.reach2);
     let mut radius = 0.0;
     let mut last_batch = 0..set.len();
     loop {
@@ -67,7 +68,7 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
         let by_face = telling && 8 * entered < could_enter;
 
         let center = set.center(active.support(), active.lambda(), radius);
-        let keep = batch + active.support().len() + 64;
+        let keep = batch.saturating_add(active.support().len() + 64);
         let slack = 4.0 * relative_error(scan.dim());
         let above = radius * radius * (1.0 - slack).max(0.0);
         let violating = radius * radius * (1.0 + TOLERANCE);
@@ -80,7 +81,7 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
             .filter(|far| far.reach2 > violating && !set.contains(far.id))
             .map(|far| far.id)
             .collect();
-        let gap = upper / radius - 1.0;
+        let gap = if upper == 0.0 { 0.0 } else { upper / radius - 1.0 };
         outcome.offer(gap, || {
             let support = active.support().iter().map(|&i| set.id(i)).collect();
             (support, active.lambda().to_vec(), center, found)
@@ -104,6 +105,7 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
         let before = set.len();
         add(&mut set, scan, violators.into_iter(), batch)?;
         last_batch = before..set.len();
+        active.widen(&set);
     }
 }
 
@@ -141,7 +143,7 @@ fn solve_working_set(
             active.set_radius(set, relative);
         }
         active.maximize(set, monitor)?;
-        let bound = lower_bound(active, set).max(0.0);
+        let bound = lower_bound(set, active.support(), active.lambda()).max(0.0);
         // Newton steps grow until rounding; for points the first is the answer, as nothing depends on R.
         if offset == 0.0 || bound <= relative + f64::EPSILON * (relative + offset) {
             return Ok(bound.max(relative) + offset);
@@ -150,9 +152,8 @@ fn solve_working_set(
     }
 }
 
-/// r̄ + √(Σ λᵢ(|cᵢ − c|² − (rᵢ − r̄)²)), relative to the radius offset.
-fn lower_bound(active: &ActiveSet, set: &WorkingSet) -> f64 {
-    let (support, lambda) = (active.support(), active.lambda());
+/// r̄ + √(Σ λᵢ(|cᵢ − c|² − (rᵢ − r̄)²)), relative to the radius offset, for λ over the items named.
+pub(super) fn lower_bound(set: &WorkingSet, support: &[usize], lambda: &[f64]) -> f64 {
     let center = set.combination(support, lambda);
     let mean: f64 = support.iter().zip(lambda).map(|(&i, l)| l * set.radius(i)).sum();
     let inner: f64 = support

@@ -13,7 +13,7 @@ pub enum BallMethod {
     CoreSet,
     /// Algorithm 1 of the thesis: one far point per pass, a conic solver on the core-set.
     ThesisPure,
-    /// The thesis' fast variant: d/3 steps of Bădoiu and Clarkson, then Algorithm 1.
+    /// The thesis' fast variant: d/3 steps of Algorithm 10, then Algorithm 1 from the far points these met.
     ThesisFast,
     /// Algorithm 10 of the thesis: steps of Bădoiu and Clarkson to the farthest point, and nothing else.
     BadoiuClarkson,
@@ -67,7 +67,8 @@ pub struct BallOptions {
     pub method: BallMethod,
     /// Far points taken to the core-set per pass, by [`BallMethod::CoreSet`]; `None` chooses by dimension. At least 1.
     pub batch: Option<usize>,
-    /// Most reads of all points; then the best ball so far is returned with its gap. At least 3, default 1,000,000.
+    /// Most reads of all points; then the best ball so far is returned with its gap. At least 3, and 4 for the methods
+    /// of the thesis, which read thrice before their first ball. Default 1,000,000.
     /// A read or two more are made where nothing could be said of the radius otherwise.
     pub max_passes: u64,
     /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
@@ -110,6 +111,13 @@ impl BallOptions {
                 "max_passes",
                 self.max_passes.to_string(),
                 "at least 3: two to find a diameter, one to prove",
+            );
+        }
+        if self.max_passes < 4 && self.method != BallMethod::CoreSet {
+            return wrong(
+                "max_passes",
+                self.max_passes.to_string(),
+                "at least 4 for the methods of the thesis, which read thrice before their first ball",
             );
         }
         if self.threads == Some(0) {

@@ -27,7 +27,7 @@ pub(super) fn prove(
     let lower = lower_bound(scan, &best, &rows);
     let scale = scan.scale();
     let radius = unscale_up(upper, scale);
-    if !radius.is_finite() {
+    if !radius.is_finite() || best.center.high.iter().any(|c| !(c / scale).is_finite()) {
         return Err(Error::Overflow);
     }
     let gap = match radius {
@@ -39,7 +39,9 @@ pub(super) fn prove(
     if stop == Stop::Converged && options.epsilon > 0.0 && gap > options.epsilon {
         stop = Stop::Rounding;
     }
-    let bounds = |b: PassBounds| PassBounds { lower: b.lower / scale, upper: b.upper / scale, ..b };
+    // An early ball may exceed what `f64` can say, and JSON knows no infinity.
+    let said = |value: f64| (value / scale).min(f64::MAX);
+    let bounds = |b: PassBounds| PassBounds { lower: said(b.lower), upper: said(b.upper), ..b };
     let trace = Trace {
         method: options.method.name().to_owned(),
         stop,
@@ -129,12 +131,20 @@ fn upper_bound(scan: &Scan<'_>, best: &Candidate) -> Result<f64, Error> {
     let mut upper = 0.0f64;
     for row in rows.chunks_exact(columns) {
         let (x, r) = split(scan, row);
-        upper = upper.max(reach_up(exact_squared_distance(x, &best.center), r));
+        let reach = reach_up(exact_squared_distance(x, &best.center), r);
+        // Beside a reach of about 1 what a vanishing square leaves out is far less than one unit of the last place.
+        upper =
+            upper.max(if has_vanishing_square(x, &best.center) { reach.next_up() } else { reach });
     }
     if !all_listed && found.farthest.reach2 > 0.0 {
         upper = upper.max((found.farthest.reach2 * (1.0 + error)).sqrt().next_up());
     }
     Ok(upper)
+}
+
+/// Whether some difference is not 0, but so small that its square loses digits to the end of the range.
+fn has_vanishing_square(x: &[f64], center: &Center) -> bool {
+    x.iter().zip(&center.high).any(|(x, c)| x != c && (x - c).abs() < 2f64.powi(-450))
 }
 
 /// The smallest `f64` radius that is not below √distance² + r.

@@ -69,6 +69,11 @@ impl WorkingSet {
         self.position.contains_key(&id)
     }
 
+    /// Where the item with this row number stands in the set.
+    pub(super) fn position(&self, id: u64) -> Option<usize> {
+        self.position.get(&id).copied()
+    }
+
     /// The row of item `i`, relative to the origin.
     pub(super) fn row(&self, i: usize) -> &[f64] {
         &self.rows[i * self.dim..(i + 1) * self.dim]

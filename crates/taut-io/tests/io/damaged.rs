@@ -98,8 +98,6 @@ fn a_name_that_promises_another_format_is_an_error() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
-
     /// A few changed bytes: whatever is read, it is never a panic, and never a point that is not finite.
     #[test]
     fn changed_bytes_are_points_or_an_error(
