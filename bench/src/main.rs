@@ -1,2 +1,55 @@
-//! taut beside its peers.
-fn main() {}
+//! taut beside its peers: the same inputs, one run, every answer checked.
+//!
+//! `ball` runs the named cases of the minimum enclosing ball; `thesis-ball` reruns figures 5 to 15 of the thesis.
+//! The peers are installed by `bench/setup`; one that is missing is named, never skipped in silence.
+#![forbid(unsafe_code)]
+
+mod ball;
+mod input;
+mod judge;
+mod machine;
+mod peer;
+mod read;
+mod report;
+mod stats;
+mod table;
+mod thesis;
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand};
+
+/// taut beside its peers on the same inputs, in one run.
+#[derive(Parser)]
+struct Arguments {
+    #[command(subcommand)]
+    area: Area,
+}
+
+#[derive(Subcommand)]
+enum Area {
+    /// Minimum enclosing balls: times, ratios with spread, and a judgement of every answer.
+    Ball(ball::Arguments),
+    /// Figures 5 to 15 of the thesis, rerun as CSV and SVG.
+    ThesisBall(thesis::Arguments),
+    /// Solves one raw file and prints seconds per pass and the peak memory of this process.
+    #[command(hide = true)]
+    SolveFile(ball::file::SolveArguments),
+    /// Serves the crate miniball as a peer.
+    #[command(hide = true)]
+    PeerCrate {
+        /// The input, with its header of rows and columns.
+        input: PathBuf,
+        /// Where the centre goes.
+        center: PathBuf,
+    },
+}
+
+fn main() -> anyhow::Result<()> {
+    match Arguments::parse().area {
+        Area::Ball(arguments) => ball::run(&arguments),
+        Area::ThesisBall(arguments) => thesis::run(&arguments),
+        Area::SolveFile(arguments) => ball::file::solve(&arguments),
+        Area::PeerCrate { input, center } => peer::serve_crate(&input, &center),
+    }
+}

@@ -1,0 +1,112 @@
+//! The cases of the minimum enclosing ball, each with a name, an input, peers and goals.
+
+mod balls;
+mod case;
+mod core_sets;
+pub(crate) mod file;
+mod goals;
+mod paired;
+mod points;
+mod threads;
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use anyhow::{Result, ensure};
+use tempfile::TempDir;
+
+use crate::report::Report;
+use case::{CASES, Kind};
+
+/// Cases and how often.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// Cases to run, by whole name, else by the beginning of it; none means all. `--list` shows them.
+    cases: Vec<String>,
+    /// Show the cases and do nothing.
+    #[arg(long)]
+    list: bool,
+    /// Paired runs of each case.
+    #[arg(long, default_value_t = 9)]
+    runs: usize,
+    /// Inputs of about a tenth of their size and at most three runs: to try the bench, not to quote.
+    #[arg(long)]
+    quick: bool,
+    /// Numbers of threads taut is run with; ratios are those of the last.
+    #[arg(long, value_delimiter = ',', default_values_t = [1, 2])]
+    threads: Vec<usize>,
+    /// Seconds after which one run of a peer, or of a method in the case `core-sets`, is stopped.
+    #[arg(long, default_value_t = 60)]
+    limit: u64,
+    /// Seconds after which a peer that is slow takes part in no further run of a case.
+    #[arg(long, default_value_t = 120)]
+    peer_budget: u64,
+    /// Folder for the 10 GB file of the case `file`, which is kept there; needs as much free disk.
+    #[arg(long)]
+    scratch: Option<PathBuf>,
+    /// Write everything that was measured to this file.
+    #[arg(long)]
+    json: Option<PathBuf>,
+}
+
+/// What all cases share.
+struct Context {
+    runs: usize,
+    quick: bool,
+    threads: Vec<usize>,
+    limit: Duration,
+    peer_budget: Duration,
+    scratch: Option<PathBuf>,
+    temp: TempDir,
+    report: Report,
+}
+
+/// Runs the cases that were asked for.
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+    if arguments.list {
+        for case in CASES {
+            println!("{:<24} {}", case.name, case.about);
+        }
+        return Ok(());
+    }
+    for wanted in &arguments.cases {
+        let known = CASES.iter().any(|case| case::means(wanted, case.name));
+        ensure!(known, "no case begins with `{wanted}`: see `bench ball --list`");
+    }
+    ensure!(
+        arguments.runs > 0 && !arguments.threads.is_empty() && !arguments.threads.contains(&0),
+        "at least one run and one thread"
+    );
+    let mut context = Context {
+        runs: if arguments.quick { arguments.runs.min(3) } else { arguments.runs },
+        quick: arguments.quick,
+        threads: arguments.threads.clone(),
+        limit: Duration::from_secs(arguments.limit),
+        peer_budget: Duration::from_secs(arguments.peer_budget),
+        scratch: arguments.scratch.clone(),
+        temp: TempDir::new()?,
+        report: Report::begin(),
+    };
+    if context.quick {
+        println!("Quick: inputs are smaller than the cases say. Not to be quoted.\n");
+    }
+    let wanted = |name: &str| {
+        arguments.cases.is_empty() || arguments.cases.iter().any(|w| case::means(w, name))
+    };
+    for case in CASES.iter().filter(|case| wanted(case.name)) {
+        println!("## {}\n{}\n", case.name, case.about);
+        match &case.kind {
+            Kind::Points(points) => points::run(&mut context, case, points)?,
+            Kind::Usps => points::run_usps(&mut context, case)?,
+            Kind::Balls(balls) => balls::run(&mut context, case, balls)?,
+            Kind::File => file::run(&mut context, case)?,
+            Kind::CoreSets => core_sets::run(&mut context, case)?,
+            Kind::Threads => threads::run(&mut context, case)?,
+        }
+        println!();
+        if let Some(path) = &arguments.json {
+            context.report.write(path)?;
+        }
+    }
+    Ok(())
+}

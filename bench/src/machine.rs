@@ -1,0 +1,49 @@
+//! What has to be known of the machine and the programs to read a time.
+
+use std::process::Command;
+
+use serde_json::{Value, json};
+
+use crate::peer;
+
+/// Machine, versions and date, as one JSON object.
+pub(crate) fn describe() -> Value {
+    let cpu = file("/proc/cpuinfo");
+    let field = |name: &str| {
+        cpu.lines()
+            .find(|line| line.starts_with(name))
+            .and_then(|line| line.split_once(':'))
+            .map_or("unknown", |(_, value)| value.trim())
+            .to_owned()
+    };
+    let memory = file("/proc/meminfo");
+    json!({
+        "date": output("date", &["-u", "+%Y-%m-%dT%H:%M:%SZ"]),
+        "cpu": field("model name"),
+        "cores": std::thread::available_parallelism().map_or(1, usize::from),
+        "memory": memory.lines().next().and_then(|line| line.split_once(':')).map(|(_, size)| size.trim()),
+        "load": file("/proc/loadavg").trim(),
+        "kernel": output("uname", &["-sr"]),
+        "rustc": output("rustc", &["--version"]),
+        "taut": output("git", &["describe", "--always", "--dirty", "--tags"]),
+        "g++": output("g++", &["-dumpfullversion"]),
+        "cgal": output("dpkg-query", &["-W", "-f=${Version}", "libcgal-dev"]),
+        "fgk": file(&peer::folder().join("peers/build/fgk-version").to_string_lossy()).trim(),
+        "cyminiball": "2.1.2",
+        "miniball (PyPI)": "1.2.0",
+        "miniball (crate)": "0.5.0",
+    })
+}
+
+fn file(path: &str) -> String {
+    std::fs::read_to_string(path).unwrap_or_default()
+}
+
+fn output(program: &str, arguments: &[&str]) -> String {
+    match Command::new(program).args(arguments).output() {
+        Ok(done) if done.status.success() => {
+            String::from_utf8_lossy(&done.stdout).trim().to_owned()
+        }
+        _ => "unknown".to_owned(),
+    }
+}

@@ -1,0 +1,214 @@
+//! Peers as processes: each reads its input once, then solves once per line it is sent.
+//!
+//! So taut and its peers take turns within one run of the bench, a peer that crashes takes nothing with it, and one
+//! that is too slow is stopped. The protocol is written down in `peers/protocol.hpp`.
+
+use std::collections::VecDeque;
+use std::io::{BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::{Duration, Instant};
+
+use anyhow::{Context as _, Result, bail, ensure};
+use miniball::{Ball, Enclosing};
+use nalgebra::{Const, OPoint};
+use serde::Deserialize;
+
+/// Time a peer is given to read its input and build its own points of it.
+const LOADING: Duration = Duration::from_secs(120);
+
+/// One answer of a peer.
+#[derive(Clone, Debug)]
+pub(crate) struct Answer {
+    /// Seconds of the solver alone.
+    pub(crate) seconds: f64,
+    /// The radius it claims.
+    pub(crate) radius: f64,
+    /// The centre it claims.
+    pub(crate) center: Vec<f64>,
+}
+
+/// A peer that has its input in memory.
+pub(crate) struct Peer {
+    child: Child,
+    stdin: ChildStdin,
+    lines: Receiver<String>,
+    center: PathBuf,
+}
+
+/// Why a peer gave no answer.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Silence {
+    /// `bench/setup` did not get it.
+    NotInstalled,
+    /// It was stopped after this long.
+    Slow(Duration),
+    /// It ended on its own.
+    Ended,
+}
+
+impl std::fmt::Display for Silence {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Silence::NotInstalled => write!(f, "not installed: run bench/setup"),
+            Silence::Slow(limit) => write!(f, "no answer in {} s", limit.as_secs()),
+            Silence::Ended => write!(f, "ended without an answer"),
+        }
+    }
+}
+
+/// The folder `bench` of the repository this program was built from.
+pub(crate) fn folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// How a peer is called; `None` when it is not installed.
+///
+/// Names: a program of `peers/build` with its build (`fgk-native`, `cgal-spheres-3-o2`), or `cyminiball`,
+/// `miniball-pypi`, `miniball-crate`.
+fn command(name: &str) -> Result<Option<Command>> {
+    let python = |package: &str| {
+        let interpreter = folder().join(".venv/bin/python");
+        let installed = Command::new(&interpreter)
+            .args(["-c", &format!("import {package}")])
+            .stderr(Stdio::null())
+            .status()
+            .is_ok_and(|status| status.success());
+        installed.then(|| {
+            let mut command = Command::new(interpreter);
+            command.arg(folder().join("peers/pypi.py")).arg(package);
+            command
+        })
+    };
+    Ok(match name {
+        "cyminiball" => python("cyminiball"),
+        "miniball-pypi" => python("miniball"),
+        "miniball-crate" => {
+            let mut command = Command::new(std::env::current_exe()?);
+            command.arg("peer-crate");
+            Some(command)
+        }
+        program => {
+            let path = folder().join("peers/build").join(program);
+            path.exists().then(|| Command::new(path))
+        }
+    })
+}
+
+impl Peer {
+    /// Starts the peer `name` on `input`; files it writes go to `scratch`.
+    pub(crate) fn start(name: &str, input: &Path, scratch: &Path) -> Result<Result<Peer, Silence>> {
+        let Some(mut command) = command(name)? else { return Ok(Err(Silence::NotInstalled)) };
+        let center = scratch.join(format!("{name}.center"));
+        let mut child = command
+            .arg(input)
+            .arg(&center)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .with_context(|| name.to_owned())?;
+        let (Some(stdin), Some(stdout)) = (child.stdin.take(), child.stdout.take()) else {
+            bail!("{name}: no pipes");
+        };
+        let (send, lines) = channel();
+        std::thread::spawn(move || {
+            for line in BufReader::new(stdout).lines().map_while(Result::ok) {
+                if send.send(line).is_err() {
+                    break;
+                }
+            }
+        });
+        let mut peer = Peer { child, stdin, lines, center };
+        Ok(peer.line(LOADING).map(|_| peer))
+    }
+
+    /// Lets the peer solve once more.
+    pub(crate) fn solve(&mut self, limit: Duration) -> Result<Result<Answer, Silence>> {
+        #[derive(Deserialize)]
+        struct Line {
+            seconds: f64,
+            radius: Option<f64>,
+        }
+        if self.stdin.write_all(b"run\n").and_then(|()| self.stdin.flush()).is_err() {
+            return Ok(Err(Silence::Ended));
+        }
+        let text = match self.line(limit) {
+            Ok(text) => text,
+            Err(silence) => return Ok(Err(silence)),
+        };
+        // C prints NaN as a bare word, which is not JSON: such a radius is read as none.
+        let text = text.replace("-nan", "null").replace("nan", "null").replace("inf", "null");
+        let line: Line = serde_json::from_str(&text).with_context(|| text.clone())?;
+        let bytes = std::fs::read(&self.center)?;
+        let center = doubles(&bytes);
+        Ok(Ok(Answer { seconds: line.seconds, radius: line.radius.unwrap_or(f64::NAN), center }))
+    }
+
+    fn line(&mut self, limit: Duration) -> Result<String, Silence> {
+        self.lines.recv_timeout(limit).map_err(|error| match error {
+            RecvTimeoutError::Timeout => Silence::Slow(limit),
+            RecvTimeoutError::Disconnected => Silence::Ended,
+        })
+    }
+}
+
+impl Drop for Peer {
+    fn drop(&mut self) {
+        // It may still be at work; an error means that it has ended by itself.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// Little-endian doubles; bytes beyond the last whole one are none.
+fn doubles(bytes: &[u8]) -> Vec<f64> {
+    let (whole, _) = bytes.as_chunks::<8>();
+    whole.iter().map(|&bytes| f64::from_le_bytes(bytes)).collect()
+}
+
+/// Serves the crate `miniball`, whose dimension is fixed when it is compiled.
+pub(crate) fn serve_crate(input: &Path, center: &Path) -> Result<()> {
+    let bytes = std::fs::read(input)?;
+    ensure!(bytes.len() >= 16, "{}: no header of rows and columns", input.display());
+    let (head, values) = bytes.split_at(16);
+    let columns = u64::from_le_bytes(head[8..].try_into()?);
+    let values = doubles(values);
+    // A macro, as the bounds of a function generic in the dimension would be longer than its body.
+    macro_rules! serve {
+        ($($dim:literal)*) => {
+            match columns {
+                $($dim => serve_points::<OPoint<f64, Const<$dim>>>(
+                    values.chunks_exact($dim).map(OPoint::<f64, Const<$dim>>::from_slice).collect(),
+                    center,
+                    |points| {
+                        let ball = Ball::enclosing_points(points);
+                        (ball.center.coords.as_slice().to_vec(), ball.radius_squared.sqrt())
+                    },
+                ),)*
+                _ => bail!("the crate miniball was compiled for other dimensions than {columns}"),
+            }
+        };
+    }
+    serve!(2 3 10)
+}
+
+fn serve_points<P: Clone>(
+    points: VecDeque<P>,
+    path: &Path,
+    solve: impl Fn(&mut VecDeque<P>) -> (Vec<f64>, f64),
+) -> Result<()> {
+    println!("{{\"ready\":true}}");
+    for line in std::io::stdin().lines() {
+        line?;
+        // It moves support points to the front, which would make a second run on the same list a different one.
+        let mut points = points.clone();
+        let start = Instant::now();
+        let (center, radius) = solve(&mut points);
+        let seconds = start.elapsed().as_secs_f64();
+        std::fs::write(path, bytemuck::cast_slice(&center))?;
+        println!("{{\"seconds\":{seconds},\"radius\":{radius}}}");
+    }
+    Ok(())
+}
