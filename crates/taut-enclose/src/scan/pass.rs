@@ -36,6 +36,13 @@ pub(super) struct FirstReport {
     pub(super) overflow: bool,
 }
 
+/// What measuring a block shows.
+struct Measured {
+    farthest: Far,
+    /// Whether every reach is a number.
+    finite: bool,
+}
+
 /// What one block adds to the first pass.
 struct BlockReport {
     farthest: Far,
@@ -54,8 +61,8 @@ impl<'p> Pass<'p> {
     pub(super) fn run(self) -> Result<Found, Error> {
         let farthest = map_blocks(self.scan.source, self.scan.monitor, |row, rows| {
             Ok::<_, Error>(match rows {
-                Rows::F32(points) => self.block(row, &points),
-                Rows::F64(points) => self.block(row, &points),
+                Rows::F32(points) => self.block(row, &points).farthest,
+                Rows::F64(points) => self.block(row, &points).farthest,
             })
         })?;
         Ok(self.found(farthest.into_iter()))
@@ -97,9 +104,8 @@ impl<'p> Pass<'p> {
         points: &Points<'_, T>,
     ) -> Result<BlockReport, Error> {
         let rows = T::rows(*points);
-        let farthest = self.block(first_row, points);
-        // A NaN anywhere would have lost every comparison, so the coordinates themselves are asked.
-        let finite = points.values().iter().fold(true, |all, &v| all & v.into().is_finite());
+        let Measured { farthest, finite } = self.block(first_row, points);
+        // What is not finite among the coordinates makes a reach that is not; large coordinates do, too.
         if !finite && let Some((row, column, value)) = rows.first_non_finite() {
             return Err(Error::NonFinite { row: first_row + row as u64, column, value });
         }
@@ -107,16 +113,11 @@ impl<'p> Pass<'p> {
             Items::Points => None,
             Items::Balls => Some(largest_radius(first_row, points)?),
         };
-        Ok(BlockReport {
-            farthest,
-            hash: hash_block(&rows),
-            largest,
-            overflow: !farthest.reach2.is_finite(),
-        })
+        Ok(BlockReport { farthest, hash: hash_block(&rows), largest, overflow: !finite })
     }
 
-    /// The farthest item of a block; its far items are merged with those of the pass.
-    fn block<T: Scalar>(&self, first_row: u64, points: &Points<'_, T>) -> Far {
+    /// Measures a block; its far items are merged with those of the pass.
+    fn block<T: Scalar>(&self, first_row: u64, points: &Points<'_, T>) -> Measured {
         let scale = self.scan.scale;
         if scale == 1.0 {
             return self.measure(first_row, points);
@@ -129,9 +130,10 @@ impl<'p> Pass<'p> {
         )
     }
 
-    fn measure<T: Scalar>(&self, first_row: u64, points: &Points<'_, T>) -> Far {
+    fn measure<T: Scalar>(&self, first_row: u64, points: &Points<'_, T>) -> Measured {
         let query = &self.query;
         let mut farthest = Far { id: first_row, reach2: 0.0 };
+        let mut finite = true;
         let mut top = Top::new(query.keep);
         let mut by_face = TopByFace::default();
         let face_above = query.by_face_above.unwrap_or(f64::INFINITY);
@@ -143,6 +145,7 @@ impl<'p> Pass<'p> {
             if self.scan.items == Items::Balls {
                 add_radii(&part, reaches);
             }
+            finite &= all_finite(reaches);
             // Rows come in order, so what equals the bound of this block loses to the row that set it; what equals a
             // bound set by another block may still win by its number, and `Top` decides.
             let shared = f64::from_bits(self.bound.load(Ordering::Relaxed));
@@ -174,7 +177,7 @@ impl<'p> Pass<'p> {
         lists.0.merge(top);
         lists.1.merge(by_face);
         self.bound.fetch_max(lists.0.bound().to_bits(), Ordering::Relaxed);
-        farthest
+        Measured { farthest, finite }
     }
 }
 
@@ -213,6 +216,13 @@ fn largest(values: &[f64]) -> f64 {
         }
     }
     lanes.iter().chain(rest).fold(0.0, |m, &v| if v > m { v } else { m })
+}
+
+/// Whether all values are finite, without a branch for each.
+fn all_finite(values: &[f64]) -> bool {
+    // A value less itself is 0, or NaN if it is infinite or NaN; zeros of either sign have no bits but the sign.
+    let bits = values.iter().fold(0, |bits, v| bits | (v - v).to_bits());
+    bits << 1 == 0
 }
 
 /// The face of the cube around the centre towards which a row lies.
