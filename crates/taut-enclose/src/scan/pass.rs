@@ -220,8 +220,8 @@ fn largest(values: &[f64]) -> f64 {
 
 /// Whether all values are finite, without a branch for each.
 fn all_finite(values: &[f64]) -> bool {
-    // A value less itself is 0, or NaN if it is infinite or NaN; zeros of either sign have no bits but the sign.
-    let bits = values.iter().fold(0, |bits, v| bits | (v - v).to_bits());
+    // Times 0 a value is 0, or NaN if it is infinite or NaN; zeros of either sign have no bits but the sign.
+    let bits = values.iter().fold(0, |bits, v| bits | (v * 0.0).to_bits());
     bits << 1 == 0
 }
 
