@@ -38,7 +38,7 @@ pub(crate) struct Args {
     /// Far points taken to the core-set per pass, by core-set; at least 1 [default: by dimension]
     #[arg(long, value_name = "N")]
     batch: Option<usize>,
-    /// Most reads of all points, at least 2; then the best ball so far is given with its gap
+    /// Most reads of all points, at least 3; then the best ball so far is given with its gap
     #[arg(long, value_name = "N", default_value_t = BallOptions::default().max_passes)]
     max_passes: u64,
     /// Chooses the point from which the thesis' methods start

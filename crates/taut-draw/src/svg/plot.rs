@@ -150,10 +150,13 @@ fn hover(name: String, value: &[f64; 2], at: [f64; 2]) -> Hover {
 struct Ruler {
     scale: Scale,
     span: Span,
+    /// Whether all values are whole numbers: then so are the ticks, as half a pass says nothing.
+    whole: bool,
 }
 
 impl Ruler {
     fn new(scale: Scale, values: impl Iterator<Item = f64> + Clone, pixels: [f64; 2]) -> Self {
+        let whole = values.clone().all(|v| v.fract() == 0.0);
         let (unit, [low, high]) = match scale {
             Scale::Linear => {
                 let unit = unit(values.clone());
@@ -173,7 +176,7 @@ impl Ruler {
                 (1.0, padded(low, high, 0.03))
             }
         };
-        Ruler { scale, span: Span { unit, low, high, pixels } }
+        Ruler { scale, span: Span { unit, low, high, pixels }, whole }
     }
 
     /// The pixel of a number; none for what is not finite.
@@ -195,6 +198,10 @@ impl Ruler {
 
     fn ticks(&self, most: usize) -> Ticks {
         match self.scale {
+            Scale::Linear if self.whole => {
+                let width = (self.span.high - self.span.low) * self.span.unit;
+                linear(&self.span, most.min((width as usize).max(1)))
+            }
             Scale::Linear => linear(&self.span, most),
             Scale::Log => logarithmic(&self.span, most),
         }

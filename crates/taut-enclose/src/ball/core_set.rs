@@ -49,6 +49,8 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
     }
     let mut set = empty_set(scan, middle)?;
     let mut outcome = Outcome::new();
+    let upper = found.farthest.reach2.sqrt();
+    outcome.bounds(PassBounds { lower: 0.0, upper, working_set: 0 });
     // Two at least, as one alone proves no lower bound.
     add(&mut set, scan, found.far.iter().map(|far| far.id), batch.max(2))?;
     let mut active = ActiveSet::new(&set, found.farthest.reach2);
