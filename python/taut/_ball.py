@@ -38,7 +38,7 @@ def ball(
         the literature it grew from, kept so that their tables can be rerun.
     batch : int >= 1, optional
         Far points taken to the core-set per pass, by "core-set"; by default chosen by dimension.
-    max_passes : int >= 2, default 1,000,000
+    max_passes : int >= 3, default 1,000,000
         Reads of all points before the best ball so far is returned with its gap.
     threads : int >= 1, optional
         Threads to use, by default all cores. The answer does not depend on it.

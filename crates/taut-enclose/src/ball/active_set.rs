@@ -31,6 +31,8 @@ pub(super) const TOLERANCE: f64 = 1e-13;
 const DEPENDENT: f64 = 1e-11;
 /// Below this part the squared distance is worked out again from the coordinates.
 const SUSPECT: f64 = 1e-5;
+/// Unevenness of f on the support, in units of the tolerance, beyond which the factor itself is doubted.
+const MUCH_UNEVEN: f64 = 100.0;
 /// Deletions after which the factor is rebuilt.
 const REBUILD_AFTER: u32 = 400;
 /// Products beyond which the sweep over the Gram matrix is shared between threads.
@@ -116,10 +118,14 @@ impl ActiveSet {
         let mut entered: Vec<usize> = vec![];
         let mut barred = vec![false; set.len()];
         let mut rebuilt = false;
+        let mut attempts = 0;
         loop {
             monitor.check()?;
             let f = self.values(set);
             let value = dot(&self.lambda, &self.support.iter().map(|&i| f[i]).collect::<Vec<_>>());
+            if self.level_out(set, &f, value, &mut attempts) {
+                continue;
+            }
             if value > best {
                 best = value;
                 entered.clear();
@@ -136,6 +142,7 @@ impl ActiveSet {
             }
             let Some(next) = self.violator(set, &f, value, &barred) else { return Ok(()) };
             entered.push(next);
+            attempts = 0;
             self.pivots += 1;
             if self.enter(set, next) {
                 self.settle(set);
@@ -162,21 +169,68 @@ impl ActiveSet {
         (0..k).map(|i| self.b(set, i) - 2.0 * product[i] + norm2).collect()
     }
 
+    /// By how much fᵢ may exceed the level before item i violates the ball.
+    fn slack(&self, set: &WorkingSet, i: usize, level: f64) -> f64 {
+        match set.radius_offset() {
+            0.0 => TOLERANCE * level,
+            // An excess δ of the reach is about 2δ(R − r) of f: ask for the same δ/R as for points.
+            offset => TOLERANCE * (self.radius - set.radius(i)) * (self.radius + offset),
+        }
+    }
+
+    /// At a stationary point f is the same on all of the support. Where it is not, because the support was nearly
+    /// dependent for a while and the factor has lost digits, violators would hide behind the largest f: correct λ, or
+    /// rebuild the factor. Says whether λ has changed; `attempts` counts what was done for this support.
+    fn level_out(&mut self, set: &WorkingSet, f: &[f64], value: f64, attempts: &mut u32) -> bool {
+        let uneven = self.support.iter().map(|&i| (f[i] - value).abs() / self.slack(set, i, value));
+        let uneven = uneven.fold(0.0, f64::max);
+        let much = uneven > MUCH_UNEVEN;
+        *attempts += 1;
+        match *attempts {
+            1 if uneven > 1.0 => self.correct(f),
+            2 if much => {
+                self.rebuild(set);
+                self.settle(set);
+                true
+            }
+            3 if much => self.correct(f),
+            _ => false,
+        }
+    }
+
+    /// Moves λ so that what is uneven in f on the support evens out; false, and nothing is done, if that would make a
+    /// multiplier negative.
+    fn correct(&mut self, f: &[f64]) -> bool {
+        let halves: Vec<f64> = self.support.iter().map(|&i| f[i] / 2.0).collect();
+        self.correct_by(halves)
+    }
+
+    /// The same from fᵢ/2 in the order of the support.
+    fn correct_by(&mut self, mut halves: Vec<f64>) -> bool {
+        let mean = halves.iter().sum::<f64>() / halves.len() as f64;
+        halves.iter_mut().for_each(|v| *v -= mean);
+        let mut lambda = self.factor.correction(&halves);
+        add_scaled(&mut lambda, 1.0, &self.lambda);
+        let convex = lambda.iter().all(|&l| l > 0.0);
+        if convex {
+            self.lambda = lambda;
+        }
+        convex
+    }
+
     /// The item with the largest f among those outside the support that violate the ball; ties to the lower position.
     fn violator(&self, set: &WorkingSet, f: &[f64], value: f64, barred: &[bool]) -> Option<usize> {
         let level = self.support.iter().map(|&i| f[i]).fold(value, f64::max);
-        let whole = self.radius + set.radius_offset();
-        let slack = |i: usize| match set.radius_offset() {
-            0.0 => TOLERANCE * level,
-            // An excess δ of the reach is about 2δ(R − r) of f: ask for the same δ/R as for points.
-            _ => TOLERANCE * (self.radius - set.radius(i)) * whole,
-        };
         let mut inside = vec![false; f.len()];
         self.support.iter().for_each(|&i| inside[i] = true);
         let mut found = None;
         let mut largest = f64::NEG_INFINITY;
         for i in 0..f.len() {
-            if f[i] > largest && !inside[i] && !barred[i] && f[i] > level + slack(i) {
+            if f[i] > largest
+                && !inside[i]
+                && !barred[i]
+                && f[i] > level + self.slack(set, i, level)
+            {
                 largest = f[i];
                 found = Some(i);
             }
@@ -295,13 +349,7 @@ impl ActiveSet {
             let r = set.radius(i);
             *value = (*value + (2.0 * self.radius - r) * r) / 2.0;
         }
-        let mean = halves.iter().sum::<f64>() / halves.len() as f64;
-        halves.iter_mut().for_each(|v| *v -= mean);
-        let correction = self.factor.correction(&halves);
-        let corrected: Vec<f64> = self.lambda.iter().zip(&correction).map(|(l, d)| l + d).collect();
-        if corrected.iter().all(|&l| l > 0.0) {
-            self.lambda = corrected;
-        }
+        self.correct_by(halves);
         // What solving left beside 1 is more than the certificate may state.
         let sum: f64 = self.lambda.iter().sum();
         self.lambda.iter_mut().for_each(|l| *l /= sum);

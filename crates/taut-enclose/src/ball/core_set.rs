@@ -26,9 +26,12 @@ use super::working_set::WorkingSet;
 use crate::Error;
 use crate::kernel::{Center, relative_error};
 use crate::scan::{Query, Scan};
+use crate::top::Far;
 
 /// Largest batch that doubling reaches.
 const BATCH_MAX: usize = 1024;
+/// A gap that ε = 0 is content with: what the tolerance leaves open, with room for sums over many coordinates.
+pub(super) const ROUNDING: f64 = 10.0 * TOLERANCE;
 /// Smallest batch of which the share that entered the support says anything.
 const TELLING_BATCH: usize = 16;
 
@@ -78,21 +81,25 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
         let found = scan.farthest(Query { center: &center, above, keep, by_face_above })?;
         let upper = found.farthest.reach2.sqrt();
         outcome.bounds(PassBounds { lower: radius, upper, working_set: set.len() as u64 });
-        let violators: Vec<u64> = if by_face { &found.by_face } else { &found.far }
-            .iter()
-            .filter(|far| far.reach2 > violating && !set.contains(far.id))
-            .map(|far| far.id)
-            .collect();
+        let new = |far: &[Far]| -> Vec<u64> {
+            let violators =
+                far.iter().filter(|far| far.reach2 > violating && !set.contains(far.id));
+            violators.map(|far| far.id).collect()
+        };
+        let mut violators = new(&found.by_face);
+        if violators.is_empty() {
+            violators = new(&found.far);
+        }
         let gap = if upper == 0.0 { 0.0 } else { upper / radius - 1.0 };
         outcome.offer(gap, || {
             let support = active.support().iter().map(|&i| set.id(i)).collect();
             (support, active.lambda().to_vec(), center, found)
         });
-        outcome.stop = if gap <= options.epsilon && (options.epsilon > 0.0 || violators.is_empty())
-        {
+        let wanted = if options.epsilon > 0.0 { options.epsilon } else { ROUNDING };
+        outcome.stop = if gap <= wanted && (options.epsilon > 0.0 || violators.is_empty()) {
             Some(Stop::Converged)
         } else if violators.is_empty() {
-            Some(if options.epsilon == 0.0 { Stop::Converged } else { Stop::Rounding })
+            Some(Stop::Rounding)
         } else if scan.passes() >= options.max_passes && radius > 0.0 {
             Some(Stop::PassBudget)
         } else {

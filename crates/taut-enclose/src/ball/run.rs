@@ -6,15 +6,12 @@
 use taut_certify::{Items, PassBounds, Stop};
 
 use super::BallOptions;
-use super::core_set::lower_bound;
+use super::core_set::{ROUNDING, lower_bound};
 use super::outcome::Outcome;
 use super::working_set::WorkingSet;
 use crate::Error;
 use crate::kernel::{Center, relative_error};
 use crate::scan::{Query, Scan};
-
-/// Gap at which ε = 0 counts as reached: what the default method calls rounding.
-const ROUNDING: f64 = super::active_set::TOLERANCE;
 
 /// A method at work.
 pub(super) struct Run<'s, 'a> {
