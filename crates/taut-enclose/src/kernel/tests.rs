@@ -40,8 +40,14 @@ fn check<T: Scalar>(dim: usize, stride: usize, rows: usize, offset: f64, two_ter
 
 #[test]
 fn squared_distances_agree_with_double_double() {
-    for dim in (1..40).chain([63, 64, 65, 95, 96, 97, 100, 127, 129, 1000]) {
-        for rows in [1, 7, 8, 9, 16] {
+    // Under Miri, which is ten thousand times slower, one of each kind of row.
+    let dims: Vec<usize> = match cfg!(miri) {
+        true => vec![1, 3, 8, 13, 97, 131],
+        false => (1..40).chain([63, 64, 65, 95, 96, 97, 100, 127, 129, 1000]).collect(),
+    };
+    let counts: &[usize] = if cfg!(miri) { &[1, 9] } else { &[1, 7, 8, 9, 16] };
+    for dim in dims {
+        for &rows in counts {
             check::<f64>(dim, dim, rows, 0.0, false);
             check::<f32>(dim, dim, rows, 0.0, false);
             check::<f64>(dim, dim + 1, rows, 0.0, false);
