@@ -1,4 +1,7 @@
-//! The minimum enclosing ball of points or of balls.
+//! The minimum enclosing ball of points or of balls: one problem, one certificate, four methods.
+//!
+//! A method ([`core_set`], [`thesis`], [`badoiu_clarkson`]) ends with convex multipliers and the pass made from the
+//! centre they mean ([`outcome`]); [`proof`] turns that into an answer and its certificate, whatever the method was.
 
 mod active_set;
 mod badoiu_clarkson;
@@ -19,10 +22,31 @@ use crate::Error;
 use crate::scan::Scan;
 pub use options::{BallMethod, BallOptions};
 
-/// The smallest ball that encloses `points`.
+/// The smallest ball that encloses `points`, n × d.
+///
+/// The answer holds every point exactly, and its certificate proves that no ball of radius R/(1 + gap) does. The gap is
+/// at most [`BallOptions::epsilon`] unless [`Trace::stop`](taut_certify::Trace::stop) says why not. Duplicates, points
+/// in a subspace or on one sphere, and fewer points than dimensions are solved as any others.
+///
+/// *Cost* of the default method: a few passes of O(nd) (three to five on ordinary data, more on cospherical points),
+/// beside O(k²d) for a core-set of k points and O(k²) for each of its steps; memory O(k² + kd) beside the points.
+///
+/// *Source.* Dual active set on a core-set; see the head of the method's module for the papers.
+///
+/// ```
+/// use taut_enclose::{BallOptions, ball};
+///
+/// let corners = [0.0f32, 0.0, 3.0, 0.0, 0.0, 4.0];
+/// let points = taut_points::Points::new(&corners, 2)?;
+/// let found = ball(&points, &BallOptions { epsilon: 0.0, ..Default::default() })?;
+/// assert_eq!(found.answer.center, [1.5, 2.0]);
+/// assert_eq!(found.answer.radius, 2.5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::NonFinite`], [`Error::Overflow`], [`Error::Option`].
+/// [`Error::Empty`], [`Error::NonFinite`], [`Error::Overflow`], [`Error::Option`]; [`Error::Conic`] from the methods
+/// that use a conic solver.
 pub fn ball<T: Scalar>(
     points: &Points<'_, T>,
     options: &BallOptions,
@@ -30,7 +54,9 @@ pub fn ball<T: Scalar>(
     ball_of_source(points, Items::Points, options, &Monitor::silent())
 }
 
-/// The smallest ball that encloses balls, given as rows of d coordinates of the centre and the radius.
+/// The smallest ball that encloses balls, given as rows of d coordinates of the centre and the radius, n × (d + 1).
+///
+/// Promise, cost and degenerate cases are those of [`ball()`]; a ball of radius 0 is a point.
 ///
 /// # Errors
 /// As [`ball()`], and [`Error::NoRadius`], [`Error::NegativeRadius`].
@@ -41,7 +67,10 @@ pub fn ball_of_balls<T: Scalar>(
     ball_of_source(balls, Items::Balls, options, &Monitor::silent())
 }
 
-/// The smallest ball that encloses the items of a source of any size.
+/// The smallest ball that encloses the items of a source of any size, in memory or not.
+///
+/// One block for each thread is held at a time, beside the core-set; the answer is the same, bit by bit, for every
+/// medium the rows come from. `monitor` hears of each pass and can stop the work between two blocks or two steps.
 ///
 /// # Errors
 /// As [`ball_of_balls()`], and [`Error::Read`] when the source fails or `monitor` stops the work.
