@@ -10,7 +10,7 @@ use crate::kernel::vector::{add_scaled, dot, rotate};
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Factor {
-    /// Row i holds R[i][i..s].
+    /// Row i holds `R[i][i..s]`.
     rows: Vec<Vec<f64>>,
     w_b: Vec<f64>,
     w_1: Vec<f64>,
@@ -23,7 +23,7 @@ impl Factor {
         self.w_1.clear();
     }
 
-    /// The smallest R[i][i]²: how near the support is to affine dependence.
+    /// The smallest `R[i][i]`²: how near the support is to affine dependence.
     pub(super) fn smallest_pivot(&self) -> f64 {
         self.rows.iter().map(|row| row[0] * row[0]).fold(f64::INFINITY, f64::min)
     }
