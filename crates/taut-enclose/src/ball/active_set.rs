@@ -33,6 +33,14 @@ const DEPENDENT: f64 = 1e-11;
 const SUSPECT: f64 = 1e-5;
 /// Unevenness of f on the support, in units of the tolerance, beyond which the factor itself is doubted.
 const MUCH_UNEVEN: f64 = 100.0;
+/// Products beyond which a sweep over the Gram matrix costs more than a step, so that each is used for several steps.
+const LARGE_SWEEP: usize = 1 << 16;
+/// Violators that are looked at again between two sweeps.
+const SHORTLIST: usize = 32;
+/// One of them is taken while it exceeds the level by this part of what the worst did at the sweep. Measured on cube
+/// vertices and noisy spheres, d = 300 to 1500: sweeps fall to a third or less, and total time by a third to a half;
+/// without this limit noisy spheres take twice the steps, as what is taken early is dropped again.
+const ENOUGH: f64 = 0.8;
 /// Deletions after which the factor is rebuilt.
 const REBUILD_AFTER: u32 = 400;
 /// Products beyond which the sweep over the Gram matrix is shared between threads.
@@ -149,7 +157,70 @@ impl ActiveSet {
             } else {
                 barred[next] = true;
             }
+            if set.len() * self.support.len() >= LARGE_SWEEP {
+                let others = self.worst_violators(set, &f, value, next, &barred);
+                self.enter_some_of(set, others, f[next] - value, &mut entered);
+            }
         }
+    }
+
+    /// Violators other than the one just taken, the worst first, at most [`SHORTLIST`].
+    fn worst_violators(
+        &self,
+        set: &WorkingSet,
+        f: &[f64],
+        value: f64,
+        taken: usize,
+        barred: &[bool],
+    ) -> Vec<usize> {
+        let violates =
+            |&i: &usize| i != taken && !barred[i] && f[i] > value + self.slack(set, i, value);
+        let mut list: Vec<usize> = (0..f.len()).filter(violates).collect();
+        list.sort_unstable_by(|&i, &j| f[j].total_cmp(&f[i]).then(i.cmp(&j)));
+        list.truncate(SHORTLIST);
+        list.retain(|i| !self.support.contains(i));
+        list
+    }
+
+    /// Takes items of a short list to the support, the worst violator of the moment first, each at most once: between
+    /// two sweeps over the whole Gram matrix, which would cost more than everything else, only a few rows are read.
+    /// `excess` is by how much the worst of all exceeded the level at the last sweep.
+    fn enter_some_of(
+        &mut self,
+        set: &WorkingSet,
+        mut list: Vec<usize>,
+        excess: f64,
+        entered: &mut Vec<usize>,
+    ) {
+        let mut lambda = vec![0.0; set.len()];
+        while !list.is_empty() {
+            lambda.fill(0.0);
+            self.support.iter().zip(&self.lambda).for_each(|(&i, &l)| lambda[i] = l);
+            let (level, norm2) = self.level(set);
+            let f = |i: usize| self.b(set, i) - 2.0 * dot(set.gram_row(i), &lambda) + norm2;
+            let worst =
+                list.iter().map(|&i| (i, f(i))).reduce(|a, b| if b.1 > a.1 { b } else { a });
+            let Some((next, f)) = worst else { return };
+            if f <= level + self.slack(set, next, level).max(ENOUGH * excess) {
+                return;
+            }
+            list.retain(|&i| i != next);
+            entered.push(next);
+            self.pivots += 1;
+            if self.enter(set, next) {
+                self.settle(set);
+            }
+        }
+    }
+
+    /// The common value of f on the support at its stationary point, and |c|²; from (As)ᵢ = bᵢ/2 + ν both follow
+    /// without a look at the Gram matrix.
+    fn level(&self, set: &WorkingSet) -> (f64, f64) {
+        let nu = self.factor.multiplier();
+        let half: f64 =
+            self.support.iter().zip(&self.lambda).map(|(&i, l)| l * self.b(set, i)).sum::<f64>()
+                / 2.0;
+        (half + self.sigma - nu, half + nu - self.sigma)
     }
 
     /// fᵢ of every item: its squared distance from c, for balls with the terms of the radii.

@@ -92,10 +92,14 @@ impl Factor {
     /// The affine combination of the support whose point has equal b-distance to all of it: the stationary point of
     /// the dual on the affine hull. ν = (1 − w_1·w_b)/|w_1|², then Rs = w_b + νw_1.
     pub(super) fn stationary(&self) -> Vec<f64> {
-        let nu = (1.0 - dot(&self.w_1, &self.w_b)) / dot(&self.w_1, &self.w_1);
         let mut right = self.w_b.clone();
-        add_scaled(&mut right, nu, &self.w_1);
+        add_scaled(&mut right, self.multiplier(), &self.w_1);
         self.back(&right)
+    }
+
+    /// ν of the stationary point s: As = b/2 + ν1.
+    pub(super) fn multiplier(&self) -> f64 {
+        (1.0 - dot(&self.w_1, &self.w_b)) / dot(&self.w_1, &self.w_1)
     }
 
     /// x with Ax = v + ν1 and Σx = 0: the correction of multipliers that evens out v.
