@@ -9,8 +9,8 @@
 //! direction until a multiplier is zero.
 //! *Guarantee.* The value never falls. Pivots are about |S| and a few on ordinary data.
 //! *Trap.* On near-copies of points, rounding can make pairs swap for ever. When the value has not risen since the
-//! last entry, the factor is rebuilt; when that does not help, the items entered since the last rise are barred until
-//! it rises again. Choosing the least index instead (Bland's rule) takes eight times the pivots on cube vertices.
+//! last entry, the factor is rebuilt; when that does not help, items that keep entering in vain are barred until it
+//! rises again. Choosing the least index instead (Bland's rule) takes eight times the pivots on cube vertices.
 //! *Balls.* For a fixed R, minimising maxᵢ |c − cᵢ|² + 2Rrᵢ − rᵢ² is the same problem with another b; see
 //! [`super::core_set`] for the steps in R.
 //! *Reference.* Active sets on this dual: Gärtner and Schönherr, SoCG 2000; Fischer, Gärtner and Kutz, ESA 2003, walk
@@ -41,6 +41,9 @@ const SHORTLIST: usize = 32;
 /// vertices and noisy spheres, d = 300 to 1500: sweeps fall to a third or less, and total time by a third to a half;
 /// without this limit noisy spheres take twice the steps, as what is taken early is dropped again.
 const ENOUGH: f64 = 0.8;
+/// An item that entered so often without the value rising is barred until it rises. Once is too strict: near the end of
+/// a flat dual the value stands still while steps still move the centre, and gaps of 1e-10 stay behind.
+const VAIN_ENTRIES: u32 = 3;
 /// Deletions after which the factor is rebuilt.
 const REBUILD_AFTER: u32 = 400;
 /// Products beyond which the sweep over the Gram matrix is shared between threads.
@@ -124,7 +127,7 @@ impl ActiveSet {
     ) -> Result<(), Cancelled> {
         let mut best = f64::NEG_INFINITY;
         let mut entered: Vec<usize> = vec![];
-        let mut barred = vec![false; set.len()];
+        let mut vain = vec![0; set.len()];
         let mut rebuilt = false;
         let mut attempts = 0;
         loop {
@@ -137,7 +140,7 @@ impl ActiveSet {
             if value > best {
                 best = value;
                 entered.clear();
-                barred.fill(false);
+                vain.fill(0);
                 rebuilt = false;
             } else if !rebuilt {
                 self.stalls += 1;
@@ -146,19 +149,19 @@ impl ActiveSet {
                 rebuilt = true;
                 continue;
             } else {
-                entered.drain(..).for_each(|i| barred[i] = true);
+                entered.drain(..).for_each(|i| vain[i] += 1);
             }
-            let Some(next) = self.violator(set, &f, value, &barred) else { return Ok(()) };
+            let Some(next) = self.violator(set, &f, value, &vain) else { return Ok(()) };
             entered.push(next);
             attempts = 0;
             self.pivots += 1;
             if self.enter(set, next) {
                 self.settle(set);
             } else {
-                barred[next] = true;
+                vain[next] = VAIN_ENTRIES;
             }
             if set.len() * self.support.len() >= LARGE_SWEEP {
-                let others = self.worst_violators(set, &f, value, next, &barred);
+                let others = self.worst_violators(set, &f, value, next, &vain);
                 self.enter_some_of(set, others, f[next] - value, &mut entered);
             }
         }
@@ -171,10 +174,11 @@ impl ActiveSet {
         f: &[f64],
         value: f64,
         taken: usize,
-        barred: &[bool],
+        vain: &[u32],
     ) -> Vec<usize> {
-        let violates =
-            |&i: &usize| i != taken && !barred[i] && f[i] > value + self.slack(set, i, value);
+        let violates = |&i: &usize| {
+            i != taken && vain[i] < VAIN_ENTRIES && f[i] > value + self.slack(set, i, value)
+        };
         let mut list: Vec<usize> = (0..f.len()).filter(violates).collect();
         list.sort_unstable_by(|&i, &j| f[j].total_cmp(&f[i]).then(i.cmp(&j)));
         list.truncate(SHORTLIST);
@@ -290,7 +294,7 @@ impl ActiveSet {
     }
 
     /// The item with the largest f among those outside the support that violate the ball; ties to the lower position.
-    fn violator(&self, set: &WorkingSet, f: &[f64], value: f64, barred: &[bool]) -> Option<usize> {
+    fn violator(&self, set: &WorkingSet, f: &[f64], value: f64, vain: &[u32]) -> Option<usize> {
         let level = self.support.iter().map(|&i| f[i]).fold(value, f64::max);
         let mut inside = vec![false; f.len()];
         self.support.iter().for_each(|&i| inside[i] = true);
@@ -299,7 +303,7 @@ impl ActiveSet {
         for i in 0..f.len() {
             if f[i] > largest
                 && !inside[i]
-                && !barred[i]
+                && vain[i] < VAIN_ENTRIES
                 && f[i] > level + self.slack(set, i, level)
             {
                 largest = f[i];
