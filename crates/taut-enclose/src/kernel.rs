@@ -21,7 +21,7 @@ mod x86;
 
 use taut_points::Scalar;
 
-pub(crate) use exact::{DoubleDouble, exact_squared_distance, is_within};
+pub(crate) use exact::{Difference, DoubleDouble};
 use lanes::{Lanes, eight_rows, one_row, one_short_row};
 
 /// Up to this many coordinates eight rows are taken together. Beyond, eight streams of memory are more than the

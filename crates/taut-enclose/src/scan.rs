@@ -4,8 +4,9 @@
 //! under a total order, so it does not depend on how threads meet them. The first pass also hashes the points and
 //! refuses coordinates that are not finite.
 //! *Scale.* Squares overflow beyond 1e154 and vanish below 1e-162. When the first pass finds itself near either end,
-//! all later reads multiply by an exact power of two that brings the points to about 1. Centres, reaches and rows
-//! that leave this module are in those units; [`Scan::scale`] says which.
+//! all later reads multiply by an exact power of two that brings distances to about 1, after taking away a fixed
+//! point where coordinates are so large beside their differences that they would overflow. Centres, reaches
+//! and rows that leave this module are in those units; [`Scan::scale`] says which, and [`Scan::outside`] leads back.
 
 mod pass;
 
@@ -14,7 +15,7 @@ use taut_points::{Monitor, PointSource, PointsHash, gather, map_blocks};
 
 use self::pass::Pass;
 use crate::Error;
-use crate::kernel::Center;
+use crate::kernel::{Center, DoubleDouble};
 use crate::top::Far;
 
 /// Rows of the sample whose mean is the origin of a solver's calculations.
@@ -53,6 +54,8 @@ pub(crate) struct Scan<'a> {
     monitor: &'a Monitor<'a>,
     dim: usize,
     scale: f64,
+    /// What is taken from coordinates before they are scaled, if anything.
+    shift: Vec<f64>,
     passes: u64,
     hash: Option<PointsHash>,
     largest: Option<Far>,
@@ -72,7 +75,17 @@ impl<'a> Scan<'a> {
             return Err(Error::Empty);
         }
         let dim = items.dim(source.dim());
-        Ok(Scan { source, items, monitor, dim, scale: 1.0, passes: 0, hash: None, largest: None })
+        Ok(Scan {
+            source,
+            items,
+            monitor,
+            dim,
+            scale: 1.0,
+            shift: vec![],
+            passes: 0,
+            hash: None,
+            largest: None,
+        })
     }
 
     /// Dimension of the space.
@@ -150,11 +163,15 @@ impl<'a> Scan<'a> {
     fn sample_mean(&self) -> Result<Center, Error> {
         let count = SAMPLE.min(self.len());
         let ids: Vec<u64> = (0..count).map(|k| k * (self.len() / count)).collect();
-        let mut mean = vec![0.0; self.dim];
-        for row in gather(self.source, &ids)?.chunks_exact(self.source.dim()) {
-            for (mean, value) in mean.iter_mut().zip(row) {
-                // Divided first, so that the sum cannot overflow.
-                *mean += value / count as f64 * self.scale;
+        let rows = self.rows(&ids)?;
+        let columns = self.source.dim();
+        let first = &rows[..self.dim];
+        let mut mean = first.to_vec();
+        for row in rows.chunks_exact(columns) {
+            for ((mean, value), first) in mean.iter_mut().zip(row).zip(first) {
+                // Divided first, so that the sum cannot overflow; from the first row on, so that the mean of equal
+                // coordinates is that coordinate, to the last bit.
+                *mean += value / count as f64 - first / count as f64;
             }
         }
         Ok(Center { high: mean, low: vec![] })
@@ -166,34 +183,91 @@ impl<'a> Scan<'a> {
         let dim = self.dim;
         let spreads = map_blocks(self.source, self.monitor, |_, rows| {
             let mut row = vec![0.0; self.source.dim()];
-            let mut largest = 0.0f64;
+            let (mut spread, mut largest) = (0.0f64, 0.0f64);
             for i in 0..rows.len() {
                 rows.copy_row(i, &mut row);
                 for (x, c) in row.iter().zip(&center.high) {
                     // May overflow to ∞, which asks for the same scale as the largest number.
-                    largest = largest.max((x - c).abs());
+                    spread = spread.max((x - c).abs());
+                    largest = largest.max(x.abs());
                 }
                 if self.items == Items::Balls {
-                    largest = largest.max(row[dim]);
+                    spread = spread.max(row[dim]);
                 }
             }
-            Ok::<_, Error>(largest)
+            Ok::<_, Error>((spread, largest))
         })?;
-        let spread = spreads.into_iter().fold(0.0, f64::max);
+        let spread = spreads.iter().map(|s| s.0).fold(0.0, f64::max);
+        let largest = spreads.iter().map(|s| s.1).fold(0.0, f64::max);
         if spread == 0.0 {
             return Ok(false);
         }
         self.scale = 2f64.powi((-exponent(spread)).clamp(-1000, 1000));
+        if exponent(largest) > SAFE_EXPONENT + exponent(spread) {
+            self.shift = center.high.clone();
+        }
         Ok(true)
     }
 
     /// The rows with the given numbers, in the units of this scan: n × d, or n × (d + 1) with the radius.
     pub(crate) fn rows(&self, ids: &[u64]) -> Result<Vec<f64>, Error> {
-        let mut rows = gather(self.source, ids)?;
-        if self.scale != 1.0 {
-            rows.iter_mut().for_each(|v| *v *= self.scale);
-        }
+        let mut rows = self.rows_as_given(ids)?;
+        self.scale_rows(&mut rows);
         Ok(rows)
+    }
+
+    /// The rows with the given numbers, as they are in the source.
+    pub(crate) fn rows_as_given(&self, ids: &[u64]) -> Result<Vec<f64>, Error> {
+        Ok(gather(self.source, ids)?)
+    }
+
+    /// Brings rows to the units of this scan.
+    fn scale_rows(&self, rows: &mut [f64]) {
+        if self.scale == 1.0 {
+            return;
+        }
+        for row in rows.chunks_exact_mut(self.source.dim()) {
+            row.iter_mut().zip(&self.shift).for_each(|(v, shift)| *v -= shift);
+            row.iter_mut().for_each(|v| *v *= self.scale);
+        }
+    }
+
+    /// A centre in the units of this scan as one or two terms in those of the source.
+    pub(crate) fn outside(&self, center: &Center) -> Center {
+        if self.scale == 1.0 {
+            return center.clone();
+        }
+        let mut outside = Center { high: vec![], low: vec![] };
+        for (j, &high) in center.high.iter().enumerate() {
+            let low = center.low.get(j).copied().unwrap_or(0.0);
+            let shift = self.shift.get(j).copied().unwrap_or(0.0);
+            let sum = DoubleDouble::sum(high / self.scale, low / self.scale).add(shift.into());
+            outside.high.push(sum.high);
+            outside.low.push(sum.low);
+        }
+        if outside.low.iter().all(|&low| low == 0.0) {
+            outside.low.clear();
+        }
+        outside
+    }
+
+    /// A centre in the units of the source, brought to those of this scan; the inverse of [`outside`](Self::outside).
+    pub(crate) fn inside(&self, center: &Center) -> Center {
+        if self.scale == 1.0 {
+            return center.clone();
+        }
+        let mut inside = Center { high: vec![], low: vec![] };
+        for (j, &high) in center.high.iter().enumerate() {
+            let low = center.low.get(j).copied().unwrap_or(0.0);
+            let shift = self.shift.get(j).copied().unwrap_or(0.0);
+            let sum = DoubleDouble::sum(high, -shift).add(low.into());
+            inside.high.push(sum.high * self.scale);
+            inside.low.push(sum.low * self.scale);
+        }
+        if inside.low.iter().all(|&low| low == 0.0) {
+            inside.low.clear();
+        }
+        inside
     }
 }
 

@@ -432,3 +432,26 @@ fn every_batch_gives_the_same_ball() {
         assert_eq!(found.certificate.support, wanted.certificate.support);
     }
 }
+
+#[test]
+fn columns_of_very_different_sizes() {
+    let normal: Vec<f64> =
+        taut_points::generate(taut_points::Distribution::Normal, 60, 3, 8).unwrap();
+    // One column constant or almost, the others far smaller than what it could tell apart.
+    let with_first = |first: f64, scale: f64| -> Vec<f64> {
+        normal.chunks_exact(3).flat_map(|p| [first, p[1] * scale, p[2] * scale]).collect()
+    };
+    let cases: [(&str, usize, Vec<f64>); 8] = [
+        ("a large constant beside the smallest", 2, vec![1e9, 1e-305, 1e9, 2e-305]),
+        ("a tenth beside 1e-25", 3, with_first(0.3, 1e-25)),
+        ("1e300 beside 1e-200", 3, with_first(1e300, 1e-200)),
+        ("1e300 beside 1e-300", 3, with_first(1e300, 1e-300)),
+        ("-1e9 beside 1e-160", 3, with_first(-1e9, 1e-160)),
+        ("far apart and a little aside", 2, vec![1e70, 0.0, -1e70, 1e-300]),
+        ("a corner", 2, vec![1e200, 0.0, -1e200, 1e-160, 0.0, 1e200]),
+        ("the ends of the range", 2, vec![1e300, 0.0, -1e300, 1e-100]),
+    ];
+    for (name, dim, values) in cases {
+        exact(name, &values, dim, 1e-13);
+    }
+}

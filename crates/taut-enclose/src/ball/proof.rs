@@ -7,11 +7,13 @@
 //! [`super::core_set`]. Nothing is taken from the solver's state.
 
 use taut_certify::{Ball, BallCertificate, Items, PassBounds, Solution, Stop, Trace};
+use taut_points::ReadError;
 
 use super::BallOptions;
+use super::core_set::ROUNDING;
 use super::outcome::{Candidate, Outcome};
 use crate::Error;
-use crate::kernel::{Center, DoubleDouble, exact_squared_distance, is_within, relative_error};
+use crate::kernel::{Center, Difference, DoubleDouble, relative_error};
 use crate::scan::{Query, Scan};
 
 pub(super) fn prove(
@@ -21,22 +23,27 @@ pub(super) fn prove(
 ) -> Result<Solution<Ball>, Error> {
     let (mut best, outcome) = outcome.into_best();
     sort_by_id(&mut best);
-    settle_center(scan, &mut best)?;
-    let rows = scan.rows(&best.support)?;
-    let upper = upper_bound(scan, &best)?;
-    let lower = lower_bound(scan, &best, &rows);
-    let scale = scan.scale();
-    let radius = unscale_up(upper, scale);
-    if !radius.is_finite() || best.center.high.iter().any(|c| !(c / scale).is_finite()) {
+    let center = settle_center(scan, &mut best)?;
+    if center.high.iter().any(|c| !c.is_finite()) {
         return Err(Error::Overflow);
     }
+    let upper = upper_bound(scan, &best, &center)?;
+    let lower = lower_bound(scan, &best, &center)?;
+    let scale = scan.scale();
+    let radius = unscale_up(upper, scale);
+    if !radius.is_finite() {
+        return Err(Error::Overflow);
+    }
+    // Against the radius as it is returned: below 1e-308 rounding it up costs digits.
     let gap = match radius {
         0.0 => 0.0,
-        // Against the radius as it is returned: below 1e-308 rounding it up costs digits.
+        // JSON knows no infinity.
+        _ if lower.high <= 0.0 => f64::MAX,
         _ => DoubleDouble::from(radius * scale).div(lower).sub(1.0.into()).round_up().max(0.0),
     };
+    let wanted = if options.epsilon > 0.0 { options.epsilon } else { ROUNDING };
     let mut stop = outcome.stop.expect("a method says why it stopped");
-    if stop == Stop::Converged && options.epsilon > 0.0 && gap > options.epsilon {
+    if stop == Stop::Converged && gap > wanted {
         stop = Stop::Rounding;
     }
     // An early ball may exceed what `f64` can say, and JSON knows no infinity.
@@ -51,11 +58,7 @@ pub(super) fn prove(
         history: outcome.history.into_iter().map(bounds).collect(),
         counters: outcome.counters,
     };
-    let answer = Ball {
-        center: unscale(&best.center.high, scale),
-        center_tail: unscale(&best.center.low, scale),
-        radius,
-    };
+    let answer = Ball { center: center.high, center_tail: center.low, radius };
     let certificate = BallCertificate {
         items: scan.items(),
         support: best.support,
@@ -66,32 +69,24 @@ pub(super) fn prove(
     Ok(Solution { answer, certificate, trace })
 }
 
-fn unscale(values: &[f64], scale: f64) -> Vec<f64> {
-    values.iter().map(|v| v / scale).collect()
-}
-
 /// value / scale; where that cannot be exact, because it is subnormal, rounded up.
 fn unscale_up(value: f64, scale: f64) -> f64 {
     let unscaled = value / scale;
     if unscaled * scale < value { unscaled.next_up() } else { unscaled }
 }
 
-/// Makes the centre one that survives being scaled back. Only subnormal coordinates do not: then the centre is the
-/// rounded one, and one more pass finds what is farthest from that.
-fn settle_center(scan: &mut Scan<'_>, best: &mut Candidate) -> Result<(), Error> {
-    let scale = scan.scale();
-    let rescale =
-        |values: &[f64]| -> Vec<f64> { values.iter().map(|v| v / scale * scale).collect() };
-    let center = Center { high: rescale(&best.center.high), low: rescale(&best.center.low) };
-    if center == best.center {
-        return Ok(());
+/// The centre as it will be returned, in the units of the source. Where it is not the one the pass was made from, as
+/// subnormal coordinates and points far from the origin of a scaled scan round it, one more pass is made from it.
+fn settle_center(scan: &mut Scan<'_>, best: &mut Candidate) -> Result<Center, Error> {
+    let outside = scan.outside(&best.center);
+    let inside = scan.inside(&outside);
+    if inside != best.center {
+        let keep = best.found.far.len().max(64);
+        let above = best.found.listed_above / 2.0;
+        best.found = scan.farthest(Query { center: &inside, above, keep, by_face_above: None })?;
+        best.center = inside;
     }
-    let keep = best.found.far.len().max(64);
-    let query =
-        Query { center: &center, above: best.found.listed_above / 2.0, keep, by_face_above: None };
-    best.found = scan.farthest(query)?;
-    best.center = center;
-    Ok(())
+    Ok(outside)
 }
 
 fn sort_by_id(best: &mut Candidate) {
@@ -106,16 +101,16 @@ fn sort_by_id(best: &mut Candidate) {
     (best.support, best.lambda) = pairs.into_iter().unzip();
 }
 
-/// The coordinates of an item and its radius, 0 for a point.
+/// The coordinates of an item as given, and its radius in the units of the scan: 0 for a point.
 fn split<'r>(scan: &Scan<'_>, row: &'r [f64]) -> (&'r [f64], f64) {
     match scan.items() {
         Items::Points => (row, 0.0),
-        Items::Balls => (&row[..scan.dim()], row[scan.dim()]),
+        Items::Balls => (&row[..scan.dim()], row[scan.dim()] * scan.scale()),
     }
 }
 
-/// The smallest radius from the centre, rounded up, that is proved to hold all items.
-fn upper_bound(scan: &Scan<'_>, best: &Candidate) -> Result<f64, Error> {
+/// The smallest radius from the centre, rounded up, that is proved to hold all items; in the units of the scan.
+fn upper_bound(scan: &Scan<'_>, best: &Candidate, center: &Center) -> Result<f64, Error> {
     let error = relative_error(scan.dim());
     let found = &best.found;
     let threshold = found.farthest.reach2 * (1.0 - 2.0 * error);
@@ -126,15 +121,15 @@ fn upper_bound(scan: &Scan<'_>, best: &Candidate) -> Result<f64, Error> {
     if !ids.contains(&found.farthest.id) {
         ids.push(found.farthest.id);
     }
-    let rows = scan.rows(&ids)?;
+    let rows = scan.rows_as_given(&ids)?;
     let columns = rows.len() / ids.len();
     let mut upper = 0.0f64;
     for row in rows.chunks_exact(columns) {
+        scan.monitor().check().map_err(ReadError::from)?;
         let (x, r) = split(scan, row);
-        let reach = reach_up(x, &best.center, r);
-        // Beside a reach of about 1 what a vanishing square leaves out is far less than one unit of the last place.
-        upper =
-            upper.max(if has_vanishing_square(x, &best.center) { reach.next_up() } else { reach });
+        let difference = Difference::new(x, center, scan.scale());
+        let reach = reach_up(&difference, r);
+        upper = upper.max(if difference.vanishes { reach.next_up() } else { reach });
     }
     if !all_listed && found.farthest.reach2 > 0.0 {
         upper = upper.max((found.farthest.reach2 * (1.0 + error)).sqrt().next_up());
@@ -142,71 +137,59 @@ fn upper_bound(scan: &Scan<'_>, best: &Candidate) -> Result<f64, Error> {
     Ok(upper)
 }
 
-/// Whether some difference is not 0, but so small that its square loses digits to the end of the range.
-fn has_vanishing_square(x: &[f64], center: &Center) -> bool {
-    x.iter().zip(&center.high).any(|(x, c)| x != c && (x - c).abs() < 2f64.powi(-450))
-}
-
-/// The smallest `f64` radius that is not below |x − c| + r.
-fn reach_up(x: &[f64], center: &Center, r: f64) -> f64 {
-    let distance2 = exact_squared_distance(x, center);
+/// The smallest `f64` radius that is not below |x − c| + r; infinite where that is no `f64`.
+fn reach_up(difference: &Difference, r: f64) -> f64 {
+    let distance2 = difference.squared();
+    if !(distance2.high + r).is_finite() {
+        return f64::INFINITY;
+    }
     // More than double-double can be off by, in parts of the square: what is nearer is a tie, to be told exactly.
-    let doubt = distance2.high * (x.len() as f64 + 8.0) * 2f64.powi(-98);
+    let doubt = distance2.high * (difference.dim() as f64 + 8.0) * 2f64.powi(-98);
     let holds = |reach: f64| {
         let beyond = DoubleDouble::sum(reach, -r).square().sub(distance2).high;
-        if beyond.abs() > doubt { beyond > 0.0 } else { is_within(x, center, reach, r) }
+        if beyond.abs() > doubt { beyond > 0.0 } else { difference.is_within(reach, r) }
     };
     // The root carries one rounding of its own: make sure that the reach holds, and that nothing less does.
     let mut reach = distance2.sqrt().add(r.into()).round_up();
     while reach > r && holds(reach.next_down()) {
         reach = reach.next_down();
     }
-    while !holds(reach) {
+    while reach < f64::INFINITY && !holds(reach) {
         reach = reach.next_up();
     }
     reach
 }
 
-/// The bound that the multipliers prove, rounded to double-double.
-fn lower_bound(scan: &Scan<'_>, best: &Candidate, rows: &[f64]) -> DoubleDouble {
+/// The bound that the multipliers prove, in double-double and in the units of the scan.
+fn lower_bound(scan: &Scan<'_>, best: &Candidate, center: &Center) -> Result<DoubleDouble, Error> {
+    let rows = scan.rows_as_given(&best.support)?;
     let columns = rows.len() / best.support.len();
     let total = best.lambda.iter().fold(DoubleDouble::ZERO, |sum, &l| sum.add(l.into()));
-    let weights: Vec<DoubleDouble> =
-        best.lambda.iter().map(|&l| DoubleDouble::from(l).div(total)).collect();
-    let mut mean = DoubleDouble::ZERO;
-    for (row, &w) in rows.chunks_exact(columns).zip(&weights) {
-        mean = mean.add(w.mul(split(scan, row).1.into()));
-    }
+    let weighted: Vec<(DoubleDouble, &[f64], f64)> = best
+        .lambda
+        .iter()
+        .zip(rows.chunks_exact(columns))
+        .map(|(&l, row)| {
+            let (x, r) = split(scan, row);
+            (DoubleDouble::from(l).div(total), x, r)
+        })
+        .collect();
+    let mean =
+        weighted.iter().fold(DoubleDouble::ZERO, |sum, (w, _, r)| sum.add(w.mul((*r).into())));
     let mut inner = DoubleDouble::ZERO;
-    for (row, &w) in rows.chunks_exact(columns).zip(&weights) {
-        let (x, r) = split(scan, row);
-        let spread = DoubleDouble::from(r).sub(mean).square();
-        inner = inner.add(w.mul(exact_squared_distance(x, &best.center).sub(spread)));
+    // Σ λᵢ(cᵢ − c): what the returned centre, being rounded, lies beside the one the multipliers mean.
+    let mut beside = vec![DoubleDouble::ZERO; scan.dim()];
+    for (w, x, r) in &weighted {
+        let difference = Difference::new(x, center, scan.scale());
+        let spread = DoubleDouble::from(*r).sub(mean).square();
+        inner = inner.add(w.mul(difference.squared().sub(spread)));
+        for (j, sum) in beside.iter_mut().enumerate() {
+            *sum = sum.add(w.mul(difference.coordinate(j)));
+        }
     }
-    let inner = inner.sub(distance2_from_mean(scan, &best.center, rows, &weights));
+    let inner = beside.into_iter().fold(inner, |inner, sum| inner.sub(sum.square()));
     let bound = mean.add(inner.sqrt());
     // No ball is smaller than one it holds.
-    let largest = rows.chunks_exact(columns).map(|row| split(scan, row).1).fold(0.0, f64::max);
-    if bound < largest.into() { largest.into() } else { bound }
-}
-
-/// |c − Σ λᵢcᵢ|²: what the returned centre, being rounded, lies beside the one the multipliers mean.
-fn distance2_from_mean(
-    scan: &Scan<'_>,
-    center: &Center,
-    rows: &[f64],
-    weights: &[DoubleDouble],
-) -> DoubleDouble {
-    let columns = rows.len() / weights.len();
-    let mut sum = DoubleDouble::ZERO;
-    for j in 0..scan.dim() {
-        let mut difference = DoubleDouble::ZERO;
-        for (row, &w) in rows.chunks_exact(columns).zip(weights) {
-            let low = if center.low.is_empty() { 0.0 } else { center.low[j] };
-            difference =
-                difference.add(w.mul(DoubleDouble::sum(row[j], -center.high[j]).sub(low.into())));
-        }
-        sum = sum.add(difference.square());
-    }
-    sum
+    let largest = weighted.iter().map(|(_, _, r)| *r).fold(0.0, f64::max);
+    Ok(if bound < largest.into() { largest.into() } else { bound })
 }

@@ -113,67 +113,105 @@ impl PartialOrd for DoubleDouble {
     }
 }
 
-/// |x − c|² in double-double.
-pub(crate) fn exact_squared_distance(x: &[f64], center: &Center) -> DoubleDouble {
-    #[cfg(target_arch = "x86_64")]
-    if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-        // SAFETY: the processor has just been asked for both features.
-        #[allow(unsafe_code)]
-        return unsafe { with_fma(x, center) };
+/// x − c, coordinate by coordinate, each as an exact sum of three `f64`, times a power of two.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Difference {
+    high: Vec<f64>,
+    low: Vec<f64>,
+    tail: Vec<f64>,
+    /// Whether scaling or squaring loses digits at the lower end of the range of `f64`. What is lost is far less than
+    /// one unit of the last place of anything near 1.
+    pub(crate) vanishes: bool,
+}
+
+impl Difference {
+    /// (x − c)·scale. A scale below 1 belongs to points so far apart that differences would overflow: it comes first.
+    pub(crate) fn new(x: &[f64], center: &Center, scale: f64) -> Self {
+        let mut difference = Difference::default();
+        let (before, after) = if scale < 1.0 { (scale, 1.0) } else { (1.0, scale) };
+        for (j, (&x, &c)) in x.iter().zip(&center.high).enumerate() {
+            let tail = center.low.get(j).copied().unwrap_or(0.0);
+            let (high, low) = two_sum(x * before, -c * before);
+            difference.high.push(high * after);
+            difference.low.push(low * after);
+            difference.tail.push(-tail * scale);
+            // Below 2⁻⁴⁵⁰ the error of a square is no `f64` any more.
+            let small = high * after != 0.0 && (high * after).abs() < 2f64.powi(-450);
+            let flushed = x * before / before != x || c * before / before != c;
+            difference.vanishes |= small || flushed;
+        }
+        difference
     }
-    squared_distance(x, center)
+
+    /// Dimension.
+    pub(crate) fn dim(&self) -> usize {
+        self.high.len()
+    }
+
+    /// Coordinate j in double-double.
+    #[inline(always)]
+    pub(crate) fn coordinate(&self, j: usize) -> DoubleDouble {
+        DoubleDouble { high: self.high[j], low: self.low[j] }.add(self.tail[j].into())
+    }
+
+    /// The squared length in double-double.
+    pub(crate) fn squared(&self) -> DoubleDouble {
+        #[cfg(target_arch = "x86_64")]
+        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+            // SAFETY: the processor has just been asked for both features.
+            #[allow(unsafe_code)]
+            return unsafe { squared_with_fma(self) };
+        }
+        squared(self)
+    }
+
+    /// Whether its length is at most reach − r ≥ 0, decided exactly, for the ties that double-double cannot tell.
+    ///
+    /// Both squares are written out as sums of products, each product as two `f64` without error, and the sum of all
+    /// is kept as an expansion whose last component has its sign (Shewchuk 1997, theorem 10). Exact unless it
+    /// [`vanishes`](Self::vanishes).
+    pub(crate) fn is_within(&self, reach: f64, r: f64) -> bool {
+        let mut expansion = Vec::new();
+        let mut add_square = |terms: &[f64], sign: f64| {
+            for (i, &a) in terms.iter().enumerate() {
+                for (k, &b) in terms.iter().enumerate().skip(i) {
+                    let (product, error) = two_product(a, b);
+                    let times = if i == k { sign } else { 2.0 * sign };
+                    grow(&mut expansion, times * product);
+                    grow(&mut expansion, times * error);
+                }
+            }
+        };
+        let (high, low) = two_sum(reach, -r);
+        add_square(&[high, low], 1.0);
+        for j in 0..self.high.len() {
+            add_square(&[self.high[j], self.low[j], self.tail[j]], -1.0);
+        }
+        expansion.last().is_none_or(|&sign| sign > 0.0)
+    }
 }
 
 /// The same with the multiply-add as an instruction rather than a function call.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn with_fma(x: &[f64], center: &Center) -> DoubleDouble {
-    squared_distance(x, center)
+fn squared_with_fma(difference: &Difference) -> DoubleDouble {
+    squared(difference)
 }
 
 #[inline(always)]
-fn squared_distance(x: &[f64], center: &Center) -> DoubleDouble {
-    let term = |j: usize| {
-        let low = if center.low.is_empty() { 0.0 } else { center.low[j] };
-        DoubleDouble::sum(x[j], -center.high[j]).sub(low.into()).square()
-    };
+fn squared(difference: &Difference) -> DoubleDouble {
+    let dim = difference.high.len();
     let mut sums = [DoubleDouble::ZERO; 8];
-    let whole = x.len() / 8 * 8;
+    let whole = dim / 8 * 8;
     for j in (0..whole).step_by(8) {
         for (k, sum) in sums.iter_mut().enumerate() {
-            *sum = sum.add(term(j + k));
+            *sum = sum.add(difference.coordinate(j + k).square());
         }
     }
-    for j in whole..x.len() {
-        sums[j - whole] = sums[j - whole].add(term(j));
+    for j in whole..dim {
+        sums[j - whole] = sums[j - whole].add(difference.coordinate(j).square());
     }
     sums.into_iter().fold(DoubleDouble::ZERO, DoubleDouble::add)
-}
-
-/// Whether |x − c| ≤ reach − r, decided exactly, for the ties that double-double cannot tell.
-///
-/// Both squares are written out as sums of products, each product as two `f64` without error, and the sum of all is
-/// kept as an expansion whose last component has its sign (Shewchuk 1997, theorem 10). Exact as long as no product
-/// falls below the range of `f64`.
-pub(crate) fn is_within(x: &[f64], center: &Center, reach: f64, r: f64) -> bool {
-    let mut expansion = Vec::new();
-    let mut add_square = |terms: &[f64], sign: f64| {
-        for (i, &a) in terms.iter().enumerate() {
-            for (k, &b) in terms.iter().enumerate().skip(i) {
-                let (product, error) = two_product(a, b);
-                let times = if i == k { sign } else { 2.0 * sign };
-                grow(&mut expansion, times * product);
-                grow(&mut expansion, times * error);
-            }
-        }
-    };
-    let (high, low) = two_sum(reach, -r);
-    add_square(&[high, low], 1.0);
-    for j in 0..x.len() {
-        let (high, low) = two_sum(x[j], -center.high[j]);
-        add_square(&[high, low, -center.low.get(j).copied().unwrap_or(0.0)], -1.0);
-    }
-    expansion.last().is_none_or(|&sign| sign > 0.0)
 }
 
 /// Adds b to an expansion of components that do not overlap, smallest first; no component is 0.

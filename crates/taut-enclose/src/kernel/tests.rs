@@ -35,7 +35,7 @@ fn check<T: Scalar>(dim: usize, stride: usize, rows: usize, offset: f64, two_ter
     for found in each(&values, stride, &center, rows) {
         for (i, &value) in found.iter().enumerate() {
             let row: Vec<f64> = values[i * stride..][..dim].iter().map(|&v| v.into()).collect();
-            let exact = exact_squared_distance(&row, &center).high;
+            let exact = Difference::new(&row, &center, 1.0).squared().high;
             let bound = relative_error(dim) * exact;
             assert!((value - exact).abs() <= bound, "d {dim}, row {i}: {value} against {exact}");
         }
@@ -90,17 +90,20 @@ fn double_double_keeps_what_double_loses() {
 
 #[test]
 fn ties_are_told_exactly() {
-    let center = |high: f64, low: f64| Center { high: vec![high, 0.0], low: vec![low, 0.0] };
+    let within = |x: &[f64], high: f64, low: f64, reach: f64, r: f64| {
+        let center = Center { high: vec![high, 0.0], low: vec![low, 0.0] };
+        Difference::new(x, &center, 1.0).is_within(reach, r)
+    };
     // 0.1² + 0² against 0.1²: a tie whose squares do not fit into one f64.
-    assert!(is_within(&[0.1, 0.0], &center(0.0, 0.0), 0.1, 0.0));
-    assert!(!is_within(&[0.1, 0.0], &center(0.0, 0.0), 0.1f64.next_down(), 0.0));
+    assert!(within(&[0.1, 0.0], 0.0, 0.0, 0.1, 0.0));
+    assert!(!within(&[0.1, 0.0], 0.0, 0.0, 0.1f64.next_down(), 0.0));
     // What double-double cannot hold decides: a tail of 2⁻²⁰⁰ in the centre, or a second coordinate of that size.
     let tiny = 2f64.powi(-200);
-    assert!(is_within(&[1.0, 0.0], &center(0.0, tiny), 1.0, 0.0));
-    assert!(!is_within(&[1.0, 0.0], &center(0.0, -tiny), 1.0, 0.0));
-    assert!(!is_within(&[1.0, tiny], &center(0.0, 0.0), 1.0, 0.0));
+    assert!(within(&[1.0, 0.0], 0.0, tiny, 1.0, 0.0));
+    assert!(!within(&[1.0, 0.0], 0.0, -tiny, 1.0, 0.0));
+    assert!(!within(&[1.0, tiny], 0.0, 0.0, 1.0, 0.0));
     // |x − c| + r with r = 1/3: the difference of reach and r has two terms.
     let r = 1.0 / 3.0;
-    assert!(is_within(&[3.0, 4.0], &center(0.0, 0.0), 6.0, 1.0));
-    assert!(!is_within(&[3.0, 4.0], &center(0.0, 0.0), 5.0 + r - 1e-15, r));
+    assert!(within(&[3.0, 4.0], 0.0, 0.0, 6.0, 1.0));
+    assert!(!within(&[3.0, 4.0], 0.0, 0.0, 5.0 + r - 1e-15, r));
 }

@@ -118,16 +118,14 @@ impl<'p> Pass<'p> {
 
     /// Measures a block; its far items are merged with those of the pass.
     fn block<T: Scalar>(&self, first_row: u64, points: &Points<'_, T>) -> Measured {
-        let scale = self.scan.scale;
-        if scale == 1.0 {
+        if self.scan.scale == 1.0 {
             return self.measure(first_row, points);
         }
         // Rare and not worth a kernel of its own: scale the block, then go on as usual.
-        let scaled: Vec<f64> = points.values().iter().map(|&v| v.into() * scale).collect();
-        self.measure(
-            first_row,
-            &Points::new(&scaled, points.dim()).expect("the shape is that of the block"),
-        )
+        let mut scaled: Vec<f64> = points.values().iter().map(|&v| v.into()).collect();
+        self.scan.scale_rows(&mut scaled);
+        let scaled = Points::new(&scaled, points.dim()).expect("the shape is that of the block");
+        self.measure(first_row, &scaled)
     }
 
     fn measure<T: Scalar>(&self, first_row: u64, points: &Points<'_, T>) -> Measured {
