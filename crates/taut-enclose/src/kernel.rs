@@ -21,7 +21,7 @@ mod x86;
 
 use taut_points::Scalar;
 
-pub(crate) use exact::{Difference, DoubleDouble};
+pub(crate) use exact::{Difference, DoubleDouble, vanishes};
 use lanes::{Lanes, eight_rows, one_row, one_short_row};
 
 /// Up to this many coordinates eight rows are taken together. Beyond, eight streams of memory are more than the

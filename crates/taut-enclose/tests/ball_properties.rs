@@ -7,7 +7,7 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use taut_enclose::{BallOptions, ball, ball_of_balls};
-use taut_points::Points;
+use taut_points::{Distribution, Points, generate};
 
 const GAP: f64 = 1e-13;
 
@@ -24,13 +24,25 @@ fn few_points() -> impl Strategy<Value = (Vec<f64>, usize)> {
     })
 }
 
-/// More points in more dimensions.
+/// The four distributions of the literature.
+const FOUR: [Distribution; 4] = [
+    Distribution::Uniform,
+    Distribution::CubeVertices,
+    Distribution::Normal,
+    Distribution::Poisson,
+];
+
+/// More points in more dimensions: integers, reals, and the four distributions.
 fn points() -> impl Strategy<Value = (Vec<f64>, usize)> {
-    (1usize..=9, 1usize..=40).prop_flat_map(|(dim, n)| {
+    let few_dimensions = (1usize..=9, 1usize..=40).prop_flat_map(|(dim, n)| {
         let integers = vec((-9i32..10).prop_map(f64::from), n * dim);
         let reals = vec(-1.0f64..1.0, n * dim);
         (prop_oneof![integers, reals], Just(dim))
-    })
+    });
+    let drawn = (1usize..=60, 1usize..=150, 0usize..4, 0u64..1000).prop_map(|(dim, n, k, seed)| {
+        (generate(FOUR[k], n, dim, seed).expect("the parameters are in range"), dim)
+    });
+    prop_oneof![few_dimensions, drawn]
 }
 
 fn close(a: f64, b: f64, tolerance: f64) -> bool {

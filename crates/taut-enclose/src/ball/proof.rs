@@ -13,7 +13,7 @@ use super::BallOptions;
 use super::core_set::ROUNDING;
 use super::outcome::{Candidate, Outcome};
 use crate::Error;
-use crate::kernel::{Center, Difference, DoubleDouble, relative_error};
+use crate::kernel::{Center, Difference, DoubleDouble, relative_error, vanishes};
 use crate::scan::{Query, Scan};
 
 pub(super) fn prove(
@@ -129,7 +129,9 @@ fn upper_bound(scan: &Scan<'_>, best: &Candidate, center: &Center) -> Result<f64
         let (x, r) = split(scan, row);
         let difference = Difference::new(x, center, scan.scale());
         let reach = reach_up(&difference, r);
-        upper = upper.max(if difference.vanishes { reach.next_up() } else { reach });
+        // A radius, too, can be so much smaller than the ball that it loses digits.
+        let lost = vanishes(r) || row[scan.dim()..].iter().any(|given| r / scan.scale() != *given);
+        upper = upper.max(if difference.vanishes || lost { reach.next_up() } else { reach });
     }
     if !all_listed && found.farthest.reach2 > 0.0 {
         upper = upper.max((found.farthest.reach2 * (1.0 + error)).sqrt().next_up());

@@ -113,6 +113,11 @@ impl PartialOrd for DoubleDouble {
     }
 }
 
+/// Whether a number is not 0, but so small that the error of its square is no `f64` any more.
+pub(crate) fn vanishes(value: f64) -> bool {
+    value != 0.0 && value.abs() < 2f64.powi(-450)
+}
+
 /// x − c, coordinate by coordinate, each as an exact sum of three `f64`, times a power of two.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Difference {
@@ -135,8 +140,7 @@ impl Difference {
             difference.high.push(high * after);
             difference.low.push(low * after);
             difference.tail.push(-tail * scale);
-            // Below 2⁻⁴⁵⁰ the error of a square is no `f64` any more.
-            let small = high * after != 0.0 && (high * after).abs() < 2f64.powi(-450);
+            let small = [high * after, low * after, tail * scale].into_iter().any(vanishes);
             let flushed = x * before / before != x || c * before / before != c;
             difference.vanishes |= small || flushed;
         }
