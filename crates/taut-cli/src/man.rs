@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use anyhow::Context;
+use anyhow::anyhow;
 use clap::CommandFactory;
 
 use crate::cli::Cli;
@@ -24,7 +24,7 @@ impl Args {
         let pages: Vec<clap::Command> =
             std::iter::once(top.clone()).chain(top.get_subcommands().cloned()).collect();
         std::fs::create_dir_all(&self.dir)
-            .with_context(|| format!("{}: could not be made", self.dir.display()))?;
+            .map_err(|source| anyhow!("{}: could not be made: {source}", self.dir.display()))?;
         for page in pages {
             let page = clap_mangen::Man::new(page);
             let mut text = Vec::new();

@@ -142,17 +142,24 @@ impl Opened {
         }
     }
 
-    /// Why an answer was rejected, with the place in the file, which a checker cannot know.
-    pub(crate) fn explain_violation(&self, violation: &Violation) -> String {
+    /// Why an answer was rejected: in which of the two files, and where, which a checker cannot know.
+    pub(crate) fn explain_violation(&self, violation: &Violation, answer: &str) -> String {
+        let points = self.name();
         match *violation {
-            Violation::NonFinite { row, column, .. } => {
-                format!("{}: {violation}", self.input.describe_cell(row, column))
-            }
             Violation::Outside { row, .. } => {
-                let row = self.input.describe_cell(row, 0).row;
-                format!("{}: row {row} of the data: {violation}", self.name())
+                // Points count from 0, rows of a file from 1.
+                let (point, place) = (format!("point {row}"), self.input.describe_cell(row, 0).row);
+                let said =
+                    violation.to_string().replacen(&point, &format!("{point} (row {place})"), 1);
+                format!("{points}: {said}")
             }
-            _ => format!("{}: {violation}", self.name()),
+            Violation::Hash { .. } | Violation::Dimension { .. } | Violation::NoRadius { .. } => {
+                format!("{points} does not belong to {answer}: {violation}")
+            }
+            Violation::Support { point, .. } if point >= self.input.source.len() => {
+                format!("{points} does not belong to {answer}: {violation}")
+            }
+            _ => format!("{answer}: {violation}"),
         }
     }
 

@@ -37,6 +37,13 @@ pub(crate) fn stop_on_interrupt() {
     ctrlc::set_handler(handler).ok();
 }
 
+/// From now on a write beyond the limit of the size of files fails as on a full disk, and what failed is said; left
+/// alone, the system would end the process and temporary files would stay.
+pub(crate) fn survive_file_limits() {
+    #[cfg(unix)]
+    signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default()).ok();
+}
+
 /// Whether watched work was asked to stop.
 pub(crate) fn interrupted() -> bool {
     STOP.load(Ordering::SeqCst)
