@@ -11,9 +11,9 @@ pub const SCHEMA: u32 = 1;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum JsonError {
-    /// Not JSON.
+    /// No JSON object.
     #[error(
-        "not an answer of taut: it is no JSON, or JSON cut short (line {line}, column {column})"
+        "not an answer of taut: it is no JSON object, or one cut short (line {line}, column {column})"
     )]
     Syntax {
         /// Where reading ended: the line, from 1.
@@ -98,6 +98,10 @@ impl AnySolution {
         }
         // Editors of some systems put a byte order mark first.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        // A row of numbers begins like JSON, and serde would take a list for an object.
+        if !text.trim_start().starts_with('{') {
+            return Err(JsonError::Syntax { line: 1, column: 1 });
+        }
         let head: Head = serde_json::from_str(text)?;
         if head.schema != SCHEMA {
             return Err(JsonError::Schema { found: head.schema });

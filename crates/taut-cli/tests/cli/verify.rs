@@ -182,9 +182,12 @@ fn no_file_commands_the_terminal() {
 #[test]
 fn what_is_no_answer_is_named() {
     let desk = solved();
-    desk.taut("verify points.csv ball.json")
-        .ends(2)
-        .complains(&["points.csv: not an answer of taut: it is no JSON", "the answer comes first"]);
+    desk.taut("verify points.csv ball.json").ends(2).complains(&[
+        "points.csv: not an answer of taut: it is no JSON object",
+        "the answer comes first",
+    ]);
+    desk.put("bare.csv", "0,0\n1,1\n");
+    desk.taut("verify bare.csv ball.json").ends(2).complains(&["the answer comes first"]);
     std::fs::create_dir(desk.path("folder")).unwrap();
     desk.taut("verify folder points.csv").ends(2).complains(&["folder is a folder"]);
     desk.put("list.json", "[]");
