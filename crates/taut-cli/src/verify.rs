@@ -46,14 +46,12 @@ impl Args {
             (Outcome::CheckFailed, format!("Rejected: {}\n", writing::printable(&why)))
         };
         let name = shown(&self.answer);
+        let most = self.epsilon.unwrap_or(f64::INFINITY);
         let (outcome, said) = match judge(&answer, &points, &watch)? {
-            Ok(Verdict { gap: proved, .. }) if self.epsilon.is_some_and(|most| proved > most) => {
-                let most = self.epsilon.unwrap_or_default();
-                rejected(format!(
-                    "{name}: a gap of {} is proved, larger than --epsilon {most:?}",
-                    gap(proved)
-                ))
-            }
+            Ok(Verdict { gap: proved, .. }) if proved > most => rejected(format!(
+                // All digits: rounded to a few, the gap could look like the one allowed.
+                "{name}: a gap of {proved:e} is proved, larger than --epsilon {most:e}"
+            )),
             Ok(verdict) => {
                 // A loose certificate is as true as a tight one: how tight it is belongs to what is said.
                 let title =
