@@ -10,7 +10,7 @@ use taut::points::{ReadError, ScalarKind};
 use taut::{Items, PointSource, Violation};
 use taut_io::{Columns, Format, Header, Input, RawLayout, ReadOptions};
 
-use crate::size;
+use crate::{size, writing};
 
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Reading")]
@@ -85,7 +85,7 @@ impl Reading {
     /// Opens the points of `path`; `-` is standard input.
     pub(crate) fn open(&self, path: &Path) -> anyhow::Result<Opened> {
         if path == Path::new("-") && std::io::stdin().is_terminal() {
-            eprintln!("taut: reading points from the terminal; Ctrl-D ends them");
+            writing::complain("reading points from the terminal; Ctrl-D ends them");
         }
         Ok(Opened { input: taut_io::open(path, &self.options()?)? })
     }

@@ -181,6 +181,7 @@ fn show(page: &Path) {
     };
     let status = Command::new(program).args(words).arg(page).status();
     if !status.is_ok_and(|status| status.success()) {
-        eprintln!("taut: no browser could be started: open {} by hand", page.display());
+        let page = page.display();
+        writing::complain(&format!("no browser could be started: open {page} by hand"));
     }
 }

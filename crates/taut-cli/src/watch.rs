@@ -14,6 +14,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use taut::Monitor;
 
 use crate::effort::Progress;
+use crate::writing;
 
 /// Exit code after an interrupt: 128 and the number of the signal, as shells have it.
 pub(crate) const INTERRUPTED: u8 = 130;
@@ -68,7 +69,7 @@ impl Watch {
         let (done, shown, start) = (AtomicU64::new(0), AtomicBool::new(false), Instant::now());
         let on_pass = |pass: u64, points: u64| {
             if lines {
-                eprintln!("{what}: pass {pass} over {points} points");
+                writing::tell(&format!("{what}: pass {pass} over {points} points"));
             }
             done.store(0, Ordering::Relaxed);
             bar.set_length(points);

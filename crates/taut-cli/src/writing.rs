@@ -105,9 +105,14 @@ pub(crate) fn say(bytes: &[u8]) -> anyhow::Result<()> {
     }
 }
 
-/// Says on standard error, in one line, what went wrong.
+/// Says on standard error, in one line, what is wrong or to be done.
 pub(crate) fn complain(words: &str) {
-    eprintln!("taut: {}", printable(words));
+    tell(&format!("taut: {}", printable(words)));
+}
+
+/// Says a line on standard error, if anybody can hear it: nothing depends on that.
+pub(crate) fn tell(line: &str) {
+    writeln!(std::io::stderr(), "{line}").ok();
 }
 
 /// What a terminal can show as it is: names in files may hold characters that would command it.

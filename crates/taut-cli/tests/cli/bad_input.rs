@@ -144,6 +144,9 @@ fn a_full_disk() {
         let run = desk.taut(line).ends(2).complains(&["/dev/full", "No space left"]);
         assert!(!run.out.contains('{'), "{line} printed an answer that was not written");
     }
+    desk.shell("taut ball missing.csv 2> /dev/full").ends(2);
+    desk.shell("taut ball points.csv -q --progress always 2> /dev/full").ends(0);
+    desk.shell("taut ball points.csv --progress always 2> /dev/full").ends(0);
     desk.put("ball.json", "earlier answer");
     for line in [
         "taut ball points.csv > /dev/full",
