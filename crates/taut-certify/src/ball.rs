@@ -30,6 +30,7 @@ impl Items {
 
 /// A ball in ℝᵈ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a ball: an object with center and radius")]
 pub struct Ball {
     /// The d coordinates of the centre.
     pub center: Vec<f64>,
@@ -51,6 +52,10 @@ pub struct Ball {
 /// With u = 2⁻⁵³, the checker grants |Σ λᵢ − 1| ≤ 2(k + 2)u for k multipliers, and takes λᵢ/Σ λᵢ in their place. The
 /// centre of the ball is Σ λᵢpᵢ/Σ λᵢ, each coordinate to 4u(|cⱼ| + R), with a tail to 4uR + 8u²|cⱼ|.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "the certificate of a ball: an object with items, support and multipliers"
+)]
 pub struct BallCertificate {
     /// Points or balls.
     pub items: Items,

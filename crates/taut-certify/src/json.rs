@@ -11,9 +11,19 @@ pub const SCHEMA: u32 = 1;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum JsonError {
-    /// Not JSON, or not of the expected shape.
+    /// No JSON object.
+    #[error(
+        "not an answer of taut: it is no JSON object, or one cut short (line {line}, column {column})"
+    )]
+    Syntax {
+        /// Where reading ended: the line, from 1.
+        line: usize,
+        /// And the column, from 1.
+        column: usize,
+    },
+    /// JSON, but not of the expected shape.
     #[error("not an answer of taut: {0}")]
-    Shape(#[from] serde_json::Error),
+    Shape(serde_json::Error),
     /// A version this reader does not know.
     #[error("schema {found} is not known here: this is a reader of schema {SCHEMA}")]
     Schema {
@@ -21,14 +31,27 @@ pub enum JsonError {
         found: u32,
     },
     /// A kind of answer this reader does not know.
-    #[error("answers of kind `{found}` are not known here")]
+    #[error("answers of kind {found:?} are not known here")]
     Kind {
         /// The kind the document states.
         found: String,
     },
 }
 
+impl From<serde_json::Error> for JsonError {
+    fn from(error: serde_json::Error) -> Self {
+        match error.is_data() {
+            true => JsonError::Shape(error),
+            false => JsonError::Syntax { line: error.line(), column: error.column() },
+        }
+    }
+}
+
 #[derive(Serialize, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with schema, kind, answer, certificate and trace"
+)]
 struct Document<K, A, C, T> {
     schema: u32,
     kind: K,
@@ -68,9 +91,16 @@ impl AnySolution {
     /// [`JsonError`].
     pub fn from_json(text: &str) -> Result<Self, JsonError> {
         #[derive(Deserialize)]
+        #[serde(expecting = "an object with schema, kind, answer, certificate and trace")]
         struct Head {
             schema: u32,
             kind: String,
+        }
+        // Editors of some systems put a byte order mark first.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        // A row of numbers begins like JSON, and serde would take a list for an object.
+        if !text.trim_start().starts_with('{') {
+            return Err(JsonError::Syntax { line: 1, column: 1 });
         }
         let head: Head = serde_json::from_str(text)?;
         if head.schema != SCHEMA {

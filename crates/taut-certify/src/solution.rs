@@ -63,6 +63,10 @@ pub enum Stop {
 
 /// The bounds known after one pass over all points.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "the bounds of a pass: an object with lower, upper and working_set"
+)]
 pub struct PassBounds {
     /// Lower bound on the optimal radius, proved by the multipliers of that moment.
     pub lower: f64,
@@ -74,6 +78,7 @@ pub struct PassBounds {
 
 /// How an answer came about: counters of events, the same on every run and for every number of threads.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a trace: an object of counters")]
 pub struct Trace {
     /// The method, by the name the command line gives it.
     pub method: String,

@@ -26,8 +26,16 @@ pub enum Violation {
         /// Hash of the points given.
         found: String,
     },
-    /// The centre has another dimension than the points.
-    #[error("{what} has {found} numbers, expected {expected}")]
+    /// The answer has another dimension than the points.
+    #[error("the centre has {}, but the points have dimension {expected}", Counted(*found, "number"))]
+    Dimension {
+        /// Coordinates of the centre.
+        found: usize,
+        /// Dimension of the points.
+        expected: usize,
+    },
+    /// A list of the answer or certificate has another length than it must.
+    #[error("{what} has {}, expected {expected}", Counted(*found, "number"))]
     Length {
         /// The list in question.
         what: &'static str,
@@ -37,7 +45,7 @@ pub enum Violation {
         expected: usize,
     },
     /// A number of the answer or certificate is NaN, infinite or out of its range.
-    #[error("{what} is {value}: expected {expected}")]
+    #[error("{what} is {value:?}: expected {expected}")]
     Number {
         /// The number in question.
         what: String,
@@ -47,7 +55,7 @@ pub enum Violation {
         expected: &'static str,
     },
     /// A coordinate of the input is NaN or infinite.
-    #[error("coordinate {column} of point {row} is {value}: all coordinates must be finite")]
+    #[error("coordinate {column} of point {row} is {value:?}: all coordinates must be finite")]
     NonFinite {
         /// Point, from 0.
         row: u64,
@@ -57,7 +65,7 @@ pub enum Violation {
         value: f64,
     },
     /// A ball of the input has a negative radius.
-    #[error("ball {row} has radius {value}: radii are the last column and must be at least 0")]
+    #[error("ball {row} has radius {value:?}: radii are the last column and must be at least 0")]
     NegativeRadius {
         /// Ball, from 0.
         row: u64,
@@ -65,7 +73,7 @@ pub enum Violation {
         value: f64,
     },
     /// The certificate speaks of balls, but the rows have no room for a centre and a radius.
-    #[error("a ball needs a centre and a radius, but rows have {columns} column")]
+    #[error("a ball needs a centre and a radius, but rows have {}", Counted(*columns, "column"))]
     NoRadius {
         /// Columns there are.
         columns: usize,
@@ -84,14 +92,14 @@ pub enum Violation {
         problem: &'static str,
     },
     /// The multipliers are not convex.
-    #[error("the multipliers sum to {sum}: expected 1")]
+    #[error("the multipliers sum to {sum:?}: expected 1")]
     MultiplierSum {
         /// What they sum to.
         sum: f64,
     },
     /// The centre is not the combination of the support that the multipliers say.
     #[error(
-        "coordinate {column} of the centre is {claimed}, but the multipliers give {found}, {difference:e} beside it"
+        "coordinate {column} of the centre is {claimed:?}, but the multipliers give {found:?}, {difference:e} beside it"
     )]
     Center {
         /// Coordinate, from 0.
@@ -105,7 +113,7 @@ pub enum Violation {
     },
     /// A point lies outside the answer.
     #[error(
-        "point {row} lies {distance} from the centre, outside the radius {radius}, by {excess:e}"
+        "point {row} lies {distance:?} from the centre, outside the radius {radius:?}, by {excess:e}"
     )]
     Outside {
         /// The first such point, from 0.
@@ -125,6 +133,16 @@ pub enum Violation {
         /// What the checker finds.
         proved: f64,
     },
+}
+
+/// A count with its noun.
+struct Counted(usize, &'static str);
+
+impl std::fmt::Display for Counted {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Counted(count, noun) = self;
+        write!(f, "{count} {noun}{}", if *count == 1 { "" } else { "s" })
+    }
 }
 
 /// Why a check did not end in a [`Verdict`].

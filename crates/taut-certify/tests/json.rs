@@ -132,6 +132,35 @@ fn other_schemas_and_kinds_are_refused_by_name() {
 }
 
 #[test]
+fn a_document_has_one_form() {
+    let text = example();
+    assert!(AnySolution::from_json(&format!("\u{feff}{text}")).is_ok());
+    for (known, unknown) in [
+        ("\"kind\"", "\"note\": 1, \"kind\""),
+        ("\"radius\"", "\"r\": 1, \"radius\""),
+        ("\"items\"", "\"note\": 1, \"items\""),
+        ("\"passes\"", "\"note\": 1, \"passes\""),
+    ] {
+        let more = text.replacen(known, unknown, 1);
+        assert!(matches!(AnySolution::from_json(&more), Err(JsonError::Shape(_))), "{more}");
+    }
+    for hash in ["feed", "000000000000FEED", "+00000000000feed", "0000000000000feed"] {
+        let other = text.replacen("000000000000feed", hash, 1);
+        assert!(matches!(AnySolution::from_json(&other), Err(JsonError::Shape(_))), "{hash}");
+    }
+    for (other, line, column) in
+        [("", 1, 1), ("0,0\n", 1, 1), ("[1]", 1, 1), ("{\n\"schema\": 1", 2, 11)]
+    {
+        match AnySolution::from_json(other) {
+            Err(JsonError::Syntax { line: l, column: c }) => {
+                assert_eq!((l, c), (line, column), "{other}")
+            }
+            wrong => panic!("{other}: {wrong:?}"),
+        }
+    }
+}
+
+#[test]
 fn the_document_is_this_one() {
     let text = r#"{
   "schema": 1,

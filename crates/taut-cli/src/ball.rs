@@ -1,12 +1,11 @@
 //! `taut ball`: the smallest ball around points or balls.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use anyhow::bail;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use taut::{AnySolution, BallMethod, BallOptions, Items, ball_of_source};
-use taut_io::AtomicFile;
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
@@ -15,13 +14,14 @@ use crate::picture::{self, Picture};
 use crate::reading::{Points, Reading};
 use crate::report::{self, Fact, Report};
 use crate::verify::judge;
-use crate::writing;
+use crate::writing::{self, Outputs};
 
 /// Find the smallest ball around a point set, with proof.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
-      3 the gap asked for was not reached, for a budget or for rounding; the one reached is reported
+      3 stopped early by a budget, or where rounding hides the gap that was asked for;
+        the gap reached is reported
 Example: taut ball points.csv -o ball.json --draw ball.svg && taut verify ball.json points.csv")]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -38,7 +38,8 @@ pub(crate) struct Args {
     /// Far points taken to the core-set per pass, by core-set; at least 1 [default: by dimension]
     #[arg(long, value_name = "N")]
     batch: Option<usize>,
-    /// Most reads of all points, at least 3; then the best ball so far is given with its gap
+    /// Most reads of all points, then the best ball so far is given with its gap: at least 3, 4 for the thesis'
+    /// methods; a read or two more settle the scale of extreme coordinates
     #[arg(long, value_name = "N", default_value_t = BallOptions::default().max_passes)]
     max_passes: u64,
     /// Chooses the point from which the thesis' methods start
@@ -86,6 +87,9 @@ impl Args {
         {
             bail!("{}: -o writes JSON; draw with --draw {0}", out.display());
         }
+        let outputs: Vec<&Path> =
+            [&self.out, &self.draw].into_iter().flatten().map(|path| &**path).collect();
+        writing::look_at(&outputs, &[&self.points.path])?;
         let watch = self.effort.start()?;
         let mut clock = Clock::start();
         let points = self.reading.open(&self.points.path)?;
@@ -104,8 +108,8 @@ impl Args {
             match judge(&found, &points, &watch)? {
                 Ok(proved) => verdict = Some(proved),
                 Err(violation) => {
-                    let violation = points.explain_violation(&violation);
-                    eprintln!("taut: the ball found failed its check: {violation}");
+                    let violation = points.explain_violation(&violation, "the ball found");
+                    writing::complain(&format!("the check failed: {violation}"));
                     return Ok(Outcome::CheckFailed);
                 }
             }
@@ -117,27 +121,25 @@ impl Args {
         let drawn =
             picture.map(|picture| picture.draw(&report, &picture::Look::default())).transpose()?;
 
-        let mut files = Vec::new();
+        let mut outputs = Outputs::default();
         if let Some(out) = &self.out {
-            files.push(writing::stage(out, json(found).as_bytes())?);
+            outputs.add(out, json(found).as_bytes())?;
         }
         if let (Some(path), Some(drawn)) = (&self.draw, drawn) {
-            files.push(writing::stage(path, &drawn)?);
+            outputs.add(path, &drawn)?;
         }
-        files.into_iter().try_for_each(AtomicFile::commit)?;
-        let outcome = report::outcome(found, self.epsilon);
-        if self.out.as_deref() == Some("-".as_ref()) {
-            // The JSON is on standard output, and nothing else is to be.
-            return Ok(outcome);
+        // Where the answer goes to standard output, nothing else does.
+        if self.out.as_deref().is_none_or(|out| !writing::is_stream(out)) {
+            if self.json {
+                outputs.say(&json(found));
+            } else if !self.effort.quiet {
+                let mut facts = report.facts();
+                facts.push(clock.fact());
+                outputs.say(&report::text(&report.title(), &facts));
+            }
         }
-        if self.json {
-            writing::say(json(found).as_bytes())?;
-        } else if !self.effort.quiet {
-            let mut facts = report.facts();
-            facts.push(clock.fact());
-            writing::say(report::text(&report.title(), &facts).as_bytes())?;
-        }
-        Ok(outcome)
+        outputs.finish()?;
+        Ok(report::outcome(found, self.epsilon))
     }
 
     fn options(&self) -> BallOptions {

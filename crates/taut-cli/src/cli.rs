@@ -10,7 +10,8 @@ use crate::{ball, completions, draw, formats, generate, man, tour, verify};
 #[command(name = "taut", version, max_term_width = 100)]
 #[command(after_help = "\
 Exit: 0 done and as asked · 1 a check failed · 2 bad input or usage, nothing written ·
-      3 stopped early by a budget, the gap reached is reported · 130 interrupted
+      3 stopped early by a budget, or where rounding hides the gap that was asked for;
+        the gap reached is reported · 130 interrupted
 Start: taut tour, then open tour.html")]
 pub(crate) struct Cli {
     #[command(subcommand)]

@@ -9,7 +9,7 @@ use crate::exit::Outcome;
 use crate::picture::{Look, Picture};
 use crate::reading::{Points, Reading};
 use crate::report::Report;
-use crate::verify::{judge, read_answer};
+use crate::verify::{judge, read_answer, shown};
 use crate::writing;
 
 /// Draw an answer and its points as SVG, PNG or an interactive HTML page.
@@ -39,6 +39,7 @@ pub(crate) struct Args {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         let picture = Picture::of_path(&self.out)?;
+        writing::look_at(&[&self.out], &[&self.answer, &self.points.path])?;
         let watch = self.effort.start()?;
         let answer = read_answer(&self.answer, &self.points.path)?;
         let points = self.reading.open(&self.points.path)?;
@@ -47,8 +48,8 @@ impl Args {
             false => match judge(&answer, &points, &watch)? {
                 Ok(verdict) => Some(verdict),
                 Err(violation) => {
-                    let violation = points.explain_violation(&violation);
-                    eprintln!("taut: rejected, so not drawn: {violation}");
+                    let violation = points.explain_violation(&violation, &shown(&self.answer));
+                    writing::complain(&format!("rejected, so not drawn: {violation}"));
                     return Ok(Outcome::CheckFailed);
                 }
             },

@@ -1,8 +1,6 @@
 //! How much of the machine is used and how much is said on the way, the same for every subcommand.
 
-use std::num::NonZeroUsize;
-
-use anyhow::Context;
+use anyhow::{anyhow, bail};
 
 use crate::watch::Watch;
 
@@ -20,9 +18,9 @@ pub(crate) enum Progress {
 #[derive(Clone, Copy, Debug, clap::Args)]
 #[command(next_help_heading = "Running")]
 pub(crate) struct Effort {
-    /// Threads to use; no result depends on it [default: one for each processor]
-    #[arg(long, value_name = "N", env = "TAUT_THREADS", hide_env_values = true)]
-    threads: Option<NonZeroUsize>,
+    /// Threads to use, 1 to 1024; no result depends on it [default: TAUT_THREADS, or one for each processor]
+    #[arg(long, value_name = "N", value_parser = threads)]
+    threads: Option<usize>,
     /// Say nothing but errors; the exit code tells how it went
     #[arg(short, long)]
     pub(crate) quiet: bool,
@@ -34,10 +32,38 @@ pub(crate) struct Effort {
 impl Effort {
     /// Starts the threads; to be called once, before any work.
     pub(crate) fn start(&self) -> anyhow::Result<Watch> {
-        let threads = self.threads.map_or(0, NonZeroUsize::get);
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().with_context(|| {
-            format!("could not start {threads} threads; try fewer with --threads")
-        })?;
+        // For the pool 0 is one for each processor.
+        let threads = match self.threads {
+            Some(threads) => Some(threads),
+            None => threads_of_environment()?,
+        };
+        rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build_global().map_err(
+            |source| {
+                anyhow!("the threads could not be started: {source}; try fewer with --threads")
+            },
+        )?;
         Ok(Watch::new(if self.quiet { Progress::Never } else { self.progress }))
+    }
+}
+
+/// More threads than any machine has processors only cost memory, and starting them takes ever longer.
+const THREADS_MOST: usize = 1024;
+
+fn threads(text: &str) -> Result<usize, String> {
+    text.parse()
+        .ok()
+        .filter(|threads| (1..=THREADS_MOST).contains(threads))
+        .ok_or_else(|| format!("expected a whole number from 1 to {THREADS_MOST}"))
+}
+
+/// What the variable `TAUT_THREADS` asks for, if it is set and not empty.
+fn threads_of_environment() -> anyhow::Result<Option<usize>> {
+    let Some(text) = std::env::var_os("TAUT_THREADS").filter(|text| !text.is_empty()) else {
+        return Ok(None);
+    };
+    let text = text.to_string_lossy();
+    match threads(&text) {
+        Ok(threads) => Ok(Some(threads)),
+        Err(expected) => bail!("the environment variable TAUT_THREADS is `{text}`: {expected}"),
     }
 }

@@ -1,8 +1,9 @@
 //! `taut generate`: seeded point sets of the literature, of any size.
 
-use std::path::{Path, PathBuf};
+use std::io::ErrorKind;
+use std::path::PathBuf;
 
-use anyhow::{anyhow, bail};
+use anyhow::bail;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use taut::points::{Error, GeneratedSource, ScalarKind};
 use taut::{Distribution, PointSource};
@@ -11,7 +12,8 @@ use taut_io::{Format, write_points};
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::radii::{Balls, Law};
-use crate::reading::{formats, scalar};
+use crate::reading::{formats, scalar, wrong_option};
+use crate::writing;
 
 /// Generate a seeded point set; point i depends on the seed and i alone.
 #[derive(Debug, clap::Args)]
@@ -81,12 +83,11 @@ fn distributions() -> PossibleValuesParser {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         let distribution = self.distribution()?;
-        let refused = |error: Error| anyhow!("{error}");
         let points = GeneratedSource::new(distribution, self.n, self.d, self.seed, self.scalar)
             .map_err(refused)?;
         let watch = self.effort.start()?;
         let format = match self.format {
-            None if self.out == Path::new("-") => Some(Format::Csv),
+            None if writing::is_stream(&self.out) => Some(Format::Csv),
             given => given,
         };
         let balls = self
@@ -98,10 +99,16 @@ impl Args {
             Some(balls) => balls,
             None => &points,
         };
-        watch.during("writing", |monitor| {
+        let written = watch.during("writing", |monitor| {
             monitor.pass(1, source.len());
             write_points(source, &[], &self.out, format, monitor)
-        })?;
+        });
+        match written {
+            // Whoever reads the points has enough: `taut generate ... | head` is no failure.
+            Err(taut_io::Error::Write { source, .. }) if source.kind() == ErrorKind::BrokenPipe => {
+            }
+            written => written?,
+        }
         Ok(Outcome::Done)
     }
 
@@ -131,5 +138,14 @@ impl Args {
             "simplex" => Distribution::Simplex,
             _ => Distribution::Polygon { vertices: self.vertices.unwrap_or(self.n.max(1)) },
         })
+    }
+}
+
+/// What the generator refused, under the name that the command line gives it.
+fn refused(error: Error) -> anyhow::Error {
+    match error {
+        Error::Parameter { name, value, expected } => wrong_option(name, &value, expected),
+        Error::ZeroDimension => wrong_option("dim", "0", "a dimension of at least 1"),
+        other => other.into(),
     }
 }

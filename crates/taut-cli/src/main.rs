@@ -32,5 +32,6 @@ use clap::Parser;
 fn main() -> ExitCode {
     let cli = cli::Cli::parse();
     watch::stop_on_interrupt();
+    watch::survive_file_limits();
     exit::code(cli.run())
 }

@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
-use anyhow::Context;
+use anyhow::anyhow;
 use clap::CommandFactory;
 
 use crate::cli::Cli;
 use crate::exit::Outcome;
-use crate::writing;
+use crate::writing::Outputs;
 
 /// Write the manual pages to a folder.
 #[derive(Debug, clap::Args)]
@@ -24,13 +24,15 @@ impl Args {
         let pages: Vec<clap::Command> =
             std::iter::once(top.clone()).chain(top.get_subcommands().cloned()).collect();
         std::fs::create_dir_all(&self.dir)
-            .with_context(|| format!("{}: could not be made", self.dir.display()))?;
+            .map_err(|source| anyhow!("{}: could not be made: {source}", self.dir.display()))?;
+        let mut outputs = Outputs::default();
         for page in pages {
             let page = clap_mangen::Man::new(page);
             let mut text = Vec::new();
             page.render(&mut text)?;
-            writing::replace(&self.dir.join(page.get_filename()), &text)?;
+            outputs.add(&self.dir.join(page.get_filename()), &text)?;
         }
+        outputs.finish()?;
         Ok(Outcome::Done)
     }
 }

@@ -10,7 +10,20 @@ pub(crate) fn exact(value: f64) -> String {
 
 /// Nine digits at most, for numbers that are looked at.
 pub(crate) fn short(value: f64) -> String {
-    format!("{value:.8e}").parse().map_or_else(|_| value.to_string(), exact)
+    digits(value, 9)
+}
+
+/// So many digits at most, at least one; with 17 all that matter.
+fn digits(value: f64, most: usize) -> String {
+    format!("{value:.*e}", most - 1).parse().map_or_else(|_| value.to_string(), exact)
+}
+
+/// Nine digits, or as many as place the number within a thousandth of `size`.
+fn beside(value: f64, size: f64) -> String {
+    // Rounding to k digits moves v by at most 5·10^(log|v| − k), which is size/2000 for k = log(|v|/size) + 4.
+    let needed = (value / size).abs().log10() + 4.0;
+    // All digits where nothing less will do, and where there is no size.
+    if needed <= 16.0 { digits(value, needed.max(9.0).ceil() as usize) } else { exact(value) }
 }
 
 /// A relative gap: two digits are enough.
@@ -47,13 +60,14 @@ pub(crate) fn seconds(time: Duration) -> String {
     }
 }
 
-/// Coordinates of a point in a picture of this size; of many, the first few. What is nothing beside the size is 0.
+/// Coordinates of a point beside a length `size`, with the digits that matter there; of many, the first few. What is
+/// nothing beside the size is 0.
 pub(crate) fn coordinates(point: &[f64], size: f64) -> String {
     const SHOWN: usize = 6;
     let shown = if point.len() <= SHOWN + 2 { point.len() } else { SHOWN };
     let list: Vec<String> = point[..shown]
         .iter()
-        .map(|&value| if value.abs() < 1e-12 * size { "0".to_owned() } else { short(value) })
+        .map(|&value| if value.abs() < 1e-12 * size { "0".to_owned() } else { beside(value, size) })
         .collect();
     match point.len() - shown {
         0 => format!("({})", list.join(", ")),
@@ -86,6 +100,10 @@ mod tests {
         assert_eq!(counted(1, "point"), "1 point");
         assert_eq!(coordinates(&[1.0, -0.5, -1e-13], 1.0), "(1, -0.5, 0)");
         assert_eq!(coordinates(&[0.0; 9], 1.0), "(0, 0, 0, 0, 0, 0, …)");
+        assert_eq!(coordinates(&[1_000_000_000_001.0, 7.0], 0.5), "(1000000000001, 7)");
+        assert_eq!(coordinates(&[1_000_000_000_001.25], 9000.0), "(1000000000001)");
+        assert_eq!(coordinates(&[0.1 + 0.2, 1e300 / 3.0], 1.0), "(0.3, 3.3333333333333335e299)");
+        assert_eq!(coordinates(&[0.1 + 0.2, 0.0], 0.0), "(0.30000000000000004, 0)");
         assert!(!abridged(&[0.0; 8]) && abridged(&[0.0; 9]));
     }
 }

@@ -10,7 +10,7 @@ use taut::points::{ReadError, ScalarKind};
 use taut::{Items, PointSource, Violation};
 use taut_io::{Columns, Format, Header, Input, RawLayout, ReadOptions};
 
-use crate::size;
+use crate::{size, writing};
 
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Reading")]
@@ -85,7 +85,7 @@ impl Reading {
     /// Opens the points of `path`; `-` is standard input.
     pub(crate) fn open(&self, path: &Path) -> anyhow::Result<Opened> {
         if path == Path::new("-") && std::io::stdin().is_terminal() {
-            eprintln!("taut: reading points from the terminal; Ctrl-D ends them");
+            writing::complain("reading points from the terminal; Ctrl-D ends them");
         }
         Ok(Opened { input: taut_io::open(path, &self.options()?)? })
     }
@@ -142,17 +142,24 @@ impl Opened {
         }
     }
 
-    /// Why an answer was rejected, with the place in the file, which a checker cannot know.
-    pub(crate) fn explain_violation(&self, violation: &Violation) -> String {
+    /// Why an answer was rejected: in which of the two files, and where, which a checker cannot know.
+    pub(crate) fn explain_violation(&self, violation: &Violation, answer: &str) -> String {
+        let points = self.name();
         match *violation {
-            Violation::NonFinite { row, column, .. } => {
-                format!("{}: {violation}", self.input.describe_cell(row, column))
-            }
             Violation::Outside { row, .. } => {
-                let row = self.input.describe_cell(row, 0).row;
-                format!("{}: row {row} of the data: {violation}", self.name())
+                // Points count from 0, rows of a file from 1.
+                let (point, place) = (format!("point {row}"), self.input.describe_cell(row, 0).row);
+                let said =
+                    violation.to_string().replacen(&point, &format!("{point} (row {place})"), 1);
+                format!("{points}: {said}")
             }
-            _ => format!("{}: {violation}", self.name()),
+            Violation::Hash { .. } | Violation::Dimension { .. } | Violation::NoRadius { .. } => {
+                format!("{points} does not belong to {answer}: {violation}")
+            }
+            Violation::Support { point, .. } if point >= self.input.source.len() => {
+                format!("{points} does not belong to {answer}: {violation}")
+            }
+            _ => format!("{answer}: {violation}"),
         }
     }
 

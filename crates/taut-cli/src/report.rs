@@ -94,7 +94,7 @@ impl Report<'_> {
 fn stopped(stop: Stop) -> &'static str {
     match stop {
         Stop::Converged => "converged",
-        Stop::Rounding => "stopped where rounding hides any smaller gap",
+        Stop::Rounding => "stopped where this method's rounding allows no smaller gap",
         Stop::PassBudget => "stopped early by the budget of passes",
     }
 }

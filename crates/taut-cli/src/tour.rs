@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-use anyhow::{Context, anyhow};
+use anyhow::{anyhow, bail};
 use taut::{AnySolution, BallOptions, Violation, ball_of_source};
 use taut_draw::{Fact, Page, Section, to_html};
 
@@ -18,7 +18,7 @@ use crate::reading::Opened;
 use crate::report::Report;
 use crate::verify::judge;
 use crate::watch::Watch;
-use crate::writing;
+use crate::writing::{self, Outputs};
 use stations::{STATIONS, Station};
 
 /// See every tool at work on samples: one page with pictures, each answer checked.
@@ -42,17 +42,19 @@ pub(crate) struct Args {
 
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
+        self.look_at_places()?;
         let watch = self.effort.start()?;
         let mut outcome = Outcome::Done;
         let mut sections = Vec::new();
-        let say = |line: &str| match self.effort.quiet {
+        // Where the page goes to standard output, nothing else does.
+        let say = |line: &str| match self.effort.quiet || writing::is_stream(&self.out) {
             true => Ok(()),
             false => writing::say(line.as_bytes()),
         };
         for station in STATIONS {
             let clock = Instant::now();
             let stop = visit(station, &watch)
-                .with_context(|| format!("sample {} failed", station.file))?;
+                .map_err(|error| anyhow!("sample {}: {error}", station.file))?;
             let verified = if stop.verified { "yes" } else { "NO" };
             if !stop.verified {
                 outcome = Outcome::CheckFailed;
@@ -65,15 +67,38 @@ impl Args {
             ))?;
             sections.push(stop.section);
         }
+        let mut outputs = Outputs::default();
         if let Some(folder) = &self.samples {
-            write_samples(folder)?;
+            for station in STATIONS {
+                outputs.add(&folder.join(station.file), station.bytes)?;
+            }
         }
-        writing::replace(&self.out, page(sections).as_bytes())?;
-        say(&format!("The page is {}\n", self.out.display()))?;
+        outputs.add(&self.out, page(sections).as_bytes())?;
+        if !self.effort.quiet && !writing::is_stream(&self.out) {
+            let name = self.out.display().to_string();
+            outputs.say(&format!("The page is {}\n", writing::printable(&name)));
+        }
+        outputs.finish()?;
         if self.open {
             show(&self.out);
         }
         Ok(outcome)
+    }
+
+    /// Refuses what could not be written in the end, and makes the folder for the samples.
+    fn look_at_places(&self) -> anyhow::Result<()> {
+        let name = self.out.display();
+        if self.out.extension().is_some_and(|e| e != "html" && e != "htm") {
+            bail!("{name}: the tour is a page of HTML; name it .html");
+        }
+        if self.open && writing::is_stream(&self.out) {
+            bail!("--open shows a file, but the page goes to standard output: name a file with -o");
+        }
+        if let Some(folder) = &self.samples {
+            std::fs::create_dir_all(folder)
+                .map_err(|source| anyhow!("{}: could not be made: {source}", folder.display()))?;
+        }
+        writing::look_at(&[&self.out], &[])
     }
 }
 
@@ -100,7 +125,10 @@ fn visit(station: &Station, watch: &Watch) -> anyhow::Result<Stop> {
         Ok(proved) => verdict = Some(proved),
         Err(violation) => {
             verified = false;
-            further.push(Fact::new("rejected", points.explain_violation(&violation)));
+            further.push(Fact::new(
+                "rejected",
+                points.explain_violation(&violation, "the ball found"),
+            ));
         }
     }
     if station.doctored {
@@ -144,14 +172,6 @@ fn page(sections: Vec<Section>) -> String {
     })
 }
 
-fn write_samples(folder: &Path) -> anyhow::Result<()> {
-    std::fs::create_dir_all(folder)
-        .map_err(|source| anyhow!("{}: could not be made: {source}", folder.display()))?;
-    STATIONS
-        .iter()
-        .try_for_each(|station| writing::replace(&folder.join(station.file), station.bytes))
-}
-
 /// Hands the page to whatever the system opens pages with.
 fn show(page: &Path) {
     let (program, words): (_, &[&str]) = match std::env::consts::OS {
@@ -161,6 +181,7 @@ fn show(page: &Path) {
     };
     let status = Command::new(program).args(words).arg(page).status();
     if !status.is_ok_and(|status| status.success()) {
-        eprintln!("taut: no browser could be started: open {} by hand", page.display());
+        let page = page.display();
+        writing::complain(&format!("no browser could be started: open {page} by hand"));
     }
 }

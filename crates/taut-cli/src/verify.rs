@@ -1,10 +1,11 @@
 //! `taut verify`: judges an answer from the points and its certificate alone.
 
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
-use taut::certify::CheckError;
+use taut::certify::{CheckError, JsonError};
+use taut::enclose::Error as SolveError;
 use taut::{AnySolution, Verdict, Violation};
 
 use crate::effort::Effort;
@@ -19,13 +20,17 @@ use crate::writing;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Columns and the like have to be chosen as for the answer: the certificate knows its points by a hash.
-Exit: 0 proved · 1 rejected, with the first violation · 2 bad input or usage
-Example: taut verify ball.json points.csv")]
+Exit: 0 proved · 1 rejected, with the first violation, or a larger gap than --epsilon ·
+      2 bad input or usage
+Example: taut verify ball.json points.csv --epsilon 1e-6")]
 pub(crate) struct Args {
     /// The answer, as `taut ball -o` writes it; - is standard input
     answer: PathBuf,
     #[command(flatten)]
     points: Points,
+    /// Largest relative gap to accept, at least 0 [default: the one the certificate claims]
+    #[arg(long, value_name = "REAL", value_parser = epsilon, allow_negative_numbers = true)]
+    epsilon: Option<f64>,
     #[command(flatten)]
     reading: Reading,
     #[command(flatten)]
@@ -37,15 +42,23 @@ impl Args {
         let watch = self.effort.start()?;
         let answer = read_answer(&self.answer, &self.points.path)?;
         let points = self.reading.open(&self.points.path)?;
+        let rejected = |why: String| {
+            (Outcome::CheckFailed, format!("Rejected: {}\n", writing::printable(&why)))
+        };
+        let name = shown(&self.answer);
+        let most = self.epsilon.unwrap_or(f64::INFINITY);
         let (outcome, said) = match judge(&answer, &points, &watch)? {
-            Ok(verdict) => (
-                Outcome::Done,
-                report::text(&format!("Verified: {}", claim(&answer)), &facts(&verdict)),
-            ),
-            Err(violation) => {
-                let said = format!("Rejected: {}\n", points.explain_violation(&violation));
-                (Outcome::CheckFailed, said)
+            Ok(Verdict { gap: proved, .. }) if proved > most => rejected(format!(
+                // All digits: rounded to a few, the gap could look like the one allowed.
+                "{name}: a gap of {proved:e} is proved, larger than --epsilon {most:e}"
+            )),
+            Ok(verdict) => {
+                // A loose certificate is as true as a tight one: how tight it is belongs to what is said.
+                let title =
+                    format!("Verified within a gap of {}: {}", gap(verdict.gap), claim(&answer));
+                (Outcome::Done, report::text(&title, &facts(&verdict)))
             }
+            Err(violation) => rejected(points.explain_violation(&violation, &name)),
         };
         if !self.effort.quiet {
             writing::say(said.as_bytes())?;
@@ -62,6 +75,13 @@ pub(crate) fn judge(
 ) -> anyhow::Result<Result<Verdict, Violation>> {
     match watch.during("checking", |monitor| answer.check(points.source(), monitor)) {
         Ok(verdict) => Ok(Ok(verdict)),
+        // Points no answer can be judged by are no fault of the answer.
+        Err(CheckError::Rejected(Violation::NonFinite { row, column, value })) => {
+            Err(points.explain(SolveError::NonFinite { row, column, value }))
+        }
+        Err(CheckError::Rejected(Violation::NegativeRadius { row, value })) => {
+            Err(points.explain(SolveError::NegativeRadius { row, value }))
+        }
         Err(CheckError::Rejected(violation)) => Ok(Err(violation)),
         Err(CheckError::Read(error)) => Err(points.reading_failed(error)),
         Err(error) => Err(error.into()),
@@ -70,18 +90,38 @@ pub(crate) fn judge(
 
 /// Reads an answer; `points` is the other input, as both cannot be standard input.
 pub(crate) fn read_answer(path: &Path, points: &Path) -> anyhow::Result<AnySolution> {
-    let name =
-        if path == Path::new("-") { "standard input".into() } else { path.display().to_string() };
+    let name = shown(path);
     let mut text = String::new();
-    let read = match path == Path::new("-") {
-        true if points == Path::new("-") => {
+    let read = match writing::is_stream(path) {
+        true if writing::is_stream(points) => {
             bail!("only one of answer and points can be standard input: give a file for the other")
         }
         true => std::io::stdin().read_to_string(&mut text),
         false => std::fs::File::open(path).and_then(|mut file| file.read_to_string(&mut text)),
     };
-    read.map_err(|source| anyhow!("{name}: the answer could not be read: {source}"))?;
-    AnySolution::from_json(&text).map_err(|error| anyhow!("{name}: {error}"))
+    let order = "the answer comes first, then the points";
+    read.map_err(|source| match source.kind() {
+        ErrorKind::NotFound => anyhow!("{name}: no such file"),
+        ErrorKind::IsADirectory => anyhow!("{name} is a folder: name the file of the answer"),
+        ErrorKind::InvalidData => anyhow!("{name}: not an answer of taut: it is no text; {order}"),
+        _ => anyhow!("{name}: the answer could not be read: {source}"),
+    })?;
+    AnySolution::from_json(&text).map_err(|error| match error {
+        JsonError::Syntax { .. } => anyhow!("{name}: {error}; {order}"),
+        error => anyhow!("{name}: {error}"),
+    })
+}
+
+/// The file of an answer as shown to people.
+pub(crate) fn shown(path: &Path) -> String {
+    if writing::is_stream(path) { "standard input".into() } else { path.display().to_string() }
+}
+
+fn epsilon(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(epsilon) if epsilon >= 0.0 => Ok(epsilon),
+        _ => Err("expected a number, at least 0".into()),
+    }
 }
 
 fn claim(answer: &AnySolution) -> String {

@@ -14,6 +14,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use taut::Monitor;
 
 use crate::effort::Progress;
+use crate::writing;
 
 /// Exit code after an interrupt: 128 and the number of the signal, as shells have it.
 pub(crate) const INTERRUPTED: u8 = 130;
@@ -35,6 +36,13 @@ pub(crate) fn stop_on_interrupt() {
     };
     // Without a handler the system's own stays, which ends the process: no harm.
     ctrlc::set_handler(handler).ok();
+}
+
+/// From now on a write beyond the limit of the size of files fails as on a full disk, and what failed is said; left
+/// alone, the system would end the process and temporary files would stay.
+pub(crate) fn survive_file_limits() {
+    #[cfg(unix)]
+    signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default()).ok();
 }
 
 /// Whether watched work was asked to stop.
@@ -61,7 +69,7 @@ impl Watch {
         let (done, shown, start) = (AtomicU64::new(0), AtomicBool::new(false), Instant::now());
         let on_pass = |pass: u64, points: u64| {
             if lines {
-                eprintln!("{what}: pass {pass} over {points} points");
+                writing::tell(&format!("{what}: pass {pass} over {points} points"));
             }
             done.store(0, Ordering::Relaxed);
             bar.set_length(points);

@@ -1,39 +1,140 @@
 //! Text and pictures to files, whole or not at all, and words to standard output.
+//!
+//! *Idea.* Everything that can fail is done before the first file takes its name: places are looked at before the
+//! work, bytes go to temporary files after it, then the words to standard output, and the renames come last. So an
+//! error leaves earlier files as they were.
 
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 
-use anyhow::bail;
-use taut_io::AtomicFile;
+use anyhow::{anyhow, bail};
+use taut_io::{AtomicFile, Error};
 
 use crate::watch::interrupted;
 
-/// Replaces the file `path` by `bytes`, or writes them to standard output for `-`.
-pub(crate) fn replace(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    Ok(stage(path, bytes)?.commit()?)
+/// Refuses places that cannot be written, or that are among the `inputs`, before any work is done.
+pub(crate) fn look_at(outputs: &[&Path], inputs: &[&Path]) -> anyhow::Result<()> {
+    for &output in outputs.iter().filter(|output| !is_stream(output)) {
+        let path = output.display().to_string();
+        if output.is_dir() {
+            return Err(Error::Directory { path }.into());
+        }
+        let folder = output.parent().filter(|folder| !folder.as_os_str().is_empty());
+        if folder.is_some_and(|folder| !folder.is_dir()) {
+            return Err(Error::NotFound { path }.into());
+        }
+        if inputs.iter().any(|input| same_file(output, input)) {
+            bail!("`{path}` is the input: name another file for the answer");
+        }
+    }
+    Ok(())
 }
 
-/// Writes `bytes` where they take the place of `path` once they are committed; until then an earlier file stays as
-/// it was. Of several files, all are staged before the first is committed.
-pub(crate) fn stage(path: &Path, bytes: &[u8]) -> anyhow::Result<AtomicFile> {
-    if interrupted() {
-        bail!("interrupted: {} is as it was", path.display());
+/// Whether `-` is meant, standard input or output.
+pub(crate) fn is_stream(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// Whether writing to the regular file `output` would replace what is read from `input`.
+fn same_file(output: &Path, input: &Path) -> bool {
+    let input = if is_stream(input) { Path::new("/dev/stdin") } else { input };
+    let (Ok(to), Ok(from)) = (output.metadata(), input.metadata()) else { return false };
+    #[cfg(unix)]
+    let same = {
+        use std::os::unix::fs::MetadataExt;
+        (to.dev(), to.ino()) == (from.dev(), from.ino())
+    };
+    #[cfg(not(unix))]
+    let same =
+        output.canonicalize().is_ok_and(|to| input.canonicalize().is_ok_and(|from| to == from));
+    to.is_file() && from.is_file() && same
+}
+
+/// Files and words that are written together.
+#[derive(Default)]
+pub(crate) struct Outputs {
+    files: Vec<AtomicFile>,
+    words: Vec<u8>,
+}
+
+impl Outputs {
+    /// Prepares the file `path`; `-` is standard output.
+    pub(crate) fn add(&mut self, path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+        if is_stream(path) {
+            self.words.extend_from_slice(bytes);
+            return Ok(());
+        }
+        if interrupted() {
+            bail!("interrupted: {} is as it was", path.display());
+        }
+        let mut file = taut_io::create(path)?;
+        file.write_all(bytes)
+            .and_then(|()| file.flush())
+            .map_err(|source| failed(file.path(), &source))?;
+        self.files.push(file);
+        Ok(())
     }
-    let mut file = taut_io::create(path)?;
-    match file.write_all(bytes) {
-        Ok(()) => Ok(file),
-        Err(source) => Err(failed(file.path(), source)),
+
+    /// Words for standard output.
+    pub(crate) fn say(&mut self, words: &str) {
+        self.words.extend_from_slice(words.as_bytes());
     }
+
+    /// Says the words, then gives the files their names.
+    pub(crate) fn finish(self) -> anyhow::Result<()> {
+        say(&self.words)?;
+        self.files.into_iter().try_for_each(AtomicFile::commit)?;
+        Ok(())
+    }
+}
+
+/// Replaces the file `path` by `bytes`, or writes them to standard output for `-`.
+pub(crate) fn replace(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+    let mut outputs = Outputs::default();
+    outputs.add(path, bytes)?;
+    outputs.finish()
 }
 
 /// Writes to standard output, at once.
 pub(crate) fn say(bytes: &[u8]) -> anyhow::Result<()> {
     let mut out = std::io::stdout().lock();
-    let written = out.write_all(bytes).and_then(|()| out.flush());
-    written.map_err(|source| failed("standard output", source))
+    match out.write_all(bytes).and_then(|()| out.flush()) {
+        // Whoever reads has enough: that changes neither what is written to files nor how the command ends.
+        Err(source) if source.kind() == ErrorKind::BrokenPipe => Ok(()),
+        written => written.map_err(|source| failed("standard output", &source)),
+    }
 }
 
-fn failed(what: &str, source: std::io::Error) -> anyhow::Error {
-    let said = format!("{what}: writing failed: {source}");
-    anyhow::Error::new(source).context(said)
+/// Says on standard error, in one line, what is wrong or to be done.
+pub(crate) fn complain(words: &str) {
+    tell(&format!("taut: {}", printable(words)));
+}
+
+/// Says a line on standard error, if anybody can hear it: nothing depends on that.
+pub(crate) fn tell(line: &str) {
+    writeln!(std::io::stderr(), "{line}").ok();
+}
+
+/// What a terminal can show as it is: names in files may hold characters that would command it.
+pub(crate) fn printable(words: &str) -> String {
+    let mut shown = String::with_capacity(words.len());
+    for c in words.chars() {
+        match c.is_control() {
+            true => shown.extend(c.escape_default()),
+            false => shown.push(c),
+        }
+    }
+    shown
+}
+
+fn failed(what: &str, source: &std::io::Error) -> anyhow::Error {
+    anyhow!("{what}: writing failed: {source}")
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn nothing_shown_commands_the_terminal() {
+        assert_eq!(super::printable("a\u{1b}[31m\n\u{9b}ä"), "a\\u{1b}[31m\\n\\u{9b}ä");
+    }
 }

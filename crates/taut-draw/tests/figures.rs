@@ -138,7 +138,7 @@ fn the_plane_shows_every_point_once_and_the_support_marked() {
         .filter(|n| n.has_tag_name("title"))
         .filter_map(|n| n.text())
         .collect();
-    assert!(titles.contains(&"row 0: x = 1, y = 0; support, multiplier 0.5"), "{titles:?}");
+    assert!(titles.contains(&"point 0: x = 1, y = 0; support, multiplier 0.5"), "{titles:?}");
     assert!(figures[0].caption().contains("All 50 points are drawn."));
     // The ball itself: one circle, round.
     let answer =

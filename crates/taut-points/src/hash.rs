@@ -36,10 +36,21 @@ impl std::fmt::Display for PointsHash {
     }
 }
 
+/// The text is not what a [`PointsHash`] is written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("a hash of points is 16 digits, each of 0 to 9 or a to f")]
+pub struct HashFormError;
+
 impl std::str::FromStr for PointsHash {
-    type Err = std::num::ParseIntError;
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        u64::from_str_radix(text, 16).map(PointsHash)
+    type Err = HashFormError;
+
+    /// Reads what is written, and nothing else: a hash has one form.
+    fn from_str(text: &str) -> Result<Self, HashFormError> {
+        let form = text.len() == 16 && text.bytes().all(|b| matches!(b, b'0'..=b'9' | b'a'..=b'f'));
+        match u64::from_str_radix(text, 16) {
+            Ok(hash) if form => Ok(PointsHash(hash)),
+            _ => Err(HashFormError),
+        }
     }
 }
 
@@ -175,6 +186,14 @@ mod tests {
         let mut swapped = values.clone();
         swapped.swap(0, 64);
         assert_ne!(before, hash(&swapped, 2));
+    }
+
+    #[test]
+    fn a_hash_has_one_form() {
+        assert_eq!("00000000000feed0".parse(), Ok(PointsHash(0xfeed0)));
+        for other in ["feed0", "+000000000feed0a", "00000000000FEED0", "000000000000feed0", ""] {
+            assert_eq!(other.parse::<PointsHash>(), Err(HashFormError), "{other}");
+        }
     }
 
     #[test]

@@ -32,7 +32,7 @@ mod source;
 pub use blocks::{Blocks, map_blocks};
 pub use error::{Error, ReadError};
 pub use generate::{Distribution, GeneratedSource, generate, generate_into};
-pub use hash::{BlockHash, PointsHash, hash_block, hash_points};
+pub use hash::{BlockHash, HashFormError, PointsHash, hash_block, hash_points};
 pub use monitor::{Cancelled, Monitor};
 pub use points::{Points, Rows, Scalar, ScalarKind};
 pub use source::{FileSource, MappedSource, OwnedPoints, PointSource, Scratch, gather};

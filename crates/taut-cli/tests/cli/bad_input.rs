@@ -144,9 +144,20 @@ fn a_full_disk() {
         let run = desk.taut(line).ends(2).complains(&["/dev/full", "No space left"]);
         assert!(!run.out.contains('{'), "{line} printed an answer that was not written");
     }
-    desk.shell("taut ball points.csv > /dev/full")
-        .ends(2)
-        .complains(&["standard output", "No space left"]);
+    desk.shell("taut ball missing.csv 2> /dev/full").ends(2);
+    desk.shell("taut ball points.csv -q --progress always 2> /dev/full").ends(0);
+    desk.shell("taut ball points.csv --progress always 2> /dev/full").ends(0);
+    desk.put("ball.json", "earlier answer");
+    for line in [
+        "taut ball points.csv > /dev/full",
+        "taut ball points.csv -o ball.json > /dev/full",
+        "taut ball points.csv --json -o ball.json --draw ball.svg > /dev/full",
+    ] {
+        desk.shell(line).ends(2).complains(&["standard output", "No space left"]);
+    }
+    desk.taut("ball points.csv -o ball.json --draw nowhere/ball.svg").ends(2);
+    assert_eq!(desk.text("ball.json"), "earlier answer");
+    assert_eq!(desk.files(), ["ball.json", "points.csv"]);
 }
 
 /// A file may not grow beyond one block: as on a full disk, a write fails halfway.
@@ -157,13 +168,53 @@ fn a_write_that_fails_halfway_leaves_the_earlier_file() {
     desk.taut("generate normal -n 300 -d 200 -o points.npy").ends(0);
     desk.put("ball.json", "earlier answer");
     let before = desk.files();
-    desk.shell(
-        "trap '' XFSZ; ulimit -f 1; taut ball points.npy --quiet --epsilon 0.1 -o ball.json",
-    )
-    .ends(2)
-    .complains(&["ball.json"]);
+    for trap in ["", "trap '' XFSZ; "] {
+        let limit = format!("{trap}ulimit -f 1; taut");
+        desk.shell(&format!("{limit} ball points.npy --quiet --epsilon 0.1 -o ball.json"))
+            .ends(2)
+            .complains(&["ball.json", "File too large"]);
+        desk.shell(&format!("{limit} generate normal -n 9999 -d 9 -o ball.json --format csv"))
+            .ends(2)
+            .complains(&["ball.json", "File too large"]);
+    }
     assert_eq!(desk.text("ball.json"), "earlier answer");
     assert_eq!(desk.files(), before);
+}
+
+#[test]
+fn an_output_that_is_an_input_is_refused() {
+    let desk = Desk::new();
+    desk.put("points.csv", GOOD);
+    desk.put("picture.svg", GOOD);
+    desk.taut("ball points.csv -o ball.json").ends(0);
+    std::fs::create_dir(desk.path("folder")).unwrap();
+    std::fs::copy(desk.path("ball.json"), desk.path("answer.svg")).unwrap();
+    let mut lines = vec![
+        ("ball points.csv -o points.csv", "points.csv"),
+        ("ball points.csv -o folder/../points.csv", "points.csv"),
+        ("ball picture.svg --format csv --draw picture.svg", "picture.svg"),
+        ("draw answer.svg points.csv -o answer.svg", "answer.svg"),
+        ("draw ball.json picture.svg --format csv -o picture.svg", "picture.svg"),
+    ];
+    if cfg!(unix) {
+        std::fs::hard_link(desk.path("points.csv"), desk.path("twin.csv")).unwrap();
+        lines.push(("ball points.csv -o twin.csv", "twin.csv"));
+    }
+    for (line, file) in lines {
+        desk.taut(line).ends(2).complains(&[&format!("{file}` is the input: name another file")]);
+    }
+    assert_eq!(desk.text("points.csv"), GOOD);
+    assert_eq!(desk.text("picture.svg"), GOOD);
+    assert_eq!(desk.text("answer.svg"), desk.text("ball.json"));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_output_that_is_standard_input_is_refused() {
+    let desk = Desk::new();
+    desk.put("points.csv", GOOD);
+    desk.shell("taut ball - -o points.csv < points.csv").ends(2).complains(&["is the input"]);
+    assert_eq!(desk.text("points.csv"), GOOD);
 }
 
 #[test]
@@ -181,7 +232,16 @@ fn unknown_names_and_options_out_of_range() {
         ("ball points.csv --epsilon 0 --method badoiu-clarkson", "badoiu-clarkson"),
         ("ball points.csv --max-passes 1", "--max-passes"),
         ("ball points.csv --batch 0", "--batch"),
-        ("ball points.csv --threads 0", "threads"),
+        ("ball points.csv --threads 0", "from 1 to 1024"),
+        ("ball points.csv --threads 1025", "from 1 to 1024"),
+        ("ball points.csv --threads 99999999999999999999", "from 1 to 1024"),
+        ("generate clusters -n 1 -d 1 --spread -1", "--spread` is -1"),
+        ("generate shell -n 1 -d 1 --thickness NaN", "--thickness` is NaN"),
+        ("generate normal -n 1 -d 0", "--dim` is 0"),
+        ("man points.csv/pages", "Not a directory"),
+        ("tour -o tour.json", "tour.json"),
+        ("tour --samples points.csv", "points.csv"),
+        ("tour -o nowhere/tour.html", "nowhere/tour.html"),
         ("ball points.csv --columns w", "`w`"),
         ("ball points.csv --columns 7", "7"),
         ("ball points.csv --draw ball.bmp", "ball.bmp"),

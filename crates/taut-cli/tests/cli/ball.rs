@@ -140,6 +140,26 @@ fn a_reader_that_leaves_early_is_no_failure() {
     assert_eq!(run.out.lines().count(), 1);
 }
 
+#[cfg(unix)]
+#[test]
+fn a_stop_by_budget_stays_one_when_nobody_listens() {
+    let desk = Desk::new();
+    desk.taut("generate normal -n 500 -d 30 -o points.npy").ends(0);
+    for to in ["-o ball.json", "-o -", "--json"] {
+        let line = format!("taut ball points.npy --batch 1 --max-passes 3 --epsilon 0 {to}");
+        let run = desk.shell(&format!("{{ sleep 0.3; {line}; echo code $? >&2; }} | true"));
+        assert_eq!(run.err, "code 3\n", "{to}");
+    }
+    desk.taut("verify ball.json points.npy").ends(0);
+}
+
+#[test]
+fn the_centre_shown_lies_in_its_ball() {
+    let desk = Desk::new();
+    desk.put("far.csv", "1000000000000.5,7\n1000000000001.5,7\n");
+    desk.taut("ball far.csv").ends(0).says(&["\n  centre    (1000000000001, 7)\n"]);
+}
+
 #[test]
 fn a_budget_ends_the_work_with_its_gap_and_code_3() {
     let desk = Desk::new();

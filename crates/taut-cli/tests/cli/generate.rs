@@ -33,7 +33,7 @@ fn parameters_reach_their_distribution() {
     desk.taut("generate normal -n 2 -d 2 --thickness 1")
         .ends(2)
         .complains(&["--thickness", "shell"]);
-    desk.taut("generate shell -n 2 -d 2 --thickness -1").ends(2).complains(&["`thickness` is -1"]);
+    desk.taut("generate shell -n 2 -d 2 --thickness -1").ends(2).complains(&["--thickness` is -1"]);
     desk.taut("generate normal -n 2 -d 0").ends(2).complains(&["dimension"]);
     desk.taut("generate weibull -n 2 -d 2").ends(2);
 }

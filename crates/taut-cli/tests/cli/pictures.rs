@@ -90,6 +90,8 @@ fn the_tour_shows_and_verifies_every_tool() {
         let words = line.split('<').next().unwrap().trim();
         desk.taut(&format!("ball samples/{words} --quiet")).ends(0);
     }
+    let run = desk.taut("tour -o -").ends(0);
+    assert_eq!((run.out.as_str(), run.err.as_str()), (page.as_str(), ""));
     let again = Desk::new();
     again.taut("tour --threads 1 --quiet").ends(0);
     assert_eq!(again.text("tour.html"), page);

@@ -31,5 +31,13 @@ fn the_environment_sets_the_threads() {
     let desk = Desk::new();
     desk.put("points.csv", "0,0\n1,1\n");
     desk.shell("TAUT_THREADS=2 taut ball points.csv").ends(0);
-    desk.shell("TAUT_THREADS=none taut ball points.csv").ends(2);
+    desk.shell("TAUT_THREADS= taut ball points.csv").ends(0);
+    for wrong in ["none", "0", "1025"] {
+        desk.shell(&format!("TAUT_THREADS={wrong} taut ball points.csv")).ends(2).complains(&[
+            "TAUT_THREADS",
+            wrong,
+            "from 1 to 1024",
+        ]);
+    }
+    desk.shell("TAUT_THREADS=none taut ball points.csv --threads 1").ends(0);
 }

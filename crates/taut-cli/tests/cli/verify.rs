@@ -22,7 +22,8 @@ fn doctor(desk: &Desk, change: impl Fn(&mut serde_json::Value)) {
 fn a_true_answer_is_proved_with_its_bracket() {
     let desk = solved();
     let run = desk.taut("verify ball.json points.csv").ends(0).says(&[
-        "Verified: ball of radius 1.41421356",
+        "Verified within a gap of ",
+        ": ball of radius 1.41421356",
         "\n  bracket   1.41421356",
         " ≤ smallest radius ≤ 1.41421356",
         "\n  gap       ",
@@ -45,7 +46,7 @@ fn changed_data_is_known_by_its_hash() {
     let desk = solved();
     desk.put("changed.csv", SQUARE.replace("1.5", "1.25"));
     desk.taut("verify ball.json changed.csv").ends(1).says(&[
-        "Rejected: changed.csv",
+        "Rejected: changed.csv does not belong to ball.json",
         "hash",
         "data changed",
     ]);
@@ -61,7 +62,7 @@ fn a_smaller_radius_leaves_a_point_outside() {
     let run = desk
         .taut("verify doctored.json points.csv")
         .ends(1)
-        .says(&["Rejected: points.csv: row 1 of the data: point 0 ", "outside"]);
+        .says(&["Rejected: points.csv: point 0 (row 1) lies ", "outside"]);
     assert!(run.err.is_empty());
     assert_eq!(desk.taut("verify doctored.json points.csv -q").ends(1).out, "");
 }
@@ -80,12 +81,122 @@ fn a_larger_radius_breaks_the_gap_claimed() {
 fn another_dimension_is_rejected() {
     let desk = solved();
     desk.put("space.csv", "0,0,0\n1,1,1\n");
-    desk.taut("verify ball.json space.csv").ends(1).says(&["Rejected: space.csv"]);
+    desk.taut("verify ball.json space.csv").ends(1).says(&[
+        "Rejected: space.csv does not belong to ball.json: the centre has 2 numbers, but the points have dimension 3",
+    ]);
+}
+
+#[test]
+fn faults_of_the_answer_name_its_file() {
+    let desk = solved();
+    doctor(&desk, |ball| ball["certificate"]["multipliers"] = serde_json::json!([1.0]));
+    desk.taut("verify doctored.json points.csv")
+        .ends(1)
+        .says(&["Rejected: doctored.json: the list of multipliers has 1 number, expected 2\n"]);
+    doctor(&desk, |ball| ball["answer"]["radius"] = (-1e-200).into());
+    desk.taut("verify doctored.json points.csv")
+        .ends(1)
+        .says(&["Rejected: doctored.json: the radius is -1e-200: "]);
+}
+
+#[test]
+fn points_that_are_no_numbers_are_bad_input_in_any_format() {
+    let desk = solved();
+    desk.put("nan.csv", SQUARE.replace("1.5", "NaN"));
+    desk.taut("verify ball.json nan.csv").ends(2).complains(&["nan.csv", "row 5", "`y`", "NaN"]);
+    desk.put(
+        "nan.f64",
+        [0.0, 1.0, 2.0, f64::NAN, 3.0, 3.0, 4.0, 4.0].map(f64::to_le_bytes).concat(),
+    );
+    desk.taut("verify ball.json nan.f64 --raw-dim 2 --raw-type f64")
+        .ends(2)
+        .complains(&["nan.f64", "row 2", "column 1", "NaN"]);
+    desk.put("discs.csv", "x,y,r\n0,0,1\n5,0,2\n");
+    desk.taut("ball discs.csv --balls -o discs.json").ends(0);
+    desk.put("discs.csv", "x,y,r\n0,0,1\n5,0,-2\n");
+    desk.taut("verify discs.json discs.csv").ends(2).complains(&["row 2", "`r`", "-2"]);
+}
+
+#[test]
+fn a_loose_certificate_is_true_but_not_tight() {
+    let desk = solved();
+    desk.taut("generate normal -n 200 -d 4 -o points.csv").ends(0);
+    desk.taut("ball points.csv -o ball.json").ends(0);
+    desk.taut("ball points.csv --epsilon 0.5 --method badoiu-clarkson -o loose.json").ends(0);
+    let gap =
+        desk.taut("verify loose.json points.csv").ends(0).says(&["Verified within a gap of "]);
+    assert!(!gap.out.contains("within a gap of 0"), "{gap:?}");
+    desk.taut("verify loose.json points.csv --epsilon 0.9").ends(0);
+    desk.taut("verify loose.json points.csv --epsilon 1e-9")
+        .ends(1)
+        .says(&["Rejected: loose.json: a gap of ", "--epsilon 1e-9"]);
+    desk.taut("verify ball.json points.csv --epsilon 1e-9").ends(0);
+    for epsilon in ["-1", "NaN", "tiny"] {
+        let run = desk.taut(&format!("verify ball.json points.csv --epsilon {epsilon}")).ends(2);
+        assert!(run.err.contains("at least 0"), "{run:?}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_rejection_stays_one_when_nobody_listens() {
+    let desk = solved();
+    doctor(&desk, |ball| ball["answer"]["radius"] = 1.0.into());
+    // The pipe has no reader left when the command starts.
+    let line = "{ sleep 0.3; taut verify doctored.json points.csv; echo code $? >&2; } | true";
+    assert_eq!(desk.shell(line).err, "code 1\n");
+}
+
+#[test]
+fn a_byte_order_mark_is_no_fault_and_a_second_form_is_one() {
+    let desk = solved();
+    desk.put("bom.json", format!("\u{feff}{}", desk.text("ball.json")));
+    desk.taut("verify bom.json points.csv").ends(0);
+    let places =
+        ["/note", "/answer/note", "/certificate/note", "/trace/note", "/trace/history/0/note"];
+    for place in places {
+        let (parent, _) = place.rsplit_once('/').unwrap();
+        doctor(&desk, |ball| ball.pointer_mut(parent).unwrap()["note"] = 1.into());
+        desk.taut("verify doctored.json points.csv")
+            .ends(2)
+            .complains(&["doctored.json", "`note`"]);
+    }
+    doctor(&desk, |ball| {
+        let hash = &mut ball["certificate"]["points_hash"];
+        *hash = format!("+{}", &hash.as_str().unwrap()[1..]).into();
+    });
+    desk.taut("verify doctored.json points.csv").ends(2).complains(&["16 digits"]);
+}
+
+#[test]
+fn no_file_commands_the_terminal() {
+    let desk = solved();
+    desk.put("other.json", "{\"schema\": 1, \"kind\": \"\\u001b[31mred\"}");
+    let run = desk.taut("verify other.json points.csv").ends(2).complains(&["[31mred"]);
+    assert!(!run.err.contains('\u{1b}'));
+    desk.put("named.csv", "x,\u{1b}[31my\n0,0\n1,NaN\n");
+    let run = desk.taut("ball named.csv").ends(2).complains(&["[31my"]);
+    assert!(!run.err.contains('\u{1b}'));
 }
 
 #[test]
 fn what_is_no_answer_is_named() {
     let desk = solved();
+    desk.taut("verify points.csv ball.json").ends(2).complains(&[
+        "points.csv: not an answer of taut: it is no JSON object",
+        "the answer comes first",
+    ]);
+    desk.put("bare.csv", "0,0\n1,1\n");
+    desk.taut("verify bare.csv ball.json").ends(2).complains(&["the answer comes first"]);
+    std::fs::create_dir(desk.path("folder")).unwrap();
+    desk.taut("verify folder points.csv").ends(2).complains(&["folder is a folder"]);
+    desk.put("list.json", "[]");
+    desk.put("word.json", "\"ball\"");
+    desk.put("half.json", &desk.text("ball.json")[..40]);
+    for file in ["list.json", "word.json", "half.json"] {
+        let run = desk.taut(&format!("verify {file} points.csv")).ends(2).complains(&[file]);
+        assert!(!run.err.contains("struct"), "{run:?}");
+    }
     desk.put("other.json", "{\"schema\": 1, \"kind\": \"torus\"}");
     desk.taut("verify other.json points.csv").ends(2).complains(&["other.json", "torus"]);
     desk.taut("verify points.csv points.csv").ends(2).complains(&["points.csv", "not an answer"]);

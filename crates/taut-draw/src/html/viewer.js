@@ -6,7 +6,7 @@
 
   // Words: the row of the input, a line for each named coordinate, then what else there is to say.
   const words = (names, mark) => {
-    const lines = mark.id === null ? [] : ["row " + mark.id];
+    const lines = mark.id === null ? [] : ["point " + mark.id];
     names.forEach((name, k) => { if (name) lines.push(name + ": " + mark.words[k]); });
     return lines.concat(mark.words.slice(names.length).filter(Boolean)).join("\n");
   };

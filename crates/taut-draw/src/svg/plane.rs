@@ -126,7 +126,7 @@ fn marks(canvas: &mut Canvas, layer: &Layer2, x: &Span, y: &Span, axes: [&Axis; 
     let place = |p: &[f64; 2]| [x.place(p[0]), y.place(p[1])];
     let finite = |p: &[f64; 2]| p[0].is_finite() && p[1].is_finite();
     let title = |id: Option<u64>, at: [f64; 2], label: &str| {
-        let who = id.map(|id| format!("row {id}: ")).unwrap_or_default();
+        let who = id.map(|id| format!("point {id}: ")).unwrap_or_default();
         let what = if label.is_empty() { String::new() } else { format!("; {label}") };
         format!(
             "{who}{} = {}, {} = {}{what}",

@@ -355,7 +355,7 @@ fn collect(
                         .zip(&words)
                         .map(|(a, w)| format!("{} = {w}", a.name))
                         .collect();
-                    let who = point.id.map(|id| format!("row {id}: ")).unwrap_or_default();
+                    let who = point.id.map(|id| format!("point {id}: ")).unwrap_or_default();
                     format!("{who}{}; {}", places.join(", "), point.label)
                 };
                 words.push(point.label.clone());

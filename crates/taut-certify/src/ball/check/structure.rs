@@ -22,7 +22,9 @@ pub(super) fn check(
 }
 
 fn answer(ball: &Ball, dim: usize) -> Result<(), Violation> {
-    length("the centre", ball.center.len(), dim)?;
+    if ball.center.len() != dim {
+        return Err(Violation::Dimension { found: ball.center.len(), expected: dim });
+    }
     number("the radius", ball.radius)?;
     for (column, &value) in ball.center.iter().enumerate() {
         if !value.is_finite() {
