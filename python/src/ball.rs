@@ -29,7 +29,11 @@ pub(crate) fn ball(
         epsilon,
         method: BallMethod::from_str(method).map_err(raise)?,
         batch: whole("batch", batch, "at least 1, or None")?,
-        max_passes: whole("max_passes", max_passes, "at least 2: one to look, one to prove")?,
+        max_passes: whole(
+            "max_passes",
+            max_passes,
+            "at least 3, and 4 for the methods of the thesis",
+        )?,
         threads: whole("threads", threads, "at least 1, or None")?,
         seed: whole("seed", seed, "0 to 2**64 - 1")?,
     };
@@ -38,7 +42,10 @@ pub(crate) fn ball(
     let source = rows.source()?;
     let found =
         interruptible(py, |monitor| ball_of_source(source.as_ref(), items, &options, monitor))?
-            .map_err(raise)?;
+            .map_err(|error| match items {
+                Items::Points => raise(error),
+                Items::Balls => raise_of_balls(error, source.dim() - 1),
+            })?;
     Solution::new(py, AnySolution::Ball(found))
 }
 
@@ -56,6 +63,32 @@ pub(crate) fn whole<'py, T: FromPyObjectOwned<'py>>(
             error
         }
     })
+}
+
+/// As `raise`, in the words of somebody who gave centres of dimension `dim` and radii in two arrays.
+fn raise_of_balls(error: Error, dim: usize) -> PyErr {
+    match error {
+        Error::NonFinite { row, column, value } => {
+            PyValueError::new_err(not_finite_of_ball(row, column, value, dim))
+        }
+        Error::NegativeRadius { row, value } => PyValueError::new_err(negative_radius(row, value)),
+        other => raise(other),
+    }
+}
+
+/// What is wrong in a row of a centre of dimension `dim` and a radius.
+pub(crate) fn not_finite_of_ball(row: u64, column: usize, value: f64, dim: usize) -> String {
+    if column == dim {
+        format!("the radius of ball {row} is {value}: all radii must be finite")
+    } else {
+        format!(
+            "coordinate {column} of the center of ball {row} is {value}: all coordinates must be finite"
+        )
+    }
+}
+
+pub(crate) fn negative_radius(row: u64, value: f64) -> String {
+    format!("the radius of ball {row} is {value}: all radii must be at least 0")
 }
 
 /// A wrong input is a `ValueError` with the library's sentence.

@@ -7,6 +7,7 @@ use taut::Distribution;
 use taut::points::{Scalar, generate_into};
 
 use crate::ball::whole;
+use crate::work::interruptible;
 
 /// Fills the n × d array `out`, which NumPy has allocated.
 #[pyfunction]
@@ -90,6 +91,6 @@ fn fill<T: Scalar + Element>(
     let mut out = out.try_readwrite()?;
     let dim = out.shape()[1];
     let values = out.as_slice_mut()?;
-    py.detach(|| generate_into(distribution, dim, seed, values))
+    interruptible(py, |_| generate_into(distribution, dim, seed, values))?
         .map_err(|error| PyValueError::new_err(error.to_string()))
 }

@@ -8,6 +8,7 @@ use pyo3::types::{PyDict, PyTuple};
 use taut::Items;
 use taut::certify::{self, AnySolution, CheckError, Stop};
 
+use crate::ball::{negative_radius, not_finite_of_ball};
 use crate::rows::Rows;
 use crate::work::interruptible;
 
@@ -326,7 +327,18 @@ impl Solution {
         let verdict = interruptible(py, |monitor| self.solution.check(source.as_ref(), monitor))?;
         match verdict {
             Ok(certify::Verdict { lower, upper, gap }) => Ok(Verdict { lower, upper, gap }),
-            Err(CheckError::Rejected(violation)) => Err(Violation::new_err(violation.to_string())),
+            Err(CheckError::Rejected(violation)) => {
+                let balls = found.certificate.items == Items::Balls;
+                Err(Violation::new_err(match violation {
+                    certify::Violation::NonFinite { row, column, value } if balls => {
+                        not_finite_of_ball(row, column, value, source.dim() - 1)
+                    }
+                    certify::Violation::NegativeRadius { row, value } => {
+                        negative_radius(row, value)
+                    }
+                    other => other.to_string(),
+                }))
+            }
             Err(error) => Err(PyRuntimeError::new_err(error.to_string())),
         }
     }

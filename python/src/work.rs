@@ -1,10 +1,12 @@
-//! Long work beside a live interpreter.
+//! Long work beside a live interpreter, also in a process that was forked.
 
 use std::panic::resume_unwind;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::time::Duration;
 
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use taut::Monitor;
 
 /// How often Python is asked whether a signal has come. It delays a Ctrl-C, never a result.
@@ -20,7 +22,8 @@ pub(crate) fn interruptible<R: Send>(
     let listener = std::thread::current();
     std::thread::scope(|scope| {
         let worker = scope.spawn(|| {
-            let result = work(&Monitor { cancel: Some(&cancel), ..Monitor::silent() });
+            let monitor = Monitor { cancel: Some(&cancel), ..Monitor::silent() };
+            let result = with_living_threads(|| work(&monitor));
             done.store(true, Ordering::Release);
             listener.unpark();
             result
@@ -33,6 +36,25 @@ pub(crate) fn interruptible<R: Send>(
         }
         cancel.store(raised.is_err(), Ordering::Relaxed);
         let result = py.detach(|| worker.join()).unwrap_or_else(|panic| resume_unwind(panic));
-        raised.map(|()| result)
+        raised?;
+        result.map_err(|error| PyRuntimeError::new_err(format!("no threads to work with: {error}")))
     })
+}
+
+/// Runs `work` in a pool whose threads live in this process.
+///
+/// *Trap.* A forked child, as `multiprocessing` makes them, inherits rayon's global pool without its threads, and
+/// would wait for them for ever. So the process that works first keeps that pool, and each of its forks builds one for
+/// each call: that costs the start of its threads. One kept for longer would need a lock, and a lock can be inherited
+/// locked.
+fn with_living_threads<R: Send>(
+    work: impl FnOnce() -> R + Send,
+) -> Result<R, ThreadPoolBuildError> {
+    /// The process whose global pool it is; no process has the number 0.
+    static OWNER: AtomicU32 = AtomicU32::new(0);
+    let this = std::process::id();
+    match OWNER.compare_exchange(0, this, Ordering::Relaxed, Ordering::Relaxed) {
+        Err(owner) if owner != this => Ok(ThreadPoolBuilder::new().build()?.install(work)),
+        _ => Ok(work()),
+    }
 }

@@ -30,7 +30,7 @@ def ball(
     points : array_like of shape (n, d)
         Finite real numbers. An array of float32 or float64 in C order is read where it lies, without a copy,
         also when it is read-only; anything else is first converted by NumPy (integers and other precisions to
-        float64). Other threads must not write to it meanwhile.
+        float64, in which integers must be exact). Other threads must not write to it meanwhile.
     epsilon : float in [0, 1), default 1e-9
         Relative gap to prove, R <= (1 + epsilon) R*; 0 asks for the exact ball, to rounding.
     method : {"core-set", "thesis-pure", "thesis-fast", "badoiu-clarkson"}, default "core-set"
@@ -39,7 +39,8 @@ def ball(
     batch : int >= 1, optional
         Far points taken to the core-set per pass, by "core-set"; by default chosen by dimension.
     max_passes : int >= 3, default 1,000,000
-        Reads of all points before the best ball so far is returned with its gap.
+        Reads of all points before the best ball so far is returned with its gap; at least 4 for the methods of the
+        literature.
     threads : int >= 1, optional
         Threads to use, by default all cores. The answer does not depend on it.
     seed : int >= 0, default 0
@@ -53,8 +54,8 @@ def ball(
     Raises
     ------
     ValueError
-        When there is no point, a coordinate is NaN or infinite (the message names its row and column), the
-        radius exceeds float64, or an option is out of range.
+        When there is no point, a coordinate is NaN, infinite or an integer that float64 cannot hold (the message
+        names its row and column), the radius exceeds float64, or an option is out of range.
     KeyboardInterrupt
         Ctrl-C stops the work within a block of points.
 
@@ -120,5 +121,7 @@ def ball_of_balls(
     >>> found.check([[0, 1], [2, 1]], radii=[1, 1]).upper
     2.0
     """
+    if radii is None:
+        raise TypeError("radii are None: expected one for each center; points have `taut.ball`")
     rows = as_rows(centers, radii)
     return _native.ball(rows, True, epsilon, method, batch, max_passes, threads, seed)

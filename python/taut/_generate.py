@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import operator
+import sys
 from typing import Literal
 
 import numpy as np
@@ -71,6 +73,8 @@ def generate(
     ------
     ValueError
         When a parameter is out of range, or belongs to another distribution.
+    MemoryError
+        When the points do not fit.
 
     Examples
     --------
@@ -83,6 +87,13 @@ def generate(
     """
     if np.dtype(dtype) not in (np.dtype(np.float32), np.dtype(np.float64)):
         raise ValueError(f"dtype is {np.dtype(dtype)}: expected float32 or float64")
+    n, d = operator.index(n), operator.index(d)
+    if n < 0:
+        raise ValueError(f"`n` is {n}: expected at least 0")
+    if d < 1:
+        raise ValueError(f"`d` is {d}: expected at least 1")
+    if n * d * np.dtype(dtype).itemsize > sys.maxsize:
+        raise MemoryError(f"{n} points of dimension {d} do not fit into an address space")
     # NumPy allocates, so that a set too large for memory is a MemoryError.
     points = np.empty((n, d), dtype=dtype)
     _native.generate(points, distribution, seed, thickness, count, spread, vertices)

@@ -29,7 +29,7 @@ def verify(solution: Solution | str, points: ArrayLike, radii: ArrayLike | None 
     Violation
         When the answer or its certificate is wrong for these points.
     ValueError
-        When the text is not an answer of taut.
+        When the text is not an answer of taut; it is not the name of a file either: read the file first.
 
     Examples
     --------
@@ -39,5 +39,11 @@ def verify(solution: Solution | str, points: ArrayLike, radii: ArrayLike | None 
     1.0
     """
     if isinstance(solution, str):
+        if not solution.lstrip().startswith("{"):
+            raise ValueError(
+                f"expected a Solution or its JSON text, not {solution[:80]!r}: if this names a file, read it first"
+            )
         solution = Solution.from_json(solution)
+    elif not isinstance(solution, Solution):
+        raise TypeError(f"expected a Solution or its JSON text as str, not {type(solution).__name__}")
     return solution.check(points, radii)

@@ -1,5 +1,6 @@
 """Points are read where they lie when they can be, and converted when they must be."""
 
+import re
 import subprocess
 import sys
 import textwrap
@@ -117,7 +118,9 @@ def test_non_finite_coordinates_are_named(dtype, value, row):
         ({"method": "welzl"}, "`method` is welzl: expected core-set"),
         ({"batch": 0}, "`batch` is 0"),
         ({"batch": -1}, "`batch` is -1"),
-        ({"max_passes": 1}, "`max_passes` is 1"),
+        ({"max_passes": 2}, "`max_passes` is 2: expected at least 3"),
+        ({"max_passes": 3, "method": "thesis-pure"}, "`max_passes` is 3: expected at least 4"),
+        ({"max_passes": -1}, "`max_passes` is -1: expected at least 3, and 4 for the methods of the thesis"),
         ({"max_passes": 2**70}, "`max_passes` is 1180591620717411303424"),
         ({"threads": 0}, "`threads` is 0"),
         ({"threads": -1}, "`threads` is -1"),
@@ -142,13 +145,68 @@ def test_options_of_a_wrong_type_are_type_errors():
     [
         ([[0.0, 0.0], [1.0, 0.0]], [1.0], "2 centers, but 1 radii"),
         ([[0.0, 0.0]], [[1.0]], "radii have shape"),
-        ([[0.0, 0.0], [1.0, 0.0]], [1.0, -2.0], "ball 1 has radius -2"),
+        ([[0.0, 0.0], [1.0, 0.0]], [1.0, -2.0], "the radius of ball 1 is -2: all radii must be at least 0$"),
+        ([[0.0, 0.0, 1.0]], [np.nan], "the radius of ball 0 is NaN: all radii must be finite$"),
+        ([[0.0, 0.0], [1.0, np.inf]], [1.0, 1.0], "coordinate 1 of the center of ball 1 is inf"),
+        ([[0.0, 0.0]], [2**60 + 1], "the radius of ball 0 is 1152921504606846977, which float64 cannot"),
+        ([[0, 2**60 + 1]], [1.0], "coordinate 1 of the center of ball 0 is 1152921504606846977"),
+        ([[]], [1.0], "centers have shape .* the dimension must be at least 1"),
         (np.zeros((0, 2)), [], "empty"),
     ],
 )
 def test_wrong_balls_are_refused(centers, radii, message):
     with pytest.raises(ValueError, match=message):
         taut.ball_of_balls(centers, radii)
+
+
+def test_balls_without_radii_are_refused():
+    """They were once taken for points whose last coordinates were radii."""
+    with pytest.raises(TypeError, match="radii are None"):
+        taut.ball_of_balls([[0.0, 0.0], [1.0, 1.0]], None)
+
+
+def test_wrong_balls_are_refused_by_the_check_in_the_same_words():
+    centers = [[0.0, 0.0], [1.0, 0.0]]
+    found = taut.ball_of_balls(centers, [1.0, 1.0])
+    for radius, message in [(np.nan, "the radius of ball 1 is NaN"), (-2.0, "the radius of ball 1 is -2")]:
+        with pytest.raises(taut.Violation, match=message):
+            found.check(centers, [1.0, radius])
+
+
+@pytest.mark.parametrize("dtype", [np.int64, np.uint64, object])
+def test_integers_are_exact_or_refused(dtype):
+    """float64 holds each integer up to 2**53, and beyond it some."""
+    exact = np.array([[2**53, 0], [2**53 + 2, 0], [2**63 - 2**10, 1]], dtype=dtype)
+    assert taut.ball(exact) == taut.ball(exact.astype(np.float64))
+    for value in (2**53 + 1, 2**63 - 1, *([2**64 - 1] if dtype == np.uint64 else [])):
+        points = exact.copy()
+        points[2, 1] = value
+        with pytest.raises(ValueError, match=f"coordinate 1 of point 2 is {value}, which float64 cannot hold"):
+            taut.ball(points)
+    if dtype != np.uint64:
+        with pytest.raises(ValueError, match="coordinate 0 of point 1 is -9007199254740993"):
+            taut.ball(np.array([[-(2**63)], [-(2**53) - 1]], dtype=dtype))
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "message"),
+    [
+        (2**70 + 1, ValueError, "is 1180591620717411303425, which float64 cannot hold exactly"),
+        (10**400, ValueError, "exceeds the largest number of float64"),
+        (None, TypeError, "is of type NoneType: expected a real number"),
+        ("7", TypeError, "is '7': expected a real number"),
+        (1j, TypeError, "is of type complex: expected a real number"),
+    ],
+)
+def test_objects_that_are_no_coordinates_are_named(value, error, message):
+    points = np.array([[0.0, 1.0], [2.0, None]], dtype=object)
+    points[1, 1] = value
+    with pytest.raises(error, match=re.escape(f"coordinate 1 of point 1 {message}")):
+        taut.ball(points)
+
+
+def test_large_integers_that_fit_are_taken():
+    assert taut.ball([[0], [2**70]]).answer.radius == pytest.approx(2.0**69, rel=1e-9)
 
 
 def test_balls_of_single_precision_stay_so():

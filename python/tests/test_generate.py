@@ -46,8 +46,9 @@ def test_shapes_are_what_they_say():
         (("shell", 10, 2), {"thickness": -1.0}, "`thickness` is -1"),
         (("clusters", 10, 2), {"count": 0, "spread": 1.0}, "`count` is 0"),
         (("polygon", 10, 2), {"vertices": -1}, "`vertices` is -1"),
-        (("normal", 10, 0), {}, "dimension is 0"),
-        (("normal", -1, 2), {}, "negative dimensions"),
+        (("normal", 10, 0), {}, "`d` is 0: expected at least 1"),
+        (("normal", 10, -2), {}, "`d` is -2: expected at least 1"),
+        (("normal", -1, 2), {}, "`n` is -1: expected at least 0"),
         (("normal", 10, 2), {"dtype": np.int32}, "dtype is int32"),
         (("normal", 10, 2), {"seed": -1}, "`seed` is -1"),
     ],
@@ -74,3 +75,11 @@ def test_no_points_are_no_points():
 def test_more_points_than_memory_are_an_error():
     with pytest.raises(MemoryError):
         taut.generate("normal", 10**13, 1000)
+    with pytest.raises(MemoryError, match="do not fit"):
+        taut.generate("normal", 10**30, 3)
+
+
+def test_numbers_of_points_are_whole():
+    for n, d in [(1.5, 2), (10, "2"), (None, 2)]:
+        with pytest.raises(TypeError):
+            taut.generate("normal", n, d)

@@ -57,6 +57,22 @@ def test_other_documents_are_refused(text):
         taut.Solution.from_json(text)
 
 
+@pytest.mark.parametrize(
+    ("answer", "error", "message"),
+    [
+        (None, TypeError, "expected a Solution or its JSON text as str, not NoneType"),
+        ({}, TypeError, "expected a Solution or its JSON text as str, not dict"),
+        (b"{}", TypeError, "not bytes"),
+        ("d.json", ValueError, "expected a Solution or its JSON text, not 'd.json'"),
+        ("", ValueError, "expected a Solution or its JSON text, not ''"),
+        ("{}", ValueError, "not an answer of taut"),
+    ],
+)
+def test_what_is_no_answer_is_not_verified(points, answer, error, message):
+    with pytest.raises(error, match=message):
+        taut.verify(answer, points)
+
+
 @pytest.mark.parametrize("row", [0, 500, 999])
 def test_changed_points_are_noticed(points, found, row):
     changed = points.copy()

@@ -181,6 +181,66 @@ fn files_are_short_and_know_no_machine() {
     assert!(problems.is_empty(), "{}", problems.join("\n"));
 }
 
+#[test]
+fn links_lead_to_files_that_a_clone_has() {
+    let tracked = tracked();
+    let has = |path: &str| {
+        let folder = format!("{path}/");
+        tracked.iter().any(|file| file == path || file.starts_with(&folder))
+    };
+    let (mut links, mut broken) = (0, Vec::new());
+    for page in tracked.iter().filter(|file| file.ends_with(".md")) {
+        let text = read(&root().join(page));
+        for target in targets(&text).filter(|target| !target.contains("://")) {
+            links += 1;
+            let file = target.split('#').next().unwrap_or_default();
+            if !file.is_empty() && !resolve(page, file).is_some_and(|path| has(&path)) {
+                broken.push(format!("{page}: {target} is not in the repository"));
+            }
+        }
+    }
+    assert!(links > 10, "{links} links found");
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+}
+
+/// Names of all files that git tracks, from the root on.
+fn tracked() -> Vec<String> {
+    let output = Command::new("git").args(["ls-files", "-z"]).current_dir(root()).output();
+    let output = output.expect("git runs: the links of the pages are compared with what it tracks");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let names = String::from_utf8(output.stdout).expect("names in UTF-8");
+    names.split_terminator('\0').map(str::to_owned).collect()
+}
+
+/// Targets of the links and images of a page, without those in its examples.
+fn targets(page: &str) -> impl Iterator<Item = &str> {
+    let prose = page.split("\n```").step_by(2);
+    prose.flat_map(|part| part.split("](").skip(1)).filter_map(|rest| rest.split(')').next())
+}
+
+/// The path from the root on of what `page` calls `target`; `None` where that lies outside.
+fn resolve(page: &str, target: &str) -> Option<String> {
+    let mut parts: Vec<_> = page.split('/').collect();
+    parts.pop();
+    for part in target.trim_end_matches('/').split('/') {
+        match part {
+            "." => {}
+            ".." => drop(parts.pop()?),
+            name => parts.push(name),
+        }
+    }
+    Some(parts.join("/"))
+}
+
+#[test]
+fn links_are_found_and_resolved() {
+    let page = "![a](b.png), [c](../d#e)\n```rust\n[f](g)\n```\n[h](i)";
+    assert_eq!(targets(page).collect::<Vec<_>>(), ["b.png", "../d#e", "i"]);
+    assert_eq!(resolve("docs/ball.md", "../README.md").as_deref(), Some("README.md"));
+    assert_eq!(resolve("docs/ball.md", "./ball.png").as_deref(), Some("docs/ball.png"));
+    assert_eq!(resolve("README.md", "../outside"), None);
+}
+
 /// All text files of ours under `folder`, without what is built or fetched.
 fn sources(folder: &Path) -> Vec<PathBuf> {
     const KINDS: [&str; 8] = ["rs", "py", "pyi", "md", "toml", "sh", "cpp", "js"];
