@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
 use clap::builder::{PossibleValue, PossibleValuesParser};
+use taut::points::generate::Parameters;
 use taut::points::{Error, GeneratedSource, ScalarKind};
 use taut::{Distribution, PointSource};
 use taut_io::{Format, write_points};
@@ -22,7 +23,7 @@ pub(crate) struct Args {
     /// What the points are drawn from
     #[arg(value_parser = distributions())]
     distribution: String,
-    /// Number of points
+    /// Number of points, at least 1
     #[arg(short, long = "points", value_name = "N")]
     n: u64,
     /// Dimension, at least 1
@@ -63,25 +64,17 @@ pub(crate) struct Args {
 
 fn distributions() -> PossibleValuesParser {
     PossibleValuesParser::new(
-        [
-            ("normal", "each coordinate standard normal"),
-            ("uniform", "uniform in the unit cube"),
-            ("cube", "vertices of the unit cube: cospherical, with duplicates in low dimension"),
-            ("poisson", "each coordinate Poisson with mean 1: a lattice with many ties"),
-            ("sphere", "uniform on the unit sphere"),
-            ("shell", "uniform in direction, 1 ± T from the origin"),
-            ("clusters", "normal clouds around K centres in the unit cube"),
-            ("simplex", "vertices of a regular simplex with unit edges, then points inside"),
-            ("polygon", "K points at equal angles on the unit circle, in turn"),
-        ]
-        .map(|(name, help)| PossibleValue::new(name).help(help)),
+        Distribution::NAMES.map(|(name, help)| PossibleValue::new(name).help(help)),
     )
 }
 
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
-        let distribution = self.distribution()?;
+        if self.n == 0 {
+            bail!("-n is 0: expected at least 1 point");
+        }
         let refused = |error: Error| anyhow!("{error}");
+        let distribution = self.distribution().map_err(refused)?;
         let points = GeneratedSource::new(distribution, self.n, self.d, self.seed, self.scalar)
             .map_err(refused)?;
         let watch = self.effort.start()?;
@@ -105,31 +98,9 @@ impl Args {
         Ok(Outcome::Done)
     }
 
-    fn distribution(&self) -> anyhow::Result<Distribution> {
-        let name = self.distribution.as_str();
-        for (option, given, owner) in [
-            ("--thickness", self.thickness.is_some(), "shell"),
-            ("--count", self.count.is_some(), "clusters"),
-            ("--spread", self.spread.is_some(), "clusters"),
-            ("--vertices", self.vertices.is_some(), "polygon"),
-        ] {
-            if given && name != owner {
-                bail!("{option} belongs to {owner}, not to {name}: leave it out");
-            }
-        }
-        Ok(match name {
-            "normal" => Distribution::Normal,
-            "uniform" => Distribution::Uniform,
-            "cube" => Distribution::CubeVertices,
-            "poisson" => Distribution::Poisson,
-            "sphere" => Distribution::Sphere,
-            "shell" => Distribution::Shell { thickness: self.thickness.unwrap_or(0.1) },
-            "clusters" => Distribution::Clusters {
-                count: self.count.unwrap_or(5),
-                spread: self.spread.unwrap_or(0.05),
-            },
-            "simplex" => Distribution::Simplex,
-            _ => Distribution::Polygon { vertices: self.vertices.unwrap_or(self.n.max(1)) },
-        })
+    fn distribution(&self) -> Result<Distribution, Error> {
+        let Args { thickness, count, spread, vertices, .. } = *self;
+        let given = Parameters { thickness, count, spread, vertices };
+        Distribution::named(&self.distribution, self.n, &given)
     }
 }

@@ -141,7 +141,7 @@ fn a_write_that_fails_half_way_leaves_the_earlier_file() {
             if range.start > 100_000 {
                 return Err(ReadError::OutOfRange { first: range.start, end: range.end, n: 0 });
             }
-            let values = scratch.values::<f64>((range.end - range.start) as usize * 3);
+            let values = scratch.values::<f64>(range.end - range.start, 3)?;
             values.fill(0.25);
             Ok(Rows::F64(taut_points::Points::new(values, 3).unwrap()))
         }
