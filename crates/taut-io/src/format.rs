@@ -94,10 +94,7 @@ impl Format {
 
     /// Whether [`open`](crate::open) reads it in this build.
     pub fn can_read(self) -> bool {
-        match self {
-            Format::Parquet | Format::Arrow => cfg!(feature = "arrow"),
-            _ => true,
-        }
+        cfg!(feature = "arrow") || !matches!(self, Format::Parquet | Format::Arrow)
     }
 
     /// Whether [`write_points`](crate::write_points) writes it in this build.

@@ -32,10 +32,17 @@ pub(super) fn catch<R>(work: impl FnOnce() -> R) -> Result<R, Box<dyn Any + Send
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::{AtomicU32, Ordering};
+
     use super::*;
 
+    /// The only test of this binary that may touch the hook: there is one for the whole process.
     #[test]
     fn panics_are_caught_and_the_thread_speaks_again_afterwards() {
+        static HEARD: AtomicU32 = AtomicU32::new(0);
+        panic::set_hook(Box::new(|_| {
+            HEARD.fetch_add(1, Ordering::Relaxed);
+        }));
         assert_eq!(catch(|| 1).unwrap(), 1);
         let nested = catch(|| {
             assert!(catch(|| panic!("inner")).is_err());
@@ -43,5 +50,8 @@ mod tests {
             panic!("outer")
         });
         assert!(nested.is_err() && !SILENT.get());
+        assert_eq!(HEARD.load(Ordering::Relaxed), 0);
+        assert!(panic::catch_unwind(|| panic!("aloud")).is_err());
+        assert_eq!(HEARD.load(Ordering::Relaxed), 1);
     }
 }
