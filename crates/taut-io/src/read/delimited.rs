@@ -78,6 +78,8 @@ fn is_header(job: &Job<'_>, first: &[Cow<'_, [u8]>], line: u64) -> Result<bool, 
         return match columns {
             // An unselected hole beside numbers does no harm: what is selected decides alone.
             Some(columns) if !columns.has_names() && all_numbers(job, columns, first)? => Ok(false),
+            // The row that holds the names asked for is the header, with a hole over an index or not.
+            Some(columns) if columns.has_names() && holds_names(job, columns, first) => Ok(true),
             _ => Err(Error::DoubtfulHeader {
                 path: job.path.to_owned(),
                 line,
@@ -106,6 +108,15 @@ fn is_header(job: &Job<'_>, first: &[Cow<'_, [u8]>], line: u64) -> Result<bool, 
             value: shown(&first[column]),
         }),
     }
+}
+
+/// Whether the names of a selection stand in the row, and all it selects may be names.
+fn holds_names(job: &Job<'_>, columns: &Columns, first: &[Cow<'_, [u8]>]) -> bool {
+    let names: Vec<String> =
+        first.iter().map(|name| String::from_utf8_lossy(name).into_owned()).collect();
+    let may_be_name = |field: &[u8]| number(field).is_none() && !is_failed_value(field);
+    let numbers = columns.resolve(job.path, &names, first.len());
+    numbers.is_ok_and(|numbers| numbers.iter().all(|&column| may_be_name(&first[column])))
 }
 
 /// Whether all selected fields are numbers.

@@ -98,7 +98,10 @@ fn a_first_row_with_a_value_that_went_wrong_is_no_header() {
         text_with("p.csv", content, &ReadOptions { columns, ..Default::default() })
     };
     assert!(by("1", "1O,x\n3,4\n").is_err());
-    assert!(by("x", "1O,x\n3,4\n").is_err());
+    assert!(by("y", "1O,x\n3,4\n").is_err());
+    assert!(by("x,0", "1O,x\n3,4\n").is_err());
+    // The row that holds the names asked for is the header, such as one with a hole over its index.
+    assert_eq!(by("x", ",x\n3,4\n").unwrap().source.len(), 1);
     assert_eq!(by("1", "?,2\n3,4\n").unwrap().source.len(), 2);
     assert_eq!(by("1-", "name,1,2\na,1,2\n").unwrap().source.len(), 2);
 }
