@@ -104,7 +104,9 @@ mod tests {
     #[test]
     fn the_hash_over_several_blocks_stays_what_it_is() {
         let values: Vec<f64> = (0..200_000).map(f64::from).collect();
-        for (dim, wanted) in [(1, "670a33c8a06098f6"), (2, "9497b0a9d120ee1a"), (100_000, "1b5f8fd08edc719f")] {
+        for (dim, wanted) in
+            [(1, "670a33c8a06098f6"), (2, "9497b0a9d120ee1a"), (100_000, "1b5f8fd08edc719f")]
+        {
             let points = Points::new(&values, dim).unwrap();
             let hash = hash_points(&points, &Monitor::silent()).unwrap();
             assert_eq!(hash.to_string(), wanted, "dimension {dim}");
