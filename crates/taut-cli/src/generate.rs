@@ -3,8 +3,9 @@
 use std::io::ErrorKind;
 use std::path::PathBuf;
 
-use anyhow::bail;
+use anyhow::{anyhow, bail};
 use clap::builder::{PossibleValue, PossibleValuesParser};
+use taut::points::generate::Parameters;
 use taut::points::{Error, GeneratedSource, ScalarKind};
 use taut::{Distribution, PointSource};
 use taut_io::{Format, write_points};
@@ -24,7 +25,7 @@ pub(crate) struct Args {
     /// What the points are drawn from
     #[arg(value_parser = distributions())]
     distribution: String,
-    /// Number of points
+    /// Number of points, at least 1
     #[arg(short, long = "points", value_name = "N")]
     n: u64,
     /// Dimension, at least 1
@@ -65,24 +66,16 @@ pub(crate) struct Args {
 
 fn distributions() -> PossibleValuesParser {
     PossibleValuesParser::new(
-        [
-            ("normal", "each coordinate standard normal"),
-            ("uniform", "uniform in the unit cube"),
-            ("cube", "vertices of the unit cube: cospherical, with duplicates in low dimension"),
-            ("poisson", "each coordinate Poisson with mean 1: a lattice with many ties"),
-            ("sphere", "uniform on the unit sphere"),
-            ("shell", "uniform in direction, 1 ± T from the origin"),
-            ("clusters", "normal clouds around K centres in the unit cube"),
-            ("simplex", "vertices of a regular simplex with unit edges, then points inside"),
-            ("polygon", "K points at equal angles on the unit circle, in turn"),
-        ]
-        .map(|(name, help)| PossibleValue::new(name).help(help)),
+        Distribution::NAMES.map(|(name, help)| PossibleValue::new(name).help(help)),
     )
 }
 
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
-        let distribution = self.distribution()?;
+        if self.n == 0 {
+            bail!("-n is 0: expected at least 1 point");
+        }
+        let distribution = self.distribution().map_err(refused)?;
         let points = GeneratedSource::new(distribution, self.n, self.d, self.seed, self.scalar)
             .map_err(refused)?;
         let watch = self.effort.start()?;
@@ -112,32 +105,10 @@ impl Args {
         Ok(Outcome::Done)
     }
 
-    fn distribution(&self) -> anyhow::Result<Distribution> {
-        let name = self.distribution.as_str();
-        for (option, given, owner) in [
-            ("--thickness", self.thickness.is_some(), "shell"),
-            ("--count", self.count.is_some(), "clusters"),
-            ("--spread", self.spread.is_some(), "clusters"),
-            ("--vertices", self.vertices.is_some(), "polygon"),
-        ] {
-            if given && name != owner {
-                bail!("{option} belongs to {owner}, not to {name}: leave it out");
-            }
-        }
-        Ok(match name {
-            "normal" => Distribution::Normal,
-            "uniform" => Distribution::Uniform,
-            "cube" => Distribution::CubeVertices,
-            "poisson" => Distribution::Poisson,
-            "sphere" => Distribution::Sphere,
-            "shell" => Distribution::Shell { thickness: self.thickness.unwrap_or(0.1) },
-            "clusters" => Distribution::Clusters {
-                count: self.count.unwrap_or(5),
-                spread: self.spread.unwrap_or(0.05),
-            },
-            "simplex" => Distribution::Simplex,
-            _ => Distribution::Polygon { vertices: self.vertices.unwrap_or(self.n.max(1)) },
-        })
+    fn distribution(&self) -> Result<Distribution, Error> {
+        let Args { thickness, count, spread, vertices, .. } = *self;
+        let given = Parameters { thickness, count, spread, vertices };
+        Distribution::named(&self.distribution, self.n, &given)
     }
 }
 
@@ -145,6 +116,9 @@ impl Args {
 fn refused(error: Error) -> anyhow::Error {
     match error {
         Error::Parameter { name, value, expected } => wrong_option(name, &value, expected),
+        Error::Foreign { name, owner, distribution } => {
+            anyhow!("--{name} belongs to {owner}, not to {distribution}: leave it out")
+        }
         Error::ZeroDimension => wrong_option("dim", "0", "a dimension of at least 1"),
         other => other.into(),
     }

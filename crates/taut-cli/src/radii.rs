@@ -6,7 +6,7 @@
 use std::ops::Range;
 use std::str::FromStr;
 
-use taut::points::{GeneratedSource, Points, ReadError, Rows, Scalar, ScalarKind, Scratch};
+use taut::points::{Error, GeneratedSource, Points, ReadError, Rows, Scalar, ScalarKind, Scratch};
 use taut::{Distribution, PointSource};
 
 /// How radii are distributed.
@@ -64,11 +64,7 @@ pub(crate) struct Balls {
 }
 
 impl Balls {
-    pub(crate) fn new(
-        centres: GeneratedSource,
-        seed: u64,
-        law: Law,
-    ) -> Result<Self, taut::points::Error> {
+    pub(crate) fn new(centres: GeneratedSource, seed: u64, law: Law) -> Result<Self, Error> {
         // The generator keys its streams by the seed, so any other seed is independent of that of the centres.
         let lots =
             GeneratedSource::new(Distribution::Uniform, centres.len(), 1, !seed, ScalarKind::F64)?;
@@ -81,16 +77,22 @@ impl Balls {
         scratch: &'a mut Scratch,
     ) -> Result<Rows<'a>, ReadError> {
         let (mut of_centres, mut of_lots) = (Scratch::new(), Scratch::new());
+        let first = range.start;
         let centres = self.centres.read(range.clone(), &mut of_centres)?;
         let lots = self.lots.read(range, &mut of_lots)?;
         let (dim, mut row, mut lot) = (self.dim(), vec![0.0; self.centres.dim()], [0.0]);
-        let values: &mut [T] = scratch.values(centres.len() * dim);
+        let values: &mut [T] = scratch.values(centres.len() as u64, dim)?;
         for (i, out) in values.chunks_exact_mut(dim).enumerate() {
             centres.copy_row(i, &mut row);
             lots.copy_row(i, &mut lot);
             let ball = row.iter().copied().chain([self.law.radius(lot[0])]);
-            for (value, drawn) in out.iter_mut().zip(ball) {
+            for (column, (value, drawn)) in out.iter_mut().zip(ball).enumerate() {
                 *value = T::from_f64(drawn);
+                if !(*value).into().is_finite() {
+                    let row = first + i as u64;
+                    let kind = self.scalar();
+                    return Err(Error::Overflow { row, column, value: drawn, kind }.into());
+                }
             }
         }
         Ok(T::rows(Points::new(values, dim).expect("whole rows were drawn")))
@@ -103,6 +105,7 @@ impl PointSource for Balls {
     }
 
     fn dim(&self) -> usize {
+        // The centres have refused a dimension that cannot grow by 1.
         self.centres.dim() + 1
     }
 
@@ -156,6 +159,14 @@ mod tests {
         let of = |balls: &Balls, ids: &[u64]| taut::points::gather(balls, ids).unwrap();
         assert_eq!(of(&few, &[4, 0]), of(&many, &[4, 0]));
         assert_eq!(of(&many, &[4321])[..2], taut::points::gather(&many.centres, &[4321]).unwrap());
+    }
+
+    #[test]
+    fn a_radius_beyond_its_type_is_named() {
+        let centres = GeneratedSource::new(Distribution::Normal, 5, 2, 7, ScalarKind::F32).unwrap();
+        let balls = Balls::new(centres, 7, Law::Equal(1e300)).unwrap();
+        let refused = balls.read(3..5, &mut Scratch::new()).unwrap_err().to_string();
+        assert!(refused.starts_with("coordinate 2 of point 3"), "{refused}");
     }
 
     #[test]

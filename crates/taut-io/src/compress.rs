@@ -61,7 +61,12 @@ impl<W: Write> Encoder<W> {
                 Encoder::Gzip(flate2::write::GzEncoder::new(to, flate2::Compression::new(6)))
             }
             Some(Compression::Xz) => Encoder::Xz(liblzma::write::XzEncoder::new(to, 6)),
-            Some(Compression::Zstd) => Encoder::Zstd(zstd::stream::write::Encoder::new(to, 3)?),
+            Some(Compression::Zstd) => {
+                let mut encoder = zstd::stream::write::Encoder::new(to, 3)?;
+                // As the zstd tool does; else a changed byte could pass for another number.
+                encoder.include_checksum(true)?;
+                Encoder::Zstd(encoder)
+            }
         })
     }
 

@@ -2,15 +2,17 @@
 //!
 //! *Idea.* Bytes go to a temporary file in the same folder; [`AtomicFile::commit`] brings them to the disk and
 //! renames. So a full disk, an error or an interruption leaves the earlier file as it was.
+//! The new file has the permissions of the earlier one, and an earlier file that may not be written is not replaced.
 //! *Trap.* Renaming onto a device would replace it: what exists and is no regular file is written in place.
 
-use std::fs::{self, File};
+use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, Stdout, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
 use crate::Error;
+use crate::error::shown_path;
 
 /// A file in the making; see [`create`]. Dropped without [`commit`](Self::commit), it leaves no trace.
 #[derive(Debug)]
@@ -37,7 +39,7 @@ pub fn create(path: &Path) -> Result<AtomicFile, Error> {
         let to = Target::Stdout(BufWriter::new(io::stdout()));
         return Ok(AtomicFile { shown: "standard output".to_owned(), to });
     }
-    let shown = path.display().to_string();
+    let shown = shown_path(path);
     let failed = |source| Error::writing(&shown, source);
     let to = match fs::metadata(path) {
         Ok(meta) if meta.is_dir() => return Err(Error::Directory { path: shown }),
@@ -45,14 +47,31 @@ pub fn create(path: &Path) -> Result<AtomicFile, Error> {
             let file = File::options().write(true).open(path).map_err(failed)?;
             Target::InPlace(BufWriter::new(file))
         }
-        // The file behind a symbolic link is replaced, not the link.
-        Ok(_) => rename_to(fs::canonicalize(path).map_err(failed)?).map_err(failed)?,
-        Err(_) => rename_to(path.to_owned()).map_err(failed)?,
+        Ok(meta) => {
+            // A rename needs no right to write the earlier file; whoever took that right away meant it.
+            File::options().append(true).open(path).map_err(failed)?;
+            // The file behind a symbolic link is replaced, not the link.
+            let behind = fs::canonicalize(path).map_err(failed)?;
+            rename_to(behind, Some(meta.permissions())).map_err(failed)?
+        }
+        Err(_) => rename_to(end_of_links(path), None).map_err(failed)?,
     };
     Ok(AtomicFile { shown, to })
 }
 
-fn rename_to(path: PathBuf) -> io::Result<Target> {
+/// Where links lead that end at no file: it is made there, as the system does when it opens such a link to write.
+fn end_of_links(path: &Path) -> PathBuf {
+    let mut end = path.to_owned();
+    // As many links as Linux follows before it calls them a circle.
+    for _ in 0..40 {
+        let Ok(to) = fs::read_link(&end) else { break };
+        end = end.parent().unwrap_or(Path::new("")).join(to);
+    }
+    end
+}
+
+/// A temporary file beside `path`, with the permissions of the earlier file, or those of any new one.
+fn rename_to(path: PathBuf, earlier: Option<Permissions>) -> io::Result<Target> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -61,8 +80,15 @@ fn rename_to(path: PathBuf) -> io::Result<Target> {
     builder.prefix(".taut-");
     // Temporary files are private unless told otherwise; the umask is applied to this by the system.
     #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    Ok(Target::Rename(BufWriter::with_capacity(1 << 16, builder.tempfile_in(folder)?), path))
+    if earlier.is_none() {
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    }
+    let file = builder.tempfile_in(folder)?;
+    if let Some(permissions) = earlier {
+        // Set before the first byte is written: what was private is so at every moment.
+        file.as_file().set_permissions(permissions)?;
+    }
+    Ok(Target::Rename(BufWriter::with_capacity(1 << 16, file), path))
 }
 
 impl AtomicFile {
@@ -74,9 +100,11 @@ impl AtomicFile {
     /// Puts the file in its place, with everything written so far on the disk.
     ///
     /// # Errors
-    /// [`Error::Write`], for instance when the disk is full; the earlier file is then as it was.
+    /// [`Error::Replace`], for instance when the disk is full: the earlier file is then as it was. [`Error::Write`] for
+    /// a device, a pipe or standard output.
     pub fn commit(self) -> Result<(), Error> {
         let shown = self.shown;
+        let replaces = matches!(self.to, Target::Rename(..));
         let done = match self.to {
             Target::Stdout(mut out) => out.flush(),
             Target::InPlace(mut file) => file.flush(),
@@ -86,7 +114,20 @@ impl AtomicFile {
                 .and_then(|file| file.as_file().sync_all().map(|()| file))
                 .and_then(|file| file.persist(path).map(drop).map_err(|e| e.error)),
         };
-        done.map_err(|source| Error::writing(&shown, source))
+        done.map_err(|source| match replaces {
+            true => Error::replacing(&shown, source),
+            false => Error::writing(&shown, source),
+        })
+    }
+
+    /// What it means that writing to this file failed.
+    ///
+    /// Only of a file that would have been replaced can be said that the earlier one stays.
+    pub(crate) fn failure(&self) -> fn(&str, io::Error) -> Error {
+        match self.to {
+            Target::Rename(..) => Error::replacing,
+            _ => Error::writing,
+        }
     }
 
     fn writer(&mut self) -> &mut dyn Write {

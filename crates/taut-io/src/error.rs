@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::io;
+use std::path::Path;
 
 use taut_points::ReadError;
 
@@ -26,7 +27,7 @@ impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}, column {}", self.path, Row(self.row, self.line), self.column)?;
         match &self.name {
-            Some(name) => write!(f, " (`{name}`)"),
+            Some(name) => write!(f, " (`{}`)", Clean(name)),
             None => write!(f, " (counted from 0)"),
         }
     }
@@ -44,6 +45,28 @@ impl fmt::Display for Row {
     }
 }
 
+/// A path as messages show it: control characters are escaped, so that no name of a file can speak to a terminal.
+pub(crate) fn shown_path(path: &Path) -> String {
+    Clean(&path.display().to_string()).to_string()
+}
+
+/// Text of a file without its control characters.
+struct Clean<'a>(&'a str);
+
+impl fmt::Display for Clean<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.chars().try_for_each(|c| match c.is_control() {
+            true => write!(f, "{}", c.escape_default()),
+            false => write!(f, "{c}"),
+        })
+    }
+}
+
+/// So many columns.
+fn columns(count: usize) -> String {
+    format!("{count} column{}", if count == 1 { "" } else { "s" })
+}
+
 /// The first few of a list.
 struct Few<'a>(&'a [String]);
 
@@ -51,7 +74,7 @@ impl fmt::Display for Few<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         const SHOWN: usize = 8;
         for (i, item) in self.0.iter().take(SHOWN).enumerate() {
-            write!(f, "{}`{item}`", if i == 0 { "" } else { ", " })?;
+            write!(f, "{}`{}`", if i == 0 { "" } else { ", " }, Clean(item))?;
         }
         match self.0.len() {
             n if n > SHOWN => write!(f, " and {} more", n - SHOWN),
@@ -92,9 +115,17 @@ pub enum Error {
         /// What the operating system said.
         source: io::Error,
     },
+    /// Writing to a device, a pipe or standard output failed, or a file could not be begun.
+    #[error("{path}: writing failed: {source}")]
+    Write {
+        /// The file.
+        path: String,
+        /// What the operating system said.
+        source: io::Error,
+    },
     /// Writing failed; what stood there before is untouched.
     #[error("{path}: writing failed: {source}; an earlier file of that name is as it was")]
-    Write {
+    Replace {
         /// The file.
         path: String,
         /// What the operating system said.
@@ -102,7 +133,7 @@ pub enum Error {
     },
     /// The temporary file for points that do not fit into memory could not be written.
     #[error(
-        "{path}: its points need a temporary file in {folder}, and writing that failed: {source}; name a folder with more room"
+        "{path}: its points need a temporary file in {folder}, and writing that failed: {source}; set TMPDIR to a folder with more room"
     )]
     Spill {
         /// The file whose points were read.
@@ -119,8 +150,14 @@ pub enum Error {
         path: String,
     },
     /// No row of data.
-    #[error("{path} holds no point: it has a shape or a header, but no row of data")]
+    #[error("{path} holds no point: there is no row of data in it")]
     NoRows {
+        /// The file.
+        path: String,
+    },
+    /// The name does not tell which format to write.
+    #[error("{path}: the format cannot be told from the name; name it (one of {})", Format::ALL.into_iter().filter(|f| f.can_write()).map(Format::name).collect::<Vec<_>>().join(", "))]
+    UnknownOutput {
         /// The file.
         path: String,
     },
@@ -167,7 +204,7 @@ pub enum Error {
         source: io::Error,
     },
     /// A row has more or fewer columns than the first.
-    #[error("{path}: {} has {found} columns, but {expected} are expected {why}: add or remove values there", Row(*row, Some(*line)))]
+    #[error("{path}: {} has {}, but {expected} {} expected {why}: add or remove values there", Row(*row, Some(*line)), columns(*found), if *expected == 1 { "is" } else { "are" })]
     Ragged {
         /// The file.
         path: String,
@@ -184,7 +221,8 @@ pub enum Error {
     },
     /// A point of a list column has another dimension than the first.
     #[error(
-        "{path}: row {row} of column `{column}` is a list of {found} values, but the first has {expected}: all points must have one dimension"
+        "{path}: row {row} of column `{}` is a list of {found} values, but the first has {expected}: all points must have one dimension",
+        Clean(column)
     )]
     RaggedList {
         /// The file.
@@ -248,6 +286,20 @@ pub enum Error {
         /// Its text.
         value: String,
     },
+    /// A field of the first row looks like a value that went wrong, so the row is neither a header nor a point.
+    #[error(
+        "{path}: row 1 (line {line}), column {column} (counted from 0) holds `{value}`, which is no number and hardly a name: repair the value, or say with --header whether the row is a header"
+    )]
+    DoubtfulHeader {
+        /// The file.
+        path: String,
+        /// The line, from 1.
+        line: u64,
+        /// The column.
+        column: usize,
+        /// Its text.
+        value: String,
+    },
     /// A quoted field has no end.
     #[error(
         "{path}: a quote that opens on line {line} never closes: add the closing quote, or remove the opening one"
@@ -267,7 +319,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// A column of this number does not exist.
-    #[error("{path}: there is no column {number}: it has {width} columns, counted from 0")]
+    #[error("{path}: there is no column {number}: it has {}, counted from 0", columns(*width))]
     ColumnNumber {
         /// The file.
         path: String,
@@ -277,7 +329,7 @@ pub enum Error {
         width: usize,
     },
     /// A column of this name does not exist.
-    #[error("{path}: there is no column `{name}`; there are {}", Few(known))]
+    #[error("{path}: there is no column `{}`; there {} {}", Clean(name), if known.len() == 1 { "is" } else { "are" }, Few(known))]
     ColumnName {
         /// The file.
         path: String,
@@ -288,7 +340,8 @@ pub enum Error {
     },
     /// A column was asked for by name, but the file has no names.
     #[error(
-        "{path}: column `{name}` was asked for by name, but the file has no header: select columns by number, counted from 0"
+        "{path}: column `{}` was asked for by name, but the file has no header: select columns by number, counted from 0",
+        Clean(name)
     )]
     NoNames {
         /// The file.
@@ -297,7 +350,7 @@ pub enum Error {
         name: String,
     },
     /// A selected column does not hold numbers.
-    #[error("{path}: column `{column}` holds {kind}, not numbers: select other columns")]
+    #[error("{path}: column `{}` holds {kind}, not numbers: select other columns", Clean(column))]
     NotNumeric {
         /// The file.
         path: String,
@@ -331,7 +384,9 @@ pub enum Error {
     },
     /// The file holds another number of values or rows than it says.
     #[error(
-        "{path} is cut short or damaged: its {format} header promises {expected} {unit}, but there are {found}"
+        "{path} is {}: its {format} header promises {expected} {}, but there {} {found}",
+        if found < expected { "cut short or damaged" } else { "longer than it says or damaged" },
+        if *expected == 1 { unit.0 } else { unit.1 }, if *found == 1 { "is" } else { "are" }
     )]
     Count {
         /// The file.
@@ -342,8 +397,8 @@ pub enum Error {
         expected: u64,
         /// What there is.
         found: u64,
-        /// Of what.
-        unit: &'static str,
+        /// Of what: the word for one, and for more.
+        unit: (&'static str, &'static str),
     },
     /// An array whose element type or shape is not that of points.
     #[error("{path}: {problem}; {remedy}")]
@@ -410,7 +465,7 @@ pub enum Error {
         dim: usize,
     },
     /// Names for another number of columns than the points have.
-    #[error("{path}: {names} column names were given for points of dimension {dim}")]
+    #[error("{path}: {names} column name{} given for points of dimension {dim}", if *names == 1 { " was" } else { "s were" })]
     Names {
         /// The file.
         path: String,
@@ -448,6 +503,14 @@ impl Error {
             io::ErrorKind::IsADirectory => Error::Directory { path },
             io::ErrorKind::PermissionDenied => Error::Permission { path, action: "write" },
             _ => Error::Write { path, source },
+        }
+    }
+
+    /// What an error of writing a file means that would have replaced `path`.
+    pub(crate) fn replacing(path: &str, source: io::Error) -> Error {
+        match Error::writing(path, source) {
+            Error::Write { path, source } => Error::Replace { path, source },
+            other => other,
         }
     }
 }

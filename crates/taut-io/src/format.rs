@@ -79,7 +79,7 @@ impl Format {
             Format::Csv => "comma-separated text (also ; and tab), header found or not, # comments",
             Format::Tsv => "tab-separated text",
             Format::Whitespace => "text, columns parted by spaces and tabs",
-            Format::Npy => "NumPy array, n × d or n; floats and integers, either byte order",
+            Format::Npy => "NumPy array, n × d or n; f4, f8 and integers, either byte order",
             Format::Parquet => "Apache Parquet, numeric columns or one list column",
             Format::Arrow => {
                 "Arrow IPC (Feather), file or stream, numeric columns or one list column"

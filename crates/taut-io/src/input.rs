@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use bytes::Bytes;
 use taut_points::PointSource;
 
+use crate::error::shown_path;
 use crate::read::{self, Decoded};
 use crate::{Compression, Error, Format, Place, ReadOptions, compress};
 
@@ -83,7 +84,7 @@ impl Medium {
             Medium::File(file, _) => read::Seekable::File(file),
             Medium::Bytes(bytes) => read::Seekable::Bytes(bytes),
             Medium::Stream(mut stream) => {
-                let mut copy = crate::sink::temporary(job)?.into_file();
+                let mut copy = crate::sink::temporary(job)?;
                 let mut failed = None;
                 // Told apart here, because a copy only says that one of the two sides failed.
                 loop {
@@ -136,7 +137,7 @@ pub fn open(path: &Path, options: &ReadOptions) -> Result<Input, Error> {
         let stream = Box::new(BufReader::with_capacity(1 << 18, io::stdin()));
         return open_medium(Medium::Stream(stream), None, "standard input", options);
     }
-    let shown = path.display().to_string();
+    let shown = shown_path(path);
     let failed = |source| Error::reading(&shown, source);
     let kind = fs::metadata(path).map_err(failed)?;
     if kind.is_dir() {
@@ -156,7 +157,12 @@ pub fn open(path: &Path, options: &ReadOptions) -> Result<Input, Error> {
 /// # Errors
 /// As [`open`].
 pub fn open_bytes(bytes: Vec<u8>, name: &str, options: &ReadOptions) -> Result<Input, Error> {
-    open_medium(Medium::Bytes(bytes.into()), Some(Path::new(name)), name, options)
+    open_medium(
+        Medium::Bytes(bytes.into()),
+        Some(Path::new(name)),
+        &shown_path(name.as_ref()),
+        options,
+    )
 }
 
 fn open_medium(

@@ -16,6 +16,10 @@ pub struct ReadOptions {
     /// Whether the first row of a text file holds names. Default [`Header::Auto`].
     pub header: Header,
     /// Most bytes of points held in memory; what is larger stays in its file or goes to a temporary one. Default: all.
+    ///
+    /// Uncompressed npy and raw files that fit are mapped, not copied: they must not change meanwhile, see
+    /// [`MappedSource`](taut_points::MappedSource). Besides its points, the reader of parquet holds one batch of rows
+    /// with the pages it comes from, that of arrow one message of the file, whatever its size.
     pub memory: Option<u64>,
     /// Shape and type of raw values, which no raw file tells itself. Needed for [`Format::Raw`] only.
     pub raw: Option<RawLayout>,
@@ -26,7 +30,8 @@ pub struct ReadOptions {
 /// Whether the first row of a text file holds the names of the columns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Header {
-    /// It does if none of its selected fields is a number; a row with both names and numbers is refused.
+    /// It does if none of its selected fields is a number. Refused are a row with both names and numbers, and one with a
+    /// field that begins as a number but is none (`1O`) or that stands for a missing one (`NA`, `null`, `?`, nothing).
     #[default]
     Auto,
     /// It does.

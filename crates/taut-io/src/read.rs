@@ -10,6 +10,8 @@ mod literal;
 mod npy;
 #[cfg(feature = "arrow")]
 mod parquet;
+#[cfg(feature = "arrow")]
+mod quiet;
 mod raw;
 mod rows;
 mod tsplib;
@@ -17,6 +19,8 @@ mod xyz;
 
 #[cfg(feature = "arrow")]
 pub(crate) use parquet::Seekable;
+
+pub(crate) use delimited::is_failed_value;
 
 use std::io::BufReader;
 use std::path::Path;
@@ -109,12 +113,18 @@ fn in_place(
     Ok(Decoded { source, columns: Vec::new(), numbers: None })
 }
 
+/// The first line of what a decoder says; some go on with a trace of calls.
+#[cfg(feature = "arrow")]
+fn first_line(said: &dyn std::fmt::Display) -> String {
+    said.to_string().lines().next().unwrap_or_default().trim_end().to_owned()
+}
+
 /// Runs a reader whose crate may panic on damaged bytes, and makes an error of that.
 ///
 /// The parquet and arrow crates check most, but not all, of what a damaged file can hold before they index into it.
 #[cfg(feature = "arrow")]
 fn guarded(job: &Job<'_>, read: impl FnOnce() -> Result<Decoded, Error>) -> Result<Decoded, Error> {
-    std::panic::catch_unwind(std::panic::AssertUnwindSafe(read)).unwrap_or_else(|_| {
+    quiet::catch(read).unwrap_or_else(|_| {
         Err(Error::Damaged {
             path: job.path.to_owned(),
             format: job.format,

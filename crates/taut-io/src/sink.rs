@@ -3,13 +3,11 @@
 //! *Guarantee.* The points read back are the same on both ways, and at most the allowed bytes (and one buffer of
 //! [`BUFFER`] bytes) are held.
 
+use std::fs::File;
 use std::io::{BufWriter, Write};
-use std::ops::Range;
+use std::path::Path;
 
-use taut_points::{
-    FileSource, OwnedPoints, PointSource, ReadError, Rows, Scalar, ScalarKind, Scratch,
-};
-use tempfile::{NamedTempFile, TempPath};
+use taut_points::{FileSource, OwnedPoints, PointSource, Scalar};
 
 use crate::Error;
 use crate::input::Job;
@@ -27,7 +25,7 @@ pub(crate) struct Sink<'a, T> {
 }
 
 struct Spill {
-    file: BufWriter<NamedTempFile>,
+    file: BufWriter<File>,
     rows: u64,
 }
 
@@ -88,17 +86,17 @@ impl<'a, T: Scalar> Sink<'a, T> {
             return Ok(Box::new(points));
         };
         let file = spill.file.into_inner().map_err(|e| failed(self.job, e.into_error()))?;
-        let kept = file.into_temp_path();
-        let source = FileSource::open(&kept, 0, n, self.dim, T::KIND)?;
-        Ok(Box::new(Spilled { source, _kept: kept }))
+        let shown = Path::new(self.job.path);
+        Ok(Box::new(FileSource::from_file(file, shown, 0, n, self.dim, T::KIND)?))
     }
 }
 
-/// A temporary file where the options want it.
-pub(crate) fn temporary(job: &Job<'_>) -> Result<NamedTempFile, Error> {
+/// A temporary file where the options want it. It has no name (or, on Windows, is deleted by the system when it is
+/// closed), so nothing stays behind however this process ends.
+pub(crate) fn temporary(job: &Job<'_>) -> Result<File, Error> {
     let made = match &job.options.temp_dir {
-        Some(folder) => NamedTempFile::with_prefix_in("taut-", folder),
-        None => NamedTempFile::with_prefix("taut-"),
+        Some(folder) => tempfile::tempfile_in(folder),
+        None => tempfile::tempfile(),
     };
     made.map_err(|source| failed(job, source))
 }
@@ -107,32 +105,4 @@ pub(crate) fn temporary(job: &Job<'_>) -> Result<NamedTempFile, Error> {
 pub(crate) fn failed(job: &Job<'_>, source: std::io::Error) -> Error {
     let folder = job.options.temp_dir.clone().unwrap_or_else(std::env::temp_dir);
     Error::Spill { path: job.path.to_owned(), folder: folder.display().to_string(), source }
-}
-
-/// A temporary file of points, deleted with the source.
-struct Spilled {
-    source: FileSource,
-    _kept: TempPath,
-}
-
-impl PointSource for Spilled {
-    fn len(&self) -> u64 {
-        self.source.len()
-    }
-
-    fn dim(&self) -> usize {
-        self.source.dim()
-    }
-
-    fn scalar(&self) -> ScalarKind {
-        self.source.scalar()
-    }
-
-    fn read<'a>(
-        &'a self,
-        range: Range<u64>,
-        scratch: &'a mut Scratch,
-    ) -> Result<Rows<'a>, ReadError> {
-        self.source.read(range, scratch)
-    }
 }

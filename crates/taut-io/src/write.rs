@@ -15,12 +15,14 @@ use taut_points::{Blocks, Monitor, PointSource, ReadError, Rows, Scratch};
 
 use crate::compress::Encoder;
 use crate::create::{AtomicFile, create};
+use crate::error::shown_path;
 use crate::{Error, Format};
 
 /// Writes `source` to `path` in the given format, or in that of the extension; `-` is standard output (CSV).
 ///
 /// `columns` names the coordinates; empty means no names (parquet and arrow then call them `x0`, `x1`, …). A header
-/// that could be taken for numbers is left out. The extensions `.gz`, `.xz` and `.zst` compress.
+/// that could be taken for numbers, or for numbers that went wrong, is left out. The extensions `.gz`, `.xz` and `.zst` compress. Points of more than 1000 coordinates
+/// without names are one column of lists in parquet, which would else hold a buffer for each column.
 ///
 /// # Errors
 /// [`Error`]; an earlier file of that name is then as it was.
@@ -31,13 +33,13 @@ pub fn write_points(
     format: Option<Format>,
     monitor: &Monitor<'_>,
 ) -> Result<(), Error> {
-    let shown = path.display().to_string();
+    let shown = shown_path(path);
     let stdout = path.as_os_str() == "-";
     let (named, compression) = Format::of_path(path);
     let format = format
         .or(named)
         .or(stdout.then_some(Format::Csv))
-        .ok_or_else(|| Error::UnknownFormat { path: shown.clone() })?;
+        .ok_or_else(|| Error::UnknownOutput { path: shown.clone() })?;
     if !columns.is_empty() && columns.len() != source.dim() {
         return Err(Error::Names { path: shown, names: columns.len(), dim: source.dim() });
     }
@@ -50,9 +52,11 @@ pub fn write_points(
             false => Error::NotBuilt { path: shown, format },
         });
     }
-    let failed = |source| Error::writing(&shown, source);
     let file = create(path)?;
-    let mut out = Out { to: Encoder::new(compression, file).map_err(failed)?, path: &shown };
+    let failure = file.failure();
+    let failed = |source| failure(&shown, source);
+    let to = Encoder::new(compression, file).map_err(failed)?;
+    let mut out = Out { to, path: &shown, failure };
     let points = Points { source, columns, monitor };
     match format {
         Format::Csv => text::write(&points, b',', &mut out)?,
@@ -97,10 +101,12 @@ impl Points<'_> {
 struct Out<'a> {
     to: Encoder<AtomicFile>,
     path: &'a str,
+    /// What an error of writing means.
+    failure: fn(&str, std::io::Error) -> Error,
 }
 
 impl Out<'_> {
     fn put(&mut self, bytes: &[u8]) -> Result<(), Error> {
-        self.to.write_all(bytes).map_err(|source| Error::writing(self.path, source))
+        self.to.write_all(bytes).map_err(|source| (self.failure)(self.path, source))
     }
 }

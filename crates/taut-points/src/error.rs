@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::Cancelled;
+use crate::{Cancelled, ScalarKind};
 
 /// Why a view or a generator could not be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -30,6 +30,30 @@ pub enum Error {
         value: String,
         /// What would have been accepted.
         expected: &'static str,
+    },
+    /// A parameter was given that another distribution takes.
+    #[error("`{name}` belongs to {owner}, not to {distribution}: leave it out")]
+    Foreign {
+        /// The parameter.
+        name: &'static str,
+        /// The distribution that takes it.
+        owner: &'static str,
+        /// The distribution that was asked for.
+        distribution: String,
+    },
+    /// A drawn coordinate is beyond the largest number of its type.
+    #[error(
+        "coordinate {column} of point {row}, both counted from 0, is {value}, and {kind} does not reach that far: choose smaller parameters or a wider type"
+    )]
+    Overflow {
+        /// The point, from 0.
+        row: u64,
+        /// The coordinate, from 0.
+        column: usize,
+        /// The value as it was drawn.
+        value: f64,
+        /// The type it was to be rounded to.
+        kind: ScalarKind,
     },
 }
 
@@ -73,6 +97,17 @@ pub enum ReadError {
         /// Number of points.
         n: u64,
     },
+    /// That many points at once are more than memory holds.
+    #[error("{rows} points of dimension {dim} at once do not fit into memory")]
+    TooLarge {
+        /// How many points.
+        rows: u64,
+        /// Their dimension.
+        dim: usize,
+    },
+    /// A point could not be drawn.
+    #[error(transparent)]
+    Drawn(#[from] Error),
     /// The caller's [`Monitor`](crate::Monitor) asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

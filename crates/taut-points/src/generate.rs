@@ -51,7 +51,82 @@ pub enum Distribution {
     },
 }
 
+/// What a distribution may be told when it is called by its name; what is left out has its default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Parameters {
+    /// Half the thickness of a shell, at least 0. Default 0.1.
+    pub thickness: Option<f64>,
+    /// Number of clusters, at least 1. Default 5.
+    pub count: Option<u64>,
+    /// Standard deviation of a cluster, at least 0. Default 0.05.
+    pub spread: Option<f64>,
+    /// Vertices of a polygon, at least 1. Default: as many as points.
+    pub vertices: Option<u64>,
+}
+
 impl Distribution {
+    /// The name of each distribution, and a line about it.
+    pub const NAMES: [(&str, &str); 9] = [
+        ("normal", "each coordinate standard normal"),
+        ("uniform", "uniform in the unit cube"),
+        ("cube", "vertices of the unit cube: cospherical, with duplicates in low dimension"),
+        ("poisson", "each coordinate Poisson with mean 1: a lattice with many ties"),
+        ("sphere", "uniform on the unit sphere"),
+        ("shell", "uniform in direction, 1 ± T from the origin"),
+        ("clusters", "normal clouds around K centres in the unit cube"),
+        ("simplex", "vertices of a regular simplex with unit edges, then points inside"),
+        ("polygon", "K points at equal angles on the unit circle, in turn"),
+    ];
+
+    /// The distribution of a name out of [`NAMES`](Self::NAMES), for n points.
+    ///
+    /// ```
+    /// use taut_points::{Distribution, generate::Parameters};
+    /// let given = Parameters { count: Some(3), ..Default::default() };
+    /// let clouds = Distribution::named("clusters", 100, &given)?;
+    /// assert_eq!(clouds, Distribution::Clusters { count: 3, spread: 0.05 });
+    /// # Ok::<(), taut_points::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Parameter`] for another name or a parameter out of range, [`Error::Foreign`] for a parameter that the
+    /// distribution does not take.
+    pub fn named(name: &str, n: u64, given: &Parameters) -> Result<Self, Error> {
+        for (parameter, is_given, owner) in [
+            ("thickness", given.thickness.is_some(), "shell"),
+            ("count", given.count.is_some(), "clusters"),
+            ("spread", given.spread.is_some(), "clusters"),
+            ("vertices", given.vertices.is_some(), "polygon"),
+        ] {
+            if is_given && name != owner {
+                let distribution = name.to_owned();
+                return Err(Error::Foreign { name: parameter, owner, distribution });
+            }
+        }
+        let found = match name {
+            "normal" => Distribution::Normal,
+            "uniform" => Distribution::Uniform,
+            "cube" => Distribution::CubeVertices,
+            "poisson" => Distribution::Poisson,
+            "sphere" => Distribution::Sphere,
+            "shell" => Distribution::Shell { thickness: given.thickness.unwrap_or(0.1) },
+            "clusters" => Distribution::Clusters {
+                count: given.count.unwrap_or(5),
+                spread: given.spread.unwrap_or(0.05),
+            },
+            "simplex" => Distribution::Simplex,
+            "polygon" => Distribution::Polygon { vertices: given.vertices.unwrap_or(n.max(1)) },
+            _ => {
+                return Err(Error::Parameter {
+                    name: "distribution",
+                    value: name.to_owned(),
+                    expected: "normal, uniform, cube, poisson, sphere, shell, clusters, simplex or polygon",
+                });
+            }
+        };
+        found.check().map(|()| found)
+    }
+
     fn check(&self) -> Result<(), Error> {
         let wrong = |name, value: String, expected| Err(Error::Parameter { name, value, expected });
         match *self {
@@ -151,6 +226,18 @@ fn simplex(random: &mut ChaCha8Rng, i: u64, out: &mut [f64]) {
     out.iter_mut().for_each(|v| *v = (*v * scale + last * apex) / sum);
 }
 
+/// Memory for one point.
+fn point_of(dim: usize) -> Result<Vec<f64>, Error> {
+    let mut point = Vec::new();
+    point.try_reserve_exact(dim).map_err(|_| Error::Parameter {
+        name: "dim",
+        value: dim.to_string(),
+        expected: "a dimension of which a point fits into memory",
+    })?;
+    point.resize(dim, 0.0);
+    Ok(point)
+}
+
 /// A generated point set that is never stored: each block is drawn when it is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GeneratedSource {
@@ -165,7 +252,8 @@ impl GeneratedSource {
     /// n points of dimension `dim`; `scalar` says how they are delivered (drawn in `f64`, then rounded).
     ///
     /// # Errors
-    /// [`Error::ZeroDimension`], or [`Error::Parameter`] for a parameter out of range.
+    /// [`Error::ZeroDimension`], or [`Error::Parameter`] for a parameter out of range: so is a dimension of which not
+    /// one point fits into memory, and a set of more than [`isize::MAX`] bytes as `f64`.
     pub fn new(
         distribution: Distribution,
         n: u64,
@@ -177,23 +265,41 @@ impl GeneratedSource {
         if dim == 0 {
             return Err(Error::ZeroDimension);
         }
+        point_of(dim)?;
+        let values = (dim as u64).checked_mul(n);
+        if values.is_none_or(|values| values > isize::MAX as u64 / 8) {
+            return Err(Error::Parameter {
+                name: "n",
+                value: n.to_string(),
+                expected: "a number of points whose coordinates can be counted: n·d at most 2^60 - 1",
+            });
+        }
         Ok(GeneratedSource { distribution, n, dim, seed, scalar })
     }
 
-    fn fill<T: Scalar>(&self, first: u64, out: &mut [T]) {
-        let mut point = vec![0.0; self.dim];
+    fn fill<T: Scalar>(&self, first: u64, out: &mut [T]) -> Result<(), Error> {
+        let mut point = point_of(self.dim)?;
         for (i, row) in (first..).zip(out.chunks_exact_mut(self.dim)) {
             draw(&self.distribution, self.seed, i, &mut point);
-            for (value, &drawn) in row.iter_mut().zip(&point) {
+            for (column, (value, &drawn)) in row.iter_mut().zip(&point).enumerate() {
                 *value = T::from_f64(drawn);
+                let rounded: f64 = (*value).into();
+                if !rounded.is_finite() {
+                    return Err(Error::Overflow { row: i, column, value: drawn, kind: T::KIND });
+                }
             }
         }
+        Ok(())
     }
 
-    fn view<'a, T: Scalar>(&self, range: Range<u64>, scratch: &'a mut Scratch) -> Rows<'a> {
-        let values = scratch.values::<T>((range.end - range.start) as usize * self.dim);
-        self.fill(range.start, values);
-        T::rows(Points::new(values, self.dim).expect("whole rows were drawn"))
+    fn view<'a, T: Scalar>(
+        &self,
+        range: Range<u64>,
+        scratch: &'a mut Scratch,
+    ) -> Result<Rows<'a>, ReadError> {
+        let values = scratch.values::<T>(range.end - range.start, self.dim)?;
+        self.fill(range.start, values)?;
+        Ok(T::rows(Points::new(values, self.dim).expect("whole rows were drawn")))
     }
 }
 
@@ -216,10 +322,10 @@ impl PointSource for GeneratedSource {
         scratch: &'a mut Scratch,
     ) -> Result<Rows<'a>, ReadError> {
         check_range(&range, self.n)?;
-        Ok(match self.scalar {
+        match self.scalar {
             ScalarKind::F32 => self.view::<f32>(range, scratch),
             ScalarKind::F64 => self.view::<f64>(range, scratch),
-        })
+        }
     }
 }
 
@@ -234,14 +340,23 @@ impl PointSource for GeneratedSource {
 /// ```
 ///
 /// # Errors
-/// As [`GeneratedSource::new`].
+/// As [`GeneratedSource::new`]; [`Error::Parameter`] when n·d values do not fit into memory, and [`Error::Overflow`]
+/// for a coordinate that is infinite as `T`.
 pub fn generate<T: Scalar>(
     distribution: Distribution,
     n: usize,
     dim: usize,
     seed: u64,
 ) -> Result<Vec<T>, Error> {
-    let mut values = vec![T::from_f64(0.0); n * dim];
+    // Refuses what is wrong with the parameters before any memory is asked for.
+    GeneratedSource::new(distribution, n as u64, dim, seed, T::KIND)?;
+    let mut values = Vec::new();
+    values.try_reserve_exact(n * dim).map_err(|_| Error::Parameter {
+        name: "n",
+        value: n.to_string(),
+        expected: "a number of points that fits into memory",
+    })?;
+    values.resize(n * dim, T::from_f64(0.0));
     generate_into(distribution, dim, seed, &mut values)?;
     Ok(values)
 }
@@ -249,7 +364,8 @@ pub fn generate<T: Scalar>(
 /// Draws as many points of dimension `dim` as `out` has room for, as [`generate`] would, to memory of the caller.
 ///
 /// # Errors
-/// As [`GeneratedSource::new`], and [`Error::Ragged`] when `out` would end within a point.
+/// As [`GeneratedSource::new`]; [`Error::Ragged`] when `out` would end within a point, and [`Error::Overflow`] for the
+/// first coordinate that is infinite as `T`.
 pub fn generate_into<T: Scalar>(
     distribution: Distribution,
     dim: usize,
@@ -260,10 +376,12 @@ pub fn generate_into<T: Scalar>(
     let source = GeneratedSource::new(distribution, n, dim, seed, T::KIND)?;
     let blocks = Blocks::of(&source);
     let rows = blocks.range(0).end.max(1) as usize;
-    out.par_chunks_mut(rows * dim)
+    let failed = out
+        .par_chunks_mut(rows * dim)
         .enumerate()
-        .for_each(|(block, out)| source.fill(blocks.range(block as u64).start, out));
-    Ok(())
+        .filter_map(|(block, out)| source.fill(blocks.range(block as u64).start, out).err())
+        .find_first(|_| true);
+    failed.map_or(Ok(()), Err)
 }
 
 #[cfg(test)]
@@ -350,5 +468,62 @@ mod tests {
         assert!(wrong.to_string().contains("thickness"), "{wrong}");
         assert_eq!(generate::<f32>(Distribution::Normal, 1, 0, 0), Err(Error::ZeroDimension));
         assert_eq!(generate::<f64>(Distribution::Normal, 0, 3, 0), Ok(vec![]));
+        assert!(Distribution::named("shell", 1, &Parameters::default()).is_ok());
+        let thin = Parameters { thickness: Some(-1.0), ..Default::default() };
+        let wrong = Distribution::named("shell", 1, &thin).unwrap_err();
+        assert_eq!(wrong.to_string(), "`thickness` is -1: expected a finite number, at least 0");
+        let wrong = Distribution::named("normal", 1, &thin).unwrap_err();
+        let said = "`thickness` belongs to shell, not to normal: leave it out";
+        assert_eq!(wrong.to_string(), said);
+    }
+
+    #[test]
+    fn each_name_is_a_distribution_of_its_own_and_the_refusal_lists_them() {
+        let named = |name| Distribution::named(name, 6, &Parameters::default());
+        let refused = named("weibull").unwrap_err().to_string();
+        let mut found = Vec::new();
+        for (name, _) in Distribution::NAMES {
+            let distribution = named(name).unwrap();
+            assert!(!found.contains(&distribution) && refused.contains(name), "{name}");
+            found.push(distribution);
+        }
+        assert_eq!(found[8], Distribution::Polygon { vertices: 6 });
+    }
+
+    #[test]
+    fn what_no_machine_holds_is_refused() {
+        let large = 2_305_843_009_213_693_953; // times 8 bytes it wraps to 8
+        for (n, dim) in
+            [(1, usize::MAX), (1, large), (1, 1 << 60), (usize::MAX, 2), (large, 8), (1 << 58, 4)]
+        {
+            let made = generate::<f32>(Distribution::Normal, n, dim, 0);
+            assert!(matches!(made, Err(Error::Parameter { .. })), "{n} × {dim}");
+            let source =
+                GeneratedSource::new(Distribution::Normal, n as u64, dim, 0, ScalarKind::F32);
+            assert!(matches!(source, Err(Error::Parameter { .. })), "{n} × {dim}");
+        }
+        // Far too many points to hold, but each block of them can be drawn.
+        let source =
+            GeneratedSource::new(Distribution::Normal, 1 << 58, 3, 0, ScalarKind::F32).unwrap();
+        let last = (1 << 58) - 1;
+        assert_eq!(source.read(last..last + 1, &mut Scratch::new()).unwrap().len(), 1);
+        let refused = source.read(0..1 << 58, &mut Scratch::new()).unwrap_err();
+        assert!(matches!(refused, ReadError::TooLarge { dim: 3, .. }), "{refused}");
+        assert!(matches!(
+            generate::<f64>(Distribution::Normal, 1 << 58, 3, 0),
+            Err(Error::Parameter { name: "n", .. })
+        ));
+    }
+
+    #[test]
+    fn a_coordinate_beyond_its_type_is_named() {
+        let clouds = Distribution::Clusters { count: 1, spread: 1e300 };
+        assert!(generate::<f64>(clouds, 50_000, 2, 0).is_ok());
+        let refused = generate::<f32>(clouds, 50_000, 2, 0).unwrap_err();
+        assert!(matches!(refused, Error::Overflow { row: 0, column: 0, .. }), "{refused}");
+        assert!(refused.to_string().contains("and f32 does not reach that far"), "{refused}");
+        let source = GeneratedSource::new(clouds, 9, 2, 0, ScalarKind::F32).unwrap();
+        let refused = source.read(4..5, &mut Scratch::new()).unwrap_err();
+        assert!(matches!(refused, ReadError::Drawn(Error::Overflow { row: 4, .. })), "{refused}");
     }
 }

@@ -61,6 +61,15 @@ impl ScalarKind {
     }
 }
 
+impl std::fmt::Display for ScalarKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            ScalarKind::F32 => "f32",
+            ScalarKind::F64 => "f64",
+        })
+    }
+}
+
 /// A borrowed n × d view of points, row-major and without gaps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Points<'a, T> {

@@ -57,11 +57,22 @@ impl Scratch {
         Self::default()
     }
 
-    /// Room for `count` values, with whatever they held before.
-    pub fn values<T: Scalar>(&mut self, count: usize) -> &mut [T] {
-        let bytes = count * size_of::<T>();
-        self.words.resize(self.words.len().max(bytes.div_ceil(8)), 0);
-        &mut bytemuck::cast_slice_mut(&mut self.words)[..count]
+    /// Room for the coordinates of `rows` points of dimension `dim`, with whatever they held before.
+    ///
+    /// # Errors
+    /// [`ReadError::TooLarge`] when there is no memory for them.
+    pub fn values<T: Scalar>(&mut self, rows: u64, dim: usize) -> Result<&mut [T], ReadError> {
+        let too_large = || ReadError::TooLarge { rows, dim };
+        let count = usize::try_from(rows).ok().and_then(|rows| rows.checked_mul(dim));
+        let bytes = count.and_then(|count| count.checked_mul(size_of::<T>()));
+        let (count, bytes) = count.zip(bytes).ok_or_else(too_large)?;
+        let wanted = bytes.div_ceil(8);
+        if wanted > self.words.len() {
+            let more = wanted - self.words.len();
+            self.words.try_reserve_exact(more).map_err(|_| too_large())?;
+            self.words.resize(wanted, 0);
+        }
+        Ok(&mut bytemuck::cast_slice_mut(&mut self.words)[..count])
     }
 }
 
@@ -98,8 +109,11 @@ impl<T: Scalar> PointSource for Points<'_, T> {
 /// What [`PointSource::read`] says.
 pub fn gather(source: &dyn PointSource, ids: &[u64]) -> Result<Vec<f64>, ReadError> {
     let dim = source.dim();
-    let mut scratch = Scratch::new();
-    let mut out = vec![0.0; ids.len() * dim];
+    let (mut scratch, mut out) = (Scratch::new(), Vec::new());
+    let too_large = || ReadError::TooLarge { rows: ids.len() as u64, dim };
+    let count = ids.len().checked_mul(dim).ok_or_else(too_large)?;
+    out.try_reserve_exact(count).map_err(|_| too_large())?;
+    out.resize(count, 0.0);
     for (&id, row) in ids.iter().zip(out.chunks_exact_mut(dim)) {
         source.read(id..id.saturating_add(1), &mut scratch)?.copy_row(0, row);
     }

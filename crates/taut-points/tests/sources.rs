@@ -38,6 +38,34 @@ fn memory_file_and_map_deliver_the_same_points() {
 }
 
 #[test]
+fn a_file_without_a_name_is_read_all_the_same() {
+    let values: Vec<f32> = generate(Distribution::Normal, 100, 3, 5).unwrap();
+    let file = raw_file(b"", &values).into_file();
+    let source = FileSource::from_file(file, "gone".as_ref(), 0, 100, 3, ScalarKind::F32).unwrap();
+    let memory = Points::new(&values, 3).unwrap();
+    assert_eq!(gather(&source, &[99, 0]).unwrap(), gather(&memory, &[99, 0]).unwrap());
+    let short = FileSource::from_file(
+        tempfile::tempfile().unwrap(),
+        "gone".as_ref(),
+        0,
+        1,
+        1,
+        ScalarKind::F32,
+    );
+    assert!(short.unwrap_err().to_string().starts_with("gone: 0 bytes"));
+}
+
+#[test]
+fn a_scratch_refuses_what_memory_does_not_hold() {
+    let mut scratch = Scratch::new();
+    for (rows, dim) in [(u64::MAX, 1), (1, usize::MAX), (1 << 32, 1 << 32), (1 << 58, 4)] {
+        let refused = scratch.values::<f64>(rows, dim).unwrap_err();
+        assert!(matches!(refused, ReadError::TooLarge { .. }), "{rows} × {dim}");
+    }
+    assert_eq!(scratch.values::<f32>(3, 5).unwrap().len(), 15);
+}
+
+#[test]
 fn a_file_that_ends_early_is_refused() {
     let file = raw_file(b"", &[1.0; 10]);
     for n in [6, u64::MAX] {

@@ -256,3 +256,19 @@ fn unknown_names_and_options_out_of_range() {
     }
     assert_eq!(desk.files(), ["points.csv", "points.xls"]);
 }
+
+/// Some of these changes make the decoder panic; that is caught, and its words must not reach the user either.
+#[cfg(feature = "arrow")]
+#[test]
+fn a_damaged_arrow_file_is_one_line_of_complaint() {
+    let desk = Desk::new();
+    desk.taut("generate normal -n 20 -d 3 -o whole.arrow").ends(0);
+    let whole = desk.bytes("whole.arrow");
+    for at in (130..200).chain(400..440) {
+        let mut changed = whole.clone();
+        changed[at] ^= 0xff;
+        desk.put("changed.arrow", &changed);
+        let run = desk.taut("ball changed.arrow");
+        assert!(!run.err.contains("panicked") && run.err.lines().count() <= 1, "{at}: {}", run.err);
+    }
+}

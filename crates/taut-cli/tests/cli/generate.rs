@@ -84,8 +84,27 @@ fn radii_make_balls() {
 }
 
 #[test]
-fn no_points_are_refused_by_what_reads_them() {
+fn sizes_that_cannot_be_are_refused() {
     let desk = Desk::new();
-    desk.taut("generate normal -n 0 -d 2 -o none.npy").ends(0);
-    desk.taut("ball none.npy").ends(2).complains(&["none.npy"]);
+    desk.taut("generate normal -n 0 -d 2").ends(2).complains(&["at least 1 point"]);
+    for d in ["18446744073709551615", "2305843009213693953", "1152921504606846976"] {
+        for more in ["", " --radii equal:1", " -o p.npy", " --type f32 -o p.csv"] {
+            let run = format!("generate normal -n 1 -d {d}{more}");
+            desk.taut(&run).ends(2).complains(&["`dim` is"]);
+        }
+    }
+    desk.taut("generate normal -n 18446744073709551615 -d 3").ends(2).complains(&["`n` is"]);
+}
+
+#[test]
+fn a_value_that_single_precision_cannot_hold_is_named() {
+    let desk = Desk::new();
+    let beyond = "generate clusters -n 3 -d 2 --spread 1e300";
+    desk.taut(beyond).ends(0);
+    desk.taut(&format!("{beyond} --type f32"))
+        .ends(2)
+        .complains(&["coordinate 0 of point 0", "f32"]);
+    desk.taut("generate normal -n 3 -d 2 --radii equal:1e300 --type f32")
+        .ends(2)
+        .complains(&["coordinate 2 of point 0"]);
 }

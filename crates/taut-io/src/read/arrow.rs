@@ -15,7 +15,7 @@ use arrow_ipc::{Message, MessageHeader, root_as_message};
 use arrow_schema::{Schema, SchemaRef};
 
 use super::columnar::Plan;
-use super::{Decoded, guarded};
+use super::{Decoded, first_line, guarded};
 use crate::input::Job;
 use crate::{Error, Format};
 
@@ -111,7 +111,7 @@ impl<'a> Batches<'a> {
             Some(&self.held),
             &message.version(),
         )
-        .map_err(|e| damaged(self.job, &e.to_string()))
+        .map_err(|e| damaged(self.job, &first_line(&e)))
     }
 
     /// Refuses a compressed buffer that says it grows to more than it can: memory would be asked for by its word.
@@ -143,7 +143,7 @@ impl<'a> Batches<'a> {
     }
 
     fn parse<'b>(&self, bytes: &'b [u8]) -> Result<Message<'b>, Error> {
-        root_as_message(bytes).map_err(|e| damaged(self.job, &e.to_string()))
+        root_as_message(bytes).map_err(|e| damaged(self.job, &first_line(&e)))
     }
 
     /// Checks what follows the end of the stream.
@@ -165,7 +165,7 @@ impl<'a> Batches<'a> {
             .ok_or_else(|| damaged(self.job, "its footer is missing or cut short"))?
             .0;
         let footer =
-            arrow_ipc::root_as_footer(footer).map_err(|e| damaged(self.job, &e.to_string()))?;
+            arrow_ipc::root_as_footer(footer).map_err(|e| damaged(self.job, &first_line(&e)))?;
         let expected = footer.recordBatches().map_or(0, |batches| batches.len());
         if expected == self.count {
             return Ok(());
@@ -175,7 +175,7 @@ impl<'a> Batches<'a> {
             format: Format::Arrow,
             expected: expected as u64,
             found: self.count as u64,
-            unit: "batches",
+            unit: ("batch", "batches"),
         })
     }
 

@@ -71,7 +71,7 @@ impl Plan {
         Ok(Plan { numbers, names, list, scalar })
     }
 
-    /// Reads `batches`, which hold the columns `held` of the schema, to points.
+    /// Reads `batches`, which hold the columns `held` of the schema (rising), to points.
     pub(super) fn read(
         self,
         job: &Job<'_>,
@@ -101,7 +101,7 @@ impl Plan {
                 .numbers
                 .iter()
                 .map(|number| {
-                    let at = held.iter().position(|other| other == number);
+                    let at = held.binary_search(number);
                     batch.column(at.expect("every planned column is held"))
                 })
                 .collect();

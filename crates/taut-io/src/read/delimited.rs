@@ -2,8 +2,8 @@
 //!
 //! *Idea.* The first row of data decides: what parts the columns (in CSV the first of `,` `;` tab and spaces that
 //! makes all fields numbers, else the most frequent), how many there are, and whether it is a header.
-//! *Trap.* A mistyped number in the first row must not turn it into a header and so lose a point: a row with both
-//! names and numbers is refused.
+//! *Trap.* A mistyped or missing number in the first row must not turn it into a header and so lose a point: a row
+//! with both names and numbers is refused, and so is one with a field that looks like a value that went wrong.
 
 use std::borrow::Cow;
 use std::io::BufRead;
@@ -73,6 +73,21 @@ fn is_header(job: &Job<'_>, first: &[Cow<'_, [u8]>], line: u64) -> Result<bool, 
         Header::Absent => return Ok(false),
         Header::Auto => {}
     }
+    // All fields count, selected or not: a label beside numbers is no name, but `1O`, `NA` and a gap are no names either.
+    if let Some(column) = first.iter().position(|field| is_failed_value(field)) {
+        return match columns {
+            // An unselected hole beside numbers does no harm: what is selected decides alone.
+            Some(columns) if !columns.has_names() && all_numbers(job, columns, first)? => Ok(false),
+            // The row that holds the names asked for is the header, with a hole over an index or not.
+            Some(columns) if columns.has_names() && holds_names(job, columns, first) => Ok(true),
+            _ => Err(Error::DoubtfulHeader {
+                path: job.path.to_owned(),
+                line,
+                column,
+                value: shown(&first[column]),
+            }),
+        };
+    }
     // Who asks for names says that there are some, unless the row holds nothing but numbers.
     let numbers = match columns {
         Some(columns) if columns.has_names() => {
@@ -93,4 +108,27 @@ fn is_header(job: &Job<'_>, first: &[Cow<'_, [u8]>], line: u64) -> Result<bool, 
             value: shown(&first[column]),
         }),
     }
+}
+
+/// Whether the names of a selection stand in the row, and all it selects may be names.
+fn holds_names(job: &Job<'_>, columns: &Columns, first: &[Cow<'_, [u8]>]) -> bool {
+    let names: Vec<String> =
+        first.iter().map(|name| String::from_utf8_lossy(name).into_owned()).collect();
+    let may_be_name = |field: &[u8]| number(field).is_none() && !is_failed_value(field);
+    let numbers = columns.resolve(job.path, &names, first.len());
+    numbers.is_ok_and(|numbers| numbers.iter().all(|&column| may_be_name(&first[column])))
+}
+
+/// Whether all selected fields are numbers.
+fn all_numbers(job: &Job<'_>, columns: &Columns, first: &[Cow<'_, [u8]>]) -> Result<bool, Error> {
+    let numbers = columns.resolve(job.path, &[], first.len())?;
+    Ok(numbers.iter().all(|&column| number(&first[column]).is_some()))
+}
+
+/// Whether a field is no number but begins as one, or is what tables write where a number is missing.
+pub(crate) fn is_failed_value(field: &[u8]) -> bool {
+    const MISSING: [&[u8]; 6] = [b"", b"NA", b"N/A", b"null", b"none", b"?"];
+    let starts = matches!(field.first(), Some(b'0'..=b'9' | b'+' | b'-' | b'.'));
+    number(field).is_none()
+        && (starts || MISSING.iter().any(|missing| field.eq_ignore_ascii_case(missing)))
 }

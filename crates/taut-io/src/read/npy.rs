@@ -74,7 +74,7 @@ impl Header {
             format: Format::Npy,
             expected: self.bytes().unwrap_or(u64::MAX),
             found,
-            unit: "bytes of values",
+            unit: ("byte of values", "bytes of values"),
         }
     }
 

@@ -6,11 +6,13 @@ use arrow_array::RecordBatch;
 use bytes::Bytes;
 use parquet::arrow::ProjectionMask;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use parquet::file::metadata::ParquetMetaData;
 use parquet::file::reader::ChunkReader;
+use parquet::schema::types::SchemaDescriptor;
 use taut_points::Blocks;
 
 use super::columnar::Plan;
-use super::{Decoded, guarded};
+use super::{Decoded, first_line, guarded};
 use crate::input::{Job, Medium};
 use crate::{Error, Format};
 
@@ -34,17 +36,31 @@ fn read_chunks<R: ChunkReader + 'static>(job: &Job<'_>, chunks: R) -> Result<Dec
         problem,
     };
     let builder =
-        ParquetRecordBatchReaderBuilder::try_new(chunks).map_err(|e| damaged(e.to_string()))?;
+        ParquetRecordBatchReaderBuilder::try_new(chunks).map_err(|e| damaged(first_line(&e)))?;
     let plan = Plan::new(job, builder.schema())?;
     let mut held = plan.numbers.clone();
     held.sort_unstable();
     held.dedup();
+    let width = width(builder.metadata(), builder.parquet_schema(), &held);
     let mask = ProjectionMask::roots(builder.parquet_schema(), held.iter().copied());
     let batches = builder
         .with_projection(mask)
-        .with_batch_size((Blocks::VALUES / held.len().max(1)).max(1))
+        .with_batch_size((Blocks::VALUES / width).max(1))
         .build()
-        .map_err(|e| damaged(e.to_string()))?
-        .map(|batch| batch.map_err(|e| damaged(e.to_string())) as Result<RecordBatch, Error>);
+        .map_err(|e| damaged(first_line(&e)))?
+        .map(|batch| batch.map_err(|e| damaged(first_line(&e))) as Result<RecordBatch, Error>);
     plan.read(job, &held, batches)
+}
+
+/// Values of a row in the columns `held` (rising), those of lists counted one by one.
+fn width(metadata: &ParquetMetaData, schema: &SchemaDescriptor, held: &[usize]) -> usize {
+    let is_held = |leaf: usize| held.binary_search(&schema.get_column_root_idx(leaf)).is_ok();
+    let (mut values, mut rows) = (0_u64, 0_u64);
+    for group in metadata.row_groups() {
+        rows = rows.saturating_add(u64::try_from(group.num_rows()).unwrap_or(0));
+        for (_, chunk) in group.columns().iter().enumerate().filter(|(leaf, _)| is_held(*leaf)) {
+            values = values.saturating_add(u64::try_from(chunk.num_values()).unwrap_or(0));
+        }
+    }
+    usize::try_from(values / rows.max(1)).unwrap_or(usize::MAX).max(held.len()).max(1)
 }

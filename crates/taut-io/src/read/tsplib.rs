@@ -47,7 +47,7 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
             format: Format::Tsplib,
             expected: n,
             found,
-            unit: "nodes",
+            unit: ("node", "nodes"),
         });
     }
     let (columns, numbers) = (rows.coordinate_names(), rows.numbers.take());

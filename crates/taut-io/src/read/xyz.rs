@@ -50,7 +50,13 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
     }
     if let Some(expected) = count.filter(|&count| count != sink.len()) {
         let (path, found) = (job.path.to_owned(), sink.len());
-        return Err(Error::Count { path, format: Format::Xyz, expected, found, unit: "points" });
+        return Err(Error::Count {
+            path,
+            format: Format::Xyz,
+            expected,
+            found,
+            unit: ("point", "points"),
+        });
     }
     let (columns, numbers) = (rows.coordinate_names(), rows.numbers.take());
     Ok(Decoded { source: sink.finish()?, columns, numbers })

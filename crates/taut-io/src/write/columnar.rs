@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use arrow_array::{ArrayRef, Float32Array, Float64Array, RecordBatch};
+use arrow_array::{ArrayRef, FixedSizeListArray, Float32Array, Float64Array, RecordBatch};
 use arrow_ipc::writer::FileWriter;
 use arrow_schema::{DataType, Field, Schema, SchemaRef};
 use parquet::arrow::ArrowWriter;
@@ -16,10 +16,24 @@ use crate::Error;
 /// Bytes of encoded points in a row group.
 const ROW_GROUP: usize = 64 << 20;
 
+/// From this dimension on, parquet holds points without names as one column of lists: its writer keeps buffers of
+/// some 20 KiB for each column, whatever the number of rows.
+const WIDE: usize = 1000;
+
 pub(super) fn write_parquet(points: &Points<'_>, out: &mut Out<'_>) -> Result<(), Error> {
-    let (path, schema) = (out.path, schema(points));
-    let failed = |source: parquet::errors::ParquetError| Error::writing(path, source.into());
-    let properties = WriterProperties::builder().set_compression(Compression::SNAPPY).build();
+    let (path, failure) = (out.path, out.failure);
+    let wide = points.source.dim() > WIDE;
+    let list = wide && points.columns.is_empty();
+    let schema = match list {
+        true => list_schema(points).map_err(|source| failure(path, source))?,
+        false => schema(points),
+    };
+    let failed = |source: parquet::errors::ParquetError| failure(path, source.into());
+    let properties = WriterProperties::builder()
+        .set_compression(Compression::SNAPPY)
+        // A dictionary for each of many columns takes far more memory than their values.
+        .set_dictionary_enabled(!wide || list)
+        .build();
     let mut writer =
         ArrowWriter::try_new(&mut out.to, schema.clone(), Some(properties)).map_err(failed)?;
     points.blocks(|rows| {
@@ -31,9 +45,9 @@ pub(super) fn write_parquet(points: &Points<'_>, out: &mut Out<'_>) -> Result<()
 }
 
 pub(super) fn write_arrow(points: &Points<'_>, out: &mut Out<'_>) -> Result<(), Error> {
-    let (path, schema) = (out.path, schema(points));
+    let (path, failure, schema) = (out.path, out.failure, schema(points));
     let failed = |source: arrow_schema::ArrowError| {
-        Error::writing(
+        failure(
             path,
             match source {
                 arrow_schema::ArrowError::IoError(_, source) => source,
@@ -47,17 +61,41 @@ pub(super) fn write_arrow(points: &Points<'_>, out: &mut Out<'_>) -> Result<(), 
 }
 
 fn schema(points: &Points<'_>) -> SchemaRef {
-    let kind = match points.source.scalar() {
-        ScalarKind::F32 => DataType::Float32,
-        ScalarKind::F64 => DataType::Float64,
-    };
+    let kind = kind(points);
     let name = |j: usize| points.columns.get(j).cloned().unwrap_or_else(|| format!("x{j}"));
     let fields: Vec<Field> =
         (0..points.source.dim()).map(|j| Field::new(name(j), kind.clone(), false)).collect();
     Arc::new(Schema::new(fields))
 }
 
+/// One column of lists, of which each is a point.
+fn list_schema(points: &Points<'_>) -> std::io::Result<SchemaRef> {
+    let kind = kind(points);
+    let size = i32::try_from(points.source.dim()).map_err(|_| {
+        std::io::Error::other(format!("a list of parquet holds at most {} values", i32::MAX))
+    })?;
+    let item = Arc::new(Field::new("item", kind, false));
+    let field = Field::new("point", DataType::FixedSizeList(item, size), false);
+    Ok(Arc::new(Schema::new(vec![field])))
+}
+
+fn kind(points: &Points<'_>) -> DataType {
+    match points.source.scalar() {
+        ScalarKind::F32 => DataType::Float32,
+        ScalarKind::F64 => DataType::Float64,
+    }
+}
+
 fn batch(schema: &SchemaRef, rows: Rows<'_>) -> RecordBatch {
+    if let DataType::FixedSizeList(item, size) = schema.field(0).data_type() {
+        let values: ArrayRef = match rows {
+            Rows::F32(rows) => Arc::new(Float32Array::from(rows.values().to_vec())),
+            Rows::F64(rows) => Arc::new(Float64Array::from(rows.values().to_vec())),
+        };
+        let lists = FixedSizeListArray::new(item.clone(), *size, values, None);
+        return RecordBatch::try_new(schema.clone(), vec![Arc::new(lists)])
+            .expect("the lists fit the schema of the points");
+    }
     fn columns<T: Scalar>(rows: View<'_, T>, make: impl Fn(Vec<T>) -> ArrayRef) -> Vec<ArrayRef> {
         (0..rows.dim()).map(|j| make(rows.rows().map(|row| row[j]).collect())).collect()
     }

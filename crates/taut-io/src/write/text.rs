@@ -37,7 +37,10 @@ fn lines<'a, T: Scalar>(rows: impl Iterator<Item = &'a [T]>, delimiter: u8, text
 
 /// The line of names; none when there are no names, or when one reads like a number and so the line like a point.
 fn header(columns: &[String], delimiter: u8) -> Option<Vec<u8>> {
-    let numeric = |name: &String| fast_float2::parse::<f64, _>(name.trim()).is_ok();
+    let numeric = |name: &String| {
+        fast_float2::parse::<f64, _>(name.trim()).is_ok()
+            || crate::read::is_failed_value(name.trim().as_bytes())
+    };
     if columns.is_empty() || columns.iter().any(numeric) {
         return None;
     }

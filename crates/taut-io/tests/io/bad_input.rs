@@ -11,7 +11,7 @@ fn text_names_row_line_column_and_value() {
         (
             "p.csv",
             "# c\nx,y\n1,2\n3\n",
-            "p.csv: row 2 (line 4) has 1 columns, but 2 are expected as in the header: \
+            "p.csv: row 2 (line 4) has 1 column, but 2 are expected as in the header: \
              add or remove values there",
         ),
         (
@@ -53,12 +53,12 @@ fn text_names_row_line_column_and_value() {
         (
             "p.tsp",
             "DIMENSION: 3\nNODE_COORD_SECTION\n1 2 3\nEOF\n",
-            "its tsplib header promises 3 nodes, but there are 1",
+            "its tsplib header promises 3 nodes, but there is 1",
         ),
         (
             "p.tsp",
             "DIMENSION: 1\nNODE_COORD_SECTION\n1 2 3\n2 3 4\n",
-            "promises 1 nodes, but there are 2",
+            "promises 1 node, but there are 2",
         ),
         (
             "p.tsp",

@@ -72,6 +72,7 @@ fn a_full_device_is_said_and_stays_a_device() {
         let written = taut_io::write_points(&points, &[], full, Some(format), &Monitor::silent());
         let said = written.unwrap_err().to_string();
         assert!(said.contains("/dev/full: writing failed"), "{format}: {said}");
+        assert!(!said.contains("as it was"), "nothing stood there before: {said}");
     }
     assert!(std::fs::metadata(full).unwrap().file_type().is_char_device());
 }
@@ -115,7 +116,7 @@ fn a_disk_that_fills_up_leaves_the_earlier_file() {
         ..Default::default()
     };
     let said = super::message(super::text_with("p.csv", &text, &options));
-    assert!(said.contains("name a folder with more room"), "{said}");
+    assert!(said.contains("set TMPDIR to a folder with more room"), "{said}");
 }
 
 #[cfg(target_os = "linux")]
@@ -141,7 +142,7 @@ fn a_write_that_fails_half_way_leaves_the_earlier_file() {
             if range.start > 100_000 {
                 return Err(ReadError::OutOfRange { first: range.start, end: range.end, n: 0 });
             }
-            let values = scratch.values::<f64>((range.end - range.start) as usize * 3);
+            let values = scratch.values::<f64>(range.end - range.start, 3)?;
             values.fill(0.25);
             Ok(Rows::F64(taut_points::Points::new(values, 3).unwrap()))
         }
@@ -155,4 +156,60 @@ fn a_write_that_fails_half_way_leaves_the_earlier_file() {
         assert_eq!(std::fs::read(&path).unwrap(), b"earlier", "{format}");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "{format}");
     }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_private_file_stays_private_and_a_read_only_one_stays() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("private");
+    let set = |mode| {
+        std::fs::set_permissions(&path, std::fs::Permissions::from_mode(mode)).unwrap();
+    };
+    std::fs::write(&path, "earlier").unwrap();
+    for mode in [0o600, 0o640, 0o755] {
+        set(mode);
+        let mut file = create(&path).unwrap();
+        file.write_all(b"later").unwrap();
+        file.commit().unwrap();
+        assert_eq!(std::fs::metadata(&path).unwrap().permissions().mode() & 0o777, mode);
+    }
+    set(0o444);
+    if std::fs::File::options().append(true).open(&path).is_ok() {
+        println!("skipped the read-only file: this user may write any file");
+        return;
+    }
+    assert!(matches!(create(&path), Err(Error::Permission { action: "write", .. })));
+    assert_eq!(std::fs::read(&path).unwrap(), b"later");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_to_nothing_gets_its_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let (first, second) = (folder.path().join("first"), folder.path().join("second"));
+    std::os::unix::fs::symlink("second", &first).unwrap();
+    std::os::unix::fs::symlink("end", &second).unwrap();
+    let mut file = create(&first).unwrap();
+    file.write_all(b"here").unwrap();
+    file.commit().unwrap();
+    assert!(std::fs::symlink_metadata(&first).unwrap().is_symlink());
+    assert!(std::fs::symlink_metadata(&second).unwrap().is_symlink());
+    assert_eq!(std::fs::read(folder.path().join("end")).unwrap(), b"here");
+}
+
+/// Whatever ends the process, no temporary file of points is left: it has no name while it is in use.
+#[cfg(unix)]
+#[test]
+fn points_that_outgrow_memory_have_no_file_with_a_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let options = taut_io::ReadOptions {
+        memory: Some(10),
+        temp_dir: Some(folder.path().to_owned()),
+        ..Default::default()
+    };
+    let input = super::text_with("p.csv", &"1,2\n".repeat(10_000), &options).unwrap();
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    assert_eq!(super::values(&input).len(), 20_000);
 }

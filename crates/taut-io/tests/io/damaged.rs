@@ -81,6 +81,63 @@ fn a_message_about_a_cut_stream_says_so() {
 }
 
 #[test]
+fn a_file_that_is_too_long_is_not_called_cut_short() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut long = sample(folder.path(), "p.npy");
+    long.extend([0; 8]);
+    let said = open_bytes(long, "p.npy", &ReadOptions::default()).unwrap_err().to_string();
+    let wanted = "p.npy is longer than it says or damaged: its npy header promises 960 bytes of values, but there are 968";
+    assert_eq!(said, wanted);
+}
+
+#[test]
+fn zstd_streams_carry_a_checksum() {
+    let folder = tempfile::tempdir().unwrap();
+    let packed = sample(folder.path(), "p.npy.zst");
+    // The flag of a checksum in the frame header descriptor, RFC 8878, 3.1.1.1.1.
+    assert_eq!(packed[4] & 0b100, 0b100);
+    let mut changed = packed;
+    *changed.last_mut().unwrap() ^= 1;
+    assert!(open_bytes(changed, "p.npy.zst", &ReadOptions::default()).is_err());
+}
+
+#[test]
+fn no_shape_of_a_header_ends_in_a_panic() {
+    for shape in [
+        "(1, 18446744073709551615)",
+        "(1, 2305843009213693953)",
+        "(18446744073709551615, 3)",
+        "(2305843009213693953, 8)",
+    ] {
+        for order in ["True", "False"] {
+            let mut text =
+                format!("{{'descr': '<f8', 'fortran_order': {order}, 'shape': {shape}, }}");
+            while text.len() % 64 != 53 {
+                text.push(' ');
+            }
+            text.push('\n');
+            let bytes = [
+                b"\x93NUMPY\x01\x00",
+                &(text.len() as u16).to_le_bytes()[..],
+                text.as_bytes(),
+                &[0; 64],
+            ]
+            .concat();
+            let path = tempfile::tempdir().unwrap();
+            let path = path.path().join("p.npy");
+            std::fs::write(&path, &bytes).unwrap();
+            assert!(open(&path, &ReadOptions::default()).is_err(), "{shape}");
+            assert!(open_bytes(bytes, "p.npy", &ReadOptions::default()).is_err(), "{shape}");
+        }
+    }
+    for dim in [usize::MAX, 2_305_843_009_213_693_953] {
+        let raw = Some(RawLayout { dim, scalar: ScalarKind::F64, offset: 0 });
+        let options = ReadOptions { raw, ..Default::default() };
+        assert!(open_bytes(vec![0; 64], "p.raw", &options).is_err());
+    }
+}
+
+#[test]
 fn a_name_that_promises_another_format_is_an_error() {
     let folder = tempfile::tempdir().unwrap();
     let files: Vec<Vec<u8>> = names().iter().map(|name| sample(folder.path(), name)).collect();

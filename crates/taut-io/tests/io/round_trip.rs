@@ -64,6 +64,45 @@ fn many_columns_and_many_blocks_keep_every_bit() {
     }
 }
 
+/// Parquet keeps buffers for each column: 20,000 of them took half a gigabyte. Run again under a limit of memory.
+#[cfg(all(feature = "arrow", target_os = "linux"))]
+#[test]
+fn wide_points_are_written_to_parquet_in_little_memory() {
+    const LIMITED: &str = "TAUT_TEST_NARROW";
+    if std::env::var_os(LIMITED).is_none() {
+        let limited = std::process::Command::new("sh")
+            .args([
+                "-c",
+                "ulimit -v 400000; exec \"$0\" --exact \"$1\" --nocapture --test-threads 1",
+            ])
+            .arg(std::env::current_exe().unwrap())
+            .arg("round_trip::wide_points_are_written_to_parquet_in_little_memory")
+            .env(LIMITED, "1")
+            .env("RAYON_NUM_THREADS", "1")
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&limited.stdout);
+        assert!(limited.status.success() && said.contains("1 passed"), "{said}");
+        return;
+    }
+    round_trips(&points::<f64>(3, 20_000, &[0.1]), 20_000, Format::Parquet, &[""]);
+    round_trips(&points::<f32>(150, 100_000, &[0.1]), 100_000, Format::Parquet, &[""]);
+}
+
+#[cfg(feature = "arrow")]
+#[test]
+fn wide_points_with_names_keep_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("p.parquet");
+    let values = points::<f64>(3, 1001, &[]);
+    let source = Points::new(&values, 1001).unwrap();
+    let names: Vec<String> = (0..1001).map(|j| format!("c{j}")).collect();
+    write_points(&source, &names, &path, None, &Monitor::silent()).unwrap();
+    let input = super::open_default(&path).unwrap();
+    assert_eq!(input.columns, names);
+    assert_eq!(super::values(&input), values);
+}
+
 #[test]
 fn names_of_columns_go_round_too() {
     let folder = tempfile::tempdir().unwrap();
@@ -86,10 +125,12 @@ fn names_that_read_like_numbers_are_left_out_of_text() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("p.csv");
     let source = Points::new(&[1.0, 2.0], 2).unwrap();
-    let names = ["0".to_owned(), "one".to_owned()];
-    write_points(&source, &names, &path, None, &Monitor::silent()).unwrap();
-    let input = super::open_default(&path).unwrap();
-    assert_eq!((input.source.len(), input.columns.len()), (1, 0));
+    for wrong in ["0", "1st", "NA", ""] {
+        let names = [wrong.to_owned(), "one".to_owned()];
+        write_points(&source, &names, &path, None, &Monitor::silent()).unwrap();
+        let input = super::open_default(&path).unwrap();
+        assert_eq!((input.source.len(), input.columns.len()), (1, 0), "{wrong}");
+    }
 }
 
 #[test]
@@ -104,8 +145,9 @@ fn what_cannot_be_written_is_said_before_a_file_is_made() {
     };
     assert!(refuse("p.xyz", &[]).contains("xyz files hold points of dimension 3, not 2"));
     assert!(refuse("p.tsp", &[]).contains("tsplib files are read, not written"));
-    assert!(refuse("p.unknown", &[]).contains("the format cannot be told from the name"));
-    assert!(refuse("p.csv", &["x".to_owned()]).contains("1 column names"));
+    assert!(refuse("p.unknown", &[]).contains("name it (one of csv, tsv, whitespace, npy"));
+    assert!(!refuse("p.unknown", &[]).contains("tsplib"));
+    assert!(refuse("p.csv", &["x".to_owned()]).contains("1 column name was given"));
 }
 
 #[test]

@@ -79,6 +79,48 @@ fn the_first_row_is_a_header_when_it_is_one() {
 }
 
 #[test]
+fn a_first_row_with_a_value_that_went_wrong_is_no_header() {
+    for wrong in ["1O", "1e", "-", ".5.", "+x", "NA", "n/a", "null", "?", "", "1 000"] {
+        for content in [format!("{wrong},2\n3,4\n"), format!("x,{wrong}\n3,4\n")] {
+            let said = message(text("p.csv", &content));
+            let place = if content.starts_with('x') { "column 1" } else { "column 0" };
+            assert!(said.starts_with(&format!("p.csv: row 1 (line 1), {place}")), "{said}");
+            assert!(said.contains(&format!("`{wrong}`")) && said.contains("--header"), "{said}");
+            let header = Header::Present;
+            let options = ReadOptions { header, ..Default::default() };
+            assert_eq!(text_with("p.csv", &content, &options).unwrap().source.len(), 1);
+        }
+    }
+    assert!(text("p.txt", "1,5 2,5\n3 4\n").is_err());
+    // A selection does not hide such a field beside names, but beside numbers it may leave it out.
+    let by = |columns: &str, content: &str| {
+        let columns = Some(columns.parse().unwrap());
+        text_with("p.csv", content, &ReadOptions { columns, ..Default::default() })
+    };
+    assert!(by("1", "1O,x\n3,4\n").is_err());
+    assert!(by("y", "1O,x\n3,4\n").is_err());
+    assert!(by("x,0", "1O,x\n3,4\n").is_err());
+    // The row that holds the names asked for is the header, such as one with a hole over its index.
+    assert_eq!(by("x", ",x\n3,4\n").unwrap().source.len(), 1);
+    assert_eq!(by("1", "?,2\n3,4\n").unwrap().source.len(), 2);
+    assert_eq!(by("1-", "name,1,2\na,1,2\n").unwrap().source.len(), 2);
+}
+
+#[test]
+fn messages_count_well_and_hold_no_control_characters() {
+    let said = message(text("p\u{1b}[31m.csv", "1,2\n3\n"));
+    assert!(said.starts_with("p\\u{1b}[31m.csv: row 2 (line 2) has 1 column, but 2 are"), "{said}");
+    let columns = Some("z".parse().unwrap());
+    let options = ReadOptions { columns, ..Default::default() };
+    let said = message(text_with("p.csv", "\u{7}x\n1\n", &options));
+    assert!(said.ends_with("there is no column `z`; there is `\\u{7}x`"), "{said}");
+    for blank in ["\n\n", "# only this\n", "x,y\n"] {
+        let said = message(text("p.csv", blank));
+        assert_eq!(said, "p.csv holds no point: there is no row of data in it");
+    }
+}
+
+#[test]
 fn tsplib_gives_two_or_three_coordinates() {
     let head = "NAME : small\nTYPE: TSP\nDIMENSION : 2\nEDGE_WEIGHT_TYPE : EUC_2D\n";
     for tail in ["EOF\n", "", "-1\nEOF", "DISPLAY_DATA_SECTION\n1 9 9\n"] {

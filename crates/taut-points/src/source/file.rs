@@ -33,13 +33,35 @@ impl FileSource {
         dim: usize,
         scalar: ScalarKind,
     ) -> Result<Self, ReadError> {
+        let file = File::open(path).map_err(|source| ReadError::Io {
+            path: path.to_owned(),
+            first: 0,
+            last: n.saturating_sub(1),
+            source,
+        })?;
+        Self::from_file(file, path, offset, n, dim, scalar)
+    }
+
+    /// Takes an open file, whose values start at byte `offset`; `path` is what messages call it.
+    ///
+    /// The file needs no name any more: an unlinked temporary file is one that nothing can leave behind.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open).
+    pub fn from_file(
+        file: File,
+        path: &Path,
+        offset: u64,
+        n: u64,
+        dim: usize,
+        scalar: ScalarKind,
+    ) -> Result<Self, ReadError> {
         let io = |source| ReadError::Io {
             path: path.to_owned(),
             first: 0,
             last: n.saturating_sub(1),
             source,
         };
-        let file = File::open(path).map_err(io)?;
         let found = file.metadata().map_err(io)?.len();
         check_length(path, found, offset, n, dim, scalar)?;
         Ok(FileSource { file, path: path.to_owned(), offset, n, dim, scalar })
@@ -50,8 +72,8 @@ impl FileSource {
         range: Range<u64>,
         scratch: &'a mut Scratch,
     ) -> Result<Rows<'a>, ReadError> {
-        let row = (self.dim * size_of::<T>()) as u64;
-        let values: &mut [T] = scratch.values((range.end - range.start) as usize * self.dim);
+        let row = (self.dim as u64).saturating_mul(size_of::<T>() as u64);
+        let values: &mut [T] = scratch.values(range.end - range.start, self.dim)?;
         read_exact_at(
             &self.file,
             bytemuck::cast_slice_mut(values),

@@ -14,6 +14,11 @@ use crate::{Points, ReadError, Rows, Scalar, ScalarKind};
 ///
 /// Prefer [`FileSource`](super::FileSource) for files larger than memory: mapped pages count as memory of the
 /// process. When the values are not aligned for their type, blocks are copied to the scratch instead.
+///
+/// *Trap.* Whoever opens a map promises that nobody changes the file while the source lives: this cannot be checked.
+/// If another process writes to the file all the same, the values are undefined and so is what follows from them; if
+/// it shortens the file, the operating system ends this process with a signal. Where that cannot be promised, use
+/// [`FileSource`](super::FileSource), which only reports an error.
 #[derive(Debug)]
 pub struct MappedSource {
     map: Mmap,
@@ -24,7 +29,8 @@ pub struct MappedSource {
 }
 
 impl MappedSource {
-    /// Maps `path`, whose values start at byte `offset`. The file must not change while the source lives.
+    /// Maps `path`, whose values start at byte `offset`. The caller promises that the file does not
+    /// change while the source lives; what happens if it does is said at [`MappedSource`].
     ///
     /// # Errors
     /// [`ReadError::Io`] if it cannot be opened or mapped, [`ReadError::Truncated`] if it is too short.
@@ -43,26 +49,31 @@ impl MappedSource {
         };
         let file = File::open(path).map_err(io)?;
         check_length(path, file.metadata().map_err(io)?.len(), offset, n, dim, scalar)?;
-        // SAFETY: the map is private to this struct and only ever read. As with every map of a file, another
-        // process that shortens the file while we read it ends this one with a signal; the docs say so.
+        // SAFETY: the map is private to this struct and only ever read here. That its bytes do not change under a
+        // borrowed slice cannot be seen to from here: soundness rests on the promise that the docs of this function
+        // and of the struct demand of the caller.
         #[allow(unsafe_code)]
         let map = unsafe { Mmap::map(&file) }.map_err(io)?;
         Ok(MappedSource { map, offset: offset as usize, n, dim, scalar })
     }
 
-    fn view<'a, T: Scalar>(&'a self, range: Range<u64>, scratch: &'a mut Scratch) -> Rows<'a> {
-        let row = self.dim * size_of::<T>();
+    fn view<'a, T: Scalar>(
+        &'a self,
+        range: Range<u64>,
+        scratch: &'a mut Scratch,
+    ) -> Result<Rows<'a>, ReadError> {
+        let row = self.dim.saturating_mul(size_of::<T>());
         let bytes = &self.map
             [self.offset + range.start as usize * row..self.offset + range.end as usize * row];
         let values: &[T] = match bytemuck::try_cast_slice(bytes) {
             Ok(values) => values,
             Err(_) => {
-                let values = scratch.values::<T>(bytes.len() / size_of::<T>());
+                let values = scratch.values::<T>(range.end - range.start, self.dim)?;
                 bytemuck::cast_slice_mut::<T, u8>(values).copy_from_slice(bytes);
                 values
             }
         };
-        T::rows(Points::new(values, self.dim).expect("whole rows were cut"))
+        Ok(T::rows(Points::new(values, self.dim).expect("whole rows were cut")))
     }
 }
 
@@ -85,9 +96,9 @@ impl PointSource for MappedSource {
         scratch: &'a mut Scratch,
     ) -> Result<Rows<'a>, ReadError> {
         check_range(&range, self.n)?;
-        Ok(match self.scalar {
+        match self.scalar {
             ScalarKind::F32 => self.view::<f32>(range, scratch),
             ScalarKind::F64 => self.view::<f64>(range, scratch),
-        })
+        }
     }
 }
