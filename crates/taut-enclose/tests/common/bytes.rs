@@ -9,7 +9,7 @@ use taut_points::{Monitor, Points};
 ///
 /// # Panics
 /// When an answer is rejected by the checker, or refused for a reason that these options do not give.
-pub fn solve_and_check(bytes: &[u8]) {
+pub(crate) fn solve_and_check(bytes: &[u8]) {
     let Some((&head, rest)) = bytes.split_first() else { return };
     let dim = usize::from(head % 4) + 1;
     let items = if head & 4 == 0 { Items::Points } else { Items::Balls };
