@@ -90,10 +90,10 @@ fn sizes_that_cannot_be_are_refused() {
     for d in ["18446744073709551615", "2305843009213693953", "1152921504606846976"] {
         for more in ["", " --radii equal:1", " -o p.npy", " --type f32 -o p.csv"] {
             let run = format!("generate normal -n 1 -d {d}{more}");
-            desk.taut(&run).ends(2).complains(&["`dim` is"]);
+            desk.taut(&run).ends(2).complains(&["`--dim` is"]);
         }
     }
-    desk.taut("generate normal -n 18446744073709551615 -d 3").ends(2).complains(&["`n` is"]);
+    desk.taut("generate normal -n 18446744073709551615 -d 3").ends(2).complains(&["is 18446744073709551615"]);
 }
 
 #[test]
