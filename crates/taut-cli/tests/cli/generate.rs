@@ -93,7 +93,9 @@ fn sizes_that_cannot_be_are_refused() {
             desk.taut(&run).ends(2).complains(&["`--dim` is"]);
         }
     }
-    desk.taut("generate normal -n 18446744073709551615 -d 3").ends(2).complains(&["is 18446744073709551615"]);
+    desk.taut("generate normal -n 18446744073709551615 -d 3")
+        .ends(2)
+        .complains(&["is 18446744073709551615"]);
 }
 
 #[test]

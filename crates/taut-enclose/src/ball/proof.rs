@@ -6,8 +6,9 @@
 //! *Lower.* r² = Σ λᵢ|pᵢ − c|² − |c − Σ λᵢpᵢ|² with Σλ = 1, in double-double; for balls the bound of
 //! [`super::core_set`]. Nothing is taken from the solver's state.
 
-use taut_certify::{Ball, BallCertificate, Items, PassBounds, Solution, Stop, Trace};
-use taut_points::ReadError;
+use rayon::prelude::*;
+use taut_certify::{Ball, BallCertificate, PassBounds, Solution, Stop, Trace};
+use taut_points::{Cancelled, ReadError};
 
 use super::BallOptions;
 use super::core_set::ROUNDING;
@@ -27,8 +28,12 @@ pub(super) fn prove(
     if center.high.iter().any(|c| !c.is_finite()) {
         return Err(Error::Overflow);
     }
-    let upper = upper_bound(scan, &best, &center)?;
-    let lower = lower_bound(scan, &best, &center)?;
+    let total = best.lambda.iter().fold(DoubleDouble::ZERO, |sum, &l| sum.add(l.into()));
+    let weights: Vec<DoubleDouble> =
+        best.lambda.iter().map(|&l| DoubleDouble::from(l).div(total)).collect();
+    let support = Measurement::new(scan, &best.support, &weights, &center)?;
+    let upper = upper_bound(scan, &best, &support, &center)?;
+    let lower = lower_bound(&weights, &support);
     let scale = scan.scale();
     let radius = unscale_up(upper, scale);
     if !radius.is_finite() {
@@ -101,58 +106,122 @@ fn sort_by_id(best: &mut Candidate) {
     (best.support, best.lambda) = pairs.into_iter().unzip();
 }
 
-/// The coordinates of an item as given, and its radius in the units of the scan: 0 for a point.
-fn split<'r>(scan: &Scan<'_>, row: &'r [f64]) -> (&'r [f64], f64) {
-    match scan.items() {
-        Items::Points => (row, 0.0),
-        Items::Balls => (&row[..scan.dim()], row[scan.dim()] * scan.scale()),
+/// Rows that are measured together: fixed, so that sums do not depend on threads.
+const ROWS_AT_ONCE: usize = 16;
+
+/// Items measured from the returned centre in double-double; in the units of the scan.
+struct Measurement {
+    items: Vec<Measured>,
+    /// Σ wᵢ(cᵢ − c), coordinate by coordinate.
+    beside: Vec<DoubleDouble>,
+}
+
+struct Measured {
+    squared: DoubleDouble,
+    /// Radius; 0 for a point.
+    r: f64,
+    /// |x − c| + r, rounded up.
+    reach: f64,
+}
+
+impl Measurement {
+    /// Measures the items with the given numbers; `weights` is one for each of them, or empty.
+    fn new(
+        scan: &Scan<'_>,
+        ids: &[u64],
+        weights: &[DoubleDouble],
+        center: &Center,
+    ) -> Result<Self, Error> {
+        let rows = scan.rows_as_given(ids)?;
+        let columns = rows.len() / ids.len().max(1);
+        let part = |(k, rows): (usize, &[f64])| -> Result<Measurement, Cancelled> {
+            scan.monitor().check()?;
+            let mut items = vec![];
+            let mut beside =
+                vec![DoubleDouble::ZERO; if weights.is_empty() { 0 } else { scan.dim() }];
+            for (i, row) in rows.chunks_exact(columns).enumerate() {
+                let (x, radius) = row.split_at(scan.dim());
+                let difference = Difference::new(x, center, scan.scale());
+                items.push(Measured::new(
+                    &difference,
+                    radius.first().copied().unwrap_or(0.0),
+                    scan.scale(),
+                ));
+                for (j, sum) in beside.iter_mut().enumerate() {
+                    *sum = sum.add(weights[k * ROWS_AT_ONCE + i].mul(difference.coordinate(j)));
+                }
+            }
+            Ok(Measurement { items, beside })
+        };
+        let size = (ROWS_AT_ONCE * columns).max(1);
+        let parts: Result<Vec<Measurement>, Cancelled> = if rows.len() <= size {
+            rows.chunks(size).enumerate().map(part).collect()
+        } else {
+            rows.par_chunks(size).enumerate().map(part).collect()
+        };
+        let mut all = Measurement { items: vec![], beside: vec![DoubleDouble::ZERO; scan.dim()] };
+        for part in parts.map_err(ReadError::from)? {
+            all.items.extend(part.items);
+            for (sum, more) in all.beside.iter_mut().zip(part.beside) {
+                *sum = sum.add(more);
+            }
+        }
+        Ok(all)
     }
 }
 
-/// The smallest radius from the centre, rounded up, that is proved to hold all items; in the units of the scan.
-fn upper_bound(scan: &Scan<'_>, best: &Candidate, center: &Center) -> Result<f64, Error> {
+/// The smallest radius from the centre, rounded up, that is proved to hold all items.
+fn upper_bound(
+    scan: &Scan<'_>,
+    best: &Candidate,
+    support: &Measurement,
+    center: &Center,
+) -> Result<f64, Error> {
     let error = relative_error(scan.dim());
     let found = &best.found;
     let threshold = found.farthest.reach2 * (1.0 - 2.0 * error);
-    let mut ids: Vec<u64> =
-        found.far.iter().take_while(|far| far.reach2 >= threshold).map(|far| far.id).collect();
+    let near = found.far.iter().take_while(|far| far.reach2 >= threshold).map(|far| far.id);
+    let mut others: Vec<u64> = near.filter(|id| best.support.binary_search(id).is_err()).collect();
     // Equal reaches at the end of a full list may go on behind it, hence "below" and not "at most".
     let all_listed = found.listed_above < threshold;
-    if !ids.contains(&found.farthest.id) {
-        ids.push(found.farthest.id);
+    let farthest = found.farthest.id;
+    if best.support.binary_search(&farthest).is_err() && !others.contains(&farthest) {
+        others.push(farthest);
     }
-    let rows = scan.rows_as_given(&ids)?;
-    let columns = rows.len() / ids.len();
-    let mut upper = 0.0f64;
-    for row in rows.chunks_exact(columns) {
-        scan.monitor().check().map_err(ReadError::from)?;
-        let (x, r) = split(scan, row);
-        let difference = Difference::new(x, center, scan.scale());
-        let reach = reach_up(&difference, r);
-        // A radius, too, can be so much smaller than the ball that it loses digits.
-        let lost = vanishes(r) || row[scan.dim()..].iter().any(|given| r / scan.scale() != *given);
-        upper = upper.max(if difference.vanishes || lost { reach.next_up() } else { reach });
-    }
+    let others = Measurement::new(scan, &others, &[], center)?;
+    let mut upper =
+        support.items.iter().chain(&others.items).map(|item| item.reach).fold(0.0, f64::max);
     if !all_listed && found.farthest.reach2 > 0.0 {
         upper = upper.max((found.farthest.reach2 * (1.0 + error)).sqrt().next_up());
     }
     Ok(upper)
 }
 
+impl Measured {
+    /// An item at this difference from the centre, of the given radius before scaling.
+    fn new(difference: &Difference, given: f64, scale: f64) -> Self {
+        let squared = difference.squared();
+        let r = given * scale;
+        let reach = reach_up(difference, squared, r);
+        // Digits that are lost at the lower end of the range are far less than one unit of the last place.
+        let lost = difference.vanishes || vanishes(r) || r / scale != given;
+        Measured { squared, r, reach: if lost { reach.next_up() } else { reach } }
+    }
+}
+
 /// The smallest `f64` radius that is not below |x − c| + r; infinite where that is no `f64`.
-fn reach_up(difference: &Difference, r: f64) -> f64 {
-    let distance2 = difference.squared();
-    if !(distance2.high + r).is_finite() {
+fn reach_up(difference: &Difference, squared: DoubleDouble, r: f64) -> f64 {
+    if !(squared.high + r).is_finite() {
         return f64::INFINITY;
     }
     // More than double-double can be off by, in parts of the square: what is nearer is a tie, to be told exactly.
-    let doubt = distance2.high * (difference.dim() as f64 + 8.0) * 2f64.powi(-98);
+    let doubt = squared.high * (difference.dim() as f64 + 8.0) * 2f64.powi(-98);
     let holds = |reach: f64| {
-        let beyond = DoubleDouble::sum(reach, -r).square().sub(distance2).high;
+        let beyond = DoubleDouble::sum(reach, -r).square().sub(squared).high;
         if beyond.abs() > doubt { beyond > 0.0 } else { difference.is_within(reach, r) }
     };
     // The root carries one rounding of its own: make sure that the reach holds, and that nothing less does.
-    let mut reach = distance2.sqrt().add(r.into()).round_up();
+    let mut reach = squared.sqrt().add(r.into()).round_up();
     while reach > r && holds(reach.next_down()) {
         reach = reach.next_down();
     }
@@ -162,36 +231,19 @@ fn reach_up(difference: &Difference, r: f64) -> f64 {
     reach
 }
 
-/// The bound that the multipliers prove, in double-double and in the units of the scan.
-fn lower_bound(scan: &Scan<'_>, best: &Candidate, center: &Center) -> Result<DoubleDouble, Error> {
-    let rows = scan.rows_as_given(&best.support)?;
-    let columns = rows.len() / best.support.len();
-    let total = best.lambda.iter().fold(DoubleDouble::ZERO, |sum, &l| sum.add(l.into()));
-    let weighted: Vec<(DoubleDouble, &[f64], f64)> = best
-        .lambda
-        .iter()
-        .zip(rows.chunks_exact(columns))
-        .map(|(&l, row)| {
-            let (x, r) = split(scan, row);
-            (DoubleDouble::from(l).div(total), x, r)
-        })
-        .collect();
-    let mean =
-        weighted.iter().fold(DoubleDouble::ZERO, |sum, (w, _, r)| sum.add(w.mul((*r).into())));
+/// The bound that the multipliers prove, in double-double; `weights` are they, divided by their sum.
+fn lower_bound(weights: &[DoubleDouble], support: &Measurement) -> DoubleDouble {
+    let items = || weights.iter().zip(&support.items);
+    let mean = items().fold(DoubleDouble::ZERO, |sum, (w, item)| sum.add(w.mul(item.r.into())));
     let mut inner = DoubleDouble::ZERO;
-    // Σ λᵢ(cᵢ − c): what the returned centre, being rounded, lies beside the one the multipliers mean.
-    let mut beside = vec![DoubleDouble::ZERO; scan.dim()];
-    for (w, x, r) in &weighted {
-        let difference = Difference::new(x, center, scan.scale());
-        let spread = DoubleDouble::from(*r).sub(mean).square();
-        inner = inner.add(w.mul(difference.squared().sub(spread)));
-        for (j, sum) in beside.iter_mut().enumerate() {
-            *sum = sum.add(w.mul(difference.coordinate(j)));
-        }
+    for (w, item) in items() {
+        let spread = DoubleDouble::from(item.r).sub(mean).square();
+        inner = inner.add(w.mul(item.squared.sub(spread)));
     }
-    let inner = beside.into_iter().fold(inner, |inner, sum| inner.sub(sum.square()));
+    // What the returned centre, being rounded, lies beside the one the multipliers mean.
+    let inner = support.beside.iter().fold(inner, |inner, sum| inner.sub(sum.square()));
     let bound = mean.add(inner.sqrt());
     // No ball is smaller than one it holds.
-    let largest = weighted.iter().map(|(_, _, r)| *r).fold(0.0, f64::max);
-    Ok(if bound < largest.into() { largest.into() } else { bound })
+    let largest = support.items.iter().map(|item| item.r).fold(0.0, f64::max);
+    if bound < largest.into() { largest.into() } else { bound }
 }
