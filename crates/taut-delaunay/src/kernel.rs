@@ -1,0 +1,68 @@
+//! What the kernel of the plane and the kernel of space have in common, so that rounds, cells and canonical order are
+//! written once.
+
+use taut_predicates::Stages;
+
+use crate::simplex::Simplex;
+
+/// A mesh under construction: a Delaunay triangulation of the sites inserted so far, closed by ghosts.
+///
+/// Sites are numbered by the caller; coordinates are normalised (no −0; magnitudes at most 2⁴⁰, or `filtered` is off).
+/// The perturbation is lexicographic in the coordinates, so the mesh is a function of the set of inserted sites.
+pub(crate) trait Kernel<const D: usize, const V: usize>: Sized {
+    /// A mesh over these sites, none of them inserted yet.
+    fn new(sites: &[[f64; D]], settings: Settings) -> Self;
+
+    /// Begins with `first`, which must be affinely independent (any orientation).
+    fn start(&mut self, first: [u32; V]);
+
+    /// Inserts sites in this order; none of them may be in the mesh already, all are distinct points. Begins the walk
+    /// to each at the last simplex made.
+    fn insert(&mut self, sites: &[u32]) -> Result<(), TooMany>;
+
+    /// Adds a site to the numbering without inserting it, and returns its number.
+    fn push(&mut self, site: [f64; D]) -> u32;
+
+    /// All slots, dead ones included.
+    fn simplices(&self) -> &[Simplex<V>];
+
+    /// Appends to `out` each simplex (ghosts too) whose circumsphere holds `q` under the perturbation: the cavity of
+    /// `q`, connected. `hint` is any live simplex to walk from. `q` equals no inserted site.
+    fn conflicts(&mut self, q: [f64; D], hint: u32, out: &mut Vec<u32>);
+
+    /// The slots (dead ones included) and the counters; everything else is freed first.
+    fn finish(self) -> (Vec<Simplex<V>>, Counters);
+}
+
+/// What the kernels must know of the coordinates.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Settings {
+    /// Every coordinate is an integer.
+    pub(crate) integral: bool,
+    /// Magnitudes allow floating filters; otherwise each sign is taken exactly.
+    pub(crate) filtered: bool,
+    /// Whether vector instructions may be used where the machine has them; without, the scalar path runs (the meshes are
+    /// identical).
+    pub(crate) vectors: bool,
+}
+
+/// Simplices are numbered with 30 bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct TooMany;
+
+/// Events of a build: the same on every run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Sites inserted.
+    pub insertions: u64,
+    /// Simplices visited by the walks to the sites.
+    pub walk_steps: u64,
+    /// Orientation tests, filtered or not.
+    pub orientations: u64,
+    /// In-circle or in-sphere tests, filtered or not.
+    pub conflict_tests: u64,
+    /// Simplices made and destroyed again, or flips in the plane.
+    pub replaced: u64,
+    /// Where the signs that the first filter left open were decided.
+    pub stages: Stages,
+}

@@ -1,0 +1,1 @@
+//! Delaunay triangulations of points in the plane and in space: exact, canonical, parallel.

@@ -1,0 +1,2 @@
+//! Algorithms for the memory hierarchy.
+#![forbid(unsafe_code)]
