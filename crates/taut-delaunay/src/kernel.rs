@@ -11,7 +11,7 @@ use crate::simplex::Simplex;
 /// The perturbation is lexicographic in the coordinates, so the mesh is a function of the set of inserted sites.
 pub(crate) trait Kernel<const D: usize, const V: usize>: Sized {
     /// A mesh over these sites, none of them inserted yet.
-    fn new(sites: &[[f64; D]], settings: Settings) -> Self;
+    fn new(sites: Vec<[f64; D]>, settings: Settings) -> Self;
 
     /// Begins with `first`, which must be affinely independent (any orientation).
     fn start(&mut self, first: [u32; V]);
@@ -26,12 +26,18 @@ pub(crate) trait Kernel<const D: usize, const V: usize>: Sized {
     /// All slots, dead ones included.
     fn simplices(&self) -> &[Simplex<V>];
 
+    /// A live simplex; after an insertion, one that has the site inserted last.
+    fn last(&self) -> u32;
+
+    /// The simplex (a ghost if outside the hull) that holds `q`, walking from the live simplex `hint`.
+    fn locate(&mut self, q: [f64; D], hint: u32) -> u32;
+
     /// Appends to `out` each simplex (ghosts too) whose circumsphere holds `q` under the perturbation: the cavity of
     /// `q`, connected. `hint` is any live simplex to walk from. `q` equals no inserted site.
     fn conflicts(&mut self, q: [f64; D], hint: u32, out: &mut Vec<u32>);
 
-    /// The slots (dead ones included) and the counters; everything else is freed first.
-    fn finish(self) -> (Vec<Simplex<V>>, Counters);
+    /// The slots (dead ones included), the sites and the counters; everything else is freed first.
+    fn finish(self) -> (Vec<Simplex<V>>, Vec<[f64; D]>, Counters);
 }
 
 /// What the kernels must know of the coordinates.
