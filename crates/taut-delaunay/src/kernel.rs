@@ -13,6 +13,12 @@ pub(crate) trait Kernel<const D: usize, const V: usize>: Sized {
     /// A mesh over these sites, none of them inserted yet.
     fn new(sites: Vec<[f64; D]>, settings: Settings) -> Self;
 
+    /// How many sites are numbered.
+    fn site_count(&self) -> u32;
+
+    /// A site.
+    fn site(&self, site: u32) -> [f64; D];
+
     /// Begins with `first`, which must be affinely independent (any orientation).
     fn start(&mut self, first: [u32; V]);
 
@@ -71,4 +77,15 @@ pub struct Counters {
     pub replaced: u64,
     /// Where the signs that the first filter left open were decided.
     pub stages: Stages,
+}
+
+impl std::ops::AddAssign for Counters {
+    fn add_assign(&mut self, other: Self) {
+        self.insertions += other.insertions;
+        self.walk_steps += other.walk_steps;
+        self.orientations += other.orientations;
+        self.conflict_tests += other.conflict_tests;
+        self.replaced += other.replaced;
+        self.stages += other.stages;
+    }
 }

@@ -23,25 +23,24 @@ impl From<TooMany> for Error {
     }
 }
 
-/// Inserts sites `0..count` but those of `started`, which are in the mesh already.
+/// Inserts all sites of the kernel but those of `started`, which are in the mesh already.
 pub(crate) fn insert_all<const D: usize, const V: usize, K: Kernel<D, V>>(
     kernel: &mut K,
-    sites: &[[f64; D]],
     started: &[u32; V],
     (order, seed): (InsertionOrder, u64),
     monitor: &Monitor<'_>,
 ) -> Result<(), Error> {
-    let count = sites.len() as u32;
+    let count = kernel.site_count();
     match order {
         InsertionOrder::Strided => feed(kernel, strided(count), started, monitor),
         InsertionOrder::Hilbert => feed(kernel, 0..count, started, monitor),
         InsertionOrder::Random => {
-            let level = |&i: &u32| hash(sites[i as usize], seed).trailing_zeros() / RATIO_BITS;
+            let level = |&i: &u32| hash(kernel.site(i), seed).trailing_zeros() / RATIO_BITS;
             let mut rounds: Vec<u32> = (0..count).collect();
             rounds.sort_by_key(|i| std::cmp::Reverse(level(i)));
             feed(kernel, rounds.into_iter(), started, monitor)
         }
-        InsertionOrder::LocalRic => local_ric(kernel, sites, started, seed, monitor),
+        InsertionOrder::LocalRic => local_ric(kernel, started, seed, monitor),
     }
 }
 
@@ -85,13 +84,12 @@ fn hash<const D: usize>(site: [f64; D], seed: u64) -> u64 {
 /// Local RIC with blocks of 8, 8², 8³, … sites of a random order: locate all of a block, then insert simplex by simplex.
 fn local_ric<const D: usize, const V: usize, K: Kernel<D, V>>(
     kernel: &mut K,
-    sites: &[[f64; D]],
     started: &[u32; V],
     seed: u64,
     monitor: &Monitor<'_>,
 ) -> Result<(), Error> {
-    let mut permutation: Vec<u32> = (0..sites.len() as u32).filter(|i| !started.contains(i)).collect();
-    permutation.sort_by_cached_key(|&i| hash(sites[i as usize], seed));
+    let mut permutation: Vec<u32> = (0..kernel.site_count()).filter(|i| !started.contains(i)).collect();
+    permutation.sort_by_cached_key(|&i| hash(kernel.site(i), seed));
     let (mut begin, mut size) = (0, 1usize << RATIO_BITS);
     while begin < permutation.len() {
         let end = permutation.len().min(begin + size);
@@ -102,7 +100,7 @@ fn local_ric<const D: usize, const V: usize, K: Kernel<D, V>>(
         let mut hint = kernel.last();
         for place in along {
             let site = permutation[place as usize];
-            hint = kernel.locate(sites[site as usize], hint);
+            hint = kernel.locate(kernel.site(site), hint);
             let first = kernel.simplices()[hint as usize].vertices.iter().copied().min().unwrap_or(0);
             located.push((first, hint, place, site));
         }

@@ -98,10 +98,9 @@ impl<const D: usize, const V: usize> Whole<'_, D, V> {
         let own_local = place(own.start)..place(own.end);
         let coordinates: Vec<[f64; D]> = sites.iter().map(|&s| self.sites[s as usize]).collect();
         let start = self.start.map(place);
-        let mut mesh = G::Mesh::new(coordinates.clone(), self.settings);
+        let mut mesh = G::Mesh::new(coordinates, self.settings);
         mesh.start(start);
-        insert_all(&mut mesh, &coordinates, &start, self.order, monitor)?;
-        drop(coordinates);
+        insert_all(&mut mesh, &start, self.order, monitor)?;
         let clearance = self.clearances(&own, &here);
         let mut cell = Certifying::<D, V, G> { whole: self, own: own.clone(), here, sites, clearance, mesh, open: vec![] };
         cell.certify(&own_local, monitor)?;
@@ -281,7 +280,8 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
             let bounds = index.bounds(node);
             !self.whole.is_own(&self.own, node) && reach.most(bounds.low, bounds.high) >= 0.0
         };
-        index.visit(&mut self.open, keep, |leaf| {
+        let mut open = std::mem::take(&mut self.open);
+        index.visit(&mut open, keep, |leaf| {
             for other in self.here.missing(leaf, index.run(leaf)) {
                 let q = self.whole.sites[other as usize];
                 let depth = reach.depth(q);
@@ -291,6 +291,7 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
             }
             found.is_some()
         });
+        self.open = open;
         found.map(|(_, site)| site)
     }
 }

@@ -71,8 +71,15 @@ impl<const V: usize> Cell<V> {
         (numbers.collect(), next)
     }
 
-    /// Writes what this cell hands over to `out`, whose first simplex has number `offset` in the whole.
-    fn hand_over(&self, numbers: &[u32], offset: u32, out: &mut [Simplex<V>]) -> Border<V> {
+    /// Writes what this cell hands over to `out`, whose first simplex has number `offset` in the whole. `owner` tells
+    /// which cell a site is of.
+    fn hand_over(
+        &self,
+        numbers: &[u32],
+        offset: u32,
+        out: &mut [Simplex<V>],
+        owner: impl Fn(u32) -> usize,
+    ) -> Border<V> {
         let mut border = Border { joints: Vec::new(), names: HashMap::new() };
         for (t, simplex) in self.simplices.iter().enumerate() {
             let number = numbers[t];
@@ -94,10 +101,14 @@ impl<const V: usize> Cell<V> {
                 let first = number != NONE || (other_number == NONE && (t as u32) < other);
                 if first && self.own.contains(&smallest_without(vertices, i)) {
                     let there = self.global(&self.simplices[other as usize]);
-                    border.joints.push([
+                    let sides = [
                         Side { key: sorted(vertices), opposite: vertices[i] },
                         Side { key: sorted(there), opposite: there[facet] },
-                    ]);
+                    ];
+                    // A cell that owns both sides has joined them itself.
+                    if owner(sides[0].key[0]) != owner(sides[1].key[0]) {
+                        border.joints.push(sides);
+                    }
                 }
             }
             if number != NONE {
@@ -127,16 +138,17 @@ pub(super) fn join<const V: usize>(cells: Vec<Cell<V>>) -> Result<Vec<Simplex<V>
         tasks.push((cell, numbers, offset, out));
         (rest, offset) = (after, offset + count);
     }
+    let owned: Vec<Range<u32>> = cells.iter().map(|cell| cell.own.clone()).collect();
+    let owner = |site: u32| owned.partition_point(|own| own.end <= site);
     let borders: Vec<Border<V>> = tasks
         .into_par_iter()
         .with_max_len(1)
-        .map(|(cell, numbers, offset, out)| cell.hand_over(numbers, offset, out))
+        .map(|(cell, numbers, offset, out)| cell.hand_over(numbers, offset, out, owner))
         .collect();
-    let owned: Vec<Range<u32>> = cells.iter().map(|cell| cell.own.clone()).collect();
     drop(cells);
     let number = |side: &Side<V>| {
-        let owner = owned.partition_point(|own| own.end <= side.key[0]);
-        *borders[owner].names.get(&side.key).expect("the owner of the smallest site hands over the simplex")
+        *borders[owner(side.key[0])]
+            .names.get(&side.key).expect("the owner of the smallest site hands over the simplex")
     };
     let joints: Vec<[(u32, u32); 2]> = borders
         .par_iter()

@@ -70,12 +70,10 @@ impl<const D: usize> Index<D> {
         let leaves: Vec<Bounds<D>> =
             sites.par_chunks(LEAF).with_min_len(TASK).map(|run| Bounds::of(run.iter().copied())).collect();
         let mut levels = vec![leaves];
-        while levels.last().is_some_and(|level| level.len() > 1) {
-            let below = levels.last().into_iter().flatten();
-            let below: Vec<Bounds<D>> = below.copied().collect();
-            levels.push(
-                below.chunks(1 << FAN_OUT_BITS).map(|run| run.iter().fold(Bounds::EMPTY, |b, c| b.union(c))).collect(),
-            );
+        while let Some(below) = levels.last().filter(|level| level.len() > 1) {
+            let union = |run: &[Bounds<D>]| run.iter().fold(Bounds::EMPTY, |b, c| b.union(c));
+            let above = below.chunks(1 << FAN_OUT_BITS).map(union).collect();
+            levels.push(above);
         }
         Self { levels, sites: sites.len() }
     }

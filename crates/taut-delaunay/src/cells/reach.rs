@@ -66,7 +66,7 @@ impl Reach<3> {
         Self { origin: a, alpha, beta, size: largest(&[b, c, d]) }
     }
 
-    /// The closed half-space that sees a, b, c in counter-clockwise order… from the side they face.
+    /// The closed half-space from which a, b, c are seen in counter-clockwise order.
     pub(crate) fn of_facet([a, b, c]: [[f64; 3]; 3]) -> Self {
         let (b, c) = (difference(b, a), difference(c, a));
         Self { origin: a, alpha: 0.0, beta: cross(b, c), size: largest(&[b, c]) }
