@@ -8,13 +8,15 @@
 //! Reference: C. Hamilton, *Compact Hilbert Indices*, Dalhousie CS-2006-07, section 2 (entry points, directions).
 
 /// Most bits per axis, so that a key fits 32 bits: 16 in the plane, 10 in space.
+#[inline(always)]
 pub(crate) const fn bits_max(d: usize) -> u32 {
     assert!(d == 2 || d == 3, "the plane and space");
     if d == 2 { 16 } else { 10 }
 }
 
-/// A turn of the curve, numbered `entry · d + axis`.
-const STATES: usize = 24;
+/// Turns of the curve, numbered `entry · d + axis`: 8 in the plane, 24 in space, and room up to a power of two, so that
+/// a mask takes the place of a check in the chain of lookups.
+const STATES: usize = 32;
 
 /// Levels that one lookup of the table descends.
 const fn levels(d: usize) -> u32 {
@@ -107,10 +109,10 @@ static SPACE: [[u16; 64]; STATES] = table(3);
 /// The key of a cell given with all bits that fit; what [`hilbert_key()`] computes, without its checks.
 #[inline(always)]
 pub(crate) fn key<const D: usize>(cell: [u32; D]) -> u32 {
-    let step = levels(D);
+    let step = const { levels(D) };
     let mask = (1 << step) - 1;
     let (mut state, mut key) = (0, 0);
-    let mut shift = bits_max(D);
+    let mut shift = const { bits_max(D) };
     while shift > 0 {
         shift -= step;
         let mut index = 0;
@@ -119,7 +121,7 @@ pub(crate) fn key<const D: usize>(cell: [u32; D]) -> u32 {
         }
         let found = if D == 2 { PLANE[state][index & 255] } else { SPACE[state][index & 63] };
         key = key << (step * D as u32) | u32::from(found >> 8);
-        state = usize::from(found & 255) % STATES;
+        state = usize::from(found) & (STATES - 1);
     }
     key
 }

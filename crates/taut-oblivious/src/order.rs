@@ -48,7 +48,7 @@ impl<const D: usize> Grid<D> {
 
     #[inline(always)]
     fn key(&self, point: [f64; D]) -> u32 {
-        let last = (1u32 << bits_max(D)) - 1;
+        let last = const { (1u32 << bits_max(D)) - 1 };
         let mut cell = [0; D];
         for i in 0..D {
             let place = (point[i] * self.shrink - self.low[i]) * self.lift * self.scale;
