@@ -24,6 +24,8 @@
 
 #![forbid(unsafe_code)]
 
+mod cascade;
+mod double_double;
 mod mul_add;
 mod number;
 mod perturbation;
@@ -32,6 +34,7 @@ mod sign;
 pub mod space;
 mod stages;
 mod unbounded;
+mod wide;
 
 pub use mul_add::{Fused, MulAdd, Separate};
 pub use sign::Sign;

@@ -30,19 +30,22 @@ pub(crate) fn lexicographic<const D: usize>(a: &[f64; D], b: &[f64; D]) -> Order
     Ordering::Equal
 }
 
-/// The answer where D = 0: that of the largest vertex beyond q whose cofactor is not zero, and outside if there is
-/// none. Only the vertices that are visited have their cofactor asked for.
+/// The answer where D = 0, positive or negative: the sign of the cofactor, not zero, of the largest vertex beyond q;
+/// negative if there is none. Only the cofactors on the way there are asked for.
+#[inline(always)]
 pub(crate) fn tie<const D: usize, const V: usize>(
     vertices: &[[f64; D]; V],
     q: &[f64; D],
-    mut cofactor: impl FnMut(usize) -> Sign,
-) -> bool {
-    let mut order: [usize; V] = std::array::from_fn(|i| i);
-    order.sort_unstable_by(|&i, &j| lexicographic(&vertices[j], &vertices[i]));
-    order
-        .into_iter()
-        .take_while(|&i| lexicographic(&vertices[i], q).is_gt())
-        .map(&mut cofactor)
-        .find(|sign| !sign.is_zero())
-        .is_some_and(Sign::is_positive)
+    cofactor: impl Fn(usize) -> Sign,
+) -> Sign {
+    let (mut largest, mut decisive) = (q, Sign::Negative);
+    for (i, vertex) in vertices.iter().enumerate() {
+        if lexicographic(vertex, largest).is_gt() {
+            let sign = cofactor(i);
+            if !sign.is_zero() {
+                (largest, decisive) = (vertex, sign);
+            }
+        }
+    }
+    decisive
 }

@@ -1,16 +1,17 @@
 //! Where a circumcentre lies, and the smallest circle of an edge, by exact signs of rational functions.
 
+use crate::cascade;
 use crate::number::{Number, Polynomial};
 use crate::plane::polynomials::{circumcenter, dot, lift};
 use crate::plane::{Point, orient};
 use crate::sign::Sign;
-use crate::unbounded;
 
 /// −(a − q)·(b − q).
 struct InDiametralCircle;
 
 impl Polynomial<4> for InDiametralCircle {
     const DEGREE: u32 = 2;
+    const ROUNDINGS: u32 = 4;
 
     #[inline(always)]
     fn evaluate<N: Number>(d: &[N; 4]) -> N {
@@ -24,6 +25,7 @@ struct Side<const AXIS: usize>;
 
 impl<const AXIS: usize> Polynomial<5> for Side<AXIS> {
     const DEGREE: u32 = 3;
+    const ROUNDINGS: u32 = 8;
 
     #[inline(always)]
     fn evaluate<N: Number>(d: &[N; 5]) -> N {
@@ -37,6 +39,7 @@ struct Nearer;
 
 impl Polynomial<8> for Nearer {
     const DEGREE: u32 = 4;
+    const ROUNDINGS: u32 = 12;
 
     #[inline(always)]
     fn evaluate<N: Number>(d: &[N; 8]) -> N {
@@ -50,12 +53,7 @@ impl Polynomial<8> for Nearer {
 /// and b. An edge of a Delaunay triangulation with no vertex inside it is a Gabriel edge.
 #[must_use]
 pub fn in_diametral_circle(a: Point, b: Point, q: Point) -> Sign {
-    unbounded::sign::<InDiametralCircle, 4>(&[
-        [q[0], a[0]],
-        [q[1], a[1]],
-        [b[0], q[0]],
-        [b[1], q[1]],
-    ])
+    cascade::sign::<InDiametralCircle, 4>(&[[q[0], a[0]], [q[1], a[1]], [b[0], q[0]], [b[1], q[1]]])
 }
 
 /// The sign of coordinate `axis` of the circumcentre of abc, less t: on which side of a cut it lies. The triangle may
@@ -67,8 +65,8 @@ pub fn in_diametral_circle(a: Point, b: Point, q: Point) -> Sign {
 pub fn circumcenter_side(a: Point, b: Point, c: Point, axis: usize, t: f64) -> Sign {
     let differences = [[b[0], a[0]], [b[1], a[1]], [c[0], a[0]], [c[1], a[1]], [a[axis], t]];
     let numerator = match axis {
-        0 => unbounded::sign::<Side<0>, 5>(&differences),
-        _ => unbounded::sign::<Side<1>, 5>(&differences),
+        0 => cascade::sign::<Side<0>, 5>(&differences),
+        _ => cascade::sign::<Side<1>, 5>(&differences),
     };
     numerator * orient(a, b, c)
 }
@@ -79,5 +77,19 @@ pub fn circumcenter_side(a: Point, b: Point, c: Point, axis: usize, t: f64) -> S
 pub fn circumcenter_nearer(a: Point, b: Point, c: Point, r: Point, s: Point) -> Sign {
     let [b_, c_, r_, s_] = [b, c, r, s].map(|p| [[p[0], a[0]], [p[1], a[1]]]);
     let differences = [b_[0], b_[1], c_[0], c_[1], r_[0], r_[1], s_[0], s_[1]];
-    unbounded::sign::<Nearer, 8>(&differences) * orient(a, b, c)
+    cascade::sign::<Nearer, 8>(&differences) * orient(a, b, c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::tests::constants_are_those_of;
+
+    #[test]
+    fn constants() {
+        constants_are_those_of::<InDiametralCircle, 4>();
+        constants_are_those_of::<Side<0>, 5>();
+        constants_are_those_of::<Side<1>, 5>();
+        constants_are_those_of::<Nearer, 8>();
+    }
 }

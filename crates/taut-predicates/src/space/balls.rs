@@ -1,16 +1,17 @@
 //! The smallest spheres through two and three points, and one that is shrunk a little.
 
+use crate::cascade;
 use crate::number::{Number, Polynomial};
 use crate::sign::Sign;
 use crate::space::Point;
 use crate::space::polynomials::{cross, dot, lift};
-use crate::unbounded;
 
 /// (q − a)·(b − q).
 struct InDiametralSphere;
 
 impl Polynomial<6> for InDiametralSphere {
     const DEGREE: u32 = 2;
+    const ROUNDINGS: u32 = 5;
 
     #[inline(always)]
     fn evaluate<N: Number>(d: &[N; 6]) -> N {
@@ -24,6 +25,7 @@ struct InEquatorialSphere;
 
 impl Polynomial<9> for InEquatorialSphere {
     const DEGREE: u32 = 6;
+    const ROUNDINGS: u32 = 19;
 
     #[inline(always)]
     fn evaluate<N: Number>(d: &[N; 9]) -> N {
@@ -40,6 +42,7 @@ struct ShrunkSphere;
 
 impl Polynomial<15> for ShrunkSphere {
     const DEGREE: u32 = 8;
+    const ROUNDINGS: u32 = 26;
 
     #[inline(always)]
     fn evaluate<N: Number>(d: &[N; 15]) -> N {
@@ -64,7 +67,7 @@ fn circle<N: Number>(u: &[N; 3], v: &[N; 3]) -> ([N; 3], [N; 3]) {
 /// b.
 #[must_use]
 pub fn in_diametral_sphere(a: Point, b: Point, q: Point) -> Sign {
-    unbounded::sign::<InDiametralSphere, 6>(&[
+    cascade::sign::<InDiametralSphere, 6>(&[
         [q[0], a[0]],
         [q[1], a[1]],
         [q[2], a[2]],
@@ -79,7 +82,7 @@ pub fn in_diametral_sphere(a: Point, b: Point, q: Point) -> Sign {
 #[must_use]
 pub fn in_equatorial_sphere(a: Point, b: Point, c: Point, q: Point) -> Sign {
     let points = [b, c, q];
-    unbounded::sign::<InEquatorialSphere, 9>(&std::array::from_fn(|i| {
+    cascade::sign::<InEquatorialSphere, 9>(&std::array::from_fn(|i| {
         [points[i / 3][i % 3], a[i % 3]]
     }))
 }
@@ -89,11 +92,24 @@ pub fn in_equatorial_sphere(a: Point, b: Point, c: Point, q: Point) -> Sign {
 #[must_use]
 pub fn shrunk_sphere(a: Point, b: Point, c: Point, d: Point, epsilon: f64) -> Sign {
     let points = [b, c, d];
-    unbounded::sign::<ShrunkSphere, 15>(&std::array::from_fn(|i| match i {
+    cascade::sign::<ShrunkSphere, 15>(&std::array::from_fn(|i| match i {
         0..9 => [points[i / 3][i % 3], a[i % 3]],
         9..12 => [b[i % 3], c[i % 3]],
         12 => [epsilon, 0.0],
         13 => [2.0, epsilon],
         _ => [1.0, 0.0],
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::tests::constants_are_those_of;
+
+    #[test]
+    fn constants() {
+        constants_are_those_of::<InDiametralSphere, 6>();
+        constants_are_those_of::<InEquatorialSphere, 9>();
+        constants_are_those_of::<ShrunkSphere, 15>();
+    }
 }

@@ -1,16 +1,17 @@
 //! Where a circumcentre lies, by exact signs of rational functions.
 
+use crate::cascade;
 use crate::number::{Number, Polynomial};
 use crate::sign::Sign;
 use crate::space::polynomials::{circumcenter, dot, lift};
 use crate::space::{Point, orient};
-use crate::unbounded;
 
 /// U + 2·det(u, v, w)·(a − t) along one axis.
 struct Side<const AXIS: usize>;
 
 impl<const AXIS: usize> Polynomial<10> for Side<AXIS> {
     const DEGREE: u32 = 4;
+    const ROUNDINGS: u32 = 13;
 
     #[inline(always)]
     fn evaluate<N: Number>(d: &[N; 10]) -> N {
@@ -25,6 +26,7 @@ struct Nearer;
 
 impl Polynomial<15> for Nearer {
     const DEGREE: u32 = 5;
+    const ROUNDINGS: u32 = 18;
 
     #[inline(always)]
     fn evaluate<N: Number>(d: &[N; 15]) -> N {
@@ -49,9 +51,9 @@ pub fn circumcenter_side(a: Point, b: Point, c: Point, d: Point, axis: usize, t:
         _ => [a[axis], t],
     });
     let numerator = match axis {
-        0 => unbounded::sign::<Side<0>, 10>(&differences),
-        1 => unbounded::sign::<Side<1>, 10>(&differences),
-        _ => unbounded::sign::<Side<2>, 10>(&differences),
+        0 => cascade::sign::<Side<0>, 10>(&differences),
+        1 => cascade::sign::<Side<1>, 10>(&differences),
+        _ => cascade::sign::<Side<2>, 10>(&differences),
     };
     numerator * orient(a, b, c, d)
 }
@@ -62,5 +64,19 @@ pub fn circumcenter_side(a: Point, b: Point, c: Point, d: Point, axis: usize, t:
 pub fn circumcenter_nearer(a: Point, b: Point, c: Point, d: Point, r: Point, s: Point) -> Sign {
     let points = [b, c, d, r, s];
     let differences = std::array::from_fn(|i| [points[i / 3][i % 3], a[i % 3]]);
-    unbounded::sign::<Nearer, 15>(&differences) * orient(a, b, c, d)
+    cascade::sign::<Nearer, 15>(&differences) * orient(a, b, c, d)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::tests::constants_are_those_of;
+
+    #[test]
+    fn constants() {
+        constants_are_those_of::<Side<0>, 10>();
+        constants_are_those_of::<Side<1>, 10>();
+        constants_are_those_of::<Side<2>, 10>();
+        constants_are_those_of::<Nearer, 15>();
+    }
 }
