@@ -1,0 +1,161 @@
+//! The cavity of the query point, edge by edge counter-clockwise around it.
+//!
+//! *Idea.* The triangles in conflict with q form a disc without inner vertices, so from edge to edge they are a tree
+//! and no marks are needed. Look through an edge (a, b) of the disc so far, with a to b counter-clockwise around q: is
+//! the triangle behind it, (d, b, a), in conflict? If so it joins the disc, and its edges (a, d) and (d, b) are next, in
+//! this order. If not, (a, b) belongs to the rim.
+//! *Guarantee.* The rim comes out in counter-clockwise order and closed, each triangle of the disc once; the minor [ab]
+//! is positive or, if q lies on the edge, zero.
+//! *Trap.* A ghost has no circle: it is in conflict iff q lies strictly outside its hull edge, or on the line of that
+//! edge with the finite triangle behind the edge in conflict, which is to say between its ends. Its own sign is
+//! filtered as well, or every site near the hull would be counted as an exact call.
+
+use taut_predicates::{Exact, Sign};
+
+use super::seen::{Seen, View, minor};
+use super::walk::{Found, LAST, NEXT};
+use crate::kernel::Counters;
+use crate::simplex::{GHOST, Simplex, code, decode};
+
+/// An edge still to be looked through: the facet behind it, where it ends, and the minor of its ends.
+pub(super) struct Edge {
+    code: u32,
+    end: Seen,
+    minor: f64,
+}
+
+/// What becomes of the cavity.
+pub(super) trait Sink {
+    /// A triangle is in conflict; everything of it that will be asked for has been read.
+    fn enter(&mut self, triangle: u32);
+
+    /// An edge of the rim, and the facet behind it.
+    fn rim(&mut self, triangles: &mut [Simplex<3>], behind: u32, from: u32, to: u32);
+}
+
+#[inline(always)]
+pub(super) fn dig<S: Sink>(
+    view: &View<'_>,
+    triangles: &mut [Simplex<3>],
+    found: Found,
+    pending: &mut Vec<Edge>,
+    exact: &mut Exact,
+    counters: &mut Counters,
+    sink: &mut S,
+) {
+    let [next, last] = [NEXT[found.facet], LAST[found.facet]];
+    let first = &triangles[found.triangle as usize].neighbors;
+    pending.push(Edge { code: first[next], end: found.d, minor: found.ad });
+    pending.push(Edge { code: first[found.facet], end: found.a, minor: found.ba });
+    let (mut behind, mut a, mut b, mut ab) = (first[last], found.d, found.b, found.db);
+    let (mut tests, mut entered) = (0, 0);
+    loop {
+        tests += 1;
+        let (triangle, facet) = decode(behind);
+        let t = &triangles[triangle as usize];
+        let d = view.see(t.vertices[facet]);
+        let (ad, db) = (minor(a, d), minor(d, b));
+        let conflict = match view.in_circle([a, b, d], [ab, ad, db]) {
+            Sign::Positive => true,
+            Sign::Negative => false,
+            Sign::Zero => conflict_exact(view, triangles, behind, exact),
+        };
+        if conflict {
+            entered += 1;
+            pending.push(Edge { code: t.neighbors[LAST[facet]], end: b, minor: db });
+            (behind, b, ab) = (t.neighbors[NEXT[facet]], d, ad);
+            sink.enter(triangle);
+        } else {
+            let (from, to) = (t.vertices[LAST[facet]], t.vertices[NEXT[facet]]);
+            sink.rim(triangles, behind, from, to);
+            let Some(edge) = pending.pop() else { break };
+            (behind, a, b, ab) = (edge.code, b, edge.end, edge.minor);
+        }
+    }
+    counters.conflict_tests += tests;
+    counters.replaced += entered;
+}
+
+/// The conflict of the triangle that a code names, with exact arithmetic where filters do not do; it is looked at from
+/// a triangle in conflict.
+#[cold]
+#[inline(never)]
+fn conflict_exact(view: &View<'_>, triangles: &[Simplex<3>], behind: u32, exact: &mut Exact) -> bool {
+    let (triangle, facet) = decode(behind);
+    let t = &triangles[triangle as usize];
+    let Some(place) = t.vertices.iter().position(|&v| v == GHOST) else {
+        return view.conflict_exact(t.vertices, exact);
+    };
+    let (from, to) = (t.vertices[NEXT[place]], t.vertices[LAST[place]]);
+    match view.side_exact(from, to, exact) {
+        Sign::Positive => true,
+        Sign::Negative => false,
+        // Seen through its hull edge, the triangle it is seen from is the finite one behind that edge.
+        Sign::Zero => {
+            place == facet || {
+                let inner = decode(t.neighbors[place]).0;
+                view.conflict_exact(triangles[inner as usize].vertices, exact)
+            }
+        }
+    }
+}
+
+/// Replaces the cavity by the star of a site: vertex 0 of each triangle is the site, facet 0 the edge of the rim.
+pub(super) struct Star<'a> {
+    site: u32,
+    free: &'a mut Vec<u32>,
+    first: u32,
+    last: u32,
+}
+
+impl<'a> Star<'a> {
+    /// The star of `site`, whose cavity begins with the triangle `found`.
+    #[inline(always)]
+    pub(super) fn new(site: u32, free: &'a mut Vec<u32>, found: u32) -> Star<'a> {
+        free.push(found);
+        // The first triangle will take this slot; until the ring is closed it is linked to itself.
+        Star { site, free, first: found, last: found }
+    }
+
+    /// Links the last triangle with the first and returns the last.
+    #[inline(always)]
+    pub(super) fn close(self, triangles: &mut [Simplex<3>]) -> u32 {
+        debug_assert!(self.free.is_empty(), "the star takes all slots");
+        triangles[self.first as usize].neighbors[2] = code(self.last, 1);
+        triangles[self.last as usize].neighbors[1] = code(self.first, 2);
+        self.last
+    }
+}
+
+impl Sink for Star<'_> {
+    #[inline(always)]
+    fn enter(&mut self, triangle: u32) {
+        self.free.push(triangle);
+    }
+
+    #[inline(always)]
+    fn rim(&mut self, triangles: &mut [Simplex<3>], behind: u32, from: u32, to: u32) {
+        let slot = self.free.pop().expect("a cavity of k triangles has k + 2 edges");
+        let (outer, facet) = decode(behind);
+        triangles[outer as usize].neighbors[facet] = code(slot, 0);
+        triangles[slot as usize] =
+            Simplex { vertices: [self.site, from, to], neighbors: [behind, 0, code(self.last, 1)] };
+        triangles[self.last as usize].neighbors[1] = code(slot, 2);
+        self.last = slot;
+    }
+}
+
+/// Lists the cavity and leaves the mesh as it is.
+pub(super) struct Collect<'a> {
+    pub(super) out: &'a mut Vec<u32>,
+}
+
+impl Sink for Collect<'_> {
+    #[inline(always)]
+    fn enter(&mut self, triangle: u32) {
+        self.out.push(triangle);
+    }
+
+    #[inline(always)]
+    fn rim(&mut self, _: &mut [Simplex<3>], _: u32, _: u32, _: u32) {}
+}
