@@ -80,7 +80,12 @@ pub(super) fn dig<S: Sink>(
 /// a triangle in conflict.
 #[cold]
 #[inline(never)]
-fn conflict_exact(view: &View<'_>, triangles: &[Simplex<3>], behind: u32, exact: &mut Exact) -> bool {
+fn conflict_exact(
+    view: &View<'_>,
+    triangles: &[Simplex<3>],
+    behind: u32,
+    exact: &mut Exact,
+) -> bool {
     let (triangle, facet) = decode(behind);
     let t = &triangles[triangle as usize];
     let Some(place) = t.vertices.iter().position(|&v| v == GHOST) else {
@@ -113,8 +118,8 @@ impl<'a> Star<'a> {
     #[inline(always)]
     pub(super) fn new(site: u32, free: &'a mut Vec<u32>, found: u32) -> Star<'a> {
         free.push(found);
-        // The first triangle will take this slot; until the ring is closed it is linked to itself.
-        Star { site, free, first: found, last: found }
+        // Before the first triangle there is none to link to; a slot that is free bears what is written into it.
+        Star { site, free, first: GHOST, last: found }
     }
 
     /// Links the last triangle with the first and returns the last.
@@ -141,6 +146,7 @@ impl Sink for Star<'_> {
         triangles[slot as usize] =
             Simplex { vertices: [self.site, from, to], neighbors: [behind, 0, code(self.last, 1)] };
         triangles[self.last as usize].neighbors[1] = code(slot, 2);
+        self.first = if self.first == GHOST { slot } else { self.first };
         self.last = slot;
     }
 }

@@ -70,11 +70,8 @@ impl Kernel<2, 3> for Mesh {
 
     fn start(&mut self, [a, b, c]: [u32; 3]) {
         let [p, q, r] = [a, b, c].map(|v| self.sites[v as usize]);
-        let (b, c) = if orient_exact(p, q, r, &mut self.exact).is_positive() {
-            (b, c)
-        } else {
-            (c, b)
-        };
+        let (b, c) =
+            if orient_exact(p, q, r, &mut self.exact).is_positive() { (b, c) } else { (c, b) };
         // Ghost i lies across the edge opposite vertex i; its ghost vertex has place 0, as has the hull edge.
         let ghost = |from: u32, to: u32, inside: u32, next: u32, last: u32| Simplex {
             vertices: [GHOST, to, from],
@@ -146,7 +143,15 @@ impl Mesh {
         let triangles = &mut self.triangles[..];
         let found = walk(&view, triangles, self.last, &mut self.exact, &mut self.counters);
         let mut star = Star::new(site, &mut self.free, found.triangle);
-        dig(&view, triangles, found, &mut self.pending, &mut self.exact, &mut self.counters, &mut star);
+        dig(
+            &view,
+            triangles,
+            found,
+            &mut self.pending,
+            &mut self.exact,
+            &mut self.counters,
+            &mut star,
+        );
         self.last = star.close(triangles);
     }
 }

@@ -47,7 +47,8 @@ impl<'a> View<'a> {
     /// `sites` ends with the place of the ghost vertex. Without filters every error bound is infinite or not a number.
     #[inline(always)]
     pub(super) fn new(sites: &'a [[f64; 2]], q: [f64; 2], filtered: bool) -> View<'a> {
-        let (orient, in_circle) = if filtered { (ORIENT, IN_CIRCLE) } else { (f64::INFINITY, f64::INFINITY) };
+        let (orient, in_circle) =
+            if filtered { (ORIENT, IN_CIRCLE) } else { (f64::INFINITY, f64::INFINITY) };
         View { sites, q, orient, in_circle }
     }
 
@@ -76,7 +77,9 @@ impl<'a> View<'a> {
     pub(super) fn side_exact(&self, a: u32, b: u32, exact: &mut Exact) -> Sign {
         let (p, r) = (self.see(a), self.see(b));
         match self.side(p, r, minor(p, r)) {
-            Sign::Zero => orient_exact(self.sites[a as usize], self.sites[b as usize], self.q, exact),
+            Sign::Zero => {
+                orient_exact(self.sites[a as usize], self.sites[b as usize], self.q, exact)
+            }
             sure => sure,
         }
     }

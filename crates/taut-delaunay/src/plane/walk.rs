@@ -77,7 +77,13 @@ pub(super) const LAST: [usize; 4] = [2, 0, 1, 0];
 
 /// Whether q lies strictly to the right of the directed edge from u to v. It does of no edge at the ghost vertex.
 #[inline(always)]
-fn strictly_right(view: &View<'_>, u: (u32, Seen), v: (u32, Seen), uv: f64, exact: &mut Exact) -> bool {
+fn strictly_right(
+    view: &View<'_>,
+    u: (u32, Seen),
+    v: (u32, Seen),
+    uv: f64,
+    exact: &mut Exact,
+) -> bool {
     match view.side(u.1, v.1, uv) {
         Sign::Positive => false,
         Sign::Negative => true,
