@@ -17,11 +17,18 @@ use super::walk::{Found, LAST, NEXT};
 use crate::kernel::Counters;
 use crate::simplex::{GHOST, Simplex, code, decode};
 
-/// An edge still to be looked through: the facet behind it, where it ends, and the minor of its ends.
+/// An edge (a, b) with what is behind it: the facet of the triangle (d, b, a) and whether that is in conflict.
+///
+/// All this is computed as soon as the edge is known, before its turn: by then nobody waits for it, above all not the
+/// branch on `conflict`, which goes one way as often as the other.
+#[derive(Clone, Copy)]
 pub(super) struct Edge {
-    code: u32,
-    end: Seen,
-    minor: f64,
+    behind: u32,
+    conflict: bool,
+    b: Seen,
+    d: Seen,
+    ad: f64,
+    db: f64,
 }
 
 /// What becomes of the cavity.
@@ -43,37 +50,51 @@ pub(super) fn dig<S: Sink>(
     counters: &mut Counters,
     sink: &mut S,
 ) {
-    let [next, last] = [NEXT[found.facet], LAST[found.facet]];
-    let first = &triangles[found.triangle as usize].neighbors;
-    pending.push(Edge { code: first[next], end: found.d, minor: found.ad });
-    pending.push(Edge { code: first[found.facet], end: found.a, minor: found.ba });
-    let (mut behind, mut a, mut b, mut ab) = (first[last], found.d, found.b, found.db);
-    let (mut tests, mut entered) = (0, 0);
+    let first = triangles[found.triangle as usize].neighbors;
+    let (mut tests, mut entered) = (3, 0);
+    pending.push(look(view, triangles, first[NEXT[found.facet]], [found.a, found.d], found.ad, exact));
+    pending.push(look(view, triangles, first[found.facet], [found.b, found.a], found.ba, exact));
+    let mut a = found.d;
+    let mut edge = look(view, triangles, first[LAST[found.facet]], [found.d, found.b], found.db, exact);
     loop {
-        tests += 1;
-        let (triangle, facet) = decode(behind);
+        let (triangle, facet) = decode(edge.behind);
         let t = &triangles[triangle as usize];
-        let d = view.see(t.vertices[facet]);
-        let (ad, db) = (minor(a, d), minor(d, b));
-        let conflict = match view.in_circle([a, b, d], [ab, ad, db]) {
-            Sign::Positive => true,
-            Sign::Negative => false,
-            Sign::Zero => conflict_exact(view, triangles, behind, exact),
-        };
-        if conflict {
+        if edge.conflict {
+            tests += 2;
             entered += 1;
-            pending.push(Edge { code: t.neighbors[LAST[facet]], end: b, minor: db });
-            (behind, b, ab) = (t.neighbors[NEXT[facet]], d, ad);
+            let (left, right) = (t.neighbors[NEXT[facet]], t.neighbors[LAST[facet]]);
+            pending.push(look(view, triangles, right, [edge.d, edge.b], edge.db, exact));
+            edge = look(view, triangles, left, [a, edge.d], edge.ad, exact);
             sink.enter(triangle);
         } else {
             let (from, to) = (t.vertices[LAST[facet]], t.vertices[NEXT[facet]]);
-            sink.rim(triangles, behind, from, to);
-            let Some(edge) = pending.pop() else { break };
-            (behind, a, b, ab) = (edge.code, b, edge.end, edge.minor);
+            sink.rim(triangles, edge.behind, from, to);
+            a = edge.b;
+            let Some(next) = pending.pop() else { break };
+            edge = next;
         }
     }
     counters.conflict_tests += tests;
     counters.replaced += entered;
+}
+
+/// Looks through the edge (a, b) of a triangle in conflict.
+#[inline(always)]
+fn look(
+    view: &View<'_>,
+    triangles: &[Simplex<3>],
+    behind: u32,
+    [a, b]: [Seen; 2],
+    ab: f64,
+    exact: &mut Exact,
+) -> Edge {
+    let (triangle, facet) = decode(behind);
+    let d = view.see(triangles[triangle as usize].vertices[facet]);
+    let (ad, db) = (minor(a, d), minor(d, b));
+    let determinant = view.in_circle([a, b, d], [ab, ad, db]);
+    let conflict =
+        if determinant == 0.0 { conflict_exact(view, triangles, behind, exact) } else { determinant > 0.0 };
+    Edge { behind, conflict, b, d, ad, db }
 }
 
 /// The conflict of the triangle that a code names, with exact arithmetic where filters do not do; it is looked at from
