@@ -36,8 +36,8 @@ pub(super) trait Sink {
     /// A triangle is in conflict; everything of it that will be asked for has been read.
     fn enter(&mut self, triangle: u32);
 
-    /// An edge of the rim, and the facet behind it.
-    fn rim(&mut self, triangles: &mut [Simplex<3>], behind: u32, from: u32, to: u32);
+    /// An edge of the rim, the facet behind it, and where the edge ends.
+    fn rim(&mut self, triangles: &mut [Simplex<3>], behind: u32, edge: [u32; 2], end: Seen);
 }
 
 #[inline(always)]
@@ -68,7 +68,7 @@ pub(super) fn dig<S: Sink>(
             sink.enter(triangle);
         } else {
             let (from, to) = (t.vertices[LAST[facet]], t.vertices[NEXT[facet]]);
-            sink.rim(triangles, edge.behind, from, to);
+            sink.rim(triangles, edge.behind, [from, to], edge.b);
             a = edge.b;
             let Some(next) = pending.pop() else { break };
             edge = next;
@@ -132,24 +132,38 @@ pub(super) struct Star<'a> {
     free: &'a mut Vec<u32>,
     first: u32,
     last: u32,
+    /// The way to the site that comes next, and on which side of it the rim is.
+    onward: Seen,
+    side: f64,
+    /// The triangle of the star that has this way.
+    start: u32,
 }
 
 impl<'a> Star<'a> {
-    /// The star of `site`, whose cavity begins with the triangle `found`.
+    /// The star of `site`, whose cavity begins with the triangle `found`; `next` as seen from the site.
     #[inline(always)]
-    pub(super) fn new(site: u32, free: &'a mut Vec<u32>, found: u32) -> Star<'a> {
-        free.push(found);
+    pub(super) fn new(site: u32, free: &'a mut Vec<u32>, found: &Found, next: Seen) -> Star<'a> {
+        free.push(found.triangle);
         // Before the first triangle there is none to link to; a slot that is free bears what is written into it.
-        Star { site, free, first: GHOST, last: found }
+        Star {
+            site,
+            free,
+            first: GHOST,
+            last: found.triangle,
+            onward: next,
+            side: minor(next, found.d),
+            start: GHOST,
+        }
     }
 
-    /// Links the last triangle with the first and returns the last.
+    /// Links the last triangle with the first; returns the triangle of the star where the way to the next site begins.
+    /// Rounding may name a wrong one; the walk does not mind.
     #[inline(always)]
     pub(super) fn close(self, triangles: &mut [Simplex<3>]) -> u32 {
         debug_assert!(self.free.is_empty(), "the star takes all slots");
         triangles[self.first as usize].neighbors[2] = code(self.last, 1);
         triangles[self.last as usize].neighbors[1] = code(self.first, 2);
-        self.last
+        if self.start == GHOST { self.last } else { self.start }
     }
 }
 
@@ -160,7 +174,7 @@ impl Sink for Star<'_> {
     }
 
     #[inline(always)]
-    fn rim(&mut self, triangles: &mut [Simplex<3>], behind: u32, from: u32, to: u32) {
+    fn rim(&mut self, triangles: &mut [Simplex<3>], behind: u32, [from, to]: [u32; 2], end: Seen) {
         let slot = self.free.pop().expect("a cavity of k triangles has k + 2 edges");
         let (outer, facet) = decode(behind);
         triangles[outer as usize].neighbors[facet] = code(slot, 0);
@@ -169,6 +183,9 @@ impl Sink for Star<'_> {
         triangles[self.last as usize].neighbors[1] = code(slot, 2);
         self.first = if self.first == GHOST { slot } else { self.first };
         self.last = slot;
+        let side = minor(self.onward, end);
+        self.start = if self.side <= 0.0 && side >= 0.0 { slot } else { self.start };
+        self.side = side;
     }
 }
 
@@ -184,5 +201,5 @@ impl Sink for Collect<'_> {
     }
 
     #[inline(always)]
-    fn rim(&mut self, _: &mut [Simplex<3>], _: u32, _: u32, _: u32) {}
+    fn rim(&mut self, _: &mut [Simplex<3>], _: u32, _: [u32; 2], _: Seen) {}
 }
