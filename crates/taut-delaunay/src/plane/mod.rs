@@ -77,11 +77,8 @@ impl Kernel<2, 3> for Mesh {
 
     fn start(&mut self, [a, b, c]: [u32; 3]) {
         let [p, q, r] = [a, b, c].map(|v| self.sites[v as usize]);
-        let (b, c) = if orient_exact(p, q, r, &mut self.exact).is_positive() {
-            (b, c)
-        } else {
-            (c, b)
-        };
+        let (b, c) =
+            if orient_exact(p, q, r, &mut self.exact).is_positive() { (b, c) } else { (c, b) };
         // Ghost i lies across the edge opposite vertex i; its ghost vertex has place 0, as has the hull edge.
         let ghost = |from: u32, to: u32, inside: u32, next: u32, last: u32| Simplex {
             vertices: [GHOST, to, from],
@@ -101,8 +98,8 @@ impl Kernel<2, 3> for Mesh {
         if self.triangles.len() + 2 * sites.len() > TRIANGLES_MAX {
             return Err(TooMany);
         }
-        for &site in sites {
-            self.insert_one(site);
+        for (place, &site) in sites.iter().enumerate() {
+            self.insert_one(site, *sites.get(place + 1).unwrap_or(&site));
         }
         self.counters.insertions += sites.len() as u64;
         Ok(())
@@ -153,17 +150,25 @@ impl Kernel<2, 3> for Mesh {
 
 impl Mesh {
     #[inline(always)]
-    fn insert_one(&mut self, site: u32) {
+    fn insert_one(&mut self, site: u32, next: u32) {
         // Every insertion adds one site, hence two triangles to the sphere. The star takes these slots and those of
         // the cavity as they become free: k edges of the rim are out when at least k − 2 triangles are in.
-        let next = self.triangles.len() as u32;
+        let slot = self.triangles.len() as u32;
         self.triangles.extend([DEAD_SLOT; 2]);
-        self.free.extend([next + 1, next]);
+        self.free.extend([slot + 1, slot]);
         let view = View::new(&self.sites, self.sites[site as usize], self.settings.filtered);
         let triangles = &mut self.triangles[..];
         let found = walk(&view, triangles, self.last, &mut self.exact, &mut self.counters);
-        let mut star = Star::new(site, &mut self.free, found.triangle);
-        dig(&view, triangles, found, &mut self.pending, &mut self.exact, &mut self.counters, &mut star);
+        let mut star = Star::new(site, &mut self.free, &found, view.see(next));
+        dig(
+            &view,
+            triangles,
+            found,
+            &mut self.pending,
+            &mut self.exact,
+            &mut self.counters,
+            &mut star,
+        );
         self.last = star.close(triangles);
     }
 }

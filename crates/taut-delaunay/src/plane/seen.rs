@@ -47,7 +47,8 @@ impl<'a> View<'a> {
     /// `sites` ends with the place of the ghost vertex. Without filters every error bound is infinite or not a number.
     #[inline(always)]
     pub(super) fn new(sites: &'a [[f64; 2]], q: [f64; 2], filtered: bool) -> View<'a> {
-        let (orient, in_circle) = if filtered { (ORIENT, IN_CIRCLE) } else { (f64::INFINITY, f64::INFINITY) };
+        let (orient, in_circle) =
+            if filtered { (ORIENT, IN_CIRCLE) } else { (f64::INFINITY, f64::INFINITY) };
         View { sites, q, orient, in_circle }
     }
 
@@ -59,40 +60,30 @@ impl<'a> View<'a> {
         Seen { x, y, lift: x * x + y * y }
     }
 
-    /// The sign of [ab] if it is beyond doubt, and zero if it is not.
+    /// [ab] if its sign is beyond doubt, and zero if it is not.
     #[inline(always)]
-    pub(super) fn side(&self, a: Seen, b: Seen, minor: f64) -> Sign {
+    pub(super) fn side(&self, a: Seen, b: Seen, minor: f64) -> f64 {
         let error = self.orient * (a.lift + b.lift) + TINY;
-        if minor > error {
-            Sign::Positive
-        } else if minor < -error {
-            Sign::Negative
-        } else {
-            Sign::Zero
-        }
+        if minor.abs() > error { minor } else { 0.0 }
     }
 
     /// The sign of [ab] for two sites.
     pub(super) fn side_exact(&self, a: u32, b: u32, exact: &mut Exact) -> Sign {
         let (p, r) = (self.see(a), self.see(b));
-        match self.side(p, r, minor(p, r)) {
-            Sign::Zero => orient_exact(self.sites[a as usize], self.sites[b as usize], self.q, exact),
-            sure => sure,
+        let side = self.side(p, r, minor(p, r));
+        if side == 0.0 {
+            orient_exact(self.sites[a as usize], self.sites[b as usize], self.q, exact)
+        } else {
+            Sign::from(side)
         }
     }
 
-    /// The sign of D for the triangle (d, b, a) if it is beyond doubt, and zero if it is not.
+    /// D for the triangle (d, b, a) if its sign is beyond doubt, and zero if it is not.
     #[inline(always)]
-    pub(super) fn in_circle(&self, [a, b, d]: [Seen; 3], [ab, ad, db]: [f64; 3]) -> Sign {
+    pub(super) fn in_circle(&self, [a, b, d]: [Seen; 3], [ab, ad, db]: [f64; 3]) -> f64 {
         let determinant = a.lift * db + b.lift * ad - d.lift * ab;
         let error = self.in_circle * (a.lift * b.lift + d.lift * (a.lift + b.lift)) + TINY;
-        if determinant > error {
-            Sign::Positive
-        } else if determinant < -error {
-            Sign::Negative
-        } else {
-            Sign::Zero
-        }
+        if determinant.abs() > error { determinant } else { 0.0 }
     }
 
     /// Whether the perturbed circumcircle of a counter-clockwise triangle holds q.

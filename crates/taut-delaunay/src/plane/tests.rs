@@ -14,7 +14,10 @@ fn check(m: &Mesh) {
                 let [a, b, c] = t.vertices.map(|v| m.sites[v as usize]);
                 assert!(orient(a, b, c).is_positive(), "flat {i} {t:?}");
                 if u.vertices[g] != GHOST {
-                    assert!(!conflict(a, b, c, m.sites[u.vertices[g] as usize]), "not Delaunay {i} {t:?}");
+                    assert!(
+                        !conflict(a, b, c, m.sites[u.vertices[g] as usize]),
+                        "not Delaunay {i} {t:?}"
+                    );
                 }
             }
         }
@@ -24,13 +27,15 @@ fn check(m: &Mesh) {
 #[test]
 fn random() {
     let mut x = 1u64;
-    let mut r = || { x = x.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407); (x >> 11) as f64 / (1u64 << 53) as f64 };
+    let mut r = || {
+        x = x.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (x >> 11) as f64 / (1u64 << 53) as f64
+    };
     let p: Vec<_> = (0..100).map(|_| [r(), r()]).collect();
     let mut m = Mesh::new(&p, Settings { integral: false, filtered: true, vectors: false });
     m.start([0, 1, 2]);
     check(&m);
     for i in 3..100 {
-        eprintln!("{i}");
         m.insert(&[i]).unwrap();
         check(&m);
     }

@@ -6,7 +6,7 @@
 //! triangle that holds q, on its border perhaps, or in a ghost whose hull edge has q strictly outside. Either is in
 //! conflict with q.
 
-use taut_predicates::{Exact, Sign};
+use taut_predicates::Exact;
 
 use super::seen::{Seen, View, minor};
 use crate::kernel::Counters;
@@ -77,12 +77,15 @@ pub(super) const LAST: [usize; 4] = [2, 0, 1, 0];
 
 /// Whether q lies strictly to the right of the directed edge from u to v. It does of no edge at the ghost vertex.
 #[inline(always)]
-fn strictly_right(view: &View<'_>, u: (u32, Seen), v: (u32, Seen), uv: f64, exact: &mut Exact) -> bool {
-    match view.side(u.1, v.1, uv) {
-        Sign::Positive => false,
-        Sign::Negative => true,
-        Sign::Zero => strictly_right_exact(view, u.0, v.0, exact),
-    }
+fn strictly_right(
+    view: &View<'_>,
+    u: (u32, Seen),
+    v: (u32, Seen),
+    uv: f64,
+    exact: &mut Exact,
+) -> bool {
+    let side = view.side(u.1, v.1, uv);
+    side < 0.0 || (side == 0.0 && strictly_right_exact(view, u.0, v.0, exact))
 }
 
 #[cold]
