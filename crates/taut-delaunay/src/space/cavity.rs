@@ -130,8 +130,9 @@ impl Cavity {
         let mut boundary = 0;
         for &t in &self.inside {
             let Simplex { vertices, neighbors } = simplices[t as usize];
-            for (facet, outside) in FACETS.iter().zip(neighbors) {
-                list[boundary] = Facet { vertices: facet.map(|i| vertices[i]), outside };
+            for i in 0..4 {
+                let ([a, b, c], outside) = (FACETS[i], neighbors[i]);
+                list[boundary] = Facet { vertices: [vertices[a], vertices[b], vertices[c]], outside };
                 boundary += usize::from(marks[(outside >> 2) as usize] == SEEN);
             }
         }

@@ -11,6 +11,7 @@
 use crate::simplex::{Simplex, code, decode};
 
 use super::cavity::Facet;
+use super::row;
 
 /// Largest number of vertices on a boundary for which the table of edges is used.
 const TABLE_MAX: usize = 512;
@@ -75,19 +76,14 @@ impl Star {
         self.ring.clear();
         self.corners.clear();
         for (facet, &slot) in facets.iter().zip(slots) {
-            let corners = facet.vertices.map(|vertex| {
-                let known = &mut self.local[vertex.wrapping_add(1) as usize];
-                if self.ring.get(usize::from(*known)) != Some(&vertex) {
-                    *known = self.ring.len() as u16;
-                    self.ring.push(vertex);
-                }
-                *known
-            });
-            let [a, b, c] = corners;
+            let [a, b, c] = facet.vertices;
+            let a = number(&mut self.local, &mut self.ring, a);
+            let b = number(&mut self.local, &mut self.ring, b);
+            let c = number(&mut self.local, &mut self.ring, c);
             table[at(a, b)] = code(slot, 3);
             table[at(b, c)] = code(slot, 1);
             table[at(c, a)] = code(slot, 2);
-            self.corners.push(corners);
+            self.corners.push([a, b, c]);
         }
         debug_assert_eq!(self.ring.len(), vertices, "the boundary of a cavity is a sphere");
         for ((facet, &slot), &[a, b, c]) in facets.iter().zip(slots).zip(&self.corners) {
@@ -132,6 +128,17 @@ impl Star {
             }
         }
     }
+}
+
+/// The local number of a vertex, a new one if need be.
+#[inline(always)]
+fn number(local: &mut [u16], ring: &mut Vec<u32>, vertex: u32) -> u16 {
+    let known = &mut local[row(vertex)];
+    if ring.get(usize::from(*known)) != Some(&vertex) {
+        *known = ring.len() as u16;
+        ring.push(vertex);
+    }
+    *known
 }
 
 /// Writes a simplex and tells the one outside.

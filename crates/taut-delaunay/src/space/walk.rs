@@ -10,8 +10,8 @@ use crate::kernel::Counters;
 use crate::simplex::{Simplex, decode};
 
 use super::cavity::{FACETS, ghost_place};
-use super::signs::{Judge, Signs};
-use super::{Site, row};
+use super::Site;
+use super::signs::{Judge, Signs, rows};
 
 /// A simplex in conflict with q, reached from any live one.
 #[inline(always)]
@@ -37,7 +37,7 @@ pub(super) fn walk<S: Signs>(
             return t;
         }
         counters.orientations += u64::from(u32::count_ones(unknown));
-        let corners = simplex.vertices.map(|v| &sites[row(v)]);
+        let corners = rows(sites, simplex);
         let (beyond, open) = signs.beyond(corners, q);
         let mut beyond = beyond & unknown;
         if beyond == 0 {

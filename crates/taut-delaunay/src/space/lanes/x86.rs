@@ -8,8 +8,8 @@ use taut_predicates::{Fused, Sign};
 
 use crate::kernel::TooMany;
 use crate::simplex::Simplex;
-use crate::space::signs::{Lane, Scalar, Signs, in_sphere, orientation};
-use crate::space::{Mesh, Site, row};
+use crate::space::signs::{Lane, Scalar, Signs, in_sphere, orientation, rows};
+use crate::space::{Mesh, Site};
 
 use super::Level;
 
@@ -98,9 +98,16 @@ struct F64x4(__m256d);
 #[derive(Clone, Copy)]
 struct F64x8(__m512d);
 
+/// |x|, which AVX2 has no instruction for.
+#[inline]
+#[target_feature(enable = "avx2")]
+fn magnitude4(x: __m256d) -> __m256d {
+    _mm256_andnot_pd(_mm256_set1_pd(-0.0), x)
+}
+
 /// The operators and [`Lane`] of a vector from the intrinsics that do them.
 macro_rules! lane {
-    ($name:ident, $set1:ident, $add:ident, $sub:ident, $mul:ident, $fma:ident, $fms:ident, $max:ident, $abs:expr) => {
+    ($name:ident, $set1:ident, $add:ident, $sub:ident, $mul:ident, $fma:ident, $fms:ident, $max:ident, $abs:ident) => {
         // SAFETY (all blocks of this macro): the vectors were made from a proof that the processor has the features,
         // and `splat` is called by the filters alone, which hold other such vectors.
         impl Add for $name {
@@ -166,7 +173,7 @@ lane!(
     _mm256_fmadd_pd,
     _mm256_fmsub_pd,
     _mm256_max_pd,
-    |x| _mm256_andnot_pd(_mm256_set1_pd(-0.0), x)
+    magnitude4
 );
 lane!(
     F64x8,
@@ -180,57 +187,53 @@ lane!(
     _mm512_abs_pd
 );
 
-/// Rows of the vertices of N simplices.
-#[inline(always)]
-fn rows<'a, const N: usize>(sites: &'a [Site], simplices: &[Simplex<4>], group: &[u32]) -> [[&'a Site; 4]; N] {
-    std::array::from_fn(|i| simplices[group[i] as usize].vertices.map(|v| &sites[row(v)]))
-}
-
 /// x, y and z of four sites.
 #[inline]
 #[target_feature(enable = "avx2")]
-fn columns4(sites: [&Site; 4]) -> [__m256d; 3] {
+fn columns4(a: &Site, b: &Site, c: &Site, d: &Site, q: &Site) -> [F64x4; 3] {
     // SAFETY: a site is four aligned numbers.
-    let [a, b, c, d] = sites.map(|site| unsafe { _mm256_load_pd(site.0.as_ptr()) });
+    let (a, b) = unsafe { (_mm256_load_pd(a.0.as_ptr()), _mm256_load_pd(b.0.as_ptr())) };
+    // SAFETY: as above.
+    let (c, d) = unsafe { (_mm256_load_pd(c.0.as_ptr()), _mm256_load_pd(d.0.as_ptr())) };
     let (xz_ab, y_ab) = (_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
     let (xz_cd, y_cd) = (_mm256_unpacklo_pd(c, d), _mm256_unpackhi_pd(c, d));
+    let x = _mm256_permute2f128_pd(xz_ab, xz_cd, 0x20);
+    let y = _mm256_permute2f128_pd(y_ab, y_cd, 0x20);
+    let z = _mm256_permute2f128_pd(xz_ab, xz_cd, 0x31);
     [
-        _mm256_permute2f128_pd(xz_ab, xz_cd, 0x20),
-        _mm256_permute2f128_pd(y_ab, y_cd, 0x20),
-        _mm256_permute2f128_pd(xz_ab, xz_cd, 0x31),
+        F64x4(_mm256_sub_pd(x, _mm256_set1_pd(q.0[0]))),
+        F64x4(_mm256_sub_pd(y, _mm256_set1_pd(q.0[1]))),
+        F64x4(_mm256_sub_pd(z, _mm256_set1_pd(q.0[2]))),
     ]
 }
 
-/// x, y and z of eight sites.
+/// Two sites in one vector.
 #[inline]
 #[target_feature(enable = "avx512f,avx2")]
-fn columns8(sites: [&Site; 8]) -> [__m512d; 3] {
-    let pair = |low: &Site, high: &Site| {
-        // SAFETY: a site is four aligned numbers.
-        let (low, high) = unsafe { (_mm256_load_pd(low.0.as_ptr()), _mm256_load_pd(high.0.as_ptr())) };
-        _mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1)
-    };
-    let [a, b, c, d, e, f, g, h] = sites;
-    let (ac, bd, eg, fh) = (pair(a, c), pair(b, d), pair(e, g), pair(f, h));
-    let (xz_low, y_low) = (_mm512_unpacklo_pd(ac, bd), _mm512_unpackhi_pd(ac, bd));
-    let (xz_high, y_high) = (_mm512_unpacklo_pd(eg, fh), _mm512_unpackhi_pd(eg, fh));
-    [
-        _mm512_shuffle_f64x2(xz_low, xz_high, 0b10_00_10_00),
-        _mm512_shuffle_f64x2(y_low, y_high, 0b10_00_10_00),
-        _mm512_shuffle_f64x2(xz_low, xz_high, 0b11_01_11_01),
-    ]
+fn pair(low: &Site, high: &Site) -> __m512d {
+    // SAFETY: a site is four aligned numbers.
+    let (low, high) = unsafe { (_mm256_load_pd(low.0.as_ptr()), _mm256_load_pd(high.0.as_ptr())) };
+    _mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1)
 }
 
+/// x, y and z of vertex J of eight simplices, less q.
 #[inline]
-#[target_feature(enable = "avx2,fma")]
-fn conflicts4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
-    let rows = rows::<4>(sites, simplices, group);
-    let corners = [0, 1, 2, 3].map(|j| {
-        let columns = columns4(rows.map(|row| row[j]));
-        [0, 1, 2].map(|i| F64x4(_mm256_sub_pd(columns[i], _mm256_set1_pd(q.0[i]))))
-    });
-    let (det, bound) = in_sphere(corners);
-    masks4(det, bound)
+#[target_feature(enable = "avx512f,avx2")]
+fn columns8<const J: usize>(rows: &[[&Site; 4]; 8], q: &Site) -> [F64x8; 3] {
+    let ac = pair(rows[0][J], rows[2][J]);
+    let bd = pair(rows[1][J], rows[3][J]);
+    let eg = pair(rows[4][J], rows[6][J]);
+    let fh = pair(rows[5][J], rows[7][J]);
+    let (xz_low, y_low) = (_mm512_unpacklo_pd(ac, bd), _mm512_unpackhi_pd(ac, bd));
+    let (xz_high, y_high) = (_mm512_unpacklo_pd(eg, fh), _mm512_unpackhi_pd(eg, fh));
+    let x = _mm512_shuffle_f64x2(xz_low, xz_high, 0b10_00_10_00);
+    let y = _mm512_shuffle_f64x2(y_low, y_high, 0b10_00_10_00);
+    let z = _mm512_shuffle_f64x2(xz_low, xz_high, 0b11_01_11_01);
+    [
+        F64x8(_mm512_sub_pd(x, _mm512_set1_pd(q.0[0]))),
+        F64x8(_mm512_sub_pd(y, _mm512_set1_pd(q.0[1]))),
+        F64x8(_mm512_sub_pd(z, _mm512_set1_pd(q.0[2]))),
+    ]
 }
 
 /// Where the determinant is certainly positive, and where it is open.
@@ -244,14 +247,35 @@ fn masks4(F64x4(det): F64x4, F64x4(bound): F64x4) -> (u32, u32) {
 }
 
 #[inline]
+#[target_feature(enable = "avx2,fma")]
+fn conflicts4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+    let s = rows(sites, &simplices[group[0] as usize]);
+    let t = rows(sites, &simplices[group[1] as usize]);
+    let u = rows(sites, &simplices[group[2] as usize]);
+    let v = rows(sites, &simplices[group[3] as usize]);
+    let a = columns4(s[0], t[0], u[0], v[0], q);
+    let b = columns4(s[1], t[1], u[1], v[1], q);
+    let c = columns4(s[2], t[2], u[2], v[2], q);
+    let d = columns4(s[3], t[3], u[3], v[3], q);
+    let (det, bound) = in_sphere([a, b, c, d]);
+    masks4(det, bound)
+}
+
+#[inline]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
 fn conflicts8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
-    let rows = rows::<8>(sites, simplices, group);
-    let corners = [0, 1, 2, 3].map(|j| {
-        let columns = columns8(rows.map(|row| row[j]));
-        [0, 1, 2].map(|i| F64x8(_mm512_sub_pd(columns[i], _mm512_set1_pd(q.0[i]))))
-    });
-    let (F64x8(det), F64x8(bound)) = in_sphere(corners);
+    let rows = [
+        rows(sites, &simplices[group[0] as usize]),
+        rows(sites, &simplices[group[1] as usize]),
+        rows(sites, &simplices[group[2] as usize]),
+        rows(sites, &simplices[group[3] as usize]),
+        rows(sites, &simplices[group[4] as usize]),
+        rows(sites, &simplices[group[5] as usize]),
+        rows(sites, &simplices[group[6] as usize]),
+        rows(sites, &simplices[group[7] as usize]),
+    ];
+    let (F64x8(det), F64x8(bound)) =
+        in_sphere([columns8::<0>(&rows, q), columns8::<1>(&rows, q), columns8::<2>(&rows, q), columns8::<3>(&rows, q)]);
     let positive = u32::from(_mm512_cmp_pd_mask(det, bound, _CMP_GT_OQ));
     let least = _mm512_sub_pd(_mm512_setzero_pd(), bound);
     let negative = u32::from(_mm512_cmp_pd_mask(det, least, _CMP_LT_OQ));
@@ -261,13 +285,27 @@ fn conflicts8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site)
 /// The four orientations of q with the facets of a simplex, lane i for the facet opposite vertex i.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-fn beyond4(corners: [&Site; 4], q: &Site) -> (u32, u32) {
-    let columns = columns4(corners);
-    let p = [0, 1, 2].map(|i| _mm256_sub_pd(columns[i], _mm256_set1_pd(q.0[i])));
+fn beyond4([a, b, c, d]: [&Site; 4], q: &Site) -> (u32, u32) {
     // The columns of `FACETS`: 1 0 3 2, then 2 3 0 1, then 3 2 1 0.
-    let a = p.map(|x| F64x4(_mm256_permute4x64_pd(x, 0b10_11_00_01)));
-    let b = p.map(|x| F64x4(_mm256_permute4x64_pd(x, 0b01_00_11_10)));
-    let c = p.map(|x| F64x4(_mm256_permute4x64_pd(x, 0b00_01_10_11)));
+    const A: i32 = 0b10_11_00_01;
+    const B: i32 = 0b01_00_11_10;
+    const C: i32 = 0b00_01_10_11;
+    let [F64x4(x), F64x4(y), F64x4(z)] = columns4(a, b, c, d, q);
+    let a = [
+        F64x4(_mm256_permute4x64_pd(x, A)),
+        F64x4(_mm256_permute4x64_pd(y, A)),
+        F64x4(_mm256_permute4x64_pd(z, A)),
+    ];
+    let b = [
+        F64x4(_mm256_permute4x64_pd(x, B)),
+        F64x4(_mm256_permute4x64_pd(y, B)),
+        F64x4(_mm256_permute4x64_pd(z, B)),
+    ];
+    let c = [
+        F64x4(_mm256_permute4x64_pd(x, C)),
+        F64x4(_mm256_permute4x64_pd(y, C)),
+        F64x4(_mm256_permute4x64_pd(z, C)),
+    ];
     let (det, bound) = orientation([a, b, c]);
     let (positive, open) = masks4(det, bound);
     (!(positive | open) & 0b1111, open)
