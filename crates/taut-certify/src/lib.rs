@@ -43,6 +43,7 @@ pub use json::{AnySolution, JsonError, SCHEMA};
 pub use solution::{Answer, PassBounds, Solution, Stop, Trace};
 pub use triangulation::{
     Fingerprint, FingerprintFormError, MeshViolation, NO_NEIGHBOR, SiteHash, Triangulation,
-    TriangulationCertificate, TriangulationCounts, TriangulationVerdict, fingerprint,
+    TriangulationCertificate, TriangulationCounts, TriangulationVerdict, check_simplices,
+    fingerprint,
 };
 pub use verdict::{AnyVerdict, CheckError, Verdict, Violation};

@@ -10,6 +10,7 @@ use taut_points::{Monitor, PointSource, PointsHash};
 
 use crate::{Answer, CheckError};
 
+pub use check::check_simplices;
 pub use fingerprint::{Fingerprint, FingerprintFormError, SiteHash, fingerprint};
 pub use violation::MeshViolation;
 
