@@ -55,7 +55,7 @@ impl Star {
     pub(super) fn fill(&mut self, simplices: &mut [Simplex<4>], facets: &[Facet], slots: &[u32], q: u32) {
         // Euler: F = 2R − 4 on a sphere of triangles.
         let vertices = facets.len() / 2 + 2;
-        if vertices <= TABLE_MAX {
+        if vertices <= 128 {
             self.fill_by_table(simplices, facets, slots, q, vertices);
         } else {
             self.fill_by_hash(simplices, facets, slots, q);
@@ -71,32 +71,33 @@ impl Star {
         q: u32,
         vertices: usize,
     ) {
-        let shift = vertices.next_power_of_two().max(64).trailing_zeros();
-        let size = 1 << (2 * shift);
-        if self.table.len() < size {
-            self.table.resize(size, 0);
+        let stride = 3 * facets.len();
+        if self.table.len() < stride * stride {
+            self.table.resize(stride * stride, 0);
         }
         if self.corners.len() < facets.len() {
             self.corners.resize(facets.len(), [0; 3]);
         }
-        let table = &mut self.table[..size];
+        let table = &mut self.table[..stride * stride];
         let corners = &mut self.corners[..facets.len()];
         let local = &mut self.local[..];
-        let ring = &mut *self.ring;
         let slots = &slots[..facets.len()];
-        let at = |from: u16, to: u16| (usize::from(from) << shift) + usize::from(to);
-        let mut count = 0;
+        let at = |from: u16, to: u16| usize::from(from) * stride + usize::from(to);
+        let mut name = 0;
+        for facet in facets {
+            for vertex in facet.vertices {
+                local[row(vertex)] = name;
+                name += 1;
+            }
+        }
         for ((facet, &slot), corners) in facets.iter().zip(slots).zip(&mut *corners) {
             let [a, b, c] = facet.vertices;
-            let a = number(local, ring, &mut count, a);
-            let b = number(local, ring, &mut count, b);
-            let c = number(local, ring, &mut count, c);
+            let (a, b, c) = (local[row(a)], local[row(b)], local[row(c)]);
             table[at(a, b)] = code(slot, 3);
             table[at(b, c)] = code(slot, 1);
             table[at(c, a)] = code(slot, 2);
             *corners = [a, b, c];
         }
-        debug_assert_eq!(usize::from(count), vertices, "the boundary of a cavity is a sphere");
         for ((facet, &slot), &[a, b, c]) in facets.iter().zip(slots).zip(&*corners) {
             let neighbors = [facet.outside, table[at(c, b)], table[at(a, c)], table[at(b, a)]];
             place(simplices, facet, slot, q, neighbors);
