@@ -101,12 +101,9 @@ impl Cavity {
             let asked = u32::MAX >> (32 - (seen - tested).min(S::WIDTH));
             tested = (tested + S::WIDTH).min(seen);
             let (conflicts, open) = signs.conflicts(sites, simplices, group, q);
-            let (mut conflicts, mut open) = (conflicts & asked, open & asked);
-            while open != 0 {
-                let lane = open.trailing_zeros();
-                open &= open - 1;
-                let t = group[lane as usize];
-                conflicts |= u32::from(judge.conflict(signs, sites, simplices, t, q)) << lane;
+            let (mut conflicts, open) = (conflicts & asked, open & asked);
+            if open != 0 {
+                conflicts |= judge.conflicts(signs, sites, simplices, group, open, q);
             }
             if self.inside.len() < inside + S::WIDTH {
                 self.inside.resize(2 * inside + S::WIDTH, 0);
