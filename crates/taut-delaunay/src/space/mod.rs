@@ -18,6 +18,7 @@
 
 mod cavity;
 mod lanes;
+mod pairs;
 mod signs;
 mod star;
 #[cfg(test)]

@@ -20,12 +20,11 @@ const TABLE_MAX: usize = 512;
 const EMPTY: u32 = u32::MAX;
 
 /// What it takes to number and to pair, kept between insertions.
-#[derive(Default)]
 pub(super) struct Star {
     /// For each site, after the vertex at infinity: its local number in the last boundary it was on.
     local: Vec<u16>,
     /// The vertices of this boundary by local number.
-    ring: Vec<u32>,
+    ring: Box<[u32; TABLE_MAX]>,
     /// Local numbers of the vertices of each facet.
     corners: Vec<[u16; 3]>,
     /// Codes of the facets of new simplices, at row · stride + column of the directed edge.
@@ -37,7 +36,13 @@ pub(super) struct Star {
 impl Star {
     /// For so many sites.
     pub(super) fn new(sites: usize) -> Self {
-        Self { local: vec![0; sites + 1], ..Self::default() }
+        Self {
+            local: vec![0; sites + 1],
+            ring: Box::new([0; TABLE_MAX]),
+            corners: Vec::new(),
+            table: Vec::new(),
+            edges: Vec::new(),
+        }
     }
 
     /// Room for one site more.
@@ -50,7 +55,7 @@ impl Star {
     pub(super) fn fill(&mut self, simplices: &mut [Simplex<4>], facets: &[Facet], slots: &[u32], q: u32) {
         // Euler: F = 2R − 4 on a sphere of triangles.
         let vertices = facets.len() / 2 + 2;
-        if vertices <= TABLE_MAX {
+        if vertices <= 128 {
             self.fill_by_table(simplices, facets, slots, q, vertices);
         } else {
             self.fill_by_hash(simplices, facets, slots, q);
@@ -66,27 +71,34 @@ impl Star {
         q: u32,
         vertices: usize,
     ) {
-        let shift = vertices.next_power_of_two().max(64).trailing_zeros();
-        let size = 1 << (2 * shift);
-        if self.table.len() < size {
-            self.table.resize(size, 0);
+        let stride = 3 * facets.len();
+        if self.table.len() < stride * stride {
+            self.table.resize(stride * stride, 0);
         }
-        let table = &mut self.table[..size];
-        let at = |from: u16, to: u16| (usize::from(from) << shift) + usize::from(to);
-        self.ring.clear();
-        self.corners.clear();
-        for (facet, &slot) in facets.iter().zip(slots) {
+        if self.corners.len() < facets.len() {
+            self.corners.resize(facets.len(), [0; 3]);
+        }
+        let table = &mut self.table[..stride * stride];
+        let corners = &mut self.corners[..facets.len()];
+        let local = &mut self.local[..];
+        let slots = &slots[..facets.len()];
+        let at = |from: u16, to: u16| usize::from(from) * stride + usize::from(to);
+        let mut name = 0;
+        for facet in facets {
+            for vertex in facet.vertices {
+                local[row(vertex)] = name;
+                name += 1;
+            }
+        }
+        for ((facet, &slot), corners) in facets.iter().zip(slots).zip(&mut *corners) {
             let [a, b, c] = facet.vertices;
-            let a = number(&mut self.local, &mut self.ring, a);
-            let b = number(&mut self.local, &mut self.ring, b);
-            let c = number(&mut self.local, &mut self.ring, c);
+            let (a, b, c) = (local[row(a)], local[row(b)], local[row(c)]);
             table[at(a, b)] = code(slot, 3);
             table[at(b, c)] = code(slot, 1);
             table[at(c, a)] = code(slot, 2);
-            self.corners.push([a, b, c]);
+            *corners = [a, b, c];
         }
-        debug_assert_eq!(self.ring.len(), vertices, "the boundary of a cavity is a sphere");
-        for ((facet, &slot), &[a, b, c]) in facets.iter().zip(slots).zip(&self.corners) {
+        for ((facet, &slot), &[a, b, c]) in facets.iter().zip(slots).zip(&*corners) {
             let neighbors = [facet.outside, table[at(c, b)], table[at(a, c)], table[at(b, a)]];
             place(simplices, facet, slot, q, neighbors);
         }
@@ -132,11 +144,12 @@ impl Star {
 
 /// The local number of a vertex, a new one if need be.
 #[inline(always)]
-fn number(local: &mut [u16], ring: &mut Vec<u32>, vertex: u32) -> u16 {
+fn number(local: &mut [u16], ring: &mut [u32; TABLE_MAX], count: &mut u16, vertex: u32) -> u16 {
     let known = &mut local[row(vertex)];
-    if ring.get(usize::from(*known)) != Some(&vertex) {
-        *known = ring.len() as u16;
-        ring.push(vertex);
+    if *known >= *count || ring[usize::from(*known) % TABLE_MAX] != vertex {
+        *known = *count;
+        ring[usize::from(*count) % TABLE_MAX] = vertex;
+        *count += 1;
     }
     *known
 }
