@@ -297,7 +297,7 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
 }
 
 /// The simplices at vertex `v`, one of which is `t`.
-fn star_of<const V: usize>(simplices: &[Simplex<V>], t: u32, v: u32, star: &mut Vec<u32>) {
+pub(crate) fn star_of<const V: usize>(simplices: &[Simplex<V>], t: u32, v: u32, star: &mut Vec<u32>) {
     star.clear();
     star.push(t);
     let mut seen = HashSet::from([t]);

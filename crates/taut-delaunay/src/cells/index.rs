@@ -130,6 +130,29 @@ impl<const D: usize> Index<D> {
             }
         }
     }
+
+    /// Visits leaves from about the nearest to `q` to the farthest, as long as `open` does not rule them out.
+    pub(crate) fn visit_nearest(
+        &self,
+        q: [f64; D],
+        open: impl Fn(&Self, Node) -> bool,
+        mut leaf: impl FnMut(Node),
+    ) {
+        let mut stack = vec![self.root()];
+        while let Some(node) = stack.pop() {
+            if !open(self, node) {
+                continue;
+            }
+            if node.level == 0 {
+                leaf(node);
+                continue;
+            }
+            let first = stack.len();
+            stack.extend(self.children(node));
+            let distance = |node: &Node| self.bounds(*node).distance_squared_to(q);
+            stack[first..].sort_by(|a, b| distance(b).total_cmp(&distance(a)));
+        }
+    }
 }
 
 #[cfg(test)]
