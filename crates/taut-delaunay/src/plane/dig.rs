@@ -10,7 +10,7 @@
 //! edge with the finite triangle behind the edge in conflict, which is to say between its ends. Its own sign is
 //! filtered as well, or every site near the hull would be counted as an exact call.
 
-use taut_predicates::{Exact, Sign};
+use taut_predicates::{Exact, MulAdd, Separate, Sign};
 
 use super::seen::{Seen, View, minor};
 use super::walk::{Found, LAST, NEXT};
@@ -41,7 +41,7 @@ pub(super) trait Sink {
 }
 
 #[inline(always)]
-pub(super) fn dig<S: Sink>(
+pub(super) fn dig<M: MulAdd, S: Sink>(
     view: &View<'_>,
     triangles: &mut [Simplex<3>],
     found: Found,
@@ -52,10 +52,25 @@ pub(super) fn dig<S: Sink>(
 ) {
     let first = triangles[found.triangle as usize].neighbors;
     let (mut tests, mut entered) = (3, 0);
-    pending.push(look(view, triangles, first[NEXT[found.facet]], [found.a, found.d], found.ad, exact));
-    pending.push(look(view, triangles, first[found.facet], [found.b, found.a], found.ba, exact));
+    pending.push(look::<M>(
+        view,
+        triangles,
+        first[NEXT[found.facet]],
+        [found.a, found.d],
+        found.ad,
+        exact,
+    ));
+    pending.push(look::<M>(
+        view,
+        triangles,
+        first[found.facet],
+        [found.b, found.a],
+        found.ba,
+        exact,
+    ));
     let mut a = found.d;
-    let mut edge = look(view, triangles, first[LAST[found.facet]], [found.d, found.b], found.db, exact);
+    let mut edge =
+        look::<M>(view, triangles, first[LAST[found.facet]], [found.d, found.b], found.db, exact);
     loop {
         let (triangle, facet) = decode(edge.behind);
         let t = &triangles[triangle as usize];
@@ -63,8 +78,8 @@ pub(super) fn dig<S: Sink>(
             tests += 2;
             entered += 1;
             let (left, right) = (t.neighbors[NEXT[facet]], t.neighbors[LAST[facet]]);
-            pending.push(look(view, triangles, right, [edge.d, edge.b], edge.db, exact));
-            edge = look(view, triangles, left, [a, edge.d], edge.ad, exact);
+            pending.push(look::<M>(view, triangles, right, [edge.d, edge.b], edge.db, exact));
+            edge = look::<M>(view, triangles, left, [a, edge.d], edge.ad, exact);
             sink.enter(triangle);
         } else {
             let (from, to) = (t.vertices[LAST[facet]], t.vertices[NEXT[facet]]);
@@ -80,7 +95,7 @@ pub(super) fn dig<S: Sink>(
 
 /// Looks through the edge (a, b) of a triangle in conflict.
 #[inline(always)]
-fn look(
+fn look<M: MulAdd>(
     view: &View<'_>,
     triangles: &[Simplex<3>],
     behind: u32,
@@ -89,11 +104,14 @@ fn look(
     exact: &mut Exact,
 ) -> Edge {
     let (triangle, facet) = decode(behind);
-    let d = view.see(triangles[triangle as usize].vertices[facet]);
-    let (ad, db) = (minor(a, d), minor(d, b));
-    let determinant = view.in_circle([a, b, d], [ab, ad, db]);
-    let conflict =
-        if determinant == 0.0 { conflict_exact(view, triangles, behind, exact) } else { determinant > 0.0 };
+    let d = view.see::<M>(triangles[triangle as usize].vertices[facet]);
+    let (ad, db) = (minor::<M>(a, d), minor::<M>(d, b));
+    let determinant = view.in_circle::<M>([a, b, d], [ab, ad, db]);
+    let conflict = if determinant == 0.0 {
+        conflict_exact(view, triangles, behind, exact)
+    } else {
+        determinant > 0.0
+    };
     Edge { behind, conflict, b, d, ad, db }
 }
 
@@ -151,7 +169,7 @@ impl<'a> Star<'a> {
             first: GHOST,
             last: found.triangle,
             onward: next,
-            side: minor(next, found.d),
+            side: minor::<Separate>(next, found.d),
             start: GHOST,
         }
     }
@@ -183,7 +201,7 @@ impl Sink for Star<'_> {
         triangles[self.last as usize].neighbors[1] = code(slot, 2);
         self.first = if self.first == GHOST { slot } else { self.first };
         self.last = slot;
-        let side = minor(self.onward, end);
+        let side = minor::<Separate>(self.onward, end);
         self.start = if self.side <= 0.0 && side >= 0.0 { slot } else { self.start };
         self.side = side;
     }

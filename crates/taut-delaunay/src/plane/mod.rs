@@ -13,13 +13,14 @@
 //! Choi and Rote 2003 for the rounds that the caller inserts in.
 
 mod dig;
+mod dispatch;
 mod seen;
 #[cfg(test)]
 mod tests;
 mod walk;
 
-use taut_predicates::Exact;
 use taut_predicates::plane::orient_exact;
+use taut_predicates::{Exact, MulAdd, Separate};
 
 use crate::kernel::{Counters, Kernel, Settings, TooMany};
 use crate::simplex::{DEAD, GHOST, Simplex, code};
@@ -91,9 +92,7 @@ impl Kernel<2, 3> for Mesh {
         if self.triangles.len() + 2 * sites.len() > TRIANGLES_MAX {
             return Err(TooMany);
         }
-        for (place, &site) in sites.iter().enumerate() {
-            self.insert_one(site, *sites.get(place + 1).unwrap_or(&site));
-        }
+        dispatch::insert(self, sites);
         self.counters.insertions += sites.len() as u64;
         Ok(())
     }
@@ -112,9 +111,10 @@ impl Kernel<2, 3> for Mesh {
     /// In the order of digging: each triangle but the first shares an edge with one before it.
     fn conflicts(&mut self, q: [f64; 2], hint: u32, out: &mut Vec<u32>) {
         let view = View::new(&self.sites, q, self.settings.filtered);
-        let found = walk(&view, &self.triangles, hint, &mut self.exact, &mut self.counters);
+        let found =
+            walk::<Separate>(&view, &self.triangles, hint, &mut self.exact, &mut self.counters);
         out.push(found.triangle);
-        dig(
+        dig::<Separate, _>(
             &view,
             &mut self.triangles,
             found,
@@ -133,7 +133,14 @@ impl Kernel<2, 3> for Mesh {
 
 impl Mesh {
     #[inline(always)]
-    fn insert_one(&mut self, site: u32, next: u32) {
+    fn insert_all<M: MulAdd>(&mut self, sites: &[u32]) {
+        for (place, &site) in sites.iter().enumerate() {
+            self.insert_one::<M>(site, *sites.get(place + 1).unwrap_or(&site));
+        }
+    }
+
+    #[inline(always)]
+    fn insert_one<M: MulAdd>(&mut self, site: u32, next: u32) {
         // Every insertion adds one site, hence two triangles to the sphere. The star takes these slots and those of
         // the cavity as they become free: k edges of the rim are out when at least k − 2 triangles are in.
         let slot = self.triangles.len() as u32;
@@ -141,9 +148,9 @@ impl Mesh {
         self.free.extend([slot + 1, slot]);
         let view = View::new(&self.sites, self.sites[site as usize], self.settings.filtered);
         let triangles = &mut self.triangles[..];
-        let found = walk(&view, triangles, self.last, &mut self.exact, &mut self.counters);
-        let mut star = Star::new(site, &mut self.free, &found, view.see(next));
-        dig(
+        let found = walk::<M>(&view, triangles, self.last, &mut self.exact, &mut self.counters);
+        let mut star = Star::new(site, &mut self.free, &found, view.see::<M>(next));
+        dig::<Separate, _>(
             &view,
             triangles,
             found,

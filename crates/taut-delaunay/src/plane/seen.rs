@@ -11,7 +11,7 @@
 //! *Reference.* Shewchuk, Discrete & Computational Geometry 18, 1997.
 
 use taut_predicates::plane::{conflict_exact, orient_exact};
-use taut_predicates::{Exact, Sign};
+use taut_predicates::{Exact, MulAdd, Separate, Sign};
 
 const EPSILON: f64 = f64::EPSILON / 2.0;
 /// Of the bound |a|² + |b|², which is twice the permanent.
@@ -30,8 +30,8 @@ pub(super) struct Seen {
 
 /// [ab]
 #[inline(always)]
-pub(super) fn minor(a: Seen, b: Seen) -> f64 {
-    a.x * b.y - a.y * b.x
+pub(super) fn minor<M: MulAdd>(a: Seen, b: Seen) -> f64 {
+    M::mul_add(a.x, b.y, -(a.y * b.x))
 }
 
 /// The sites and the point they are seen from.
@@ -54,23 +54,23 @@ impl<'a> View<'a> {
 
     /// A vertex as seen from q; not a number if it is the ghost vertex.
     #[inline(always)]
-    pub(super) fn see(&self, vertex: u32) -> Seen {
+    pub(super) fn see<M: MulAdd>(&self, vertex: u32) -> Seen {
         let p = self.sites[(vertex as usize).min(self.sites.len() - 1)];
         let (x, y) = (p[0] - self.q[0], p[1] - self.q[1]);
-        Seen { x, y, lift: x * x + y * y }
+        Seen { x, y, lift: M::mul_add(x, x, y * y) }
     }
 
     /// [ab] if its sign is beyond doubt, and zero if it is not.
     #[inline(always)]
-    pub(super) fn side(&self, a: Seen, b: Seen, minor: f64) -> f64 {
-        let error = self.orient * (a.lift + b.lift) + TINY;
+    pub(super) fn side<M: MulAdd>(&self, a: Seen, b: Seen, minor: f64) -> f64 {
+        let error = M::mul_add(self.orient, a.lift + b.lift, TINY);
         if minor.abs() > error { minor } else { 0.0 }
     }
 
     /// The sign of [ab] for two sites.
     pub(super) fn side_exact(&self, a: u32, b: u32, exact: &mut Exact) -> Sign {
-        let (p, r) = (self.see(a), self.see(b));
-        let side = self.side(p, r, minor(p, r));
+        let (p, r) = (self.see::<Separate>(a), self.see::<Separate>(b));
+        let side = self.side::<Separate>(p, r, minor::<Separate>(p, r));
         if side == 0.0 {
             orient_exact(self.sites[a as usize], self.sites[b as usize], self.q, exact)
         } else {
@@ -80,9 +80,10 @@ impl<'a> View<'a> {
 
     /// D for the triangle (d, b, a) if its sign is beyond doubt, and zero if it is not.
     #[inline(always)]
-    pub(super) fn in_circle(&self, [a, b, d]: [Seen; 3], [ab, ad, db]: [f64; 3]) -> f64 {
-        let determinant = a.lift * db + b.lift * ad - d.lift * ab;
-        let error = self.in_circle * (a.lift * b.lift + d.lift * (a.lift + b.lift)) + TINY;
+    pub(super) fn in_circle<M: MulAdd>(&self, [a, b, d]: [Seen; 3], [ab, ad, db]: [f64; 3]) -> f64 {
+        let determinant = M::mul_add(a.lift, db, M::mul_add(b.lift, ad, -(d.lift * ab)));
+        let permanent = M::mul_add(d.lift, a.lift + b.lift, a.lift * b.lift);
+        let error = M::mul_add(self.in_circle, permanent, TINY);
         if determinant.abs() > error { determinant } else { 0.0 }
     }
 
