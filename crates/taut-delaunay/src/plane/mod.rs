@@ -33,8 +33,6 @@ const TRIANGLES_MAX: usize = 1 << 30;
 
 /// A Delaunay triangulation under construction.
 pub(crate) struct Mesh {
-    /// Coordinates by site number, and one more that is not a number: it stands for the ghost vertex, so that every
-    /// comparison with it is false and the common path need not ask for it.
     sites: Vec<[f64; 2]>,
     triangles: Vec<Simplex<3>>,
     /// Where the next walk begins: a triangle of the site inserted last.
@@ -48,18 +46,14 @@ pub(crate) struct Mesh {
     free: Vec<u32>,
 }
 
-const NOWHERE: [f64; 2] = [f64::NAN, f64::NAN];
 const DEAD_SLOT: Simplex<3> = Simplex { vertices: [DEAD; 3], neighbors: [0; 3] };
 
 impl Kernel<2, 3> for Mesh {
     fn new(sites: &[[f64; 2]], settings: Settings) -> Mesh {
-        let mut with_ghost = Vec::with_capacity(sites.len() + 1);
-        with_ghost.extend_from_slice(sites);
-        with_ghost.push(NOWHERE);
         Mesh {
             // A closed mesh of n sites and the ghost vertex has 2n − 2 triangles.
             triangles: Vec::with_capacity(2 * sites.len()),
-            sites: with_ghost,
+            sites: sites.to_vec(),
             last: 0,
             settings,
             exact: Exact::new(settings.integral),
@@ -98,10 +92,9 @@ impl Kernel<2, 3> for Mesh {
     }
 
     fn push(&mut self, site: [f64; 2]) -> u32 {
-        let number = self.sites.len() - 1;
-        self.sites[number] = site;
-        self.sites.push(NOWHERE);
-        u32::try_from(number).expect("sites are numbered with 32 bits")
+        let number = u32::try_from(self.sites.len()).expect("sites are numbered with 32 bits");
+        self.sites.push(site);
+        number
     }
 
     fn simplices(&self) -> &[Simplex<3>] {
