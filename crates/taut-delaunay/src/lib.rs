@@ -1,8 +1,11 @@
 //! Delaunay triangulations of points in the plane and in space: exact, canonical, parallel.
 
-#[allow(dead_code)]
+#[cfg_attr(not(test), allow(dead_code))]
 mod kernel;
-#[allow(dead_code)]
+#[cfg_attr(not(test), allow(dead_code))]
 mod plane;
-#[allow(dead_code)]
+#[cfg_attr(not(test), allow(dead_code))]
 mod simplex;
+
+pub use kernel::Counters;
+pub use simplex::{GHOST, Simplex, decode};

@@ -14,7 +14,9 @@
 
 mod dig;
 mod dispatch;
+pub(crate) mod query;
 mod seen;
+mod star;
 #[cfg(test)]
 mod tests;
 mod walk;
@@ -24,8 +26,10 @@ use taut_predicates::{Exact, MulAdd, Separate};
 
 use crate::kernel::{Counters, Kernel, Settings, TooMany};
 use crate::simplex::{DEAD, GHOST, Simplex, code};
-use dig::{Collect, Edge, Star, dig};
+use dig::{Edge, Sink, dig};
+use query::List;
 use seen::View;
+use star::Star;
 use walk::walk;
 
 /// Triangles are numbered with 30 bits, as a code has two more for the facet.
@@ -44,6 +48,8 @@ pub(crate) struct Mesh {
     pending: Vec<Edge>,
     /// Slots that the star may take; kept for its memory.
     free: Vec<u32>,
+    /// The rim that `conflicts` is not asked for.
+    rim: Vec<u32>,
 }
 
 const DEAD_SLOT: Simplex<3> = Simplex { vertices: [DEAD; 3], neighbors: [0; 3] };
@@ -60,6 +66,7 @@ impl Kernel<2, 3> for Mesh {
             counters: Counters::default(),
             pending: Vec::new(),
             free: Vec::new(),
+            rim: Vec::new(),
         }
     }
 
@@ -104,18 +111,12 @@ impl Kernel<2, 3> for Mesh {
     /// In the order of digging: each triangle but the first shares an edge with one before it.
     fn conflicts(&mut self, q: [f64; 2], hint: u32, out: &mut Vec<u32>) {
         let view = View::new(&self.sites, q, self.settings.filtered);
-        let found =
-            walk::<Separate>(&view, &self.triangles, hint, &mut self.exact, &mut self.counters);
-        out.push(found.triangle);
-        dig::<Separate, _>(
-            &view,
-            &mut self.triangles,
-            found,
-            &mut self.pending,
-            &mut self.exact,
-            &mut self.counters,
-            &mut Collect { out },
-        );
+        let (exact, counters) = (&mut self.exact, &mut self.counters);
+        let found = walk::<Separate>(&view, &self.triangles, hint, exact, counters);
+        let mut list = List { all: &self.triangles, triangles: out, rim: &mut self.rim };
+        list.enter(found.triangle);
+        dig::<Separate, _>(&view, found, &mut self.pending, exact, counters, &mut list);
+        self.rim.clear();
     }
 
     fn finish(mut self) -> (Vec<Simplex<3>>, Counters) {
@@ -134,24 +135,22 @@ impl Mesh {
 
     #[inline(always)]
     fn insert_one<M: MulAdd>(&mut self, site: u32, next: u32) {
-        // Every insertion adds one site, hence two triangles to the sphere. The star takes these slots and those of
-        // the cavity as they become free: k edges of the rim are out when at least k − 2 triangles are in.
+        // Every insertion adds one vertex to a sphere, hence two triangles.
         let slot = self.triangles.len() as u32;
         self.triangles.extend([DEAD_SLOT; 2]);
         self.free.extend([slot + 1, slot]);
         let view = View::new(&self.sites, self.sites[site as usize], self.settings.filtered);
         let triangles = &mut self.triangles[..];
         let found = walk::<M>(&view, triangles, self.last, &mut self.exact, &mut self.counters);
-        let mut star = Star::new(site, &mut self.free, &found, view.see::<M>(next));
-        dig::<Separate, _>(
+        let mut star = Star::new(site, triangles, &mut self.free, &found, view.see::<M>(next));
+        dig::<M, _>(
             &view,
-            triangles,
             found,
             &mut self.pending,
             &mut self.exact,
             &mut self.counters,
             &mut star,
         );
-        self.last = star.close(triangles);
+        self.last = star.close();
     }
 }
