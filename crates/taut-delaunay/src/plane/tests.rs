@@ -148,7 +148,7 @@ fn permutations(n: usize, mut visit: impl FnMut(&[u32])) {
 #[test]
 fn every_order_of_small_subsets_of_grids_gives_the_one_triangulation() {
     let mut random = Random(1);
-    let mut runs = 0u64;
+    let mut runs = 0i64;
     for case in 0..100 {
         let side = 3 + case % 3;
         let size = if case % 4 == 0 { 7 } else { 6 };
