@@ -37,15 +37,16 @@ fn exact<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> Sig
         .unwrap_or_else(|| unbounded::sign::<P, K>(differences))
 }
 
-/// In `i128`, if that has room for the permanent, which is computed with a relative error far below the one bit to
-/// spare.
+/// In `i128`, if that has room for the permanent, where no difference counts for less than 1: so no factor of zero hides
+/// how large the other one is. Its relative error is far below the one bit to spare.
 #[inline(always)]
 fn in_128_bits<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> Option<Sign> {
     const ROOM: f64 = (1u128 << 126) as f64;
     let integers = wide::integers(differences)?;
     let unit = integers.iter().fold(0, |all, d| all | d).trailing_zeros();
     let integers = integers.map(|d| d >> unit);
-    let Measured { permanent, .. } =
-        P::evaluate(&integers.map(|d| Measured { value: 0.0, permanent: (d as f64).abs() }));
+    let Measured { permanent, .. } = P::evaluate(
+        &integers.map(|d| Measured { value: 0.0, permanent: (d as f64).abs().max(1.0) }),
+    );
     (permanent < ROOM).then(|| Sign::from(P::evaluate(&integers.map(i128::from))))
 }

@@ -33,6 +33,8 @@ pub mod plane;
 mod sign;
 pub mod space;
 mod stages;
+#[cfg(test)]
+mod tests;
 mod unbounded;
 mod wide;
 

@@ -2,7 +2,7 @@
 
 mod balls;
 mod circumcenter;
-mod exact;
+pub(crate) mod exact;
 mod filter;
 mod polynomials;
 
