@@ -175,13 +175,17 @@ impl<const N: usize> Integer<N> {
         product.negative = self.negative != other.negative;
         product.len = self.len + other.len;
         for (i, &a) in self.limbs[..self.len].iter().enumerate() {
-            let mut carry = 0;
-            for (j, &b) in other.limbs[..other.len].iter().enumerate() {
-                let wide = u128::from(a) * u128::from(b) + u128::from(product.limbs[i + j]) + carry;
-                product.limbs[i + j] = wide as u64;
-                carry = wide >> 64;
+            if a == 0 {
+                continue; // common: numbers of very different magnitude leave a gap
             }
-            product.limbs[i + other.len] = carry as u64;
+            let mut carry = 0;
+            let (row, rest) = product.limbs[i..].split_at_mut(other.len);
+            for (limb, &b) in row.iter_mut().zip(&other.limbs[..other.len]) {
+                let wide = u128::from(a) * u128::from(b) + u128::from(*limb) + u128::from(carry);
+                *limb = wide as u64;
+                carry = (wide >> 64) as u64;
+            }
+            rest[0] = carry;
         }
         product.trimmed()
     }
