@@ -44,7 +44,7 @@ pub(super) fn mesh(points: &[Point], order: &[u32], settings: Settings) -> Mesh 
         .find(|&k| !orient(point(order[0]), point(order[1]), point(order[k])).is_zero())
         .expect("points that are not all on a line");
     order[2..=third].rotate_right(1);
-    let mut mesh = Mesh::new(points, settings);
+    let mut mesh = Mesh::new(points.to_vec(), settings);
     mesh.start([order[0], order[1], order[2]]);
     mesh.insert(&order[3..]).unwrap();
     mesh
@@ -394,14 +394,14 @@ fn a_site_may_be_added_later() {
     }
     check(&late);
     assert_eq!(triangles(&late), triangles(&mesh(&points, &order, FAST)));
-    let (slots, counters) = late.finish();
+    let (slots, _, counters) = late.finish();
     assert_eq!(slots.len(), 2 * 50 - 2);
     assert_eq!(counters.insertions, 47);
 }
 
 #[test]
 fn more_than_thirty_bits_of_triangles_are_refused() {
-    let mut mesh = Mesh::new(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], FAST);
+    let mut mesh = Mesh::new(vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], FAST);
     mesh.start([0, 1, 2]);
     // Refused before anything is read, so these pages are never touched.
     assert_eq!(mesh.insert(&vec![0; TRIANGLES_MAX / 2]), Err(TooMany));
@@ -413,7 +413,7 @@ fn uniform_points_need_no_exact_arithmetic() {
     let mut random = Random(17);
     let points: Vec<Point> = (0..20_000).map(|_| [random.unit(), random.unit()]).collect();
     let mesh = checked(points, FAST);
-    let (_, counters) = mesh.finish();
+    let (_, _, counters) = mesh.finish();
     let stages = counters.stages;
     assert!(stages.calls() - stages.filter <= 2, "{stages:?}");
     assert!(stages.filter * 10 < counters.insertions, "{stages:?}");

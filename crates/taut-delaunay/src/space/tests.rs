@@ -57,7 +57,7 @@ fn grid(k: u32) -> Vec<[f64; 3]> {
 
 /// The mesh after inserting the sites in this order, all but the first four that span space.
 fn built(points: &[[f64; 3]], settings: Settings, level: Option<Level>, order: &[u32]) -> Mesh {
-    let mut mesh = Mesh::new(points, settings);
+    let mut mesh = Mesh::new(points.to_vec(), settings);
     mesh.level = level.unwrap_or(mesh.level);
     let first = independent(points, order).expect("the points span space");
     mesh.start(first);

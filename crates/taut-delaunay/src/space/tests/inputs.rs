@@ -24,11 +24,11 @@ fn uniform_points_in_hilbert_order() {
     let (first, order) = rounds(&points);
     let mut counters = Vec::new();
     for level in Level::filtered() {
-        let mut mesh = Mesh::new(&points, PLAIN);
+        let mut mesh = Mesh::new(points.clone(), PLAIN);
         mesh.level = level;
         mesh.start(first);
         mesh.insert(&order).unwrap();
-        let (simplices, counted) = mesh.finish();
+        let (simplices, _, counted) = mesh.finish();
         assert_eq!(counted.insertions, 3000);
         assert_eq!(counted.stages.calls(), counted.orientations + counted.conflict_tests);
         assert!(counted.stages.calls() - counted.stages.filter <= counted.stages.calls() / 10_000, "{level:?} {counted:?}");
@@ -79,7 +79,7 @@ fn two_skew_lines_make_a_quadratic_mesh_and_too_many_is_an_error() {
     assert_eq!(finite(&mesh), (k - 1) * (k - 1));
     let order: Vec<u32> = Numbers(3).shuffled(2 * k);
     let first = independent(&points, &order).unwrap();
-    let mut mesh = Mesh::new(&points, PLAIN);
+    let mut mesh = Mesh::new(points.clone(), PLAIN);
     mesh.limit = 1000;
     mesh.start(first);
     let rest: Vec<u32> = order.into_iter().filter(|i| !first.contains(i)).collect();
@@ -211,7 +211,7 @@ fn conflicts_are_the_cavity_and_change_nothing() {
 #[test]
 fn sites_can_be_pushed_later_and_the_mesh_outgrows_its_reserve() {
     let points = Numbers(23).points(2000);
-    let mut mesh = Mesh::new(&points[..4], PLAIN);
+    let mut mesh = Mesh::new(points[..4].to_vec(), PLAIN);
     let first = independent(&points[..4], &[0, 1, 2, 3]).unwrap();
     mesh.start(first);
     for (i, &point) in points.iter().enumerate().skip(4) {
