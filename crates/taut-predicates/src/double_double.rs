@@ -1,8 +1,9 @@
-//! Stage 2: pairs of `f64`, some 106 bits, from exact differences, with the same bound as the filter's.
+//! Double-double: pairs of `f64`, some 106 bits, from exact differences, with a bound like that of the filter.
 //!
 //! *Idea.* A difference of two coordinates is exactly a pair (hi, lo). Pairs are added and multiplied with a relative
 //! error of a few u², u = 2⁻⁵³, and the polynomial of absolute values rides along in plain `f64`. Points of a sphere or
-//! a surface, rounded to `f64`, have determinants of about 2⁻⁵³ of the permanent: hopeless for the filter, easy here.
+//! a surface, rounded to `f64`, have determinants of about 2⁻⁵³ of the permanent: hopeless for the filter, easy here. It is
+//! asked where the magnitudes are too mixed for integers of fixed width.
 //!
 //! *Guarantee.* Call a pair normal if |lo| ≤ u·|hi|. Results are normal, as they end in an exact sum of two `f64`. Let
 //! x, y be normal and p(x) ≥ |x| the permanent. First-order errors, in units of u²:

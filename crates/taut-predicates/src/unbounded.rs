@@ -1,4 +1,4 @@
-//! The last stage: integers of any length, on the stack.
+//! Integers of any length, on the stack: the last stage.
 //!
 //! *Idea.* Finite `f64` are whole multiples of a power of two, so that the differences of one call are integers
 //! in units of the smallest one, and the sign of a homogeneous polynomial does not depend on the unit.
