@@ -31,8 +31,8 @@
 //! | filter, `f64` with an error bound | all but near ties | 13, 20 ns |
 //! | whole numbers in `f64` | everything, for small whole numbers | 9, 30 ns |
 //! | integers of fixed width | everything, for 62 bits of differences | 35, 80 ns |
-//! | double-double | all but ties to 2⁻⁹⁸, for magnitudes up to 2⁶⁰ | 45, 120 ns |
-//! | integers of any length | everything | 1 µs and more, by length |
+//! | double-double | all but ties to 2⁻⁹⁸, for magnitudes up to 2⁶⁰ | 65, 160 ns |
+//! | integers of any length | everything | from 1 µs, by length |
 //!
 //! A kernel calls the filters itself ([`plane::in_circle_filter`], generic over [`MulAdd`]), and where one answers 0 the
 //! cold continuation ([`plane::conflict_exact`]) with its [`Exact`], which counts the stages. All others call the plain
