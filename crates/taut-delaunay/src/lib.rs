@@ -8,4 +8,7 @@ mod plane;
 mod simplex;
 
 pub use kernel::Counters;
+pub use plane::constrained::{
+    Constrained, ConstraintError, Piece, Pieces, Segment, Split, constrain,
+};
 pub use simplex::{GHOST, Simplex, decode};

@@ -12,6 +12,7 @@
 //! *Reference.* Bowyer 1981 and Watson 1981 for the cavity; Devillers, Pion and Teillaud 2002 for the walk; Amenta,
 //! Choi and Rote 2003 for the rounds that the caller inserts in.
 
+pub(crate) mod constrained;
 mod dig;
 mod dispatch;
 pub(crate) mod query;
