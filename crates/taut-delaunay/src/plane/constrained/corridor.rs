@@ -6,10 +6,11 @@
 //! *Guarantee.* Every vertex of a chain sees the base from inside the corridor, as an edge goes from it across the
 //! segment; so each is strictly left of the base, also later on, and the choice is the constrained Delaunay triangle.
 //! As many triangles go in as came out.
-//! *Trap.* If a vertex comes up more than once, the triangle belongs to that corner of it which has both ends of the
-//! base in sight.
+//! *Trap.* A vertex w may come up twice, but is not chosen before what lies between. The edges from w that cross the
+//! segment cross it before and after those from there, so what lies between is inside the triangle of w and the base.
+//! The ends of a base come up once: edges at the ends of the segment do not cross it, later ones have been chosen.
 
-use taut_predicates::plane::{conflict, orient};
+use taut_predicates::plane::conflict;
 
 use super::NONE;
 use crate::simplex::{Simplex, code, decode};
@@ -145,10 +146,9 @@ impl Corridor {
         for &slot in &slots {
             owners[slot as usize] = [NONE; 3];
         }
-        let twice = left.iter().chain(&right).any(|edge| hangs(&self.inside, edge));
         let mut free = slots.iter().copied();
         let [above, below] = [&mut left, &mut right].map(|chain| {
-            let base = self.fill_side(sites, all, around, &mut free, chain, twice);
+            let base = self.fill_side(sites, all, around, &mut free, chain);
             owners[base as usize][2] = number;
             code(base, 2)
         });
@@ -192,12 +192,11 @@ impl Corridor {
         around: &mut [u32],
         free: &mut impl Iterator<Item = u32>,
         chain: &mut [Border],
-        twice: bool,
     ) -> u32 {
         let mut first = NONE;
         self.bases.push((0, chain.len() - 1, NONE));
         while let Some((i, j, behind)) = self.bases.pop() {
-            let c = apex(sites, chain, i, j, twice);
+            let c = apex(sites, chain, i, j);
             let slot = free.next().expect("as many triangles go in as came out");
             let vertices = [i, j, c].map(|at| chain[at].vertex);
             all[slot as usize] = Simplex { vertices, neighbors: [NONE, NONE, behind] };
@@ -244,36 +243,15 @@ fn border(
     }
 }
 
-/// The vertex between i and j whose circle with the base from i to j holds no other; `twice` if vertices may come up
-/// more than once.
-fn apex(sites: &[[f64; 2]], chain: &[Border], i: usize, j: usize, twice: bool) -> usize {
-    let vertex = |at: usize| chain[at].vertex;
-    let point = |at: usize| sites[vertex(at) as usize];
-    let others = || (i + 1..j).filter(|&at| vertex(at) != vertex(i) && vertex(at) != vertex(j));
+/// The vertex between i and j whose circle with the base from i to j holds no other.
+fn apex(sites: &[[f64; 2]], chain: &[Border], i: usize, j: usize) -> usize {
+    let point = |at: usize| sites[chain[at].vertex as usize];
     let mut best = i + 1;
-    for (count, at) in others().enumerate() {
-        if count == 0
-            || vertex(at) != vertex(best) && conflict(point(i), point(j), point(best), point(at))
-        {
+    for at in i + 2..j {
+        let again = chain[at].vertex == chain[best].vertex;
+        if !again && conflict(point(i), point(j), point(best), point(at)) {
             best = at;
         }
     }
-    if !twice {
-        return best;
-    }
-    let sees = |at: usize| {
-        let [w, before, after] = [at, at - 1, at + 1].map(point);
-        vertex(at - 1) == vertex(at + 1)
-            || [i, j].into_iter().all(|end| between(w, before, after, point(end)))
-    };
-    others().find(|&at| vertex(at) == vertex(best) && sees(at)).unwrap_or(best)
-}
-
-/// Whether the direction from w to d is met on the way counter-clockwise from that to u to that to v, ends included.
-fn between(w: [f64; 2], u: [f64; 2], v: [f64; 2], d: [f64; 2]) -> bool {
-    if orient(w, u, v).is_positive() {
-        !orient(w, u, d).is_negative() && !orient(w, d, v).is_negative()
-    } else {
-        !(orient(w, v, d).is_positive() && orient(w, d, u).is_positive())
-    }
+    best
 }
