@@ -3,8 +3,8 @@
 //! *Problem.* The Delaunay triangulation of sites in ℝ², closed by ghost triangles, under the lexicographic
 //! perturbation.
 //! *Idea.* A triangle is in conflict with a new site q if its circumcircle holds q; such triangles form a disc, seen
-//! whole from q. Find one of them by a visibility [`walk`] from the site before, [`dig`] from edge to edge through all
-//! of them, counter-clockwise around q, and make every edge of the rim a triangle of the [`star`] at once.
+//! whole from q. Find one of them by a visibility walk from the site before, dig from edge to edge through all
+//! of them, counter-clockwise around q, and make every edge of the rim a triangle of the star at once.
 //! *Guarantee.* Signs are exact and never tie, so the mesh is a function of the set of inserted sites. A ghost answers
 //! for the outside of its hull edge. Per insertion two slots are added and none is left dead. No recursion.
 //! *Trap.* All tests take place in coordinates relative to q. A vertex that two tests share keeps its difference, its
@@ -12,6 +12,7 @@
 //! *Reference.* Bowyer 1981 and Watson 1981 for the cavity; Devillers, Pion and Teillaud 2002 for the walk; Amenta,
 //! Choi and Rote 2003 for the rounds that the caller inserts in.
 
+pub(crate) mod constrained;
 mod dig;
 mod dispatch;
 pub(crate) mod query;
