@@ -10,7 +10,7 @@ use crate::kernel::TooMany;
 use crate::simplex::Simplex;
 use crate::space::pairs::{self, Pair};
 use crate::space::signs::{Lane, Number, Scalar, Signs, in_sphere, orientation, rows};
-use crate::space::{Mesh, Site};
+use crate::space::{Mesh, Site, whole};
 
 use super::Level;
 
@@ -322,6 +322,19 @@ fn pairs4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> 
     masks4(det, bound)
 }
 
+/// Besides inside and open: which are ties.
+#[inline(never)]
+#[target_feature(enable = "avx2,fma")]
+fn whole4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32, u32) {
+    // SAFETY: this function has the features.
+    let [a, b, c, d] = unsafe { corners4(sites, simplices, group) };
+    let q = splat(q);
+    let (det, perturbed, bound) = whole::in_sphere([less(a, q), less(b, q), less(c, q), less(d, q)]);
+    let (inside, open) = masks4(perturbed, bound);
+    let (_, ties) = masks4(det, bound);
+    (inside, open, ties)
+}
+
 /// Where the determinant is certainly positive, and where it is open.
 #[inline]
 #[target_feature(enable = "avx512f")]
@@ -350,6 +363,19 @@ fn pairs8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> 
     let q = splat(q);
     let (det, bound) = pairs::in_sphere([pairs(a, q), pairs(b, q), pairs(c, q), pairs(d, q)]);
     masks8(det, bound)
+}
+
+/// Besides inside and open: which are ties.
+#[inline(never)]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+fn whole8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32, u32) {
+    // SAFETY: this function has the features.
+    let [a, b, c, d] = unsafe { corners8(sites, simplices, group) };
+    let q = splat(q);
+    let (det, perturbed, bound) = whole::in_sphere([less(a, q), less(b, q), less(c, q), less(d, q)]);
+    let (inside, open) = masks8(perturbed, bound);
+    let (_, ties) = masks8(det, bound);
+    (inside, open, ties)
 }
 
 /// The four orientations of q with the facets of a simplex, lane i for the facet opposite vertex i.
@@ -398,6 +424,18 @@ impl Signs for Avx2 {
     }
 
     #[inline(always)]
+    fn conflicts_in_whole(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> Option<(u32, u32, u32)> {
+        // SAFETY: as above.
+        Some(unsafe { whole4(sites, simplices, group, q) })
+    }
+
+    #[inline(always)]
     fn beyond(self, corners: [&Site; 4], q: &Site) -> (u32, u32) {
         // SAFETY: as above.
         unsafe { beyond4(corners, q) }
@@ -422,6 +460,18 @@ impl Signs for Avx512 {
     fn conflicts_in_pairs(self, sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> Option<(u32, u32)> {
         // SAFETY: as above.
         Some(unsafe { pairs8(sites, simplices, group, q) })
+    }
+
+    #[inline(always)]
+    fn conflicts_in_whole(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> Option<(u32, u32, u32)> {
+        // SAFETY: as above.
+        Some(unsafe { whole8(sites, simplices, group, q) })
     }
 
     #[inline(always)]
