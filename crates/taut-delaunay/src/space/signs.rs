@@ -21,7 +21,9 @@ const ORIENTATION_ERROR: f64 = 6.1 * space::ORIENT_ERROR;
 const IN_SPHERE_ERROR: f64 = 73.0 * space::IN_SPHERE_ERROR;
 
 /// What a determinant is made of.
-pub(super) trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+pub(super) trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+{
     /// a·b + c.
     fn mul_add(a: Self, b: Self, c: Self) -> Self;
     /// a·b − c.
@@ -129,7 +131,13 @@ pub(super) trait Signs: Copy {
     const WIDTH: usize;
 
     /// Which of `WIDTH` simplices are certainly in conflict with q, and which are open. Ghosts are open.
-    fn conflicts(self, sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32);
+    fn conflicts(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> (u32, u32);
 
     /// The same with pairs of numbers, if this path has them.
     fn conflicts_in_pairs(
@@ -239,9 +247,16 @@ impl<M: MulAdd> Signs for Scalar<M> {
     const WIDTH: usize = 1;
 
     #[inline(always)]
-    fn conflicts(self, sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+    fn conflicts(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> (u32, u32) {
         let [a, b, c, d] = rows(sites, &simplices[group[0] as usize]);
-        let (Real(det, _), Real(bound, _)) = in_sphere([less::<M>(a, q), less(b, q), less(c, q), less(d, q)]);
+        let (Real(det, _), Real(bound, _)) =
+            in_sphere([less::<M>(a, q), less(b, q), less(c, q), less(d, q)]);
         let inside = det > bound;
         (u32::from(inside), u32::from(!(inside || det < -bound)))
     }
@@ -411,6 +426,13 @@ impl Judge {
             self.behind += 1;
         }
         let [a, b, c, d] = rows(sites, simplex);
-        space::conflict_exact(a.point(), b.point(), c.point(), d.point(), q.point(), &mut self.exact)
+        space::conflict_exact(
+            a.point(),
+            b.point(),
+            c.point(),
+            d.point(),
+            q.point(),
+            &mut self.exact,
+        )
     }
 }
