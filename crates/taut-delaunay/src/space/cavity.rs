@@ -138,7 +138,8 @@ impl Cavity {
             let Simplex { vertices, neighbors } = simplices[t as usize];
             for i in 0..4 {
                 let ([a, b, c], outside) = (FACETS[i], neighbors[i]);
-                list[boundary] = Facet { vertices: [vertices[a], vertices[b], vertices[c]], outside };
+                list[boundary] =
+                    Facet { vertices: [vertices[a], vertices[b], vertices[c]], outside };
                 boundary += usize::from(marks[(outside >> 2) as usize] == SEEN);
             }
         }

@@ -24,6 +24,7 @@ mod star;
 #[cfg(test)]
 mod tests;
 mod walk;
+mod whole;
 
 use crate::kernel::{Counters, Kernel, Settings, TooMany};
 use crate::simplex::{DEAD, GHOST, Simplex, code};

@@ -21,7 +21,9 @@ const ORIENTATION_ERROR: f64 = 6.1 * space::ORIENT_ERROR;
 const IN_SPHERE_ERROR: f64 = 73.0 * space::IN_SPHERE_ERROR;
 
 /// What a determinant is made of.
-pub(super) trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+pub(super) trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+{
     /// a·b + c.
     fn mul_add(a: Self, b: Self, c: Self) -> Self;
     /// a·b − c.
@@ -55,7 +57,7 @@ fn minor<N: Number>(u: [N; 3], v: [N; 3]) -> N {
 
 /// |u|².
 #[inline(always)]
-fn lift<N: Number>(u: [N; 3]) -> N {
+pub(super) fn lift<N: Number>(u: [N; 3]) -> N {
     N::mul_add(u[2], u[2], N::mul_add(u[1], u[1], u[0] * u[0]))
 }
 
@@ -69,25 +71,49 @@ pub(super) fn orientation<L: Lane>([a, b, c]: [[L; 3]; 3]) -> (L, L) {
     (det, L::mul_add(L::splat(ORIENTATION_ERROR) * x, y * z, L::splat(space::TINY)))
 }
 
-/// The in-sphere determinant D = (|a|²bcd − |b|²cda) + (|c|²dab − |d|²abc): positive if the origin is inside the sphere
-/// through the positive simplex a, b, c, d.
+/// The cofactors bcd, −cda, dab, −abc of the lifts in the in-sphere determinant.
 #[inline(always)]
-pub(super) fn determinant<N: Number>([a, b, c, d]: [[N; 3]; 4]) -> N {
+pub(super) fn cofactors<N: Number>([a, b, c, d]: [[N; 3]; 4]) -> [N; 4] {
     let (ab, bc, cd) = (minor(a, b), minor(b, c), minor(c, d));
-    let (da, ac, bd) = (minor(d, a), minor(a, c), minor(b, d));
-    let abc = N::mul_add(a[2], bc, N::mul_sub(c[2], ab, b[2] * ac));
-    let bcd = N::mul_add(b[2], cd, N::mul_sub(d[2], bc, c[2] * bd));
-    let cda = N::mul_add(c[2], da, N::mul_add(d[2], ac, a[2] * cd));
-    let dab = N::mul_add(d[2], ab, N::mul_add(a[2], bd, b[2] * da));
-    N::mul_sub(lift(a), bcd, lift(b) * cda) + N::mul_sub(lift(c), dab, lift(d) * abc)
+    let (ad, ac, bd) = (minor(a, d), minor(a, c), minor(b, d));
+    [
+        N::mul_add(b[2], cd, N::mul_sub(d[2], bc, c[2] * bd)),
+        N::mul_sub(c[2], ad, N::mul_add(d[2], ac, a[2] * cd)),
+        N::mul_add(d[2], ab, N::mul_sub(a[2], bd, b[2] * ad)),
+        N::mul_sub(b[2], ac, N::mul_add(c[2], ab, a[2] * bc)),
+    ]
+}
+
+/// The in-sphere determinant |a|²bcd − |b|²cda + |c|²dab − |d|²abc: positive if the origin is inside the sphere through
+/// the positive simplex a, b, c, d.
+#[inline(always)]
+pub(super) fn determinant<N: Number>(corners: [[N; 3]; 4]) -> N {
+    let [u, v, w, t] = cofactors(corners);
+    let [a, b, c, d] = corners;
+    N::mul_add(lift(a), u, lift(b) * v) + N::mul_add(lift(c), w, lift(d) * t)
+}
+
+/// The largest difference along each axis.
+#[inline(always)]
+fn extents<L: Lane>([a, b, c, d]: [[L; 3]; 4]) -> [L; 3] {
+    [
+        largest(a[0], b[0], c[0]).max(d[0].abs()),
+        largest(a[1], b[1], c[1]).max(d[1].abs()),
+        largest(a[2], b[2], c[2]).max(d[2].abs()),
+    ]
+}
+
+/// The largest difference.
+#[inline(always)]
+pub(super) fn reach<L: Lane>(corners: [[L; 3]; 4]) -> L {
+    let [x, y, z] = extents(corners);
+    x.max(y).max(z)
 }
 
 /// What the largest monomial of [`determinant`] cannot exceed.
 #[inline(always)]
-pub(super) fn product<L: Lane>([a, b, c, d]: [[L; 3]; 4]) -> L {
-    let x = largest(a[0], b[0], c[0]).max(d[0].abs());
-    let y = largest(a[1], b[1], c[1]).max(d[1].abs());
-    let z = largest(a[2], b[2], c[2]).max(d[2].abs());
+pub(super) fn product<L: Lane>(corners: [[L; 3]; 4]) -> L {
+    let [x, y, z] = extents(corners);
     let reach = x.max(y).max(z);
     (x * y) * (z * (reach * reach))
 }
@@ -105,10 +131,31 @@ pub(super) trait Signs: Copy {
     const WIDTH: usize;
 
     /// Which of `WIDTH` simplices are certainly in conflict with q, and which are open. Ghosts are open.
-    fn conflicts(self, sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32);
+    fn conflicts(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> (u32, u32);
 
     /// The same with pairs of numbers, if this path has them.
-    fn conflicts_in_pairs(self, sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> Option<(u32, u32)>;
+    fn conflicts_in_pairs(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> Option<(u32, u32)>;
+
+    /// The same for whole numbers, if this path has that, and which were ties.
+    fn conflicts_in_whole(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> Option<(u32, u32, u32)>;
 
     /// Beyond which facets of a positive simplex q certainly lies, and which are open.
     fn beyond(self, corners: [&Site; 4], q: &Site) -> (u32, u32);
@@ -200,15 +247,37 @@ impl<M: MulAdd> Signs for Scalar<M> {
     const WIDTH: usize = 1;
 
     #[inline(always)]
-    fn conflicts(self, sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+    fn conflicts(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> (u32, u32) {
         let [a, b, c, d] = rows(sites, &simplices[group[0] as usize]);
-        let (Real(det, _), Real(bound, _)) = in_sphere([less::<M>(a, q), less(b, q), less(c, q), less(d, q)]);
+        let (Real(det, _), Real(bound, _)) =
+            in_sphere([less::<M>(a, q), less(b, q), less(c, q), less(d, q)]);
         let inside = det > bound;
         (u32::from(inside), u32::from(!(inside || det < -bound)))
     }
 
-    #[inline(always)]
-    fn conflicts_in_pairs(self, _: &[Site], _: &[Simplex<4>], _: &[u32], _: &Site) -> Option<(u32, u32)> {
+    fn conflicts_in_pairs(
+        self,
+        _: &[Site],
+        _: &[Simplex<4>],
+        _: &[u32],
+        _: &Site,
+    ) -> Option<(u32, u32)> {
+        None
+    }
+
+    fn conflicts_in_whole(
+        self,
+        _: &[Site],
+        _: &[Simplex<4>],
+        _: &[u32],
+        _: &Site,
+    ) -> Option<(u32, u32, u32)> {
         None
     }
 
@@ -244,7 +313,23 @@ impl Signs for Unfiltered {
         (0, 1)
     }
 
-    fn conflicts_in_pairs(self, _: &[Site], _: &[Simplex<4>], _: &[u32], _: &Site) -> Option<(u32, u32)> {
+    fn conflicts_in_pairs(
+        self,
+        _: &[Site],
+        _: &[Simplex<4>],
+        _: &[u32],
+        _: &Site,
+    ) -> Option<(u32, u32)> {
+        None
+    }
+
+    fn conflicts_in_whole(
+        self,
+        _: &[Site],
+        _: &[Simplex<4>],
+        _: &[u32],
+        _: &Site,
+    ) -> Option<(u32, u32, u32)> {
         None
     }
 
@@ -292,14 +377,23 @@ impl Judge {
         q: &Site,
     ) -> u32 {
         let mut inside = 0;
-        // Whole numbers that are left open are ties nearly always: pairs would be in vain.
-        if open.count_ones() > 1
-            && !self.exact.integral
-            && let Some((certain, unsure)) = signs.conflicts_in_pairs(sites, simplices, group, q)
-        {
-            inside = certain & open;
-            self.exact.stages.double_double += u64::from((open & !unsure).count_ones());
-            open &= unsure;
+        let stages = &mut self.exact.stages;
+        if self.exact.integral && open.count_ones() > 1 {
+            let answer = signs.conflicts_in_whole(sites, simplices, group, q);
+            if let Some((certain, unsure, ties)) = answer {
+                inside |= certain & open;
+                stages.integer += u64::from((open & !unsure).count_ones());
+                stages.ties += u64::from((open & !unsure & ties).count_ones());
+                open &= unsure;
+            }
+        }
+        if open.count_ones() > 1 {
+            let answer = signs.conflicts_in_pairs(sites, simplices, group, q);
+            if let Some((certain, unsure)) = answer {
+                inside |= certain & open;
+                stages.double_double += u64::from((open & !unsure).count_ones());
+                open &= unsure;
+            }
         }
         while open != 0 {
             let lane = open.trailing_zeros();
@@ -332,6 +426,13 @@ impl Judge {
             self.behind += 1;
         }
         let [a, b, c, d] = rows(sites, simplex);
-        space::conflict_exact(a.point(), b.point(), c.point(), d.point(), q.point(), &mut self.exact)
+        space::conflict_exact(
+            a.point(),
+            b.point(),
+            c.point(),
+            d.point(),
+            q.point(),
+            &mut self.exact,
+        )
     }
 }

@@ -10,7 +10,7 @@ use crate::kernel::TooMany;
 use crate::simplex::Simplex;
 use crate::space::pairs::{self, Pair};
 use crate::space::signs::{Lane, Number, Scalar, Signs, in_sphere, orientation, rows};
-use crate::space::{Mesh, Site};
+use crate::space::{Mesh, Site, whole};
 
 use super::Level;
 
@@ -281,7 +281,9 @@ unsafe fn corners8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32]) -> [
         rows(sites, &simplices[group[7] as usize]),
     ];
     // SAFETY: the caller's promise.
-    unsafe { [columns8::<0>(&rows), columns8::<1>(&rows), columns8::<2>(&rows), columns8::<3>(&rows)] }
+    unsafe {
+        [columns8::<0>(&rows), columns8::<1>(&rows), columns8::<2>(&rows), columns8::<3>(&rows)]
+    }
 }
 
 /// p − q.
@@ -322,6 +324,20 @@ fn pairs4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> 
     masks4(det, bound)
 }
 
+/// Besides inside and open: which are ties.
+#[inline(never)]
+#[target_feature(enable = "avx2,fma")]
+fn whole4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32, u32) {
+    // SAFETY: this function has the features.
+    let [a, b, c, d] = unsafe { corners4(sites, simplices, group) };
+    let q = splat(q);
+    let (det, perturbed, bound) =
+        whole::in_sphere([less(a, q), less(b, q), less(c, q), less(d, q)]);
+    let (inside, open) = masks4(perturbed, bound);
+    let (_, ties) = masks4(det, bound);
+    (inside, open, ties)
+}
+
 /// Where the determinant is certainly positive, and where it is open.
 #[inline]
 #[target_feature(enable = "avx512f")]
@@ -352,6 +368,20 @@ fn pairs8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> 
     masks8(det, bound)
 }
 
+/// Besides inside and open: which are ties.
+#[inline(never)]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+fn whole8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32, u32) {
+    // SAFETY: this function has the features.
+    let [a, b, c, d] = unsafe { corners8(sites, simplices, group) };
+    let q = splat(q);
+    let (det, perturbed, bound) =
+        whole::in_sphere([less(a, q), less(b, q), less(c, q), less(d, q)]);
+    let (inside, open) = masks8(perturbed, bound);
+    let (_, ties) = masks8(det, bound);
+    (inside, open, ties)
+}
+
 /// The four orientations of q with the facets of a simplex, lane i for the facet opposite vertex i.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
@@ -360,8 +390,7 @@ fn beyond4([a, b, c, d]: [&Site; 4], q: &Site) -> (u32, u32) {
     const A: i32 = 0b10_11_00_01;
     const B: i32 = 0b01_00_11_10;
     const C: i32 = 0b00_01_10_11;
-    let [F64x4(x), F64x4(y), F64x4(z)] =
-        less(columns4(a, b, c, d), splat(q));
+    let [F64x4(x), F64x4(y), F64x4(z)] = less(columns4(a, b, c, d), splat(q));
     let a = [
         F64x4(_mm256_permute4x64_pd(x, A)),
         F64x4(_mm256_permute4x64_pd(y, A)),
@@ -386,15 +415,39 @@ impl Signs for Avx2 {
     const WIDTH: usize = 4;
 
     #[inline(always)]
-    fn conflicts(self, sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+    fn conflicts(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> (u32, u32) {
         // SAFETY: `self` proves that the processor has the features.
         unsafe { conflicts4(sites, simplices, group, q) }
     }
 
     #[inline(always)]
-    fn conflicts_in_pairs(self, sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> Option<(u32, u32)> {
+    fn conflicts_in_pairs(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> Option<(u32, u32)> {
         // SAFETY: as above.
         Some(unsafe { pairs4(sites, simplices, group, q) })
+    }
+
+    #[inline(always)]
+    fn conflicts_in_whole(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> Option<(u32, u32, u32)> {
+        // SAFETY: as above.
+        Some(unsafe { whole4(sites, simplices, group, q) })
     }
 
     #[inline(always)]
@@ -413,15 +466,39 @@ impl Signs for Avx512 {
     const WIDTH: usize = 8;
 
     #[inline(always)]
-    fn conflicts(self, sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+    fn conflicts(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> (u32, u32) {
         // SAFETY: `self` proves that the processor has the features.
         unsafe { conflicts8(sites, simplices, group, q) }
     }
 
     #[inline(always)]
-    fn conflicts_in_pairs(self, sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> Option<(u32, u32)> {
+    fn conflicts_in_pairs(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> Option<(u32, u32)> {
         // SAFETY: as above.
         Some(unsafe { pairs8(sites, simplices, group, q) })
+    }
+
+    #[inline(always)]
+    fn conflicts_in_whole(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> Option<(u32, u32, u32)> {
+        // SAFETY: as above.
+        Some(unsafe { whole8(sites, simplices, group, q) })
     }
 
     #[inline(always)]
