@@ -26,6 +26,7 @@ mod triangulation;
 pub use error::Error;
 pub use kernel::Counters;
 pub use options::{DelaunayOptions, InsertionOrder};
+pub use plane::constrained::{Constrained, ConstraintError, Piece, Segment, Split};
 pub use query::{AlphaComplex, Location, Locator, Polygon, Polyhedron};
 pub use simplex::{GHOST, Simplex, decode};
 pub use solution::delaunay;

@@ -39,11 +39,23 @@ fn plane_sets() -> Vec<(&'static str, Vec<[f64; 2]>)> {
         ("uniform", (0..4000).map(|_| [r.next(), r.next()]).collect()),
         ("grid", (0..3600).map(|i| cells(i).into()).collect()),
         ("grid of tenths", (0..3600).map(|i| [cells(i).0 * 0.1, cells(i).1 * 0.1]).collect()),
-        ("tilted grid", (0..3600).map(cells).map(|(x, y)| [x * cos - y * sin, x * sin + y * cos]).collect()),
+        (
+            "tilted grid",
+            (0..3600).map(cells).map(|(x, y)| [x * cos - y * sin, x * sin + y * cos]).collect(),
+        ),
         ("circle", (0..1500).map(|_| on_circle(TAU * r.next())).collect()),
-        ("hub and rim", [[0.0; 2]].into_iter().chain((0..700).map(|i| on_circle(f64::from(i) * TAU / 700.0))).collect()),
+        (
+            "hub and rim",
+            [[0.0; 2]]
+                .into_iter()
+                .chain((0..700).map(|i| on_circle(f64::from(i) * TAU / 700.0)))
+                .collect(),
+        ),
         ("lattice on circles", on_circles.map(|(x, y)| [f64::from(x), f64::from(y)]).collect()),
-        ("collinear and one", (0..2000).map(|i| [f64::from(i), 0.0]).chain([[700.5, 1000.0]]).collect()),
+        (
+            "collinear and one",
+            (0..2000).map(|i| [f64::from(i), 0.0]).chain([[700.5, 1000.0]]).collect(),
+        ),
         ("two lines", (0..2000).map(|i| [f64::from(i / 2) * 0.37, f64::from(i % 2)]).collect()),
         (
             "cluster in a void",
@@ -54,11 +66,20 @@ fn plane_sets() -> Vec<(&'static str, Vec<[f64; 2]>)> {
                 })
                 .collect(),
         ),
-        ("mixed signs", (0..2000).map(|_| [(r.next() - 0.5) * 1e-3, (r.next() - 0.5) * 1e3]).collect()),
+        (
+            "mixed signs",
+            (0..2000).map(|_| [(r.next() - 0.5) * 1e-3, (r.next() - 0.5) * 1e3]).collect(),
+        ),
         ("huge", (0..500).map(|_| [r.next() * 1e150, (r.next() - 0.5) * 1e150]).collect()),
         ("tiny", (0..500).map(|_| [r.next() * 1e-150, (r.next() - 0.5) * 1e-150]).collect()),
-        ("all scales", (0..300).map(|i| 2f64.powi(i * 6 - 900)).map(|s| [s, r.next() * s]).collect()),
-        ("subnormal", (0..400u64).map(|i| [f64::from_bits(i % 20), f64::from_bits(i / 20)]).collect()),
+        (
+            "all scales",
+            (0..300).map(|i| 2f64.powi(i * 6 - 900)).map(|s| [s, r.next() * s]).collect(),
+        ),
+        (
+            "subnormal",
+            (0..400u64).map(|i| [f64::from_bits(i % 20), f64::from_bits(i / 20)]).collect(),
+        ),
         ("collinear", (0..100).map(|i| [f64::from(i * 37 % 100) * 0.1; 2]).collect()),
         ("one point", vec![[3.0, -4.0]]),
         ("nothing", vec![]),
@@ -73,7 +94,9 @@ fn space_sets() -> Vec<(&'static str, Vec<[f64; 3]>)> {
         let s = (1.0 - z * z).sqrt();
         [s * angle.cos(), s * angle.sin(), z]
     };
-    let tip = |i: usize, s: f64| std::array::from_fn(|k| if k == i / 2 { s * [1.0, -1.0][i % 2] } else { 0.0 });
+    let tip = |i: usize, s: f64| {
+        std::array::from_fn(|k| if k == i / 2 { s * [1.0, -1.0][i % 2] } else { 0.0 })
+    };
     vec![
         ("uniform", (0..3000).map(|_| [r.next(), r.next(), r.next()]).collect()),
         ("grid", (0..1000).map(cells).collect()),
@@ -81,16 +104,25 @@ fn space_sets() -> Vec<(&'static str, Vec<[f64; 3]>)> {
         ("sphere", (0..800).map(|_| on_sphere(2.0 * r.next() - 1.0, TAU * r.next())).collect()),
         (
             "skew lines",
-            (0..160).map(f64::from).map(|i| if i % 2.0 == 0.0 { [i, 0.0, 0.0] } else { [3.0, i, 7.0] }).collect(),
+            (0..160)
+                .map(f64::from)
+                .map(|i| if i % 2.0 == 0.0 { [i, 0.0, 0.0] } else { [3.0, i, 7.0] })
+                .collect(),
         ),
         (
             "coplanar and one",
-            (0..900).map(|i| [f64::from(i % 30), f64::from(i / 30), 0.0]).chain([[3.5, 4.5, 9.0]]).collect(),
+            (0..900)
+                .map(|i| [f64::from(i % 30), f64::from(i / 30), 0.0])
+                .chain([[3.5, 4.5, 9.0]])
+                .collect(),
         ),
         ("coplanar", (0..900).map(|i| [i % 30, i / 30, i % 30 + i / 30].map(f64::from)).collect()),
         ("coplanar, upright", (0..500).map(|_| [r.next(), 7.0, r.next()]).collect()),
         ("collinear", (0..100).map(|i| [f64::from(i * 37 % 100) * 0.1; 3]).collect()),
-        ("octahedra", [1.0, 0.5, 2.0].into_iter().flat_map(|s| (0..6).map(move |i| tip(i, s))).collect()),
+        (
+            "octahedra",
+            [1.0, 0.5, 2.0].into_iter().flat_map(|s| (0..6).map(move |i| tip(i, s))).collect(),
+        ),
         (
             "cluster in a void",
             (0..2000)
@@ -105,7 +137,10 @@ fn space_sets() -> Vec<(&'static str, Vec<[f64; 3]>)> {
     ]
 }
 
-fn build<const D: usize>(points: &[[f64; D]], options: &DelaunayOptions) -> Solution<Triangulation> {
+fn build<const D: usize>(
+    points: &[[f64; D]],
+    options: &DelaunayOptions,
+) -> Solution<Triangulation> {
     let points = Points::new(points.as_flattened(), D).expect("whole rows");
     delaunay(&points, options).expect("finite points")
 }
@@ -116,12 +151,18 @@ fn same_whatever_the_way<const D: usize>(name: &str, points: &[[f64; D]]) {
     let source = Points::new(points.as_flattened(), D).expect("whole rows");
     expected.check(&source).unwrap_or_else(|e| panic!("{name}: {e}"));
     for cells in [2, 3, 8, 64] {
-        let found = build(points, &DelaunayOptions { threads: Some(2), cells: Some(cells), ..alone.clone() });
+        let found = build(
+            points,
+            &DelaunayOptions { threads: Some(2), cells: Some(cells), ..alone.clone() },
+        );
         assert!(found == expected, "{name}: {cells} cells");
     }
     for (method, order) in InsertionOrder::NAMES {
         let found = build(points, &DelaunayOptions { order, seed: 7, ..alone.clone() });
-        assert!(found.answer == expected.answer && found.certificate == expected.certificate, "{name}: {method}");
+        assert!(
+            found.answer == expected.answer && found.certificate == expected.certificate,
+            "{name}: {method}"
+        );
     }
     let scalar = build(points, &DelaunayOptions { vectors: false, ..alone.clone() });
     assert!(scalar == expected, "{name}: without vectors");
@@ -132,13 +173,22 @@ fn same_whatever_the_way<const D: usize>(name: &str, points: &[[f64; D]]) {
     sorted.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
     let reversed: Vec<[f64; D]> = sorted.iter().rev().copied().collect();
     let doubled: Vec<[f64; D]> = points.iter().flat_map(|&p| [p, p]).collect();
-    for (way, rows) in [("shuffled", shuffled), ("sorted", sorted), ("reversed", reversed), ("doubled", doubled)] {
+    for (way, rows) in
+        [("shuffled", shuffled), ("sorted", sorted), ("reversed", reversed), ("doubled", doubled)]
+    {
         let found = build(&rows, &DelaunayOptions { cells: Some(3), ..DelaunayOptions::default() });
-        assert_eq!(found.certificate.fingerprint, expected.certificate.fingerprint, "{name}: {way}");
+        assert_eq!(
+            found.certificate.fingerprint, expected.certificate.fingerprint,
+            "{name}: {way}"
+        );
         assert_eq!(found.certificate.counts, expected.certificate.counts, "{name}: {way}");
         if way == "doubled" {
             // Each site twice, and each duplicate twice.
-            assert_eq!(found.answer.duplicates.len(), points.len() + expected.answer.duplicates.len(), "{name}");
+            assert_eq!(
+                found.answer.duplicates.len(),
+                points.len() + expected.answer.duplicates.len(),
+                "{name}"
+            );
         }
     }
 }

@@ -51,7 +51,9 @@ fn the_nearest_site_is_the_nearest() {
 fn a_point_is_located_in_a_triangle_that_holds_it() {
     let plane = plane(&numbers(1000, 5));
     let locator = plane.locator();
-    let left = |a: [f64; 2], b: [f64; 2], q: [f64; 2]| (b[0] - a[0]) * (q[1] - a[1]) - (b[1] - a[1]) * (q[0] - a[0]);
+    let left = |a: [f64; 2], b: [f64; 2], q: [f64; 2]| {
+        (b[0] - a[0]) * (q[1] - a[1]) - (b[1] - a[1]) * (q[0] - a[0])
+    };
     for q in numbers(1000, 6).chunks(2).map(|q| [q[0] * 1.2 - 0.1, q[1] * 1.2 - 0.1]) {
         let beyond = plane.hull().any(|[a, b]| left(plane.site(a), plane.site(b), q) < 0.0);
         match locator.locate(q) {
@@ -72,22 +74,40 @@ fn a_point_is_located_in_a_triangle_that_holds_it() {
     assert_eq!(self::plane(&[0.0, 0.0, 1.0, 1.0]).locator().locate([0.5, 0.0]), Location::Flat);
 }
 
-/// The natural neighbours of a point are its neighbours once it is a site.
+/// The natural neighbours of a point are its neighbours once it is a site: in space, and on grids, where a point may lie
+/// on edges, on circles, outside, and on the lines of the hull.
 #[test]
 fn natural_neighbours_are_those_after_insertion() {
     let values = numbers(900, 17);
     let before = space(&values);
     let locator = before.locator();
-    let points: BTreeSet<_> = (0..before.site_count() as u32).map(|s| before.row(s)).collect();
-    assert_eq!(points.len(), 300);
     for q in numbers(60, 18).chunks(3).map(|q| [q[0] * 1.4 - 0.2, q[1], q[2]]) {
         let mut with_q = values.clone();
         with_q.extend(q);
         let after = space(&with_q);
-        let new = (0..after.site_count() as u32).find(|&s| after.row(s) == 300).expect("q is new");
-        let expected: BTreeSet<u32> = after.locator().adjacent(new).into_iter().map(|s| after.row(s)).collect();
-        let found: BTreeSet<u32> = locator.natural_neighbors(q).into_iter().map(|s| before.row(s)).collect();
+        let new = after.sites_of_rows()[300];
+        let expected: BTreeSet<u32> =
+            after.locator().adjacent(new).into_iter().map(|s| after.row(s)).collect();
+        let found: BTreeSet<u32> =
+            locator.natural_neighbors(q).into_iter().map(|s| before.row(s)).collect();
         assert_eq!(found, expected);
+    }
+    let grid: Vec<f64> = (0..64).flat_map(|i| [f64::from(i % 8), f64::from(i / 8)]).collect();
+    let before = plane(&grid);
+    let locator = before.locator();
+    for q in (0..24 * 24).map(|i| [f64::from(i % 24) / 2.0 - 2.0, f64::from(i / 24) / 2.0 - 2.0]) {
+        let mut with_q = grid.clone();
+        with_q.extend(q);
+        let after = plane(&with_q);
+        if !after.duplicates().is_empty() {
+            continue;
+        }
+        let new = after.sites_of_rows()[64];
+        let expected: BTreeSet<u32> =
+            after.locator().adjacent(new).into_iter().map(|s| after.row(s)).collect();
+        let found: BTreeSet<u32> =
+            locator.natural_neighbors(q).into_iter().map(|s| before.row(s)).collect();
+        assert_eq!(found, expected, "{q:?}");
     }
 }
 
@@ -111,12 +131,18 @@ fn alpha_complexes_are_those_of_the_definition() {
                 }
             }
         }
-        assert_eq!(complex.boundary.iter().copied().collect::<BTreeSet<_>>(), once, "triangles to the left");
+        assert_eq!(
+            complex.boundary.iter().copied().collect::<BTreeSet<_>>(),
+            once,
+            "triangles to the left"
+        );
         let mut lone = BTreeSet::new();
         for u in 0..sites.len() {
             for v in u + 1..sites.len() {
                 let (p, q) = (sites[u], sites[v]);
-                let inside = |r: [f64; 2]| (p[0] - r[0]) * (q[0] - r[0]) + (p[1] - r[1]) * (q[1] - r[1]) < 0.0;
+                let inside = |r: [f64; 2]| {
+                    (p[0] - r[0]) * (q[0] - r[0]) + (p[1] - r[1]) * (q[1] - r[1]) < 0.0
+                };
                 let small = 0.25 * square_distance(p, q) <= alpha * alpha;
                 if small && !sites.iter().any(|&r| inside(r)) {
                     lone.insert([u as u32, v as u32]);
@@ -124,7 +150,8 @@ fn alpha_complexes_are_those_of_the_definition() {
             }
         }
         let lone: BTreeSet<_> = lone.difference(&covered).copied().collect();
-        let singular: BTreeSet<_> = complex.singular.iter().map(|&[u, v]| [u.min(v), u.max(v)]).collect();
+        let singular: BTreeSet<_> =
+            complex.singular.iter().map(|&[u, v]| [u.min(v), u.max(v)]).collect();
         assert_eq!(singular, lone, "alpha {alpha}");
     }
 }

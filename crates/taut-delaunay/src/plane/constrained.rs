@@ -59,7 +59,7 @@ pub struct Piece {
 
 /// What became of the segments.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Pieces {
+pub(crate) struct Pieces {
     /// In the order of their ends, each edge once.
     pub pieces: Vec<Piece>,
     /// In the order of segments and sites.
@@ -98,6 +98,9 @@ pub enum ConstraintError {
         /// The first such site.
         site: u32,
     },
+    /// The sites do not span the plane, so there are no triangles to constrain.
+    #[error("all points lie on a line: there are no triangles that segments could be edges of")]
+    Flat,
     /// Segments are numbered with 32 bits.
     #[error("{count} segments are more than can be numbered with 32 bits")]
     TooMany {
@@ -116,7 +119,7 @@ const NONE: u32 = u32::MAX;
 /// # Errors
 /// If segments cross, name sites that are not there, or rings do not close. After the first, triangles are those
 /// constrained by the segments before the second one; after the others, nothing has changed.
-pub fn constrain(
+pub(crate) fn constrain(
     sites: &[[f64; 2]],
     triangles: &mut [Simplex<3>],
     segments: &[Segment],

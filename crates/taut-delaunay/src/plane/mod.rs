@@ -15,7 +15,6 @@
 pub(crate) mod constrained;
 mod dig;
 mod dispatch;
-pub(crate) mod query;
 mod seen;
 mod star;
 #[cfg(test)]
@@ -27,8 +26,7 @@ use taut_predicates::{Exact, MulAdd, Separate};
 
 use crate::kernel::{Counters, Kernel, Settings, TooMany};
 use crate::simplex::{DEAD, GHOST, Simplex, code};
-use dig::{Edge, Sink, dig};
-use query::List;
+use dig::{Edge, dig};
 use seen::View;
 use star::Star;
 use walk::walk;
@@ -49,8 +47,6 @@ pub(crate) struct Mesh {
     pending: Vec<Edge>,
     /// Slots that the star may take; kept for its memory.
     free: Vec<u32>,
-    /// The rim that `conflicts` is not asked for.
-    rim: Vec<u32>,
 }
 
 const DEAD_SLOT: Simplex<3> = Simplex { vertices: [DEAD; 3], neighbors: [0; 3] };
@@ -67,7 +63,6 @@ impl Kernel<2, 3> for Mesh {
             counters: Counters::default(),
             pending: Vec::new(),
             free: Vec::new(),
-            rim: Vec::new(),
         }
     }
 
@@ -124,17 +119,6 @@ impl Kernel<2, 3> for Mesh {
     fn locate(&mut self, q: [f64; 2], hint: u32) -> u32 {
         let view = View::new(&self.sites, q, self.settings.filtered);
         walk::<Separate>(&view, &self.triangles, hint, &mut self.exact, &mut self.counters).triangle
-    }
-
-    /// In the order of digging: each triangle but the first shares an edge with one before it.
-    fn conflicts(&mut self, q: [f64; 2], hint: u32, out: &mut Vec<u32>) {
-        let view = View::new(&self.sites, q, self.settings.filtered);
-        let (exact, counters) = (&mut self.exact, &mut self.counters);
-        let found = walk::<Separate>(&view, &self.triangles, hint, exact, counters);
-        let mut list = List { all: &self.triangles, triangles: out, rim: &mut self.rim };
-        list.enter(found.triangle);
-        dig::<Separate, _>(&view, found, &mut self.pending, exact, counters, &mut list);
-        self.rim.clear();
     }
 
     fn finish(mut self) -> (Vec<Simplex<3>>, Vec<[f64; 2]>, Counters) {

@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 
 use taut_predicates::plane::{conflict, lexicographic, orient};
 
-use super::query::{Cavity, Query};
 use super::*;
 use crate::simplex::decode;
 
@@ -293,92 +292,6 @@ fn sets_that_others_failed_on() {
             check(&mesh);
             assert_eq!(triangles(&mesh), expected);
         });
-    }
-}
-
-/// The cavity by the definition: conflicts of finite triangles, and the rule of the hull for ghosts.
-fn brute_conflicts(mesh: &Mesh, q: Point) -> BTreeSet<u32> {
-    let point = |v: u32| mesh.sites[v as usize];
-    let finite = |t: &Simplex<3>| {
-        let [a, b, c] = t.vertices.map(point);
-        conflict(a, b, c, q)
-    };
-    let holds = |t: &Simplex<3>| match t.vertices.iter().position(|&v| v == GHOST) {
-        None => finite(t),
-        Some(g) => {
-            let side = orient(point(t.vertices[(g + 1) % 3]), point(t.vertices[(g + 2) % 3]), q);
-            side.is_positive()
-                || side.is_zero() && finite(&mesh.triangles[decode(t.neighbors[g]).0 as usize])
-        }
-    };
-    (0..mesh.triangles.len() as u32).filter(|&i| holds(&mesh.triangles[i as usize])).collect()
-}
-
-#[test]
-fn conflicts_are_the_cavity_and_leave_the_mesh_alone() {
-    let mut random = Random(11);
-    let grid: Vec<Point> = (0..64).map(|i| [f64::from(i % 8), f64::from(i / 8)]).collect();
-    let cloud: Vec<Point> = (0..100).map(|_| [8.0 * random.unit(), 8.0 * random.unit()]).collect();
-    for points in [grid, cloud] {
-        let mut mesh = checked(points, FAST);
-        let before = mesh.triangles.clone();
-        for _ in 0..400 {
-            // Half steps: on sites (left out), on edges, on circles, outside, on lines of the hull.
-            let q =
-                [(random.next() % 24) as f64 / 2.0 - 2.0, (random.next() % 24) as f64 / 2.0 - 2.0];
-            if mesh.sites.contains(&q) {
-                continue;
-            }
-            let hint = (random.next() % before.len() as u64) as u32;
-            let mut out = vec![u32::MAX];
-            mesh.conflicts(q, hint, &mut out);
-            assert_eq!(out.remove(0), u32::MAX, "appended");
-            assert_eq!(out.iter().copied().collect::<BTreeSet<_>>(), brute_conflicts(&mesh, q));
-            for (k, &t) in out.iter().enumerate().skip(1) {
-                let touches = |code: u32| out[..k].contains(&decode(code).0);
-                assert!(before[t as usize].neighbors.into_iter().any(touches), "connected");
-            }
-        }
-        assert_eq!(mesh.triangles, before);
-    }
-}
-
-#[test]
-fn questions_to_a_finished_mesh() {
-    let mut random = Random(12);
-    let grid: Vec<Point> = (0..64).map(|i| [f64::from(i % 8), f64::from(i / 8)]).collect();
-    let mesh = checked(grid, FAST);
-    let mut query = Query::new(&mesh.sites, &mesh.triangles, true, false);
-    let mut cavity = Cavity::default();
-    let side =
-        |from: u32, to: u32, q| orient(mesh.sites[from as usize], mesh.sites[to as usize], q);
-    for _ in 0..400 {
-        let q = [(random.next() % 24) as f64 / 2.0 - 2.0, (random.next() % 24) as f64 / 2.0 - 2.0];
-        let hint = (random.next() % mesh.triangles.len() as u64) as u32;
-        let [a, b, c] = mesh.triangles[query.locate(q, hint) as usize].vertices;
-        let edges = [[a, b], [b, c], [c, a]].into_iter().filter(|e| !e.contains(&GHOST));
-        let signs: Vec<_> = edges.map(|[from, to]| side(from, to, q)).collect();
-        assert!(
-            signs.iter().all(|s| !s.is_negative()) && (signs.len() == 3 || signs[0].is_positive())
-        );
-        if mesh.sites.contains(&q) {
-            continue;
-        }
-        query.cavity(q, hint, &mut cavity);
-        let members: BTreeSet<u32> = cavity.triangles.iter().copied().collect();
-        assert_eq!(members, brute_conflicts(&mesh, q));
-        let mut edges = BTreeSet::new();
-        for &t in &members {
-            let Simplex { vertices, neighbors } = mesh.triangles[t as usize];
-            for place in (0..3).filter(|&p| !members.contains(&decode(neighbors[p]).0)) {
-                edges.insert([vertices[(place + 1) % 3], vertices[(place + 2) % 3]]);
-            }
-        }
-        let ring = &cavity.rim;
-        let ring: Vec<[u32; 2]> =
-            (0..ring.len()).map(|i| [ring[i], ring[(i + 1) % ring.len()]]).collect();
-        assert_eq!(ring.len(), edges.len());
-        assert_eq!(ring.into_iter().collect::<BTreeSet<_>>(), edges);
     }
 }
 

@@ -86,57 +86,56 @@ impl Radii<3, 4> for Space {
     }
 }
 
-impl<const D: usize, const V: usize> Triangulation<D, V>
-where
-    Self: Radii<D, V>,
-{
-    /// The squared circumradius of a finite simplex, in units of the input squared; infinite for the flattest.
-    ///
-    /// # Panics
-    /// If there is no such simplex, or it is a ghost.
-    fn radius_squared(&self, simplex: u32) -> f64 {
-        let squared = Self::circumradius_squared(self.vertices(simplex).map(|v| self.site(v)));
-        if squared.is_nan() { f64::INFINITY } else { squared }
-    }
+/// The squared circumradius of a finite simplex, in units of the input squared; infinite for the flattest.
+fn radius_squared<R: Radii<D, V>, const D: usize, const V: usize>(
+    of: &Triangulation<D, V>,
+    simplex: u32,
+) -> f64 {
+    let squared = R::circumradius_squared(of.vertices(simplex).map(|v| of.site(v)));
+    if squared.is_nan() { f64::INFINITY } else { squared }
+}
 
-    fn alpha_by(&self, alpha: f64) -> AlphaComplex<D> {
-        let limit = alpha * alpha;
-        let mut complex = AlphaComplex { simplices: vec![], boundary: vec![], singular: vec![] };
-        let slots = self.slots();
-        let mut inside = vec![false; slots.len()];
-        for t in self.simplices() {
-            if self.radius_squared(t) <= limit {
-                inside[t as usize] = true;
-                complex.simplices.push(t);
-            }
+fn alpha_complex<R: Radii<D, V>, const D: usize, const V: usize>(
+    of: &Triangulation<D, V>,
+    alpha: f64,
+) -> AlphaComplex<D> {
+    let limit = alpha * alpha;
+    let mut complex = AlphaComplex { simplices: vec![], boundary: vec![], singular: vec![] };
+    let slots = of.slots();
+    let mut inside = vec![false; slots.len()];
+    for t in of.simplices() {
+        if radius_squared::<R, D, V>(of, t) <= limit {
+            inside[t as usize] = true;
+            complex.simplices.push(t);
         }
-        for t in self.simplices() {
-            let vertices = self.vertices(t);
-            for i in 0..V {
-                let (other, facet) = decode(slots[t as usize].neighbors[i]);
-                let mut with_ghost = vertices;
-                with_ghost[i] = GHOST;
-                match (inside[t as usize], inside[other as usize]) {
-                    // Seen from the simplex that stays, the ghost in place of vertex i lies within: turn it out.
-                    (true, false) => complex.boundary.push(turned(hull_facet(with_ghost))),
-                    (false, false) if t < other || slots[other as usize].is_ghost() => {
-                        let corners = hull_facet::<D, V>(with_ghost).map(|v| self.sites.coordinates[v as usize]);
-                        let opposite = [vertices[i], slots[other as usize].vertices[facet]];
-                        let hit = opposite
-                            .iter()
-                            .filter(|&&v| v != GHOST)
-                            .any(|&v| Self::in_facet_sphere(corners, self.sites.coordinates[v as usize]));
-                        let sites = hull_facet::<D, V>(with_ghost);
-                        if !hit && Self::facet_radius_squared(sites.map(|v| self.site(v))) <= limit {
-                            complex.singular.push(turned(sites));
-                        }
-                    }
-                    _ => {}
-                }
-            }
-        }
-        complex
     }
+    for t in of.simplices() {
+        let vertices = of.vertices(t);
+        for i in 0..V {
+            let (other, facet) = decode(slots[t as usize].neighbors[i]);
+            let mut with_ghost = vertices;
+            with_ghost[i] = GHOST;
+            match (inside[t as usize], inside[other as usize]) {
+                // Seen from the simplex that stays, the ghost in place of vertex i lies within: turn it out.
+                (true, false) => complex.boundary.push(turned(hull_facet(with_ghost))),
+                (false, false) if t < other || slots[other as usize].is_ghost() => {
+                    let corners =
+                        hull_facet::<D, V>(with_ghost).map(|v| of.sites.coordinates[v as usize]);
+                    let opposite = [vertices[i], slots[other as usize].vertices[facet]];
+                    let hit = opposite
+                        .iter()
+                        .filter(|&&v| v != GHOST)
+                        .any(|&v| R::in_facet_sphere(corners, of.sites.coordinates[v as usize]));
+                    let sites = hull_facet::<D, V>(with_ghost);
+                    if !hit && R::facet_radius_squared(sites.map(|v| of.site(v))) <= limit {
+                        complex.singular.push(turned(sites));
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+    complex
 }
 
 /// A facet seen from the other side.
@@ -149,7 +148,7 @@ impl Plane {
     /// The alpha complex: what an eraser of radius `alpha` that spares the sites leaves of the plane, as triangles and
     /// edges. Empty if the sites do not span the plane. O(n).
     pub fn alpha_complex(&self, alpha: f64) -> AlphaComplex<2> {
-        self.alpha_by(alpha)
+        alpha_complex::<Self, _, _>(self, alpha)
     }
 
     /// The circumradius of a triangle.
@@ -157,7 +156,7 @@ impl Plane {
     /// # Panics
     /// If there is no such triangle, or it is a ghost.
     pub fn circumradius(&self, triangle: u32) -> f64 {
-        self.radius_squared(triangle).sqrt()
+        radius_squared::<Self, _, _>(self, triangle).sqrt()
     }
 }
 
@@ -165,7 +164,7 @@ impl Space {
     /// The alpha complex: what an eraser of radius `alpha` that spares the sites leaves of space, as tetrahedra and
     /// triangles. Empty if the sites do not span space. O(n).
     pub fn alpha_complex(&self, alpha: f64) -> AlphaComplex<3> {
-        self.alpha_by(alpha)
+        alpha_complex::<Self, _, _>(self, alpha)
     }
 
     /// The circumradius of a tetrahedron.
@@ -173,6 +172,6 @@ impl Space {
     /// # Panics
     /// If there is no such tetrahedron, or it is a ghost.
     pub fn circumradius(&self, tetrahedron: u32) -> f64 {
-        self.radius_squared(tetrahedron).sqrt()
+        radius_squared::<Self, _, _>(self, tetrahedron).sqrt()
     }
 }

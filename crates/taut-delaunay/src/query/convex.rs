@@ -39,7 +39,11 @@ impl<const D: usize> HalfSpace<D> {
 }
 
 /// Cuts a closed loop of corners; appends the corners on the border to `border`.
-fn cut_loop<const D: usize>(corners: &[[f64; D]], by: &HalfSpace<D>, border: &mut Vec<[f64; D]>) -> Vec<[f64; D]> {
+fn cut_loop<const D: usize>(
+    corners: &[[f64; D]],
+    by: &HalfSpace<D>,
+    border: &mut Vec<[f64; D]>,
+) -> Vec<[f64; D]> {
     let mut kept = Vec::with_capacity(corners.len() + 1);
     for (i, &p) in corners.iter().enumerate() {
         let q = corners[(i + 1) % corners.len()];
@@ -115,9 +119,17 @@ impl Polygon {
 
 impl Body<3> for Polyhedron {
     fn from_box(low: [f64; 3], high: [f64; 3]) -> Self {
-        let corner = |code: usize| std::array::from_fn(|k| if code >> k & 1 == 1 { high[k] } else { low[k] });
-        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        Self { faces: faces.iter().map(|face| face.iter().map(|&code| corner(code)).collect()).collect() }
+        let corner = |code: usize| {
+            std::array::from_fn(|k| if code >> k & 1 == 1 { high[k] } else { low[k] })
+        };
+        let faces =
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        Self {
+            faces: faces
+                .iter()
+                .map(|face| face.iter().map(|&code| corner(code)).collect())
+                .collect(),
+        }
     }
 
     fn cut(&mut self, by: &HalfSpace<3>) {
@@ -125,7 +137,12 @@ impl Body<3> for Polyhedron {
         if self.faces.iter().flatten().all(|&p| by.excess(p) <= 0.0) {
             return;
         }
-        self.faces = self.faces.iter().map(|face| cut_loop(face, by, &mut border)).filter(|f| f.len() > 2).collect();
+        self.faces = self
+            .faces
+            .iter()
+            .map(|face| cut_loop(face, by, &mut border))
+            .filter(|f| f.len() > 2)
+            .collect();
         if border.len() > 2 {
             self.faces.push(around_middle(border, by.normal));
         }
@@ -158,7 +175,8 @@ impl Polyhedron {
 /// Corners of a convex face in counter-clockwise order as seen from where its normal points.
 fn around_middle(mut corners: Vec<[f64; 3]>, normal: [f64; 3]) -> Vec<[f64; 3]> {
     let count = corners.len() as f64;
-    let middle: [f64; 3] = std::array::from_fn(|k| corners.iter().map(|c| c[k]).sum::<f64>() / count);
+    let middle: [f64; 3] =
+        std::array::from_fn(|k| corners.iter().map(|c| c[k]).sum::<f64>() / count);
     // Any axis far from the normal gives a frame of the face.
     let least = (0..3).min_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs())).unwrap_or(0);
     let mut axis = [0.0; 3];

@@ -36,13 +36,22 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
     pub fn locator(&self) -> Locator<'_, D, V> {
         let mut at_site = vec![0; self.site_count()];
         let mut note = |t: usize, vertices: &[u32]| {
-            vertices.iter().filter(|&&v| v < GHOST - 1).for_each(|&v| at_site[v as usize] = t as u32);
+            vertices
+                .iter()
+                .filter(|&&v| v < GHOST - 1)
+                .for_each(|&v| at_site[v as usize] = t as u32);
         };
         match &self.complex {
             Complex::Nothing | Complex::Point => {}
-            Complex::Line(chain) => chain.iter().enumerate().for_each(|(place, &site)| note(place, &[site])),
+            Complex::Line(chain) => {
+                chain.iter().enumerate().for_each(|(place, &site)| note(place, &[site]))
+            }
             Complex::Flat(triangles) => {
-                triangles.iter().enumerate().filter(|(_, s)| !s.is_ghost()).for_each(|(t, s)| note(t, &s.vertices));
+                triangles
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, s)| !s.is_ghost())
+                    .for_each(|(t, s)| note(t, &s.vertices));
             }
             Complex::Full(_) => self.simplices().for_each(|t| note(t as usize, &self.vertices(t))),
         }
@@ -68,7 +77,8 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
             let p = self.triangulation.sites.coordinates[site as usize];
             (0..D).map(|i| (p[i] - q[i]) * (p[i] - q[i])).sum::<f64>()
         };
-        let open = |index: &Index<D>, node| index.bounds(node).distance_squared_to(q) <= best.get().0;
+        let open =
+            |index: &Index<D>, node| index.bounds(node).distance_squared_to(q) <= best.get().0;
         self.index.visit_nearest(q, open, |leaf| {
             for site in self.index.run(leaf) {
                 let candidate = (distance(site), site);
@@ -90,8 +100,10 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
             Complex::Nothing | Complex::Point => Vec::new(),
             Complex::Line(chain) => {
                 let place = at as usize;
-                let ends = [place.checked_sub(1), Some(place + 1).filter(|&next| next < chain.len())];
-                let mut around: Vec<u32> = ends.into_iter().flatten().map(|place| chain[place]).collect();
+                let ends =
+                    [place.checked_sub(1), Some(place + 1).filter(|&next| next < chain.len())];
+                let mut around: Vec<u32> =
+                    ends.into_iter().flatten().map(|place| chain[place]).collect();
                 around.sort_unstable();
                 around
             }
@@ -122,7 +134,9 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
     fn locate_by<G: Geometry<D, V>>(&self, point: [f64; D]) -> Location {
         let simplices = self.triangulation.slots();
         let q = self.scaled(point);
-        let Some(near) = self.nearest(point).filter(|_| !simplices.is_empty()) else { return Location::Flat };
+        let Some(near) = self.nearest(point).filter(|_| !simplices.is_empty()) else {
+            return Location::Flat;
+        };
         if self.triangulation.sites.coordinates[near as usize] == q {
             return Location::Site(near);
         }
@@ -133,7 +147,8 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
             if simplex.is_ghost() {
                 return Location::Outside(here);
             }
-            let corners = simplex.vertices.map(|v| self.triangulation.sites.coordinates[v as usize]);
+            let corners =
+                simplex.vertices.map(|v| self.triangulation.sites.coordinates[v as usize]);
             let beyond = (0..V).find(|&i| {
                 let mut with_q = corners;
                 with_q[i] = q;
@@ -154,7 +169,8 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
         };
         let simplices = self.triangulation.slots();
         let cavity = self.cavity::<G>(self.scaled(point), first);
-        let mut sites: Vec<u32> = cavity.iter().flat_map(|&t| simplices[t as usize].vertices).collect();
+        let mut sites: Vec<u32> =
+            cavity.iter().flat_map(|&t| simplices[t as usize].vertices).collect();
         sites.sort_unstable();
         sites.dedup();
         sites.retain(|&v| v != GHOST);

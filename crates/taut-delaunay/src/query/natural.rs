@@ -98,7 +98,12 @@ macro_rules! interpolation {
             /// If there are fewer values than rows.
             pub fn interpolate(&self, values: &[f64], point: [f64; $d]) -> Option<f64> {
                 let coordinates = self.natural_coordinates(point)?;
-                Some(coordinates.iter().map(|&(s, w)| w * values[self.triangulation.row(s) as usize]).sum())
+                Some(
+                    coordinates
+                        .iter()
+                        .map(|&(s, w)| w * values[self.triangulation.row(s) as usize])
+                        .sum(),
+                )
             }
         }
     };
@@ -125,7 +130,8 @@ mod tests {
     fn linear_functions_are_reproduced() {
         let values = numbers(1000);
         let points = Points::new(&values, 2).expect("whole rows");
-        let plane = Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent()).expect("finite");
+        let plane =
+            Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent()).expect("finite");
         let heights: Vec<f64> = values.chunks(2).map(|p| 3.0 * p[0] - 2.0 * p[1] + 0.5).collect();
         let locator = plane.locator();
         let mut inside = 0;
@@ -144,14 +150,18 @@ mod tests {
     fn linear_functions_are_reproduced_in_space() {
         let values = numbers(1500);
         let points = Points::new(&values, 3).expect("whole rows");
-        let space = Space::build(&points, &DelaunayOptions::default(), &Monitor::silent()).expect("finite");
+        let space =
+            Space::build(&points, &DelaunayOptions::default(), &Monitor::silent()).expect("finite");
         let heights: Vec<f64> = values.chunks(3).map(|p| 3.0 * p[0] - 2.0 * p[1] + p[2]).collect();
         let locator = space.locator();
         let mut inside = 0;
         for q in numbers(300).chunks(3) {
             if let Some(height) = locator.interpolate(&heights, [q[0], q[1], q[2]]) {
                 inside += 1;
-                assert!((height - (3.0 * q[0] - 2.0 * q[1] + q[2])).abs() < 1e-8, "{q:?}: {height}");
+                assert!(
+                    (height - (3.0 * q[0] - 2.0 * q[1] + q[2])).abs() < 1e-8,
+                    "{q:?}: {height}"
+                );
             }
         }
         assert!(inside > 50);
@@ -162,7 +172,8 @@ mod tests {
     fn symmetric_neighbours_have_equal_weights() {
         let grid: Vec<f64> = (0..25).flat_map(|i| [f64::from(i % 5), f64::from(i / 5)]).collect();
         let points = Points::new(&grid, 2).expect("whole rows");
-        let plane = Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent()).expect("finite");
+        let plane =
+            Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent()).expect("finite");
         let found = plane.locator().natural_coordinates([1.5, 2.5]).expect("inside");
         let heavy: Vec<f64> = found.iter().map(|&(_, w)| w).filter(|&w| w > 1e-12).collect();
         assert_eq!(heavy.len(), 4);

@@ -62,21 +62,27 @@ mod tests {
     /// The cells of all sites fill the box, whatever the sites span.
     #[test]
     fn cells_fill_the_box() {
-        let line: Vec<f64> = (0..20).flat_map(|i| [f64::from(i) * 0.05, f64::from(i) * 0.02]).collect();
-        let flat: Vec<f64> = numbers(80).chunks(2).flat_map(|p| [p[0], p[1], p[0] + p[1]]).collect();
+        let line: Vec<f64> =
+            (0..20).flat_map(|i| [f64::from(i) * 0.05, f64::from(i) * 0.02]).collect();
+        let flat: Vec<f64> =
+            numbers(80).chunks(2).flat_map(|p| [p[0], p[1], p[0] + p[1]]).collect();
         for values in [numbers(600), line, vec![0.3, 0.4]] {
             let points = Points::new(&values, 2).expect("whole rows");
-            let plane = Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent()).expect("finite");
+            let plane = Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent())
+                .expect("finite");
             let locator = plane.locator();
-            let cells = (0..plane.site_count() as u32).map(|s| locator.voronoi_cell(s, [-1.0, -1.0], [2.0, 3.0]));
+            let cells = (0..plane.site_count() as u32)
+                .map(|s| locator.voronoi_cell(s, [-1.0, -1.0], [2.0, 3.0]));
             let area: f64 = cells.map(|cell| cell.area()).sum();
             assert!((area - 12.0).abs() < 1e-12, "{area}");
         }
         for values in [numbers(900), flat] {
             let points = Points::new(&values, 3).expect("whole rows");
-            let space = Space::build(&points, &DelaunayOptions::default(), &Monitor::silent()).expect("finite");
+            let space = Space::build(&points, &DelaunayOptions::default(), &Monitor::silent())
+                .expect("finite");
             let locator = space.locator();
-            let cells = (0..space.site_count() as u32).map(|s| locator.voronoi_cell(s, [-1.0; 3], [2.0; 3]));
+            let cells = (0..space.site_count() as u32)
+                .map(|s| locator.voronoi_cell(s, [-1.0; 3], [2.0; 3]));
             let volume: f64 = cells.map(|cell| cell.volume()).sum();
             assert!((volume - 27.0).abs() < 1e-11, "{volume}");
         }

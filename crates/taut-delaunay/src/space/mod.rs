@@ -168,11 +168,6 @@ impl Kernel<3, 4> for Mesh {
         self.cavity.inside[0]
     }
 
-    fn conflicts(&mut self, q: [f64; 3], hint: u32, out: &mut Vec<u32>) {
-        lanes::find(self, &Site::new(q), hint);
-        out.extend_from_slice(&self.cavity.inside);
-    }
-
     fn finish(self) -> (Vec<Simplex<4>>, Vec<[f64; 3]>, Counters) {
         let Mesh { sites, simplices, mut counters, judge, marks, star, .. } = self;
         drop((marks, star));

@@ -19,7 +19,7 @@ impl Constrained {
     /// Marks a triangulation in which all pieces are edges, in whatever order its triangles are now.
     ///
     /// Time and memory are linear in sites, triangles and pieces.
-    pub fn new(sites: usize, triangles: Vec<Simplex<3>>, pieces: Pieces) -> Constrained {
+    pub(crate) fn new(sites: usize, triangles: Vec<Simplex<3>>, pieces: Pieces) -> Constrained {
         let Pieces { pieces, splits } = pieces;
         // Where the pieces of a site begin; they are sorted by their smaller end.
         let mut begin = vec![0u32; sites + 1];

@@ -181,43 +181,6 @@ fn magnitudes_beyond_the_filters() {
 }
 
 #[test]
-fn conflicts_are_the_cavity_and_change_nothing() {
-    let mut numbers = Numbers(19);
-    for points in [numbers.points(60), grid(4)] {
-        let order = numbers.shuffled(points.len());
-        let mut mesh = built(&points, PLAIN, None, &order);
-        let before = mesh.simplices().to_vec();
-        for run in 0..200 {
-            // Inside and outside, on planes of the grid and off them.
-            let mut q = [0, 1, 2].map(|_| numbers.unit() * 6.0 - 1.5);
-            if run % 2 == 0 {
-                q = q.map(|x| x.round() + if run % 4 == 0 { 0.5 } else { 0.0 });
-            }
-            if points.contains(&q) {
-                continue;
-            }
-            let hint = loop {
-                let slot = numbers.below(before.len());
-                if before[slot].is_live() {
-                    break slot as u32;
-                }
-            };
-            let mut found = vec![u32::MAX];
-            mesh.conflicts(q, hint, &mut found);
-            assert_eq!(found.remove(0), u32::MAX, "appended");
-            found.sort_unstable();
-            let Mesh { sites, simplices, judge, .. } = &mut mesh;
-            let expected: Vec<u32> = (0..simplices.len() as u32)
-                .filter(|&t| simplices[t as usize].is_live())
-                .filter(|&t| judge.conflict(Unfiltered, sites, simplices, t, &Site::new(q)))
-                .collect();
-            assert_eq!(found, expected);
-        }
-        assert_eq!(mesh.simplices(), before);
-    }
-}
-
-#[test]
 fn sites_can_be_pushed_later_and_the_mesh_outgrows_its_reserve() {
     let points = Numbers(23).points(2000);
     let mut mesh = Mesh::new(points[..4].to_vec(), PLAIN);
