@@ -72,8 +72,12 @@ where
         }
     }
     if steps != open.len() {
-        let elsewhere = open.iter().map(|&(t, e)| triangles[t as usize].facet(usize::from(e))[0]);
-        return Err(broken(elsewhere.last().unwrap_or(start)));
+        for _ in 0..steps {
+            a = std::mem::replace(&mut next[a as usize], NO_SITE);
+        }
+        let mut starts = open.iter().map(|&(t, e)| triangles[t as usize].facet(usize::from(e))[0]);
+        let elsewhere = starts.find(|&site| next[site as usize] != NO_SITE);
+        return Err(broken(elsewhere.unwrap_or(start)));
     }
     match minima {
         1 => Ok(()),
