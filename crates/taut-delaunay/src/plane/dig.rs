@@ -20,7 +20,8 @@ use crate::simplex::{GHOST, Simplex, decode};
 /// An edge (a, b) with what is behind it: the facet of the triangle (d, b, a) and whether that is in conflict.
 ///
 /// All this is computed as soon as the edge is known, before its turn: by then nobody waits for it, above all not the
-/// branch on `conflict`, which goes one way as often as the other.
+/// branch on `conflict`, which goes one way as often as the other. To look through an edge in its turn instead makes
+/// an entry half as long and a build two per cent slower.
 #[derive(Clone, Copy)]
 pub(super) struct Edge {
     behind: u32,
