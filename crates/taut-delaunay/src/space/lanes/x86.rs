@@ -4,7 +4,7 @@ use std::arch::x86_64::*;
 use std::marker::PhantomData;
 use std::ops::{Add, Mul, Sub};
 
-use taut_predicates::{Fused, Sign};
+use taut_predicates::Fused;
 
 use crate::kernel::TooMany;
 use crate::simplex::Simplex;
@@ -412,6 +412,7 @@ fn beyond4([a, b, c, d]: [&Site; 4], q: &Site) -> (u32, u32) {
 }
 
 impl Signs for Avx2 {
+    const FILTERED: bool = true;
     const WIDTH: usize = 4;
 
     #[inline(always)]
@@ -455,14 +456,10 @@ impl Signs for Avx2 {
         // SAFETY: as above.
         unsafe { beyond4(corners, q) }
     }
-
-    #[inline(always)]
-    fn orient(self, corners: [&Site; 3], q: &Site) -> Option<Sign> {
-        Scalar::<Fused>(PhantomData).orient(corners, q)
-    }
 }
 
 impl Signs for Avx512 {
+    const FILTERED: bool = true;
     const WIDTH: usize = 8;
 
     #[inline(always)]
@@ -504,10 +501,5 @@ impl Signs for Avx512 {
     #[inline(always)]
     fn beyond(self, corners: [&Site; 4], q: &Site) -> (u32, u32) {
         self.0.beyond(corners, q)
-    }
-
-    #[inline(always)]
-    fn orient(self, corners: [&Site; 3], q: &Site) -> Option<Sign> {
-        self.0.orient(corners, q)
     }
 }

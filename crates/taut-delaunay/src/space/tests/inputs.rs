@@ -209,7 +209,9 @@ fn conflicts_are_the_cavity_and_change_nothing() {
             let Mesh { sites, simplices, judge, .. } = &mut mesh;
             let expected: Vec<u32> = (0..simplices.len() as u32)
                 .filter(|&t| simplices[t as usize].is_live())
-                .filter(|&t| judge.conflict(Unfiltered, sites, simplices, t, &Site::new(q)))
+                .filter(|&t| {
+                    judge.conflicts(Unfiltered, sites, simplices, &[t], 1, &Site::new(q)) != 0
+                })
                 .collect();
             assert_eq!(found, expected);
         }
