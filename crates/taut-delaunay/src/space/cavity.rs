@@ -27,6 +27,7 @@ const INSIDE: u8 = 1;
 pub(super) const FACETS: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [3, 0, 1], [2, 1, 0]];
 
 /// A facet of the boundary of the cavity.
+#[repr(C)]
 #[derive(Clone, Copy, Default)]
 pub(super) struct Facet {
     /// Seen from the cavity in positive order: (q, a, b, c) is the simplex to make.
@@ -117,7 +118,7 @@ impl Cavity {
             inside += more;
         }
         self.inside.truncate(inside);
-        self.bound(simplices, marks);
+        self.bound(signs, simplices, marks);
         for &t in &self.seen[..seen] {
             marks[t as usize] = 0;
         }
@@ -127,7 +128,7 @@ impl Cavity {
 
     /// Lists the facets between the cavity and the rest.
     #[inline(always)]
-    fn bound(&mut self, simplices: &[Simplex<4>], marks: &[u8]) {
+    fn bound<S: Signs>(&mut self, signs: S, simplices: &[Simplex<4>], marks: &[u8]) {
         let room = 4 * self.inside.len();
         if self.facets.len() < room {
             self.facets.resize(2 * room, Facet::default());
@@ -135,13 +136,16 @@ impl Cavity {
         let list = &mut self.facets[..room];
         let mut boundary = 0;
         for &t in &self.inside {
-            let Simplex { vertices, neighbors } = simplices[t as usize];
-            for i in 0..4 {
-                let ([a, b, c], outside) = (FACETS[i], neighbors[i]);
-                list[boundary] =
-                    Facet { vertices: [vertices[a], vertices[b], vertices[c]], outside };
-                boundary += usize::from(marks[(outside >> 2) as usize] == SEEN);
-            }
+            let simplex = &simplices[t as usize];
+            let [a, b, c, d] = simplex.neighbors;
+            signs.put::<0>(simplex, &mut list[boundary]);
+            boundary += usize::from(marks[(a >> 2) as usize] == SEEN);
+            signs.put::<1>(simplex, &mut list[boundary]);
+            boundary += usize::from(marks[(b >> 2) as usize] == SEEN);
+            signs.put::<2>(simplex, &mut list[boundary]);
+            boundary += usize::from(marks[(c >> 2) as usize] == SEEN);
+            signs.put::<3>(simplex, &mut list[boundary]);
+            boundary += usize::from(marks[(d >> 2) as usize] == SEEN);
         }
         self.boundary = boundary;
     }

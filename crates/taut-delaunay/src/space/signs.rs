@@ -11,7 +11,7 @@ use taut_predicates::{Exact, MulAdd, Separate, Sign, Stages, space};
 use crate::kernel::Settings;
 use crate::simplex::Simplex;
 
-use super::cavity::{FACETS, ghost_place};
+use super::cavity::{FACETS, Facet, ghost_place};
 use super::{Site, row};
 
 /// The error of [`orientation`] in units of its bound. The bound takes the largest differences for each factor, where
@@ -162,6 +162,13 @@ pub(super) trait Signs: Copy {
 
     /// Beyond which facets of a positive simplex q certainly lies, and which are open.
     fn beyond(self, corners: [&Site; 4], q: &Site) -> (u32, u32);
+
+    /// Writes facet I of a simplex.
+    #[inline(always)]
+    fn put<const I: usize>(self, simplex: &Simplex<4>, facet: &mut Facet) {
+        let vertices = FACETS[I].map(|i| simplex.vertices[i]);
+        *facet = Facet { vertices, outside: simplex.neighbors[I] };
+    }
 }
 
 /// One at a time.

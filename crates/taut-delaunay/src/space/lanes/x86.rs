@@ -8,6 +8,7 @@ use taut_predicates::Fused;
 
 use crate::kernel::TooMany;
 use crate::simplex::Simplex;
+use crate::space::cavity::Facet;
 use crate::space::pairs::{self, Pair};
 use crate::space::signs::{Lane, Number, Scalar, Signs, in_sphere, orientation, rows};
 use crate::space::{Mesh, Site, whole};
@@ -411,6 +412,39 @@ fn beyond4([a, b, c, d]: [&Site; 4], q: &Site) -> (u32, u32) {
     (!(positive | open) & 0b1111, open)
 }
 
+/// Facet I in one store: its vertices, and the code in the last place.
+#[inline]
+#[target_feature(enable = "avx2")]
+fn put<const I: usize>(simplex: &Simplex<4>, facet: &mut Facet) {
+    const { assert!(size_of::<Facet>() == 16 && size_of::<Simplex<4>>() == 32) };
+    // SAFETY: four numbers each, at any address.
+    let (vertices, neighbors) = unsafe {
+        (
+            _mm_loadu_si128(simplex.vertices.as_ptr().cast()),
+            _mm_loadu_si128(simplex.neighbors.as_ptr().cast()),
+        )
+    };
+    // The rows of `FACETS`; in the last place the neighbour of the same number.
+    let (vertices, code) = match I {
+        0 => (
+            _mm_shuffle_epi32(vertices, 0b00_11_10_01),
+            _mm_shuffle_epi32(neighbors, 0b00_00_00_00),
+        ),
+        1 => (
+            _mm_shuffle_epi32(vertices, 0b00_10_11_00),
+            _mm_shuffle_epi32(neighbors, 0b01_00_00_00),
+        ),
+        2 => (
+            _mm_shuffle_epi32(vertices, 0b00_01_00_11),
+            _mm_shuffle_epi32(neighbors, 0b10_00_00_00),
+        ),
+        _ => (_mm_shuffle_epi32(vertices, 0b00_00_01_10), neighbors),
+    };
+    let all = _mm_blend_epi32(vertices, code, 0b1000);
+    // SAFETY: a facet is four numbers, at any address.
+    unsafe { _mm_storeu_si128(std::ptr::from_mut(facet).cast(), all) };
+}
+
 impl Signs for Avx2 {
     const FILTERED: bool = true;
     const WIDTH: usize = 4;
@@ -455,6 +489,12 @@ impl Signs for Avx2 {
     fn beyond(self, corners: [&Site; 4], q: &Site) -> (u32, u32) {
         // SAFETY: as above.
         unsafe { beyond4(corners, q) }
+    }
+
+    #[inline(always)]
+    fn put<const I: usize>(self, simplex: &Simplex<4>, facet: &mut Facet) {
+        // SAFETY: as above.
+        unsafe { put::<I>(simplex, facet) }
     }
 }
 
@@ -501,5 +541,11 @@ impl Signs for Avx512 {
     #[inline(always)]
     fn beyond(self, corners: [&Site; 4], q: &Site) -> (u32, u32) {
         self.0.beyond(corners, q)
+    }
+
+    #[inline(always)]
+    fn put<const I: usize>(self, simplex: &Simplex<4>, facet: &mut Facet) {
+        // SAFETY: as above.
+        unsafe { put::<I>(simplex, facet) }
     }
 }
