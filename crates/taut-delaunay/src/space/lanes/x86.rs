@@ -1,19 +1,14 @@
 //! Four and eight numbers at a time, on x86-64.
 
 use std::arch::x86_64::*;
-use std::marker::PhantomData;
 use std::ops::{Add, Mul, Sub};
-
-use taut_predicates::Fused;
 
 use crate::kernel::TooMany;
 use crate::simplex::Simplex;
 use crate::space::cavity::Facet;
 use crate::space::pairs::{self, Pair};
-use crate::space::signs::{Lane, Number, Scalar, Signs, in_sphere, orientation, rows};
+use crate::space::signs::{Lane, Number, Signs, in_sphere, orientation, rows};
 use crate::space::{Mesh, Site, whole};
-
-use super::Level;
 
 /// Proof that the processor has AVX2 and FMA: there is no other way to make one than to ask it.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +26,26 @@ impl Avx2 {
             && is_x86_feature_detected!("bmi2"))
         .then_some(Avx2(()))
     }
+
+    /// [`Mesh::insert_with`], four numbers at a time.
+    pub(super) fn insert(self, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
+        #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
+        fn compiled(yes: Avx2, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
+            mesh.insert_with(yes, sites)
+        }
+        // SAFETY: `self` proves that the processor has the features.
+        unsafe { compiled(self, mesh, sites) }
+    }
+
+    /// [`Mesh::find`], four numbers at a time.
+    pub(super) fn find(self, mesh: &mut Mesh, q: &Site, hint: u32) {
+        #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
+        fn compiled(yes: Avx2, mesh: &mut Mesh, q: &Site, hint: u32) {
+            mesh.find(yes, q, hint);
+        }
+        // SAFETY: `self` proves that the processor has the features.
+        unsafe { compiled(self, mesh, q, hint) }
+    }
 }
 
 impl Avx512 {
@@ -40,55 +55,25 @@ impl Avx512 {
             && is_x86_feature_detected!("avx512vl");
         Avx2::detect().filter(|_| has).map(Avx512)
     }
-}
 
-/// [`Mesh::insert_with`] for the levels of this file.
-pub(super) fn insert(level: Level, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
-    #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
-    fn fused(mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
-        mesh.insert_with(Scalar::<Fused>(PhantomData), sites)
+    /// [`Mesh::insert_with`], eight numbers at a time.
+    pub(super) fn insert(self, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
+        #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,bmi1,bmi2")]
+        fn compiled(yes: Avx512, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
+            mesh.insert_with(yes, sites)
+        }
+        // SAFETY: `self` proves that the processor has the features.
+        unsafe { compiled(self, mesh, sites) }
     }
-    #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
-    fn four(yes: Avx2, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
-        mesh.insert_with(yes, sites)
-    }
-    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,bmi1,bmi2")]
-    fn eight(yes: Avx512, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
-        mesh.insert_with(yes, sites)
-    }
-    match level {
-        Level::Unfiltered | Level::Scalar => unreachable!("these levels need no processor"),
-        // SAFETY: `yes` proves that the processor has the features.
-        Level::Fused(_) => unsafe { fused(mesh, sites) },
-        // SAFETY: as above.
-        Level::Four(yes) => unsafe { four(yes, mesh, sites) },
-        // SAFETY: as above.
-        Level::Eight(yes) => unsafe { eight(yes, mesh, sites) },
-    }
-}
 
-/// [`Mesh::find`] for the levels of this file.
-pub(super) fn find(level: Level, mesh: &mut Mesh, q: &Site, hint: u32) {
-    #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
-    fn fused(mesh: &mut Mesh, q: &Site, hint: u32) {
-        mesh.find(Scalar::<Fused>(PhantomData), q, hint)
-    }
-    #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
-    fn four(yes: Avx2, mesh: &mut Mesh, q: &Site, hint: u32) {
-        mesh.find(yes, q, hint)
-    }
-    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,bmi1,bmi2")]
-    fn eight(yes: Avx512, mesh: &mut Mesh, q: &Site, hint: u32) {
-        mesh.find(yes, q, hint)
-    }
-    match level {
-        Level::Unfiltered | Level::Scalar => unreachable!("these levels need no processor"),
-        // SAFETY: the value in the level proves that the processor has the features.
-        Level::Fused(_) => unsafe { fused(mesh, q, hint) },
-        // SAFETY: as above.
-        Level::Four(yes) => unsafe { four(yes, mesh, q, hint) },
-        // SAFETY: as above.
-        Level::Eight(yes) => unsafe { eight(yes, mesh, q, hint) },
+    /// [`Mesh::find`], eight numbers at a time.
+    pub(super) fn find(self, mesh: &mut Mesh, q: &Site, hint: u32) {
+        #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,bmi1,bmi2")]
+        fn compiled(yes: Avx512, mesh: &mut Mesh, q: &Site, hint: u32) {
+            mesh.find(yes, q, hint);
+        }
+        // SAFETY: `self` proves that the processor has the features.
+        unsafe { compiled(self, mesh, q, hint) }
     }
 }
 
