@@ -47,13 +47,12 @@ impl Level {
 
     /// All filtered levels of this machine, the fastest last.
     pub(super) fn filtered() -> Vec<Self> {
-        let mut all = vec![Level::Scalar];
         #[cfg(target_arch = "x86_64")]
-        {
-            all.extend(x86::Avx2::detect().map(Level::Four));
-            all.extend(x86::Avx512::detect().map(Level::Eight));
-        }
-        all
+        let vectors =
+            [x86::Avx2::detect().map(Level::Four), x86::Avx512::detect().map(Level::Eight)];
+        #[cfg(not(target_arch = "x86_64"))]
+        let vectors: [Option<Self>; 0] = [];
+        std::iter::once(Level::Scalar).chain(vectors.into_iter().flatten()).collect()
     }
 }
 

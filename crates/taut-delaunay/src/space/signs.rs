@@ -95,19 +95,12 @@ pub(super) fn determinant<N: Number>(corners: [[N; 3]; 4]) -> N {
 
 /// The largest difference along each axis.
 #[inline(always)]
-fn extents<L: Lane>([a, b, c, d]: [[L; 3]; 4]) -> [L; 3] {
+pub(super) fn extents<L: Lane>([a, b, c, d]: [[L; 3]; 4]) -> [L; 3] {
     [
         largest(a[0], b[0], c[0]).max(d[0].abs()),
         largest(a[1], b[1], c[1]).max(d[1].abs()),
         largest(a[2], b[2], c[2]).max(d[2].abs()),
     ]
-}
-
-/// The largest difference.
-#[inline(always)]
-pub(super) fn reach<L: Lane>(corners: [[L; 3]; 4]) -> L {
-    let [x, y, z] = extents(corners);
-    x.max(y).max(z)
 }
 
 /// What the largest monomial of [`determinant`] cannot exceed.
