@@ -2,14 +2,17 @@
 //!
 //! *Problem.* The simplices in conflict with q are connected; find them from one of them with few tests and few
 //! branches that a processor cannot foresee.
-//! *Idea.* Level by level. The neighbours of one level that nobody has seen yet become a list, without a branch: each
-//! is written to the end of the list, and the list grows by one if its mark was zero. The list is then tested in groups
-//! as wide as the machine allows, and who is in conflict forms the next level. Facets come last, in one pass of the same
-//! kind: a facet is on the boundary if its neighbour was seen and is not inside.
+//! *Idea.* A queue. The neighbours of what is inside that nobody has seen yet are listed without a branch: each is
+//! written to the end of the list, and the list grows by one if its mark was zero. The list is tested in groups as wide
+//! as the machine allows; who is in conflict is inside, and has its own neighbours listed, before the next group. Facets
+//! come last, in one pass of the same kind: a facet is on the boundary if its neighbour was seen and is not inside.
 //! *Guarantee.* Signs are exact under the perturbation, so the cavity is a ball, star-shaped around q. No recursion;
 //! time linear in the cavity; marks are zero again at the end.
 //! *Trap.* A ghost has no circumsphere. Its vertex at infinity is a row of NaN, which makes every comparison of a
 //! determinant with its bound false: the test is left open, and what is left open asks for ghosts first.
+//! *Measured.* Uniform points take 43 tests and 20 simplices inside; of their time a third is the arithmetic of the tests,
+//! a quarter the listing and the facets, a quarter the star, the rest the walk. Marking each simplex where its answer
+//! is known, one by one, cost 12 % more: how many of a group are inside is a branch that nobody can foresee.
 //! *Reference.* Bowyer; Watson, both Comput. J. 24(2), 1981.
 
 use crate::simplex::{GHOST, Simplex};
@@ -27,6 +30,7 @@ const INSIDE: u8 = 1;
 pub(super) const FACETS: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [3, 0, 1], [2, 1, 0]];
 
 /// A facet of the boundary of the cavity.
+#[repr(C)]
 #[derive(Clone, Copy, Default)]
 pub(super) struct Facet {
     /// Seen from the cavity in positive order: (q, a, b, c) is the simplex to make.
@@ -117,7 +121,7 @@ impl Cavity {
             inside += more;
         }
         self.inside.truncate(inside);
-        self.bound(simplices, marks);
+        self.bound(signs, simplices, marks);
         for &t in &self.seen[..seen] {
             marks[t as usize] = 0;
         }
@@ -127,7 +131,7 @@ impl Cavity {
 
     /// Lists the facets between the cavity and the rest.
     #[inline(always)]
-    fn bound(&mut self, simplices: &[Simplex<4>], marks: &[u8]) {
+    fn bound<S: Signs>(&mut self, signs: S, simplices: &[Simplex<4>], marks: &[u8]) {
         let room = 4 * self.inside.len();
         if self.facets.len() < room {
             self.facets.resize(2 * room, Facet::default());
@@ -135,13 +139,16 @@ impl Cavity {
         let list = &mut self.facets[..room];
         let mut boundary = 0;
         for &t in &self.inside {
-            let Simplex { vertices, neighbors } = simplices[t as usize];
-            for i in 0..4 {
-                let ([a, b, c], outside) = (FACETS[i], neighbors[i]);
-                list[boundary] =
-                    Facet { vertices: [vertices[a], vertices[b], vertices[c]], outside };
-                boundary += usize::from(marks[(outside >> 2) as usize] == SEEN);
-            }
+            let simplex = &simplices[t as usize];
+            let [a, b, c, d] = simplex.neighbors;
+            signs.put::<0>(simplex, &mut list[boundary]);
+            boundary += usize::from(marks[(a >> 2) as usize] == SEEN);
+            signs.put::<1>(simplex, &mut list[boundary]);
+            boundary += usize::from(marks[(b >> 2) as usize] == SEEN);
+            signs.put::<2>(simplex, &mut list[boundary]);
+            boundary += usize::from(marks[(c >> 2) as usize] == SEEN);
+            signs.put::<3>(simplex, &mut list[boundary]);
+            boundary += usize::from(marks[(d >> 2) as usize] == SEEN);
         }
         self.boundary = boundary;
     }

@@ -1,10 +1,10 @@
 //! Which path takes the signs: chosen once per batch of sites.
 //!
-//! *Idea.* Eight simplices of a level are tested at once with AVX-512, four with AVX2 and FMA; the four facets of a step
+//! *Idea.* Eight simplices of a list are tested at once with AVX-512, four with AVX2 and FMA; the four facets of a step
 //! of the walk are always one vector of four. Everything between `insert` and the arithmetic is inlined into a function
 //! compiled for that processor, so there is no call per sign. The formulas are those of `signs`, operation by operation:
 //! with fused multiply-add on either side even the same signs are left open.
-//! *Trap.* Partial groups are the rule (a cavity tests some 45 simplices in 8 groups), so the caller pads the list and
+//! *Trap.* Partial groups are the rule (a cavity tests some 43 simplices in 8 groups), so the caller pads the list and
 //! masks the answer; nothing here looks at lengths.
 #![allow(unsafe_code)]
 
@@ -27,9 +27,6 @@ pub(super) enum Level {
     Unfiltered,
     /// One number at a time, on any processor.
     Scalar,
-    /// One number at a time, with fused multiply-add.
-    #[cfg(target_arch = "x86_64")]
-    Fused(x86::Avx2),
     /// Four numbers at a time.
     #[cfg(target_arch = "x86_64")]
     Four(x86::Avx2),
@@ -50,14 +47,12 @@ impl Level {
 
     /// All filtered levels of this machine, the fastest last.
     pub(super) fn filtered() -> Vec<Self> {
-        let mut all = vec![Level::Scalar];
         #[cfg(target_arch = "x86_64")]
-        {
-            let avx2 = x86::Avx2::detect();
-            all.extend(avx2.into_iter().flat_map(|yes| [Level::Fused(yes), Level::Four(yes)]));
-            all.extend(x86::Avx512::detect().map(Level::Eight));
-        }
-        all
+        let vectors =
+            [x86::Avx2::detect().map(Level::Four), x86::Avx512::detect().map(Level::Eight)];
+        #[cfg(not(target_arch = "x86_64"))]
+        let vectors: [Option<Self>; 0] = [];
+        std::iter::once(Level::Scalar).chain(vectors.into_iter().flatten()).collect()
     }
 }
 
@@ -67,7 +62,9 @@ pub(super) fn insert(mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
         Level::Unfiltered => mesh.insert_with(Unfiltered, sites),
         Level::Scalar => mesh.insert_with(Scalar::<Separate>(PhantomData), sites),
         #[cfg(target_arch = "x86_64")]
-        level => x86::insert(level, mesh, sites),
+        Level::Four(yes) => yes.insert(mesh, sites),
+        #[cfg(target_arch = "x86_64")]
+        Level::Eight(yes) => yes.insert(mesh, sites),
     }
 }
 
@@ -77,6 +74,8 @@ pub(super) fn find(mesh: &mut Mesh, q: &Site, hint: u32) {
         Level::Unfiltered => mesh.find(Unfiltered, q, hint),
         Level::Scalar => mesh.find(Scalar::<Separate>(PhantomData), q, hint),
         #[cfg(target_arch = "x86_64")]
-        level => x86::find(level, mesh, q, hint),
+        Level::Four(yes) => yes.find(mesh, q, hint),
+        #[cfg(target_arch = "x86_64")]
+        Level::Eight(yes) => yes.find(mesh, q, hint),
     }
 }

@@ -18,12 +18,14 @@
 
 mod cavity;
 mod lanes;
+#[cfg(target_arch = "x86_64")]
 mod pairs;
 mod signs;
 mod star;
 #[cfg(test)]
 mod tests;
 mod walk;
+#[cfg(target_arch = "x86_64")]
 mod whole;
 
 use crate::kernel::{Counters, Kernel, Settings, TooMany};

@@ -6,12 +6,12 @@
 use std::marker::PhantomData;
 use std::ops::{Add, Mul, Sub};
 
-use taut_predicates::{Exact, MulAdd, Sign, Stages, space};
+use taut_predicates::{Exact, MulAdd, Separate, Sign, Stages, space};
 
 use crate::kernel::Settings;
 use crate::simplex::Simplex;
 
-use super::cavity::{FACETS, ghost_place};
+use super::cavity::{FACETS, Facet, ghost_place};
 use super::{Site, row};
 
 /// The error of [`orientation`] in units of its bound. The bound takes the largest differences for each factor, where
@@ -95,19 +95,12 @@ pub(super) fn determinant<N: Number>(corners: [[N; 3]; 4]) -> N {
 
 /// The largest difference along each axis.
 #[inline(always)]
-fn extents<L: Lane>([a, b, c, d]: [[L; 3]; 4]) -> [L; 3] {
+pub(super) fn extents<L: Lane>([a, b, c, d]: [[L; 3]; 4]) -> [L; 3] {
     [
         largest(a[0], b[0], c[0]).max(d[0].abs()),
         largest(a[1], b[1], c[1]).max(d[1].abs()),
         largest(a[2], b[2], c[2]).max(d[2].abs()),
     ]
-}
-
-/// The largest difference.
-#[inline(always)]
-pub(super) fn reach<L: Lane>(corners: [[L; 3]; 4]) -> L {
-    let [x, y, z] = extents(corners);
-    x.max(y).max(z)
 }
 
 /// What the largest monomial of [`determinant`] cannot exceed.
@@ -127,6 +120,9 @@ pub(super) fn in_sphere<L: Lane>(corners: [[L; 3]; 4]) -> (L, L) {
 
 /// How the signs are taken. Masks have a bit for each item; what is in neither mask is certainly negative.
 pub(super) trait Signs: Copy {
+    /// Whether numbers are asked before exact arithmetic is.
+    const FILTERED: bool;
+
     /// How many conflicts are tested at once.
     const WIDTH: usize;
 
@@ -160,8 +156,12 @@ pub(super) trait Signs: Copy {
     /// Beyond which facets of a positive simplex q certainly lies, and which are open.
     fn beyond(self, corners: [&Site; 4], q: &Site) -> (u32, u32);
 
-    /// The orientation of q, a, b, c, if the filter can tell.
-    fn orient(self, corners: [&Site; 3], q: &Site) -> Option<Sign>;
+    /// Writes facet I of a simplex.
+    #[inline(always)]
+    fn put<const I: usize>(self, simplex: &Simplex<4>, facet: &mut Facet) {
+        let vertices = FACETS[I].map(|i| simplex.vertices[i]);
+        *facet = Facet { vertices, outside: simplex.neighbors[I] };
+    }
 }
 
 /// One at a time.
@@ -244,6 +244,7 @@ fn less<M>(p: &Site, q: &Site) -> [Real<M>; 3] {
 }
 
 impl<M: MulAdd> Signs for Scalar<M> {
+    const FILTERED: bool = true;
     const WIDTH: usize = 1;
 
     #[inline(always)]
@@ -294,12 +295,6 @@ impl<M: MulAdd> Signs for Scalar<M> {
         }
         (beyond, open)
     }
-
-    #[inline(always)]
-    fn orient(self, [a, b, c]: [&Site; 3], q: &Site) -> Option<Sign> {
-        let (Real(det, _), Real(bound, _)) = orientation([less::<M>(a, q), less(b, q), less(c, q)]);
-        (det.abs() > bound).then(|| Sign::from(det))
-    }
 }
 
 /// Leaves every sign to the exact stages: for coordinates too large or too small to be filtered.
@@ -307,6 +302,7 @@ impl<M: MulAdd> Signs for Scalar<M> {
 pub(super) struct Unfiltered;
 
 impl Signs for Unfiltered {
+    const FILTERED: bool = false;
     const WIDTH: usize = 1;
 
     fn conflicts(self, _: &[Site], _: &[Simplex<4>], _: &[u32], _: &Site) -> (u32, u32) {
@@ -335,10 +331,6 @@ impl Signs for Unfiltered {
 
     fn beyond(self, _: [&Site; 4], _: &Site) -> (u32, u32) {
         (0, 0b1111)
-    }
-
-    fn orient(self, _: [&Site; 3], _: &Site) -> Option<Sign> {
-        None
     }
 }
 
@@ -373,66 +365,82 @@ impl Judge {
         sites: &[Site],
         simplices: &[Simplex<4>],
         group: &[u32],
-        mut open: u32,
+        open: u32,
         q: &Site,
     ) -> u32 {
-        let mut inside = 0;
+        let (mut inside, mut finite, mut left) = (0u32, 0u32, open);
+        while left != 0 {
+            let lane = left.trailing_zeros();
+            left &= left - 1;
+            let simplex = &simplices[group[lane as usize] as usize];
+            match ghost_place(simplex) {
+                None => finite |= 1 << lane,
+                Some(place) => {
+                    let beyond = self.beyond::<S>(sites, simplices, simplex, place, q);
+                    inside |= u32::from(beyond) << lane;
+                }
+            }
+        }
         let stages = &mut self.exact.stages;
-        if self.exact.integral && open.count_ones() > 1 {
+        if self.exact.integral && finite.count_ones() > 1 {
             let answer = signs.conflicts_in_whole(sites, simplices, group, q);
             if let Some((certain, unsure, ties)) = answer {
-                inside |= certain & open;
-                stages.integer += u64::from((open & !unsure).count_ones());
-                stages.ties += u64::from((open & !unsure & ties).count_ones());
-                open &= unsure;
+                inside |= certain & finite;
+                stages.integer += u64::from((finite & !unsure).count_ones());
+                stages.ties += u64::from((finite & !unsure & ties).count_ones());
+                finite &= unsure;
             }
         }
-        if open.count_ones() > 1 {
+        if finite.count_ones() > 1 {
             let answer = signs.conflicts_in_pairs(sites, simplices, group, q);
             if let Some((certain, unsure)) = answer {
-                inside |= certain & open;
-                stages.double_double += u64::from((open & !unsure).count_ones());
-                open &= unsure;
+                inside |= certain & finite;
+                stages.double_double += u64::from((finite & !unsure).count_ones());
+                finite &= unsure;
             }
         }
-        while open != 0 {
-            let lane = open.trailing_zeros();
-            open &= open - 1;
-            let t = group[lane as usize];
-            inside |= u32::from(self.conflict(signs, sites, simplices, t, q)) << lane;
+        while finite != 0 {
+            let lane = finite.trailing_zeros();
+            finite &= finite - 1;
+            let simplex = &simplices[group[lane as usize] as usize];
+            inside |= u32::from(self.holds(sites, simplex, q)) << lane;
         }
         inside
     }
 
-    /// Whether q is in conflict with simplex t, which the filter left open.
-    pub(super) fn conflict<S: Signs>(
+    /// Whether q is in conflict with a ghost: strictly beyond its facet, or in the plane of the facet and in conflict with
+    /// the simplex behind it. Compiled for any processor, so its filter does without fused multiplication, which would be
+    /// a call here.
+    fn beyond<S: Signs>(
         &mut self,
-        signs: S,
         sites: &[Site],
         simplices: &[Simplex<4>],
-        t: u32,
+        ghost: &Simplex<4>,
+        place: usize,
         q: &Site,
     ) -> bool {
-        let mut simplex = &simplices[t as usize];
-        if let Some(infinity) = ghost_place(simplex) {
-            let [a, b, c] = FACETS[infinity];
-            let corners = rows(sites, simplex);
-            let (a, b, c) = (corners[a], corners[b], corners[c]);
-            match signs.orient([a, b, c], q).unwrap_or_else(|| self.orient([q, a, b, c])) {
-                Sign::Positive => return true,
-                Sign::Negative => return false,
-                Sign::Zero => simplex = &simplices[(simplex.neighbors[infinity] >> 2) as usize],
+        let [a, b, c] = FACETS[place].map(|i| &sites[row(ghost.vertices[i])]);
+        if S::FILTERED {
+            let corners = [less::<Separate>(a, q), less(b, q), less(c, q)];
+            let (Real(det, _), Real(bound, _)) = orientation(corners);
+            if det.abs() > bound {
+                return det > 0.0;
             }
-            self.behind += 1;
         }
-        let [a, b, c, d] = rows(sites, simplex);
-        space::conflict_exact(
-            a.point(),
-            b.point(),
-            c.point(),
-            d.point(),
-            q.point(),
-            &mut self.exact,
-        )
+        match self.orient([q, a, b, c]) {
+            Sign::Positive => true,
+            Sign::Negative => false,
+            Sign::Zero => {
+                self.behind += 1;
+                let behind = &simplices[(ghost.neighbors[place] >> 2) as usize];
+                self.holds(sites, behind, q)
+            }
+        }
+    }
+
+    /// Whether q is in conflict with a finite simplex, whatever the filter says.
+    fn holds(&mut self, sites: &[Site], simplex: &Simplex<4>, q: &Site) -> bool {
+        let [a, b, c, d] = rows(sites, simplex).map(Site::point);
+        space::conflict_exact(a, b, c, d, q.point(), &mut self.exact)
     }
 }

@@ -115,8 +115,14 @@ fn check(mesh: &mut Mesh) {
             );
             let apex = neighbor.vertices[side];
             if apex != GHOST {
-                let conflict =
-                    judge.conflict(Unfiltered, sites, simplices, t as u32, &sites[row(apex)]);
+                let conflict = judge.conflicts(
+                    Unfiltered,
+                    sites,
+                    simplices,
+                    &[t as u32],
+                    1,
+                    &sites[row(apex)],
+                ) != 0;
                 assert!(!conflict, "{t} is in conflict with vertex {apex}");
             }
         }

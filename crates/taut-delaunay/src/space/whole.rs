@@ -7,7 +7,7 @@
 //! *Without branches.* x·2²² + y·2¹¹ + z is positive if a vertex comes after q, and larger for later vertices. So all
 //! that remains is the sign that stands beside a maximum, which whole numbers can say in sums and maxima.
 
-use super::signs::{Lane, cofactors, lift};
+use super::signs::{Lane, cofactors, extents, lift};
 
 /// Largest difference for which the determinant is exact.
 const REACH_MAX: f64 = 659.0;
@@ -54,7 +54,7 @@ pub(super) fn in_sphere<L: Lane>(corners: [[L; 3]; 4]) -> (L, L, L) {
     let tie = (chosen(u, i, last) + chosen(v, j, last)) + (chosen(w, k, last) + chosen(t, l, last));
     // A determinant that is not zero is at least 1.
     let perturbed = L::mul_add(L::splat(4.0), det, L::mul_sub(L::splat(2.0), tie, L::splat(1.0)));
-    let reach = super::signs::reach(corners);
-    let beyond = (reach - L::splat(REACH_MAX)).max(L::splat(0.0));
+    let [x, y, z] = extents(corners);
+    let beyond = (x.max(y).max(z) - L::splat(REACH_MAX)).max(L::splat(0.0));
     (det, perturbed, L::mul_add(L::splat(HUGE), beyond, L::splat(0.5)))
 }

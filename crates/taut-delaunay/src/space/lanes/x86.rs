@@ -1,18 +1,14 @@
 //! Four and eight numbers at a time, on x86-64.
 
 use std::arch::x86_64::*;
-use std::marker::PhantomData;
 use std::ops::{Add, Mul, Sub};
-
-use taut_predicates::{Fused, Sign};
 
 use crate::kernel::TooMany;
 use crate::simplex::Simplex;
+use crate::space::cavity::Facet;
 use crate::space::pairs::{self, Pair};
-use crate::space::signs::{Lane, Number, Scalar, Signs, in_sphere, orientation, rows};
+use crate::space::signs::{Lane, Number, Signs, in_sphere, orientation, rows};
 use crate::space::{Mesh, Site, whole};
-
-use super::Level;
 
 /// Proof that the processor has AVX2 and FMA: there is no other way to make one than to ask it.
 #[derive(Clone, Copy, Debug)]
@@ -30,6 +26,26 @@ impl Avx2 {
             && is_x86_feature_detected!("bmi2"))
         .then_some(Avx2(()))
     }
+
+    /// [`Mesh::insert_with`], four numbers at a time.
+    pub(super) fn insert(self, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
+        #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
+        fn compiled(yes: Avx2, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
+            mesh.insert_with(yes, sites)
+        }
+        // SAFETY: `self` proves that the processor has the features.
+        unsafe { compiled(self, mesh, sites) }
+    }
+
+    /// [`Mesh::find`], four numbers at a time.
+    pub(super) fn find(self, mesh: &mut Mesh, q: &Site, hint: u32) {
+        #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
+        fn compiled(yes: Avx2, mesh: &mut Mesh, q: &Site, hint: u32) {
+            mesh.find(yes, q, hint);
+        }
+        // SAFETY: `self` proves that the processor has the features.
+        unsafe { compiled(self, mesh, q, hint) }
+    }
 }
 
 impl Avx512 {
@@ -39,55 +55,25 @@ impl Avx512 {
             && is_x86_feature_detected!("avx512vl");
         Avx2::detect().filter(|_| has).map(Avx512)
     }
-}
 
-/// [`Mesh::insert_with`] for the levels of this file.
-pub(super) fn insert(level: Level, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
-    #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
-    fn fused(mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
-        mesh.insert_with(Scalar::<Fused>(PhantomData), sites)
+    /// [`Mesh::insert_with`], eight numbers at a time.
+    pub(super) fn insert(self, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
+        #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,bmi1,bmi2")]
+        fn compiled(yes: Avx512, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
+            mesh.insert_with(yes, sites)
+        }
+        // SAFETY: `self` proves that the processor has the features.
+        unsafe { compiled(self, mesh, sites) }
     }
-    #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
-    fn four(yes: Avx2, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
-        mesh.insert_with(yes, sites)
-    }
-    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,bmi1,bmi2")]
-    fn eight(yes: Avx512, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
-        mesh.insert_with(yes, sites)
-    }
-    match level {
-        Level::Unfiltered | Level::Scalar => unreachable!("these levels need no processor"),
-        // SAFETY: `yes` proves that the processor has the features.
-        Level::Fused(_) => unsafe { fused(mesh, sites) },
-        // SAFETY: as above.
-        Level::Four(yes) => unsafe { four(yes, mesh, sites) },
-        // SAFETY: as above.
-        Level::Eight(yes) => unsafe { eight(yes, mesh, sites) },
-    }
-}
 
-/// [`Mesh::find`] for the levels of this file.
-pub(super) fn find(level: Level, mesh: &mut Mesh, q: &Site, hint: u32) {
-    #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
-    fn fused(mesh: &mut Mesh, q: &Site, hint: u32) {
-        mesh.find(Scalar::<Fused>(PhantomData), q, hint)
-    }
-    #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
-    fn four(yes: Avx2, mesh: &mut Mesh, q: &Site, hint: u32) {
-        mesh.find(yes, q, hint)
-    }
-    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,bmi1,bmi2")]
-    fn eight(yes: Avx512, mesh: &mut Mesh, q: &Site, hint: u32) {
-        mesh.find(yes, q, hint)
-    }
-    match level {
-        Level::Unfiltered | Level::Scalar => unreachable!("these levels need no processor"),
-        // SAFETY: the value in the level proves that the processor has the features.
-        Level::Fused(_) => unsafe { fused(mesh, q, hint) },
-        // SAFETY: as above.
-        Level::Four(yes) => unsafe { four(yes, mesh, q, hint) },
-        // SAFETY: as above.
-        Level::Eight(yes) => unsafe { eight(yes, mesh, q, hint) },
+    /// [`Mesh::find`], eight numbers at a time.
+    pub(super) fn find(self, mesh: &mut Mesh, q: &Site, hint: u32) {
+        #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,bmi1,bmi2")]
+        fn compiled(yes: Avx512, mesh: &mut Mesh, q: &Site, hint: u32) {
+            mesh.find(yes, q, hint);
+        }
+        // SAFETY: `self` proves that the processor has the features.
+        unsafe { compiled(self, mesh, q, hint) }
     }
 }
 
@@ -411,7 +397,41 @@ fn beyond4([a, b, c, d]: [&Site; 4], q: &Site) -> (u32, u32) {
     (!(positive | open) & 0b1111, open)
 }
 
+/// Facet I in one store: its vertices, and the code in the last place.
+#[inline]
+#[target_feature(enable = "avx2")]
+fn put<const I: usize>(simplex: &Simplex<4>, facet: &mut Facet) {
+    const { assert!(size_of::<Facet>() == 16 && size_of::<Simplex<4>>() == 32) };
+    // SAFETY: four numbers each, at any address.
+    let (vertices, neighbors) = unsafe {
+        (
+            _mm_loadu_si128(simplex.vertices.as_ptr().cast()),
+            _mm_loadu_si128(simplex.neighbors.as_ptr().cast()),
+        )
+    };
+    // The rows of `FACETS`; in the last place the neighbour of the same number.
+    let (vertices, code) = match I {
+        0 => (
+            _mm_shuffle_epi32(vertices, 0b00_11_10_01),
+            _mm_shuffle_epi32(neighbors, 0b00_00_00_00),
+        ),
+        1 => (
+            _mm_shuffle_epi32(vertices, 0b00_10_11_00),
+            _mm_shuffle_epi32(neighbors, 0b01_00_00_00),
+        ),
+        2 => (
+            _mm_shuffle_epi32(vertices, 0b00_01_00_11),
+            _mm_shuffle_epi32(neighbors, 0b10_00_00_00),
+        ),
+        _ => (_mm_shuffle_epi32(vertices, 0b00_00_01_10), neighbors),
+    };
+    let all = _mm_blend_epi32(vertices, code, 0b1000);
+    // SAFETY: a facet is four numbers, at any address.
+    unsafe { _mm_storeu_si128(std::ptr::from_mut(facet).cast(), all) };
+}
+
 impl Signs for Avx2 {
+    const FILTERED: bool = true;
     const WIDTH: usize = 4;
 
     #[inline(always)]
@@ -457,12 +477,14 @@ impl Signs for Avx2 {
     }
 
     #[inline(always)]
-    fn orient(self, corners: [&Site; 3], q: &Site) -> Option<Sign> {
-        Scalar::<Fused>(PhantomData).orient(corners, q)
+    fn put<const I: usize>(self, simplex: &Simplex<4>, facet: &mut Facet) {
+        // SAFETY: as above.
+        unsafe { put::<I>(simplex, facet) }
     }
 }
 
 impl Signs for Avx512 {
+    const FILTERED: bool = true;
     const WIDTH: usize = 8;
 
     #[inline(always)]
@@ -507,7 +529,8 @@ impl Signs for Avx512 {
     }
 
     #[inline(always)]
-    fn orient(self, corners: [&Site; 3], q: &Site) -> Option<Sign> {
-        self.0.orient(corners, q)
+    fn put<const I: usize>(self, simplex: &Simplex<4>, facet: &mut Facet) {
+        // SAFETY: as above.
+        unsafe { put::<I>(simplex, facet) }
     }
 }

@@ -116,3 +116,50 @@ fn brute_force_gives_the_same_simplices() {
         }
     }
 }
+
+/// A small set with many ties: of a grid, of a slanted one, mostly in a plane, mostly on a line, or near a sphere.
+fn hard_set(numbers: &mut Numbers) -> Vec<[f64; 3]> {
+    let (n, k, kind) = (5 + numbers.below(60), 2 + numbers.below(6), numbers.below(5));
+    let scale = [1.0, 1.0 / 3.0, 1000.0, 0.1, 1e-30][numbers.below(5)];
+    let slant = [0; 9].map(|_: u8| numbers.below(7) as f64 - 3.0);
+    let mut points = Vec::new();
+    for _ in 0..n {
+        let [x, y, z] = [0; 3].map(|_: u8| numbers.below(k) as f64);
+        let off = numbers.below(8) == 0;
+        let p = match kind {
+            1 => [0, 3, 6].map(|i| slant[i] * x + slant[i + 1] * y + slant[i + 2] * z),
+            2 if !off => [x, y, x + y],
+            3 if !off => [x, 2.0 * x, 3.0 * x],
+            4 => [x, y, z].map(|w| w / (x * x + y * y + z * z).sqrt().max(1.0)),
+            _ => [x, y, z],
+        };
+        // 0 is added, as there is no −0 in a mesh.
+        let p = p.map(|w| w * scale + 0.0);
+        if !points.contains(&p) {
+            points.push(p);
+        }
+    }
+    points
+}
+
+#[test]
+fn hard_sets_have_one_mesh_on_every_path_and_in_every_order() {
+    let mut numbers = Numbers(17);
+    let levels = [Level::filtered(), vec![Level::Unfiltered]].concat();
+    for _ in 0..400 {
+        let points = hard_set(&mut numbers);
+        let order = numbers.shuffled(points.len());
+        if points.len() < 5 || independent(&points, &order).is_none() {
+            continue;
+        }
+        let integral = points.iter().flatten().all(|x| x.fract() == 0.0);
+        let mut answer = None;
+        for &level in &levels {
+            let order = numbers.shuffled(points.len());
+            let mut mesh = built(&points, Settings { integral, ..PLAIN }, Some(level), &order);
+            check(&mut mesh);
+            let found = quadruples(&mesh);
+            assert_eq!(answer.get_or_insert_with(|| found.clone()), &found, "{points:?}");
+        }
+    }
+}

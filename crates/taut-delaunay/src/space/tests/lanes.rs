@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 
 use taut_predicates::space::in_sphere_exact;
-use taut_predicates::{Exact, Separate};
+use taut_predicates::{Exact, Fused, Separate};
 
 use super::*;
 use crate::space::signs::Scalar;
@@ -40,34 +40,33 @@ struct Masks {
     whole: (u32, u32, u32),
 }
 
-fn masks(level: Level, sites: &[Site], simplices: &[Simplex<4>], q: &Site) -> Masks {
-    fn all<S: Signs>(signs: S, sites: &[Site], simplices: &[Simplex<4>], q: &Site) -> Masks {
-        let corners = simplices[0].vertices.map(|v| &sites[row(v)]);
-        let mut whole = (0, 0, 0);
-        for (i, group) in (0..8).collect::<Vec<u32>>().chunks(S::WIDTH).enumerate() {
-            let nothing = (0, u32::MAX >> (32 - S::WIDTH), 0);
-            let (inside, open, ties) =
-                signs.conflicts_in_whole(sites, simplices, group, q).unwrap_or(nothing);
-            whole.0 |= inside << (i * S::WIDTH);
-            whole.1 |= open << (i * S::WIDTH);
-            whole.2 |= ties << (i * S::WIDTH);
-        }
-        Masks {
-            number: conflicts(signs, false, sites, simplices, q),
-            pairs: conflicts(signs, true, sites, simplices, q),
-            beyond: signs.beyond(corners, q),
-            whole,
-        }
+fn all_masks<S: Signs>(signs: S, sites: &[Site], simplices: &[Simplex<4>], q: &Site) -> Masks {
+    let corners = simplices[0].vertices.map(|v| &sites[row(v)]);
+    let mut whole = (0, 0, 0);
+    for (i, group) in (0..8).collect::<Vec<u32>>().chunks(S::WIDTH).enumerate() {
+        let nothing = (0, u32::MAX >> (32 - S::WIDTH), 0);
+        let (inside, open, ties) =
+            signs.conflicts_in_whole(sites, simplices, group, q).unwrap_or(nothing);
+        whole.0 |= inside << (i * S::WIDTH);
+        whole.1 |= open << (i * S::WIDTH);
+        whole.2 |= ties << (i * S::WIDTH);
     }
+    Masks {
+        number: conflicts(signs, false, sites, simplices, q),
+        pairs: conflicts(signs, true, sites, simplices, q),
+        beyond: signs.beyond(corners, q),
+        whole,
+    }
+}
+
+fn masks(level: Level, sites: &[Site], simplices: &[Simplex<4>], q: &Site) -> Masks {
     match level {
-        Level::Unfiltered => all(Unfiltered, sites, simplices, q),
-        Level::Scalar => all(Scalar::<Separate>(PhantomData), sites, simplices, q),
+        Level::Unfiltered => all_masks(Unfiltered, sites, simplices, q),
+        Level::Scalar => all_masks(Scalar::<Separate>(PhantomData), sites, simplices, q),
         #[cfg(target_arch = "x86_64")]
-        Level::Fused(_) => all(Scalar::<taut_predicates::Fused>(PhantomData), sites, simplices, q),
+        Level::Four(yes) => all_masks(yes, sites, simplices, q),
         #[cfg(target_arch = "x86_64")]
-        Level::Four(yes) => all(yes, sites, simplices, q),
-        #[cfg(target_arch = "x86_64")]
-        Level::Eight(yes) => all(yes, sites, simplices, q),
+        Level::Eight(yes) => all_masks(yes, sites, simplices, q),
     }
 }
 
@@ -153,16 +152,18 @@ fn lanes_answer_as_exact_arithmetic_or_leave_open() {
                 assert_eq!(sign, expected);
             }
         }
-        // With fused multiplication the operations are the same one by one, so are the masks.
-        for pair in all[1..].windows(2) {
-            assert_eq!((pair[0].number, pair[0].beyond), (pair[1].number, pair[1].beyond));
+        // With fused multiplication the operations are the same one by one, so are the masks. (Compiled for any
+        // processor this is a library call, which is slow and right.)
+        let fused = all_masks(Scalar::<Fused>(PhantomData), &sites, &simplices, &q);
+        for vectors in &all[1..] {
+            assert_eq!((vectors.number, vectors.beyond), (fused.number, fused.beyond));
         }
     }
     assert!(
         decided[0] > 100_000 && left[0] > 100_000,
         "both kinds were seen: {decided:?}, {left:?}"
     );
-    let vectors = Level::filtered().len() > 2;
+    let vectors = Level::filtered().len() > 1;
     assert!(
         !vectors || decided[1] > 100_000 && left[1] > 100_000 && perturbed > 10_000,
         "{decided:?}, {left:?}, {perturbed}"

@@ -17,6 +17,7 @@ fn speed() {
     let vectors = std::env::var("SPACE_SCALAR").is_err();
     let which = std::env::var("SPACE_LEVEL").ok().map(|l| l.parse::<usize>().unwrap());
     for _ in 0..std::env::var("SPACE_REPS").map_or(3, |r| r.parse().unwrap()) {
+        let before = rss();
         let begin = cpu();
         let mut mesh = Mesh::new(points.clone(), Settings { integral, filtered: true, vectors });
         if let Some(which) = which {
@@ -24,6 +25,7 @@ fn speed() {
         }
         mesh.start(first);
         mesh.insert(&order).unwrap();
+        let bytes = (rss() - before) / points.len() as f64;
         let ns = (cpu() - begin) / points.len() as f64;
         let tets = mesh.simplices().iter().filter(|s| s.is_live() && !s.is_ghost()).count();
         let free = mesh.free.len();
@@ -31,7 +33,7 @@ fn speed() {
         let (_, _, counters) = mesh.finish();
         let n = points.len() as f64;
         println!(
-            "{file} {ns:.0} ns/pt, {tets} tets, slots {slots} free {free}, walk {:.2} orient {:.2} tests {:.2} replaced {:.2} {:?}",
+            "{file} {ns:.0} ns/pt, {bytes:.0} B/pt, {tets} tets, slots {slots} free {free}, walk {:.2} orient {:.2} tests {:.2} replaced {:.2} {:?}",
             counters.walk_steps as f64 / n,
             counters.orientations as f64 / n,
             counters.conflict_tests as f64 / n,
@@ -44,4 +46,9 @@ fn speed() {
 fn cpu() -> f64 {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap();
     text.split(' ').next().unwrap().parse().unwrap()
+}
+
+fn rss() -> f64 {
+    let text = std::fs::read_to_string("/proc/self/statm").unwrap();
+    text.split(' ').nth(1).unwrap().parse::<f64>().unwrap() * 4096.0
 }
