@@ -19,6 +19,9 @@ use crate::{CheckError, Violation};
 /// Stands for rows that are no vertex.
 pub(super) const NO_SITE: u32 = u32::MAX;
 
+/// Ids looked up at a time: as many as a core can await from memory, and more.
+const TOUCHED: usize = 128;
+
 /// All rows.
 pub(super) struct Input<const D: usize> {
     pub(super) rows: Vec<[f64; D]>,
@@ -122,8 +125,9 @@ impl<const D: usize> Input<D> {
     }
 
     /// A row, multiplied by the power of two.
-    pub(super) fn scaled(&self, row: u32) -> [f64; D] {
-        self.rows[row as usize].map(|x| x * self.scale)
+    #[inline(always)]
+    pub(super) fn scaled(&self, row: &[f64; D]) -> [f64; D] {
+        std::array::from_fn(|k| row[k] * self.scale)
     }
 
     /// Dimension of the affine hull. O(n).
@@ -133,14 +137,15 @@ impl<const D: usize> Input<D> {
         let Some(second) = rows.find(|&row| self.rows[row as usize] != *first) else {
             return Some(0);
         };
-        let (a, b) = (self.scaled(0), self.scaled(second));
-        let Some(third) = rows.find(|&row| self.axes(&a, &b, &self.scaled(row)).is_some()) else {
+        let at = |row: u32| self.scaled(&self.rows[row as usize]);
+        let (a, b) = (at(0), at(second));
+        let Some(third) = rows.find(|&row| self.axes(&a, &b, &at(row)).is_some()) else {
             return Some(1);
         };
-        let c = self.scaled(third);
+        let c = at(third);
         let is_beside = |row: u32| {
             let mut tetrahedron = [[0.0; 3]; 4];
-            for (to, from) in tetrahedron.iter_mut().zip([a, b, c, self.scaled(row)]) {
+            for (to, from) in tetrahedron.iter_mut().zip([a, b, c, at(row)]) {
                 to[..D].copy_from_slice(&from);
             }
             self.signs.orientation::<super::geometry::Tetrahedra, 3, 4>(&tetrahedron).is_ne()
@@ -213,20 +218,28 @@ impl<const D: usize> Sites<D> {
         let mut sites = vec![NO_SITE; input.rows.len()];
         let mut rows = Vec::with_capacity(input.rows.len());
         let mut named = Vec::with_capacity(simplices.len());
-        for (place, &id) in simplices.iter().enumerate() {
-            let Some(site) = sites.get_mut(id as usize) else {
-                let position = place / width;
-                return Err(MeshViolation::Id { list: "simplices", position, id });
-            };
-            if *site == NO_SITE {
-                *site = rows.len() as u32;
-                rows.push(id);
+        for (block, ids) in simplices.chunks(TOUCHED).enumerate() {
+            // Whether a site is new is guessed wrong often, and would be found out one memory access after another.
+            // Touching all first lets these accesses overlap.
+            let touch = |all: u32, &id: &u32| all & sites.get(id as usize).copied().unwrap_or(0);
+            std::hint::black_box(ids.iter().fold(u32::MAX, touch));
+            for (place, &id) in ids.iter().enumerate() {
+                let Some(site) = sites.get_mut(id as usize) else {
+                    let position = (block * TOUCHED + place) / width;
+                    return Err(MeshViolation::Id { list: "simplices", position, id });
+                };
+                if *site == NO_SITE {
+                    *site = rows.len() as u32;
+                    rows.push(id);
+                }
+                named.push(*site);
             }
-            named.push(*site);
         }
-        // One visit to each row, in no order that a processor foresees.
-        let visit = |&row: &u32| (input.scaled(row), SiteHash::of(&input.rows[row as usize]));
-        let (points, hashes) = rows.par_iter().map(visit).unzip();
+        // One visit to each row, in no order that a processor foresees, with nothing else to do meanwhile.
+        let mut points: Vec<[f64; D]> =
+            rows.par_iter().map(|&row| input.rows[row as usize]).collect();
+        let hashes = points.par_iter().map(|point| SiteHash::of(point)).collect();
+        points.par_iter_mut().for_each(|point| *point = input.scaled(point));
         Ok((Sites { points, hashes, rows, sites }, named))
     }
 
