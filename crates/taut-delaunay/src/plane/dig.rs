@@ -6,9 +6,8 @@
 //! this order. If not, (a, b) belongs to the rim.
 //! *Guarantee.* The rim comes out in counter-clockwise order and closed, each triangle of the disc once; the minor [ab]
 //! is positive or, if q lies on the edge, zero.
-//! *Trap.* A ghost has no circle: it is in conflict iff q lies strictly outside its hull edge, or on the line of that
-//! edge with the finite triangle behind the edge in conflict, which is to say between its ends. Its own sign is
-//! filtered as well, or every site near the hull would be counted as an exact call.
+//! *Trap.* A ghost has no circle: it is in conflict iff q lies strictly outside its hull edge, or on that edge between
+//! the ends. Its own sign is filtered as well, or every site near the hull would be counted as an exact call.
 
 use taut_predicates::{Exact, MulAdd, Sign};
 
@@ -139,12 +138,8 @@ fn conflict_exact(
     match view.side_exact(from, to, exact) {
         Sign::Positive => true,
         Sign::Negative => false,
-        // Seen through its hull edge, the triangle it is seen from is the finite one behind that edge.
-        Sign::Zero => {
-            place == facet || {
-                let inner = decode(t.neighbors[place]).0;
-                view.conflict_exact(triangles[inner as usize].vertices, exact)
-            }
-        }
+        // Between the ends q is in the hull, and no ghost but this one is near: it is seen through its hull edge, from a
+        // triangle whose circle meets the line of the edge between the ends alone. Beyond them it is seen from a ghost.
+        Sign::Zero => place == facet,
     }
 }

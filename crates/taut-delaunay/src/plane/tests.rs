@@ -259,12 +259,15 @@ fn magnitudes_at_both_ends_of_the_range() {
         (0..64).map(|i| [f64::from(i % 8) * unit, f64::from(i / 8) * unit]).collect::<Vec<_>>()
     };
     assert_eq!(triangles(&checked(grid(least), unfiltered)), triangles(&checked(grid(1.0), FAST)));
-    // Filters see underflow, not wrong signs: tiny differences beside ordinary ones.
-    let mixed: Vec<Point> = (0..60)
-        .map(|i| [1e-160 * f64::from(i % 10), 1e-160 * f64::from(i / 10)])
-        .chain([[1.0, 0.5], [-1.0, 3.0]])
-        .collect();
-    assert_eq!(triangles(&checked(mixed.clone(), FAST)), triangles(&checked(mixed, unfiltered)));
+    // Products of tiny differences underflow; the filters have to see that, beside ordinary points, too.
+    for tiny in [1e-80, 3e-81, 1e-81, 1e-161] {
+        let mut mixed: Vec<Point> = points.iter().map(|p| p.map(|x| x * tiny)).collect();
+        mixed.extend([[1.0, 0.5], [-1.0, 3.0], [0.25, -2.0]]);
+        assert_eq!(
+            triangles(&checked(mixed.clone(), FAST)),
+            triangles(&checked(mixed, unfiltered))
+        );
+    }
 }
 
 /// Four points for which the JTS and GEOS libraries gave a triangulation that is none (libgeos/geos#1286), and six of
