@@ -156,6 +156,10 @@ pub(super) trait Signs: Copy {
     /// Beyond which facets of a positive simplex q certainly lies, and which are open.
     fn beyond(self, corners: [&Site; 4], q: &Site) -> (u32, u32);
 
+    /// Has memory brought near that will soon be read; the address need not be valid.
+    #[inline(always)]
+    fn fetch<T>(self, _address: *const T) {}
+
     /// Writes facet I of a simplex.
     #[inline(always)]
     fn put<const I: usize>(self, simplex: &Simplex<4>, facet: &mut Facet) {

@@ -522,6 +522,12 @@ impl Signs for Avx2 {
     }
 
     #[inline(always)]
+    fn fetch<T>(self, address: *const T) {
+        // SAFETY: every x86-64 has the instruction, and it never faults.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(address.cast()) }
+    }
+
+    #[inline(always)]
     fn put<const I: usize>(self, simplex: &Simplex<4>, facet: &mut Facet) {
         // SAFETY: as above.
         unsafe { put::<I>(simplex, facet) }
@@ -571,6 +577,12 @@ impl Signs for Avx512 {
     #[inline(always)]
     fn beyond(self, corners: [&Site; 4], q: &Site) -> (u32, u32) {
         self.0.beyond(corners, q)
+    }
+
+    #[inline(always)]
+    fn fetch<T>(self, address: *const T) {
+        // SAFETY: every x86-64 has the instruction, and it never faults.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(address.cast()) }
     }
 
     #[inline(always)]
