@@ -49,7 +49,7 @@ fn largest<L: Lane>(a: L, b: L, c: L) -> L {
     a.abs().max(b.abs()).max(c.abs())
 }
 
-/// The minor [uv] of the first two coordinates.
+/// The minor uₓvᵧ − uᵧvₓ.
 #[inline(always)]
 fn minor<N: Number>(u: [N; 3], v: [N; 3]) -> N {
     N::mul_sub(u[0], v[1], u[1] * v[0])
