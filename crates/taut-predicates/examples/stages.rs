@@ -42,7 +42,7 @@ fn show<T: Copy>(name: &str, inputs: &[T], mut call: impl FnMut(T) -> bool) {
         black_box(positive);
         best = best.min(start.elapsed().as_nanos() as f64 / inputs.len() as f64);
     }
-    print!("{name:<44} {best:8.1} ns");
+    print!("{name:<48} {best:8.1} ns");
 }
 
 fn plane(name: &str, integral: bool, inputs: &[[plane::Point; 4]]) {
@@ -66,7 +66,7 @@ fn counted(exact: &Exact, inputs: usize) -> [u64; 5] {
 
 fn main() {
     let mut random = Random(1);
-    println!("{:>94}", "% whole, double-double, wide, unbounded; ties");
+    println!("{:>98}", "% whole, double-double, wide, unbounded; ties");
 
     let uniform: Vec<_> =
         (0..CALLS).map(|_| [(); 4].map(|()| [random.unit(), random.unit()])).collect();
@@ -105,6 +105,13 @@ fn main() {
         })
         .collect();
     plane("plane: rectangles of 1e-30 by 1", false, &mixed);
+    let thin: Vec<_> = (0..CALLS)
+        .map(|_| {
+            let (x, y) = (random.unit() * 1e-8, random.unit());
+            [[-x, -y], [x, -y], [x, y], [-x, y.next_up()]]
+        })
+        .collect();
+    plane("plane: rectangles of 1e-8 by 1, but for an ulp", false, &thin);
 
     let uniform: Vec<_> = (0..CALLS)
         .map(|_| [(); 5].map(|()| [random.unit(), random.unit(), random.unit()]))
@@ -154,4 +161,32 @@ fn main() {
         })
         .collect();
     space("space: boxes of 1e-30 by 1 by 1e30", false, &mixed);
+    let thin: Vec<_> = (0..CALLS)
+        .map(|_| {
+            let (x, y, z) = (random.unit() * 1e-8, random.unit(), random.unit());
+            [[-x, -y, -z], [x, -y, -z], [-x, y, -z], [-x, -y, z], [x, y, z.next_up()]]
+        })
+        .collect();
+    space("space: boxes of 1e-8 by 1 by 1, but for an ulp", false, &thin);
+
+    for (name, inputs) in [
+        ("facets: uniform", &uniform),
+        ("facets: unit cubes", &cubes(&mut random, 1.0)),
+        ("facets: cubes of 0.1", &cubes(&mut random, 0.1)),
+        ("facets: neighbours on a sphere", &sphere),
+    ] {
+        show(name, inputs, |[a, b, c, _, q]| space::in_equatorial_sphere(a, b, c, q).is_positive());
+        println!();
+        show(name, inputs, |[a, b, c, _, q]| space::shrunk_sphere(a, b, c, q, 2e-5).is_positive());
+        println!("   shrunk");
+    }
+    for (name, inputs) in [
+        ("circumcentres: uniform", &uniform),
+        ("circumcentres: unit cubes", &cubes(&mut random, 1.0)),
+    ] {
+        show(name, inputs, |[a, b, c, d, q]| {
+            space::circumcenter_side(a, b, c, d, 0, 0.5 * (a[0] + q[0])).is_positive()
+        });
+        println!();
+    }
 }

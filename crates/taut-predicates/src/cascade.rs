@@ -2,7 +2,7 @@
 //!
 //! *Idea.* The permanent rides along with the value. In `f64` it bounds the error; where all differences are whole
 //! multiples of one unit it bounds every intermediate number, so that `i128` is exact if it is below 2¹²⁶: ties of
-//! gridded data are cheap here, too.
+//! gridded data are cheap here, too. Then double-double, and integers of any length.
 //! *Guarantee.* The error of the `f64` value is below [`Polynomial::ROUNDINGS`]·u·permanent, as proved at the filter of
 //! the plane; underflow stays below 2⁻⁶⁵⁰, as shown for double-double.
 
@@ -32,8 +32,8 @@ fn filtered<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> 
 #[cold]
 #[inline(never)]
 fn exact<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> Sign {
-    double_double::sign::<P, K>(differences)
-        .or_else(|| in_128_bits::<P, K>(differences))
+    in_128_bits::<P, K>(differences)
+        .or_else(|| double_double::sign::<P, K>(differences))
         .unwrap_or_else(|| unbounded::sign::<P, K>(differences))
 }
 

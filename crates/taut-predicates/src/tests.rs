@@ -5,6 +5,7 @@
 
 mod balls;
 mod cases;
+mod errors;
 mod oracle;
 mod plane;
 mod space;

@@ -14,7 +14,7 @@ use crate::perturbation::tie;
 use crate::plane::Point;
 use crate::plane::polynomials::{cofactors, in_circle, lift, minor};
 use crate::sign::Sign;
-use crate::stages::Exact;
+use crate::stages::{Exact, Stages};
 use crate::wide::Wide;
 use crate::{double_double, unbounded, wide};
 
@@ -122,6 +122,13 @@ fn stages<const PERTURBED: bool>(
         stages.wide += 1;
         return sign;
     }
+    beyond_fixed::<PERTURBED>(points, q, stages)
+}
+
+/// The last stages, out of the way of those that do the work.
+#[cold]
+#[inline(never)]
+fn beyond_fixed<const PERTURBED: bool>(points: [Point; 3], q: Point, stages: &mut Stages) -> Sign {
     if let Some(sign) = double_double::sign::<InCircle, 6>(&relative(points, q)) {
         stages.double_double += 1;
         return sign;
@@ -158,14 +165,21 @@ pub(crate) fn fixed<const PERTURBED: bool>(
     let d = wide::integers::<6>(&relative(points, q))?;
     let p = [[d[0], d[1]], [d[2], d[3]], [d[4], d[5]]].map(|p| p.map(i128::from));
     let cofactors = cofactors(&p);
-    let [a, b, c]: [Wide<4>; 3] =
-        std::array::from_fn(|i| Wide::from(lift(&p[i])).times(Wide::from(cofactors[i])));
-    let sign = a.plus(b).plus(c).sign();
+    let sign = term(&p[0], cofactors[0])
+        .plus(term(&p[1], cofactors[1]))
+        .plus(term(&p[2], cofactors[2]))
+        .sign();
     if !PERTURBED || !sign.is_zero() {
         return Some(sign);
     }
     *ties += 1;
     Some(tie(&points, &q, |vertex| Sign::from(cofactors[vertex])))
+}
+
+/// |p|² by its cofactor.
+#[inline(always)]
+fn term(p: &[i128; 2], cofactor: i128) -> Wide<4> {
+    Wide::from(lift(p)).times(Wide::from(cofactor))
 }
 
 pub(crate) fn any_length<const PERTURBED: bool>(

@@ -5,7 +5,7 @@ use crate::perturbation::tie;
 use crate::sign::Sign;
 use crate::space::Point;
 use crate::space::polynomials::{cofactors, determinant, in_sphere, lift, minor};
-use crate::stages::Exact;
+use crate::stages::{Exact, Stages};
 use crate::wide::Wide;
 use crate::{double_double, unbounded, wide};
 
@@ -129,6 +129,13 @@ fn stages<const PERTURBED: bool>(
         stages.wide += 1;
         return sign;
     }
+    beyond_fixed::<PERTURBED>(points, q, stages)
+}
+
+/// The last stages, out of the way of those that do the work.
+#[cold]
+#[inline(never)]
+fn beyond_fixed<const PERTURBED: bool>(points: [Point; 4], q: Point, stages: &mut Stages) -> Sign {
     if let Some(sign) = double_double::sign::<InSphere, 12>(&relative(points, q)) {
         stages.double_double += 1;
         return sign;
@@ -164,9 +171,9 @@ pub(crate) fn fixed<const PERTURBED: bool>(
 ) -> Option<Sign> {
     let p = rows(&wide::integers::<12>(&relative(points, q))?);
     let cofactors = wide_cofactors(&p);
-    let [a, b, c, d]: [Wide<5>; 4] =
-        std::array::from_fn(|i| cofactors[i].times(Wide::from(lift(&p[i].map(i128::from)))));
-    let sign = a.plus(b).plus(c.plus(d)).sign();
+    let sign = (term(&p[0], cofactors[0]).plus(term(&p[1], cofactors[1])))
+        .plus(term(&p[2], cofactors[2]).plus(term(&p[3], cofactors[3])))
+        .sign();
     if !PERTURBED || !sign.is_zero() {
         return Some(sign);
     }
@@ -215,6 +222,12 @@ fn tie_of_whole_numbers(p: &[[f64; 3]; 4], cofactors: &[f64; 4]) -> Sign {
 #[inline(always)]
 fn wide_minor(u: &[i64; 3], v: &[i64; 3]) -> i128 {
     minor(&u.map(i128::from), &v.map(i128::from))
+}
+
+/// |p|² by its cofactor.
+#[inline(always)]
+fn term(p: &[i64; 3], cofactor: Wide<3>) -> Wide<5> {
+    cofactor.times(Wide::from(lift(&p.map(i128::from))))
 }
 
 /// Σ z·m, the expansion of a determinant along its third column.

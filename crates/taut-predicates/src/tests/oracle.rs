@@ -5,14 +5,18 @@ use num_traits::{One, Signed, Zero};
 
 use crate::sign::Sign;
 
-/// All numbers as integers in one unit, a power of two; and how many bits the largest has.
+/// All numbers as integers in one unit, a power of two.
 pub(crate) fn integers(numbers: &[f64]) -> Vec<BigInt> {
+    integers_with_unit(numbers).0
+}
+
+/// The same, with the exponent of the unit.
+pub(crate) fn integers_with_unit(numbers: &[f64]) -> (Vec<BigInt>, i32) {
     let parts: Vec<_> = numbers.iter().map(|&x| parts(x)).collect();
     let unit = parts.iter().filter(|p| p.0 != 0).map(|p| p.1).min().unwrap_or(0);
-    parts
-        .iter()
-        .map(|&(m, e)| if m == 0 { BigInt::zero() } else { BigInt::from(m) << (e - unit) })
-        .collect()
+    let integer =
+        |&(m, e): &(i64, i32)| if m == 0 { BigInt::zero() } else { BigInt::from(m) << (e - unit) };
+    (parts.iter().map(integer).collect(), unit)
 }
 
 /// A number as m·2ᵉ, found by halving and doubling alone.
@@ -82,13 +86,15 @@ fn determinant_with_ones(rows: &[Vec<BigInt>]) -> BigInt {
 /// A point set in one unit.
 pub(crate) struct Exactly {
     pub(crate) points: Vec<Vec<BigInt>>,
+    /// The exponent of that unit.
+    pub(crate) unit: i32,
     pub(crate) dim: usize,
 }
 
 impl Exactly {
     pub(crate) fn new<const D: usize>(points: &[[f64; D]]) -> Self {
-        let numbers = integers(points.as_flattened());
-        Exactly { points: numbers.chunks(D).map(<[_]>::to_vec).collect(), dim: D }
+        let (numbers, unit) = integers_with_unit(points.as_flattened());
+        Exactly { points: numbers.chunks(D).map(<[_]>::to_vec).collect(), unit, dim: D }
     }
 
     fn square(&self, i: usize) -> BigInt {
