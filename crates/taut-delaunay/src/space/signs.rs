@@ -49,7 +49,7 @@ fn largest<L: Lane>(a: L, b: L, c: L) -> L {
     a.abs().max(b.abs()).max(c.abs())
 }
 
-/// The minor [uv] of the first two coordinates.
+/// The minor uₓvᵧ − uᵧvₓ.
 #[inline(always)]
 fn minor<N: Number>(u: [N; 3], v: [N; 3]) -> N {
     N::mul_sub(u[0], v[1], u[1] * v[0])
@@ -155,6 +155,10 @@ pub(super) trait Signs: Copy {
 
     /// Beyond which facets of a positive simplex q certainly lies, and which are open.
     fn beyond(self, corners: [&Site; 4], q: &Site) -> (u32, u32);
+
+    /// Has memory brought near that will soon be read; the address need not be valid.
+    #[inline(always)]
+    fn fetch<T>(self, _address: *const T) {}
 
     /// Writes facet I of a simplex.
     #[inline(always)]

@@ -3,7 +3,6 @@
 mod canonical;
 mod inputs;
 mod lanes;
-mod speed;
 
 use taut_predicates::Sign;
 use taut_predicates::space::{self, conflict_exact};

@@ -1,4 +1,8 @@
-//! Four and eight numbers at a time, on x86-64.
+//! Four and eight numbers at a time, on x86-64: the one file of this crate with `unsafe` code.
+//!
+//! *Guarantee.* What is called here needs a processor that has the instructions, and a value of [`Avx2`] or [`Avx512`] is
+//! the proof: only asking the processor makes one. Addresses come from slices; the rows of a group are checked together.
+#![allow(unsafe_code)]
 
 use std::arch::x86_64::*;
 use std::ops::{Add, Mul, Sub};
@@ -7,8 +11,8 @@ use crate::kernel::TooMany;
 use crate::simplex::Simplex;
 use crate::space::cavity::Facet;
 use crate::space::pairs::{self, Pair};
-use crate::space::signs::{Lane, Number, Signs, in_sphere, orientation, rows};
-use crate::space::{Mesh, Site, whole};
+use crate::space::signs::{Lane, Number, Signs, in_sphere, orientation};
+use crate::space::{Mesh, Site, row, whole};
 
 /// Proof that the processor has AVX2 and FMA: there is no other way to make one than to ask it.
 #[derive(Clone, Copy, Debug)]
@@ -203,13 +207,21 @@ fn pair(low: &Site, high: &Site) -> __m512d {
 }
 
 /// x, y and z of vertex J of eight simplices.
+///
+/// # Safety
+/// [`within`] holds.
 #[inline]
 #[target_feature(enable = "avx512f,avx2")]
-fn columns8<const J: usize>(rows: &[[&Site; 4]; 8]) -> [F64x8; 3] {
-    let ac = pair(rows[0][J], rows[2][J]);
-    let bd = pair(rows[1][J], rows[3][J]);
-    let eg = pair(rows[4][J], rows[6][J]);
-    let fh = pair(rows[5][J], rows[7][J]);
+unsafe fn columns8<const J: usize>(sites: &[Site], s: &[&Simplex<4>; 8]) -> [F64x8; 3] {
+    // SAFETY: the caller's promise.
+    let (ac, bd, eg, fh) = unsafe {
+        (
+            pair(corner::<J>(sites, s[0]), corner::<J>(sites, s[2])),
+            pair(corner::<J>(sites, s[1]), corner::<J>(sites, s[3])),
+            pair(corner::<J>(sites, s[4]), corner::<J>(sites, s[6])),
+            pair(corner::<J>(sites, s[5]), corner::<J>(sites, s[7])),
+        )
+    };
     let (xz_low, y_low) = (_mm512_unpacklo_pd(ac, bd), _mm512_unpackhi_pd(ac, bd));
     let (xz_high, y_high) = (_mm512_unpacklo_pd(eg, fh), _mm512_unpackhi_pd(eg, fh));
     [
@@ -217,6 +229,86 @@ fn columns8<const J: usize>(rows: &[[&Site; 4]; 8]) -> [F64x8; 3] {
         F64x8(_mm512_shuffle_f64x2(y_low, y_high, 0b10_00_10_00)),
         F64x8(_mm512_shuffle_f64x2(xz_low, xz_high, 0b11_01_11_01)),
     ]
+}
+
+/// Whether all vertices of these simplices have a row, asked once for all.
+#[inline]
+#[target_feature(enable = "avx2")]
+fn within<const N: usize>(sites: &[Site], group: &[&Simplex<4>; N]) -> bool {
+    let one = _mm_set1_epi32(1);
+    let mut last = _mm_setzero_si128();
+    for simplex in group {
+        // SAFETY: four numbers, at any address.
+        let vertices = unsafe { _mm_loadu_si128(simplex.vertices.as_ptr().cast()) };
+        last = _mm_max_epu32(last, _mm_add_epi32(vertices, one));
+    }
+    let count = _mm_set1_epi32(u32::try_from(sites.len()).unwrap_or(u32::MAX) as i32);
+    _mm_movemask_epi8(_mm_cmpeq_epi32(_mm_max_epu32(last, count), last)) == 0
+}
+
+/// Vertex J of a simplex.
+///
+/// # Safety
+/// [`within`] holds.
+#[inline(always)]
+unsafe fn corner<'a, const J: usize>(sites: &'a [Site], simplex: &Simplex<4>) -> &'a Site {
+    // SAFETY: the caller's promise.
+    unsafe { sites.get_unchecked(row(simplex.vertices[J])) }
+}
+
+/// The vertices of four simplices. Inlined by force: twelve vectors returned through memory cost a tenth of everything.
+///
+/// # Safety
+/// The processor has AVX2.
+#[inline(always)]
+unsafe fn corners4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32]) -> [[F64x4; 3]; 4] {
+    let s = &simplices[group[0] as usize];
+    let t = &simplices[group[1] as usize];
+    let u = &simplices[group[2] as usize];
+    let v = &simplices[group[3] as usize];
+    // SAFETY: the caller's promise; all rows are there before one is read.
+    unsafe {
+        assert!(within(sites, &[s, t, u, v]), "vertices are sites");
+        macro_rules! columns {
+            ($j:literal) => {
+                columns4(
+                    corner::<$j>(sites, s),
+                    corner::<$j>(sites, t),
+                    corner::<$j>(sites, u),
+                    corner::<$j>(sites, v),
+                )
+            };
+        }
+        [columns!(0), columns!(1), columns!(2), columns!(3)]
+    }
+}
+
+/// The vertices of eight simplices.
+///
+/// # Safety
+/// The processor has AVX-512F and AVX2.
+#[inline(always)]
+unsafe fn corners8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32]) -> [[F64x8; 3]; 4] {
+    let s = &[
+        &simplices[group[0] as usize],
+        &simplices[group[1] as usize],
+        &simplices[group[2] as usize],
+        &simplices[group[3] as usize],
+        &simplices[group[4] as usize],
+        &simplices[group[5] as usize],
+        &simplices[group[6] as usize],
+        &simplices[group[7] as usize],
+    ];
+    // SAFETY: the caller's promise; all rows are there before one is read.
+    unsafe {
+        assert!(within(sites, s), "vertices are sites");
+        [
+            columns8::<0>(sites, s),
+            columns8::<1>(sites, s),
+            columns8::<2>(sites, s),
+            columns8::<3>(sites, s),
+        ]
+    }
 }
 
 /// Where the determinant is certainly positive, and where it is open.
@@ -227,49 +319,6 @@ fn masks4(F64x4(det): F64x4, F64x4(bound): F64x4) -> (u32, u32) {
     let least = _mm256_xor_pd(bound, _mm256_set1_pd(-0.0));
     let negative = _mm256_movemask_pd(_mm256_cmp_pd(det, least, _CMP_LT_OQ)) as u32;
     (positive, !(positive | negative) & 0b1111)
-}
-
-/// The vertices of four simplices. Inlined by force: twelve vectors returned through memory cost a tenth of everything.
-///
-/// # Safety
-/// The processor has AVX2.
-#[inline(always)]
-unsafe fn corners4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32]) -> [[F64x4; 3]; 4] {
-    let s = rows(sites, &simplices[group[0] as usize]);
-    let t = rows(sites, &simplices[group[1] as usize]);
-    let u = rows(sites, &simplices[group[2] as usize]);
-    let v = rows(sites, &simplices[group[3] as usize]);
-    // SAFETY: the caller's promise.
-    unsafe {
-        [
-            columns4(s[0], t[0], u[0], v[0]),
-            columns4(s[1], t[1], u[1], v[1]),
-            columns4(s[2], t[2], u[2], v[2]),
-            columns4(s[3], t[3], u[3], v[3]),
-        ]
-    }
-}
-
-/// The vertices of eight simplices.
-///
-/// # Safety
-/// The processor has AVX-512F and AVX2.
-#[inline(always)]
-unsafe fn corners8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32]) -> [[F64x8; 3]; 4] {
-    let rows = [
-        rows(sites, &simplices[group[0] as usize]),
-        rows(sites, &simplices[group[1] as usize]),
-        rows(sites, &simplices[group[2] as usize]),
-        rows(sites, &simplices[group[3] as usize]),
-        rows(sites, &simplices[group[4] as usize]),
-        rows(sites, &simplices[group[5] as usize]),
-        rows(sites, &simplices[group[6] as usize]),
-        rows(sites, &simplices[group[7] as usize]),
-    ];
-    // SAFETY: the caller's promise.
-    unsafe {
-        [columns8::<0>(&rows), columns8::<1>(&rows), columns8::<2>(&rows), columns8::<3>(&rows)]
-    }
 }
 
 /// p − q.
@@ -477,6 +526,12 @@ impl Signs for Avx2 {
     }
 
     #[inline(always)]
+    fn fetch<T>(self, address: *const T) {
+        // SAFETY: every x86-64 has the instruction, and it never faults.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(address.cast()) }
+    }
+
+    #[inline(always)]
     fn put<const I: usize>(self, simplex: &Simplex<4>, facet: &mut Facet) {
         // SAFETY: as above.
         unsafe { put::<I>(simplex, facet) }
@@ -526,6 +581,12 @@ impl Signs for Avx512 {
     #[inline(always)]
     fn beyond(self, corners: [&Site; 4], q: &Site) -> (u32, u32) {
         self.0.beyond(corners, q)
+    }
+
+    #[inline(always)]
+    fn fetch<T>(self, address: *const T) {
+        // SAFETY: every x86-64 has the instruction, and it never faults.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(address.cast()) }
     }
 
     #[inline(always)]
