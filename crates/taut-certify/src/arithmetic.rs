@@ -2,6 +2,10 @@
 
 mod double_double;
 mod exact;
+mod integer;
+mod ring;
 
 pub(crate) use double_double::{Compensated, Known, U, square, two_product, two_sum};
 pub(crate) use exact::ExactSum;
+pub(crate) use integer::{Integer, parts};
+pub(crate) use ring::{DoubleDouble, Ring};

@@ -2,9 +2,10 @@
 
 mod check;
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 use taut_points::{Monitor, PointSource, PointsHash};
 
+use crate::json::{hash_from_hex, hash_to_hex};
 use crate::{Answer, CheckError, Verdict};
 
 /// What the rows of a source stand for.
@@ -70,16 +71,9 @@ pub struct BallCertificate {
     pub points_hash: PointsHash,
 }
 
-fn hash_to_hex<S: Serializer>(hash: &PointsHash, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_str(hash)
-}
-
-fn hash_from_hex<'de, D: Deserializer<'de>>(deserializer: D) -> Result<PointsHash, D::Error> {
-    String::deserialize(deserializer)?.parse().map_err(serde::de::Error::custom)
-}
-
 impl Answer for Ball {
     type Certificate = BallCertificate;
+    type Verdict = Verdict;
     const KIND: &'static str = "ball";
 
     fn check(

@@ -1,8 +1,12 @@
 //! One solution as one JSON document: `{ "schema", "kind", "answer", "certificate", "trace" }`.
 
-use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use std::io;
 
-use crate::{Answer, Ball, CheckError, Solution, Trace, Verdict};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de::DeserializeOwned};
+use serde_json::ser::{Formatter, PrettyFormatter};
+use taut_points::{Monitor, PointSource, PointsHash};
+
+use crate::{Answer, AnyVerdict, Ball, CheckError, Solution, Trace, Triangulation};
 
 /// Version of the document; it grows by one when a reader of the old one would misread the new.
 pub const SCHEMA: u32 = 1;
@@ -66,6 +70,16 @@ impl<A: Answer> Solution<A> {
     /// # Panics
     /// Never: all parts are plain data with string keys.
     pub fn to_json(&self) -> String {
+        let mut text = Vec::new();
+        self.write_json(&mut text).expect("plain data always has a JSON form");
+        String::from_utf8(text).expect("JSON is text")
+    }
+
+    /// Writes the document to `out`, in small pieces: give a buffer. It ends without a line feed.
+    ///
+    /// # Errors
+    /// What `out` says.
+    pub fn write_json(&self, out: impl io::Write) -> io::Result<()> {
         let document = Document {
             schema: SCHEMA,
             kind: A::KIND,
@@ -73,8 +87,95 @@ impl<A: Answer> Solution<A> {
             certificate: &self.certificate,
             trace: &self.trace,
         };
-        serde_json::to_string_pretty(&document).expect("plain data always has a JSON form")
+        let mut serializer = serde_json::Serializer::with_formatter(out, RowFormatter::default());
+        Ok(document.serialize(&mut serializer)?)
     }
+}
+
+/// One item a line, as people read it, but a list within a list on one line: tables may have millions of rows.
+#[derive(Default)]
+struct RowFormatter {
+    pretty: PrettyFormatter<'static>,
+    /// For each open list or object, whether it is a list.
+    open: Vec<bool>,
+    /// How many of the innermost lists stand on one line.
+    inline: usize,
+}
+
+impl Formatter for RowFormatter {
+    fn begin_array<W: ?Sized + io::Write>(&mut self, out: &mut W) -> io::Result<()> {
+        let within_list = self.open.last() == Some(&true);
+        self.open.push(true);
+        if within_list {
+            self.inline += 1;
+            return out.write_all(b"[");
+        }
+        self.pretty.begin_array(out)
+    }
+
+    fn end_array<W: ?Sized + io::Write>(&mut self, out: &mut W) -> io::Result<()> {
+        self.open.pop();
+        if self.inline > 0 {
+            self.inline -= 1;
+            return out.write_all(b"]");
+        }
+        self.pretty.end_array(out)
+    }
+
+    fn begin_array_value<W: ?Sized + io::Write>(
+        &mut self,
+        out: &mut W,
+        first: bool,
+    ) -> io::Result<()> {
+        match (self.inline > 0, first) {
+            (true, true) => Ok(()),
+            (true, false) => out.write_all(b", "),
+            (false, _) => self.pretty.begin_array_value(out, first),
+        }
+    }
+
+    fn end_array_value<W: ?Sized + io::Write>(&mut self, out: &mut W) -> io::Result<()> {
+        if self.inline > 0 { Ok(()) } else { self.pretty.end_array_value(out) }
+    }
+
+    fn begin_object<W: ?Sized + io::Write>(&mut self, out: &mut W) -> io::Result<()> {
+        self.open.push(false);
+        self.pretty.begin_object(out)
+    }
+
+    fn end_object<W: ?Sized + io::Write>(&mut self, out: &mut W) -> io::Result<()> {
+        self.open.pop();
+        self.pretty.end_object(out)
+    }
+
+    fn begin_object_key<W: ?Sized + io::Write>(
+        &mut self,
+        out: &mut W,
+        first: bool,
+    ) -> io::Result<()> {
+        self.pretty.begin_object_key(out, first)
+    }
+
+    fn begin_object_value<W: ?Sized + io::Write>(&mut self, out: &mut W) -> io::Result<()> {
+        self.pretty.begin_object_value(out)
+    }
+
+    fn end_object_value<W: ?Sized + io::Write>(&mut self, out: &mut W) -> io::Result<()> {
+        self.pretty.end_object_value(out)
+    }
+}
+
+pub(crate) fn hash_to_hex<S: Serializer>(
+    hash: &PointsHash,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(hash)
+}
+
+pub(crate) fn hash_from_hex<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<PointsHash, D::Error> {
+    String::deserialize(deserializer)?.parse().map_err(serde::de::Error::custom)
 }
 
 /// A solution of any kind, as read from a file.
@@ -82,6 +183,8 @@ impl<A: Answer> Solution<A> {
 pub enum AnySolution {
     /// A minimum enclosing ball.
     Ball(Solution<Ball>),
+    /// A Delaunay triangulation.
+    Triangulation(Solution<Triangulation>),
 }
 
 impl AnySolution {
@@ -108,7 +211,16 @@ impl AnySolution {
         }
         match head.kind.as_str() {
             Ball::KIND => Ok(AnySolution::Ball(parse(text)?)),
+            Triangulation::KIND => Ok(AnySolution::Triangulation(parse(text)?)),
             _ => Err(JsonError::Kind { found: head.kind }),
+        }
+    }
+
+    /// The document, as [`Solution::to_json`] writes it.
+    pub fn to_json(&self) -> String {
+        match self {
+            AnySolution::Ball(found) => found.to_json(),
+            AnySolution::Triangulation(found) => found.to_json(),
         }
     }
 
@@ -118,11 +230,17 @@ impl AnySolution {
     /// As [`Solution::check`].
     pub fn check(
         &self,
-        source: &dyn taut_points::PointSource,
-        monitor: &taut_points::Monitor<'_>,
-    ) -> Result<Verdict, CheckError> {
+        source: &dyn PointSource,
+        monitor: &Monitor<'_>,
+    ) -> Result<AnyVerdict, CheckError> {
         match self {
-            AnySolution::Ball(found) => found.answer.check(&found.certificate, source, monitor),
+            AnySolution::Ball(found) => {
+                found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Ball)
+            }
+            AnySolution::Triangulation(found) => found
+                .answer
+                .check(&found.certificate, source, monitor)
+                .map(AnyVerdict::Triangulation),
         }
     }
 }

@@ -3,6 +3,7 @@
 //! | answer | certificate | what the checker proves from the input alone |
 //! |---|---|---|
 //! | [`Ball`] | [`BallCertificate`] | every point is inside; no smaller ball than r/(1 + gap) holds them all |
+//! | [`Triangulation`] | [`TriangulationCertificate`] | the simplices are *the* Delaunay triangulation of the points |
 //!
 //! A [`Solution`] is an answer, its certificate and a trace of counters. [`Solution::check`] reads the points again
 //! and returns a [`Verdict`], or the first [`Violation`] it meets.
@@ -34,9 +35,15 @@ mod arithmetic;
 mod ball;
 mod json;
 mod solution;
+mod triangulation;
 mod verdict;
 
 pub use ball::{Ball, BallCertificate, Items};
 pub use json::{AnySolution, JsonError, SCHEMA};
 pub use solution::{Answer, PassBounds, Solution, Stop, Trace};
-pub use verdict::{CheckError, Verdict, Violation};
+pub use triangulation::{
+    Fingerprint, FingerprintFormError, MeshViolation, NO_NEIGHBOR, SiteHash, Triangulation,
+    TriangulationCertificate, TriangulationCounts, TriangulationVerdict, check_simplices,
+    fingerprint,
+};
+pub use verdict::{AnyVerdict, CheckError, Verdict, Violation};

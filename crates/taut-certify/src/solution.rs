@@ -5,12 +5,15 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use taut_points::{Monitor, PointSource};
 
-use crate::{CheckError, Verdict};
+use crate::CheckError;
 
 /// A tight shape that can be judged from the points and its certificate.
 pub trait Answer: Serialize + DeserializeOwned {
     /// What convinces a stranger that this answer is tight.
     type Certificate: Serialize + DeserializeOwned;
+
+    /// What the checker says when it finds nothing wrong.
+    type Verdict;
 
     /// The word for it in JSON: `"ball"`.
     const KIND: &'static str;
@@ -24,7 +27,7 @@ pub trait Answer: Serialize + DeserializeOwned {
         certificate: &Self::Certificate,
         source: &dyn PointSource,
         monitor: &Monitor<'_>,
-    ) -> Result<Verdict, CheckError>;
+    ) -> Result<Self::Verdict, CheckError>;
 }
 
 /// An answer, what proves it, and how it came about (counters only: no clock, so runs compare equal).
@@ -43,7 +46,7 @@ impl<A: Answer> Solution<A> {
     ///
     /// # Errors
     /// The first [`Violation`](crate::Violation), or what reading the points says.
-    pub fn check(&self, source: &dyn PointSource) -> Result<Verdict, CheckError> {
+    pub fn check(&self, source: &dyn PointSource) -> Result<A::Verdict, CheckError> {
         self.answer.check(&self.certificate, source, &Monitor::silent())
     }
 }

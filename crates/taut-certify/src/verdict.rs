@@ -2,7 +2,18 @@
 
 use taut_points::ReadError;
 
-/// What was proved.
+use crate::{MeshViolation, TriangulationVerdict};
+
+/// What was proved of an answer of any kind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AnyVerdict {
+    /// Of a minimum enclosing ball.
+    Ball(Verdict),
+    /// Of a Delaunay triangulation.
+    Triangulation(TriangulationVerdict),
+}
+
+/// What was proved of an enclosing shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict {
     /// No enclosing shape is smaller than this.
@@ -133,6 +144,9 @@ pub enum Violation {
         /// What the checker finds.
         proved: f64,
     },
+    /// Something is wrong with a triangulation.
+    #[error(transparent)]
+    Mesh(#[from] MeshViolation),
 }
 
 /// A count with its noun.
@@ -155,4 +169,10 @@ pub enum CheckError {
     /// The points could not be read.
     #[error(transparent)]
     Read(#[from] ReadError),
+}
+
+impl From<MeshViolation> for CheckError {
+    fn from(violation: MeshViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
 }

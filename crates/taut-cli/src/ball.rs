@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::bail;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::{AnySolution, BallMethod, BallOptions, Items, ball_of_source};
+use taut::{BallMethod, BallOptions, Items, ball_of_source};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
@@ -102,7 +102,6 @@ impl Args {
             .map_err(|error| points.explain(error))?;
         clock.lap("solving");
 
-        let found = AnySolution::Ball(found);
         let mut verdict = None;
         if !self.no_verify {
             match judge(&found, &points, &watch)? {
@@ -115,7 +114,7 @@ impl Args {
             }
             clock.lap("checking");
         }
-        let AnySolution::Ball(found) = &found;
+        let found = &found;
 
         let report = Report { found, points: &points, verdict };
         let drawn =

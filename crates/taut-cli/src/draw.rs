@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use anyhow::bail;
 use taut::AnySolution;
 
 use crate::effort::Effort;
@@ -41,21 +42,24 @@ impl Args {
         let picture = Picture::of_path(&self.out)?;
         writing::look_at(&[&self.out], &[&self.answer, &self.points.path])?;
         let watch = self.effort.start()?;
-        let answer = read_answer(&self.answer, &self.points.path)?;
+        let name = shown(&self.answer);
+        let AnySolution::Ball(found) = read_answer(&self.answer, &self.points.path)? else {
+            bail!("{name}: this is a triangulation, and only balls can be drawn");
+        };
         let points = self.reading.open(&self.points.path)?;
         let verdict = match self.no_verify {
             true => None,
-            false => match judge(&answer, &points, &watch)? {
+            false => match judge(&found, &points, &watch)? {
                 Ok(verdict) => Some(verdict),
                 Err(violation) => {
-                    let violation = points.explain_violation(&violation, &shown(&self.answer));
+                    let violation = points.explain_violation(&violation, &name);
                     writing::complain(&format!("rejected, so not drawn: {violation}"));
                     return Ok(Outcome::CheckFailed);
                 }
             },
         };
-        let AnySolution::Ball(found) = &answer;
-        let drawn = picture.draw(&Report { found, points: &points, verdict }, &self.look)?;
+        let drawn =
+            picture.draw(&Report { found: &found, points: &points, verdict }, &self.look)?;
         writing::replace(&self.out, &drawn)?;
         Ok(Outcome::Done)
     }

@@ -7,7 +7,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use anyhow::{anyhow, bail};
-use taut::{AnySolution, BallOptions, Violation, ball_of_source};
+use taut::{BallOptions, Violation, ball_of_source};
 use taut_draw::{Fact, Page, Section, to_html};
 
 use crate::effort::Effort;
@@ -121,7 +121,7 @@ fn visit(station: &Station, watch: &Watch) -> anyhow::Result<Stop> {
     let mut verdict = None;
     let mut verified = true;
     let mut further = Vec::new();
-    match judge(&AnySolution::Ball(found.clone()), &points, watch)? {
+    match judge(&found, &points, watch)? {
         Ok(proved) => verdict = Some(proved),
         Err(violation) => {
             verified = false;
@@ -134,7 +134,7 @@ fn visit(station: &Station, watch: &Watch) -> anyhow::Result<Stop> {
     if station.doctored {
         let mut doctored = found.clone();
         doctored.answer.radius *= 1.0 - 1e-6;
-        match judge(&AnySolution::Ball(doctored), &points, watch)? {
+        match judge(&doctored, &points, watch)? {
             Err(Violation::Outside { row, excess, .. }) => further.push(Fact::new(
                 "a millionth smaller",
                 format!("rejected: point {row} is outside by {}", gap(excess)),

@@ -4,9 +4,9 @@ use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
-use taut::certify::{CheckError, JsonError};
+use taut::certify::{CheckError, JsonError, TriangulationVerdict};
 use taut::enclose::Error as SolveError;
-use taut::{AnySolution, Verdict, Violation};
+use taut::{Answer, AnySolution, Solution, Triangulation, Verdict, Violation};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
@@ -47,19 +47,30 @@ impl Args {
         };
         let name = shown(&self.answer);
         let most = self.epsilon.unwrap_or(f64::INFINITY);
-        let (outcome, said) = match judge(&answer, &points, &watch)? {
-            Ok(Verdict { gap: proved, .. }) if proved > most => rejected(format!(
-                // All digits: rounded to a few, the gap could look like the one allowed.
-                "{name}: a gap of {proved:e} is proved, larger than --epsilon {most:e}"
-            )),
-            Ok(verdict) => {
+        let judged = match &answer {
+            AnySolution::Ball(found) => judge(found, &points, &watch)?.map(|verdict| {
+                if verdict.gap > most {
+                    let proved = verdict.gap;
+                    // All digits: rounded to a few, the gap could look like the one allowed.
+                    return rejected(format!(
+                        "{name}: a gap of {proved:e} is proved, larger than --epsilon {most:e}"
+                    ));
+                }
                 // A loose certificate is as true as a tight one: how tight it is belongs to what is said.
-                let title =
-                    format!("Verified within a gap of {}: {}", gap(verdict.gap), claim(&answer));
+                let title = format!(
+                    "Verified within a gap of {}: ball of radius {}",
+                    gap(verdict.gap),
+                    exact(found.answer.radius)
+                );
                 (Outcome::Done, report::text(&title, &facts(&verdict)))
-            }
-            Err(violation) => rejected(points.explain_violation(&violation, &name)),
+            }),
+            AnySolution::Triangulation(found) => judge(found, &points, &watch)?.map(|verdict| {
+                let title = format!("Verified: {}", triangulation(&found.answer));
+                (Outcome::Done, report::text(&title, &facts_of_triangulation(&verdict)))
+            }),
         };
+        let (outcome, said) = judged
+            .unwrap_or_else(|violation| rejected(points.explain_violation(&violation, &name)));
         if !self.effort.quiet {
             writing::say(said.as_bytes())?;
         }
@@ -68,12 +79,15 @@ impl Args {
 }
 
 /// The verdict, or the first violation; an error where the points cannot be read.
-pub(crate) fn judge(
-    answer: &AnySolution,
+pub(crate) fn judge<A: Answer>(
+    found: &Solution<A>,
     points: &Opened,
     watch: &Watch,
-) -> anyhow::Result<Result<Verdict, Violation>> {
-    match watch.during("checking", |monitor| answer.check(points.source(), monitor)) {
+) -> anyhow::Result<Result<A::Verdict, Violation>> {
+    let check = |monitor: &taut::Monitor<'_>| {
+        found.answer.check(&found.certificate, points.source(), monitor)
+    };
+    match watch.during("checking", check) {
         Ok(verdict) => Ok(Ok(verdict)),
         // Points no answer can be judged by are no fault of the answer.
         Err(CheckError::Rejected(Violation::NonFinite { row, column, value })) => {
@@ -124,10 +138,21 @@ fn epsilon(text: &str) -> Result<f64, String> {
     }
 }
 
-fn claim(answer: &AnySolution) -> String {
-    match answer {
-        AnySolution::Ball(found) => format!("ball of radius {}", exact(found.answer.radius)),
-    }
+fn triangulation(answer: &Triangulation) -> String {
+    let place = if answer.dimension == 2 { "the plane" } else { "space" };
+    format!("the Delaunay triangulation of the points, in {place}")
+}
+
+fn facts_of_triangulation(verdict: &TriangulationVerdict) -> Vec<Fact> {
+    let counts = verdict.counts;
+    vec![
+        Fact::new("sites", counts.sites.to_string()).remark("distinct points"),
+        Fact::new("simplices", counts.simplices.to_string()),
+        Fact::new("hull", format!("{} facets", counts.hull)),
+        Fact::new("ties", verdict.ties.to_string())
+            .remark("facets with both simplices on one sphere"),
+        Fact::new("fingerprint", verdict.fingerprint.to_string()),
+    ]
 }
 
 fn facts(verdict: &Verdict) -> Vec<Fact> {

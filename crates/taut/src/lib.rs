@@ -39,7 +39,8 @@
 
 pub use taut_certify as certify;
 pub use taut_certify::{
-    Answer, AnySolution, Ball, BallCertificate, Items, Solution, Trace, Verdict, Violation,
+    Answer, AnySolution, Ball, BallCertificate, Items, Solution, Trace, Triangulation,
+    TriangulationCertificate, Verdict, Violation,
 };
 pub use taut_enclose as enclose;
 pub use taut_enclose::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_source};

@@ -1,0 +1,108 @@
+//! The hull of triangles: one convex polygon, walked once.
+//!
+//! *Proof.* The edges with a triangle on one side only form one cycle. It turns left or goes straight on at every
+//! vertex, so the number of its local minima in lexicographic order is the number of times it turns round. If that is
+//! one, it is the boundary of a convex polygon, and winds once around each point inside.
+
+use std::cmp::Ordering;
+
+use super::super::MeshViolation;
+use super::facets::Facets;
+use super::geometry::{Geometry, Triangles};
+use super::signs::{Signs, lexicographic};
+use super::sites::{NO_SITE, Sites};
+
+/// Checks the polygon of the open edges, and that `listed` has just these, if it is given.
+pub(super) fn check<const D: usize>(
+    sites: &Sites<D>,
+    signs: &Signs,
+    triangles: &[[u32; 3]],
+    open: &[(u32, u8)],
+    listed: Option<&[u32]>,
+) -> Result<(), MeshViolation>
+where
+    Triangles: Geometry<D, 3>,
+{
+    let broken =
+        |site: u32| MeshViolation::HullOpen { dimension: 2, row: sites.rows[site as usize] };
+    let mut next = vec![NO_SITE; sites.points.len()];
+    for &(triangle, edge) in open {
+        let [a, b] = triangles[triangle as usize].facet(usize::from(edge));
+        if next[a as usize] != NO_SITE {
+            return Err(broken(a));
+        }
+        next[a as usize] = b;
+    }
+    if let Some(listed) = listed {
+        is_listed(sites, triangles, open, listed, &next)?;
+    }
+    let point = |site: u32| &sites.points[site as usize];
+    let Some(&(triangle, edge)) = open.first() else { return Err(broken(0)) };
+    let [start, _] = triangles[triangle as usize].facet(usize::from(edge));
+    let (mut a, mut steps, mut minima) = (start, 0, 0);
+    loop {
+        let b = next[a as usize];
+        if b == NO_SITE {
+            return Err(broken(a));
+        }
+        let c = next[b as usize];
+        if c == NO_SITE {
+            return Err(broken(b));
+        }
+        let (before, after) =
+            (lexicographic(point(a), point(b)), lexicographic(point(b), point(c)));
+        let is_dent = match signs.orientation::<Triangles, D, 3>(&sites.gather(&[a, b, c])) {
+            Ordering::Greater => false,
+            // Straight on, not back.
+            Ordering::Equal => before != after,
+            Ordering::Less => true,
+        };
+        if is_dent {
+            let [ridge, row] = [b, c].map(|site| sites.rows[site as usize]);
+            return Err(MeshViolation::HullDent { ridge: vec![ridge], row });
+        }
+        minima += usize::from(before == Ordering::Greater && after == Ordering::Less);
+        (a, steps) = (b, steps + 1);
+        if a == start {
+            break;
+        }
+        // A cycle that does not come back to its start has an edge twice.
+        if steps == open.len() {
+            return Err(broken(a));
+        }
+    }
+    if steps != open.len() {
+        let elsewhere = open.iter().map(|&(t, e)| triangles[t as usize].facet(usize::from(e))[0]);
+        return Err(broken(elsewhere.last().unwrap_or(start)));
+    }
+    match minima {
+        1 => Ok(()),
+        _ => Err(MeshViolation::HullWinding { row: sites.rows[start as usize] }),
+    }
+}
+
+fn is_listed<const D: usize>(
+    sites: &Sites<D>,
+    triangles: &[[u32; 3]],
+    open: &[(u32, u8)],
+    listed: &[u32],
+    next: &[u32],
+) -> Result<(), MeshViolation> {
+    let mut seen = vec![false; next.len()];
+    for (position, edge) in listed.chunks_exact(2).enumerate() {
+        let [a, b] = [edge[0], edge[1]].map(|id| sites.site(id));
+        match (a, b) {
+            (Some(a), Some(b)) if next[a as usize] == b && !seen[a as usize] => {
+                seen[a as usize] = true;
+            }
+            _ => return Err(MeshViolation::HullFacet { position }),
+        }
+    }
+    for &(triangle, edge) in open {
+        let (simplex, facet) = (triangle as usize, usize::from(edge));
+        if !seen[triangles[simplex].facet(facet)[0] as usize] {
+            return Err(MeshViolation::Open { simplex, facet });
+        }
+    }
+    Ok(())
+}

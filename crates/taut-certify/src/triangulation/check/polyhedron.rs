@@ -1,0 +1,241 @@
+//! The hull of tetrahedra: one convex surface, winding once around the points.
+//!
+//! *Proof.* Let the triangles with a tetrahedron on one side only satisfy:
+//! 1. across each edge of each of them there is just one other, which runs along it the other way, and all hang together;
+//! 2. no dent at any edge: the triangle beyond it does not rise above the plane, and unfolds where it lies in it;
+//! 3. each vertex of the first tetrahedron, and the lexicographically smallest site v, is on no outer side of any of them;
+//! 4. v is a vertex of the surface, the triangles around it form one cycle, and the directions from v to the next
+//!    vertices of this cycle have one local minimum.
+//!
+//! By 3 the centroid o of the first tetrahedron is strictly inside every triangle, so seen from o every triangle shows
+//! its inner side; by 1 the view from o is a covering of the sphere of directions, unbranched but at vertices. How many
+//! sheets has it? Follow the ray from o through v. A triangle met before v would have v on its outer side, against 3; a
+//! triangle that contains v but does not end there, or that is met beyond v, would contain a convex combination of sites
+//! that is not larger than v, against the choice of v. So all sheets over this direction meet in v, and their number is
+//! how often the cycle around v winds. By 2 the cycle, cut by a plane beside v, is a polygon that only turns left, so it
+//! winds once for each local minimum: once. So the surface is seen once in every direction, and without dents it bounds
+//! a convex body.
+//!
+//! *Trap.* Euler's formula cannot take the place of 4. Five tetrahedra around one edge, each reaching 144° around it, wind
+//! twice and close up: each is positive, facets pair up, there is no dent, and V − E + F = 2.
+//! *Reference.* Mehlhorn, Näher, Seel, Seidel, Schilz, Schirra, Uhrig, Comput. Geom. 12, 1999, which counts by a ray that
+//! has to avoid all edges.
+
+use std::cmp::Ordering;
+
+use super::super::{MeshViolation, NO_NEIGHBOR};
+use super::facets::Facets;
+use super::geometry::Tetrahedra;
+use super::pairing;
+use super::signs::Signs;
+use super::sites::{Sites, turn};
+
+/// A closed surface of triangles, counter-clockwise from outside.
+struct Surface<'a> {
+    sites: &'a Sites<3>,
+    signs: &'a Signs,
+    triangles: Vec<[u32; 3]>,
+    neighbors: Vec<[u32; 3]>,
+}
+
+/// Checks the surface of the open facets, and that `listed` has just these, if it is given.
+pub(super) fn check(
+    sites: &Sites<3>,
+    signs: &Signs,
+    tetrahedra: &[[u32; 4]],
+    open: &[(u32, u8)],
+    listed: Option<&[u32]>,
+) -> Result<(), MeshViolation> {
+    let facet = |&(t, i): &(u32, u8)| tetrahedra[t as usize].facet(usize::from(i));
+    if let Some(listed) = listed {
+        is_listed(sites, open, &facet, listed)?;
+    }
+    let triangles: Vec<[u32; 3]> = open.iter().map(facet).collect();
+    let broken =
+        |site: u32| MeshViolation::HullOpen { dimension: 3, row: sites.rows[site as usize] };
+    let neighbors = pairing::pair(&triangles, sites.points.len()).map_err(|violation| {
+        let at = match violation {
+            MeshViolation::Shared { simplex, .. } => triangles[simplex][0],
+            _ => 0,
+        };
+        broken(at)
+    })?;
+    let surface = Surface { sites, signs, triangles, neighbors };
+    surface.is_closed()?;
+    surface.is_connected()?;
+    surface.has_no_dent()?;
+    let smallest = sites.smallest();
+    let [a, b, c, d] = tetrahedra[0];
+    surface.is_beneath(&[a, b, c, d, smallest])?;
+    surface.winds_once(smallest)
+}
+
+fn is_listed(
+    sites: &Sites<3>,
+    open: &[(u32, u8)],
+    facet: &impl Fn(&(u32, u8)) -> [u32; 3],
+    listed: &[u32],
+) -> Result<(), MeshViolation> {
+    let mut found: Vec<([u32; 3], usize)> =
+        open.iter().enumerate().map(|(place, open)| (turned(facet(open)), place)).collect();
+    let mut claimed = Vec::with_capacity(listed.len() / 3);
+    for (position, row) in listed.chunks_exact(3).enumerate() {
+        let row = [row[0], row[1], row[2]].map(|id| sites.site(id));
+        let [Some(a), Some(b), Some(c)] = row else {
+            return Err(MeshViolation::HullFacet { position });
+        };
+        claimed.push((turned([a, b, c]), position));
+    }
+    found.sort_unstable();
+    claimed.sort_unstable();
+    let mut found = found.into_iter().peekable();
+    let mut missing = None;
+    for (facet, position) in claimed {
+        while let Some((_, place)) = found.next_if(|f| f.0 < facet) {
+            missing.get_or_insert(place);
+        }
+        if found.next_if(|f| f.0 == facet).is_none() {
+            return Err(MeshViolation::HullFacet { position });
+        }
+    }
+    match missing.or(found.next().map(|f| f.1)) {
+        Some(place) => {
+            let (simplex, facet) = open[place];
+            Err(MeshViolation::Open { simplex: simplex as usize, facet: usize::from(facet) })
+        }
+        None => Ok(()),
+    }
+}
+
+/// The same cycle, from its smallest number on.
+fn turned([a, b, c]: [u32; 3]) -> [u32; 3] {
+    match () {
+        () if a < b && a < c => [a, b, c],
+        () if b < c => [b, c, a],
+        () => [c, a, b],
+    }
+}
+
+impl Surface<'_> {
+    fn row(&self, site: u32) -> u32 {
+        self.sites.rows[site as usize]
+    }
+
+    fn broken(&self, site: u32) -> MeshViolation {
+        MeshViolation::HullOpen { dimension: 3, row: self.row(site) }
+    }
+
+    fn is_closed(&self) -> Result<(), MeshViolation> {
+        for (triangle, neighbors) in self.triangles.iter().zip(&self.neighbors) {
+            if let Some(edge) = neighbors.iter().position(|&n| n == NO_NEIGHBOR) {
+                return Err(self.broken(triangle.facet(edge)[0]));
+            }
+        }
+        Ok(())
+    }
+
+    fn is_connected(&self) -> Result<(), MeshViolation> {
+        let mut reached = vec![false; self.triangles.len()];
+        let mut stack: Vec<u32> = (0..self.triangles.len() as u32).take(1).collect();
+        while let Some(triangle) = stack.pop() {
+            if !std::mem::replace(&mut reached[triangle as usize], true) {
+                stack.extend(self.neighbors[triangle as usize]);
+            }
+        }
+        match reached.iter().position(|&reached| !reached) {
+            Some(apart) => Err(self.broken(self.triangles[apart][0])),
+            None => Ok(()),
+        }
+    }
+
+    fn has_no_dent(&self) -> Result<(), MeshViolation> {
+        for (number, (triangle, neighbors)) in
+            self.triangles.iter().zip(&self.neighbors).enumerate()
+        {
+            for (edge, &neighbor) in neighbors.iter().enumerate() {
+                if (neighbor as usize) < number {
+                    continue;
+                }
+                let [a, b] = triangle.facet(edge);
+                let c = triangle[edge];
+                let beyond = self.triangles[neighbor as usize];
+                let d = beyond.into_iter().find(|&v| v != a && v != b).unwrap_or(c);
+                let is_dent = match self
+                    .signs
+                    .orientation::<Tetrahedra, 3, 4>(&self.sites.gather(&[a, b, c, d]))
+                {
+                    Ordering::Greater => true,
+                    Ordering::Equal => !self.unfolds([a, b, c, d]),
+                    Ordering::Less => false,
+                };
+                if is_dent {
+                    let ridge = vec![self.row(a), self.row(b)];
+                    return Err(MeshViolation::HullDent { ridge, row: self.row(d) });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether c and d, in one plane with the edge ab, lie on either side of it.
+    fn unfolds(&self, sites: [u32; 4]) -> bool {
+        let [a, b, c, d] = self.sites.gather(&sites);
+        // One projection in which abc is not flat shows the plane as it is.
+        [[0, 1], [0, 2], [1, 2]].into_iter().any(|axes| {
+            let beside = turn(self.signs, &a, &b, &c, axes);
+            beside.is_ne() && turn(self.signs, &b, &a, &d, axes) == beside
+        })
+    }
+
+    /// None of these sites is on the outer side of a triangle.
+    fn is_beneath(&self, of: &[u32]) -> Result<(), MeshViolation> {
+        for triangle in &self.triangles {
+            let [a, b, c] = *triangle;
+            for &site in of.iter().filter(|&site| !triangle.contains(site)) {
+                let tetrahedron = self.sites.gather(&[a, b, c, site]);
+                if self.signs.orientation::<Tetrahedra, 3, 4>(&tetrahedron).is_gt() {
+                    return Err(MeshViolation::HullWinding { row: self.row(site) });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn winds_once(&self, v: u32) -> Result<(), MeshViolation> {
+        let around = self.triangles.iter().filter(|triangle| triangle.contains(&v)).count();
+        let Some(start) = self.triangles.iter().position(|triangle| triangle.contains(&v)) else {
+            return Err(MeshViolation::HullWinding { row: self.row(v) });
+        };
+        let mut cycle = Vec::with_capacity(around);
+        let mut triangle = start;
+        loop {
+            let place = self.triangles[triangle].iter().position(|&site| site == v).unwrap_or(0);
+            // The triangle is v, x, y; the next one shares the edge from y to v, which is opposite x.
+            let x = self.triangles[triangle][(place + 1) % 3];
+            cycle.push(self.sites.points[x as usize]);
+            triangle = self.neighbors[triangle][(place + 1) % 3] as usize;
+            if triangle == start || cycle.len() == around {
+                break;
+            }
+        }
+        let apex = &self.sites.points[v as usize];
+        let is_smaller = |a: &[f64; 3], b: &[f64; 3]| {
+            // By y/x, then z/x, of the directions from v, where x is not 0 but leans infinitesimally towards y, and
+            // infinitely less towards z: positive for all of them, as v is the smallest.
+            let turns = [[0, 1], [2, 1], [0, 2]].map(|axes| turn(self.signs, apex, a, b, axes));
+            turns.into_iter().find(|turn| turn.is_ne()) == Some(Ordering::Greater)
+        };
+        let count = cycle.len();
+        let minima = (0..count)
+            .filter(|&i| {
+                let (before, at, after) =
+                    (&cycle[(i + count - 1) % count], &cycle[i], &cycle[(i + 1) % count]);
+                is_smaller(at, before) && is_smaller(at, after)
+            })
+            .count();
+        if triangle == start && count == around && minima == 1 {
+            return Ok(());
+        }
+        Err(MeshViolation::HullWinding { row: self.row(v) })
+    }
+}

@@ -1,0 +1,203 @@
+//! Signs of determinants of coordinates, exact whatever the coordinates are.
+//!
+//! *Stages*, each asked only about what the one before left open.
+//! 1. Plain `f64`, with the bound (monomials × roundings)·u·(product of the largest differences).
+//! 2. The same value again, now as the exact one: when every coordinate is a multiple of one power of two, 2^q, and the
+//!    differences are so few times 2^q that no operation rounds. Gridded points end here, ties included.
+//! 3. The same in whole numbers of 128 bits.
+//! 4. Double-double, with its bound: points on circles and spheres end here.
+//! 5. Whole numbers of any size.
+//!
+//! *Range.* [`Sites`](super::sites::Sites) scales all coordinates by a power of two so that they are below 1 in size:
+//! nothing overflows, and what underflows in a determinant is off by less than 2⁻¹⁰⁷⁰ times a few hundred operations and
+//! factors, for which 2⁻¹⁰⁰⁰ is added to each bound. Where scaling would lose bits, stages 1 to 4 are skipped.
+//! *Ties.* When q lies on the sphere of a simplex, the lift of each of the d + 2 points is raised by an infinitesimal
+//! amount, infinitely more for a lexicographically larger point. D is linear in the lifts, so the largest point whose
+//! cofactor is not 0 decides: q itself is then outside, and a vertex gives the orientation of the simplex with q in its
+//! place.
+
+use std::cmp::Ordering;
+
+use super::geometry::{Bounds, Geometry};
+use crate::arithmetic::{DoubleDouble, Integer, Ring, U, parts};
+
+/// Added to every bound for what underflows.
+pub(super) const UNDERFLOW: f64 = f64::from_bits((1023 - 1000) << 52);
+
+/// What is known of all coordinates.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Signs {
+    /// All sizes are below 1.
+    pub(super) is_filtered: bool,
+    /// 2^q, of which every coordinate is a multiple; 0 where q is unknown or below −200.
+    pub(super) quantum: f64,
+}
+
+/// Where a point is with respect to a sphere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Conflict {
+    pub(super) is_inside: bool,
+    /// The point is on the sphere, and the perturbation decided.
+    pub(super) is_tie: bool,
+}
+
+impl Signs {
+    /// The sign of O.
+    pub(super) fn orientation<G: Geometry<D, V>, const D: usize, const V: usize>(
+        &self,
+        simplex: &[[f64; D]; V],
+    ) -> Ordering {
+        let [origin, vertices @ ..] = simplex.as_slice() else { return Ordering::Equal };
+        self.sign::<D, V>(
+            origin,
+            vertices,
+            &G::ORIENTATION,
+            G::volume,
+            G::orientation::<f64>,
+            G::orientation::<i128>,
+            G::orientation::<DoubleDouble>,
+            G::orientation::<Integer>,
+        )
+    }
+
+    /// The sign of D for a positively oriented simplex: `Greater` is inside.
+    pub(super) fn in_sphere<G: Geometry<D, V>, const D: usize, const V: usize>(
+        &self,
+        simplex: &[[f64; D]; V],
+        q: &[f64; D],
+    ) -> Ordering {
+        fn determinant<G: Geometry<D, V>, T: Ring, const D: usize, const V: usize>(
+            differences: &[[T; D]],
+        ) -> T {
+            let (edges, r) = differences.split_at(V - 1);
+            G::in_sphere(&G::lifted(edges), &r[0])
+        }
+        let mut others = [*q; V];
+        others[..V - 1].copy_from_slice(&simplex[1..]);
+        self.sign::<D, V>(
+            &simplex[0],
+            &others,
+            &G::IN_SPHERE,
+            G::lifted_volume,
+            determinant::<G, f64, D, V>,
+            determinant::<G, i128, D, V>,
+            determinant::<G, DoubleDouble, D, V>,
+            determinant::<G, Integer, D, V>,
+        )
+    }
+
+    /// The sign of a determinant of the differences of `points` and `origin`, given over four kinds of numbers.
+    #[inline(always)]
+    fn sign<const D: usize, const V: usize>(
+        &self,
+        origin: &[f64; D],
+        points: &[[f64; D]],
+        bounds: &Bounds,
+        volume: impl Fn(&[f64; D]) -> f64,
+        plain: impl Fn(&[[f64; D]]) -> f64,
+        whole: impl Fn(&[[i128; D]]) -> i128,
+        double: impl Fn(&[[DoubleDouble; D]]) -> DoubleDouble,
+        exact: impl Fn(&[[Integer; D]]) -> Integer,
+    ) -> Ordering {
+        const MOST: usize = 4;
+        let count = points.len();
+        if self.is_filtered {
+            let mut differences = [[0.0; D]; MOST];
+            let mut max = [0.0f64; D];
+            for (difference, point) in differences.iter_mut().zip(points) {
+                for k in 0..D {
+                    difference[k] = point[k] - origin[k];
+                    max[k] = max[k].max(difference[k].abs());
+                }
+            }
+            let value = plain(&differences[..count]);
+            let size = volume(&max);
+            if value.abs() > bounds.rounding * size + UNDERFLOW {
+                return sign_of(value);
+            }
+            let largest = max.iter().fold(0.0f64, |largest, &m| largest.max(m));
+            if largest <= bounds.exact_max * self.quantum {
+                return sign_of(value);
+            }
+            // Every monomial has a factor from each of these coordinates.
+            if max[..V - 1].contains(&0.0) {
+                return Ordering::Equal;
+            }
+            if largest <= bounds.integer_max * self.quantum {
+                let integers = differences.map(|row| row.map(|x| (x / self.quantum) as i128));
+                return whole(&integers[..count]).cmp(&0);
+            }
+            let mut twice = [[DoubleDouble { high: 0.0, low: 0.0 }; D]; MOST];
+            for (difference, point) in twice.iter_mut().zip(points) {
+                for k in 0..D {
+                    difference[k] = DoubleDouble::difference(point[k], origin[k]);
+                }
+            }
+            let value = double(&twice[..count]).high;
+            if value.abs() > bounds.rounding_twice * (1.0 + 64.0 * U) * size + UNDERFLOW {
+                return sign_of(value);
+            }
+        }
+        let all = || points.iter().chain([origin]).flatten().filter(|&&x| x != 0.0);
+        let least = all().map(|&x| parts(x).1).min().unwrap_or(0);
+        let integer = |point: &[f64; D]| point.map(|x| Integer::scaled(x, least));
+        let base = integer(origin);
+        let differences: Vec<[Integer; D]> = points
+            .iter()
+            .map(|point| {
+                let point = integer(point);
+                std::array::from_fn(|k| point[k].minus(&base[k]))
+            })
+            .collect();
+        exact(&differences).sign()
+    }
+
+    /// Whether q is inside the sphere of a positively oriented simplex under the perturbation. q is no vertex.
+    #[inline(never)]
+    pub(super) fn conflict<G: Geometry<D, V>, const D: usize, const V: usize>(
+        &self,
+        simplex: &[[f64; D]; V],
+        q: &[f64; D],
+    ) -> Conflict {
+        match self.in_sphere::<G, D, V>(simplex, q) {
+            Ordering::Less => Conflict { is_inside: false, is_tie: false },
+            Ordering::Greater => Conflict { is_inside: true, is_tie: false },
+            Ordering::Equal => {
+                Conflict { is_inside: self.wins_tie::<G, D, V>(simplex, q), is_tie: true }
+            }
+        }
+    }
+
+    fn wins_tie<G: Geometry<D, V>, const D: usize, const V: usize>(
+        &self,
+        simplex: &[[f64; D]; V],
+        q: &[f64; D],
+    ) -> bool {
+        let mut places: [usize; V] = std::array::from_fn(|i| i);
+        places.sort_unstable_by(|&i, &j| lexicographic(&simplex[j], &simplex[i]));
+        for i in places {
+            if lexicographic(&simplex[i], q) == Ordering::Less {
+                return false;
+            }
+            let mut replaced = *simplex;
+            replaced[i] = *q;
+            match self.orientation::<G, D, V>(&replaced) {
+                Ordering::Equal => {}
+                sign => return sign == Ordering::Greater,
+            }
+        }
+        // q is the smallest of all, and all cofactors of the vertices vanish: their sum does not.
+        false
+    }
+}
+
+#[inline(always)]
+fn sign_of(value: f64) -> Ordering {
+    value.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
+}
+
+/// The order of points in which the larger ones are raised more.
+#[inline(always)]
+pub(super) fn lexicographic<const D: usize>(a: &[f64; D], b: &[f64; D]) -> Ordering {
+    a.partial_cmp(b).unwrap_or(Ordering::Equal)
+}

@@ -1,0 +1,315 @@
+//! One cell: the complete stars of a run of sites, from those sites and as few others as prove it.
+//!
+//! Idea: triangulate the cell's own sites with a halo a few spacings wide. Then every simplex at an own site must be
+//! shown empty of all other sites: most have a sphere smaller than the way to the nearest site left out; the others
+//! are asked of the index, and a site found in conflict is inserted and the new simplices asked in turn.
+//! Guarantee: at the end no site of the whole set conflicts with a simplex at an own site, ghosts included, so the
+//! stars of the own sites are those of the triangulation of all sites: exact, ties included, for any halo.
+//! Trap: a halo of fixed width is never enough. At the hull there are slivers with spheres of any size.
+//! The halo is the second of the three functions of the cells (assign), this module the third (triangulate).
+
+use std::collections::HashSet;
+use std::ops::Range;
+
+use taut_points::Monitor;
+
+use super::geometry::{Geometry, conflicts, corners};
+use super::index::{Bounds, Index, LEAF, Node};
+use crate::Error;
+use crate::kernel::{Counters, Kernel, Settings};
+use crate::rounds::insert_all;
+use crate::simplex::{GHOST, Simplex, decode};
+use crate::{InsertionOrder, cells::reach::Reach};
+
+/// Width of the first halo in mean spacings. Wider costs sites, narrower costs questions to the index; 3 to 4 is flat
+/// in the plane, in space a site of halo costs ten times as much.
+const fn halo_spacings(d: usize) -> f64 {
+    if d == 2 { 3.0 } else { 2.0 }
+}
+
+/// Sites of the other cells, evenly along the curve, that every cell triangulates too: they keep spheres outside the
+/// cell small.
+const SCATTERED: usize = 512;
+
+/// What all cells know.
+pub(crate) struct Whole<'a, const D: usize, const V: usize> {
+    pub(crate) sites: &'a [[f64; D]],
+    pub(crate) index: &'a Index<D>,
+    /// Affinely independent sites.
+    pub(crate) start: [u32; V],
+    pub(crate) settings: Settings,
+    pub(crate) order: (InsertionOrder, u64),
+}
+
+/// A cell with the stars of its own sites complete.
+pub(crate) struct Cell<const V: usize> {
+    /// Its own sites.
+    pub(crate) own: Range<u32>,
+    /// The site of each vertex of its mesh.
+    pub(crate) sites: Vec<u32>,
+    /// Where `own` lies in `sites`.
+    pub(crate) own_local: Range<u32>,
+    pub(crate) simplices: Vec<Simplex<V>>,
+    pub(crate) counters: Counters,
+}
+
+/// A set of sites, a word per leaf of the index.
+struct SiteSet(Vec<u64>);
+
+impl SiteSet {
+    fn insert(&mut self, site: u32) {
+        self.0[site as usize / LEAF] |= 1 << (site as usize % LEAF);
+    }
+
+    /// The sites of a leaf that are not in the set.
+    fn missing(&self, leaf: Node, run: Range<u32>) -> impl Iterator<Item = u32> + use<> {
+        let mut absent = !self.0[leaf.place];
+        let end = run.end;
+        std::iter::from_fn(move || {
+            let bit = absent.trailing_zeros();
+            let site = run.start + bit;
+            absent &= absent.wrapping_sub(1);
+            (bit < LEAF as u32 && site < end).then_some(site)
+        })
+    }
+}
+
+impl<const D: usize, const V: usize> Whole<'_, D, V> {
+    /// Triangulates the cell of the sites `own`, which begin and end at leaves of the index.
+    pub(crate) fn triangulate<G: Geometry<D, V>>(
+        &self,
+        own: Range<u32>,
+        monitor: &Monitor<'_>,
+    ) -> Result<Cell<V>, Error> {
+        let mut here = SiteSet(vec![0; self.sites.len().div_ceil(LEAF)]);
+        for leaf in own.start as usize / LEAF..(own.end as usize).div_ceil(LEAF) {
+            here.0[leaf] = u64::MAX;
+        }
+        self.scatter(&mut here);
+        self.assign_halo(&own, &mut here);
+        let mut sites: Vec<u32> = Vec::with_capacity(own.len() + own.len() / 8);
+        for (leaf, &word) in here.0.iter().enumerate() {
+            let first = (leaf * LEAF) as u32;
+            sites.extend((0..LEAF as u32).filter(|bit| word >> bit & 1 == 1).map(|bit| first + bit));
+        }
+        // The last leaf may be shorter than its word.
+        sites.truncate(sites.partition_point(|&s| (s as usize) < self.sites.len()));
+        let place = |site: u32| sites.partition_point(|&s| s < site) as u32;
+        let own_local = place(own.start)..place(own.end);
+        let coordinates: Vec<[f64; D]> = sites.iter().map(|&s| self.sites[s as usize]).collect();
+        let start = self.start.map(place);
+        let mut mesh = G::Mesh::new(coordinates, self.settings);
+        mesh.start(start);
+        insert_all(&mut mesh, &start, self.order, monitor)?;
+        let clearance = self.clearances(&own, &here);
+        let mut cell = Certifying::<D, V, G> { whole: self, own: own.clone(), here, sites, clearance, mesh, open: vec![] };
+        cell.certify(&own_local, monitor)?;
+        let (simplices, _, counters) = cell.mesh.finish();
+        Ok(Cell { own, sites: cell.sites, own_local, simplices, counters })
+    }
+
+    /// Adds the start simplex, sites evenly along the curve, and the extreme sites in some directions.
+    fn scatter(&self, here: &mut SiteSet) {
+        self.start.iter().for_each(|&s| here.insert(s));
+        for node in self.index.level_of_about(SCATTERED) {
+            here.insert(self.index.run(node).start);
+        }
+        for direction in directions::<D>() {
+            here.insert(self.extreme(direction));
+        }
+    }
+
+    /// The site farthest in a direction: branch and bound over the boxes.
+    fn extreme(&self, direction: [f64; D]) -> u32 {
+        let dot = |p: [f64; D]| (0..D).map(|i| direction[i] * p[i]).sum::<f64>();
+        let bound = |b: &Bounds<D>| {
+            dot(std::array::from_fn(|i| if direction[i] > 0.0 { b.high[i] } else { b.low[i] }))
+        };
+        let best = std::cell::Cell::new((f64::NEG_INFINITY, 0));
+        let keep = |index: &Index<D>, node| bound(index.bounds(node)) > best.get().0;
+        self.index.visit(&mut Vec::new(), keep, |leaf| {
+            for s in self.index.run(leaf) {
+                let reached = dot(self.sites[s as usize]);
+                if reached > best.get().0 {
+                    best.set((reached, s));
+                }
+            }
+            false
+        });
+        best.get().1
+    }
+
+    /// The leaves of a run of sites.
+    fn leaves(own: &Range<u32>) -> impl Iterator<Item = Node> + use<D, V> {
+        (own.start as usize / LEAF..(own.end as usize).div_ceil(LEAF)).map(|place| Node { level: 0, place })
+    }
+
+    /// Whether a node has only sites of `own`.
+    fn is_own(&self, own: &Range<u32>, node: Node) -> bool {
+        let run = self.index.run(node);
+        own.start <= run.start && run.end <= own.end
+    }
+
+    /// Adds each site of other cells that is near a leaf of this one.
+    fn assign_halo(&self, own: &Range<u32>, here: &mut SiteSet) {
+        let mut open = Vec::new();
+        for leaf in Self::leaves(own) {
+            let bounds = *self.index.bounds(leaf);
+            let per_axis = (self.index.run(leaf).len() as f64).powf(1.0 / D as f64);
+            let width = halo_spacings(D) * bounds.extent() / per_axis;
+            let width = width * width;
+            let near =
+                |index: &Index<D>, node| !self.is_own(own, node) && index.bounds(node).distance_squared(&bounds) <= width;
+            self.index.visit(&mut open, near, |other| {
+                for site in here.missing(other, self.index.run(other)) {
+                    if bounds.distance_squared_to(self.sites[site as usize]) <= width {
+                        here.insert(site);
+                    }
+                }
+                false
+            });
+        }
+    }
+
+    /// For each own leaf, the squared distance from its box to the nearest site that is not in the mesh, or less.
+    fn clearances(&self, own: &Range<u32>, here: &SiteSet) -> Vec<f64> {
+        let mut open = Vec::new();
+        Self::leaves(own)
+            .map(|leaf| {
+                let bounds = self.index.bounds(leaf);
+                let nearest = std::cell::Cell::new(f64::INFINITY);
+                let keep = |index: &Index<D>, node| {
+                    !self.is_own(own, node) && index.bounds(node).distance_squared(bounds) < nearest.get()
+                };
+                self.index.visit(&mut open, keep, |other| {
+                    for site in here.missing(other, self.index.run(other)) {
+                        nearest.set(nearest.get().min(bounds.distance_squared_to(self.sites[site as usize])));
+                    }
+                    false
+                });
+                nearest.get()
+            })
+            .collect()
+    }
+}
+
+/// The axes and the diagonals, both ways.
+fn directions<const D: usize>() -> impl Iterator<Item = [f64; D]> {
+    (0..3usize.pow(D as u32))
+        .map(|code| std::array::from_fn(|i| (code / 3usize.pow(i as u32) % 3) as f64 - 1.0))
+        .filter(|direction: &[f64; D]| direction.iter().any(|&x| x != 0.0))
+}
+
+/// A cell while its simplices are being shown to be empty.
+struct Certifying<'a, const D: usize, const V: usize, G: Geometry<D, V>> {
+    whole: &'a Whole<'a, D, V>,
+    own: Range<u32>,
+    here: SiteSet,
+    sites: Vec<u32>,
+    /// By own leaf, squared.
+    clearance: Vec<f64>,
+    mesh: G::Mesh,
+    /// Scratch of queries.
+    open: Vec<Node>,
+}
+
+impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> {
+    fn certify(&mut self, own_local: &Range<u32>, monitor: &Monitor<'_>) -> Result<(), Error> {
+        let is_own = |v: &u32| own_local.contains(v);
+        let mut doubtful: Vec<(u32, [u32; V])> = Vec::new();
+        for (t, simplex) in self.mesh.simplices().iter().enumerate() {
+            if simplex.is_live() && simplex.vertices.iter().any(is_own) && !self.is_near(&simplex.vertices) {
+                doubtful.push((t as u32, simplex.vertices));
+            }
+        }
+        let mut star = Vec::new();
+        while let Some((t, vertices)) = doubtful.pop() {
+            // An insertion in the meantime may have replaced it.
+            if self.mesh.simplices()[t as usize].vertices != vertices {
+                continue;
+            }
+            let Some(site) = self.conflicting(t) else { continue };
+            self.here.insert(site);
+            self.sites.push(site);
+            let local = self.mesh.push(self.whole.sites[site as usize]);
+            self.mesh.insert(&[local])?;
+            star_of(self.mesh.simplices(), self.mesh.last(), local, &mut star);
+            for &t in &star {
+                let vertices = self.mesh.simplices()[t as usize].vertices;
+                if vertices.iter().any(is_own) && !self.is_near(&vertices) {
+                    doubtful.push((t, vertices));
+                }
+            }
+            monitor.check()?;
+        }
+        Ok(())
+    }
+
+    fn site(&self, local: u32) -> [f64; D] {
+        self.whole.sites[self.sites[local as usize] as usize]
+    }
+
+    /// Whether the sphere of a simplex is too small to reach a site that is not in the mesh.
+    fn is_near(&self, vertices: &[u32; V]) -> bool {
+        if vertices.contains(&GHOST) {
+            return false;
+        }
+        let first = self.own.start as usize / LEAF;
+        let clearance = vertices
+            .iter()
+            .map(|&v| self.sites[v as usize])
+            .filter(|s| self.own.contains(s))
+            .map(|s| self.clearance[s as usize / LEAF - first])
+            .fold(0.0, f64::max);
+        G::reach(vertices.map(|v| self.site(v))).within(clearance)
+    }
+
+    /// A site of the whole set that conflicts with simplex `t`, if there is one: among those of the first leaf that
+    /// has some, the deepest.
+    fn conflicting(&mut self, t: u32) -> Option<u32> {
+        let simplices = self.mesh.simplices();
+        let vertices = simplices[t as usize].vertices;
+        let site = |v: u32| self.whole.sites[self.sites[v as usize] as usize];
+        let reach: Reach<D> = match vertices.iter().position(|&v| v == GHOST) {
+            None => G::reach(vertices.map(site)),
+            Some(apex) => G::reach_beyond(corners(vertices, site, [0.0; D]), apex),
+        };
+        let index = self.whole.index;
+        let mut found: Option<(f64, u32)> = None;
+        let keep = |index: &Index<D>, node| {
+            let bounds = index.bounds(node);
+            !self.whole.is_own(&self.own, node) && reach.most(bounds.low, bounds.high) >= 0.0
+        };
+        let mut open = std::mem::take(&mut self.open);
+        index.visit(&mut open, keep, |leaf| {
+            for other in self.here.missing(leaf, index.run(leaf)) {
+                let q = self.whole.sites[other as usize];
+                let depth = reach.depth(q);
+                if found.is_none_or(|(deepest, _)| depth > deepest) && conflicts::<D, V, G>(simplices, t, site, q) {
+                    found = Some((depth, other));
+                }
+            }
+            found.is_some()
+        });
+        self.open = open;
+        found.map(|(_, site)| site)
+    }
+}
+
+/// The simplices at vertex `v`, one of which is `t`.
+fn star_of<const V: usize>(simplices: &[Simplex<V>], t: u32, v: u32, star: &mut Vec<u32>) {
+    star.clear();
+    star.push(t);
+    let mut seen = HashSet::from([t]);
+    let mut next = 0;
+    while next < star.len() {
+        let simplex = &simplices[star[next] as usize];
+        for i in 0..V {
+            let (neighbor, _) = decode(simplex.neighbors[i]);
+            if simplex.vertices[i] != v && seen.insert(neighbor) {
+                star.push(neighbor);
+            }
+        }
+        next += 1;
+    }
+}

@@ -1,0 +1,113 @@
+//! How far a simplex reaches: where a site would conflict with it, as a quadratic form that boxes can be judged by.
+//!
+//! Idea: for fixed vertices, the in-sphere determinant is a function of the query alone, α|q − a|² + β·(q − a) with
+//! α < 0: its maximum over a box is a sum over the axes. A ghost's half-space is the same with α = 0.
+//! Guarantee: a box that is ruled out holds no conflict; rounding is on the safe side by `slack`. What is not ruled
+//! out is asked exactly, point by point.
+//! Trap: the centre and the radius of a sliver's sphere are worthless in floating point; the form needs neither.
+
+/// α|q − a|² + β·(q − a), positive where `q` conflicts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reach<const D: usize> {
+    origin: [f64; D],
+    alpha: f64,
+    beta: [f64; D],
+    /// Largest coordinate difference among the vertices.
+    size: f64,
+}
+
+/// Bounds the rounding of the form, relative to the size of its terms: the longest sum of products below has fewer
+/// than 40 terms and 6 factors, each rounded with 2⁻⁵³.
+const SLACK: f64 = 1.0 / (1u64 << 44) as f64;
+
+fn difference<const D: usize>(p: [f64; D], a: [f64; D]) -> [f64; D] {
+    std::array::from_fn(|i| p[i] - a[i])
+}
+
+fn square<const D: usize>(p: [f64; D]) -> f64 {
+    p.iter().map(|x| x * x).sum()
+}
+
+fn largest<const D: usize>(points: &[[f64; D]]) -> f64 {
+    points.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()))
+}
+
+fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
+    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+}
+
+impl Reach<2> {
+    /// The inside of the circle through a, b, c in counter-clockwise order.
+    #[inline(always)]
+    pub(crate) fn of_triangle([a, b, c]: [[f64; 2]; 3]) -> Self {
+        let (b, c) = (difference(b, a), difference(c, a));
+        let (b2, c2) = (square(b), square(c));
+        let alpha = -(b[0] * c[1] - b[1] * c[0]);
+        let beta = [b2 * c[1] - c2 * b[1], c2 * b[0] - b2 * c[0]];
+        Self { origin: a, alpha, beta, size: largest(&[b, c]) }
+    }
+
+    /// The closed half-plane to the left of a → b.
+    pub(crate) fn of_edge([a, b]: [[f64; 2]; 2]) -> Self {
+        let b = difference(b, a);
+        Self { origin: a, alpha: 0.0, beta: [-b[1], b[0]], size: largest(&[b]) }
+    }
+}
+
+impl Reach<3> {
+    /// The inside of the sphere through a, b, c, d in positive order.
+    #[inline(always)]
+    pub(crate) fn of_tetrahedron([a, b, c, d]: [[f64; 3]; 4]) -> Self {
+        let (b, c, d) = (difference(b, a), difference(c, a), difference(d, a));
+        let (b2, c2, d2) = (square(b), square(c), square(d));
+        let (cd, db, bc) = (cross(c, d), cross(d, b), cross(b, c));
+        let alpha = -(b[0] * cd[0] + b[1] * cd[1] + b[2] * cd[2]);
+        let beta = std::array::from_fn(|i| b2 * cd[i] + c2 * db[i] + d2 * bc[i]);
+        Self { origin: a, alpha, beta, size: largest(&[b, c, d]) }
+    }
+
+    /// The closed half-space from which a, b, c are seen in counter-clockwise order.
+    pub(crate) fn of_facet([a, b, c]: [[f64; 3]; 3]) -> Self {
+        let (b, c) = (difference(b, a), difference(c, a));
+        Self { origin: a, alpha: 0.0, beta: cross(b, c), size: largest(&[b, c]) }
+    }
+}
+
+impl<const D: usize> Reach<D> {
+    /// Whether the sphere certainly stays within `√clearance_squared` of each of its vertices.
+    #[inline(always)]
+    pub(crate) fn within(&self, clearance_squared: f64) -> bool {
+        let power = if D == 2 { self.size * self.size } else { self.size * self.size * self.size };
+        // The diameter is |β|/|α|; a flat simplex, where both are rounding, is left to the exact test.
+        -self.alpha > power * (1.0 / (1 << 20) as f64)
+            && square(self.beta) * (1.0 + 1.0 / (1 << 16) as f64) < clearance_squared * self.alpha * self.alpha
+    }
+
+    /// An upper bound of the form over the box `low..=high`, rounding included.
+    #[inline(always)]
+    pub(crate) fn most(&self, low: [f64; D], high: [f64; D]) -> f64 {
+        let (mut most, mut far) = (0.0, 0.0f64);
+        for i in 0..D {
+            let (l, h) = (low[i] - self.origin[i], high[i] - self.origin[i]);
+            let value = |x: f64| (self.alpha * x + self.beta[i]) * x;
+            let ends = value(l).max(value(h));
+            // The parabola's top counts if it lies between the ends.
+            let top = if self.alpha < 0.0 { self.beta[i] / (-2.0 * self.alpha) } else { f64::NAN };
+            most += if l < top && top < h { ends.max(self.beta[i] * top * 0.5) } else { ends };
+            far = far.max(l.abs()).max(h.abs());
+        }
+        let unit = if D == 2 { self.size * self.size } else { self.size * self.size * self.size };
+        let slack = if self.alpha == 0.0 {
+            SLACK * far * if D == 2 { self.size } else { self.size * self.size }
+        } else {
+            SLACK * (unit * far * far + unit * self.size * far)
+        };
+        most + slack
+    }
+
+    /// The form at `q`, rounding not included: larger is deeper inside.
+    pub(crate) fn depth(&self, q: [f64; D]) -> f64 {
+        let q = difference(q, self.origin);
+        self.alpha * square(q) + (0..D).map(|i| self.beta[i] * q[i]).sum::<f64>()
+    }
+}

@@ -1,0 +1,52 @@
+//! How a triangulation is built. Nothing here changes which simplices it has.
+
+/// How to build a triangulation; [`Default`] is what most people want.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DelaunayOptions {
+    /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
+    pub threads: Option<usize>,
+    /// In which order one thread inserts its sites. The answer does not depend on it.
+    pub order: InsertionOrder,
+    /// Seeds the random orders; the others do without.
+    pub seed: u64,
+    /// Cells that threads share; `None` makes as many as there are threads, fewer when points are few. The answer does
+    /// not depend on it.
+    pub cells: Option<usize>,
+    /// Whether vector instructions are used where the machine has them. The answer does not depend on it.
+    pub vectors: bool,
+}
+
+impl Default for DelaunayOptions {
+    fn default() -> Self {
+        Self { threads: None, order: InsertionOrder::Strided, seed: 0, cells: None, vectors: true }
+    }
+}
+
+/// In which order sites are inserted. Each begins with few sites all over the set, so that walks stay short whatever
+/// the input.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum InsertionOrder {
+    /// Rounds of every 8ᵏ-th site along the Hilbert curve, each round in the order of the curve.
+    #[default]
+    Strided,
+    /// Rounds of randomly chosen sites, each eight times the last, each in the order of the curve: the biased randomized
+    /// insertion order of Amenta, Choi and Rote (2003). Expected optimal for any input.
+    Random,
+    /// Local RIC: a random order cut in blocks of growing size; the points of a block are located first and then
+    /// inserted simplex by simplex, within one in random order (the thesis, section 6.3.1).
+    LocalRic,
+    /// Along the Hilbert curve in a single round. Fast on well-spread points, quadratic on the worst.
+    Hilbert,
+}
+
+impl InsertionOrder {
+    /// All orders with their names on the command line.
+    pub const NAMES: [(&'static str, Self); 4] =
+        [("strided", Self::Strided), ("random", Self::Random), ("local-ric", Self::LocalRic), ("hilbert", Self::Hilbert)];
+
+    /// Its name on the command line.
+    pub(crate) fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(_, order)| *order == self).map_or("", |(name, _)| name)
+    }
+}

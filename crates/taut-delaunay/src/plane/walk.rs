@@ -1,0 +1,95 @@
+//! The way to the triangle that holds the query point.
+//!
+//! *Idea.* From a triangle step across any edge that has q strictly on its other side, never back across the edge just
+//! crossed, until there is none.
+//! *Guarantee.* In a Delaunay triangulation no order of such steps comes back to a triangle, so the walk ends: in a
+//! triangle that holds q, on its border perhaps, or in a ghost whose hull edge has q strictly outside. Either is in
+//! conflict with q.
+
+use taut_predicates::Exact;
+
+use super::seen::{Seen, View, minor};
+use crate::kernel::Counters;
+use crate::simplex::{GHOST, Simplex, decode};
+
+/// The triangle (d, b, a) that was found, d being at place `facet`, and its minors.
+#[derive(Clone, Copy)]
+pub(super) struct Found {
+    pub(super) triangle: u32,
+    pub(super) facet: usize,
+    pub(super) a: Seen,
+    pub(super) b: Seen,
+    pub(super) d: Seen,
+    pub(super) ba: f64,
+    pub(super) ad: f64,
+    pub(super) db: f64,
+}
+
+#[inline(always)]
+pub(super) fn walk(
+    view: &View<'_>,
+    triangles: &[Simplex<3>],
+    from: u32,
+    exact: &mut Exact,
+    counters: &mut Counters,
+) -> Found {
+    // As if the first triangle had been entered through the edge opposite its vertex 0; that edge is looked at once.
+    let mut triangle = from;
+    if let Some(place) = triangles[triangle as usize].vertices.iter().position(|&v| v == GHOST) {
+        triangle = decode(triangles[triangle as usize].neighbors[place]).0;
+    }
+    let mut facet = 0;
+    let [_, b, a] = triangles[triangle as usize].vertices;
+    let (mut a_id, mut b_id) = (a, b);
+    let (mut a, mut b) = (view.see(a), view.see(b));
+    let mut ba = minor(b, a);
+    if strictly_right(view, (b_id, b), (a_id, a), ba, exact) {
+        (triangle, facet) = decode(triangles[triangle as usize].neighbors[0]);
+        (a, b) = (b, a);
+        (a_id, b_id) = (b_id, a_id);
+        ba = -ba;
+    }
+    let mut steps = 0;
+    loop {
+        steps += 1;
+        let t = &triangles[triangle as usize];
+        let d_id = t.vertices[facet];
+        let d = view.see(d_id);
+        let (ad, db) = (minor(a, d), minor(d, b));
+        if strictly_right(view, (a_id, a), (d_id, d), ad, exact) {
+            (triangle, facet) = decode(t.neighbors[NEXT[facet]]);
+            (b, b_id, ba) = (d, d_id, -ad);
+        } else if strictly_right(view, (d_id, d), (b_id, b), db, exact) {
+            (triangle, facet) = decode(t.neighbors[LAST[facet]]);
+            (a, a_id, ba) = (d, d_id, -db);
+        } else {
+            counters.walk_steps += steps;
+            counters.orientations += 2 * steps + 1;
+            return Found { triangle, facet, a, b, d, ba, ad, db };
+        }
+    }
+}
+
+/// The place after this one, counter-clockwise.
+pub(super) const NEXT: [usize; 4] = [1, 2, 0, 0];
+/// The place before this one.
+pub(super) const LAST: [usize; 4] = [2, 0, 1, 0];
+
+/// Whether q lies strictly to the right of the directed edge from u to v. It does of no edge at the ghost vertex.
+#[inline(always)]
+fn strictly_right(
+    view: &View<'_>,
+    u: (u32, Seen),
+    v: (u32, Seen),
+    uv: f64,
+    exact: &mut Exact,
+) -> bool {
+    let side = view.side(u.1, v.1, uv);
+    side < 0.0 || (side == 0.0 && strictly_right_exact(view, u.0, v.0, exact))
+}
+
+#[cold]
+#[inline(never)]
+fn strictly_right_exact(view: &View<'_>, u: u32, v: u32, exact: &mut Exact) -> bool {
+    u != GHOST && v != GHOST && view.side_exact(u, v, exact).is_negative()
+}

@@ -1,0 +1,250 @@
+//! From input rows to sites: distinct, normalised points, numbered along the Hilbert curve.
+//!
+//! Idea: a power-of-two scale changes no sign of any predicate, so coordinates are scaled, exactly, to where filters are
+//! safe and where gridded data become integers; −0 becomes 0; equal points become one site.
+//! Guarantee: sites and their numbers are a function of the point *set*; a site stands for the smallest of its rows.
+//! Trap: a set that spans more exponents than a double can hold around 1 cannot be scaled without loss. It is left as it
+//! is, and every sign is then taken exactly (`Settings::filtered` off).
+
+use rayon::prelude::*;
+use taut_oblivious::hilbert_order;
+use taut_points::{Monitor, Points, Scalar};
+
+use crate::Error;
+use crate::kernel::Settings;
+
+/// Rows one task reads.
+const TASK: usize = 1 << 14;
+/// Filters are proved for magnitudes up to this; larger sets are scaled down.
+const LARGEST: f64 = (1u64 << 40) as f64;
+/// Sets below this are scaled up, so that no filter drowns in its allowance for underflow.
+const SMALLEST: f64 = 1.0 / (1u64 << 20) as f64;
+
+/// The distinct points of an input.
+#[derive(Clone, Debug)]
+pub(crate) struct Sites<const D: usize> {
+    /// Scaled coordinates, in Hilbert order.
+    pub(crate) coordinates: Vec<[f64; D]>,
+    /// The smallest input row of each site.
+    pub(crate) rows: Vec<u32>,
+    /// Each row that is not in `rows`, with the smallest row it equals; by row.
+    pub(crate) duplicates: Vec<[u32; 2]>,
+    /// What the kernels must know.
+    pub(crate) settings: Settings,
+    /// What the coordinates were multiplied with.
+    pub(crate) scale: Scale,
+}
+
+/// Multiplication with a power of two that loses nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Scale {
+    exponent: i32,
+    /// The factor in two steps, as 2^±2000 is no double.
+    steps: [f64; 2],
+}
+
+impl Scale {
+    fn by(exponent: i32) -> Self {
+        let half = exponent / 2;
+        Self { exponent, steps: [2f64.powi(half), 2f64.powi(exponent - half)] }
+    }
+
+    /// `x` scaled, −0 as 0.
+    #[inline(always)]
+    pub(crate) fn apply(self, x: f64) -> f64 {
+        x * self.steps[0] * self.steps[1] + 0.0
+    }
+
+    /// The scale that undoes this one.
+    pub(crate) fn inverse(self) -> Self {
+        Self::by(-self.exponent)
+    }
+}
+
+/// Row `i` as an array.
+#[inline(always)]
+pub(crate) fn row<T: Scalar, const D: usize>(points: &Points<'_, T>, i: usize) -> [f64; D] {
+    let values = points.row(i);
+    std::array::from_fn(|k| values[k].into())
+}
+
+impl<const D: usize> Sites<D> {
+    /// Reads, checks, scales, orders and merges the points.
+    pub(crate) fn new<T: Scalar>(points: &Points<'_, T>, vectors: bool, monitor: &Monitor<'_>) -> Result<Self, Error> {
+        let n = points.len();
+        if n >= (1 << 30) {
+            return Err(Error::TooManyPoints { points: n as u64, most: (1 << 30) - 1 });
+        }
+        let largest = largest_magnitude(points)?;
+        monitor.check()?;
+        let (scale, integral, filtered) = normalisation(points, largest);
+        let at = |i: usize| row(points, i).map(|x| scale.apply(x));
+        let mut rows = hilbert_order(n, at);
+        monitor.check()?;
+        let mut coordinates: Vec<[f64; D]> = rows.par_iter().with_min_len(TASK).map(|&i| at(i as usize)).collect();
+        let duplicates = merge(&mut coordinates, &mut rows);
+        let settings = Settings { integral, filtered, vectors };
+        Ok(Self { coordinates, rows, duplicates, settings, scale })
+    }
+
+    /// How many sites there are.
+    pub(crate) fn len(&self) -> usize {
+        self.rows.len()
+    }
+}
+
+/// The largest magnitude of a coordinate.
+fn largest_magnitude<T: Scalar>(points: &Points<'_, T>) -> Result<f64, Error> {
+    let dim = points.dim();
+    let blocks = points.values().par_chunks(TASK * dim.max(1));
+    let largest = blocks
+        .map(|values| {
+            // A NaN or an infinity stays in the sum, which is cheaper than asking each value.
+            let (mut largest, mut spoilt) = (0.0f64, 0.0f64);
+            for &value in values {
+                let x: f64 = value.into();
+                largest = if x.abs() > largest { x.abs() } else { largest };
+                spoilt += x * 0.0;
+            }
+            if spoilt == 0.0 { largest } else { f64::NAN }
+        })
+        .reduce(|| 0.0, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) });
+    if !largest.is_nan() {
+        return Ok(largest);
+    }
+    let place = points.values().iter().position(|&v| !Into::<f64>::into(v).is_finite()).unwrap_or(0);
+    let value = points.values()[place].into();
+    Err(Error::NonFinite { row: (place / dim) as u64, column: place % dim, value })
+}
+
+/// The exponent of the lowest bit of a number that is not 0.
+fn lowest_exponent(x: f64) -> i32 {
+    let bits = x.to_bits();
+    let (exponent, fraction) = ((bits >> 52) as i32 & 0x7ff, bits & ((1 << 52) - 1));
+    let significand = if exponent == 0 { fraction } else { fraction | 1 << 52 };
+    exponent.max(1) - 1075 + significand.trailing_zeros() as i32
+}
+
+/// The exponent of the highest bit of a number that is not 0.
+fn highest_exponent(x: f64) -> i32 {
+    let bits = x.to_bits() & (u64::MAX >> 1);
+    let exponent = (bits >> 52) as i32;
+    if exponent > 0 { exponent - 1023 } else { -1011 - bits.leading_zeros() as i32 }
+}
+
+/// The exponent of the lowest bit of any coordinate, if it is at least `floor`.
+fn lowest_exponent_above<T: Scalar>(points: &Points<'_, T>, floor: i32) -> Option<i32> {
+    let mut lowest = i32::MAX;
+    for &value in points.values() {
+        let x: f64 = value.into();
+        if x != 0.0 {
+            lowest = lowest.min(lowest_exponent(x));
+            if lowest < floor {
+                return None;
+            }
+        }
+    }
+    Some(lowest)
+}
+
+/// How to scale, and whether coordinates are then integers, and filters safe.
+fn normalisation<T: Scalar>(points: &Points<'_, T>, largest: f64) -> (Scale, bool, bool) {
+    if largest == 0.0 {
+        return (Scale::by(0), true, true);
+    }
+    let top = highest_exponent(largest) + 1;
+    if let Some(unit) = lowest_exponent_above(points, top - 40) {
+        return (Scale::by(-unit), true, true);
+    }
+    if (SMALLEST..=LARGEST).contains(&largest) {
+        return (Scale::by(0), false, true);
+    }
+    // Scaling down must not push the lowest bit below the smallest double.
+    let exponent = -top;
+    if exponent > 0 || lowest_exponent_above(points, -1074 - exponent).is_some() {
+        (Scale::by(exponent), false, true)
+    } else {
+        (Scale::by(0), false, false)
+    }
+}
+
+/// Merges equal neighbours; the first of each run, which has the smallest row, stays.
+fn merge<const D: usize>(coordinates: &mut Vec<[f64; D]>, rows: &mut Vec<u32>) -> Vec<[u32; 2]> {
+    let any = coordinates.par_windows(2).with_min_len(TASK).any(|pair| pair[0] == pair[1]);
+    let mut duplicates = Vec::new();
+    if any {
+        let mut kept = 0;
+        for i in 1..coordinates.len() {
+            if coordinates[i] == coordinates[kept] {
+                duplicates.push([rows[i], rows[kept]]);
+            } else {
+                kept += 1;
+                coordinates[kept] = coordinates[i];
+                rows[kept] = rows[i];
+            }
+        }
+        coordinates.truncate(kept + 1);
+        rows.truncate(kept + 1);
+        duplicates.sort_unstable();
+    }
+    duplicates
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sites(values: &[f64]) -> Sites<2> {
+        let points = Points::new(values, 2).expect("whole rows");
+        Sites::new(&points, true, &Monitor::silent()).expect("finite")
+    }
+
+    #[test]
+    fn equal_points_are_one_site_of_the_smallest_row() {
+        let found = sites(&[1.0, 2.0, -0.0, 5.0, 1.0, 2.0, 0.0, 5.0, 1.0, 2.0]);
+        assert_eq!(found.len(), 2);
+        assert_eq!(found.duplicates, [[2, 0], [3, 1], [4, 0]]);
+        let mut rows = found.rows.clone();
+        rows.sort_unstable();
+        assert_eq!(rows, [0, 1]);
+    }
+
+    #[test]
+    fn grids_of_any_step_become_integers() {
+        for step in [1.0, 0.25, 2f64.powi(-700), 2f64.powi(900), 5e-324] {
+            let found = sites(&[0.0, step, 3.0 * step, step, 4.0 * step, 2.0 * step]);
+            assert!(found.settings.integral && found.settings.filtered, "{step}");
+            assert!(found.coordinates.contains(&[3.0, 1.0]), "{step}: {:?}", found.coordinates);
+            let back = found.scale.inverse();
+            assert!(found.coordinates.iter().any(|c| c.map(|x| back.apply(x)) == [3.0 * step, step]));
+        }
+        assert!(!sites(&[0.1, 0.2, 0.3, 0.4]).settings.integral);
+    }
+
+    #[test]
+    fn exponents_of_the_ends_of_a_double() {
+        for (x, low, high) in [(1.0, 0, 0), (6.0, 1, 2), (5e-324, -1074, -1074), (f64::MIN_POSITIVE * 0.75, -1024, -1023)] {
+            assert_eq!((lowest_exponent(x), highest_exponent(-x)), (low, high), "{x}");
+        }
+        assert_eq!(highest_exponent(f64::MAX), 1023);
+    }
+
+    #[test]
+    fn extreme_magnitudes_are_scaled_without_loss_or_not_at_all() {
+        let scaled = sites(&[1.1e300, 2.3e299, -3.7e250, 1e300 / 3.0]);
+        assert!(scaled.settings.filtered && scaled.coordinates.iter().flatten().all(|x| x.abs() <= 2.0));
+        let tiny = sites(&[1.1e-300, 2.3e-299, -3.7e-305, 1e-300 / 3.0]);
+        assert!(tiny.settings.filtered && tiny.coordinates.iter().flatten().any(|x| x.abs() >= 0.25));
+        let mixed = sites(&[1.1e300, 1.7e-300, 3.0, 0.7]);
+        assert!(!mixed.settings.filtered);
+        assert!(mixed.coordinates.contains(&[1.1e300, 1.7e-300]));
+    }
+
+    #[test]
+    fn what_is_not_finite_is_named() {
+        let values = [0.0, 1.0, 2.0, f64::NAN, f64::INFINITY, 5.0];
+        let points = Points::new(&values, 2).expect("whole rows");
+        let refused = Sites::<2>::new(&points, true, &Monitor::silent());
+        assert!(matches!(refused, Err(Error::NonFinite { row: 1, column: 1, .. })), "{refused:?}");
+    }
+}

@@ -1,0 +1,82 @@
+//! Which path takes the signs: chosen once per batch of sites.
+//!
+//! *Idea.* Eight simplices of a level are tested at once with AVX-512, four with AVX2 and FMA; the four facets of a step
+//! of the walk are always one vector of four. Everything between `insert` and the arithmetic is inlined into a function
+//! compiled for that processor, so there is no call per sign. The formulas are those of `signs`, operation by operation:
+//! with fused multiply-add on either side even the same signs are left open.
+//! *Trap.* Partial groups are the rule (a cavity tests some 45 simplices in 8 groups), so the caller pads the list and
+//! masks the answer; nothing here looks at lengths.
+#![allow(unsafe_code)]
+
+use std::marker::PhantomData;
+
+use taut_predicates::Separate;
+
+use crate::kernel::{Settings, TooMany};
+
+use super::signs::{Scalar, Unfiltered};
+use super::{Mesh, Site};
+
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+/// A path of the signs that this machine can run.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Level {
+    /// No filter.
+    Unfiltered,
+    /// One number at a time, on any processor.
+    Scalar,
+    /// One number at a time, with fused multiply-add.
+    #[cfg(target_arch = "x86_64")]
+    Fused(x86::Avx2),
+    /// Four numbers at a time.
+    #[cfg(target_arch = "x86_64")]
+    Four(x86::Avx2),
+    /// Eight numbers at a time.
+    #[cfg(target_arch = "x86_64")]
+    Eight(x86::Avx512),
+}
+
+impl Level {
+    /// The fastest one allowed.
+    pub(super) fn best(settings: Settings) -> Self {
+        if !settings.filtered {
+            return Level::Unfiltered;
+        }
+        let all = if settings.vectors { Self::filtered() } else { vec![Level::Scalar] };
+        *all.last().expect("the scalar level is always there")
+    }
+
+    /// All filtered levels of this machine, the fastest last.
+    pub(super) fn filtered() -> Vec<Self> {
+        let mut all = vec![Level::Scalar];
+        #[cfg(target_arch = "x86_64")]
+        {
+            let avx2 = x86::Avx2::detect();
+            all.extend(avx2.into_iter().flat_map(|yes| [Level::Fused(yes), Level::Four(yes)]));
+            all.extend(x86::Avx512::detect().map(Level::Eight));
+        }
+        all
+    }
+}
+
+/// [`Mesh::insert_with`], compiled for the level of the mesh.
+pub(super) fn insert(mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
+    match mesh.level {
+        Level::Unfiltered => mesh.insert_with(Unfiltered, sites),
+        Level::Scalar => mesh.insert_with(Scalar::<Separate>(PhantomData), sites),
+        #[cfg(target_arch = "x86_64")]
+        level => x86::insert(level, mesh, sites),
+    }
+}
+
+/// [`Mesh::find`], compiled for the level of the mesh.
+pub(super) fn find(mesh: &mut Mesh, q: &Site, hint: u32) {
+    match mesh.level {
+        Level::Unfiltered => mesh.find(Unfiltered, q, hint),
+        Level::Scalar => mesh.find(Scalar::<Separate>(PhantomData), q, hint),
+        #[cfg(target_arch = "x86_64")]
+        level => x86::find(level, mesh, q, hint),
+    }
+}

@@ -1,0 +1,353 @@
+//! Four and eight numbers at a time, on x86-64.
+
+use std::arch::x86_64::*;
+use std::marker::PhantomData;
+use std::ops::{Add, Mul, Sub};
+
+use taut_predicates::{Fused, Sign};
+
+use crate::kernel::TooMany;
+use crate::simplex::Simplex;
+use crate::space::signs::{Lane, Scalar, Signs, in_sphere, orientation, rows};
+use crate::space::{Mesh, Site};
+
+use super::Level;
+
+/// Proof that the processor has AVX2 and FMA: there is no other way to make one than to ask it.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::space) struct Avx2(());
+
+/// Proof that the processor has AVX-512 (F, DQ, VL) besides AVX2 and FMA.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::space) struct Avx512(Avx2);
+
+impl Avx2 {
+    pub(super) fn detect() -> Option<Self> {
+        (is_x86_feature_detected!("avx2")
+            && is_x86_feature_detected!("fma")
+            && is_x86_feature_detected!("bmi1")
+            && is_x86_feature_detected!("bmi2"))
+        .then_some(Avx2(()))
+    }
+}
+
+impl Avx512 {
+    pub(super) fn detect() -> Option<Self> {
+        let has = is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512vl");
+        Avx2::detect().filter(|_| has).map(Avx512)
+    }
+}
+
+/// [`Mesh::insert_with`] for the levels of this file.
+pub(super) fn insert(level: Level, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
+    fn fused(mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
+        mesh.insert_with(Scalar::<Fused>(PhantomData), sites)
+    }
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
+    fn four(yes: Avx2, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
+        mesh.insert_with(yes, sites)
+    }
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,bmi1,bmi2")]
+    fn eight(yes: Avx512, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
+        mesh.insert_with(yes, sites)
+    }
+    match level {
+        Level::Unfiltered | Level::Scalar => unreachable!("these levels need no processor"),
+        // SAFETY: `yes` proves that the processor has the features.
+        Level::Fused(_) => unsafe { fused(mesh, sites) },
+        // SAFETY: as above.
+        Level::Four(yes) => unsafe { four(yes, mesh, sites) },
+        // SAFETY: as above.
+        Level::Eight(yes) => unsafe { eight(yes, mesh, sites) },
+    }
+}
+
+/// [`Mesh::find`] for the levels of this file.
+pub(super) fn find(level: Level, mesh: &mut Mesh, q: &Site, hint: u32) {
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
+    fn fused(mesh: &mut Mesh, q: &Site, hint: u32) {
+        mesh.find(Scalar::<Fused>(PhantomData), q, hint)
+    }
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
+    fn four(yes: Avx2, mesh: &mut Mesh, q: &Site, hint: u32) {
+        mesh.find(yes, q, hint)
+    }
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,bmi1,bmi2")]
+    fn eight(yes: Avx512, mesh: &mut Mesh, q: &Site, hint: u32) {
+        mesh.find(yes, q, hint)
+    }
+    match level {
+        Level::Unfiltered | Level::Scalar => unreachable!("these levels need no processor"),
+        // SAFETY: the value in the level proves that the processor has the features.
+        Level::Fused(_) => unsafe { fused(mesh, q, hint) },
+        // SAFETY: as above.
+        Level::Four(yes) => unsafe { four(yes, mesh, q, hint) },
+        // SAFETY: as above.
+        Level::Eight(yes) => unsafe { eight(yes, mesh, q, hint) },
+    }
+}
+
+/// Four numbers; made only from an [`Avx2`].
+#[derive(Clone, Copy)]
+struct F64x4(__m256d);
+
+/// Eight numbers; made only from an [`Avx512`].
+#[derive(Clone, Copy)]
+struct F64x8(__m512d);
+
+/// |x|, which AVX2 has no instruction for.
+#[inline]
+#[target_feature(enable = "avx2")]
+fn magnitude4(x: __m256d) -> __m256d {
+    _mm256_andnot_pd(_mm256_set1_pd(-0.0), x)
+}
+
+/// The operators and [`Lane`] of a vector from the intrinsics that do them.
+macro_rules! lane {
+    ($name:ident, $set1:ident, $add:ident, $sub:ident, $mul:ident, $fma:ident, $fms:ident, $max:ident, $abs:ident) => {
+        // SAFETY (all blocks of this macro): the vectors were made from a proof that the processor has the features,
+        // and `splat` is called by the filters alone, which hold other such vectors.
+        impl Add for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn add(self, other: Self) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { $add(self.0, other.0) })
+            }
+        }
+        impl Sub for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn sub(self, other: Self) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { $sub(self.0, other.0) })
+            }
+        }
+        impl Mul for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn mul(self, other: Self) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { $mul(self.0, other.0) })
+            }
+        }
+        impl Lane for $name {
+            #[inline(always)]
+            fn splat(value: f64) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { $set1(value) })
+            }
+            #[inline(always)]
+            fn mul_add(a: Self, b: Self, c: Self) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { $fma(a.0, b.0, c.0) })
+            }
+            #[inline(always)]
+            fn mul_sub(a: Self, b: Self, c: Self) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { $fms(a.0, b.0, c.0) })
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { $max(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { $abs(self.0) })
+            }
+        }
+    };
+}
+
+lane!(
+    F64x4,
+    _mm256_set1_pd,
+    _mm256_add_pd,
+    _mm256_sub_pd,
+    _mm256_mul_pd,
+    _mm256_fmadd_pd,
+    _mm256_fmsub_pd,
+    _mm256_max_pd,
+    magnitude4
+);
+lane!(
+    F64x8,
+    _mm512_set1_pd,
+    _mm512_add_pd,
+    _mm512_sub_pd,
+    _mm512_mul_pd,
+    _mm512_fmadd_pd,
+    _mm512_fmsub_pd,
+    _mm512_max_pd,
+    _mm512_abs_pd
+);
+
+/// x, y and z of four sites.
+#[inline]
+#[target_feature(enable = "avx2")]
+fn columns4(a: &Site, b: &Site, c: &Site, d: &Site, q: &Site) -> [F64x4; 3] {
+    // SAFETY: a site is four aligned numbers.
+    let (a, b) = unsafe { (_mm256_load_pd(a.0.as_ptr()), _mm256_load_pd(b.0.as_ptr())) };
+    // SAFETY: as above.
+    let (c, d) = unsafe { (_mm256_load_pd(c.0.as_ptr()), _mm256_load_pd(d.0.as_ptr())) };
+    let (xz_ab, y_ab) = (_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
+    let (xz_cd, y_cd) = (_mm256_unpacklo_pd(c, d), _mm256_unpackhi_pd(c, d));
+    let x = _mm256_permute2f128_pd(xz_ab, xz_cd, 0x20);
+    let y = _mm256_permute2f128_pd(y_ab, y_cd, 0x20);
+    let z = _mm256_permute2f128_pd(xz_ab, xz_cd, 0x31);
+    [
+        F64x4(_mm256_sub_pd(x, _mm256_set1_pd(q.0[0]))),
+        F64x4(_mm256_sub_pd(y, _mm256_set1_pd(q.0[1]))),
+        F64x4(_mm256_sub_pd(z, _mm256_set1_pd(q.0[2]))),
+    ]
+}
+
+/// Two sites in one vector.
+#[inline]
+#[target_feature(enable = "avx512f,avx2")]
+fn pair(low: &Site, high: &Site) -> __m512d {
+    // SAFETY: a site is four aligned numbers.
+    let (low, high) = unsafe { (_mm256_load_pd(low.0.as_ptr()), _mm256_load_pd(high.0.as_ptr())) };
+    _mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1)
+}
+
+/// x, y and z of vertex J of eight simplices, less q.
+#[inline]
+#[target_feature(enable = "avx512f,avx2")]
+fn columns8<const J: usize>(rows: &[[&Site; 4]; 8], q: &Site) -> [F64x8; 3] {
+    let ac = pair(rows[0][J], rows[2][J]);
+    let bd = pair(rows[1][J], rows[3][J]);
+    let eg = pair(rows[4][J], rows[6][J]);
+    let fh = pair(rows[5][J], rows[7][J]);
+    let (xz_low, y_low) = (_mm512_unpacklo_pd(ac, bd), _mm512_unpackhi_pd(ac, bd));
+    let (xz_high, y_high) = (_mm512_unpacklo_pd(eg, fh), _mm512_unpackhi_pd(eg, fh));
+    let x = _mm512_shuffle_f64x2(xz_low, xz_high, 0b10_00_10_00);
+    let y = _mm512_shuffle_f64x2(y_low, y_high, 0b10_00_10_00);
+    let z = _mm512_shuffle_f64x2(xz_low, xz_high, 0b11_01_11_01);
+    [
+        F64x8(_mm512_sub_pd(x, _mm512_set1_pd(q.0[0]))),
+        F64x8(_mm512_sub_pd(y, _mm512_set1_pd(q.0[1]))),
+        F64x8(_mm512_sub_pd(z, _mm512_set1_pd(q.0[2]))),
+    ]
+}
+
+/// Where the determinant is certainly positive, and where it is open.
+#[inline]
+#[target_feature(enable = "avx2")]
+fn masks4(F64x4(det): F64x4, F64x4(bound): F64x4) -> (u32, u32) {
+    let positive = _mm256_movemask_pd(_mm256_cmp_pd(det, bound, _CMP_GT_OQ)) as u32;
+    let least = _mm256_xor_pd(bound, _mm256_set1_pd(-0.0));
+    let negative = _mm256_movemask_pd(_mm256_cmp_pd(det, least, _CMP_LT_OQ)) as u32;
+    (positive, !(positive | negative) & 0b1111)
+}
+
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn conflicts4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+    let s = rows(sites, &simplices[group[0] as usize]);
+    let t = rows(sites, &simplices[group[1] as usize]);
+    let u = rows(sites, &simplices[group[2] as usize]);
+    let v = rows(sites, &simplices[group[3] as usize]);
+    let a = columns4(s[0], t[0], u[0], v[0], q);
+    let b = columns4(s[1], t[1], u[1], v[1], q);
+    let c = columns4(s[2], t[2], u[2], v[2], q);
+    let d = columns4(s[3], t[3], u[3], v[3], q);
+    let (det, bound) = in_sphere([a, b, c, d]);
+    masks4(det, bound)
+}
+
+#[inline]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+fn conflicts8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+    let rows = [
+        rows(sites, &simplices[group[0] as usize]),
+        rows(sites, &simplices[group[1] as usize]),
+        rows(sites, &simplices[group[2] as usize]),
+        rows(sites, &simplices[group[3] as usize]),
+        rows(sites, &simplices[group[4] as usize]),
+        rows(sites, &simplices[group[5] as usize]),
+        rows(sites, &simplices[group[6] as usize]),
+        rows(sites, &simplices[group[7] as usize]),
+    ];
+    let (F64x8(det), F64x8(bound)) =
+        in_sphere([columns8::<0>(&rows, q), columns8::<1>(&rows, q), columns8::<2>(&rows, q), columns8::<3>(&rows, q)]);
+    let positive = u32::from(_mm512_cmp_pd_mask(det, bound, _CMP_GT_OQ));
+    let least = _mm512_sub_pd(_mm512_setzero_pd(), bound);
+    let negative = u32::from(_mm512_cmp_pd_mask(det, least, _CMP_LT_OQ));
+    (positive, !(positive | negative) & 0xff)
+}
+
+/// The four orientations of q with the facets of a simplex, lane i for the facet opposite vertex i.
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn beyond4([a, b, c, d]: [&Site; 4], q: &Site) -> (u32, u32) {
+    // The columns of `FACETS`: 1 0 3 2, then 2 3 0 1, then 3 2 1 0.
+    const A: i32 = 0b10_11_00_01;
+    const B: i32 = 0b01_00_11_10;
+    const C: i32 = 0b00_01_10_11;
+    let [F64x4(x), F64x4(y), F64x4(z)] = columns4(a, b, c, d, q);
+    let a = [
+        F64x4(_mm256_permute4x64_pd(x, A)),
+        F64x4(_mm256_permute4x64_pd(y, A)),
+        F64x4(_mm256_permute4x64_pd(z, A)),
+    ];
+    let b = [
+        F64x4(_mm256_permute4x64_pd(x, B)),
+        F64x4(_mm256_permute4x64_pd(y, B)),
+        F64x4(_mm256_permute4x64_pd(z, B)),
+    ];
+    let c = [
+        F64x4(_mm256_permute4x64_pd(x, C)),
+        F64x4(_mm256_permute4x64_pd(y, C)),
+        F64x4(_mm256_permute4x64_pd(z, C)),
+    ];
+    let (det, bound) = orientation([a, b, c]);
+    let (positive, open) = masks4(det, bound);
+    (!(positive | open) & 0b1111, open)
+}
+
+impl Signs for Avx2 {
+    const WIDTH: usize = 4;
+
+    #[inline(always)]
+    fn conflicts(self, sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+        // SAFETY: `self` proves that the processor has the features.
+        unsafe { conflicts4(sites, simplices, group, q) }
+    }
+
+    #[inline(always)]
+    fn beyond(self, corners: [&Site; 4], q: &Site) -> (u32, u32) {
+        // SAFETY: as above.
+        unsafe { beyond4(corners, q) }
+    }
+
+    #[inline(always)]
+    fn orient(self, corners: [&Site; 3], q: &Site) -> Option<Sign> {
+        Scalar::<Fused>(PhantomData).orient(corners, q)
+    }
+}
+
+impl Signs for Avx512 {
+    const WIDTH: usize = 8;
+
+    #[inline(always)]
+    fn conflicts(self, sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+        // SAFETY: `self` proves that the processor has the features.
+        unsafe { conflicts8(sites, simplices, group, q) }
+    }
+
+    #[inline(always)]
+    fn beyond(self, corners: [&Site; 4], q: &Site) -> (u32, u32) {
+        self.0.beyond(corners, q)
+    }
+
+    #[inline(always)]
+    fn orient(self, corners: [&Site; 3], q: &Site) -> Option<Sign> {
+        self.0.orient(corners, q)
+    }
+}

@@ -1,0 +1,111 @@
+//! The vectors against one number at a time, and both against exact arithmetic.
+
+use std::marker::PhantomData;
+
+use taut_predicates::space::in_sphere_exact;
+use taut_predicates::{Exact, Separate};
+
+use super::*;
+use crate::space::signs::Scalar;
+
+/// Eight simplices over these sites, some of them ghosts, tested against a q by one path.
+fn conflicts<S: Signs>(signs: S, sites: &[Site], simplices: &[Simplex<4>], q: &Site) -> (u32, u32) {
+    let all: Vec<u32> = (0..8).collect();
+    let (mut inside, mut open) = (0, 0);
+    for (i, group) in all.chunks(S::WIDTH).enumerate() {
+        let (here, unsure) = signs.conflicts(sites, simplices, group, q);
+        inside |= here << (i * S::WIDTH);
+        open |= unsure << (i * S::WIDTH);
+    }
+    (inside, open)
+}
+
+fn masks(level: Level, sites: &[Site], simplices: &[Simplex<4>], q: &Site) -> [(u32, u32); 2] {
+    fn both<S: Signs>(signs: S, sites: &[Site], simplices: &[Simplex<4>], q: &Site) -> [(u32, u32); 2] {
+        let corners = simplices[0].vertices.map(|v| &sites[row(v)]);
+        [conflicts(signs, sites, simplices, q), signs.beyond(corners, q)]
+    }
+    match level {
+        Level::Unfiltered => both(Unfiltered, sites, simplices, q),
+        Level::Scalar => both(Scalar::<Separate>(PhantomData), sites, simplices, q),
+        #[cfg(target_arch = "x86_64")]
+        Level::Fused(_) => both(Scalar::<taut_predicates::Fused>(PhantomData), sites, simplices, q),
+        #[cfg(target_arch = "x86_64")]
+        Level::Four(yes) => both(yes, sites, simplices, q),
+        #[cfg(target_arch = "x86_64")]
+        Level::Eight(yes) => both(yes, sites, simplices, q),
+    }
+}
+
+#[test]
+fn lanes_answer_as_exact_arithmetic_or_leave_open() {
+    let mut numbers = Numbers(29);
+    let exact = &mut Exact::default();
+    let (mut decided, mut left) = (0u32, 0u32);
+    for run in 0..20_000 {
+        // Random; on a small grid, where ties are many; nearly on a sphere; tiny differences far from the origin.
+        let coordinate = |numbers: &mut Numbers| match run % 4 {
+            0 => numbers.unit(),
+            1 => numbers.below(3) as f64,
+            2 => numbers.unit() - 0.5,
+            _ => 1000.0 + numbers.below(4) as f64 * f64::EPSILON * 512.0,
+        };
+        let mut points: Vec<[f64; 3]> = Vec::new();
+        while points.len() < 12 {
+            let mut p = [0; 3].map(|_: u8| coordinate(&mut numbers));
+            if run % 4 == 2 {
+                let length = (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]).sqrt();
+                p = p.map(|x| x / length);
+            }
+            if !points.contains(&p) {
+                points.push(p);
+            }
+        }
+        let q = Site::new(points[11]);
+        let sites: Vec<Site> =
+            std::iter::once(Site::GHOST).chain(points[..11].iter().map(|&p| Site::new(p))).collect();
+        let simplices: Vec<Simplex<4>> = (0..8)
+            .map(|lane| {
+                let order = numbers.shuffled(11);
+                let mut vertices = [order[0], order[1], order[2], order[3]];
+                let [a, b, c, d] = vertices.map(|v| points[v as usize]);
+                if space::orient_exact(a, b, c, d, exact).is_negative() {
+                    vertices.swap(0, 1);
+                }
+                if lane > 0 && numbers.below(4) == 0 {
+                    vertices[numbers.below(4)] = GHOST;
+                }
+                Simplex { vertices, neighbors: [0; 4] }
+            })
+            .collect();
+        let all: Vec<_> = Level::filtered().into_iter().map(|level| masks(level, &sites, &simplices, &q)).collect();
+        for [(inside, open), (beyond, unsure)] in &all {
+            for (lane, simplex) in simplices.iter().enumerate() {
+                let bit = 1 << lane;
+                if simplex.is_ghost() {
+                    assert!(open & bit != 0 && inside & bit == 0, "ghosts are open");
+                } else if open & bit == 0 {
+                    decided += 1;
+                    let [a, b, c, d] = simplex.vertices.map(|v| points[v as usize]);
+                    let sign = in_sphere_exact(a, b, c, d, q.point(), exact);
+                    let expected = if inside & bit != 0 { Sign::Positive } else { Sign::Negative };
+                    assert_eq!(sign, expected);
+                } else {
+                    left += 1;
+                }
+            }
+            let corners = simplices[0].vertices.map(|v| points[v as usize]);
+            for i in (0..4).filter(|i| unsure & 1 << i == 0) {
+                let [a, b, c] = FACETS[i].map(|k| corners[k]);
+                let sign = space::orient_exact(q.point(), a, b, c, exact);
+                let expected = if beyond & 1 << i != 0 { Sign::Negative } else { Sign::Positive };
+                assert_eq!(sign, expected);
+            }
+        }
+        // With fused multiplication the operations are the same one by one, so are the masks.
+        for pair in all[1..].windows(2) {
+            assert_eq!(pair[0], pair[1]);
+        }
+    }
+    assert!(decided > 100_000 && left > 100_000, "both kinds were seen: {decided}, {left}");
+}

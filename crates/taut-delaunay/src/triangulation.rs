@@ -1,0 +1,286 @@
+//! The finished triangulation in memory, for walking around in.
+
+use taut_points::{Monitor, Points, Scalar};
+
+use crate::affine::{Span, apex, span_of_plane, span_of_space};
+use crate::cells::{self, CELL_AT_LEAST, Geometry, InPlane, InSpace};
+use crate::flat::star_of_apex;
+use crate::kernel::{Counters, Kernel, Settings};
+use crate::rounds::insert_all;
+use crate::simplex::{GHOST, Simplex, decode};
+use crate::sites::{Scale, Sites};
+use crate::{DelaunayOptions, Error};
+
+/// The Delaunay triangulation of points of the plane, and the ghosts that close it.
+pub type Plane = Triangulation<2, 3>;
+
+/// The Delaunay triangulation of points of space, and the ghosts that close it.
+pub type Space = Triangulation<3, 4>;
+
+/// What the sites span, and the simplices on it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Complex<const V: usize> {
+    /// There are no points.
+    Nothing,
+    /// All points are equal: one site.
+    Point,
+    /// All points are on a line: the sites along it, from the lexicographically smallest.
+    Line(Vec<u32>),
+    /// All points of space are on a plane: the triangles in it with their ghosts, all turning the same way.
+    Flat(Vec<Simplex<3>>),
+    /// The simplices with their ghosts. Slots of dead simplices, if there are any, have no vertex below the number of
+    /// sites.
+    Full(Vec<Simplex<V>>),
+}
+
+/// The Delaunay triangulation of a set of points in the plane (`D = 2`, `V = 3`) or in space (`D = 3`, `V = 4`).
+///
+/// A *site* is a distinct point. Sites are numbered along a Hilbert curve, a numbering that depends on the point set
+/// alone; [`row`](Self::row) gives the smallest input row of a site. Where more than D + 1 sites lie on a sphere, the
+/// simplices are those of a perturbation that depends on coordinates alone, so the set of simplices is a function of the
+/// point set. The numbers of simplices depend on how it was built; [`solution`](Self::solution) puts them in canonical
+/// order.
+#[derive(Clone, Debug)]
+pub struct Triangulation<const D: usize, const V: usize> {
+    pub(crate) sites: Sites<D>,
+    pub(crate) complex: Complex<V>,
+    pub(crate) counters: Counters,
+    /// How it was built, for the trace.
+    pub(crate) method: &'static str,
+}
+
+impl Plane {
+    /// Triangulates points of the plane.
+    ///
+    /// O(n log n) expected for any input order. 68 bytes a point beyond the input on one thread, and while more threads
+    /// join their cells, up to twice that.
+    ///
+    /// # Errors
+    /// [`Error::Dimension`] if points do not have two coordinates, [`Error::NonFinite`], [`Error::TooManyPoints`],
+    /// [`Error::Option`], and [`Error::Cancelled`] when the monitor says so.
+    pub fn build<T: Scalar>(
+        points: &Points<'_, T>,
+        options: &DelaunayOptions,
+        monitor: &Monitor<'_>,
+    ) -> Result<Self, Error> {
+        build(points, "2, the plane", options, monitor, |sites| {
+            Ok(match span_of_plane(&sites.coordinates) {
+                Span::Nothing => (Complex::Nothing, Counters::default()),
+                Span::Point => (Complex::Point, Counters::default()),
+                Span::Line | Span::Plane(_) => (Complex::Line(along_line(sites)), Counters::default()),
+                Span::Full(start) => full::<2, 3, InPlane>(sites, start, options, monitor)?,
+            })
+        })
+    }
+}
+
+impl Space {
+    /// Triangulates points of space.
+    ///
+    /// O(n log n) expected for points like those of a volume or of a surface; the size of the output, up to n²/2
+    /// tetrahedra, for the worst. About 260 bytes a point beyond the input on one thread for points of a volume, and
+    /// while more threads join their cells, up to twice that.
+    ///
+    /// # Errors
+    /// [`Error::Dimension`] if points do not have three coordinates, [`Error::NonFinite`], [`Error::TooManyPoints`],
+    /// [`Error::TooManySimplices`], [`Error::Option`], and [`Error::Cancelled`] when the monitor says so.
+    pub fn build<T: Scalar>(
+        points: &Points<'_, T>,
+        options: &DelaunayOptions,
+        monitor: &Monitor<'_>,
+    ) -> Result<Self, Error> {
+        build(points, "3, space", options, monitor, |sites| {
+            Ok(match span_of_space(&sites.coordinates) {
+                Span::Nothing => (Complex::Nothing, Counters::default()),
+                Span::Point => (Complex::Point, Counters::default()),
+                Span::Line => (Complex::Line(along_line(sites)), Counters::default()),
+                Span::Plane(on) => flat(sites, on, options, monitor)?,
+                Span::Full(start) => full::<3, 4, InSpace>(sites, start, options, monitor)?,
+            })
+        })
+    }
+}
+
+/// Checks, orders, and hands the sites to `complex` on a pool of the wanted size.
+fn build<T: Scalar, const D: usize, const V: usize>(
+    points: &Points<'_, T>,
+    expected: &'static str,
+    options: &DelaunayOptions,
+    monitor: &Monitor<'_>,
+    complex: impl FnOnce(&mut Sites<D>) -> Result<(Complex<V>, Counters), Error> + Send,
+) -> Result<Triangulation<D, V>, Error> {
+    if points.dim() != D {
+        return Err(Error::Dimension { dim: points.dim(), expected });
+    }
+    let solve = || {
+        monitor.pass(1, points.len() as u64);
+        let mut sites = Sites::new(points, options.vectors, monitor)?;
+        let (complex, counters) = complex(&mut sites)?;
+        Ok(Triangulation { sites, complex, counters, method: options.order.name() })
+    };
+    match options.threads {
+        None => solve(),
+        Some(0) => Err(Error::Option { name: "threads", value: "0".into(), expected: "at least 1" }),
+        Some(threads) => match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+            Ok(pool) => pool.install(solve),
+            Err(_) => {
+                let expected = "as many threads as the system grants";
+                Err(Error::Option { name: "threads", value: threads.to_string(), expected })
+            }
+        },
+    }
+}
+
+/// The sites of a line from end to end.
+fn along_line<const D: usize>(sites: &Sites<D>) -> Vec<u32> {
+    let mut chain: Vec<u32> = (0..sites.len() as u32).collect();
+    let at = |i: u32| sites.coordinates[i as usize];
+    chain.sort_unstable_by(|&a, &b| at(a).partial_cmp(&at(b)).unwrap_or(std::cmp::Ordering::Equal));
+    chain
+}
+
+/// How many cells to cut the sites into.
+fn cells_for(sites: usize, settings: Settings, options: &DelaunayOptions) -> Result<usize, Error> {
+    match options.cells {
+        Some(0) => Err(Error::Option { name: "cells", value: "0".into(), expected: "at least 1" }),
+        // What cannot be filtered cannot be bounded by boxes either.
+        _ if !settings.filtered => Ok(1),
+        Some(cells) => Ok(cells),
+        None => Ok(rayon::current_num_threads().min((sites / CELL_AT_LEAST).max(1))),
+    }
+}
+
+fn full<const D: usize, const V: usize, G: Geometry<D, V>>(
+    sites: &mut Sites<D>,
+    start: [u32; V],
+    options: &DelaunayOptions,
+    monitor: &Monitor<'_>,
+) -> Result<(Complex<V>, Counters), Error> {
+    let order = (options.order, options.seed);
+    let cells = cells_for(sites.len(), sites.settings, options)?;
+    if cells > 1 {
+        let (simplices, counters) =
+            cells::triangulate::<D, V, G>(&sites.coordinates, cells, start, sites.settings, order, monitor)?;
+        return Ok((Complex::Full(simplices), counters));
+    }
+    // The kernel takes the coordinates and gives them back, so that they are there once.
+    let mut mesh = G::Mesh::new(std::mem::take(&mut sites.coordinates), sites.settings);
+    mesh.start(start);
+    insert_all(&mut mesh, &start, order, monitor)?;
+    let (simplices, coordinates, counters) = mesh.finish();
+    sites.coordinates = coordinates;
+    Ok((Complex::Full(simplices), counters))
+}
+
+/// Points of space on a plane: with one more point off it, all of whose neighbours are in it.
+fn flat(
+    sites: &Sites<3>,
+    on: [u32; 3],
+    options: &DelaunayOptions,
+    monitor: &Monitor<'_>,
+) -> Result<(Complex<4>, Counters), Error> {
+    let top = sites.len() as u32;
+    let mut coordinates = sites.coordinates.clone();
+    coordinates.push(apex(&sites.coordinates, on));
+    let start = [on[0], on[1], on[2], top];
+    let mut mesh = <InSpace as Geometry<3, 4>>::Mesh::new(coordinates, sites.settings);
+    mesh.start(start);
+    insert_all(&mut mesh, &start, (options.order, options.seed), monitor)?;
+    let (simplices, _, counters) = mesh.finish();
+    Ok((Complex::Flat(star_of_apex(&simplices, top)), counters))
+}
+
+impl<const D: usize, const V: usize> Triangulation<D, V> {
+    /// How many sites (distinct points) there are.
+    pub fn site_count(&self) -> usize {
+        self.sites.len()
+    }
+
+    /// The point of a site, as it was given (−0 as 0).
+    ///
+    /// # Panics
+    /// If there is no such site.
+    pub fn site(&self, site: u32) -> [f64; D] {
+        let back = self.sites.scale.inverse();
+        self.sites.coordinates[site as usize].map(|x| back.apply(x))
+    }
+
+    /// The smallest input row of a site.
+    ///
+    /// # Panics
+    /// If there is no such site.
+    pub fn row(&self, site: u32) -> u32 {
+        self.sites.rows[site as usize]
+    }
+
+    /// Input rows that equal an earlier row, each with the smallest row it equals; by row.
+    pub fn duplicates(&self) -> &[[u32; 2]] {
+        &self.sites.duplicates
+    }
+
+    /// What the sites span, and the simplices.
+    pub fn complex(&self) -> &Complex<V> {
+        &self.complex
+    }
+
+    /// The slots of simplices, ghosts included; none if the sites do not span all dimensions.
+    pub fn slots(&self) -> &[Simplex<V>] {
+        match &self.complex {
+            Complex::Full(simplices) => simplices,
+            _ => &[],
+        }
+    }
+
+    /// The numbers of the finite simplices; none if the sites do not span all dimensions.
+    pub fn simplices(&self) -> impl Iterator<Item = u32> {
+        (0u32..).zip(self.slots()).filter(|(_, s)| s.is_live() && !s.is_ghost()).map(|(t, _)| t)
+    }
+
+    /// The numbers of the ghosts: one for each facet of the hull.
+    pub fn ghosts(&self) -> impl Iterator<Item = u32> {
+        (0u32..).zip(self.slots()).filter(|(_, s)| s.is_live() && s.is_ghost()).map(|(t, _)| t)
+    }
+
+    /// The sites of a simplex in positive order; one of a ghost's is [`GHOST`].
+    ///
+    /// # Panics
+    /// If there is no such slot.
+    pub fn vertices(&self, simplex: u32) -> [u32; V] {
+        self.slots()[simplex as usize].vertices
+    }
+
+    /// The simplex across the facet opposite vertex `i`, and the place of the vertex opposite that facet in it.
+    ///
+    /// # Panics
+    /// If there is no such slot or vertex.
+    pub fn neighbor(&self, simplex: u32, i: usize) -> (u32, usize) {
+        decode(self.slots()[simplex as usize].neighbors[i])
+    }
+
+    /// The facets of the convex hull as sites: from outside, vertices are seen in counter-clockwise order in space; in
+    /// the plane the set is to the left of each edge.
+    pub fn hull(&self) -> impl Iterator<Item = [u32; D]> {
+        self.ghosts().map(|t| hull_facet(self.vertices(t)))
+    }
+
+    /// Events of the build.
+    pub fn counters(&self) -> &Counters {
+        &self.counters
+    }
+
+    pub(crate) fn scale(&self) -> Scale {
+        self.sites.scale
+    }
+}
+
+/// The finite facet of a ghost, turned outward.
+pub(crate) fn hull_facet<const D: usize, const V: usize>(vertices: [u32; V]) -> [u32; D] {
+    let apex = vertices.iter().position(|&v| v == GHOST).unwrap_or(0);
+    let mut facet: [u32; D] = std::array::from_fn(|k| vertices[(apex + 1 + k) % V]);
+    // (facet, infinity) is the ghost turned by apex + 1 places. In space it is positive, and the facet counter-clockwise
+    // from outside, if that number is even; in the plane it is positive always, with infinity to the left of the edge.
+    if D == 2 || apex % 2 == 0 {
+        facet.swap(0, 1);
+    }
+    facet
+}

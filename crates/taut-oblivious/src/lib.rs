@@ -1,0 +1,25 @@
+//! Algorithms for the memory hierarchy, which the rest of taut stands on.
+//!
+//! | you want | call | promise | cost |
+//! |---|---|---|---|
+//! | points in an order where neighbours in space are neighbours in memory | [`hilbert_order()`] | a function of the point set alone, equal points side by side | a few passes of O(n) |
+//! | the place of one cell on the curve | [`hilbert_key()`] | consecutive cells share a face | O(bits) |
+//!
+//! ```
+//! let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+//! let order = taut_oblivious::hilbert_order(square.len(), |i| square[i]);
+//! for side in order.windows(2) {
+//!     let (a, b) = (square[side[0] as usize], square[side[1] as usize]);
+//!     assert_eq!((a[0] - b[0]).abs() + (a[1] - b[1]).abs(), 1.0);   // never across the diagonal
+//! }
+//! ```
+//!
+//! Not for: points with coordinates that are not finite (validate first), or more than 2³² of them.
+#![forbid(unsafe_code)]
+
+mod hilbert;
+mod order;
+mod radix;
+
+pub use hilbert::hilbert_key;
+pub use order::hilbert_order;

@@ -1,0 +1,51 @@
+//! The stages for the predicates that are asked less often, from the filter on, for any polynomial.
+//!
+//! *Idea.* The permanent rides along with the value. In `f64` it bounds the error; where all differences are whole
+//! multiples of one unit it bounds every intermediate number, so that `i128` is exact if it is below 2¹²⁶: ties of
+//! gridded data are cheap here, too.
+//! *Guarantee.* The error of the `f64` value is below [`Polynomial::ROUNDINGS`]·u·permanent, as proved at the filter of
+//! the plane; underflow stays below 2⁻⁶⁵⁰, as shown for double-double.
+
+use crate::number::{Difference, Measured, Polynomial};
+use crate::sign::Sign;
+use crate::{double_double, unbounded, wide};
+
+/// The exact sign of the polynomial at these differences.
+#[inline]
+pub(crate) fn sign<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> Sign {
+    filtered::<P, K>(differences).unwrap_or_else(|| exact::<P, K>(differences))
+}
+
+/// By the `f64` value and its permanent.
+#[inline(always)]
+fn filtered<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> Option<Sign> {
+    let d = differences.map(|[from, less]| from - less);
+    if !d.iter().fold(true, |within, d| within & (d.abs() <= double_double::DIFFERENCE_MAX)) {
+        return None;
+    }
+    let leaves = d.map(|d| Measured { value: d, permanent: d.abs() });
+    let Measured { value, permanent } = P::evaluate(&leaves);
+    let bound = f64::from(P::ROUNDINGS) * (f64::EPSILON / 2.0) * permanent + double_double::FLOOR;
+    (value.abs() > bound).then(|| Sign::from(value))
+}
+
+#[cold]
+#[inline(never)]
+fn exact<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> Sign {
+    double_double::sign::<P, K>(differences)
+        .or_else(|| in_128_bits::<P, K>(differences))
+        .unwrap_or_else(|| unbounded::sign::<P, K>(differences))
+}
+
+/// In `i128`, if that has room for the permanent, which is computed with a relative error far below the one bit to
+/// spare.
+#[inline(always)]
+fn in_128_bits<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> Option<Sign> {
+    const ROOM: f64 = (1u128 << 126) as f64;
+    let integers = wide::integers(differences)?;
+    let unit = integers.iter().fold(0, |all, d| all | d).trailing_zeros();
+    let integers = integers.map(|d| d >> unit);
+    let Measured { permanent, .. } =
+        P::evaluate(&integers.map(|d| Measured { value: 0.0, permanent: (d as f64).abs() }));
+    (permanent < ROOM).then(|| Sign::from(P::evaluate(&integers.map(i128::from))))
+}

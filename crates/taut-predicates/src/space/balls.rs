@@ -1,0 +1,115 @@
+//! The smallest spheres through two and three points, and one that is shrunk a little.
+
+use crate::cascade;
+use crate::number::{Number, Polynomial};
+use crate::sign::Sign;
+use crate::space::Point;
+use crate::space::polynomials::{cross, dot, lift};
+
+/// (q − a)·(b − q).
+struct InDiametralSphere;
+
+impl Polynomial<6> for InDiametralSphere {
+    const DEGREE: u32 = 2;
+    const ROUNDINGS: u32 = 5;
+
+    #[inline(always)]
+    fn evaluate<N: Number>(d: &[N; 6]) -> N {
+        dot(&[d[0], d[1], d[2]], &[d[3], d[4], d[5]])
+    }
+}
+
+/// w·N − |n|²|w|², where n = u × v and C = a + N/2|n|² is the centre of the facet's circumcircle: the power of q with
+/// respect to its equatorial sphere is |w|² − w·N/|n|².
+struct InEquatorialSphere;
+
+impl Polynomial<9> for InEquatorialSphere {
+    const DEGREE: u32 = 6;
+    const ROUNDINGS: u32 = 19;
+
+    #[inline(always)]
+    fn evaluate<N: Number>(d: &[N; 9]) -> N {
+        let [u, v, w] = [[d[0], d[1], d[2]], [d[3], d[4], d[5]], [d[6], d[7], d[8]]];
+        let (n, numerator) = circle(&u, &v);
+        dot(&w, &numerator) - lift(&n) * lift(&w)
+    }
+}
+
+/// 4(w·N − |n|²|w|²) − |u|²|v|²|u − v|²·ε(2 − ε), made homogeneous with two factors 1.
+///
+/// From |w − N/2|n|²| < (1 − ε)R, as |N|² = |n|²|u|²|v|²|u − v|² and R² = |u|²|v|²|u − v|²/4|n|².
+struct ShrunkSphere;
+
+impl Polynomial<15> for ShrunkSphere {
+    const DEGREE: u32 = 8;
+    const ROUNDINGS: u32 = 26;
+
+    #[inline(always)]
+    fn evaluate<N: Number>(d: &[N; 15]) -> N {
+        let [u, v, w] = [[d[0], d[1], d[2]], [d[3], d[4], d[5]], [d[6], d[7], d[8]]];
+        let (edge, epsilon, rest, one) = ([d[9], d[10], d[11]], d[12], d[13], d[14]);
+        let (n, numerator) = circle(&u, &v);
+        let power = dot(&w, &numerator) - lift(&n) * lift(&w);
+        let (twice, shrink) = (power + power, epsilon * rest);
+        (twice + twice) * (one * one) - lift(&u) * lift(&v) * lift(&edge) * shrink
+    }
+}
+
+/// Normal n = u × v of the triangle 0uv, and N = (n × u)|v|² + (v × n)|u|², where N/2|n|² is its circumcentre.
+#[inline(always)]
+fn circle<N: Number>(u: &[N; 3], v: &[N; 3]) -> ([N; 3], [N; 3]) {
+    let n = cross(u, v);
+    let (nu, vn, u2, v2) = (cross(&n, u), cross(v, &n), lift(u), lift(v));
+    (n, [0, 1, 2].map(|i| nu[i] * v2 + vn[i] * u2))
+}
+
+/// Whether q lies inside (positive), on (zero) or outside the sphere with diameter ab, the smallest one through a and
+/// b.
+#[must_use]
+pub fn in_diametral_sphere(a: Point, b: Point, q: Point) -> Sign {
+    cascade::sign::<InDiametralSphere, 6>(&[
+        [q[0], a[0]],
+        [q[1], a[1]],
+        [q[2], a[2]],
+        [b[0], q[0]],
+        [b[1], q[1]],
+        [b[2], q[2]],
+    ])
+}
+
+/// Whether q lies inside (positive), on (zero) or outside the smallest sphere through a, b and c. A facet of a Delaunay
+/// triangulation with no vertex inside it is a Gabriel facet. Zero for three points of a line.
+#[must_use]
+pub fn in_equatorial_sphere(a: Point, b: Point, c: Point, q: Point) -> Sign {
+    let points = [b, c, q];
+    cascade::sign::<InEquatorialSphere, 9>(&std::array::from_fn(|i| {
+        [points[i / 3][i % 3], a[i % 3]]
+    }))
+}
+
+/// Whether d lies inside (positive), on (zero) or outside the smallest sphere through a, b and c, shrunk about its
+/// centre by the factor 1 − ε, ε in [0, 1]. Zero for three points of a line.
+#[must_use]
+pub fn shrunk_sphere(a: Point, b: Point, c: Point, d: Point, epsilon: f64) -> Sign {
+    let points = [b, c, d];
+    cascade::sign::<ShrunkSphere, 15>(&std::array::from_fn(|i| match i {
+        0..9 => [points[i / 3][i % 3], a[i % 3]],
+        9..12 => [b[i % 3], c[i % 3]],
+        12 => [epsilon, 0.0],
+        13 => [2.0, epsilon],
+        _ => [1.0, 0.0],
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::tests::constants_are_those_of;
+
+    #[test]
+    fn constants() {
+        constants_are_those_of::<InDiametralSphere, 6>();
+        constants_are_those_of::<InEquatorialSphere, 9>();
+        constants_are_those_of::<ShrunkSphere, 15>();
+    }
+}
