@@ -2,6 +2,7 @@
 
 mod case;
 mod goals;
+pub(crate) mod one;
 mod program;
 mod rounds;
 

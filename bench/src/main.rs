@@ -10,6 +10,7 @@ mod delaunay;
 mod input;
 mod judge;
 mod machine;
+mod meter;
 mod peer;
 mod read;
 mod report;
@@ -40,6 +41,9 @@ enum Area {
     /// Solves one raw file and prints seconds per pass and the peak memory of this process.
     #[command(hide = true)]
     SolveFile(ball::file::SolveArguments),
+    /// Triangulates one raw file and prints what the build cost.
+    #[command(hide = true)]
+    OneDelaunay(delaunay::one::OneArguments),
     /// Serves the crate miniball as a peer.
     #[command(hide = true)]
     PeerCrate {
@@ -56,6 +60,7 @@ fn main() -> anyhow::Result<()> {
         Area::Delaunay(arguments) => delaunay::run(&arguments),
         Area::ThesisBall(arguments) => thesis::run(&arguments),
         Area::SolveFile(arguments) => ball::file::solve(&arguments),
+        Area::OneDelaunay(arguments) => delaunay::one::run(&arguments),
         Area::PeerCrate { input, center } => peer::serve_crate(&input, &center),
     }
 }
