@@ -6,7 +6,7 @@ use pyo3::exceptions::{PyException, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use taut::Items;
-use taut::certify::{self, AnySolution, CheckError, Stop};
+use taut::certify::{self, Answer, AnySolution, CheckError, Stop};
 
 use crate::ball::{negative_radius, not_finite_of_ball};
 use crate::rows::Rows;
@@ -233,7 +233,7 @@ pub(crate) struct Solution {
 
 impl Solution {
     pub(crate) fn new(py: Python<'_>, solution: AnySolution) -> PyResult<Self> {
-        let AnySolution::Ball(found) = &solution;
+        let found = ball(&solution)?;
         let (ball, proof) = (&found.answer, &found.certificate);
         let tail = if ball.center_tail.is_empty() {
             vec![0.0; ball.center.len()]
@@ -269,7 +269,8 @@ impl Solution {
     #[getter]
     fn kind(&self) -> &'static str {
         match self.solution {
-            AnySolution::Ball(_) => "ball",
+            AnySolution::Ball(_) => certify::Ball::KIND,
+            AnySolution::Triangulation(_) => certify::Triangulation::KIND,
         }
     }
 
@@ -308,7 +309,7 @@ impl Solution {
         points: &Bound<'_, PyAny>,
         radii: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Verdict> {
-        let AnySolution::Ball(found) = &self.solution;
+        let found = ball(&self.solution)?;
         match (found.certificate.items, radii) {
             (Items::Balls, None) => {
                 return Err(PyValueError::new_err("the answer encloses balls: give their radii"));
@@ -324,7 +325,9 @@ impl Solution {
         let rows = py.import("taut._arrays")?.getattr("as_rows")?.call1((points, radii))?;
         let rows = Rows::borrow(&rows)?;
         let source = rows.source()?;
-        let verdict = interruptible(py, |monitor| self.solution.check(source.as_ref(), monitor))?;
+        let verdict = interruptible(py, |monitor| {
+            found.answer.check(&found.certificate, source.as_ref(), monitor)
+        })?;
         match verdict {
             Ok(certify::Verdict { lower, upper, gap }) => Ok(Verdict { lower, upper, gap }),
             Err(CheckError::Rejected(violation)) => {
@@ -349,9 +352,7 @@ impl Solution {
     /// -------
     /// str
     fn to_json(&self) -> String {
-        match &self.solution {
-            AnySolution::Ball(found) => found.to_json(),
-        }
+        self.solution.to_json()
     }
 
     /// Reads what `to_json` or the command line wrote.
@@ -385,9 +386,19 @@ impl Solution {
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let AnySolution::Ball(found) = &self.solution;
+        let found = ball(&self.solution)?;
         let (radius, gap) = (float(py, found.answer.radius)?, float(py, found.certificate.gap)?);
         Ok(format!("Solution(kind='{}', radius={radius}, gap={gap})", self.kind()))
+    }
+}
+
+/// The solution as that of a ball, which is all that Python shows so far.
+fn ball(solution: &AnySolution) -> PyResult<&certify::Solution<certify::Ball>> {
+    match solution {
+        AnySolution::Ball(found) => Ok(found),
+        AnySolution::Triangulation(_) => {
+            Err(PyValueError::new_err("this is the answer of a triangulation, not of a ball"))
+        }
     }
 }
 

@@ -22,7 +22,9 @@ pub(crate) fn span_of_plane(sites: &[[f64; 2]]) -> Span<3> {
     match sites.len() {
         0 => Span::Nothing,
         1 => Span::Point,
-        _ => match (2..sites.len()).find(|&i| plane::orient(sites[0], sites[1], sites[i]) != Sign::Zero) {
+        _ => match (2..sites.len())
+            .find(|&i| plane::orient(sites[0], sites[1], sites[i]) != Sign::Zero)
+        {
             Some(third) => Span::Full([0, 1, third as u32]),
             None => Span::Line,
         },
@@ -44,7 +46,9 @@ pub(crate) fn span_of_space(sites: &[[f64; 3]]) -> Span<4> {
         1 => return Span::Point,
         _ => {}
     }
-    let Some(third) = (2..sites.len()).find(|&i| !collinear(sites[0], sites[1], sites[i])) else { return Span::Line };
+    let Some(third) = (2..sites.len()).find(|&i| !collinear(sites[0], sites[1], sites[i])) else {
+        return Span::Line;
+    };
     let off = |i: &usize| space::orient(sites[0], sites[1], sites[third], sites[*i]) != Sign::Zero;
     match (third + 1..sites.len()).find(off) {
         Some(fourth) => Span::Full([0, 1, third as u32, fourth as u32]),
@@ -62,10 +66,13 @@ pub(crate) fn apex(sites: &[[f64; 3]], on: [u32; 3]) -> [f64; 3] {
             plane::orient(project(a), project(b), project(c)) != Sign::Zero
         })
         .expect("three points that are not collinear have a projection that is not");
-    let extent = sites.iter().fold(0.0, |extent: f64, p| (0..3).fold(extent, |e, k| e.max((p[k] - a[k]).abs())));
+    let extent = sites
+        .iter()
+        .fold(0.0, |extent: f64, p| (0..3).fold(extent, |e, k| e.max((p[k] - a[k]).abs())));
     let mut apex = a;
     // Any height off the plane does, as the circles of the plane are where it cuts spheres through the apex. A height
     // that only adds the extent could be lost to rounding far from 0.
-    apex[axis] = if a[axis].abs() >= extent { -a[axis] } else { a[axis] - extent.ceil().copysign(a[axis]) };
+    apex[axis] =
+        if a[axis].abs() >= extent { -a[axis] } else { a[axis] - extent.ceil().copysign(a[axis]) };
     apex
 }

@@ -75,7 +75,8 @@ impl CanonicalOrder {
             *place += 1;
         }
         drop(next);
-        let by_vertices = |&a: &u32, &b: &u32| compare(&simplices[a as usize], &simplices[b as usize]);
+        let by_vertices =
+            |&a: &u32, &b: &u32| compare(&simplices[a as usize], &simplices[b as usize]);
         let mut rest = finite.as_mut_slice();
         let mut tasks = Vec::new();
         for begin in (0..sites).step_by(TASK) {
@@ -106,11 +107,16 @@ mod tests {
 
     #[test]
     fn arrangements_keep_the_orientation() {
-        for (vertices, expected) in [([1, 2, 3], [1, 2, 3]), ([3, 1, 2], [1, 2, 3]), ([2, 1, 3], [1, 3, 2])] {
+        for (vertices, expected) in
+            [([1, 2, 3], [1, 2, 3]), ([3, 1, 2], [1, 2, 3]), ([2, 1, 3], [1, 3, 2])]
+        {
             assert_eq!(arrangement(&vertices).map(|i| vertices[usize::from(i)]), expected);
         }
-        for (vertices, expected) in [([4, 3, 2, 1], [1, 2, 3, 4]), ([1, 2, 4, 3], [1, 2, 4, 3]), ([2, 1, 3, 4], [1, 2, 4, 3])]
-        {
+        for (vertices, expected) in [
+            ([4, 3, 2, 1], [1, 2, 3, 4]),
+            ([1, 2, 4, 3], [1, 2, 4, 3]),
+            ([2, 1, 3, 4], [1, 2, 4, 3]),
+        ] {
             assert_eq!(arrangement(&vertices).map(|i| vertices[usize::from(i)]), expected);
         }
     }

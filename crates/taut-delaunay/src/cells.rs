@@ -17,13 +17,15 @@ mod reach;
 use rayon::prelude::*;
 use taut_points::Monitor;
 
-pub(crate) use geometry::{Geometry, InPlane, InSpace};
+pub(crate) use cell::star_of;
+pub(crate) use geometry::{Geometry, InPlane, InSpace, conflicts};
+pub(crate) use index::Index;
 
 use crate::kernel::{Counters, Settings};
 use crate::simplex::Simplex;
 use crate::{Error, InsertionOrder};
 use cell::{Cell, Whole};
-use index::{Index, LEAF};
+use index::LEAF;
 
 /// A cell has at least this many sites of its own, unless more cells are asked for: below, halos outweigh it.
 pub(crate) const CELL_AT_LEAST: usize = 1 << 14;

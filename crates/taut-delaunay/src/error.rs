@@ -33,7 +33,9 @@ pub enum Error {
         most: u64,
     },
     /// Simplices are numbered with 30 bits in memory.
-    #[error("the triangulation has more than 2^30 simplices: too many for one triangulation in memory")]
+    #[error(
+        "the triangulation has more than 2^30 simplices: too many for one triangulation in memory"
+    )]
     TooManySimplices,
     /// An option is outside its range.
     #[error("option `{name}` is {value}: expected {expected}")]

@@ -27,7 +27,8 @@ pub(crate) fn star_of_apex(simplices: &[Simplex<4>], apex: u32) -> Vec<Simplex<3
         neighbors: rest.map(|i| {
             let (other, facet) = decode(s.neighbors[i]);
             let there = place(&simplices[other as usize]).expect("across a facet at the apex");
-            let facet = REST[there].iter().position(|&k| k == facet).expect("opposite a facet at the apex");
+            let facet =
+                REST[there].iter().position(|&k| k == facet).expect("opposite a facet at the apex");
             code(numbers[other as usize], facet as u32)
         }),
     })

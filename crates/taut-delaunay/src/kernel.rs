@@ -38,10 +38,6 @@ pub(crate) trait Kernel<const D: usize, const V: usize>: Sized {
     /// The simplex (a ghost if outside the hull) that holds `q`, walking from the live simplex `hint`.
     fn locate(&mut self, q: [f64; D], hint: u32) -> u32;
 
-    /// Appends to `out` each simplex (ghosts too) whose circumsphere holds `q` under the perturbation: the cavity of
-    /// `q`, connected. `hint` is any live simplex to walk from. `q` equals no inserted site.
-    fn conflicts(&mut self, q: [f64; D], hint: u32, out: &mut Vec<u32>);
-
     /// The slots (dead ones included), the sites and the counters; everything else is freed first.
     fn finish(self) -> (Vec<Simplex<V>>, Vec<[f64; D]>, Counters);
 }

@@ -42,8 +42,12 @@ pub enum InsertionOrder {
 
 impl InsertionOrder {
     /// All orders with their names on the command line.
-    pub const NAMES: [(&'static str, Self); 4] =
-        [("strided", Self::Strided), ("random", Self::Random), ("local-ric", Self::LocalRic), ("hilbert", Self::Hilbert)];
+    pub const NAMES: [(&'static str, Self); 4] = [
+        ("strided", Self::Strided),
+        ("random", Self::Random),
+        ("local-ric", Self::LocalRic),
+        ("hilbert", Self::Hilbert),
+    ];
 
     /// Its name on the command line.
     pub(crate) fn name(self) -> &'static str {

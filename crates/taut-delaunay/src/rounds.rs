@@ -50,7 +50,9 @@ fn strided(count: u32) -> impl Iterator<Item = u32> {
     (0..=top).rev().flat_map(move |level| {
         let shift = level * RATIO_BITS;
         let places = count.div_ceil(1 << shift);
-        (0..places).filter(move |k| k % (1 << RATIO_BITS) != 0 || level == top).map(move |k| k << shift)
+        (0..places)
+            .filter(move |k| k % (1 << RATIO_BITS) != 0 || level == top)
+            .map(move |k| k << shift)
     })
 }
 
@@ -88,7 +90,8 @@ fn local_ric<const D: usize, const V: usize, K: Kernel<D, V>>(
     seed: u64,
     monitor: &Monitor<'_>,
 ) -> Result<(), Error> {
-    let mut permutation: Vec<u32> = (0..kernel.site_count()).filter(|i| !started.contains(i)).collect();
+    let mut permutation: Vec<u32> =
+        (0..kernel.site_count()).filter(|i| !started.contains(i)).collect();
     permutation.sort_by_cached_key(|&i| hash(kernel.site(i), seed));
     let (mut begin, mut size) = (0, 1usize << RATIO_BITS);
     while begin < permutation.len() {
@@ -101,7 +104,8 @@ fn local_ric<const D: usize, const V: usize, K: Kernel<D, V>>(
         for place in along {
             let site = permutation[place as usize];
             hint = kernel.locate(kernel.site(site), hint);
-            let first = kernel.simplices()[hint as usize].vertices.iter().copied().min().unwrap_or(0);
+            let first =
+                kernel.simplices()[hint as usize].vertices.iter().copied().min().unwrap_or(0);
             located.push((first, hint, place, site));
         }
         located.sort_unstable();

@@ -70,7 +70,11 @@ pub(crate) fn row<T: Scalar, const D: usize>(points: &Points<'_, T>, i: usize) -
 
 impl<const D: usize> Sites<D> {
     /// Reads, checks, scales, orders and merges the points.
-    pub(crate) fn new<T: Scalar>(points: &Points<'_, T>, vectors: bool, monitor: &Monitor<'_>) -> Result<Self, Error> {
+    pub(crate) fn new<T: Scalar>(
+        points: &Points<'_, T>,
+        vectors: bool,
+        monitor: &Monitor<'_>,
+    ) -> Result<Self, Error> {
         let n = points.len();
         if n >= (1 << 30) {
             return Err(Error::TooManyPoints { points: n as u64, most: (1 << 30) - 1 });
@@ -81,7 +85,8 @@ impl<const D: usize> Sites<D> {
         let at = |i: usize| row(points, i).map(|x| scale.apply(x));
         let mut rows = hilbert_order(n, at);
         monitor.check()?;
-        let mut coordinates: Vec<[f64; D]> = rows.par_iter().with_min_len(TASK).map(|&i| at(i as usize)).collect();
+        let mut coordinates: Vec<[f64; D]> =
+            rows.par_iter().with_min_len(TASK).map(|&i| at(i as usize)).collect();
         let duplicates = merge(&mut coordinates, &mut rows);
         let settings = Settings { integral, filtered, vectors };
         Ok(Self { coordinates, rows, duplicates, settings, scale })
@@ -112,7 +117,8 @@ fn largest_magnitude<T: Scalar>(points: &Points<'_, T>) -> Result<f64, Error> {
     if !largest.is_nan() {
         return Ok(largest);
     }
-    let place = points.values().iter().position(|&v| !Into::<f64>::into(v).is_finite()).unwrap_or(0);
+    let place =
+        points.values().iter().position(|&v| !Into::<f64>::into(v).is_finite()).unwrap_or(0);
     let value = points.values()[place].into();
     Err(Error::NonFinite { row: (place / dim) as u64, column: place % dim, value })
 }
@@ -216,14 +222,21 @@ mod tests {
             assert!(found.settings.integral && found.settings.filtered, "{step}");
             assert!(found.coordinates.contains(&[3.0, 1.0]), "{step}: {:?}", found.coordinates);
             let back = found.scale.inverse();
-            assert!(found.coordinates.iter().any(|c| c.map(|x| back.apply(x)) == [3.0 * step, step]));
+            assert!(
+                found.coordinates.iter().any(|c| c.map(|x| back.apply(x)) == [3.0 * step, step])
+            );
         }
         assert!(!sites(&[0.1, 0.2, 0.3, 0.4]).settings.integral);
     }
 
     #[test]
     fn exponents_of_the_ends_of_a_double() {
-        for (x, low, high) in [(1.0, 0, 0), (6.0, 1, 2), (5e-324, -1074, -1074), (f64::MIN_POSITIVE * 0.75, -1024, -1023)] {
+        for (x, low, high) in [
+            (1.0, 0, 0),
+            (6.0, 1, 2),
+            (5e-324, -1074, -1074),
+            (f64::MIN_POSITIVE * 0.75, -1024, -1023),
+        ] {
             assert_eq!((lowest_exponent(x), highest_exponent(-x)), (low, high), "{x}");
         }
         assert_eq!(highest_exponent(f64::MAX), 1023);
@@ -232,9 +245,13 @@ mod tests {
     #[test]
     fn extreme_magnitudes_are_scaled_without_loss_or_not_at_all() {
         let scaled = sites(&[1.1e300, 2.3e299, -3.7e250, 1e300 / 3.0]);
-        assert!(scaled.settings.filtered && scaled.coordinates.iter().flatten().all(|x| x.abs() <= 2.0));
+        assert!(
+            scaled.settings.filtered && scaled.coordinates.iter().flatten().all(|x| x.abs() <= 2.0)
+        );
         let tiny = sites(&[1.1e-300, 2.3e-299, -3.7e-305, 1e-300 / 3.0]);
-        assert!(tiny.settings.filtered && tiny.coordinates.iter().flatten().any(|x| x.abs() >= 0.25));
+        assert!(
+            tiny.settings.filtered && tiny.coordinates.iter().flatten().any(|x| x.abs() >= 0.25)
+        );
         let mixed = sites(&[1.1e300, 1.7e-300, 3.0, 0.7]);
         assert!(!mixed.settings.filtered);
         assert!(mixed.coordinates.contains(&[1.1e300, 1.7e-300]));

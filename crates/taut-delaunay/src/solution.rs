@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 use taut_certify::{
-    Fingerprint, NO_NEIGHBOR, SiteHash, Solution, Stop, Trace, Triangulation as Answer, TriangulationCertificate,
-    TriangulationCounts,
+    Fingerprint, NO_NEIGHBOR, SiteHash, Solution, Stop, Trace, Triangulation as Answer,
+    TriangulationCertificate, TriangulationCounts,
 };
 use taut_points::{Monitor, Points, Scalar, hash_points};
 
@@ -23,7 +23,10 @@ const TASK: usize = 1 << 12;
 ///
 /// # Errors
 /// [`Error::Dimension`] for other dimensions than 2 and 3; else what [`Plane::build`] and [`Space::build`] refuse.
-pub fn delaunay<T: Scalar>(points: &Points<'_, T>, options: &DelaunayOptions) -> Result<Solution<Answer>, Error> {
+pub fn delaunay<T: Scalar>(
+    points: &Points<'_, T>,
+    options: &DelaunayOptions,
+) -> Result<Solution<Answer>, Error> {
     let monitor = Monitor::silent();
     match points.dim() {
         2 => Plane::build(points, options, &monitor)?.solution(points, &monitor),
@@ -48,9 +51,16 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
     ///
     /// # Errors
     /// [`Error::Cancelled`], or [`Error::Read`] when hashing the points is stopped.
-    pub fn solution<T: Scalar>(&self, points: &Points<'_, T>, monitor: &Monitor<'_>) -> Result<Solution<Answer>, Error> {
-        let hashes: Vec<SiteHash> =
-            (0..self.sites.len() as u32).into_par_iter().with_min_len(TASK).map(|s| SiteHash::of(&self.site(s))).collect();
+    pub fn solution<T: Scalar>(
+        &self,
+        points: &Points<'_, T>,
+        monitor: &Monitor<'_>,
+    ) -> Result<Solution<Answer>, Error> {
+        let hashes: Vec<SiteHash> = (0..self.sites.len() as u32)
+            .into_par_iter()
+            .with_min_len(TASK)
+            .map(|s| SiteHash::of(&self.site(s)))
+            .collect();
         let (hull_dimension, tables) = match &self.complex {
             Complex::Nothing => (None, Tables::default()),
             Complex::Point => (Some(0), self.point(&hashes)),
@@ -68,7 +78,8 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
             duplicates: self.sites.duplicates.clone(),
         };
         let facets = hull_dimension.map_or(0, |d| answer.hull.len() / usize::from(d).max(1));
-        let counts = TriangulationCounts { sites, simplices: answer.len() as u64, hull: facets as u64 };
+        let counts =
+            TriangulationCounts { sites, simplices: answer.len() as u64, hull: facets as u64 };
         let trace = Trace {
             method: self.method.into(),
             stop: Stop::Converged,
@@ -79,20 +90,32 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
             ]),
             ..Trace::default()
         };
-        let certificate =
-            TriangulationCertificate { neighbors: tables.neighbors, fingerprint: tables.fingerprint, points_hash, counts };
+        let certificate = TriangulationCertificate {
+            neighbors: tables.neighbors,
+            fingerprint: tables.fingerprint,
+            points_hash,
+            counts,
+        };
         Ok(Solution { answer, certificate, trace })
     }
 
     fn point(&self, hashes: &[SiteHash]) -> Tables {
         let mut fingerprint = Fingerprint::default();
         fingerprint.add([hashes[0]]);
-        Tables { simplices: vec![self.row(0)], neighbors: vec![NO_NEIGHBOR], hull: vec![], fingerprint }
+        Tables {
+            simplices: vec![self.row(0)],
+            neighbors: vec![NO_NEIGHBOR],
+            hull: vec![],
+            fingerprint,
+        }
     }
 
     fn line(&self, chain: &[u32], hashes: &[SiteHash]) -> Tables {
         let edges = chain.len() as u32 - 1;
-        let mut tables = Tables { hull: vec![self.row(chain[0]), self.row(chain[chain.len() - 1])], ..Tables::default() };
+        let mut tables = Tables {
+            hull: vec![self.row(chain[0]), self.row(chain[chain.len() - 1])],
+            ..Tables::default()
+        };
         for (edge, ends) in (0..edges).zip(chain.windows(2)) {
             tables.simplices.extend(ends.iter().map(|&site| self.row(site)));
             // Opposite the first end lies the edge that follows, opposite the second the one before.
@@ -105,7 +128,8 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
 
     /// Triangles on a plane in space, turned as the answer wants them.
     fn flat(&self, triangles: &[Simplex<3>], hashes: &[SiteHash]) -> Tables {
-        let positive = triangles.iter().find(|s| !s.is_ghost()).is_none_or(|s| self.turns_left(s.vertices));
+        let positive =
+            triangles.iter().find(|s| !s.is_ghost()).is_none_or(|s| self.turns_left(s.vertices));
         if positive {
             return self.tables::<2, 3>(triangles, hashes);
         }
@@ -130,35 +154,51 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
             let [a, b, c] = corners.map(|p| [p[i], p[j]]);
             taut_predicates::plane::orient(a, b, c)
         };
-        let first = [[0, 1], [0, 2], [1, 2]].into_iter().map(sign).find(|&s| s != taut_predicates::Sign::Zero);
+        let first = [[0, 1], [0, 2], [1, 2]]
+            .into_iter()
+            .map(sign)
+            .find(|&s| s != taut_predicates::Sign::Zero);
         first == Some(taut_predicates::Sign::Positive)
     }
 
     /// Simplices of dimension `K` = `W` − 1 in canonical order.
-    fn tables<const K: usize, const W: usize>(&self, simplices: &[Simplex<W>], hashes: &[SiteHash]) -> Tables {
+    fn tables<const K: usize, const W: usize>(
+        &self,
+        simplices: &[Simplex<W>],
+        hashes: &[SiteHash],
+    ) -> Tables {
         let order = CanonicalOrder::of(simplices, self.sites.len());
         let mut tables = Tables {
             simplices: vec![0; order.finite.len() * W],
             neighbors: vec![0; order.finite.len() * W],
             ..Tables::default()
         };
-        let rows = tables.simplices.par_chunks_mut(W * TASK).zip(tables.neighbors.par_chunks_mut(W * TASK));
-        let fingerprints = rows.zip(order.finite.par_chunks(TASK)).map(|((vertices, neighbors), slots)| {
-            let mut fingerprint = Fingerprint::default();
-            for ((v, n), &slot) in vertices.chunks_exact_mut(W).zip(neighbors.chunks_exact_mut(W)).zip(slots) {
-                let simplex = &simplices[slot as usize];
-                for (k, &i) in arrangement(&simplex.vertices).iter().enumerate() {
-                    v[k] = self.row(simplex.vertices[usize::from(i)]);
-                    n[k] = order.places[decode(simplex.neighbors[usize::from(i)]).0 as usize];
+        let rows = tables
+            .simplices
+            .par_chunks_mut(W * TASK)
+            .zip(tables.neighbors.par_chunks_mut(W * TASK));
+        let fingerprints =
+            rows.zip(order.finite.par_chunks(TASK)).map(|((vertices, neighbors), slots)| {
+                let mut fingerprint = Fingerprint::default();
+                for ((v, n), &slot) in
+                    vertices.chunks_exact_mut(W).zip(neighbors.chunks_exact_mut(W)).zip(slots)
+                {
+                    let simplex = &simplices[slot as usize];
+                    for (k, &i) in arrangement(&simplex.vertices).iter().enumerate() {
+                        v[k] = self.row(simplex.vertices[usize::from(i)]);
+                        n[k] = order.places[decode(simplex.neighbors[usize::from(i)]).0 as usize];
+                    }
+                    fingerprint.add(simplex.vertices.map(|s| hashes[s as usize]));
                 }
-                fingerprint.add(simplex.vertices.map(|s| hashes[s as usize]));
-            }
-            fingerprint
-        });
-        tables.fingerprint = fingerprints.collect::<Vec<_>>().into_iter().fold(Fingerprint::default(), |mut all, one| {
-            all.merge(one);
-            all
-        });
+                fingerprint
+            });
+        tables.fingerprint = fingerprints.collect::<Vec<_>>().into_iter().fold(
+            Fingerprint::default(),
+            |mut all, one| {
+                all.merge(one);
+                all
+            },
+        );
         for &ghost in &order.ghosts {
             let mut facet = hull_facet::<K, W>(simplices[ghost as usize].vertices);
             let first = (0..K).min_by_key(|&i| facet[i]).unwrap_or(0);

@@ -6,6 +6,7 @@ use crate::affine::{Span, apex, span_of_plane, span_of_space};
 use crate::cells::{self, CELL_AT_LEAST, Geometry, InPlane, InSpace};
 use crate::flat::star_of_apex;
 use crate::kernel::{Counters, Kernel, Settings};
+use crate::plane::constrained::{Constrained, ConstraintError, Segment, constrain};
 use crate::rounds::insert_all;
 use crate::simplex::{GHOST, Simplex, decode};
 use crate::sites::{Scale, Sites};
@@ -67,10 +68,30 @@ impl Plane {
             Ok(match span_of_plane(&sites.coordinates) {
                 Span::Nothing => (Complex::Nothing, Counters::default()),
                 Span::Point => (Complex::Point, Counters::default()),
-                Span::Line | Span::Plane(_) => (Complex::Line(along_line(sites)), Counters::default()),
+                Span::Line | Span::Plane(_) => {
+                    (Complex::Line(along_line(sites)), Counters::default())
+                }
                 Span::Full(start) => full::<2, 3, InPlane>(sites, start, options, monitor)?,
             })
         })
+    }
+}
+
+impl Plane {
+    /// The constrained Delaunay triangulation: with these segments between sites as edges, and Delaunay as far as they
+    /// let it be. Triangles inside the rings that segments form are marked.
+    ///
+    /// A segment that is an edge already costs a look around one of its ends; one that crosses k edges O(k²) at worst.
+    /// [`sites_of_rows`](Triangulation::sites_of_rows) translates from rows of the input.
+    ///
+    /// # Errors
+    /// [`ConstraintError`] if segments cross where no site is, name sites that are not there, or rings do not close, and
+    /// if the sites do not span the plane.
+    pub fn constrained(&self, segments: &[Segment]) -> Result<Constrained, ConstraintError> {
+        let Complex::Full(triangles) = &self.complex else { return Err(ConstraintError::Flat) };
+        let mut triangles = triangles.clone();
+        let pieces = constrain(&self.sites.coordinates, &mut triangles, segments)?;
+        Ok(Constrained::new(self.site_count(), triangles, pieces))
     }
 }
 
@@ -120,7 +141,9 @@ fn build<T: Scalar, const D: usize, const V: usize>(
     };
     match options.threads {
         None => solve(),
-        Some(0) => Err(Error::Option { name: "threads", value: "0".into(), expected: "at least 1" }),
+        Some(0) => {
+            Err(Error::Option { name: "threads", value: "0".into(), expected: "at least 1" })
+        }
         Some(threads) => match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
             Ok(pool) => pool.install(solve),
             Err(_) => {
@@ -159,8 +182,14 @@ fn full<const D: usize, const V: usize, G: Geometry<D, V>>(
     let order = (options.order, options.seed);
     let cells = cells_for(sites.len(), sites.settings, options)?;
     if cells > 1 {
-        let (simplices, counters) =
-            cells::triangulate::<D, V, G>(&sites.coordinates, cells, start, sites.settings, order, monitor)?;
+        let (simplices, counters) = cells::triangulate::<D, V, G>(
+            &sites.coordinates,
+            cells,
+            start,
+            sites.settings,
+            order,
+            monitor,
+        )?;
         return Ok((Complex::Full(simplices), counters));
     }
     // The kernel takes the coordinates and gives them back, so that they are there once.
@@ -211,6 +240,17 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
     /// If there is no such site.
     pub fn row(&self, site: u32) -> u32 {
         self.sites.rows[site as usize]
+    }
+
+    /// For each input row its site.
+    pub fn sites_of_rows(&self) -> Vec<u32> {
+        let mut sites = vec![0; self.sites.rows.len() + self.sites.duplicates.len()];
+        (0u32..).zip(&self.sites.rows).for_each(|(site, &row)| sites[row as usize] = site);
+        // A duplicate comes after the row it equals.
+        for &[row, first] in &self.sites.duplicates {
+            sites[row as usize] = sites[first as usize];
+        }
+        sites
     }
 
     /// Input rows that equal an earlier row, each with the smallest row it equals; by row.

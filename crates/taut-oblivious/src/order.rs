@@ -35,7 +35,8 @@ struct Grid<const D: usize> {
 impl<const D: usize> Grid<D> {
     /// The grid over a box; none if the box is a point.
     fn over(low: [f64; D], high: [f64; D]) -> Option<Self> {
-        let widest = |shrink: f64| (0..D).fold(0.0, |w: f64, i| w.max(high[i] * shrink - low[i] * shrink));
+        let widest =
+            |shrink: f64| (0..D).fold(0.0, |w: f64, i| w.max(high[i] * shrink - low[i] * shrink));
         let shrink = if widest(1.0).is_finite() { 1.0 } else { 0.5 };
         let extent = widest(shrink);
         if extent == 0.0 {
@@ -83,12 +84,17 @@ fn bounds<const D: usize>(points: impl Iterator<Item = [f64; D]>) -> ([f64; D], 
 ///
 /// # Panics
 /// If there are more than 2³² − 1 points. Coordinates that are not finite give some order.
-pub fn hilbert_order<const D: usize>(len: usize, at: impl Fn(usize) -> [f64; D] + Sync) -> Vec<u32> {
+pub fn hilbert_order<const D: usize>(
+    len: usize,
+    at: impl Fn(usize) -> [f64; D] + Sync,
+) -> Vec<u32> {
     assert!(u32::try_from(len).is_ok(), "{len} points are more than 32 bits can number");
-    let tasks = || (0..len.div_ceil(TASK)).into_par_iter().map(|t| t * TASK..len.min((t + 1) * TASK));
-    let (low, high) = tasks()
-        .map(|range| bounds(range.map(&at)))
-        .reduce(|| bounds(std::iter::empty()), |a, b| bounds([a.0, a.1, b.0, b.1].into_iter().filter(|p| p[0].is_finite())));
+    let tasks =
+        || (0..len.div_ceil(TASK)).into_par_iter().map(|t| t * TASK..len.min((t + 1) * TASK));
+    let (low, high) = tasks().map(|range| bounds(range.map(&at))).reduce(
+        || bounds(std::iter::empty()),
+        |a, b| bounds([a.0, a.1, b.0, b.1].into_iter().filter(|p| p[0].is_finite())),
+    );
     let Some(grid) = Grid::over(low, high) else { return (0..len as u32).collect() };
     let mut records = vec![0u64; len];
     records.par_chunks_mut(TASK).enumerate().for_each(|(task, chunk)| {
@@ -99,7 +105,9 @@ pub fn hilbert_order<const D: usize>(len: usize, at: impl Fn(usize) -> [f64; D] 
     });
     let mut scratch = vec![0u64; len];
     radix::sort(&mut records, &mut scratch);
-    segments(&mut records, &mut scratch).into_par_iter().for_each(|(records, scratch)| settle(records, scratch, &at));
+    segments(&mut records, &mut scratch)
+        .into_par_iter()
+        .for_each(|(records, scratch)| settle(records, scratch, &at));
     drop(scratch);
     records.into_par_iter().map(|r| r as u32).collect()
 }
@@ -124,7 +132,11 @@ fn segments<'a>(mut records: &'a mut [u64], mut scratch: &'a mut [u64]) -> Vec<S
 }
 
 /// Puts records that share a key in order, given records sorted by key.
-fn settle<const D: usize>(records: &mut [u64], scratch: &mut [u64], at: &impl Fn(usize) -> [f64; D]) {
+fn settle<const D: usize>(
+    records: &mut [u64],
+    scratch: &mut [u64],
+    at: &impl Fn(usize) -> [f64; D],
+) {
     let point = |record: u64| at(record as u32 as usize);
     // An explicit stack: points at 2⁻¹, 2⁻², 2⁻³, … nest some two hundred boxes deep.
     let mut open = vec![(0, records.len())];
@@ -146,7 +158,8 @@ fn settle<const D: usize>(records: &mut [u64], scratch: &mut [u64], at: &impl Fn
                     None => run.sort_unstable_by_key(|&r| r as u32),
                     Some(grid) => {
                         for record in run.iter_mut() {
-                            *record = u64::from(grid.key(point(*record))) << 32 | u64::from(*record as u32);
+                            *record = u64::from(grid.key(point(*record))) << 32
+                                | u64::from(*record as u32);
                         }
                         radix::sort(run, &mut scratch[first..last]);
                         open.push((first, last));
@@ -185,7 +198,9 @@ mod tests {
         prop_oneof![
             -1.0..1.0f64,
             (-3..3i32).prop_map(f64::from),
-            (-1074..1023i32).prop_map(|e| 2f64.powi(e.max(-1022)) * if e < -1022 { 2f64.powi(e + 1022) } else { 1.0 }),
+            (-1074..1023i32).prop_map(
+                |e| 2f64.powi(e.max(-1022)) * if e < -1022 { 2f64.powi(e + 1022) } else { 1.0 }
+            ),
             Just(f64::MAX),
             Just(f64::MIN),
             Just(5e-324),
@@ -242,19 +257,25 @@ mod tests {
         assert!(hilbert_order::<2>(0, |_| unreachable!("no point")).is_empty());
         assert_eq!(hilbert_order(1, |_| [3.0, 4.0]), [0]);
         assert_eq!(hilbert_order(9, |_| [3.0, 4.0, 5.0]), (0..9).collect::<Vec<u32>>());
-        assert_eq!(hilbert_order(9, |i| [if i % 2 == 0 { 0.0 } else { -0.0 }, 1.0]), (0..9).collect::<Vec<u32>>());
+        assert_eq!(
+            hilbert_order(9, |i| [if i % 2 == 0 { 0.0 } else { -0.0 }, 1.0]),
+            (0..9).collect::<Vec<u32>>()
+        );
     }
 
     #[test]
     fn threads_do_not_change_the_order() {
         let points: Vec<[f64; 3]> = (0..200_000u64)
             .map(|i| {
-                let x = |k: u64| (i.wrapping_mul(2 * k + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 44) as f64;
+                let x = |k: u64| {
+                    (i.wrapping_mul(2 * k + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 44) as f64
+                };
                 [x(0), x(1) * x(1), x(2)]
             })
             .collect();
         let on = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            let pool =
+                rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             pool.install(|| hilbert_order(points.len(), |i| points[i]))
         };
         assert_eq!(on(1), on(3));

@@ -89,7 +89,8 @@ fn finish_bucket(sorted: &mut [u64], dealt: &mut [u64], bits: u32) {
     let passes = bits.div_ceil(TRAILING);
     for pass in 0..passes {
         let digit = |r: u64| (key(r) >> (pass * TRAILING)) as usize & ((1 << TRAILING) - 1);
-        let (from, to): (&[u64], &mut [u64]) = if pass % 2 == 0 { (dealt, sorted) } else { (sorted, dealt) };
+        let (from, to): (&[u64], &mut [u64]) =
+            if pass % 2 == 0 { (dealt, sorted) } else { (sorted, dealt) };
         let mut next = [0u32; 1 << TRAILING];
         for &r in from {
             next[digit(r)] += 1;
@@ -137,9 +138,12 @@ mod tests {
 
     #[test]
     fn threads_do_not_change_the_result() {
-        let records: Vec<u64> = (0..300_000u64).map(|i| (i.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 40) << 32 | i).collect();
+        let records: Vec<u64> = (0..300_000u64)
+            .map(|i| (i.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 40) << 32 | i)
+            .collect();
         let on = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            let pool =
+                rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             let mut sorted = records.clone();
             pool.install(|| sort(&mut sorted, &mut vec![0; records.len()]));
             sorted

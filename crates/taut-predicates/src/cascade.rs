@@ -2,7 +2,7 @@
 //!
 //! *Idea.* The permanent rides along with the value. In `f64` it bounds the error; where all differences are whole
 //! multiples of one unit it bounds every intermediate number, so that `i128` is exact if it is below 2¹²⁶: ties of
-//! gridded data are cheap here, too.
+//! gridded data are cheap here, too. Then double-double, and integers of any length.
 //! *Guarantee.* The error of the `f64` value is below [`Polynomial::ROUNDINGS`]·u·permanent, as proved at the filter of
 //! the plane; underflow stays below 2⁻⁶⁵⁰, as shown for double-double.
 
@@ -32,20 +32,21 @@ fn filtered<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> 
 #[cold]
 #[inline(never)]
 fn exact<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> Sign {
-    double_double::sign::<P, K>(differences)
-        .or_else(|| in_128_bits::<P, K>(differences))
+    in_128_bits::<P, K>(differences)
+        .or_else(|| double_double::sign::<P, K>(differences))
         .unwrap_or_else(|| unbounded::sign::<P, K>(differences))
 }
 
-/// In `i128`, if that has room for the permanent, which is computed with a relative error far below the one bit to
-/// spare.
+/// In `i128`, if that has room for the permanent, where no difference counts for less than 1: so no factor of zero hides
+/// how large the other one is. Its relative error is far below the one bit to spare.
 #[inline(always)]
 fn in_128_bits<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> Option<Sign> {
     const ROOM: f64 = (1u128 << 126) as f64;
     let integers = wide::integers(differences)?;
     let unit = integers.iter().fold(0, |all, d| all | d).trailing_zeros();
     let integers = integers.map(|d| d >> unit);
-    let Measured { permanent, .. } =
-        P::evaluate(&integers.map(|d| Measured { value: 0.0, permanent: (d as f64).abs() }));
+    let Measured { permanent, .. } = P::evaluate(
+        &integers.map(|d| Measured { value: 0.0, permanent: (d as f64).abs().max(1.0) }),
+    );
     (permanent < ROOM).then(|| Sign::from(P::evaluate(&integers.map(i128::from))))
 }

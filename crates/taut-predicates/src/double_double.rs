@@ -1,8 +1,9 @@
-//! Stage 2: pairs of `f64`, some 106 bits, from exact differences, with the same bound as the filter's.
+//! Double-double: pairs of `f64`, some 106 bits, from exact differences, with a bound like that of the filter.
 //!
 //! *Idea.* A difference of two coordinates is exactly a pair (hi, lo). Pairs are added and multiplied with a relative
 //! error of a few u², u = 2⁻⁵³, and the polynomial of absolute values rides along in plain `f64`. Points of a sphere or
-//! a surface, rounded to `f64`, have determinants of about 2⁻⁵³ of the permanent: hopeless for the filter, easy here.
+//! a surface, rounded to `f64`, have determinants of about 2⁻⁵³ of the permanent: hopeless for the filter, easy here. It is
+//! asked where the magnitudes are too mixed for integers of fixed width.
 //!
 //! *Guarantee.* Call a pair normal if |lo| ≤ u·|hi|. Results are normal, as they end in an exact sum of two `f64`. Let
 //! x, y be normal and p(x) ≥ |x| the permanent. First-order errors, in units of u²:
@@ -38,8 +39,8 @@ const U2: f64 = f64::EPSILON * f64::EPSILON / 4.0;
 /// The unevaluated sum of two `f64`, of which the second is at most half a unit in the last place of the first.
 #[derive(Clone, Copy)]
 pub(crate) struct DoubleDouble {
-    hi: f64,
-    lo: f64,
+    pub(crate) hi: f64,
+    pub(crate) lo: f64,
 }
 
 /// The sign of the polynomial at these differences, or none if even 106 bits may hide it.
@@ -47,15 +48,22 @@ pub(crate) struct DoubleDouble {
 pub(crate) fn sign<P: Polynomial<K>, const K: usize>(
     differences: &[Difference; K],
 ) -> Option<Sign> {
+    let Measured { value, permanent } = evaluate::<P, K>(differences)?;
+    let bound = f64::from(8 * P::ROUNDINGS) * U2 * permanent + FLOOR;
+    (value.hi.abs() > bound).then(|| Sign::from(value.hi))
+}
+
+/// Value and permanent, if the differences are of moderate magnitude.
+#[inline(always)]
+pub(crate) fn evaluate<P: Polynomial<K>, const K: usize>(
+    differences: &[Difference; K],
+) -> Option<Measured<DoubleDouble>> {
     let leaves = differences.map(DoubleDouble::difference);
     // Comparisons with NaN are false.
     if !leaves.iter().fold(true, |within, leaf| within & (leaf.hi.abs() <= DIFFERENCE_MAX)) {
         return None;
     }
-    let leaves = leaves.map(|leaf| Measured { value: leaf, permanent: leaf.hi.abs() });
-    let Measured { value, permanent } = P::evaluate(&leaves);
-    let bound = f64::from(8 * P::ROUNDINGS) * U2 * permanent + FLOOR;
-    (value.hi.abs() > bound).then(|| Sign::from(value.hi))
+    Some(P::evaluate(&leaves.map(|leaf| Measured { value: leaf, permanent: leaf.hi.abs() })))
 }
 
 impl DoubleDouble {

@@ -20,7 +20,23 @@
 //! ```
 //!
 //! Every sign is that of the exact real number: the coordinates are taken as the fractions they are. Finite
-//! coordinates of any magnitude will do; those of infinities and NaN mean nothing (but end, without a panic).
+//! coordinates of any magnitude will do; those of infinities and NaN mean nothing (but end, without a panic). Nothing
+//! allocates, nothing depends on the compiler's mood: the arithmetic is plain IEEE, in a fixed order.
+//!
+//! # Stages
+//! A call ends at the first stage that is sure of its answer. Each has its idea, proof and sources at its head.
+//!
+//! | stage | sure of | in-circle, in-sphere |
+//! |---|---|---|
+//! | filter, `f64` with an error bound | all but near ties | 13, 20 ns |
+//! | whole numbers in `f64` | everything, for small whole numbers | 9, 30 ns |
+//! | integers of fixed width | everything, for 62 bits of differences | 35, 80 ns |
+//! | double-double | all but ties to 2⁻⁹⁸, for magnitudes up to 2⁶⁰ | 65, 160 ns |
+//! | integers of any length | everything | from 1 µs, by length |
+//!
+//! A kernel calls the filters itself ([`plane::in_circle_filter`], generic over [`MulAdd`]), and where one answers 0 the
+//! cold continuation ([`plane::conflict_exact`]) with its [`Exact`], which counts the stages. All others call the plain
+//! functions. The figures are of `examples/stages.rs`, on one core of 2024, without fused operations.
 
 #![forbid(unsafe_code)]
 
@@ -33,6 +49,8 @@ pub mod plane;
 mod sign;
 pub mod space;
 mod stages;
+#[cfg(test)]
+mod tests;
 mod unbounded;
 mod wide;
 

@@ -83,7 +83,7 @@ pub(crate) mod tests {
         type Output = Self;
 
         fn sub(self, other: Self) -> Self {
-            self + other
+            self.add(other)
         }
     }
 

@@ -1,7 +1,7 @@
 //! Predicates of the plane.
 
 mod circumcenter;
-mod exact;
+pub(crate) mod exact;
 mod filter;
 mod polynomials;
 

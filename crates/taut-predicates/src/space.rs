@@ -2,7 +2,7 @@
 
 mod balls;
 mod circumcenter;
-mod exact;
+pub(crate) mod exact;
 mod filter;
 mod polynomials;
 
@@ -27,8 +27,8 @@ fn within_filter(points: &[Point]) -> bool {
     points.as_flattened().iter().all(|x| x.abs() <= FILTER_MAX)
 }
 
-/// The sign of det(b − a, c − a, d − a): positive if a sees b, c, d turn counter-clockwise from inside, that is for
-/// the origin and the three unit vectors in their order.
+/// The sign of det(b − a, c − a, d − a): positive if b, c, d turn counter-clockwise as seen from the side of their plane
+/// where a is not; so it is for the origin and the three unit vectors in their order.
 #[must_use]
 pub fn orient(a: Point, b: Point, c: Point, d: Point) -> Sign {
     if within_filter(&[a, b, c, d]) {

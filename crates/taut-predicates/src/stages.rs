@@ -10,10 +10,10 @@ pub struct Stages {
     pub filter: u64,
     /// By `f64` arithmetic that was exact, as all coordinates are integers and close together.
     pub integer: u64,
-    /// In double-double arithmetic.
-    pub double_double: u64,
     /// In integers of fixed width.
     pub wide: u64,
+    /// In double-double arithmetic, where magnitudes are too mixed for that.
+    pub double_double: u64,
     /// In integers of any length.
     pub unbounded: u64,
     /// Of all these, the calls of `conflict_exact` whose determinant is zero: the perturbation decided.
@@ -40,6 +40,9 @@ impl AddAssign for Stages {
 }
 
 /// What the exact stages know of the input, and what they count.
+///
+/// *Trap.* A ghost with NaN for coordinates makes every filter answer "uncertain", but it has no exact sign: a kernel
+/// tells ghosts apart before it calls an exact function.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Exact {
     /// A promise: every coordinate that is ever passed beside this is a whole number. Then the stage of

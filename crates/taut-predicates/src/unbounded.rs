@@ -1,10 +1,11 @@
-//! The last stage: integers of any length, on the stack.
+//! Integers of any length, on the stack: the last stage.
 //!
 //! *Idea.* Finite `f64` are whole multiples of a power of two, so that the differences of one call are integers
 //! in units of the smallest one, and the sign of a homogeneous polynomial does not depend on the unit.
 //! *Guarantee.* Never fails, overflows or allocates: a difference has at most 2101 bits (from 2⁻¹⁰⁷⁴ to 2¹⁰²⁵), so
 //! degree 8 with coefficients below 2³⁰ fits the long form. Lengths are tracked: the cost is that of the bits
-//! that are there, and calls of up to 1024 bits work in a short form that is cheap to copy.
+//! that are there, and calls of fewer bits work in shorter forms that are cheap to copy. The longest take some 130 KB
+//! of stack.
 //! *Reference.* Schoolbook arithmetic; expansions (Shewchuk, Discrete & Computational Geometry 18, 1997) would
 //! fail at the ends of the exponent range and be longer for mixed magnitudes.
 
@@ -15,6 +16,8 @@ use crate::sign::Sign;
 
 /// Limbs of the short form.
 const SHORT: usize = 16;
+/// Limbs of the middle form.
+const MIDDLE: usize = 64;
 /// Limbs of the long form.
 const LONG: usize = 268;
 /// Room in bits beside the differences: 30 for the coefficients of the polynomial, and a limb, as the product of
@@ -41,6 +44,8 @@ pub(crate) fn sign<P: Polynomial<K>, const K: usize>(differences: &[Difference; 
     let bits = P::DEGREE as usize * (top - unit + 1) as usize + ROOM;
     if bits <= 64 * SHORT {
         P::evaluate(&differences.map(|d| Integer::<SHORT>::difference(d, unit))).sign()
+    } else if bits <= 64 * MIDDLE {
+        P::evaluate(&differences.map(|d| Integer::<MIDDLE>::difference(d, unit))).sign()
     } else {
         P::evaluate(&differences.map(|d| Integer::<LONG>::difference(d, unit))).sign()
     }
@@ -171,13 +176,17 @@ impl<const N: usize> Integer<N> {
         product.negative = self.negative != other.negative;
         product.len = self.len + other.len;
         for (i, &a) in self.limbs[..self.len].iter().enumerate() {
-            let mut carry = 0;
-            for (j, &b) in other.limbs[..other.len].iter().enumerate() {
-                let wide = u128::from(a) * u128::from(b) + u128::from(product.limbs[i + j]) + carry;
-                product.limbs[i + j] = wide as u64;
-                carry = wide >> 64;
+            if a == 0 {
+                continue; // common: numbers of very different magnitude leave a gap
             }
-            product.limbs[i + other.len] = carry as u64;
+            let mut carry = 0;
+            let (row, rest) = product.limbs[i..].split_at_mut(other.len);
+            for (limb, &b) in row.iter_mut().zip(&other.limbs[..other.len]) {
+                let wide = u128::from(a) * u128::from(b) + u128::from(*limb) + u128::from(carry);
+                *limb = wide as u64;
+                carry = (wide >> 64) as u64;
+            }
+            rest[0] = carry;
         }
         product.trimmed()
     }

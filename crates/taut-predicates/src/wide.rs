@@ -1,4 +1,4 @@
-//! Stage 3: integers of fixed width, for differences that are 62-bit multiples of one power of two.
+//! Integers of fixed width, for differences that are 62-bit multiples of one power of two.
 //!
 //! *Idea.* The largest difference of the call is brought below 2⁶¹ by a power of two; if then all are whole numbers,
 //! the polynomial is evaluated in 128 bits and a few limbs, branch-free. So ties of data such as a grid with step 0.1,

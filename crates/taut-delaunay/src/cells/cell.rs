@@ -90,7 +90,8 @@ impl<const D: usize, const V: usize> Whole<'_, D, V> {
         let mut sites: Vec<u32> = Vec::with_capacity(own.len() + own.len() / 8);
         for (leaf, &word) in here.0.iter().enumerate() {
             let first = (leaf * LEAF) as u32;
-            sites.extend((0..LEAF as u32).filter(|bit| word >> bit & 1 == 1).map(|bit| first + bit));
+            sites
+                .extend((0..LEAF as u32).filter(|bit| word >> bit & 1 == 1).map(|bit| first + bit));
         }
         // The last leaf may be shorter than its word.
         sites.truncate(sites.partition_point(|&s| (s as usize) < self.sites.len()));
@@ -102,7 +103,15 @@ impl<const D: usize, const V: usize> Whole<'_, D, V> {
         mesh.start(start);
         insert_all(&mut mesh, &start, self.order, monitor)?;
         let clearance = self.clearances(&own, &here);
-        let mut cell = Certifying::<D, V, G> { whole: self, own: own.clone(), here, sites, clearance, mesh, open: vec![] };
+        let mut cell = Certifying::<D, V, G> {
+            whole: self,
+            own: own.clone(),
+            here,
+            sites,
+            clearance,
+            mesh,
+            open: vec![],
+        };
         cell.certify(&own_local, monitor)?;
         let (simplices, _, counters) = cell.mesh.finish();
         Ok(Cell { own, sites: cell.sites, own_local, simplices, counters })
@@ -141,7 +150,8 @@ impl<const D: usize, const V: usize> Whole<'_, D, V> {
 
     /// The leaves of a run of sites.
     fn leaves(own: &Range<u32>) -> impl Iterator<Item = Node> + use<D, V> {
-        (own.start as usize / LEAF..(own.end as usize).div_ceil(LEAF)).map(|place| Node { level: 0, place })
+        (own.start as usize / LEAF..(own.end as usize).div_ceil(LEAF))
+            .map(|place| Node { level: 0, place })
     }
 
     /// Whether a node has only sites of `own`.
@@ -158,8 +168,9 @@ impl<const D: usize, const V: usize> Whole<'_, D, V> {
             let per_axis = (self.index.run(leaf).len() as f64).powf(1.0 / D as f64);
             let width = halo_spacings(D) * bounds.extent() / per_axis;
             let width = width * width;
-            let near =
-                |index: &Index<D>, node| !self.is_own(own, node) && index.bounds(node).distance_squared(&bounds) <= width;
+            let near = |index: &Index<D>, node| {
+                !self.is_own(own, node) && index.bounds(node).distance_squared(&bounds) <= width
+            };
             self.index.visit(&mut open, near, |other| {
                 for site in here.missing(other, self.index.run(other)) {
                     if bounds.distance_squared_to(self.sites[site as usize]) <= width {
@@ -179,11 +190,16 @@ impl<const D: usize, const V: usize> Whole<'_, D, V> {
                 let bounds = self.index.bounds(leaf);
                 let nearest = std::cell::Cell::new(f64::INFINITY);
                 let keep = |index: &Index<D>, node| {
-                    !self.is_own(own, node) && index.bounds(node).distance_squared(bounds) < nearest.get()
+                    !self.is_own(own, node)
+                        && index.bounds(node).distance_squared(bounds) < nearest.get()
                 };
                 self.index.visit(&mut open, keep, |other| {
                     for site in here.missing(other, self.index.run(other)) {
-                        nearest.set(nearest.get().min(bounds.distance_squared_to(self.sites[site as usize])));
+                        nearest.set(
+                            nearest
+                                .get()
+                                .min(bounds.distance_squared_to(self.sites[site as usize])),
+                        );
                     }
                     false
                 });
@@ -218,7 +234,10 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
         let is_own = |v: &u32| own_local.contains(v);
         let mut doubtful: Vec<(u32, [u32; V])> = Vec::new();
         for (t, simplex) in self.mesh.simplices().iter().enumerate() {
-            if simplex.is_live() && simplex.vertices.iter().any(is_own) && !self.is_near(&simplex.vertices) {
+            if simplex.is_live()
+                && simplex.vertices.iter().any(is_own)
+                && !self.is_near(&simplex.vertices)
+            {
                 doubtful.push((t as u32, simplex.vertices));
             }
         }
@@ -285,7 +304,9 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
             for other in self.here.missing(leaf, index.run(leaf)) {
                 let q = self.whole.sites[other as usize];
                 let depth = reach.depth(q);
-                if found.is_none_or(|(deepest, _)| depth > deepest) && conflicts::<D, V, G>(simplices, t, site, q) {
+                if found.is_none_or(|(deepest, _)| depth > deepest)
+                    && conflicts::<D, V, G>(simplices, t, site, q)
+                {
                     found = Some((depth, other));
                 }
             }
@@ -297,7 +318,12 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
 }
 
 /// The simplices at vertex `v`, one of which is `t`.
-fn star_of<const V: usize>(simplices: &[Simplex<V>], t: u32, v: u32, star: &mut Vec<u32>) {
+pub(crate) fn star_of<const V: usize>(
+    simplices: &[Simplex<V>],
+    t: u32,
+    v: u32,
+    star: &mut Vec<u32>,
+) {
     star.clear();
     star.push(t);
     let mut seen = HashSet::from([t]);

@@ -54,7 +54,9 @@ impl<const V: usize> Cell<V> {
         // Sites are numbered alike here and in the whole, but for those that came later.
         let own = |v: &u32| self.own_local.contains(v);
         let before = |v: &u32| *v != GHOST && self.sites[*v as usize] < self.own.start;
-        simplex.is_live() && simplex.vertices.iter().any(own) && !simplex.vertices.iter().any(before)
+        simplex.is_live()
+            && simplex.vertices.iter().any(own)
+            && !simplex.vertices.iter().any(before)
     }
 
     /// A number for each slot that is handed over, and how many there are.
@@ -83,7 +85,10 @@ impl<const V: usize> Cell<V> {
         let mut border = Border { joints: Vec::new(), names: HashMap::new() };
         for (t, simplex) in self.simplices.iter().enumerate() {
             let number = numbers[t];
-            if number == NONE && !(simplex.is_live() && simplex.vertices.iter().any(|v| self.own_local.contains(v))) {
+            if number == NONE
+                && !(simplex.is_live()
+                    && simplex.vertices.iter().any(|v| self.own_local.contains(v)))
+            {
                 continue;
             }
             let vertices = self.global(simplex);
@@ -124,7 +129,8 @@ impl<const V: usize> Cell<V> {
 
 /// One mesh from all cells, in the order of the cells.
 pub(super) fn join<const V: usize>(cells: Vec<Cell<V>>) -> Result<Vec<Simplex<V>>, Error> {
-    let numbers: Vec<(Vec<u32>, u32)> = cells.par_iter().with_max_len(1).map(Cell::numbers).collect();
+    let numbers: Vec<(Vec<u32>, u32)> =
+        cells.par_iter().with_max_len(1).map(Cell::numbers).collect();
     let total: usize = numbers.iter().map(|(_, count)| *count as usize).sum();
     if total >= 1 << 30 {
         return Err(Error::TooManySimplices);
@@ -148,7 +154,9 @@ pub(super) fn join<const V: usize>(cells: Vec<Cell<V>>) -> Result<Vec<Simplex<V>
     drop(cells);
     let number = |side: &Side<V>| {
         *borders[owner(side.key[0])]
-            .names.get(&side.key).expect("the owner of the smallest site hands over the simplex")
+            .names
+            .get(&side.key)
+            .expect("the owner of the smallest site hands over the simplex")
     };
     let joints: Vec<[(u32, u32); 2]> = borders
         .par_iter()
@@ -158,7 +166,8 @@ pub(super) fn join<const V: usize>(cells: Vec<Cell<V>>) -> Result<Vec<Simplex<V>
     for [(a, opposite_a), (b, opposite_b)] in joints {
         let place = |t: u32, opposite: u32| {
             let vertices = mesh[t as usize].vertices;
-            vertices.iter().position(|&v| v == opposite).expect("the vertex opposite the facet") as u32
+            vertices.iter().position(|&v| v == opposite).expect("the vertex opposite the facet")
+                as u32
         };
         let (i, j) = (place(a, opposite_a), place(b, opposite_b));
         mesh[a as usize].neighbors[i as usize] = code(b, j);

@@ -91,7 +91,9 @@ pub(crate) fn conflicts<const D: usize, const V: usize, G: Geometry<D, V>>(
 ) -> bool {
     let simplex = simplices[t as usize];
     let with_q = corners(simplex.vertices, site, q);
-    let Some(apex) = simplex.vertices.iter().position(|&v| v == GHOST) else { return G::conflict(with_q, q) };
+    let Some(apex) = simplex.vertices.iter().position(|&v| v == GHOST) else {
+        return G::conflict(with_q, q);
+    };
     match G::orientation(with_q) {
         Sign::Positive => true,
         Sign::Negative => false,

@@ -37,7 +37,11 @@ impl<const D: usize> Bounds<D> {
 
     /// The squared distance of the two boxes; 0 if they meet.
     pub(crate) fn distance_squared(&self, other: &Self) -> f64 {
-        (0..D).map(|i| (self.low[i] - other.high[i]).max(other.low[i] - self.high[i]).max(0.0).powi(2)).sum()
+        (0..D)
+            .map(|i| {
+                (self.low[i] - other.high[i]).max(other.low[i] - self.high[i]).max(0.0).powi(2)
+            })
+            .sum()
     }
 
     /// The squared distance of a point; 0 inside.
@@ -67,8 +71,11 @@ pub(crate) struct Node {
 impl<const D: usize> Index<D> {
     /// The index over sites in Hilbert order.
     pub(crate) fn build(sites: &[[f64; D]]) -> Self {
-        let leaves: Vec<Bounds<D>> =
-            sites.par_chunks(LEAF).with_min_len(TASK).map(|run| Bounds::of(run.iter().copied())).collect();
+        let leaves: Vec<Bounds<D>> = sites
+            .par_chunks(LEAF)
+            .with_min_len(TASK)
+            .map(|run| Bounds::of(run.iter().copied()))
+            .collect();
         let mut levels = vec![leaves];
         while let Some(below) = levels.last().filter(|level| level.len() > 1) {
             let union = |run: &[Bounds<D>]| run.iter().fold(Bounds::EMPTY, |b, c| b.union(c));
@@ -104,7 +111,8 @@ impl<const D: usize> Index<D> {
 
     /// The level whose nodes are about `count`.
     pub(crate) fn level_of_about(&self, count: usize) -> impl Iterator<Item = Node> + use<D> {
-        let level = self.levels.iter().position(|l| l.len() <= count).unwrap_or(self.levels.len() - 1);
+        let level =
+            self.levels.iter().position(|l| l.len() <= count).unwrap_or(self.levels.len() - 1);
         (0..self.levels[level].len()).map(move |place| Node { level, place })
     }
 
@@ -128,6 +136,29 @@ impl<const D: usize> Index<D> {
             } else if leaf(node) {
                 return;
             }
+        }
+    }
+
+    /// Visits leaves from about the nearest to `q` to the farthest, as long as `open` does not rule them out.
+    pub(crate) fn visit_nearest(
+        &self,
+        q: [f64; D],
+        open: impl Fn(&Self, Node) -> bool,
+        mut leaf: impl FnMut(Node),
+    ) {
+        let mut stack = vec![self.root()];
+        while let Some(node) = stack.pop() {
+            if !open(self, node) {
+                continue;
+            }
+            if node.level == 0 {
+                leaf(node);
+                continue;
+            }
+            let first = stack.len();
+            stack.extend(self.children(node));
+            let distance = |node: &Node| self.bounds(*node).distance_squared_to(q);
+            stack[first..].sort_by(|a, b| distance(b).total_cmp(&distance(a)));
         }
     }
 }

@@ -80,7 +80,8 @@ impl<const D: usize> Reach<D> {
         let power = if D == 2 { self.size * self.size } else { self.size * self.size * self.size };
         // The diameter is |β|/|α|; a flat simplex, where both are rounding, is left to the exact test.
         -self.alpha > power * (1.0 / (1 << 20) as f64)
-            && square(self.beta) * (1.0 + 1.0 / (1 << 16) as f64) < clearance_squared * self.alpha * self.alpha
+            && square(self.beta) * (1.0 + 1.0 / (1 << 16) as f64)
+                < clearance_squared * self.alpha * self.alpha
     }
 
     /// An upper bound of the form over the box `low..=high`, rounding included.

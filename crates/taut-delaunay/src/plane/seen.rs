@@ -10,8 +10,8 @@
 //! underflow may add is far below `TINY` as long as coordinates do not exceed 2⁴⁰, which is what `filtered` promises.
 //! *Reference.* Shewchuk, Discrete & Computational Geometry 18, 1997.
 
-use taut_predicates::plane::{conflict_exact, orient_exact};
-use taut_predicates::{Exact, Sign};
+use taut_predicates::plane::{conflict_exact, in_circle_filter, orient_exact, orient_filter};
+use taut_predicates::{Exact, MulAdd, Separate, Sign};
 
 const EPSILON: f64 = f64::EPSILON / 2.0;
 /// Of the bound |a|² + |b|², which is twice the permanent.
@@ -19,6 +19,9 @@ const ORIENT: f64 = 1.75 * EPSILON;
 const IN_CIRCLE: f64 = 11.0 * EPSILON;
 /// 2⁻⁹⁰⁰. A product that underflows is off by less than 2⁻¹⁰⁷⁴ and is multiplied by at most a lift, below 2⁸⁴.
 const TINY: f64 = f64::from_bits((1023 - 900) << 52);
+
+/// What is seen of the ghost vertex: every comparison with it is false, so the common path need not ask for it.
+const NOWHERE: [f64; 2] = [f64::NAN; 2];
 
 /// p − q, and its square.
 #[derive(Clone, Copy)]
@@ -30,8 +33,8 @@ pub(super) struct Seen {
 
 /// [ab]
 #[inline(always)]
-pub(super) fn minor(a: Seen, b: Seen) -> f64 {
-    a.x * b.y - a.y * b.x
+pub(super) fn minor<M: MulAdd>(a: Seen, b: Seen) -> f64 {
+    M::mul_add(a.x, b.y, -(a.y * b.x))
 }
 
 /// The sites and the point they are seen from.
@@ -39,56 +42,78 @@ pub(super) fn minor(a: Seen, b: Seen) -> f64 {
 pub(super) struct View<'a> {
     sites: &'a [[f64; 2]],
     q: [f64; 2],
+    filtered: bool,
     orient: f64,
     in_circle: f64,
 }
 
 impl<'a> View<'a> {
-    /// `sites` ends with the place of the ghost vertex. Without filters every error bound is infinite or not a number.
+    /// Without filters every error bound is infinite or not a number.
     #[inline(always)]
     pub(super) fn new(sites: &'a [[f64; 2]], q: [f64; 2], filtered: bool) -> View<'a> {
         let (orient, in_circle) =
             if filtered { (ORIENT, IN_CIRCLE) } else { (f64::INFINITY, f64::INFINITY) };
-        View { sites, q, orient, in_circle }
+        View { sites, q, filtered, orient, in_circle }
     }
 
     /// A vertex as seen from q; not a number if it is the ghost vertex.
     #[inline(always)]
-    pub(super) fn see(&self, vertex: u32) -> Seen {
-        let p = self.sites[(vertex as usize).min(self.sites.len() - 1)];
+    pub(super) fn see<M: MulAdd>(&self, vertex: u32) -> Seen {
+        let p = self.sites.get(vertex as usize).unwrap_or(&NOWHERE);
         let (x, y) = (p[0] - self.q[0], p[1] - self.q[1]);
-        Seen { x, y, lift: x * x + y * y }
+        Seen { x, y, lift: M::mul_add(x, x, y * y) }
     }
 
     /// [ab] if its sign is beyond doubt, and zero if it is not.
     #[inline(always)]
-    pub(super) fn side(&self, a: Seen, b: Seen, minor: f64) -> f64 {
-        let error = self.orient * (a.lift + b.lift) + TINY;
+    pub(super) fn side<M: MulAdd>(&self, a: Seen, b: Seen, minor: f64) -> f64 {
+        let error = M::mul_add(self.orient, a.lift + b.lift, TINY);
         if minor.abs() > error { minor } else { 0.0 }
     }
 
-    /// The sign of [ab] for two sites.
+    /// The sign of [ab] for two sites, whatever it takes.
     pub(super) fn side_exact(&self, a: u32, b: u32, exact: &mut Exact) -> Sign {
-        let (p, r) = (self.see(a), self.see(b));
-        let side = self.side(p, r, minor(p, r));
-        if side == 0.0 {
-            orient_exact(self.sites[a as usize], self.sites[b as usize], self.q, exact)
-        } else {
-            Sign::from(side)
+        let [a, b] = [a, b].map(|v| self.sites[v as usize]);
+        let sign = |i: usize, p: [f64; 2]| Sign::from(p[i] - self.q[i]);
+        // A difference is zero only between equals. If both products are zero, or one of two signs, there is nothing
+        // to subtract: all there is to know of a hull whose edge is parallel to an axis.
+        let (left, right) = (sign(0, a) * sign(1, b), sign(1, a) * sign(0, b));
+        if left != right || left.is_zero() {
+            exact.stages.filter += 1;
+            return if left == right {
+                Sign::Zero
+            } else if left > right {
+                Sign::Positive
+            } else {
+                Sign::Negative
+            };
         }
+        let side = if self.filtered { orient_filter::<Separate>(a, b, self.q) } else { 0.0 };
+        if side == 0.0 {
+            return orient_exact(a, b, self.q, exact);
+        }
+        exact.stages.filter += 1;
+        Sign::from(side)
     }
 
     /// D for the triangle (d, b, a) if its sign is beyond doubt, and zero if it is not.
     #[inline(always)]
-    pub(super) fn in_circle(&self, [a, b, d]: [Seen; 3], [ab, ad, db]: [f64; 3]) -> f64 {
-        let determinant = a.lift * db + b.lift * ad - d.lift * ab;
-        let error = self.in_circle * (a.lift * b.lift + d.lift * (a.lift + b.lift)) + TINY;
+    pub(super) fn in_circle<M: MulAdd>(&self, [a, b, d]: [Seen; 3], [ab, ad, db]: [f64; 3]) -> f64 {
+        let determinant = M::mul_add(a.lift, db, M::mul_add(b.lift, ad, -(d.lift * ab)));
+        let permanent = M::mul_add(d.lift, a.lift + b.lift, a.lift * b.lift);
+        let error = M::mul_add(self.in_circle, permanent, TINY);
         if determinant.abs() > error { determinant } else { 0.0 }
     }
 
-    /// Whether the perturbed circumcircle of a counter-clockwise triangle holds q.
+    /// Whether the perturbed circumcircle of a counter-clockwise triangle holds q, whatever it takes.
     pub(super) fn conflict_exact(&self, triangle: [u32; 3], exact: &mut Exact) -> bool {
         let [a, b, c] = triangle.map(|v| self.sites[v as usize]);
-        conflict_exact(a, b, c, self.q, exact)
+        let determinant =
+            if self.filtered { in_circle_filter::<Separate>(a, b, c, self.q) } else { 0.0 };
+        if determinant == 0.0 {
+            return conflict_exact(a, b, c, self.q, exact);
+        }
+        exact.stages.filter += 1;
+        determinant > 0.0
     }
 }

@@ -6,7 +6,7 @@
 //! triangle that holds q, on its border perhaps, or in a ghost whose hull edge has q strictly outside. Either is in
 //! conflict with q.
 
-use taut_predicates::Exact;
+use taut_predicates::{Exact, MulAdd};
 
 use super::seen::{Seen, View, minor};
 use crate::kernel::Counters;
@@ -26,7 +26,7 @@ pub(super) struct Found {
 }
 
 #[inline(always)]
-pub(super) fn walk(
+pub(super) fn walk<M: MulAdd>(
     view: &View<'_>,
     triangles: &[Simplex<3>],
     from: u32,
@@ -41,9 +41,9 @@ pub(super) fn walk(
     let mut facet = 0;
     let [_, b, a] = triangles[triangle as usize].vertices;
     let (mut a_id, mut b_id) = (a, b);
-    let (mut a, mut b) = (view.see(a), view.see(b));
-    let mut ba = minor(b, a);
-    if strictly_right(view, (b_id, b), (a_id, a), ba, exact) {
+    let (mut a, mut b) = (view.see::<M>(a), view.see::<M>(b));
+    let mut ba = minor::<M>(b, a);
+    if strictly_right::<M>(view, (b_id, b), (a_id, a), ba, exact) {
         (triangle, facet) = decode(triangles[triangle as usize].neighbors[0]);
         (a, b) = (b, a);
         (a_id, b_id) = (b_id, a_id);
@@ -54,12 +54,12 @@ pub(super) fn walk(
         steps += 1;
         let t = &triangles[triangle as usize];
         let d_id = t.vertices[facet];
-        let d = view.see(d_id);
-        let (ad, db) = (minor(a, d), minor(d, b));
-        if strictly_right(view, (a_id, a), (d_id, d), ad, exact) {
+        let d = view.see::<M>(d_id);
+        let (ad, db) = (minor::<M>(a, d), minor::<M>(d, b));
+        if strictly_right::<M>(view, (a_id, a), (d_id, d), ad, exact) {
             (triangle, facet) = decode(t.neighbors[NEXT[facet]]);
             (b, b_id, ba) = (d, d_id, -ad);
-        } else if strictly_right(view, (d_id, d), (b_id, b), db, exact) {
+        } else if strictly_right::<M>(view, (d_id, d), (b_id, b), db, exact) {
             (triangle, facet) = decode(t.neighbors[LAST[facet]]);
             (a, a_id, ba) = (d, d_id, -db);
         } else {
@@ -77,14 +77,14 @@ pub(super) const LAST: [usize; 4] = [2, 0, 1, 0];
 
 /// Whether q lies strictly to the right of the directed edge from u to v. It does of no edge at the ghost vertex.
 #[inline(always)]
-fn strictly_right(
+fn strictly_right<M: MulAdd>(
     view: &View<'_>,
     u: (u32, Seen),
     v: (u32, Seen),
     uv: f64,
     exact: &mut Exact,
 ) -> bool {
-    let side = view.side(u.1, v.1, uv);
+    let side = view.side::<M>(u.1, v.1, uv);
     side < 0.0 || (side == 0.0 && strictly_right_exact(view, u.0, v.0, exact))
 }
 

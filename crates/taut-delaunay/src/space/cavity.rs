@@ -69,18 +69,20 @@ impl Cavity {
         start: u32,
     ) -> u64 {
         let marks = &mut marks[..simplices.len()];
-        self.inside.clear();
-        self.inside.push(start);
+        let (mut inside, mut listed, mut seen, mut tested) = (1, 0, 0, 0);
+        if self.inside.len() < 64 {
+            self.inside.resize(64, 0);
+        }
+        self.inside[0] = start;
         marks[start as usize] = INSIDE;
-        let (mut seen, mut level) = (0, 0);
-        while level < self.inside.len() {
-            let first = seen;
-            let room = seen + 4 * (self.inside.len() - level) + S::WIDTH;
+        loop {
+            let room = seen + 4 * (inside - listed) + S::WIDTH;
             if self.seen.len() < room {
                 self.seen.resize(2 * room, 0);
             }
-            let list = &mut self.seen[..room];
-            for &t in &self.inside[level..] {
+            let list = &mut self.seen[..];
+            for &t in &self.inside[listed..inside] {
+                marks[t as usize] = INSIDE;
                 for code in simplices[t as usize].neighbors {
                     let neighbor = code >> 2;
                     let mark = &mut marks[neighbor as usize];
@@ -89,28 +91,32 @@ impl Cavity {
                     *mark |= SEEN;
                 }
             }
-            level = self.inside.len();
+            listed = inside;
+            if tested == seen {
+                break;
+            }
             // The last group is filled up with what is surely there.
             list[seen..seen + S::WIDTH].fill(start);
-            for at in (first..seen).step_by(S::WIDTH) {
-                let group = &list[at..at + S::WIDTH];
-                let asked = u32::MAX >> (32 - (seen - at).min(S::WIDTH));
-                let (inside, open) = signs.conflicts(sites, simplices, group, q);
-                let (mut inside, mut open) = (inside & asked, open & asked);
-                while open != 0 {
-                    let lane = open.trailing_zeros();
-                    open &= open - 1;
-                    let t = group[lane as usize];
-                    inside |= u32::from(judge.conflict(signs, sites, simplices, t, q)) << lane;
-                }
-                while inside != 0 {
-                    let t = group[inside.trailing_zeros() as usize];
-                    inside &= inside - 1;
-                    marks[t as usize] = INSIDE;
-                    self.inside.push(t);
-                }
+            let group = &list[tested..tested + S::WIDTH];
+            let asked = u32::MAX >> (32 - (seen - tested).min(S::WIDTH));
+            tested = (tested + S::WIDTH).min(seen);
+            let (conflicts, open) = signs.conflicts(sites, simplices, group, q);
+            let (mut conflicts, open) = (conflicts & asked, open & asked);
+            if open != 0 {
+                conflicts |= judge.conflicts(signs, sites, simplices, group, open, q);
             }
+            if self.inside.len() < inside + S::WIDTH {
+                self.inside.resize(2 * inside + S::WIDTH, 0);
+            }
+            let next = &mut self.inside[inside..inside + S::WIDTH];
+            let mut more = 0;
+            for lane in 0..S::WIDTH {
+                next[more] = group[lane];
+                more += (conflicts >> lane & 1) as usize;
+            }
+            inside += more;
         }
+        self.inside.truncate(inside);
         self.bound(simplices, marks);
         for &t in &self.seen[..seen] {
             marks[t as usize] = 0;
@@ -132,7 +138,8 @@ impl Cavity {
             let Simplex { vertices, neighbors } = simplices[t as usize];
             for i in 0..4 {
                 let ([a, b, c], outside) = (FACETS[i], neighbors[i]);
-                list[boundary] = Facet { vertices: [vertices[a], vertices[b], vertices[c]], outside };
+                list[boundary] =
+                    Facet { vertices: [vertices[a], vertices[b], vertices[c]], outside };
                 boundary += usize::from(marks[(outside >> 2) as usize] == SEEN);
             }
         }

@@ -18,11 +18,13 @@
 
 mod cavity;
 mod lanes;
+mod pairs;
 mod signs;
 mod star;
 #[cfg(test)]
 mod tests;
 mod walk;
+mod whole;
 
 use crate::kernel::{Counters, Kernel, Settings, TooMany};
 use crate::simplex::{DEAD, GHOST, Simplex, code};
@@ -164,11 +166,6 @@ impl Kernel<3, 4> for Mesh {
     fn locate(&mut self, q: [f64; 3], hint: u32) -> u32 {
         lanes::find(self, &Site::new(q), hint);
         self.cavity.inside[0]
-    }
-
-    fn conflicts(&mut self, q: [f64; 3], hint: u32, out: &mut Vec<u32>) {
-        lanes::find(self, &Site::new(q), hint);
-        out.extend_from_slice(&self.cavity.inside);
     }
 
     fn finish(self) -> (Vec<Simplex<4>>, Vec<[f64; 3]>, Counters) {

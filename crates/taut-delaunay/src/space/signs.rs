@@ -20,14 +20,20 @@ const ORIENTATION_ERROR: f64 = 6.1 * space::ORIENT_ERROR;
 /// The error of [`in_sphere`] in units of its bound: 4 · 6 · 3 = 72 monomials, and a little more.
 const IN_SPHERE_ERROR: f64 = 73.0 * space::IN_SPHERE_ERROR;
 
-/// Numbers side by side.
-pub(super) trait Lane: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
-    /// The same number in each.
-    fn splat(value: f64) -> Self;
+/// What a determinant is made of.
+pub(super) trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+{
     /// a·b + c.
     fn mul_add(a: Self, b: Self, c: Self) -> Self;
     /// a·b − c.
     fn mul_sub(a: Self, b: Self, c: Self) -> Self;
+}
+
+/// Numbers side by side.
+pub(super) trait Lane: Number {
+    /// The same number in each.
+    fn splat(value: f64) -> Self;
     /// The larger; if one of the two is NaN, either.
     fn max(self, other: Self) -> Self;
     /// Without its sign.
@@ -45,14 +51,14 @@ fn largest<L: Lane>(a: L, b: L, c: L) -> L {
 
 /// The minor [uv] of the first two coordinates.
 #[inline(always)]
-fn minor<L: Lane>(u: [L; 3], v: [L; 3]) -> L {
-    L::mul_sub(u[0], v[1], u[1] * v[0])
+fn minor<N: Number>(u: [N; 3], v: [N; 3]) -> N {
+    N::mul_sub(u[0], v[1], u[1] * v[0])
 }
 
 /// |u|².
 #[inline(always)]
-fn lift<L: Lane>(u: [L; 3]) -> L {
-    L::mul_add(u[2], u[2], L::mul_add(u[1], u[1], u[0] * u[0]))
+pub(super) fn lift<N: Number>(u: [N; 3]) -> N {
+    N::mul_add(u[2], u[2], N::mul_add(u[1], u[1], u[0] * u[0]))
 }
 
 /// det[a; b; c] and the bound of its error: the orientation of the origin, a, b, c.
@@ -65,22 +71,58 @@ pub(super) fn orientation<L: Lane>([a, b, c]: [[L; 3]; 3]) -> (L, L) {
     (det, L::mul_add(L::splat(ORIENTATION_ERROR) * x, y * z, L::splat(space::TINY)))
 }
 
-/// The in-sphere determinant D = (|a|²bcd − |b|²cda) + (|c|²dab − |d|²abc) and the bound of its error: positive if the
-/// origin is inside the sphere through the positive simplex a, b, c, d.
+/// The cofactors bcd, −cda, dab, −abc of the lifts in the in-sphere determinant.
 #[inline(always)]
-pub(super) fn in_sphere<L: Lane>([a, b, c, d]: [[L; 3]; 4]) -> (L, L) {
+pub(super) fn cofactors<N: Number>([a, b, c, d]: [[N; 3]; 4]) -> [N; 4] {
     let (ab, bc, cd) = (minor(a, b), minor(b, c), minor(c, d));
-    let (da, ac, bd) = (minor(d, a), minor(a, c), minor(b, d));
-    let abc = L::mul_add(a[2], bc, L::mul_sub(c[2], ab, b[2] * ac));
-    let bcd = L::mul_add(b[2], cd, L::mul_sub(d[2], bc, c[2] * bd));
-    let cda = L::mul_add(c[2], da, L::mul_add(d[2], ac, a[2] * cd));
-    let dab = L::mul_add(d[2], ab, L::mul_add(a[2], bd, b[2] * da));
-    let det = L::mul_sub(lift(a), bcd, lift(b) * cda) + L::mul_sub(lift(c), dab, lift(d) * abc);
-    let x = largest(a[0], b[0], c[0]).max(d[0].abs());
-    let y = largest(a[1], b[1], c[1]).max(d[1].abs());
-    let z = largest(a[2], b[2], c[2]).max(d[2].abs());
+    let (ad, ac, bd) = (minor(a, d), minor(a, c), minor(b, d));
+    [
+        N::mul_add(b[2], cd, N::mul_sub(d[2], bc, c[2] * bd)),
+        N::mul_sub(c[2], ad, N::mul_add(d[2], ac, a[2] * cd)),
+        N::mul_add(d[2], ab, N::mul_sub(a[2], bd, b[2] * ad)),
+        N::mul_sub(b[2], ac, N::mul_add(c[2], ab, a[2] * bc)),
+    ]
+}
+
+/// The in-sphere determinant |a|²bcd − |b|²cda + |c|²dab − |d|²abc: positive if the origin is inside the sphere through
+/// the positive simplex a, b, c, d.
+#[inline(always)]
+pub(super) fn determinant<N: Number>(corners: [[N; 3]; 4]) -> N {
+    let [u, v, w, t] = cofactors(corners);
+    let [a, b, c, d] = corners;
+    N::mul_add(lift(a), u, lift(b) * v) + N::mul_add(lift(c), w, lift(d) * t)
+}
+
+/// The largest difference along each axis.
+#[inline(always)]
+fn extents<L: Lane>([a, b, c, d]: [[L; 3]; 4]) -> [L; 3] {
+    [
+        largest(a[0], b[0], c[0]).max(d[0].abs()),
+        largest(a[1], b[1], c[1]).max(d[1].abs()),
+        largest(a[2], b[2], c[2]).max(d[2].abs()),
+    ]
+}
+
+/// The largest difference.
+#[inline(always)]
+pub(super) fn reach<L: Lane>(corners: [[L; 3]; 4]) -> L {
+    let [x, y, z] = extents(corners);
+    x.max(y).max(z)
+}
+
+/// What the largest monomial of [`determinant`] cannot exceed.
+#[inline(always)]
+pub(super) fn product<L: Lane>(corners: [[L; 3]; 4]) -> L {
+    let [x, y, z] = extents(corners);
     let reach = x.max(y).max(z);
-    (det, L::mul_add(L::splat(IN_SPHERE_ERROR) * x * y, z * (reach * reach), L::splat(space::TINY)))
+    (x * y) * (z * (reach * reach))
+}
+
+/// The in-sphere determinant and the bound of its error.
+#[inline(always)]
+pub(super) fn in_sphere<L: Lane>(corners: [[L; 3]; 4]) -> (L, L) {
+    let bound = L::mul_add(L::splat(IN_SPHERE_ERROR), product(corners), L::splat(space::TINY));
+    (determinant(corners), bound)
 }
 
 /// How the signs are taken. Masks have a bit for each item; what is in neither mask is certainly negative.
@@ -89,7 +131,31 @@ pub(super) trait Signs: Copy {
     const WIDTH: usize;
 
     /// Which of `WIDTH` simplices are certainly in conflict with q, and which are open. Ghosts are open.
-    fn conflicts(self, sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32);
+    fn conflicts(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> (u32, u32);
+
+    /// The same with pairs of numbers, if this path has them.
+    fn conflicts_in_pairs(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> Option<(u32, u32)>;
+
+    /// The same for whole numbers, if this path has that, and which were ties.
+    fn conflicts_in_whole(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> Option<(u32, u32, u32)>;
 
     /// Beyond which facets of a positive simplex q certainly lies, and which are open.
     fn beyond(self, corners: [&Site; 4], q: &Site) -> (u32, u32);
@@ -137,11 +203,7 @@ impl<M> Mul for Real<M> {
     }
 }
 
-impl<M: MulAdd> Lane for Real<M> {
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        Self::new(value)
-    }
+impl<M: MulAdd> Number for Real<M> {
     #[inline(always)]
     fn mul_add(a: Self, b: Self, c: Self) -> Self {
         Self::new(M::mul_add(a.0, b.0, c.0))
@@ -149,6 +211,13 @@ impl<M: MulAdd> Lane for Real<M> {
     #[inline(always)]
     fn mul_sub(a: Self, b: Self, c: Self) -> Self {
         Self::new(M::mul_add(a.0, b.0, -c.0))
+    }
+}
+
+impl<M: MulAdd> Lane for Real<M> {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self::new(value)
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
@@ -178,11 +247,38 @@ impl<M: MulAdd> Signs for Scalar<M> {
     const WIDTH: usize = 1;
 
     #[inline(always)]
-    fn conflicts(self, sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+    fn conflicts(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> (u32, u32) {
         let [a, b, c, d] = rows(sites, &simplices[group[0] as usize]);
-        let (Real(det, _), Real(bound, _)) = in_sphere([less::<M>(a, q), less(b, q), less(c, q), less(d, q)]);
+        let (Real(det, _), Real(bound, _)) =
+            in_sphere([less::<M>(a, q), less(b, q), less(c, q), less(d, q)]);
         let inside = det > bound;
         (u32::from(inside), u32::from(!(inside || det < -bound)))
+    }
+
+    fn conflicts_in_pairs(
+        self,
+        _: &[Site],
+        _: &[Simplex<4>],
+        _: &[u32],
+        _: &Site,
+    ) -> Option<(u32, u32)> {
+        None
+    }
+
+    fn conflicts_in_whole(
+        self,
+        _: &[Site],
+        _: &[Simplex<4>],
+        _: &[u32],
+        _: &Site,
+    ) -> Option<(u32, u32, u32)> {
+        None
     }
 
     #[inline(always)]
@@ -217,6 +313,26 @@ impl Signs for Unfiltered {
         (0, 1)
     }
 
+    fn conflicts_in_pairs(
+        self,
+        _: &[Site],
+        _: &[Simplex<4>],
+        _: &[u32],
+        _: &Site,
+    ) -> Option<(u32, u32)> {
+        None
+    }
+
+    fn conflicts_in_whole(
+        self,
+        _: &[Site],
+        _: &[Simplex<4>],
+        _: &[u32],
+        _: &Site,
+    ) -> Option<(u32, u32, u32)> {
+        None
+    }
+
     fn beyond(self, _: [&Site; 4], _: &Site) -> (u32, u32) {
         (0, 0b1111)
     }
@@ -245,12 +361,50 @@ impl Judge {
 
     /// The orientation of a, b, c, d.
     pub(super) fn orient(&mut self, corners: [&Site; 4]) -> Sign {
-        let [a, b, c, d] = corners.map(Site::point);
-        space::orient_exact(a, b, c, d, &mut self.exact)
+        let [a, b, c, d] = corners;
+        space::orient_exact(a.point(), b.point(), c.point(), d.point(), &mut self.exact)
+    }
+
+    /// Which of the open simplices of a group are in conflict with q.
+    #[inline(never)]
+    pub(super) fn conflicts<S: Signs>(
+        &mut self,
+        signs: S,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        mut open: u32,
+        q: &Site,
+    ) -> u32 {
+        let mut inside = 0;
+        let stages = &mut self.exact.stages;
+        if self.exact.integral && open.count_ones() > 1 {
+            let answer = signs.conflicts_in_whole(sites, simplices, group, q);
+            if let Some((certain, unsure, ties)) = answer {
+                inside |= certain & open;
+                stages.integer += u64::from((open & !unsure).count_ones());
+                stages.ties += u64::from((open & !unsure & ties).count_ones());
+                open &= unsure;
+            }
+        }
+        if open.count_ones() > 1 {
+            let answer = signs.conflicts_in_pairs(sites, simplices, group, q);
+            if let Some((certain, unsure)) = answer {
+                inside |= certain & open;
+                stages.double_double += u64::from((open & !unsure).count_ones());
+                open &= unsure;
+            }
+        }
+        while open != 0 {
+            let lane = open.trailing_zeros();
+            open &= open - 1;
+            let t = group[lane as usize];
+            inside |= u32::from(self.conflict(signs, sites, simplices, t, q)) << lane;
+        }
+        inside
     }
 
     /// Whether q is in conflict with simplex t, which the filter left open.
-    #[inline(never)]
     pub(super) fn conflict<S: Signs>(
         &mut self,
         signs: S,
@@ -261,7 +415,9 @@ impl Judge {
     ) -> bool {
         let mut simplex = &simplices[t as usize];
         if let Some(infinity) = ghost_place(simplex) {
-            let [a, b, c] = FACETS[infinity].map(|i| &sites[row(simplex.vertices[i])]);
+            let [a, b, c] = FACETS[infinity];
+            let corners = rows(sites, simplex);
+            let (a, b, c) = (corners[a], corners[b], corners[c]);
             match signs.orient([a, b, c], q).unwrap_or_else(|| self.orient([q, a, b, c])) {
                 Sign::Positive => return true,
                 Sign::Negative => return false,
@@ -269,7 +425,14 @@ impl Judge {
             }
             self.behind += 1;
         }
-        let [a, b, c, d] = simplex.vertices.map(|v| sites[row(v)].point());
-        space::conflict_exact(a, b, c, d, q.point(), &mut self.exact)
+        let [a, b, c, d] = rows(sites, simplex);
+        space::conflict_exact(
+            a.point(),
+            b.point(),
+            c.point(),
+            d.point(),
+            q.point(),
+            &mut self.exact,
+        )
     }
 }

@@ -1,32 +1,31 @@
 //! The star of a new site: one simplex for each facet of the boundary of its cavity, and who is beside whom.
 //!
 //! *Problem.* Two new simplices share a facet where their facets of the boundary share an edge. Pair 3F/2 edges.
-//! *Idea.* The boundary is a sphere, so each of its edges is run once in either direction. Vertices get numbers of their
-//! own, 0 to R − 1, and a table of R × R codes is written at the directed edges and read at the reversed ones. Every
-//! entry that is read was written in this insertion, so nothing is cleared and nothing is searched.
-//! *Guarantee.* Linear time in the boundary. The table is used up to R = 512 (1 MB); beyond, a hash table of edges.
-//! *Trap.* Local numbers are kept in 16 bits per site and are never cleared: a number counts only if the vertex with
-//! that number names the site back. A version without that branch was slower: its stores feed the next loads.
+//! *Idea.* The boundary is a sphere, so each of its edges is run once in either direction. Vertices get local numbers,
+//! and a square table of codes is written at the directed edges and read at the reversed ones. Every entry that is read
+//! was written in this insertion, so nothing is cleared and nothing is searched. A local number is the place of the last
+//! corner at which the vertex is seen, among the 3F corners: one pass of stores, one of loads.
+//! *Guarantee.* Linear time in the boundary. The table is used up to F = 256 (2.3 MB); beyond, a hash table of edges.
+//! *Trap.* Numbers without gaps, 0 to R − 1 with R = F/2 + 2, make the table 36 times smaller, but they cost a branch that
+//! nobody can foresee for each corner, or a chain of stores that feed the next loads: 4 to 15 % of everything on uniform
+//! points, and no gain on a torus either.
 
 use crate::simplex::{Simplex, code, decode};
 
 use super::cavity::Facet;
 use super::row;
 
-/// Largest number of vertices on a boundary for which the table of edges is used.
-const TABLE_MAX: usize = 512;
+/// Largest number of facets for which the table of edges is used.
+const TABLE_MAX: usize = 256;
 
 /// No edge: an empty slot of the hash table.
 const EMPTY: u32 = u32::MAX;
 
 /// What it takes to number and to pair, kept between insertions.
-#[derive(Default)]
 pub(super) struct Star {
-    /// For each site, after the vertex at infinity: its local number in the last boundary it was on.
+    /// For each site, after the vertex at infinity: its number in the last boundary it was on.
     local: Vec<u16>,
-    /// The vertices of this boundary by local number.
-    ring: Vec<u32>,
-    /// Local numbers of the vertices of each facet.
+    /// Numbers of the corners of each facet.
     corners: Vec<[u16; 3]>,
     /// Codes of the facets of new simplices, at row · stride + column of the directed edge.
     table: Vec<u32>,
@@ -37,7 +36,12 @@ pub(super) struct Star {
 impl Star {
     /// For so many sites.
     pub(super) fn new(sites: usize) -> Self {
-        Self { local: vec![0; sites + 1], ..Self::default() }
+        Star {
+            local: vec![0; sites + 1],
+            corners: vec![[0; 3]; TABLE_MAX],
+            table: Vec::new(),
+            edges: Vec::new(),
+        }
     }
 
     /// Room for one site more.
@@ -45,13 +49,18 @@ impl Star {
         self.local.push(0);
     }
 
-    /// Writes one simplex (q, a, b, c) for each facet into the slot of the same place, with all neighbours on both sides.
+    /// Writes one simplex (q, a, b, c) for each facet into the slot of the same place, with all neighbours on both
+    /// sides.
     #[inline(always)]
-    pub(super) fn fill(&mut self, simplices: &mut [Simplex<4>], facets: &[Facet], slots: &[u32], q: u32) {
-        // Euler: F = 2R − 4 on a sphere of triangles.
-        let vertices = facets.len() / 2 + 2;
-        if vertices <= TABLE_MAX {
-            self.fill_by_table(simplices, facets, slots, q, vertices);
+    pub(super) fn fill(
+        &mut self,
+        simplices: &mut [Simplex<4>],
+        facets: &[Facet],
+        slots: &[u32],
+        q: u32,
+    ) {
+        if facets.len() <= TABLE_MAX {
+            self.fill_by_table(simplices, facets, slots, q);
         } else {
             self.fill_by_hash(simplices, facets, slots, q);
         }
@@ -64,38 +73,50 @@ impl Star {
         facets: &[Facet],
         slots: &[u32],
         q: u32,
-        vertices: usize,
     ) {
-        let shift = vertices.next_power_of_two().max(64).trailing_zeros();
-        let size = 1 << (2 * shift);
-        if self.table.len() < size {
-            self.table.resize(size, 0);
+        let stride = 3 * facets.len();
+        if self.table.len() < stride * stride {
+            self.table.resize(stride * stride, 0);
         }
-        let table = &mut self.table[..size];
-        let at = |from: u16, to: u16| (usize::from(from) << shift) + usize::from(to);
-        self.ring.clear();
-        self.corners.clear();
-        for (facet, &slot) in facets.iter().zip(slots) {
+        let local = &mut self.local[..];
+        let corners = &mut self.corners[..facets.len()];
+        let table = &mut self.table[..stride * stride];
+        let slots = &slots[..facets.len()];
+        let at = |from: u16, to: u16| usize::from(from) * stride + usize::from(to);
+        let mut number = 0;
+        for facet in facets {
+            for vertex in facet.vertices {
+                local[row(vertex)] = number;
+                number += 1;
+            }
+        }
+        for ((facet, &slot), corners) in facets.iter().zip(slots).zip(&mut *corners) {
             let [a, b, c] = facet.vertices;
-            let a = number(&mut self.local, &mut self.ring, a);
-            let b = number(&mut self.local, &mut self.ring, b);
-            let c = number(&mut self.local, &mut self.ring, c);
+            let (a, b, c) = (local[row(a)], local[row(b)], local[row(c)]);
             table[at(a, b)] = code(slot, 3);
             table[at(b, c)] = code(slot, 1);
             table[at(c, a)] = code(slot, 2);
-            self.corners.push([a, b, c]);
+            *corners = [a, b, c];
         }
-        debug_assert_eq!(self.ring.len(), vertices, "the boundary of a cavity is a sphere");
-        for ((facet, &slot), &[a, b, c]) in facets.iter().zip(slots).zip(&self.corners) {
+        for ((facet, &slot), &[a, b, c]) in facets.iter().zip(slots).zip(&*corners) {
             let neighbors = [facet.outside, table[at(c, b)], table[at(a, c)], table[at(b, a)]];
             place(simplices, facet, slot, q, neighbors);
         }
     }
 
-    /// Pairs the edges in an open hash table of at least twice their number. A boundary gets here where a site has
+    /// Pairs the edges in an open hash table of twice their number at least. A boundary gets here where a site has
     /// hundreds of neighbours: an apex over a plane full of sites, the centre of a sphere.
     #[cold]
-    fn fill_by_hash(&mut self, simplices: &mut [Simplex<4>], facets: &[Facet], slots: &[u32], q: u32) {
+    #[inline(never)]
+    fn fill_by_hash(
+        &mut self,
+        simplices: &mut [Simplex<4>],
+        facets: &[Facet],
+        slots: &[u32],
+        q: u32,
+    ) {
+        /// Multiplicative hashing with the golden ratio of 2⁶⁴; the high bits are the mixed ones.
+        const MIX: u64 = 0x9e37_79b9_7f4a_7c15;
         let edge = |name: u32| {
             let (facet, i) = (&facets[name as usize / 3], name as usize % 3);
             (facet.vertices[(i + 1) % 3], facet.vertices[(i + 2) % 3])
@@ -109,8 +130,7 @@ impl Star {
         for name in 0..3 * facets.len() as u32 {
             let (from, to) = edge(name);
             let key = u64::from(from.min(to)) << 32 | u64::from(from.max(to));
-            // Multiplicative hashing with the golden ratio of 2⁶⁴; the high bits are the mixed ones.
-            let mut at = (key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - size.trailing_zeros())) as usize;
+            let mut at = (key.wrapping_mul(MIX) >> (64 - size.trailing_zeros())) as usize;
             loop {
                 let other = self.edges[at];
                 if other == EMPTY {
@@ -118,27 +138,17 @@ impl Star {
                     break;
                 }
                 if edge(other) == (to, from) {
-                    // Edge i lies in the facet opposite corner i, which is vertex i + 1 of the simplex.
+                    // Edge i lies opposite corner i, which is vertex i + 1 of the simplex.
                     let (mine, its) = (slots[name as usize / 3], slots[other as usize / 3]);
-                    simplices[mine as usize].neighbors[name as usize % 3 + 1] = code(its, other % 3 + 1);
-                    simplices[its as usize].neighbors[other as usize % 3 + 1] = code(mine, name % 3 + 1);
+                    let (i, j) = (name % 3 + 1, other % 3 + 1);
+                    simplices[mine as usize].neighbors[i as usize] = code(its, j);
+                    simplices[its as usize].neighbors[j as usize] = code(mine, i);
                     break;
                 }
                 at = (at + 1) & (size - 1);
             }
         }
     }
-}
-
-/// The local number of a vertex, a new one if need be.
-#[inline(always)]
-fn number(local: &mut [u16], ring: &mut Vec<u32>, vertex: u32) -> u16 {
-    let known = &mut local[row(vertex)];
-    if ring.get(usize::from(*known)) != Some(&vertex) {
-        *known = ring.len() as u16;
-        ring.push(vertex);
-    }
-    *known
 }
 
 /// Writes a simplex and tells the one outside.

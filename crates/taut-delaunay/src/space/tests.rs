@@ -5,8 +5,8 @@ mod inputs;
 mod lanes;
 mod speed;
 
-use taut_predicates::space::{self, conflict_exact};
 use taut_predicates::Sign;
+use taut_predicates::space::{self, conflict_exact};
 
 use super::lanes::Level;
 use super::signs::Unfiltered;
@@ -57,7 +57,7 @@ fn grid(k: u32) -> Vec<[f64; 3]> {
 
 /// The mesh after inserting the sites in this order, all but the first four that span space.
 fn built(points: &[[f64; 3]], settings: Settings, level: Option<Level>, order: &[u32]) -> Mesh {
-    let mut mesh = Mesh::new(points, settings);
+    let mut mesh = Mesh::new(points.to_vec(), settings);
     mesh.level = level.unwrap_or(mesh.level);
     let first = independent(points, order).expect("the points span space");
     mesh.start(first);
@@ -89,7 +89,8 @@ fn finite(mesh: &Mesh) -> usize {
 fn check(mesh: &mut Mesh) {
     let Mesh { sites, simplices, marks, judge, .. } = mesh;
     assert!(marks.iter().all(|&mark| mark == 0), "marks are clear");
-    let (mut vertices, mut edges, mut count) = (std::collections::HashSet::new(), std::collections::HashSet::new(), 0);
+    let (mut vertices, mut edges, mut count) =
+        (std::collections::HashSet::new(), std::collections::HashSet::new(), 0);
     for (t, simplex) in simplices.iter().enumerate().filter(|(_, s)| s.is_live()) {
         count += 1;
         if !simplex.is_ghost() {
@@ -108,10 +109,14 @@ fn check(mesh: &mut Mesh) {
             assert_eq!(neighbor.neighbors[side], code(t as u32, i as u32), "{t} and {other} agree");
             let [a, b, c] = FACETS[i].map(|k| simplex.vertices[k]);
             let [d, e, f] = FACETS[side].map(|k| neighbor.vertices[k]);
-            assert!([[a, c, b], [c, b, a], [b, a, c]].contains(&[d, e, f]), "one facet from two sides");
+            assert!(
+                [[a, c, b], [c, b, a], [b, a, c]].contains(&[d, e, f]),
+                "one facet from two sides"
+            );
             let apex = neighbor.vertices[side];
             if apex != GHOST {
-                let conflict = judge.conflict(Unfiltered, sites, simplices, t as u32, &sites[row(apex)]);
+                let conflict =
+                    judge.conflict(Unfiltered, sites, simplices, t as u32, &sites[row(apex)]);
                 assert!(!conflict, "{t} is in conflict with vertex {apex}");
             }
         }
@@ -154,7 +159,8 @@ fn hilbert(points: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
     let extent = [0, 1, 2].map(|i| max[i] - min[i]).into_iter().fold(f64::MIN_POSITIVE, f64::max);
     const BITS: u32 = 20;
     let key = |p: &[f64; 3]| {
-        let mut x = [0, 1, 2].map(|i| ((p[i] - min[i]) / extent * f64::from((1 << BITS) - 1)) as u32);
+        let mut x =
+            [0, 1, 2].map(|i| ((p[i] - min[i]) / extent * f64::from((1 << BITS) - 1)) as u32);
         let mut q = 1 << (BITS - 1);
         while q > 1 {
             let low = q - 1;
@@ -180,9 +186,9 @@ fn hilbert(points: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
             q >>= 1;
         }
         x = x.map(|x| x ^ t);
-        (0..BITS).rev().fold(0u64, |key, bit| {
-            x.iter().fold(key, |key, x| key << 1 | u64::from(x >> bit & 1))
-        })
+        (0..BITS)
+            .rev()
+            .fold(0u64, |key, bit| x.iter().fold(key, |key, x| key << 1 | u64::from(x >> bit & 1)))
     };
     let mut keyed: Vec<(u64, [f64; 3])> = points.iter().map(|p| (key(p), *p)).collect();
     keyed.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.partial_cmp(&b.1).unwrap()));
@@ -210,7 +216,8 @@ fn independent(points: &[[f64; 3]], order: &[u32]) -> Option<[u32; 4]> {
         (0..3).any(|i| !taut_predicates::plane::orient(o[i], p[i], q[i]).is_zero())
     };
     let c = *order[2..].iter().find(|&&c| bent(c))?;
-    let spans = |d: u32| !space::orient_exact(point(a), point(b), point(c), point(d), exact).is_zero();
+    let spans =
+        |d: u32| !space::orient_exact(point(a), point(b), point(c), point(d), exact).is_zero();
     let mut spans = spans;
     let d = *order[2..].iter().find(|&&d| spans(d))?;
     Some([a, b, c, d])

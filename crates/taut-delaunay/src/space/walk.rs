@@ -9,8 +9,8 @@
 use crate::kernel::Counters;
 use crate::simplex::{Simplex, decode};
 
-use super::cavity::{FACETS, ghost_place};
 use super::Site;
+use super::cavity::{FACETS, ghost_place};
 use super::signs::{Judge, Signs, rows};
 
 /// A simplex in conflict with q, reached from any live one.

@@ -2,7 +2,7 @@
 
 use crate::cascade;
 use crate::number::{Number, Polynomial};
-use crate::plane::polynomials::{circumcenter, dot, lift};
+use crate::plane::polynomials::{dot, lift, minor, numerator};
 use crate::plane::{Point, orient};
 use crate::sign::Sign;
 
@@ -29,8 +29,9 @@ impl<const AXIS: usize> Polynomial<5> for Side<AXIS> {
 
     #[inline(always)]
     fn evaluate<N: Number>(d: &[N; 5]) -> N {
-        let (numerator, half) = circumcenter(&[d[0], d[1]], &[d[2], d[3]]);
-        numerator[AXIS] + (half + half) * d[4]
+        let (u, v) = ([d[0], d[1]], [d[2], d[3]]);
+        let half = minor(&u, &v);
+        numerator(&u, &v, AXIS) + (half + half) * d[4]
     }
 }
 
@@ -43,9 +44,9 @@ impl Polynomial<8> for Nearer {
 
     #[inline(always)]
     fn evaluate<N: Number>(d: &[N; 8]) -> N {
-        let (numerator, half) = circumcenter(&[d[0], d[1]], &[d[2], d[3]]);
-        let (r, s) = ([d[4], d[5]], [d[6], d[7]]);
-        (lift(&s) - lift(&r)) * half - dot(&numerator, &[s[0] - r[0], s[1] - r[1]])
+        let (u, v, r, s) = ([d[0], d[1]], [d[2], d[3]], [d[4], d[5]], [d[6], d[7]]);
+        let center = [0, 1].map(|axis| numerator(&u, &v, axis));
+        (lift(&s) - lift(&r)) * minor(&u, &v) - dot(&center, &[s[0] - r[0], s[1] - r[1]])
     }
 }
 

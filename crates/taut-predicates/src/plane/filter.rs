@@ -1,18 +1,18 @@
-//! Stage 0: `f64` with a bound on its own error, for the inner loop of a kernel.
+//! The filter: `f64` with a bound on its own error, for the inner loop of a kernel.
 //!
 //! *Idea.* Evaluate the determinant, and beside it the *permanent*: the same polynomial of absolute values. The
 //! determinant is off by at most a known multiple of the permanent; beyond that its sign is certain.
-//! *Guarantee.* For coordinates up to 2⁴⁰. Let u = 2⁻⁵³. Each monomial of the exact determinant passes through k
-//! roundings (a difference of coordinates counts once for each factor), the last of which is relative to the result
-//! itself. Hence |computed − exact| ≤ ((k−1)u + O(k²u²))·permanent + (1 + u)-fold slack on |computed|. The constants
-//! below are k·u: the u to spare exceeds all terms of second order, including those of the computed permanent,
-//! which is low by a factor (1 − u)ᵏ at worst, as k < 2⁵ and k² u² < 2⁻⁹⁰. A fused operation only leaves a rounding
-//! out.
+//! *Guarantee.* For coordinates up to 2⁴⁰. Let u = 2⁻⁵³, D the exact determinant, det the computed one, P and perm their
+//! permanents. A monomial of D passes through k roundings at most (each factor that is a difference brings its own), and
+//! the last of them is at most u·|det|; so |det − D| ≤ u·|det| + ((k − 1)u + k²u²)·P, and P ≤ perm·(1 + 2ku). With
+//! |det| > k·u·perm the sign of det is that of D, as k(1 − u) > (k − 1 + k²u)(1 + 2ku) for k < 2⁶: the one u to spare
+//! pays for everything of higher order. A fused operation only leaves a rounding out.
 //! - `orient`: 2 differences, a product, the final sum: k = 4.
 //! - `in_circle`: 4 differences, minor 2, lift 2, their product, two sums: k = 11.
 //!
 //! *Underflow.* A product below 2⁻¹⁰²² is off by 2⁻¹⁰⁷⁵ at most, which the later factors, differences up to 2⁴¹ and
-//! sums of a few of them, make at most 2⁻¹⁰⁷⁵·2⁶·(2⁴¹)³ < 2⁻⁹⁴⁰; fewer than 2⁶ such errors stay below [`TINY`].
+//! sums of a few of them, make at most 2⁻¹⁰⁷⁵·2⁶·(2⁴¹)³ < 2⁻⁹⁴⁰; fewer than 2⁶ such errors, and those of the permanent,
+//! stay below [`TINY`].
 //! *Ghosts.* A coordinate that is NaN, or an overflow, makes the comparison false: uncertain.
 //! *Reference.* Shewchuk, Adaptive precision floating-point arithmetic and fast robust geometric predicates,
 //! Discrete & Computational Geometry 18, 1997, stage A; Brönnimann, Burnikel & Pion, Interval arithmetic yields

@@ -32,9 +32,11 @@ pub(crate) fn in_circle<N: Number>(p: &[[N; 2]; 3], cofactors: &[N; 3]) -> N {
     lift(&p[0]) * cofactors[0] + lift(&p[1]) * cofactors[1] + lift(&p[2]) * cofactors[2]
 }
 
-/// Numerator U and half the denominator of the circumcentre U/2[uv] of the triangle 0uv.
+/// One coordinate of the numerator U of the circumcentre U/2[uv] of the triangle 0uv.
 #[inline(always)]
-pub(crate) fn circumcenter<N: Number>(u: &[N; 2], v: &[N; 2]) -> ([N; 2], N) {
-    let (u2, v2) = (lift(u), lift(v));
-    ([v[1] * u2 - u[1] * v2, u[0] * v2 - v[0] * u2], minor(u, v))
+pub(crate) fn numerator<N: Number>(u: &[N; 2], v: &[N; 2], axis: usize) -> N {
+    match axis {
+        0 => v[1] * lift(u) - u[1] * lift(v),
+        _ => u[0] * lift(v) - v[0] * lift(u),
+    }
 }

@@ -88,7 +88,7 @@ pub fn in_equatorial_sphere(a: Point, b: Point, c: Point, q: Point) -> Sign {
 }
 
 /// Whether d lies inside (positive), on (zero) or outside the smallest sphere through a, b and c, shrunk about its
-/// centre by the factor 1 − ε, ε in [0, 1]. Zero for three points of a line.
+/// centre by the factor 1 − ε, ε in [0, 1]. Never positive for three points of a line, which have no such sphere.
 #[must_use]
 pub fn shrunk_sphere(a: Point, b: Point, c: Point, d: Point, epsilon: f64) -> Sign {
     let points = [b, c, d];

@@ -3,7 +3,7 @@
 use crate::cascade;
 use crate::number::{Number, Polynomial};
 use crate::sign::Sign;
-use crate::space::polynomials::{circumcenter, dot, lift};
+use crate::space::polynomials::{determinant, dot, lift, numerator};
 use crate::space::{Point, orient};
 
 /// U + 2·det(u, v, w)·(a − t) along one axis.
@@ -16,8 +16,8 @@ impl<const AXIS: usize> Polynomial<10> for Side<AXIS> {
     #[inline(always)]
     fn evaluate<N: Number>(d: &[N; 10]) -> N {
         let [u, v, w] = [[d[0], d[1], d[2]], [d[3], d[4], d[5]], [d[6], d[7], d[8]]];
-        let (numerator, half) = circumcenter(&u, &v, &w);
-        numerator[AXIS] + (half + half) * d[9]
+        let half = determinant(&u, &v, &w);
+        numerator(&u, &v, &w, AXIS) + (half + half) * d[9]
     }
 }
 
@@ -32,9 +32,9 @@ impl Polynomial<15> for Nearer {
     fn evaluate<N: Number>(d: &[N; 15]) -> N {
         let [u, v, w] = [[d[0], d[1], d[2]], [d[3], d[4], d[5]], [d[6], d[7], d[8]]];
         let (r, s) = ([d[9], d[10], d[11]], [d[12], d[13], d[14]]);
-        let (numerator, half) = circumcenter(&u, &v, &w);
+        let center = [0, 1, 2].map(|axis| numerator(&u, &v, &w, axis));
         let way = [s[0] - r[0], s[1] - r[1], s[2] - r[2]];
-        (lift(&s) - lift(&r)) * half - dot(&numerator, &way)
+        (lift(&s) - lift(&r)) * determinant(&u, &v, &w) - dot(&center, &way)
     }
 }
 

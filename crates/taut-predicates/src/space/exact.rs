@@ -5,7 +5,7 @@ use crate::perturbation::tie;
 use crate::sign::Sign;
 use crate::space::Point;
 use crate::space::polynomials::{cofactors, determinant, in_sphere, lift, minor};
-use crate::stages::Exact;
+use crate::stages::{Exact, Stages};
 use crate::wide::Wide;
 use crate::{double_double, unbounded, wide};
 
@@ -69,15 +69,15 @@ pub fn orient_exact(a: Point, b: Point, c: Point, d: Point, exact: &mut Exact) -
             return Sign::from(Orient::evaluate(&d));
         }
     }
-    if let Some(sign) = double_double::sign::<Orient, 9>(&differences) {
-        exact.stages.double_double += 1;
-        return sign;
-    }
     if let Some(d) = wide::integers(&differences) {
         exact.stages.wide += 1;
         let [u, v, w] = [[d[0], d[1], d[2]], [d[3], d[4], d[5]], [d[6], d[7], d[8]]];
         let [vw, wu, uv] = [(&v, &w), (&w, &u), (&u, &v)].map(|(u, v)| wide_minor(u, v));
         return expanded([(u[2], vw), (v[2], wu), (w[2], uv)]).sign();
+    }
+    if let Some(sign) = double_double::sign::<Orient, 9>(&differences) {
+        exact.stages.double_double += 1;
+        return sign;
     }
     exact.stages.unbounded += 1;
     unbounded::sign::<Orient, 9>(&differences)
@@ -118,46 +118,81 @@ fn stages<const PERTURBED: bool>(
     q: Point,
     exact: &mut Exact,
 ) -> Sign {
-    let differences: [Difference; 12] = relative([a, b, c, d], q);
-    if exact.integral {
-        let d = differences.map(|[from, less]| from - less);
-        if within(&d, IN_SPHERE_WHOLE) {
-            exact.stages.integer += 1;
-            let p = rows(&d);
-            let cofactors = cofactors(&p);
-            let det = in_sphere(&p, &cofactors);
-            if !PERTURBED || det != 0.0 {
-                return Sign::from(det);
-            }
-            exact.stages.ties += 1;
-            return tie_of_whole_numbers(&p, &cofactors);
-        }
-    }
-    if let Some(sign) = double_double::sign::<InSphere, 12>(&differences) {
-        exact.stages.double_double += 1;
+    let (points, stages) = ([a, b, c, d], &mut exact.stages);
+    if exact.integral
+        && let Some(sign) = whole::<PERTURBED>(points, q, &mut stages.ties)
+    {
+        stages.integer += 1;
         return sign;
     }
-    let vertices = [a, b, c, d];
-    if let Some(d) = wide::integers(&differences) {
-        exact.stages.wide += 1;
-        let p = rows(&d);
-        let cofactors = wide_cofactors(&p);
-        let [a, b, c, d]: [Wide<5>; 4] =
-            std::array::from_fn(|i| cofactors[i].times(Wide::from(lift(&p[i].map(i128::from)))));
-        let sign = a.plus(b).plus(c.plus(d)).sign();
-        if !PERTURBED || !sign.is_zero() {
-            return sign;
-        }
-        exact.stages.ties += 1;
-        return tie(&vertices, &q, |vertex| cofactors[vertex].sign());
+    if let Some(sign) = fixed::<PERTURBED>(points, q, &mut stages.ties) {
+        stages.wide += 1;
+        return sign;
     }
-    exact.stages.unbounded += 1;
-    let sign = unbounded::sign::<InSphere, 12>(&differences);
+    beyond_fixed::<PERTURBED>(points, q, stages)
+}
+
+/// The last stages, out of the way of those that do the work.
+#[cold]
+#[inline(never)]
+fn beyond_fixed<const PERTURBED: bool>(points: [Point; 4], q: Point, stages: &mut Stages) -> Sign {
+    if let Some(sign) = double_double::sign::<InSphere, 12>(&relative(points, q)) {
+        stages.double_double += 1;
+        return sign;
+    }
+    stages.unbounded += 1;
+    any_length::<PERTURBED>(points, q, &mut stages.ties)
+}
+
+#[inline(always)]
+pub(crate) fn whole<const PERTURBED: bool>(
+    points: [Point; 4],
+    q: Point,
+    ties: &mut u64,
+) -> Option<Sign> {
+    let p = points.map(|p| [p[0] - q[0], p[1] - q[1], p[2] - q[2]]);
+    if !within(p.as_flattened(), IN_SPHERE_WHOLE) {
+        return None;
+    }
+    let cofactors = cofactors(&p);
+    let det = in_sphere(&p, &cofactors);
+    if !PERTURBED || det != 0.0 {
+        return Some(Sign::from(det));
+    }
+    *ties += 1;
+    Some(tie_of_whole_numbers(&p, &cofactors))
+}
+
+#[inline(always)]
+pub(crate) fn fixed<const PERTURBED: bool>(
+    points: [Point; 4],
+    q: Point,
+    ties: &mut u64,
+) -> Option<Sign> {
+    let p = rows(&wide::integers::<12>(&relative(points, q))?);
+    let cofactors = wide_cofactors(&p);
+    let sign = (term(&p[0], cofactors[0]).plus(term(&p[1], cofactors[1])))
+        .plus(term(&p[2], cofactors[2]).plus(term(&p[3], cofactors[3])))
+        .sign();
+    if !PERTURBED || !sign.is_zero() {
+        return Some(sign);
+    }
+    *ties += 1;
+    Some(tie(&points, &q, |vertex| cofactors[vertex].sign()))
+}
+
+pub(crate) fn any_length<const PERTURBED: bool>(
+    points: [Point; 4],
+    q: Point,
+    ties: &mut u64,
+) -> Sign {
+    let sign = unbounded::sign::<InSphere, 12>(&relative(points, q));
     if !PERTURBED || !sign.is_zero() {
         return sign;
     }
-    exact.stages.ties += 1;
-    tie(&vertices, &q, |vertex| {
+    *ties += 1;
+    let [a, b, c, d] = points;
+    tie(&points, &q, |vertex| {
         // bcd, −cda, dab, −abc, the negative ones with two points exchanged.
         let facet = [[b, c, d], [d, c, a], [d, a, b], [b, a, c]][vertex];
         unbounded::sign::<Orient, 9>(&relative(facet, q))
@@ -166,7 +201,7 @@ fn stages<const PERTURBED: bool>(
 
 /// Whether all are at most so large; not if one is NaN.
 #[inline(always)]
-fn within<const K: usize>(differences: &[f64; K], max: f64) -> bool {
+fn within(differences: &[f64], max: f64) -> bool {
     differences.iter().fold(true, |within, d| within & (d.abs() <= max))
 }
 
@@ -187,6 +222,12 @@ fn tie_of_whole_numbers(p: &[[f64; 3]; 4], cofactors: &[f64; 4]) -> Sign {
 #[inline(always)]
 fn wide_minor(u: &[i64; 3], v: &[i64; 3]) -> i128 {
     minor(&u.map(i128::from), &v.map(i128::from))
+}
+
+/// |p|² by its cofactor.
+#[inline(always)]
+fn term(p: &[i64; 3], cofactor: Wide<3>) -> Wide<5> {
+    cofactor.times(Wide::from(lift(&p.map(i128::from))))
 }
 
 /// Σ z·m, the expansion of a determinant along its third column.

@@ -1,11 +1,10 @@
-//! Stage 0 in space; idea, proof and references are those of the plane's filter.
+//! The filter of space; idea, proof and references are those of the plane's filter.
 //!
 //! - `orient`: 3 differences, minor 2, a product, two sums: k = 8.
 //! - `in_sphere`: 5 differences, minor 2, determinant 3, lift 3, their product, two sums: k = 16.
 //!
-//! *Underflow.* An error of 2⁻¹⁰⁷⁵ is made at most 2⁻¹⁰⁷⁵·2⁶·(2⁴¹)⁴ < 2⁻⁹⁰⁰⁻⁵ by the later factors, and in truth
-//! an error met so early that four factors are still to come belongs to a product of two differences: three remain.
-//! Fewer than 2⁷ errors of 2⁻¹⁰⁷⁵·2⁶·(2⁴¹)³ < 2⁻⁹⁴⁰ stay below [`TINY`].
+//! *Underflow.* What is off by 2⁻¹⁰⁷⁵ is a product of two differences or more. The later factors make it at most
+//! 2⁻¹⁰⁷⁵·2⁶·(2⁴¹)³ < 2⁻⁹⁴⁰, and fewer than 2⁷ such errors, and those of the permanent, stay below [`TINY`].
 
 use crate::mul_add::MulAdd;
 use crate::space::Point;

@@ -53,11 +53,12 @@ pub(crate) fn in_sphere<N: Number>(p: &[[N; 3]; 4], cofactors: &[N; 4]) -> N {
         + (lift(&p[2]) * cofactors[2] + lift(&p[3]) * cofactors[3])
 }
 
-/// Numerator U and half the denominator of the circumcentre U/2·det(u, v, w) of the tetrahedron 0uvw.
+/// One coordinate of the numerator U of the circumcentre U/2·det(u, v, w) of the tetrahedron 0uvw.
 #[inline(always)]
-pub(crate) fn circumcenter<N: Number>(u: &[N; 3], v: &[N; 3], w: &[N; 3]) -> ([N; 3], N) {
-    let (u2, v2, w2) = (lift(u), lift(v), lift(w));
-    let (vw, wu, uv) = (cross(v, w), cross(w, u), cross(u, v));
-    let numerator = [0, 1, 2].map(|i| u2 * vw[i] + v2 * wu[i] + w2 * uv[i]);
-    (numerator, dot(u, &vw))
+pub(crate) fn numerator<N: Number>(u: &[N; 3], v: &[N; 3], w: &[N; 3], axis: usize) -> N {
+    let cross = |u: &[N; 3], v: &[N; 3]| {
+        let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+        u[i] * v[j] - u[j] * v[i]
+    };
+    lift(u) * cross(v, w) + lift(v) * cross(w, u) + lift(w) * cross(u, v)
 }

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::super::{MeshViolation, NO_NEIGHBOR};
+use super::super::{Fingerprint, MeshViolation, NO_NEIGHBOR};
 use super::geometry::{Geometry, Lifted};
 use super::signs::{Signs, UNDERFLOW};
 use super::sites::Sites;
@@ -22,8 +22,9 @@ pub(super) trait Facets<const F: usize> {
 impl Facets<2> for [u32; 3] {
     #[inline(always)]
     fn facet(&self, i: usize) -> [u32; 2] {
-        let [a, b, c] = *self;
-        [[b, c], [c, a], [a, b]][i]
+        const PLACES: [[usize; 2]; 3] = [[1, 2], [2, 0], [0, 1]];
+        let [a, b] = PLACES[i];
+        [self[a], self[b]]
     }
 
     #[inline(always)]
@@ -35,13 +36,16 @@ impl Facets<2> for [u32; 3] {
 impl Facets<3> for [u32; 4] {
     #[inline(always)]
     fn facet(&self, i: usize) -> [u32; 3] {
-        let [a, b, c, d] = *self;
-        [[b, c, d], [a, d, c], [a, b, d], [a, c, b]][i]
+        const PLACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
+        let [a, b, c] = PLACES[i];
+        [self[a], self[b], self[c]]
     }
 
     #[inline(always)]
     fn are_opposite(&[a, b, c]: &[u32; 3], g: &[u32; 3]) -> bool {
-        *g == [a, c, b] || *g == [c, b, a] || *g == [b, a, c]
+        // Without a branch, as any of the three is as likely.
+        let is = |x, y, z| (g[0] == x) & (g[1] == y) & (g[2] == z);
+        is(a, c, b) | is(c, b, a) | is(b, a, c)
     }
 }
 
@@ -50,6 +54,7 @@ impl Facets<3> for [u32; 4] {
 pub(super) struct Paired {
     /// (simplex, facet) of the facets without a neighbour.
     pub(super) open: Vec<(u32, u8)>,
+    pub(super) fingerprint: Fingerprint,
     pub(super) ties: u64,
     pub(super) refined: u64,
     /// Facets that name a neighbour after, and before, their own simplex.
@@ -82,6 +87,7 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
         for block in blocks {
             let block = block?;
             all.open.extend(block.open);
+            all.fingerprint.merge(block.fingerprint);
             all.ties += block.ties;
             all.refined += block.refined;
             all.ahead += block.ahead;
@@ -107,6 +113,9 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
     {
         let mut block = Paired::default();
         for (number, simplex) in (first..).zip(simplices) {
+            block
+                .fingerprint
+                .add(std::array::from_fn::<_, V, _>(|i| self.sites.hashes[simplex[i] as usize]));
             let points = self.sites.gather(simplex);
             let prepared = Prepared::<D>::of::<G, V>(&points);
             if !(self.signs.is_filtered && prepared.is_positive::<G, V>()) {
@@ -115,14 +124,18 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
                     return Err(MeshViolation::Orientation { simplex: number });
                 }
             }
+            // Which facets name a later simplex nobody can foretell, so no branch depends on it.
+            let neighbors = &self.neighbors[number];
+            let (mut later, mut count) = ([0; V], 0);
             for facet in 0..V {
-                let neighbor = self.neighbors[number][facet];
+                later[count] = facet;
+                count += usize::from(neighbors[facet] as usize >= number);
+            }
+            block.behind += (V - count) as u64;
+            for &facet in &later[..count] {
+                let neighbor = neighbors[facet];
                 if neighbor == NO_NEIGHBOR {
                     block.open.push((number as u32, facet as u8));
-                    continue;
-                }
-                if (neighbor as usize) < number {
-                    block.behind += 1;
                     continue;
                 }
                 block.ahead += 1;
@@ -164,12 +177,17 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
             Some(other) => {
                 let back = &self.neighbors[neighbor as usize];
                 let face = self.simplices[number].facet(facet);
+                let mut places = 0u32;
                 for place in 0..V {
-                    if back[place] == number as u32
-                        && <[u32; V]>::are_opposite(&face, &other.facet(place))
-                    {
+                    places |= u32::from(back[place] == number as u32) << place;
+                }
+                // One place, unless the lists are wrong.
+                while places != 0 {
+                    let place = places.trailing_zeros() as usize;
+                    if <[u32; V]>::are_opposite(&face, &other.facet(place)) {
                         return Ok(other[place]);
                     }
+                    places &= places - 1;
                 }
                 "that does not name it back across the same facet"
             }

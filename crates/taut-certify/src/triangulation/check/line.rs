@@ -1,13 +1,12 @@
 //! Points on a line, one point, and none: the chain of the points in lexicographic order.
 
 use super::super::{Fingerprint, MeshViolation, NO_NEIGHBOR, TriangulationVerdict};
-use super::prove::{Claim, counted, fingerprint};
+use super::prove::{Claim, counted};
 use super::signs::lexicographic;
-use super::sites::{Input, Sites};
+use super::sites::Sites;
 
 /// Checks the simplices of points whose hull has dimension 1 at most, which is known already.
 pub(super) fn check<const D: usize>(
-    input: &Input<D>,
     sites: &Sites<D>,
     simplices: &[u32],
     claim: &Claim<'_>,
@@ -15,14 +14,14 @@ pub(super) fn check<const D: usize>(
     let (fingerprint, hull) = match claim.hull_dimension {
         Some(1) => {
             let edges = simplices.as_chunks().0;
-            (fingerprint::<D, 2>(input, sites, edges), chain(sites, edges)?)
+            (fingerprint(sites, edges), chain(sites, edges)?)
         }
         Some(_) => {
             // Further simplices would be copies of the first.
             if simplices.len() > 1 {
                 return Err(MeshViolation::Chain { position: 1 });
             }
-            (fingerprint::<D, 1>(input, sites, simplices.as_chunks().0), vec![])
+            (fingerprint::<D, 1>(sites, simplices.as_chunks().0), vec![])
         }
         None => (Fingerprint::default(), vec![]),
     };
@@ -37,6 +36,17 @@ pub(super) fn check<const D: usize>(
     }
     let counts = counted(sites, simplices.len() / width, hull.len());
     Ok(TriangulationVerdict { counts, fingerprint, ties: 0, refined: 0 })
+}
+
+fn fingerprint<const D: usize, const V: usize>(
+    sites: &Sites<D>,
+    simplices: &[[u32; V]],
+) -> Fingerprint {
+    let mut sum = Fingerprint::default();
+    for simplex in simplices {
+        sum.add(simplex.map(|site| sites.hashes[site as usize]));
+    }
+    sum
 }
 
 /// The two ends of the chain, by rows.

@@ -72,8 +72,12 @@ where
         }
     }
     if steps != open.len() {
-        let elsewhere = open.iter().map(|&(t, e)| triangles[t as usize].facet(usize::from(e))[0]);
-        return Err(broken(elsewhere.last().unwrap_or(start)));
+        for _ in 0..steps {
+            a = std::mem::replace(&mut next[a as usize], NO_SITE);
+        }
+        let mut starts = open.iter().map(|&(t, e)| triangles[t as usize].facet(usize::from(e))[0]);
+        let elsewhere = starts.find(|&site| next[site as usize] != NO_SITE);
+        return Err(broken(elsewhere.unwrap_or(start)));
     }
     match minima {
         1 => Ok(()),
@@ -105,4 +109,33 @@ fn is_listed<const D: usize>(
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use taut_points::{Monitor, Points};
+
+    use super::super::sites::Input;
+    use super::*;
+
+    fn around_a_centre(edges: &[[u32; 2]]) -> Result<(), MeshViolation> {
+        let values = [0., 0., 9., 0., 3., 8., -7., 5., -7., -5., 3., -8.];
+        let points = Points::new(&values, 2).unwrap();
+        let input = Input::<2>::read(&points, &Monitor::silent()).unwrap();
+        let simplices: Vec<u32> = edges.iter().flat_map(|&[a, b]| [0, a, b]).collect();
+        let (sites, simplices) = Sites::of(&input, &simplices, 3).unwrap();
+        let open: Vec<(u32, u8)> = (0..edges.len() as u32).map(|triangle| (triangle, 0)).collect();
+        check(&sites, &input.signs(), simplices.as_chunks().0, &open, None)
+    }
+
+    #[test]
+    fn a_pentagon_is_convex_and_a_pentagram_winds_twice() {
+        assert_eq!(around_a_centre(&[[1, 2], [2, 3], [3, 4], [4, 5], [5, 1]]), Ok(()));
+        let star = around_a_centre(&[[1, 3], [3, 5], [5, 2], [2, 4], [4, 1]]);
+        assert!(matches!(star, Err(MeshViolation::HullWinding { .. })), "{star:?}");
+        let dent = around_a_centre(&[[1, 2], [2, 0], [0, 4], [4, 5], [5, 1]]);
+        assert!(matches!(dent, Err(MeshViolation::HullDent { .. })), "{dent:?}");
+        let open = around_a_centre(&[[1, 2], [2, 3], [3, 4], [4, 5]]);
+        assert!(matches!(open, Err(MeshViolation::HullOpen { .. })), "{open:?}");
+    }
 }

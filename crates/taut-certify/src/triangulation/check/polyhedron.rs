@@ -239,3 +239,76 @@ impl Surface<'_> {
         Err(MeshViolation::HullWinding { row: self.row(v) })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use taut_points::{Monitor, Points};
+
+    use super::super::sites::Input;
+    use super::*;
+
+    /// Tetrahedra over the axis from (0, 0, −9) to (0, 0, 9), one for each of these edges around it.
+    fn around_an_axis(ring: &[[f64; 2]], edges: &[[u32; 2]]) -> Result<(), MeshViolation> {
+        let mut values = vec![0.0, 0.0, -9.0, 0.0, 0.0, 9.0];
+        values.extend(ring.iter().flat_map(|&[x, y]| [x, y, 0.0]));
+        let points = Points::new(&values, 3).unwrap();
+        let input = Input::<3>::read(&points, &Monitor::silent()).unwrap();
+        let simplices: Vec<u32> = edges.iter().flat_map(|&[a, b]| [a + 2, b + 2, 0, 1]).collect();
+        let (sites, simplices) = Sites::of(&input, &simplices, 4).unwrap();
+        let tetrahedra: &[[u32; 4]] = simplices.as_chunks().0;
+        for tetrahedron in tetrahedra {
+            let points = sites.gather(tetrahedron);
+            assert!(input.signs().orientation::<Tetrahedra, 3, 4>(&points).is_gt());
+        }
+        let neighbors = pairing::pair(tetrahedra, sites.points.len()).unwrap();
+        let open: Vec<(u32, u8)> = (0..tetrahedra.len() as u32)
+            .flat_map(|t| (0..4u8).map(move |i| (t, i)))
+            .filter(|&(t, i)| neighbors[t as usize][usize::from(i)] == NO_NEIGHBOR)
+            .collect();
+        assert_eq!(open.len(), 2 * edges.len());
+        check(&sites, &input.signs(), tetrahedra, &open, None)
+    }
+
+    const PENTAGON: [[f64; 2]; 5] = [[9., 0.], [3., 8.], [-7., 5.], [-7., -5.], [3., -8.]];
+
+    #[test]
+    fn a_bipyramid_is_convex() {
+        let edges = [[0, 1], [1, 2], [2, 3], [3, 4], [4, 0]];
+        assert_eq!(around_an_axis(&PENTAGON, &edges), Ok(()));
+    }
+
+    /// All is as it should be around each facet and each edge, V − E + F = 2, and yet space is covered twice.
+    #[test]
+    fn a_surface_that_winds_twice_is_seen() {
+        let star = [[0, 2], [2, 4], [4, 1], [1, 3], [3, 0]];
+        let found = around_an_axis(&PENTAGON, &star);
+        assert!(matches!(found, Err(MeshViolation::HullWinding { .. })), "{found:?}");
+    }
+
+    /// From a smallest site that is a tip of the surface, the cycle around it is seen to wind twice.
+    #[test]
+    fn the_cycle_around_the_smallest_site_is_counted() {
+        let star = [[0, 2], [2, 4], [4, 1], [1, 3], [3, 0]];
+        // The axis leans, so that its lower end has the smallest x.
+        let leaning: Vec<[f64; 3]> = [[0.0, 0.0, -90.0], [0.0, 0.0, 90.0]]
+            .into_iter()
+            .chain(PENTAGON.map(|[x, y]| [x, y, 0.0]))
+            .map(|[x, y, z]| [x + z, y, z])
+            .collect();
+        let values = leaning.as_flattened();
+        let points = Points::new(values, 3).unwrap();
+        let input = Input::<3>::read(&points, &Monitor::silent()).unwrap();
+        let simplices: Vec<u32> = star.iter().flat_map(|&[a, b]| [a + 2, b + 2, 0, 1]).collect();
+        let (sites, simplices) = Sites::of(&input, &simplices, 4).unwrap();
+        let tetrahedra: &[[u32; 4]] = simplices.as_chunks().0;
+        let triangles: Vec<[u32; 3]> =
+            tetrahedra.iter().flat_map(|t| [t.facet(2), t.facet(3)]).collect();
+        let neighbors = pairing::pair(&triangles, sites.points.len()).unwrap();
+        let surface = Surface { sites: &sites, signs: &input.signs(), triangles, neighbors };
+        assert_eq!(surface.is_closed(), Ok(()));
+        assert_eq!(surface.is_connected(), Ok(()));
+        assert_eq!(surface.has_no_dent(), Ok(()));
+        assert_eq!(sites.rows[sites.smallest() as usize], 0);
+        assert!(surface.winds_once(sites.smallest()).is_err());
+    }
+}

@@ -4,10 +4,8 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 
-use super::super::{
-    Fingerprint, MeshViolation, SiteHash, TriangulationCounts, TriangulationVerdict,
-};
-use super::facets::{Complex, Facets};
+use super::super::{MeshViolation, TriangulationCounts, TriangulationVerdict};
+use super::facets::{Complex, Facets, Paired};
 use super::geometry::{Geometry, Tetrahedra, Triangles};
 use super::signs::Signs;
 use super::sites::{Input, Sites};
@@ -64,8 +62,8 @@ pub(super) fn plane(
 ) -> Result<TriangulationVerdict, MeshViolation> {
     let (sites, simplices) = claim.begin(input)?;
     match claim.hull_dimension {
-        Some(2) => triangles(input, &sites, simplices, claim),
-        _ => line::check(input, &sites, &simplices, claim),
+        Some(2) => triangles(input.signs(), &sites, simplices, claim),
+        _ => line::check(&sites, &simplices, claim),
     }
 }
 
@@ -76,7 +74,7 @@ pub(super) fn space(
 ) -> Result<TriangulationVerdict, MeshViolation> {
     let (mut sites, simplices) = claim.begin(input)?;
     match claim.hull_dimension {
-        Some(3) => tetrahedra(input, &sites, simplices, claim),
+        Some(3) => tetrahedra(input.signs(), &sites, simplices, claim),
         Some(2) => {
             let [a, b, c] = match simplices.first_chunk() {
                 Some(first) => sites.gather(first),
@@ -89,19 +87,18 @@ pub(super) fn space(
             for point in &mut sites.points {
                 *point = [point[i], point[j], point[3 - i - j]];
             }
-            triangles(input, &sites, simplices, claim)
+            triangles(input.signs(), &sites, simplices, claim)
         }
-        _ => line::check(input, &sites, &simplices, claim),
+        _ => line::check(&sites, &simplices, claim),
     }
 }
 
 fn triangles<const D: usize>(
-    input: &Input<D>,
+    signs: Signs,
     sites: &Sites<D>,
     simplices: Vec<u32>,
     claim: &Claim<'_>,
 ) -> Result<TriangulationVerdict, MeshViolation> {
-    let signs = input.signs();
     let simplices = rows::<3>(&simplices);
     let simplices = facing::<Triangles, D, 3>(sites, &signs, simplices, claim);
     let neighbors = neighbors::<3, 2>(sites.points.len(), &simplices, claim)?;
@@ -110,17 +107,16 @@ fn triangles<const D: usize>(
     polygon::check(sites, &signs, &simplices, &paired.open, claim.hull())?;
     let counts = counted(sites, simplices.len(), paired.open.len());
     debug_assert_eq!(counts.simplices + 2 + counts.hull, 2 * counts.sites);
-    let fingerprint = fingerprint(input, sites, &simplices);
-    Ok(TriangulationVerdict { counts, fingerprint, ties: paired.ties, refined: paired.refined })
+    let Paired { fingerprint, ties, refined, .. } = paired;
+    Ok(TriangulationVerdict { counts, fingerprint, ties, refined })
 }
 
 fn tetrahedra(
-    input: &Input<3>,
+    signs: Signs,
     sites: &Sites<3>,
     simplices: Vec<u32>,
     claim: &Claim<'_>,
 ) -> Result<TriangulationVerdict, MeshViolation> {
-    let signs = input.signs();
     let simplices = rows::<4>(&simplices);
     let simplices = facing::<Tetrahedra, 3, 4>(sites, &signs, simplices, claim);
     let neighbors = neighbors::<4, 3>(sites.points.len(), &simplices, claim)?;
@@ -128,8 +124,8 @@ fn tetrahedra(
     let paired = complex.check::<Tetrahedra, 3>()?;
     polyhedron::check(sites, &signs, &simplices, &paired.open, claim.hull())?;
     let counts = counted(sites, simplices.len(), paired.open.len());
-    let fingerprint = fingerprint(input, sites, &simplices);
-    Ok(TriangulationVerdict { counts, fingerprint, ties: paired.ties, refined: paired.refined })
+    let Paired { fingerprint, ties, refined, .. } = paired;
+    Ok(TriangulationVerdict { counts, fingerprint, ties, refined })
 }
 
 fn rows<const V: usize>(values: &[u32]) -> &[[u32; V]] {
@@ -180,26 +176,4 @@ pub(super) fn counted<const D: usize>(
         simplices: simplices as u64,
         hull: hull as u64,
     }
-}
-
-/// The fingerprint of simplices by sites.
-pub(super) fn fingerprint<const D: usize, const V: usize>(
-    input: &Input<D>,
-    sites: &Sites<D>,
-    simplices: &[[u32; V]],
-) -> Fingerprint {
-    let hash = |&row: &u32| SiteHash::of(&input.rows[row as usize]);
-    let hashes: Vec<SiteHash> = sites.rows.par_iter().map(hash).collect();
-    let of_block = |block: &[[u32; V]]| {
-        let mut sum = Fingerprint::default();
-        for simplex in block {
-            sum.add(simplex.map(|site| hashes[site as usize]));
-        }
-        sum
-    };
-    // Addition modulo 2¹²⁸ knows no order.
-    simplices.par_chunks(1 << 13).map(of_block).reduce(Fingerprint::default, |mut a, b| {
-        a.merge(b);
-        a
-    })
 }

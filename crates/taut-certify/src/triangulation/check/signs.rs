@@ -201,3 +201,83 @@ fn sign_of(value: f64) -> Ordering {
 pub(super) fn lexicographic<const D: usize>(a: &[f64; D], b: &[f64; D]) -> Ordering {
     a.partial_cmp(b).unwrap_or(Ordering::Equal)
 }
+
+#[cfg(test)]
+mod tests {
+    use num_rational::BigRational;
+    use num_traits::Zero;
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+
+    use super::super::geometry::{Lifted, Tetrahedra, Triangles};
+    use super::*;
+
+    impl Ring for BigRational {
+        fn plus(&self, other: &Self) -> Self {
+            self + other
+        }
+
+        fn minus(&self, other: &Self) -> Self {
+            self - other
+        }
+
+        fn times(&self, other: &Self) -> Self {
+            self * other
+        }
+    }
+
+    fn agrees<G: Geometry<D, V>, const D: usize, const V: usize>(
+        signs: &[Signs],
+        points: &[[f64; D]],
+    ) -> Result<(), TestCaseError> {
+        let simplex: [[f64; D]; V] = std::array::from_fn(|i| points[i]);
+        let exact = |p: &[f64; D]| p.map(|x| BigRational::from_float(x).expect("finite"));
+        let base = exact(&points[0]);
+        let differences: Vec<[BigRational; D]> = points[1..=V]
+            .iter()
+            .map(|p| {
+                let p = exact(p);
+                std::array::from_fn(|k| &p[k] - &base[k])
+            })
+            .collect();
+        let (edges, r) = differences.split_at(V - 1);
+        let Lifted { orientation, .. } = G::lifted(edges);
+        let inside = G::in_sphere(&G::lifted(edges), &r[0]);
+        for signs in signs {
+            let found = signs.orientation::<G, D, V>(&simplex);
+            prop_assert_eq!(found, orientation.cmp(&BigRational::zero()));
+            let found = signs.in_sphere::<G, D, V>(&simplex, &points[V]);
+            prop_assert_eq!(found, inside.cmp(&BigRational::zero()));
+        }
+        Ok(())
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, cases: 2000, ..ProptestConfig::default() })]
+
+        /// Points on a grid of 2^−k, moved by a few ulps or not: ties, near-ties, and all stages on the way to them.
+        #[test]
+        fn every_stage_agrees_with_fractions(
+            cells in vec((-4i32..5, -1i64..2), 15),
+            spread in prop_oneof![Just(1), Just(1 << 9), Just(1 << 20)],
+            ulps in any::<bool>(),
+        ) {
+            let quantum = 2f64.powi(-24);
+            let coordinate = |&(cell, ulp): &(i32, i64)| {
+                let x = f64::from(cell * spread) * quantum + 0.5;
+                if ulps { f64::from_bits((x.to_bits() as i64 + ulp) as u64) } else { x }
+            };
+            let values: Vec<f64> = cells.iter().map(coordinate).collect();
+            let mut signs = vec![
+                Signs { is_filtered: true, quantum: 0.0 },
+                Signs { is_filtered: false, quantum: 0.0 },
+            ];
+            signs.push(Signs { is_filtered: true, quantum: if ulps { 2f64.powi(-54) } else { quantum } });
+            let flat: Vec<[f64; 2]> = values[..8].as_chunks().0.to_vec();
+            agrees::<Triangles, 2, 3>(&signs, &flat)?;
+            let solid: Vec<[f64; 3]> = values.as_chunks().0.to_vec();
+            agrees::<Tetrahedra, 3, 4>(&signs, &solid)?;
+            agrees::<Triangles, 3, 3>(&signs, &solid[..4])?;
+        }
+    }
+}

@@ -5,9 +5,13 @@
 
 use std::collections::HashSet;
 
-use taut_points::{BlockHash, Monitor, PointSource, PointsHash, Rows, hash_block, map_blocks};
+use rayon::prelude::*;
+use taut_points::{
+    BlockHash, Blocks, Monitor, PointSource, Points, PointsHash, ReadError, Rows, Scalar, Scratch,
+    hash_block,
+};
 
-use super::super::MeshViolation;
+use super::super::{MeshViolation, SiteHash};
 use super::signs::{Signs, lexicographic};
 use crate::arithmetic::parts;
 use crate::{CheckError, Violation};
@@ -25,49 +29,57 @@ pub(super) struct Input<const D: usize> {
 }
 
 /// What one block of rows has to say.
-struct Block<const D: usize> {
+struct Block {
     hash: BlockHash,
-    rows: Vec<[f64; D]>,
     /// No bit of a coordinate lies below 2^least, none above 2^most.
     least: i32,
     most: i32,
 }
 
-impl<const D: usize> Block<D> {
-    fn of(first: u64, rows: &Rows<'_>) -> Result<Self, Violation> {
+impl Block {
+    /// Copies the rows to `out`.
+    fn of<const D: usize>(
+        first: u64,
+        rows: &Rows<'_>,
+        out: &mut [[f64; D]],
+    ) -> Result<Self, Violation> {
         if let Some((row, column, value)) = rows.first_non_finite() {
             return Err(Violation::NonFinite { row: first + row as u64, column, value });
         }
-        let mut block = Block {
-            hash: hash_block(rows),
-            rows: Vec::with_capacity(rows.len()),
-            least: i32::MAX,
-            most: i32::MIN,
-        };
-        let mut bits = 0u64;
-        for i in 0..rows.len() {
-            let mut row = [0.0; D];
-            rows.copy_row(i, &mut row);
-            for x in row.iter().filter(|&&x| x != 0.0) {
-                bits = bits.max(x.abs().to_bits());
-                block.least = block.least.min(lowest_bit(*x, block.least));
-            }
-            // Adding 0 turns −0 into 0 and leaves every other value as it is.
-            block.rows.push(row.map(|x| x + 0.0));
-        }
-        if bits > 0 {
-            let (mantissa, exponent) = parts(f64::from_bits(bits));
-            block.most = exponent + (u64::BITS - mantissa.leading_zeros()) as i32;
+        let mut block = Block { hash: hash_block(rows), least: i32::MAX, most: i32::MIN };
+        match rows {
+            Rows::F32(points) => block.copy(points, out),
+            Rows::F64(points) => block.copy(points, out),
         }
         Ok(block)
     }
+
+    fn copy<T: Scalar, const D: usize>(&mut self, points: &Points<'_, T>, out: &mut [[f64; D]]) {
+        let mut largest = 0u64;
+        for (to, from) in out.iter_mut().zip(points.rows()) {
+            for (to, &from) in to.iter_mut().zip(from) {
+                // Adding 0 turns −0 into 0 and leaves every other value as it is.
+                let x: f64 = from.into() + 0.0;
+                largest = largest.max(x.abs().to_bits());
+                self.least = self.least.min(lowest_bit(x));
+                *to = x;
+            }
+        }
+        if largest > 0 {
+            let (mantissa, exponent) = parts(f64::from_bits(largest));
+            self.most = exponent + (u64::BITS - mantissa.leading_zeros()) as i32;
+        }
+    }
 }
 
-/// The place of the lowest bit of `x`, or some place not below `known` if it is not below that.
+/// The place of the lowest bit of `x`, without a branch.
 #[inline(always)]
-fn lowest_bit(x: f64, known: i32) -> i32 {
-    let exponent = ((x.to_bits() >> 52 & 0x7ff) as i32).max(1) - 1075;
-    if exponent >= known { exponent } else { parts(x).1 }
+fn lowest_bit(x: f64) -> i32 {
+    let bits = x.to_bits();
+    let field = (bits >> 52 & 0x7ff) as i32;
+    let mantissa = bits & ((1 << 52) - 1) | u64::from(field != 0) << 52;
+    let place = field.max(1) - 1075 + mantissa.trailing_zeros() as i32;
+    if mantissa == 0 { i32::MAX } else { place }
 }
 
 impl<const D: usize> Input<D> {
@@ -82,16 +94,24 @@ impl<const D: usize> Input<D> {
             return Err(MeshViolation::TooMany { rows: n }.into());
         }
         monitor.pass(1, n);
-        let blocks = map_blocks(source, monitor, |first, rows| {
-            Ok::<_, CheckError>(Block::<D>::of(first, &rows)?)
-        })?;
-        let hash = PointsHash::of_blocks(source.len(), source.dim(), blocks.iter().map(|b| b.hash));
+        let blocks = Blocks::of(source);
+        let mut rows = vec![[0.0; D]; n as usize];
+        let per_block = (blocks.range(0).end as usize).max(1);
+        let read = |scratch: &mut Scratch, (block, out): (usize, &mut [[f64; D]])| {
+            monitor.check().map_err(ReadError::from)?;
+            let range = blocks.range(block as u64);
+            let first = range.start;
+            let block = Block::of(first, &source.read(range, scratch)?, out)?;
+            monitor.points(out.len() as u64);
+            Ok::<_, CheckError>(block)
+        };
+        let blocks: Vec<_> =
+            rows.par_chunks_mut(per_block).enumerate().map_init(Scratch::new, read).collect();
+        // The first violation by position, whichever thread met it.
+        let blocks = blocks.into_iter().collect::<Result<Vec<Block>, CheckError>>()?;
+        let hash = PointsHash::of_blocks(n, source.dim(), blocks.iter().map(|b| b.hash));
         let least = blocks.iter().map(|b| b.least).min().unwrap_or(i32::MAX);
         let most = blocks.iter().map(|b| b.most).max().unwrap_or(i32::MIN);
-        let mut rows = Vec::with_capacity(blocks.iter().map(|b| b.rows.len()).sum());
-        for block in blocks {
-            rows.extend_from_slice(&block.rows);
-        }
         let (scale, signs) = scaling(least, most);
         Ok(Input { rows, hash, scale, signs })
     }
@@ -175,6 +195,8 @@ fn power(k: i32) -> f64 {
 pub(super) struct Sites<const D: usize> {
     /// Scaled coordinates by site.
     pub(super) points: Vec<[f64; D]>,
+    /// Hashes by site.
+    pub(super) hashes: Vec<SiteHash>,
     /// Row by site.
     pub(super) rows: Vec<u32>,
     /// Site by row.
@@ -202,8 +224,10 @@ impl<const D: usize> Sites<D> {
             }
             named.push(*site);
         }
-        let points = rows.iter().map(|&row| input.scaled(row)).collect();
-        Ok((Sites { points, rows, sites }, named))
+        // One visit to each row, in no order that a processor foresees.
+        let visit = |&row: &u32| (input.scaled(row), SiteHash::of(&input.rows[row as usize]));
+        let (points, hashes) = rows.par_iter().map(visit).unzip();
+        Ok((Sites { points, hashes, rows, sites }, named))
     }
 
     /// The site of a row, if it is a vertex.
@@ -275,6 +299,6 @@ impl<const D: usize> Sites<D> {
     /// The coordinates of some sites.
     #[inline(always)]
     pub(super) fn gather<const V: usize>(&self, sites: &[u32; V]) -> [[f64; D]; V] {
-        sites.map(|site| self.points[site as usize])
+        std::array::from_fn(|i| self.points[sites[i] as usize])
     }
 }

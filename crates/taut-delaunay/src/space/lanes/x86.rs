@@ -8,8 +8,9 @@ use taut_predicates::{Fused, Sign};
 
 use crate::kernel::TooMany;
 use crate::simplex::Simplex;
-use crate::space::signs::{Lane, Scalar, Signs, in_sphere, orientation, rows};
-use crate::space::{Mesh, Site};
+use crate::space::pairs::{self, Pair};
+use crate::space::signs::{Lane, Number, Scalar, Signs, in_sphere, orientation, rows};
+use crate::space::{Mesh, Site, whole};
 
 use super::Level;
 
@@ -134,12 +135,7 @@ macro_rules! lane {
                 Self(unsafe { $mul(self.0, other.0) })
             }
         }
-        impl Lane for $name {
-            #[inline(always)]
-            fn splat(value: f64) -> Self {
-                // SAFETY: see above.
-                Self(unsafe { $set1(value) })
-            }
+        impl Number for $name {
             #[inline(always)]
             fn mul_add(a: Self, b: Self, c: Self) -> Self {
                 // SAFETY: see above.
@@ -149,6 +145,13 @@ macro_rules! lane {
             fn mul_sub(a: Self, b: Self, c: Self) -> Self {
                 // SAFETY: see above.
                 Self(unsafe { $fms(a.0, b.0, c.0) })
+            }
+        }
+        impl Lane for $name {
+            #[inline(always)]
+            fn splat(value: f64) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { $set1(value) })
             }
             #[inline(always)]
             fn max(self, other: Self) -> Self {
@@ -190,20 +193,17 @@ lane!(
 /// x, y and z of four sites.
 #[inline]
 #[target_feature(enable = "avx2")]
-fn columns4(a: &Site, b: &Site, c: &Site, d: &Site, q: &Site) -> [F64x4; 3] {
+fn columns4(a: &Site, b: &Site, c: &Site, d: &Site) -> [F64x4; 3] {
     // SAFETY: a site is four aligned numbers.
     let (a, b) = unsafe { (_mm256_load_pd(a.0.as_ptr()), _mm256_load_pd(b.0.as_ptr())) };
     // SAFETY: as above.
     let (c, d) = unsafe { (_mm256_load_pd(c.0.as_ptr()), _mm256_load_pd(d.0.as_ptr())) };
     let (xz_ab, y_ab) = (_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
     let (xz_cd, y_cd) = (_mm256_unpacklo_pd(c, d), _mm256_unpackhi_pd(c, d));
-    let x = _mm256_permute2f128_pd(xz_ab, xz_cd, 0x20);
-    let y = _mm256_permute2f128_pd(y_ab, y_cd, 0x20);
-    let z = _mm256_permute2f128_pd(xz_ab, xz_cd, 0x31);
     [
-        F64x4(_mm256_sub_pd(x, _mm256_set1_pd(q.0[0]))),
-        F64x4(_mm256_sub_pd(y, _mm256_set1_pd(q.0[1]))),
-        F64x4(_mm256_sub_pd(z, _mm256_set1_pd(q.0[2]))),
+        F64x4(_mm256_permute2f128_pd(xz_ab, xz_cd, 0x20)),
+        F64x4(_mm256_permute2f128_pd(y_ab, y_cd, 0x20)),
+        F64x4(_mm256_permute2f128_pd(xz_ab, xz_cd, 0x31)),
     ]
 }
 
@@ -216,23 +216,20 @@ fn pair(low: &Site, high: &Site) -> __m512d {
     _mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1)
 }
 
-/// x, y and z of vertex J of eight simplices, less q.
+/// x, y and z of vertex J of eight simplices.
 #[inline]
 #[target_feature(enable = "avx512f,avx2")]
-fn columns8<const J: usize>(rows: &[[&Site; 4]; 8], q: &Site) -> [F64x8; 3] {
+fn columns8<const J: usize>(rows: &[[&Site; 4]; 8]) -> [F64x8; 3] {
     let ac = pair(rows[0][J], rows[2][J]);
     let bd = pair(rows[1][J], rows[3][J]);
     let eg = pair(rows[4][J], rows[6][J]);
     let fh = pair(rows[5][J], rows[7][J]);
     let (xz_low, y_low) = (_mm512_unpacklo_pd(ac, bd), _mm512_unpackhi_pd(ac, bd));
     let (xz_high, y_high) = (_mm512_unpacklo_pd(eg, fh), _mm512_unpackhi_pd(eg, fh));
-    let x = _mm512_shuffle_f64x2(xz_low, xz_high, 0b10_00_10_00);
-    let y = _mm512_shuffle_f64x2(y_low, y_high, 0b10_00_10_00);
-    let z = _mm512_shuffle_f64x2(xz_low, xz_high, 0b11_01_11_01);
     [
-        F64x8(_mm512_sub_pd(x, _mm512_set1_pd(q.0[0]))),
-        F64x8(_mm512_sub_pd(y, _mm512_set1_pd(q.0[1]))),
-        F64x8(_mm512_sub_pd(z, _mm512_set1_pd(q.0[2]))),
+        F64x8(_mm512_shuffle_f64x2(xz_low, xz_high, 0b10_00_10_00)),
+        F64x8(_mm512_shuffle_f64x2(y_low, y_high, 0b10_00_10_00)),
+        F64x8(_mm512_shuffle_f64x2(xz_low, xz_high, 0b11_01_11_01)),
     ]
 }
 
@@ -246,24 +243,33 @@ fn masks4(F64x4(det): F64x4, F64x4(bound): F64x4) -> (u32, u32) {
     (positive, !(positive | negative) & 0b1111)
 }
 
-#[inline]
-#[target_feature(enable = "avx2,fma")]
-fn conflicts4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+/// The vertices of four simplices. Inlined by force: twelve vectors returned through memory cost a tenth of everything.
+///
+/// # Safety
+/// The processor has AVX2.
+#[inline(always)]
+unsafe fn corners4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32]) -> [[F64x4; 3]; 4] {
     let s = rows(sites, &simplices[group[0] as usize]);
     let t = rows(sites, &simplices[group[1] as usize]);
     let u = rows(sites, &simplices[group[2] as usize]);
     let v = rows(sites, &simplices[group[3] as usize]);
-    let a = columns4(s[0], t[0], u[0], v[0], q);
-    let b = columns4(s[1], t[1], u[1], v[1], q);
-    let c = columns4(s[2], t[2], u[2], v[2], q);
-    let d = columns4(s[3], t[3], u[3], v[3], q);
-    let (det, bound) = in_sphere([a, b, c, d]);
-    masks4(det, bound)
+    // SAFETY: the caller's promise.
+    unsafe {
+        [
+            columns4(s[0], t[0], u[0], v[0]),
+            columns4(s[1], t[1], u[1], v[1]),
+            columns4(s[2], t[2], u[2], v[2]),
+            columns4(s[3], t[3], u[3], v[3]),
+        ]
+    }
 }
 
-#[inline]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn conflicts8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+/// The vertices of eight simplices.
+///
+/// # Safety
+/// The processor has AVX-512F and AVX2.
+#[inline(always)]
+unsafe fn corners8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32]) -> [[F64x8; 3]; 4] {
     let rows = [
         rows(sites, &simplices[group[0] as usize]),
         rows(sites, &simplices[group[1] as usize]),
@@ -274,12 +280,106 @@ fn conflicts8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site)
         rows(sites, &simplices[group[6] as usize]),
         rows(sites, &simplices[group[7] as usize]),
     ];
-    let (F64x8(det), F64x8(bound)) =
-        in_sphere([columns8::<0>(&rows, q), columns8::<1>(&rows, q), columns8::<2>(&rows, q), columns8::<3>(&rows, q)]);
+    // SAFETY: the caller's promise.
+    unsafe {
+        [columns8::<0>(&rows), columns8::<1>(&rows), columns8::<2>(&rows), columns8::<3>(&rows)]
+    }
+}
+
+/// p − q.
+#[inline(always)]
+fn less<L: Lane>(p: [L; 3], q: [L; 3]) -> [L; 3] {
+    [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
+}
+
+/// p − q without error.
+#[inline(always)]
+fn pairs<L: Lane>(p: [L; 3], q: [L; 3]) -> [Pair<L>; 3] {
+    [Pair::difference(p[0], q[0]), Pair::difference(p[1], q[1]), Pair::difference(p[2], q[2])]
+}
+
+/// A site in all lanes.
+#[inline(always)]
+fn splat<L: Lane>(q: &Site) -> [L; 3] {
+    [L::splat(q.0[0]), L::splat(q.0[1]), L::splat(q.0[2])]
+}
+
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn conflicts4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+    // SAFETY: this function has the features.
+    let [a, b, c, d] = unsafe { corners4(sites, simplices, group) };
+    let q = splat(q);
+    let (det, bound) = in_sphere([less(a, q), less(b, q), less(c, q), less(d, q)]);
+    masks4(det, bound)
+}
+
+#[inline(never)]
+#[target_feature(enable = "avx2,fma")]
+fn pairs4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+    // SAFETY: this function has the features.
+    let [a, b, c, d] = unsafe { corners4(sites, simplices, group) };
+    let q = splat(q);
+    let (det, bound) = pairs::in_sphere([pairs(a, q), pairs(b, q), pairs(c, q), pairs(d, q)]);
+    masks4(det, bound)
+}
+
+/// Besides inside and open: which are ties.
+#[inline(never)]
+#[target_feature(enable = "avx2,fma")]
+fn whole4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32, u32) {
+    // SAFETY: this function has the features.
+    let [a, b, c, d] = unsafe { corners4(sites, simplices, group) };
+    let q = splat(q);
+    let (det, perturbed, bound) =
+        whole::in_sphere([less(a, q), less(b, q), less(c, q), less(d, q)]);
+    let (inside, open) = masks4(perturbed, bound);
+    let (_, ties) = masks4(det, bound);
+    (inside, open, ties)
+}
+
+/// Where the determinant is certainly positive, and where it is open.
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn masks8(F64x8(det): F64x8, F64x8(bound): F64x8) -> (u32, u32) {
     let positive = u32::from(_mm512_cmp_pd_mask(det, bound, _CMP_GT_OQ));
     let least = _mm512_sub_pd(_mm512_setzero_pd(), bound);
     let negative = u32::from(_mm512_cmp_pd_mask(det, least, _CMP_LT_OQ));
     (positive, !(positive | negative) & 0xff)
+}
+
+#[inline]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+fn conflicts8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+    // SAFETY: this function has the features.
+    let [a, b, c, d] = unsafe { corners8(sites, simplices, group) };
+    let q = splat(q);
+    let (det, bound) = in_sphere([less(a, q), less(b, q), less(c, q), less(d, q)]);
+    masks8(det, bound)
+}
+
+#[inline(never)]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+fn pairs8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+    // SAFETY: this function has the features.
+    let [a, b, c, d] = unsafe { corners8(sites, simplices, group) };
+    let q = splat(q);
+    let (det, bound) = pairs::in_sphere([pairs(a, q), pairs(b, q), pairs(c, q), pairs(d, q)]);
+    masks8(det, bound)
+}
+
+/// Besides inside and open: which are ties.
+#[inline(never)]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+fn whole8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32, u32) {
+    // SAFETY: this function has the features.
+    let [a, b, c, d] = unsafe { corners8(sites, simplices, group) };
+    let q = splat(q);
+    let (det, perturbed, bound) =
+        whole::in_sphere([less(a, q), less(b, q), less(c, q), less(d, q)]);
+    let (inside, open) = masks8(perturbed, bound);
+    let (_, ties) = masks8(det, bound);
+    (inside, open, ties)
 }
 
 /// The four orientations of q with the facets of a simplex, lane i for the facet opposite vertex i.
@@ -290,7 +390,7 @@ fn beyond4([a, b, c, d]: [&Site; 4], q: &Site) -> (u32, u32) {
     const A: i32 = 0b10_11_00_01;
     const B: i32 = 0b01_00_11_10;
     const C: i32 = 0b00_01_10_11;
-    let [F64x4(x), F64x4(y), F64x4(z)] = columns4(a, b, c, d, q);
+    let [F64x4(x), F64x4(y), F64x4(z)] = less(columns4(a, b, c, d), splat(q));
     let a = [
         F64x4(_mm256_permute4x64_pd(x, A)),
         F64x4(_mm256_permute4x64_pd(y, A)),
@@ -315,9 +415,39 @@ impl Signs for Avx2 {
     const WIDTH: usize = 4;
 
     #[inline(always)]
-    fn conflicts(self, sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+    fn conflicts(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> (u32, u32) {
         // SAFETY: `self` proves that the processor has the features.
         unsafe { conflicts4(sites, simplices, group, q) }
+    }
+
+    #[inline(always)]
+    fn conflicts_in_pairs(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> Option<(u32, u32)> {
+        // SAFETY: as above.
+        Some(unsafe { pairs4(sites, simplices, group, q) })
+    }
+
+    #[inline(always)]
+    fn conflicts_in_whole(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> Option<(u32, u32, u32)> {
+        // SAFETY: as above.
+        Some(unsafe { whole4(sites, simplices, group, q) })
     }
 
     #[inline(always)]
@@ -336,9 +466,39 @@ impl Signs for Avx512 {
     const WIDTH: usize = 8;
 
     #[inline(always)]
-    fn conflicts(self, sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+    fn conflicts(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> (u32, u32) {
         // SAFETY: `self` proves that the processor has the features.
         unsafe { conflicts8(sites, simplices, group, q) }
+    }
+
+    #[inline(always)]
+    fn conflicts_in_pairs(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> Option<(u32, u32)> {
+        // SAFETY: as above.
+        Some(unsafe { pairs8(sites, simplices, group, q) })
+    }
+
+    #[inline(always)]
+    fn conflicts_in_whole(
+        self,
+        sites: &[Site],
+        simplices: &[Simplex<4>],
+        group: &[u32],
+        q: &Site,
+    ) -> Option<(u32, u32, u32)> {
+        // SAFETY: as above.
+        Some(unsafe { whole8(sites, simplices, group, q) })
     }
 
     #[inline(always)]

@@ -29,9 +29,15 @@ fn all_orders(points: &[[f64; 3]], expected: &[[u32; 4]], levels: &[Level]) {
 /// Brute force, and the ghosts on the facets that only one simplex has.
 fn expected(points: &[[f64; 3]]) -> Vec<[u32; 4]> {
     let mut all = brute_force(points);
-    let facets: Vec<[u32; 4]> =
-        all.iter().flat_map(|&[a, b, c, d]| [[b, c, d, GHOST], [a, c, d, GHOST], [a, b, d, GHOST], [a, b, c, GHOST]]).collect();
-    all.extend(facets.iter().filter(|facet| facets.iter().filter(|other| other == facet).count() == 1));
+    let facets: Vec<[u32; 4]> = all
+        .iter()
+        .flat_map(|&[a, b, c, d]| {
+            [[b, c, d, GHOST], [a, c, d, GHOST], [a, b, d, GHOST], [a, b, c, GHOST]]
+        })
+        .collect();
+    all.extend(
+        facets.iter().filter(|facet| facets.iter().filter(|other| other == facet).count() == 1),
+    );
     all.sort_unstable();
     all
 }
@@ -44,10 +50,12 @@ fn every_order_of_the_cube_and_of_subsets_of_grids() {
     assert_eq!(answer.len(), 6 + 12);
     all_orders(&cube, &answer, &levels);
     let mut numbers = Numbers(7);
-    let mut sets: Vec<Vec<[f64; 3]>> = (0..8).map(|out| [&cube[..out], &cube[out + 1..]].concat()).collect();
+    let mut sets: Vec<Vec<[f64; 3]>> =
+        (0..8).map(|out| [&cube[..out], &cube[out + 1..]].concat()).collect();
     while sets.len() < 59 {
         let all = grid(3);
-        let set: Vec<[f64; 3]> = numbers.shuffled(27)[..7].iter().map(|&i| all[i as usize]).collect();
+        let set: Vec<[f64; 3]> =
+            numbers.shuffled(27)[..7].iter().map(|&i| all[i as usize]).collect();
         if independent(&set, &[0, 1, 2, 3, 4, 5, 6]).is_some() {
             sets.push(set);
         }
@@ -89,14 +97,19 @@ fn brute_force_gives_the_same_simplices() {
             kind => {
                 let all = grid(4);
                 let scale = if kind == 1 { 1.0 } else { 1.0 / 3.0 };
-                numbers.shuffled(64)[..n].iter().map(|&i| all[i as usize].map(|x| x * scale)).collect()
+                numbers.shuffled(64)[..n]
+                    .iter()
+                    .map(|&i| all[i as usize].map(|x| x * scale))
+                    .collect()
             }
         };
         let order = numbers.shuffled(n);
         if independent(&points, &order).is_none() {
             continue;
         }
-        for settings in [PLAIN, Settings { vectors: false, ..PLAIN }, Settings { filtered: false, ..PLAIN }] {
+        for settings in
+            [PLAIN, Settings { vectors: false, ..PLAIN }, Settings { filtered: false, ..PLAIN }]
+        {
             let mut mesh = built(&points, settings, None, &order);
             check(&mut mesh);
             assert_eq!(quadruples(&mesh), expected(&points));

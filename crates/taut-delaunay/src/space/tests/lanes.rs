@@ -8,32 +8,66 @@ use taut_predicates::{Exact, Separate};
 use super::*;
 use crate::space::signs::Scalar;
 
-/// Eight simplices over these sites, some of them ghosts, tested against a q by one path.
-fn conflicts<S: Signs>(signs: S, sites: &[Site], simplices: &[Simplex<4>], q: &Site) -> (u32, u32) {
+/// Eight simplices over these sites, some of them ghosts, tested against a q by one path, with numbers or with pairs.
+fn conflicts<S: Signs>(
+    signs: S,
+    pairs: bool,
+    sites: &[Site],
+    simplices: &[Simplex<4>],
+    q: &Site,
+) -> (u32, u32) {
     let all: Vec<u32> = (0..8).collect();
     let (mut inside, mut open) = (0, 0);
     for (i, group) in all.chunks(S::WIDTH).enumerate() {
-        let (here, unsure) = signs.conflicts(sites, simplices, group, q);
+        let (here, unsure) = if pairs {
+            signs
+                .conflicts_in_pairs(sites, simplices, group, q)
+                .unwrap_or((0, u32::MAX >> (32 - S::WIDTH)))
+        } else {
+            signs.conflicts(sites, simplices, group, q)
+        };
         inside |= here << (i * S::WIDTH);
         open |= unsure << (i * S::WIDTH);
     }
     (inside, open)
 }
 
-fn masks(level: Level, sites: &[Site], simplices: &[Simplex<4>], q: &Site) -> [(u32, u32); 2] {
-    fn both<S: Signs>(signs: S, sites: &[Site], simplices: &[Simplex<4>], q: &Site) -> [(u32, u32); 2] {
+/// The answers of one path: with numbers, with pairs, of the facets, and of whole numbers (inside, open, ties).
+struct Masks {
+    number: (u32, u32),
+    pairs: (u32, u32),
+    beyond: (u32, u32),
+    whole: (u32, u32, u32),
+}
+
+fn masks(level: Level, sites: &[Site], simplices: &[Simplex<4>], q: &Site) -> Masks {
+    fn all<S: Signs>(signs: S, sites: &[Site], simplices: &[Simplex<4>], q: &Site) -> Masks {
         let corners = simplices[0].vertices.map(|v| &sites[row(v)]);
-        [conflicts(signs, sites, simplices, q), signs.beyond(corners, q)]
+        let mut whole = (0, 0, 0);
+        for (i, group) in (0..8).collect::<Vec<u32>>().chunks(S::WIDTH).enumerate() {
+            let nothing = (0, u32::MAX >> (32 - S::WIDTH), 0);
+            let (inside, open, ties) =
+                signs.conflicts_in_whole(sites, simplices, group, q).unwrap_or(nothing);
+            whole.0 |= inside << (i * S::WIDTH);
+            whole.1 |= open << (i * S::WIDTH);
+            whole.2 |= ties << (i * S::WIDTH);
+        }
+        Masks {
+            number: conflicts(signs, false, sites, simplices, q),
+            pairs: conflicts(signs, true, sites, simplices, q),
+            beyond: signs.beyond(corners, q),
+            whole,
+        }
     }
     match level {
-        Level::Unfiltered => both(Unfiltered, sites, simplices, q),
-        Level::Scalar => both(Scalar::<Separate>(PhantomData), sites, simplices, q),
+        Level::Unfiltered => all(Unfiltered, sites, simplices, q),
+        Level::Scalar => all(Scalar::<Separate>(PhantomData), sites, simplices, q),
         #[cfg(target_arch = "x86_64")]
-        Level::Fused(_) => both(Scalar::<taut_predicates::Fused>(PhantomData), sites, simplices, q),
+        Level::Fused(_) => all(Scalar::<taut_predicates::Fused>(PhantomData), sites, simplices, q),
         #[cfg(target_arch = "x86_64")]
-        Level::Four(yes) => both(yes, sites, simplices, q),
+        Level::Four(yes) => all(yes, sites, simplices, q),
         #[cfg(target_arch = "x86_64")]
-        Level::Eight(yes) => both(yes, sites, simplices, q),
+        Level::Eight(yes) => all(yes, sites, simplices, q),
     }
 }
 
@@ -41,7 +75,8 @@ fn masks(level: Level, sites: &[Site], simplices: &[Simplex<4>], q: &Site) -> [(
 fn lanes_answer_as_exact_arithmetic_or_leave_open() {
     let mut numbers = Numbers(29);
     let exact = &mut Exact::default();
-    let (mut decided, mut left) = (0u32, 0u32);
+    // Those that the number and the pairs decide, and those that they leave open.
+    let (mut decided, mut left, mut perturbed) = ([0u32; 2], [0u32; 2], 0u32);
     for run in 0..20_000 {
         // Random; on a small grid, where ties are many; nearly on a sphere; tiny differences far from the origin.
         let coordinate = |numbers: &mut Numbers| match run % 4 {
@@ -62,8 +97,9 @@ fn lanes_answer_as_exact_arithmetic_or_leave_open() {
             }
         }
         let q = Site::new(points[11]);
-        let sites: Vec<Site> =
-            std::iter::once(Site::GHOST).chain(points[..11].iter().map(|&p| Site::new(p))).collect();
+        let sites: Vec<Site> = std::iter::once(Site::GHOST)
+            .chain(points[..11].iter().map(|&p| Site::new(p)))
+            .collect();
         let simplices: Vec<Simplex<4>> = (0..8)
             .map(|lane| {
                 let order = numbers.shuffled(11);
@@ -78,20 +114,35 @@ fn lanes_answer_as_exact_arithmetic_or_leave_open() {
                 Simplex { vertices, neighbors: [0; 4] }
             })
             .collect();
-        let all: Vec<_> = Level::filtered().into_iter().map(|level| masks(level, &sites, &simplices, &q)).collect();
-        for [(inside, open), (beyond, unsure)] in &all {
+        let all: Vec<_> = Level::filtered()
+            .into_iter()
+            .map(|level| masks(level, &sites, &simplices, &q))
+            .collect();
+        for Masks { number, pairs, beyond: (beyond, unsure), whole } in &all {
             for (lane, simplex) in simplices.iter().enumerate() {
                 let bit = 1 << lane;
                 if simplex.is_ghost() {
-                    assert!(open & bit != 0 && inside & bit == 0, "ghosts are open");
-                } else if open & bit == 0 {
-                    decided += 1;
-                    let [a, b, c, d] = simplex.vertices.map(|v| points[v as usize]);
-                    let sign = in_sphere_exact(a, b, c, d, q.point(), exact);
-                    let expected = if inside & bit != 0 { Sign::Positive } else { Sign::Negative };
-                    assert_eq!(sign, expected);
-                } else {
-                    left += 1;
+                    let open = number.1 & pairs.1 & whole.1;
+                    assert!(open & bit != 0, "ghosts are open");
+                    continue;
+                }
+                let [a, b, c, d] = simplex.vertices.map(|v| points[v as usize]);
+                let sign = in_sphere_exact(a, b, c, d, q.point(), exact);
+                for (kind, (inside, open)) in [number, pairs].into_iter().enumerate() {
+                    if open & bit == 0 {
+                        decided[kind] += 1;
+                        let expected =
+                            if inside & bit != 0 { Sign::Positive } else { Sign::Negative };
+                        assert_eq!(sign, expected);
+                    } else {
+                        left[kind] += 1;
+                    }
+                }
+                if run % 4 == 1 && whole.1 & bit == 0 {
+                    assert_eq!(whole.2 & bit != 0, sign.is_zero(), "ties");
+                    let expected = conflict_exact(a, b, c, d, q.point(), exact);
+                    assert_eq!(whole.0 & bit != 0, expected);
+                    perturbed += u32::from(sign.is_zero());
                 }
             }
             let corners = simplices[0].vertices.map(|v| points[v as usize]);
@@ -104,8 +155,16 @@ fn lanes_answer_as_exact_arithmetic_or_leave_open() {
         }
         // With fused multiplication the operations are the same one by one, so are the masks.
         for pair in all[1..].windows(2) {
-            assert_eq!(pair[0], pair[1]);
+            assert_eq!((pair[0].number, pair[0].beyond), (pair[1].number, pair[1].beyond));
         }
     }
-    assert!(decided > 100_000 && left > 100_000, "both kinds were seen: {decided}, {left}");
+    assert!(
+        decided[0] > 100_000 && left[0] > 100_000,
+        "both kinds were seen: {decided:?}, {left:?}"
+    );
+    let vectors = Level::filtered().len() > 2;
+    assert!(
+        !vectors || decided[1] > 100_000 && left[1] > 100_000 && perturbed > 10_000,
+        "{decided:?}, {left:?}, {perturbed}"
+    );
 }
