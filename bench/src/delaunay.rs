@@ -45,7 +45,7 @@ pub(crate) struct Arguments {
     /// Numbers of threads taut is run with [default: those of the case].
     #[arg(long, value_delimiter = ',')]
     threads: Vec<usize>,
-    /// Peers that take part, by the beginnings of their names; none means those of the case.
+    /// Peers that take part, by the beginnings of their names, or `none` [default: those of the case].
     #[arg(long, value_delimiter = ',')]
     peers: Vec<String>,
     /// Seconds after which one build is stopped.
@@ -89,6 +89,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         arguments.runs > 0 && !arguments.threads.contains(&0),
         "at least one round and one thread"
     );
+    for wanted in &arguments.peers {
+        let known = case::PLANE_PEERS.iter().any(|&peer| is_named(Program::Peer(peer), wanted));
+        ensure!(known || wanted == "none", "no peer's name begins with `{wanted}`");
+    }
     let effort = Effort {
         runs: if arguments.quick { arguments.runs.min(2) } else { arguments.runs },
         limit: Duration::from_secs(arguments.limit),
@@ -177,10 +181,9 @@ impl Context<'_> {
             [] => threads,
             given => given,
         };
+        let given = &self.arguments.peers;
         let wanted = |program: &Program| {
-            let name = program.name().to_lowercase();
-            let mut given = self.arguments.peers.iter().map(|given| given.to_lowercase());
-            self.arguments.peers.is_empty() || given.any(|given| name.starts_with(&given))
+            given.is_empty() || given.iter().any(|given| is_named(*program, given))
         };
         let peers = peers.iter().map(|&peer| Program::Peer(peer)).filter(wanted);
         threads.iter().map(|&threads| Program::Taut(threads)).chain(peers).collect()
@@ -192,6 +195,11 @@ impl Context<'_> {
             None => Ok(()),
         }
     }
+}
+
+/// Whether the name of a program begins with `wanted`, whatever the case of its letters.
+fn is_named(program: Program, wanted: &str) -> bool {
+    program.name().to_lowercase().starts_with(&wanted.to_lowercase())
 }
 
 /// The table that shows who falls off where.
