@@ -16,6 +16,7 @@ use anyhow::{Result, ensure};
 use tempfile::TempDir;
 
 use crate::report::Report;
+use crate::select::select;
 use case::{CASES, Kind};
 
 /// Cases and how often.
@@ -69,10 +70,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         }
         return Ok(());
     }
-    for wanted in &arguments.cases {
-        let known = CASES.iter().any(|case| case::means(wanted, case.name));
-        ensure!(known, "no case begins with `{wanted}`: see `bench ball --list`");
-    }
+    let cases = select(CASES, |case| case.name, &arguments.cases, "ball")?;
     ensure!(
         arguments.runs > 0 && !arguments.threads.is_empty() && !arguments.threads.contains(&0),
         "at least one run and one thread"
@@ -90,10 +88,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     if context.quick {
         println!("Quick: inputs are smaller than the cases say. Not to be quoted.\n");
     }
-    let wanted = |name: &str| {
-        arguments.cases.is_empty() || arguments.cases.iter().any(|w| case::means(w, name))
-    };
-    for case in CASES.iter().filter(|case| wanted(case.name)) {
+    for case in cases {
         println!("## {}\n{}\n", case.name, case.about);
         match &case.kind {
             Kind::Points(points) => points::run(&mut context, case, points)?,

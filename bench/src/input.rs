@@ -5,6 +5,7 @@ use std::path::Path;
 
 use anyhow::{Context as _, Result, bail, ensure};
 use taut_certify::Items;
+use taut_points::generate::RadiusLaw;
 use taut_points::{Distribution, PointSource, Points, generate};
 
 /// The seed of every generated input.
@@ -34,25 +35,25 @@ impl Input {
     /// n points of dimension d.
     pub(crate) fn points(distribution: Distribution, n: usize, d: usize) -> Result<Self> {
         let values = Values::F64(generate(distribution, n, d, SEED)?);
-        let what = format!("{}, {n} × {d}, f64", name(distribution));
+        let what = format!("{distribution}, {n} × {d}, f64");
         Ok(Input { what, values, columns: d, items: Items::Points })
     }
 
     /// n points of dimension d in single precision.
     pub(crate) fn single(distribution: Distribution, n: usize, d: usize) -> Result<Self> {
         let values = Values::F32(generate(distribution, n, d, SEED)?);
-        let what = format!("{}, {n} × {d}, f32", name(distribution));
+        let what = format!("{distribution}, {n} × {d}, f32");
         Ok(Input { what, values, columns: d, items: Items::Points })
     }
 
     /// n balls with normal centres in ℝᵈ.
-    pub(crate) fn balls(law: RadiusLaw, n: usize, d: usize) -> Result<Self> {
+    pub(crate) fn balls((name, radii): (&str, Radii), n: usize, d: usize) -> Result<Self> {
         let centers: Vec<f64> = generate(Distribution::Normal, n, d, SEED)?;
-        let radii = law.radii(&centers, d)?;
+        let radii = radii.draw(&centers, d)?;
         let rows = centers.chunks_exact(d).zip(&radii);
         let values =
             rows.flat_map(|(center, &radius)| center.iter().copied().chain([radius])).collect();
-        let what = format!("normal centres, radii {}, {n} balls, d = {d}, f64", law.name());
+        let what = format!("normal centres, radii {name}, {n} balls, d = {d}, f64");
         Ok(Input { what, values: Values::F64(values), columns: d + 1, items: Items::Balls })
     }
 
@@ -127,78 +128,47 @@ impl Input {
     }
 }
 
-/// How the radii of balls are drawn.
+/// The radii of a case of balls.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum RadiusLaw {
-    /// All 1: the answer is that of the centres, 1 larger.
-    Equal,
-    /// Uniform in [0, 0.1).
-    Small,
-    /// Uniform in [0, 3).
-    Large,
-    /// Exponential with mean 1.
-    Exponential,
+pub(crate) enum Radii {
+    /// All after a law.
+    Law(RadiusLaw),
     /// Small, but ball 0 reaches up to one part in a million of what would cover all: internal tangency, nearly.
     AlmostCovering,
     /// Small, but ball 0 covers all others: it is the answer.
     Covering,
 }
 
-impl RadiusLaw {
-    /// All of them.
-    pub(crate) const ALL: [RadiusLaw; 6] = [
-        RadiusLaw::Equal,
-        RadiusLaw::Small,
-        RadiusLaw::Large,
-        RadiusLaw::Exponential,
-        RadiusLaw::AlmostCovering,
-        RadiusLaw::Covering,
+const SMALL: RadiusLaw = RadiusLaw::Uniform(0.0, 0.1);
+
+impl Radii {
+    /// All of them, with their names in tables. Where all radii are equal the answer is that of the centres, larger by
+    /// them.
+    pub(crate) const ALL: [(&str, Radii); 6] = [
+        ("equal", Radii::Law(RadiusLaw::Equal(1.0))),
+        ("small", Radii::Law(SMALL)),
+        ("large", Radii::Law(RadiusLaw::Uniform(0.0, 3.0))),
+        ("exponential", Radii::Law(RadiusLaw::Exponential(1.0))),
+        ("almost covering", Radii::AlmostCovering),
+        ("covering", Radii::Covering),
     ];
 
-    /// Its name in tables.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            RadiusLaw::Equal => "equal",
-            RadiusLaw::Small => "small",
-            RadiusLaw::Large => "large",
-            RadiusLaw::Exponential => "exponential",
-            RadiusLaw::AlmostCovering => "almost covering",
-            RadiusLaw::Covering => "covering",
+    fn draw(self, centers: &[f64], d: usize) -> Result<Vec<f64>> {
+        let lots: Vec<f64> = generate(Distribution::Uniform, centers.len() / d, 1, SEED + 1)?;
+        let (law, share) = match self {
+            Radii::Law(law) => (law, None),
+            Radii::AlmostCovering => (SMALL, Some(1.0 - 1e-6)),
+            Radii::Covering => (SMALL, Some(1.0 + 1e-3)),
+        };
+        let mut radii: Vec<f64> = lots.into_iter().map(|lot| law.radius(lot)).collect();
+        if let Some(share) = share {
+            let reach = centers.chunks_exact(d).zip(&radii).skip(1).map(|(center, radius)| {
+                radius
+                    + center.iter().zip(centers).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+            });
+            radii[0] = share * reach.fold(0.0, f64::max);
         }
-    }
-
-    fn radii(self, centers: &[f64], d: usize) -> Result<Vec<f64>> {
-        let mut radii: Vec<f64> = generate(Distribution::Uniform, centers.len() / d, 1, SEED + 1)?;
-        let scale = match self {
-            RadiusLaw::Equal => return Ok(vec![1.0; radii.len()]),
-            RadiusLaw::Exponential => return Ok(radii.iter().map(|u| -(-u).ln_1p()).collect()),
-            RadiusLaw::Large => 3.0,
-            RadiusLaw::Small | RadiusLaw::AlmostCovering | RadiusLaw::Covering => 0.1,
-        };
-        radii.iter_mut().for_each(|radius| *radius *= scale);
-        let share = match self {
-            RadiusLaw::AlmostCovering => 1.0 - 1e-6,
-            RadiusLaw::Covering => 1.0 + 1e-3,
-            _ => return Ok(radii),
-        };
-        let reach = centers.chunks_exact(d).zip(&radii).skip(1).map(|(center, radius)| {
-            radius + center.iter().zip(centers).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
-        });
-        radii[0] = share * reach.fold(0.0, f64::max);
         Ok(radii)
-    }
-}
-
-/// The name of a distribution in tables.
-pub(crate) fn name(distribution: Distribution) -> String {
-    match distribution {
-        Distribution::Uniform => "uniform".into(),
-        Distribution::CubeVertices => "cube vertices".into(),
-        Distribution::Normal => "normal".into(),
-        Distribution::Poisson => "Poisson".into(),
-        Distribution::Sphere => "sphere".into(),
-        Distribution::Shell { thickness } => format!("sphere with {thickness:e} noise"),
-        other => format!("{other:?}"),
     }
 }
 
@@ -208,8 +178,8 @@ mod tests {
 
     #[test]
     fn the_covering_ball_covers_and_the_almost_covering_one_does_not() {
-        for (law, covered) in [(RadiusLaw::Covering, true), (RadiusLaw::AlmostCovering, false)] {
-            let input = Input::balls(law, 100, 3).unwrap();
+        for (radii, covered) in [(Radii::Covering, true), (Radii::AlmostCovering, false)] {
+            let input = Input::balls(("", radii), 100, 3).unwrap();
             let Values::F64(values) = &input.values else {
                 panic!("balls are in double precision")
             };
@@ -219,7 +189,7 @@ mod tests {
                     (0..3).map(|k| (row[k] - rows[0][k]).powi(2)).sum::<f64>().sqrt();
                 distance + row[3] <= rows[0][3]
             });
-            assert_eq!(all, covered, "{law:?}");
+            assert_eq!(all, covered, "{radii:?}");
         }
     }
 

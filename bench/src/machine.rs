@@ -25,7 +25,7 @@ pub(crate) fn describe() -> Value {
         "load": file("/proc/loadavg").trim(),
         "kernel": output("uname", &["-sr"]),
         "rustc": output("rustc", &["--version"]),
-        "taut": output("git", &["describe", "--always", "--dirty", "--tags"]),
+        "taut": env!("TAUT_BUILT_FROM"),
         "g++": output("g++", &["-dumpfullversion"]),
         "cgal": output("dpkg-query", &["-W", "-f=${Version}", "libcgal-dev"]),
         "fgk": file(&peer::folder().join("peers/build/fgk-version").to_string_lossy()).trim(),

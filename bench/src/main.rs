@@ -1,16 +1,20 @@
 //! taut beside its peers: the same inputs, one run, every answer checked.
 //!
-//! `ball` runs the named cases of the minimum enclosing ball; `thesis-ball` reruns figures 5 to 15 of the thesis.
+//! `ball` runs the named cases of the minimum enclosing ball, `delaunay` those of Delaunay triangulations;
+//! `thesis-ball` reruns figures 5 to 15 of the thesis.
 //! The peers are installed by `bench/setup`; one that is missing is named, never skipped in silence.
 #![forbid(unsafe_code)]
 
 mod ball;
+mod delaunay;
 mod input;
 mod judge;
 mod machine;
+mod meter;
 mod peer;
 mod read;
 mod report;
+mod select;
 mod stats;
 mod table;
 mod thesis;
@@ -30,11 +34,16 @@ struct Arguments {
 enum Area {
     /// Minimum enclosing balls: times, ratios with spread, and a judgement of every answer.
     Ball(ball::Arguments),
+    /// Delaunay triangulations: processor time, memory and the number of simplices, program by program.
+    Delaunay(delaunay::Arguments),
     /// Figures 5 to 15 of the thesis, rerun as CSV and SVG.
     ThesisBall(thesis::Arguments),
     /// Solves one raw file and prints seconds per pass and the peak memory of this process.
     #[command(hide = true)]
     SolveFile(ball::file::SolveArguments),
+    /// Triangulates one raw file and prints what the build cost.
+    #[command(hide = true)]
+    OneDelaunay(delaunay::one::OneArguments),
     /// Serves the crate miniball as a peer.
     #[command(hide = true)]
     PeerCrate {
@@ -48,8 +57,10 @@ enum Area {
 fn main() -> anyhow::Result<()> {
     match Arguments::parse().area {
         Area::Ball(arguments) => ball::run(&arguments),
+        Area::Delaunay(arguments) => delaunay::run(&arguments),
         Area::ThesisBall(arguments) => thesis::run(&arguments),
         Area::SolveFile(arguments) => ball::file::solve(&arguments),
+        Area::OneDelaunay(arguments) => delaunay::one::run(&arguments),
         Area::PeerCrate { input, center } => peer::serve_crate(&input, &center),
     }
 }

@@ -15,6 +15,11 @@ impl Table {
     pub(crate) fn push(&mut self, row: Vec<String>) {
         self.rows.push(row);
     }
+
+    /// Rows below the head.
+    pub(crate) fn len(&self) -> usize {
+        self.rows.len() - 1
+    }
 }
 
 impl std::fmt::Display for Table {

@@ -20,8 +20,17 @@ Distribution = Literal[
     "sphere",
     "shell",
     "clusters",
+    "clouds",
     "simplex",
     "polygon",
+    "kuzmin",
+    "grid",
+    "spiral",
+    "lines",
+    "skew",
+    "fan",
+    "roads",
+    "torus",
 ]
 
 
@@ -36,6 +45,10 @@ def generate(
     count: int | None = None,
     spread: float | None = None,
     vertices: int | None = None,
+    side: int | None = None,
+    angle: float | None = None,
+    turns: float | None = None,
+    noise: float | None = None,
 ) -> Rows:
     """Draw n points of dimension d, the same on every machine.
 
@@ -47,9 +60,15 @@ def generate(
         ``"normal"``; ``"uniform"`` in the unit cube; ``"cube"``, the vertices of the unit cube; ``"poisson"``
         with mean 1; ``"sphere"``, uniform on the unit sphere; ``"shell"``, uniform in direction, at a distance
         uniform in 1 - `thickness` to 1 + `thickness`; ``"clusters"``, `count` normal clouds of standard deviation
-        `spread` around centres uniform in the unit cube; ``"simplex"``, the vertices of a regular simplex with
-        unit edges, then points inside; ``"polygon"``, `vertices` points at equal angles on the unit circle, in
-        turn.
+        `spread` around centres uniform in the unit cube; ``"clouds"``, the same with `count` widths from 1e-5 to
+        1e-2; ``"simplex"``, the vertices of a regular simplex with unit edges, then points inside;
+        ``"polygon"``, `vertices` points at equal angles on the unit circle, in turn; ``"kuzmin"``, the stars of a
+        flat galaxy; ``"grid"``, an integer grid of `side` points along each axis in random order, turned by
+        `angle` degrees in the plane of the first two axes; ``"torus"``, a torus in space with normal `noise`;
+        ``"skew"``, two segments on skew lines in space; and in the plane ``"spiral"``, one of Archimedes with
+        `turns` turns, ``"lines"``, two parallel segments, ``"fan"``, one point beside a segment and then points
+        of it, and ``"roads"``, random walks of 50 steps around `count` towns, rounded to 1e-6. What a shape of the
+        plane or of space lacks in dimension d is 0, and what it has beyond it is left out.
     n, d : int
         Number of points, at least 0, and dimension, at least 1.
     seed : int, default 0
@@ -59,11 +78,20 @@ def generate(
     thickness : float >= 0, optional
         Of a shell; by default 0.1.
     count : int >= 1, optional
-        Of clusters; by default 5.
+        Of clusters, by default 5; of clouds, by default sqrt(n) / 4, at least 10; of towns of roads, by default
+        sqrt(n / 50), at least 8.
     spread : float >= 0, optional
         Of clusters; by default 0.05.
     vertices : int >= 1, optional
         Of a polygon; by default n.
+    side : int >= 1, optional
+        Of a grid; by default the least for n points.
+    angle : float, optional
+        Of a grid, in degrees; by default 0.
+    turns : float >= 0, optional
+        Of a spiral; by default 10.
+    noise : float >= 0, optional
+        Of a torus, the standard deviation; by default 1e-4.
 
     Returns
     -------
@@ -96,5 +124,7 @@ def generate(
         raise MemoryError(f"{n} points of dimension {d} do not fit into an address space")
     # NumPy allocates, so that a set too large for memory is a MemoryError.
     points = np.empty((n, d), dtype=dtype)
-    _native.generate(points, distribution, seed, thickness, count, spread, vertices)
+    _native.generate(
+        points, distribution, seed, thickness, count, spread, vertices, side, angle, turns, noise
+    )
     return points

@@ -36,6 +36,10 @@ def generate(
     count: int | None,
     spread: float | None,
     vertices: int | None,
+    side: int | None,
+    angle: float | None,
+    turns: float | None,
+    noise: float | None,
 ) -> None: ...
 
 class Violation(Exception): ...

@@ -1,5 +1,7 @@
 """Generated points are those of the Rust library."""
 
+import typing
+
 import numpy as np
 import pytest
 
@@ -8,9 +10,14 @@ import taut
 PARAMETERS = {
     "shell": {"thickness": 0.25},
     "clusters": {"count": 3, "spread": 0.01},
+    "clouds": {"count": 3},
     "polygon": {"vertices": 7},
+    "grid": {"side": 5, "angle": 30.0},
+    "spiral": {"turns": 3.5},
+    "roads": {"count": 4},
+    "torus": {"noise": 0.1},
 }
-ALL = ["uniform", "cube", "normal", "poisson", "sphere", "simplex", *PARAMETERS]
+ALL = [*typing.get_args(taut._generate.Distribution)]
 
 
 @pytest.mark.parametrize("distribution", ALL)
@@ -46,6 +53,9 @@ def test_shapes_are_what_they_say():
         (("shell", 10, 2), {"thickness": -1.0}, "`thickness` is -1"),
         (("clusters", 10, 2), {"count": 0, "spread": 1.0}, "`count` is 0"),
         (("polygon", 10, 2), {"vertices": -1}, "`vertices` is -1"),
+        (("polygon", 10, 2), {"count": 3}, "`count` belongs to clusters, clouds and roads, not to"),
+        (("grid", 10, 2), {"side": 2**53 + 1}, "`side` is 9007199254740993"),
+        (("spiral", 10, 2), {"turns": float("nan")}, "`turns` is NaN"),
         (("normal", 10, 0), {}, "`d` is 0: expected at least 1"),
         (("normal", 10, -2), {}, "`d` is -2: expected at least 1"),
         (("normal", -1, 2), {}, "`n` is -1: expected at least 0"),
@@ -62,7 +72,12 @@ def test_defaults_are_those_of_the_command_line():
     for distribution, parameters in {
         "shell": {"thickness": 0.1},
         "clusters": {"count": 5, "spread": 0.05},
+        "clouds": {"count": 10},
         "polygon": {"vertices": 12},
+        "grid": {"side": 3, "angle": 0.0},
+        "spiral": {"turns": 10.0},
+        "roads": {"count": 8},
+        "torus": {"noise": 1e-4},
     }.items():
         by_default = taut.generate(distribution, 12, 3)
         assert (by_default == taut.generate(distribution, 12, 3, **parameters)).all()

@@ -7,14 +7,14 @@ use taut_enclose::BallOptions;
 use super::case::{BallsCase, Case};
 use super::goals::{self, Measured};
 use super::{Context, paired};
-use crate::input::{Input, RadiusLaw};
+use crate::input::{Input, Radii};
 
 /// Runs the case under all six laws.
 pub(super) fn run(context: &mut Context, case: &Case, balls: &BallsCase) -> Result<()> {
     let n = if context.quick { balls.n / 10 } else { balls.n };
     let mut laws = Vec::new();
-    for law in RadiusLaw::ALL {
-        let input = Input::balls(law, n, balls.d)?;
+    for radii in Radii::ALL {
+        let input = Input::balls(radii, n, balls.d)?;
         let options = BallOptions { epsilon: 0.0, ..BallOptions::default() };
         let paired = paired::run(context, &input, &options, balls.peers)?;
         println!("{}\n\n{}", input.what, paired.table());

@@ -285,27 +285,9 @@ const SPACE_THIRD: Goal = Goal::ShareOf {
     share: 1.0 / 3.0,
 };
 
-/// Whether `wanted` on the command line means the case `name`: by its whole name, so that `balls-10` is not also
-/// `balls-100`, or, where no case has that name, by the beginning of it.
-pub(super) fn means(wanted: &str, name: &str) -> bool {
-    match CASES.iter().any(|case| case.name == wanted) {
-        true => name == wanted,
-        false => name.starts_with(wanted),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_whole_name_means_that_case_alone() {
-        let meant = |wanted| CASES.iter().filter(|case| means(wanted, case.name)).count();
-        assert_eq!(
-            (meant("balls-10"), meant("balls"), meant("normal"), meant("none")),
-            (1, 5, 3, 0)
-        );
-    }
 
     #[test]
     fn names_are_unique_and_goals_speak_of_peers_that_run() {

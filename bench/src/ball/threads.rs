@@ -8,7 +8,7 @@ use taut_points::{Distribution, Monitor};
 
 use super::Context;
 use super::case::Case;
-use crate::input::{Input, RadiusLaw};
+use crate::input::{Input, Radii};
 use crate::table::Table;
 
 /// Solves several inputs by each method with 1, 2 and 8 threads and compares the JSON of the solutions.
@@ -27,8 +27,8 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
         Input::points(Distribution::Sphere, n, 10)?,
         Input::points(Distribution::Shell { thickness: 1e-8 }, n, 50)?,
     ];
-    for law in RadiusLaw::ALL {
-        inputs.push(Input::balls(law, n, 10)?);
+    for radii in Radii::ALL {
+        inputs.push(Input::balls(radii, n, 10)?);
     }
     inputs.extend(Input::usps()?);
 

@@ -9,7 +9,7 @@ use taut_points::{Distribution, Monitor};
 
 use super::Plan;
 use super::figure::{Curve, Figure};
-use crate::input::{Input, name};
+use crate::input::Input;
 use crate::judge::judge;
 use crate::peer::Peer;
 
@@ -244,7 +244,7 @@ fn four_distributions(plan: &Plan) -> Result<Vec<Figure>> {
         let input = |d: u32| Input::points(distribution, 10_000, d as usize);
         pair.add(
             plan,
-            &Way::new(name(distribution), BallMethod::ThesisFast, EPSILON),
+            &Way::new(distribution.to_string(), BallMethod::ThesisFast, EPSILON),
             dims,
             input,
         )?;

@@ -5,14 +5,14 @@ use std::path::PathBuf;
 
 use anyhow::{anyhow, bail};
 use clap::builder::{PossibleValue, PossibleValuesParser};
-use taut::points::generate::Parameters;
+use taut::points::generate::{Parameters, RadiusLaw};
 use taut::points::{Error, GeneratedSource, ScalarKind};
 use taut::{Distribution, PointSource};
 use taut_io::{Format, write_points};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::radii::{Balls, Law};
+use crate::radii::Balls;
 use crate::reading::{formats, scalar, wrong_option};
 use crate::writing;
 
@@ -37,7 +37,7 @@ pub(crate) struct Args {
     /// Half the thickness of a shell, at least 0 [default: 0.1]
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     thickness: Option<f64>,
-    /// Number of clusters, at least 1 [default: 5]
+    /// Number of clusters, clouds or towns, at least 1 [default: 5; √N / 4, at least 10; √(N / 50), at least 8]
     #[arg(long, value_name = "K")]
     count: Option<u64>,
     /// Standard deviation of a cluster, at least 0 [default: 0.05]
@@ -46,9 +46,21 @@ pub(crate) struct Args {
     /// Vertices of a polygon, at least 1 [default: N]
     #[arg(long, value_name = "K")]
     vertices: Option<u64>,
+    /// Points along an axis of a grid, at least 1 [default: the fewest that make N points]
+    #[arg(long, value_name = "K")]
+    side: Option<u64>,
+    /// Angle by which a grid is turned in the plane of the first two axes [default: 0]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    angle: Option<f64>,
+    /// How often a spiral goes around, at least 0 [default: 10]
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    turns: Option<f64>,
+    /// Standard deviation of the noise of a torus, at least 0 [default: 0.0001]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    noise: Option<f64>,
     /// Make balls: a last column of radii, equal:R, uniform:A:B or exponential:MEAN
     #[arg(long, value_name = "LAW")]
-    radii: Option<Law>,
+    radii: Option<RadiusLaw>,
 
     /// Where to write; - is standard output
     #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Writing")]
@@ -106,9 +118,9 @@ impl Args {
     }
 
     fn distribution(&self) -> Result<Distribution, Error> {
-        let Args { thickness, count, spread, vertices, .. } = *self;
-        let given = Parameters { thickness, count, spread, vertices };
-        Distribution::named(&self.distribution, self.n, &given)
+        let Args { thickness, count, spread, vertices, side, angle, turns, noise, .. } = *self;
+        let given = Parameters { thickness, count, spread, vertices, side, angle, turns, noise };
+        Distribution::named(&self.distribution, self.n, self.d, &given)
     }
 }
 

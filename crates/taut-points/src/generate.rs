@@ -4,227 +4,24 @@
 //! on the seed, i, d and the distribution alone, not on n, on threads or on what was generated before, and a set
 //! larger than memory is itself a [`PointSource`].
 //! *Reference.* The four distributions of the experiments on minimum enclosing balls by Kumar, Mitchell and
-//! Yıldırım (ALENEX 2003): uniform in the cube, vertices of the cube, normal, Poisson with λ = 1.
+//! Yıldırım (ALENEX 2003): uniform in the cube, vertices of the cube, normal, Poisson with λ = 1. Kuzmin's as in the
+//! experiments on Delaunay triangulations by Blelloch, Miller and Talmor (Algorithmica 24(3), 1999).
 
-use std::f64::consts::TAU;
+mod distribution;
+mod draw;
+mod radii;
+mod shuffle;
+
 use std::ops::Range;
 
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution as _, Exp1, Poisson, StandardNormal};
 use rayon::prelude::*;
 
 use crate::source::check_range;
 use crate::{Blocks, Error, PointSource, Points, ReadError, Rows, Scalar, ScalarKind, Scratch};
 
-/// From what points are drawn, independently of each other.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Distribution {
-    /// Uniform in the unit cube [0, 1)ᵈ.
-    Uniform,
-    /// Uniform on the 2ᵈ vertices of the unit cube: cospherical, and with duplicates in low dimension.
-    CubeVertices,
-    /// Each coordinate standard normal.
-    Normal,
-    /// Each coordinate Poisson distributed with λ = 1: a lattice, with many ties.
-    Poisson,
-    /// Uniform on the unit sphere, to rounding.
-    Sphere,
-    /// Uniform direction, distance from the origin uniform in [1 − t, 1 + t).
-    Shell {
-        /// Half the thickness t ≥ 0; 1e-8 makes the hardest instances for a minimum enclosing ball.
-        thickness: f64,
-    },
-    /// Normal clouds around centres that are uniform in the unit cube; point i belongs to cloud i mod count.
-    Clusters {
-        /// Number of clouds, at least 1.
-        count: u64,
-        /// Standard deviation of each cloud, ≥ 0.
-        spread: f64,
-    },
-    /// The d + 1 vertices of a regular simplex with unit edges, then points uniform inside it.
-    Simplex,
-    /// n points at equal angles on the unit circle in the first two coordinates; the others are 0.
-    Polygon {
-        /// Number of vertices of the polygon, at least 1; point i is vertex i mod vertices.
-        vertices: u64,
-    },
-}
-
-/// What a distribution may be told when it is called by its name; what is left out has its default.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Parameters {
-    /// Half the thickness of a shell, at least 0. Default 0.1.
-    pub thickness: Option<f64>,
-    /// Number of clusters, at least 1. Default 5.
-    pub count: Option<u64>,
-    /// Standard deviation of a cluster, at least 0. Default 0.05.
-    pub spread: Option<f64>,
-    /// Vertices of a polygon, at least 1. Default: as many as points.
-    pub vertices: Option<u64>,
-}
-
-impl Distribution {
-    /// The name of each distribution, and a line about it.
-    pub const NAMES: [(&str, &str); 9] = [
-        ("normal", "each coordinate standard normal"),
-        ("uniform", "uniform in the unit cube"),
-        ("cube", "vertices of the unit cube: cospherical, with duplicates in low dimension"),
-        ("poisson", "each coordinate Poisson with mean 1: a lattice with many ties"),
-        ("sphere", "uniform on the unit sphere"),
-        ("shell", "uniform in direction, 1 ± T from the origin"),
-        ("clusters", "normal clouds around K centres in the unit cube"),
-        ("simplex", "vertices of a regular simplex with unit edges, then points inside"),
-        ("polygon", "K points at equal angles on the unit circle, in turn"),
-    ];
-
-    /// The distribution of a name out of [`NAMES`](Self::NAMES), for n points.
-    ///
-    /// ```
-    /// use taut_points::{Distribution, generate::Parameters};
-    /// let given = Parameters { count: Some(3), ..Default::default() };
-    /// let clouds = Distribution::named("clusters", 100, &given)?;
-    /// assert_eq!(clouds, Distribution::Clusters { count: 3, spread: 0.05 });
-    /// # Ok::<(), taut_points::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::Parameter`] for another name or a parameter out of range, [`Error::Foreign`] for a parameter that the
-    /// distribution does not take.
-    pub fn named(name: &str, n: u64, given: &Parameters) -> Result<Self, Error> {
-        for (parameter, is_given, owner) in [
-            ("thickness", given.thickness.is_some(), "shell"),
-            ("count", given.count.is_some(), "clusters"),
-            ("spread", given.spread.is_some(), "clusters"),
-            ("vertices", given.vertices.is_some(), "polygon"),
-        ] {
-            if is_given && name != owner {
-                let distribution = name.to_owned();
-                return Err(Error::Foreign { name: parameter, owner, distribution });
-            }
-        }
-        let found = match name {
-            "normal" => Distribution::Normal,
-            "uniform" => Distribution::Uniform,
-            "cube" => Distribution::CubeVertices,
-            "poisson" => Distribution::Poisson,
-            "sphere" => Distribution::Sphere,
-            "shell" => Distribution::Shell { thickness: given.thickness.unwrap_or(0.1) },
-            "clusters" => Distribution::Clusters {
-                count: given.count.unwrap_or(5),
-                spread: given.spread.unwrap_or(0.05),
-            },
-            "simplex" => Distribution::Simplex,
-            "polygon" => Distribution::Polygon { vertices: given.vertices.unwrap_or(n.max(1)) },
-            _ => {
-                return Err(Error::Parameter {
-                    name: "distribution",
-                    value: name.to_owned(),
-                    expected: "normal, uniform, cube, poisson, sphere, shell, clusters, simplex or polygon",
-                });
-            }
-        };
-        found.check().map(|()| found)
-    }
-
-    fn check(&self) -> Result<(), Error> {
-        let wrong = |name, value: String, expected| Err(Error::Parameter { name, value, expected });
-        match *self {
-            Distribution::Shell { thickness } if !(thickness >= 0.0 && thickness.is_finite()) => {
-                wrong("thickness", thickness.to_string(), "a finite number, at least 0")
-            }
-            Distribution::Clusters { count: 0, .. } => wrong("count", "0".into(), "at least 1"),
-            Distribution::Clusters { spread, .. } if !(spread >= 0.0 && spread.is_finite()) => {
-                wrong("spread", spread.to_string(), "a finite number, at least 0")
-            }
-            Distribution::Polygon { vertices: 0 } => wrong("vertices", "0".into(), "at least 1"),
-            _ => Ok(()),
-        }
-    }
-}
-
-/// The random stream with a number of its own.
-fn stream(seed: u64, number: u64) -> ChaCha8Rng {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    random.set_stream(number);
-    random
-}
-
-/// Writes point `i` to `out`, whose length is the dimension.
-fn draw(distribution: &Distribution, seed: u64, i: u64, out: &mut [f64]) {
-    let mut random = stream(seed, i);
-    match *distribution {
-        Distribution::Uniform => out.fill_with(|| random.random()),
-        Distribution::CubeVertices => vertex(&mut random, out),
-        Distribution::Normal => out.fill_with(|| StandardNormal.sample(&mut random)),
-        Distribution::Poisson => {
-            let poisson = Poisson::new(1.0).expect("λ = 1 is a valid mean");
-            out.fill_with(|| poisson.sample(&mut random));
-        }
-        Distribution::Sphere => direction(&mut random, 1.0, out),
-        Distribution::Shell { thickness } => {
-            let radius = 1.0 + thickness * (2.0 * random.random::<f64>() - 1.0);
-            direction(&mut random, radius, out);
-        }
-        Distribution::Clusters { count, spread } => {
-            // Streams counted down from the last belong to the centres.
-            let mut centre = stream(seed, u64::MAX - i % count);
-            out.fill_with(|| {
-                let offset: f64 = StandardNormal.sample(&mut random);
-                centre.random::<f64>() + spread * offset
-            });
-        }
-        Distribution::Simplex => simplex(&mut random, i, out),
-        Distribution::Polygon { vertices } => {
-            let (sin, cos) = (TAU * (i % vertices) as f64 / vertices as f64).sin_cos();
-            out.fill(0.0);
-            for (coordinate, value) in out.iter_mut().zip([cos, sin]) {
-                *coordinate = value;
-            }
-        }
-    }
-}
-
-/// One random bit for each coordinate.
-fn vertex(random: &mut ChaCha8Rng, out: &mut [f64]) {
-    for word in out.chunks_mut(64) {
-        let mut bits: u64 = random.random();
-        for coordinate in word {
-            *coordinate = (bits & 1) as f64;
-            bits >>= 1;
-        }
-    }
-}
-
-/// A normal vector, scaled to the wanted length: uniform in direction (Muller 1959).
-fn direction(random: &mut ChaCha8Rng, radius: f64, out: &mut [f64]) {
-    loop {
-        out.fill_with(|| StandardNormal.sample(random));
-        let norm = out.iter().map(|v| v * v).sum::<f64>().sqrt();
-        if norm > 0.0 {
-            return out.iter_mut().for_each(|v| *v *= radius / norm);
-        }
-    }
-}
-
-/// Vertex `i`, or for i > d a point with barycentric coordinates uniform on the standard simplex.
-fn simplex(random: &mut ChaCha8Rng, i: u64, out: &mut [f64]) {
-    let d = out.len();
-    // Vertices e₁ … e_d and a·(1 … 1), all at distance √2 from each other, scaled to unit edges.
-    let scale = std::f64::consts::FRAC_1_SQRT_2;
-    let apex = scale * (1.0 - (d as f64 + 1.0).sqrt()) / d as f64;
-    if i <= d as u64 {
-        out.fill(if i == d as u64 { apex } else { 0.0 });
-        if let Some(coordinate) = out.get_mut(i as usize) {
-            *coordinate = scale;
-        }
-        return;
-    }
-    out.fill_with(|| Exp1.sample(random));
-    let last: f64 = Exp1.sample(random);
-    let sum = out.iter().sum::<f64>() + last;
-    out.iter_mut().for_each(|v| *v = (*v * scale + last * apex) / sum);
-}
+pub use distribution::{Distribution, Parameters};
+use draw::draw;
+pub use radii::RadiusLaw;
 
 /// Memory for one point.
 fn point_of(dim: usize) -> Result<Vec<f64>, Error> {
@@ -388,17 +185,9 @@ pub fn generate_into<T: Scalar>(
 mod tests {
     use super::*;
 
-    const ALL: [Distribution; 9] = [
-        Distribution::Uniform,
-        Distribution::CubeVertices,
-        Distribution::Normal,
-        Distribution::Poisson,
-        Distribution::Sphere,
-        Distribution::Shell { thickness: 0.25 },
-        Distribution::Clusters { count: 3, spread: 0.01 },
-        Distribution::Simplex,
-        Distribution::Polygon { vertices: 7 },
-    ];
+    fn named(name: &str, n: u64, dim: usize) -> Distribution {
+        Distribution::named(name, n, dim, &Parameters::default()).unwrap()
+    }
 
     fn norm(point: &[f64]) -> f64 {
         point.iter().map(|v| v * v).sum::<f64>().sqrt()
@@ -406,7 +195,8 @@ mod tests {
 
     #[test]
     fn a_point_depends_on_seed_and_number_alone() {
-        for distribution in ALL {
+        for (name, _) in Distribution::NAMES {
+            let distribution = named(name, 30_000, 7);
             let values: Vec<f64> = generate(distribution, 30_000, 7, 1).unwrap();
             let source = GeneratedSource::new(distribution, 30_000, 7, 1, ScalarKind::F64).unwrap();
             let late = crate::gather(&source, &[29_999, 0]).unwrap();
@@ -461,6 +251,126 @@ mod tests {
         assert_ne!(clusters[..3], clusters[3..6]);
     }
 
+    /// Every pair of rows, as bits, so that a set of them finds duplicates.
+    fn distinct(values: &[f64], dim: usize) -> usize {
+        let rows = values.chunks(dim).map(|row| row.iter().map(|v| v.to_bits()).collect());
+        rows.collect::<std::collections::HashSet<Vec<u64>>>().len()
+    }
+
+    #[test]
+    fn grids_have_each_point_once_before_any_comes_again() {
+        for (n, dim, side) in [(400, 2, 20), (125, 3, 5), (17, 1, 17), (130, 3, 6)] {
+            let grid = named("grid", n as u64, dim);
+            assert_eq!(grid, Distribution::Grid { side, angle: 0.0 });
+            let values: Vec<f64> = generate(grid, n, dim, 3).unwrap();
+            assert_eq!(distinct(&values, dim), n);
+            assert!(values.iter().all(|&v| v.fract() == 0.0 && (0.0..side as f64).contains(&v)));
+            assert!(!values.is_sorted(), "in random order");
+        }
+        let twice: Vec<f64> =
+            generate(Distribution::Grid { side: 3, angle: 0.0 }, 18, 2, 3).unwrap();
+        assert_eq!(twice[..18], twice[18..]);
+        assert_eq!(distinct(&twice, 2), 9);
+        let tilted: Vec<f64> =
+            generate(Distribution::Grid { side: 9, angle: 90.0 }, 81, 2, 3).unwrap();
+        let straight: Vec<f64> =
+            generate(Distribution::Grid { side: 9, angle: 0.0 }, 81, 2, 3).unwrap();
+        for (turned, p) in tilted.chunks(2).zip(straight.chunks(2)) {
+            assert!((turned[0] + p[1]).abs() < 1e-14 && (turned[1] - p[0]).abs() < 1e-14);
+        }
+        // More axes than a number has digits: still no point twice.
+        let values: Vec<f64> = generate(named("grid", 1000, 70), 1000, 70, 3).unwrap();
+        assert_eq!(distinct(&values, 70), 1000);
+    }
+
+    #[test]
+    fn shapes_of_plane_and_space_are_met_and_fitted_to_the_dimension() {
+        let drawn =
+            |name, dim| -> Vec<f64> { generate(named(name, 2000, 3), 2000, dim, 5).unwrap() };
+        for name in ["polygon", "spiral", "lines", "skew", "fan", "roads"] {
+            let (line, wide) = (drawn(name, 1), drawn(name, 5));
+            for (x, p) in line.iter().zip(wide.chunks(5)) {
+                assert_eq!((*x, p[3], p[4]), (p[0], 0.0, 0.0), "{name}");
+            }
+        }
+        for p in drawn("spiral", 2).chunks(2) {
+            let r = norm(p);
+            let (sin, cos) = (std::f64::consts::TAU * 10.0 * r).sin_cos();
+            assert!((p[0] - r * cos).abs() < 1e-12 && (p[1] - r * sin).abs() < 1e-12 && r < 1.0);
+        }
+        for (i, p) in drawn("lines", 2).chunks(2).enumerate() {
+            assert!(p[1] == (i % 2) as f64 && (0.0..1.0).contains(&p[0]));
+        }
+        for (i, p) in drawn("skew", 3).chunks(3).enumerate() {
+            let (along, across, height) =
+                if i % 2 == 0 { (p[0], p[1], -1.0) } else { (p[1], p[0], 1.0) };
+            assert!((-1.0..1.0).contains(&along) && across == 0.0 && p[2] == height);
+        }
+        let fan = drawn("fan", 2);
+        assert_eq!(fan[..2], [0.5, 1.0]);
+        assert!(fan[2..].chunks(2).all(|p| (0.0..1.0).contains(&p[0]) && p[1] == 0.0));
+        let torus: Vec<f64> = generate(Distribution::Torus { noise: 0.0 }, 500, 3, 5).unwrap();
+        for p in torus.chunks(3) {
+            assert!(((norm(&p[..2]) - 2.0).hypot(p[2]) - 0.7).abs() < 1e-14);
+        }
+        let noisy = drawn("torus", 3);
+        let off = noisy.chunks(3).map(|p| ((norm(&p[..2]) - 2.0).hypot(p[2]) - 0.7).powi(2));
+        let off = (off.sum::<f64>() / 2000.0).sqrt();
+        assert!((0.9e-4..1.1e-4).contains(&off), "{off}");
+    }
+
+    #[test]
+    fn kuzmin_is_distributed_as_its_law_says() {
+        let values: Vec<f64> = generate(Distribution::Kuzmin, 50_000, 2, 7).unwrap();
+        for radius in [0.1f64, 1.0, 10.0, 100.0] {
+            let within = values.chunks(2).filter(|p| norm(p) <= radius).count() as f64 / 5e4;
+            let law = 1.0 - 1.0 / (1.0 + radius * radius).sqrt();
+            assert!((within - law).abs() < 0.01, "{radius}: {within} instead of {law}");
+        }
+    }
+
+    #[test]
+    fn clouds_differ_in_width() {
+        let values: Vec<f64> = generate(Distribution::Clouds { count: 20 }, 20_000, 2, 7).unwrap();
+        let widths: Vec<f64> = (0..20)
+            .map(|cloud| {
+                let xs: Vec<f64> = values.chunks(2).skip(cloud).step_by(20).map(|p| p[0]).collect();
+                let mean = xs.iter().sum::<f64>() / 1e3;
+                (xs.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / 1e3).sqrt()
+            })
+            .collect();
+        assert!(widths.iter().all(|w| (0.9e-5..1.1e-2).contains(w)), "{widths:?}");
+        let (least, most) = widths.iter().fold((1.0f64, 0.0f64), |(a, b), &w| (a.min(w), b.max(w)));
+        assert!(most > 50.0 * least, "{least} to {most}");
+    }
+
+    #[test]
+    fn roads_are_walks_of_fifty_steps_that_crowd_around_few_towns() {
+        let n = 100_000;
+        let roads = named("roads", n as u64, 2);
+        assert_eq!(roads, Distribution::Roads { count: 44 });
+        let values: Vec<f64> = generate(roads, n, 2, 7).unwrap();
+        assert!(values.iter().all(|v| (v * 1e6).round() / 1e6 == *v && (-10.0..70.0).contains(v)));
+        for road in values.chunks(100) {
+            let steps: Vec<f64> = road
+                .windows(4)
+                .step_by(2)
+                .map(|pair| norm(&[pair[2] - pair[0], pair[3] - pair[1]]))
+                .collect();
+            let first = steps[0];
+            assert!((0.9 * 60e-4 / 20.0..60e-3 / 1.9).contains(&first), "{first}");
+            // The same step to the rounding of its ends.
+            assert!(steps.iter().all(|step| (step - first).abs() < 3e-6), "{steps:?}");
+        }
+        // Zipf: about log 2 / log 45 = 18 % of all roads begin at the largest of 44 towns.
+        let mut cells = std::collections::HashMap::new();
+        for road in values.chunks(100) {
+            *cells.entry(((road[0] / 3.0) as i64, (road[1] / 3.0) as i64)).or_insert(0) += 1;
+        }
+        let crowd = *cells.values().max().unwrap();
+        assert!((150..700).contains(&crowd), "{crowd} of 2000 roads within 3 units");
+    }
+
     #[test]
     fn parameters_out_of_range_are_named() {
         let wrong =
@@ -468,26 +378,6 @@ mod tests {
         assert!(wrong.to_string().contains("thickness"), "{wrong}");
         assert_eq!(generate::<f32>(Distribution::Normal, 1, 0, 0), Err(Error::ZeroDimension));
         assert_eq!(generate::<f64>(Distribution::Normal, 0, 3, 0), Ok(vec![]));
-        assert!(Distribution::named("shell", 1, &Parameters::default()).is_ok());
-        let thin = Parameters { thickness: Some(-1.0), ..Default::default() };
-        let wrong = Distribution::named("shell", 1, &thin).unwrap_err();
-        assert_eq!(wrong.to_string(), "`thickness` is -1: expected a finite number, at least 0");
-        let wrong = Distribution::named("normal", 1, &thin).unwrap_err();
-        let said = "`thickness` belongs to shell, not to normal: leave it out";
-        assert_eq!(wrong.to_string(), said);
-    }
-
-    #[test]
-    fn each_name_is_a_distribution_of_its_own_and_the_refusal_lists_them() {
-        let named = |name| Distribution::named(name, 6, &Parameters::default());
-        let refused = named("weibull").unwrap_err().to_string();
-        let mut found = Vec::new();
-        for (name, _) in Distribution::NAMES {
-            let distribution = named(name).unwrap();
-            assert!(!found.contains(&distribution) && refused.contains(name), "{name}");
-            found.push(distribution);
-        }
-        assert_eq!(found[8], Distribution::Polygon { vertices: 6 });
     }
 
     #[test]

@@ -9,9 +9,9 @@ fn rows(text: &str) -> Vec<Vec<f64>> {
 #[test]
 fn every_distribution_is_drawn() {
     let desk = Desk::new();
-    for name in [
-        "normal", "uniform", "cube", "poisson", "sphere", "shell", "clusters", "simplex", "polygon",
-    ] {
+    let help = desk.taut("generate --help").ends(0).out;
+    for (name, _) in taut::Distribution::NAMES {
+        assert!(help.contains(&format!("- {name}:")), "{name} in {help}");
         let run = desk.taut(&format!("generate {name} -n 12 -d 3")).ends(0);
         let rows = rows(&run.out);
         assert_eq!(rows.len(), 12, "{name}");
@@ -30,6 +30,17 @@ fn parameters_reach_their_distribution() {
     assert_eq!(square[..4], square[4..]);
     let points = desk.taut("generate clusters -n 9 -d 2 --count 3 --spread 0").ends(0).out;
     assert_eq!(rows(&points)[..3], rows(&points)[6..]);
+    let grid = rows(&desk.taut("generate grid -n 9 -d 2 --side 3").ends(0).out);
+    let mut cells: Vec<_> = grid.iter().map(|row| (3.0 * row[0] + row[1]) as usize).collect();
+    cells.sort_unstable();
+    assert!(cells.into_iter().eq(0..9));
+    let turned = rows(&desk.taut("generate grid -n 9 -d 2 --angle 90").ends(0).out);
+    assert!(turned.iter().zip(&grid).all(|(turned, row)| (turned[1] - row[0]).abs() < 1e-15));
+    let still = desk.taut("generate spiral -n 5 -d 3 --turns 0").ends(0).out;
+    assert!(rows(&still).iter().all(|row| row[1..] == [0.0, 0.0]));
+    let exact = rows(&desk.taut("generate torus -n 5 -d 3 --noise 0").ends(0).out);
+    let off = |row: &Vec<f64>| ((row[0].hypot(row[1]) - 2.0).hypot(row[2]) - 0.7).abs();
+    assert!(exact.iter().all(|row| off(row) < 1e-14));
     desk.taut("generate normal -n 2 -d 2 --thickness 1")
         .ends(2)
         .complains(&["--thickness", "shell"]);

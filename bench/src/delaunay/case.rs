@@ -1,0 +1,267 @@
+//! The list of cases: which inputs, beside whom, and what has to be reached.
+
+use taut_points::generate::Parameters;
+use taut_points::{Distribution, Error};
+
+use super::goals::Goal;
+use super::program::Peer;
+
+/// A case by name.
+pub(super) struct Case {
+    /// Its name on the command line.
+    pub(super) name: &'static str,
+    /// What it shows.
+    pub(super) about: &'static str,
+    /// Dimension of its inputs.
+    pub(super) dim: usize,
+    /// What is triangulated.
+    pub(super) inputs: &'static [Input],
+    /// Peers beside taut.
+    pub(super) peers: &'static [Peer],
+    /// Numbers of threads taut is run with.
+    pub(super) threads: &'static [usize],
+}
+
+/// One set of points.
+#[derive(Clone, Copy)]
+pub(super) struct Input {
+    /// From what they are drawn, as `taut generate` calls it.
+    pub(super) distribution: &'static str,
+    /// Degrees by which a grid is turned.
+    angle: Option<f64>,
+    /// How many.
+    pub(super) n: usize,
+    /// How many simplices they have: of CGAL, and for skew lines and the fan by a formula.
+    pub(super) simplices: u64,
+    /// What has to be reached.
+    pub(super) must: &'static [Goal],
+    /// What is hoped for.
+    pub(super) aim: &'static [Goal],
+    /// What Geogram took for points of this kind, in another hour.
+    pub(super) quoted: Option<Quoted>,
+}
+
+/// A figure that was not measured in this run: Geogram has no package that could be installed.
+#[derive(Clone, Copy)]
+pub(super) struct Quoted {
+    /// Nanoseconds of processor time per point of Geogram.
+    pub(super) geogram: f64,
+    /// The same of CGAL, in the hour in which Geogram was measured.
+    pub(super) cgal: f64,
+}
+
+impl Input {
+    /// The distribution, for `n` points.
+    pub(super) fn distribution(&self, n: usize, dim: usize) -> Result<Distribution, Error> {
+        let given = Parameters { angle: self.angle, ..Parameters::default() };
+        Distribution::named(self.distribution, n as u64, dim, &given)
+    }
+
+    const fn goals(self, must: &'static [Goal], aim: &'static [Goal]) -> Self {
+        Input { must, aim, ..self }
+    }
+
+    const fn quoted(self, geogram: f64, cgal: f64) -> Self {
+        Input { quoted: Some(Quoted { geogram, cgal }), ..self }
+    }
+}
+
+const fn input(distribution: &'static str, n: usize, simplices: u64) -> Input {
+    Input { distribution, angle: None, n, simplices, must: &[], aim: &[], quoted: None }
+}
+
+/// The angle at which a floating in-circle test is known to fail on grids.
+const TILTED: f64 = 302.328;
+
+/// All peers in the plane.
+pub(super) const PLANE_PEERS: &[Peer] =
+    &[Peer::Cgal, Peer::Spade, Peer::Delaunator, Peer::Triangle, Peer::Qhull];
+/// All peers in space.
+pub(super) const SPACE_PEERS: &[Peer] = &[Peer::Cgal, Peer::Qhull];
+
+const PLANE_MUST: &[Goal] = &[Goal::OfCgal(0.55)];
+const PLANE_AIM: &[Goal] = &[Goal::OfCgal(0.38)];
+const SPACE_MUST: &[Goal] = &[Goal::OfCgal(0.6)];
+const SPACE_AIM: &[Goal] = &[Goal::OfCgal(0.37)];
+const CLIFF: &[Goal] = &[Goal::OfUniform(2.0)];
+
+/// All cases, in the order in which they run.
+pub(super) const CASES: &[Case] = &[
+    Case {
+        name: "plane",
+        about: "A million points of the plane, one thread.",
+        dim: 2,
+        inputs: &[
+            input("uniform", 1_000_000, 1_999_968)
+                .goals(&[Goal::OfCgal(0.55), Goal::ExactRate(1e-4)], PLANE_AIM)
+                .quoted(919.0, 436.0),
+            input("normal", 1_000_000, 1_999_983).goals(PLANE_MUST, PLANE_AIM).quoted(922.0, 439.0),
+            input("clouds", 1_000_000, 1_999_973).goals(PLANE_MUST, PLANE_AIM).quoted(919.0, 429.0),
+            input("kuzmin", 1_000_000, 1_999_991)
+                .goals(&[Goal::OfCgal(0.65)], PLANE_AIM)
+                .quoted(892.0, 448.0),
+            input("roads", 1_000_000, 1_999_980).goals(PLANE_MUST, PLANE_AIM).quoted(742.0, 442.0),
+        ],
+        peers: PLANE_PEERS,
+        threads: &[1],
+    },
+    Case {
+        name: "plane-large",
+        about: "Ten million points of the plane, one thread.",
+        dim: 2,
+        inputs: &[input("uniform", 10_000_000, 19_999_955).goals(&[Goal::OfCgal(0.5)], PLANE_AIM)],
+        peers: &[Peer::Cgal, Peer::Spade, Peer::Delaunator],
+        threads: &[1],
+    },
+    Case {
+        name: "plane-cliffs",
+        about: "Ties, lines and circles in the plane: no point may cost more than two of a uniform set of that size.",
+        dim: 2,
+        inputs: &[
+            input("uniform", 100_000, 199_962).quoted(704.0, 359.0),
+            input("uniform", 1_000_000, 1_999_968).quoted(919.0, 436.0),
+            input("grid", 1_000_000, 1_996_002).goals(CLIFF, &[]).quoted(2490.0, 505.0),
+            Input { angle: Some(TILTED), ..input("grid", 1_000_000, 1_999_974) }.goals(CLIFF, &[]),
+            input("sphere", 100_000, 99_998).goals(CLIFF, &[]).quoted(10077.0, 371.0),
+            input("roads", 1_000_000, 1_999_980).goals(CLIFF, &[]).quoted(742.0, 442.0),
+            input("lines", 1_000_000, 999_998).goals(CLIFF, &[]),
+            input("spiral", 1_000_000, 1_822_953).goals(CLIFF, &[]),
+            input("fan", 1_000_000, 999_998).goals(CLIFF, &[]),
+        ],
+        peers: &[Peer::Cgal, Peer::Spade, Peer::Delaunator, Peer::Triangle],
+        threads: &[1],
+    },
+    Case {
+        name: "space",
+        about: "A million points of space, one thread.",
+        dim: 3,
+        inputs: &[
+            input("uniform", 1_000_000, 6_749_316)
+                .goals(&[Goal::OfCgal(0.6), Goal::ExactRate(1e-4)], SPACE_AIM)
+                .quoted(2999.0, 3315.0),
+            input("normal", 1_000_000, 6_765_494)
+                .goals(SPACE_MUST, SPACE_AIM)
+                .quoted(2519.0, 2917.0),
+            input("clouds", 1_000_000, 6_688_990)
+                .goals(SPACE_MUST, SPACE_AIM)
+                .quoted(2387.0, 2790.0),
+        ],
+        peers: SPACE_PEERS,
+        threads: &[1],
+    },
+    Case {
+        name: "space-grid",
+        about: "The integer grid 100³: all ties; its tetrahedra are 6·99³.",
+        dim: 3,
+        inputs: &[input("grid", 1_000_000, 5_821_794)
+            .goals(SPACE_MUST, &[Goal::OfCgal(0.4)])
+            .quoted(14460.0, 4449.0)],
+        peers: &[Peer::Cgal],
+        threads: &[1],
+    },
+    Case {
+        name: "space-surfaces",
+        about: "Points on surfaces and lines in space: cospherical, nearly cospherical, and as many tetrahedra as can be.",
+        dim: 3,
+        inputs: &[
+            input("torus", 1_000_000, 6_117_584)
+                .goals(SPACE_MUST, &[Goal::OfCgal(0.4)])
+                .quoted(2865.0, 3093.0),
+            input("sphere", 100_000, 302_075)
+                .goals(&[Goal::OfCgal(0.5)], &[Goal::OfCgal(0.27)])
+                .quoted(40032.0, 7549.0),
+            input("skew", 4_000, 1_999 * 1_999),
+        ],
+        peers: &[Peer::Cgal],
+        threads: &[1],
+    },
+    Case {
+        name: "threads-plane",
+        about: "Ten million points of the plane, one thread and two.",
+        dim: 2,
+        inputs: &[input("uniform", 10_000_000, 19_999_955)
+            .goals(&[Goal::Speedup(1.5)], &[Goal::Speedup(1.75)])],
+        peers: &[],
+        threads: &[1, 2],
+    },
+    Case {
+        name: "threads-space",
+        about: "A million points of space, one thread and two.",
+        dim: 3,
+        inputs: &[input("uniform", 1_000_000, 6_749_316)
+            .goals(&[Goal::Speedup(1.5)], &[Goal::Speedup(1.75)])],
+        peers: &[],
+        threads: &[1, 2],
+    },
+    Case {
+        name: "memory-plane",
+        about: "Peak memory above the input in the plane.",
+        dim: 2,
+        inputs: &[
+            input("uniform", 1_000_000, 1_999_968)
+                .goals(&[Goal::Bytes(85.0)], &[Goal::Bytes(72.0)]),
+            input("uniform", 10_000_000, 19_999_955)
+                .goals(&[Goal::Bytes(85.0)], &[Goal::Bytes(72.0)]),
+        ],
+        peers: &[Peer::Cgal, Peer::Spade, Peer::Delaunator],
+        threads: &[1, 2],
+    },
+    Case {
+        name: "memory-space",
+        about: "Peak memory above the input in space.",
+        dim: 3,
+        inputs: &[
+            input("uniform", 1_000_000, 6_749_316)
+                .goals(&[Goal::Bytes(275.0)], &[Goal::Bytes(250.0)]),
+            input("torus", 1_000_000, 6_117_584)
+                .goals(&[Goal::Bytes(275.0)], &[Goal::Bytes(250.0)]),
+        ],
+        peers: &[Peer::Cgal],
+        threads: &[1, 2],
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_unique_and_inputs_can_be_drawn() {
+        for (at, case) in CASES.iter().enumerate() {
+            assert!(CASES[..at].iter().all(|other| other.name != case.name), "{}", case.name);
+            for input in case.inputs {
+                let distribution = input.distribution(input.n, case.dim).unwrap();
+                assert!(distribution.to_string().starts_with(input.distribution));
+                let cells = match distribution {
+                    Distribution::Grid { side, .. } => side.pow(case.dim as u32),
+                    _ => input.n as u64,
+                };
+                assert_eq!(cells, input.n as u64, "{}: the whole grid", case.name);
+            }
+        }
+    }
+
+    #[test]
+    fn the_same_points_have_the_same_number_of_simplices_in_every_case() {
+        let mut known: Vec<(String, u64)> = Vec::new();
+        for case in CASES {
+            for input in case.inputs {
+                let what =
+                    format!("{} {:?} {} {}", input.distribution, input.angle, input.n, case.dim);
+                match known.iter().find(|(other, _)| *other == what) {
+                    Some((_, simplices)) => assert_eq!(*simplices, input.simplices, "{what}"),
+                    None => known.push((what, input.simplices)),
+                }
+                if case.dim == 2 {
+                    // 2n − 2 − h with h from 3 to n points on the hull.
+                    let n = input.n as u64;
+                    assert!(
+                        (n - 2..=2 * n - 5).contains(&input.simplices),
+                        "{}",
+                        input.distribution
+                    );
+                }
+            }
+        }
+    }
+}
