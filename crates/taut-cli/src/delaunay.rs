@@ -150,6 +150,9 @@ impl Args {
         let drawn = picture
             .map(|picture| picture.draw(report.drawing(&Look::default())?, &Look::default()))
             .transpose()?;
+        if picture.is_some() {
+            clock.lap("drawing");
+        }
         let title = report.title();
 
         if self.no_neighbors {

@@ -17,7 +17,7 @@ use taut_draw::{Fact, Page, Section, to_html};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::numbers::{counted, exact, gap, seconds, short};
+use crate::numbers::{count, exact, gap, seconds, short};
 use crate::picture::{Drawing, Look, telling};
 use crate::reading::Opened;
 use crate::report::Report;
@@ -166,8 +166,7 @@ fn triangulation(station: &Station, points: &Opened, watch: &Watch) -> anyhow::R
         });
     }
     let counts = found.certificate.counts;
-    let said =
-        format!("{}, {}", counted(counts.simplices, "cell"), counted(counts.hull, "hull facet"));
+    let said = format!("{} simplices, {} hull facets", count(counts.simplices), count(counts.hull));
     let report = TriangulationReport { found: &found, points, verdict: judged.verdict };
     Ok(judged.stop(station, said, report.drawing(&Look::default())?))
 }
