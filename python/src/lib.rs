@@ -6,9 +6,11 @@
 #![forbid(unsafe_code)]
 
 mod ball;
+mod delaunay;
 mod generate;
 mod rows;
 mod solution;
+mod triangulation;
 mod work;
 
 use pyo3::prelude::*;
@@ -19,9 +21,13 @@ mod _native {
     #[pymodule_export]
     use crate::ball::ball;
     #[pymodule_export]
+    use crate::delaunay::delaunay;
+    #[pymodule_export]
     use crate::generate::generate;
     #[pymodule_export]
     use crate::solution::{Ball, BallCertificate, PassBounds, Solution, Trace, Verdict, Violation};
+    #[pymodule_export]
+    use crate::triangulation::{Triangulation, TriangulationCertificate, TriangulationVerdict};
 
     #[pymodule_export]
     #[allow(non_upper_case_globals)]

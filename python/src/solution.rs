@@ -2,14 +2,15 @@
 
 use numpy::PyArray1;
 use pyo3::create_exception;
-use pyo3::exceptions::{PyException, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyAttributeError, PyException, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use taut::Items;
-use taut::certify::{self, Answer, AnySolution, CheckError, Stop};
+use taut::certify::{self, AnySolution, AnyVerdict, CheckError, Stop};
 
 use crate::ball::{negative_radius, not_finite_of_ball};
 use crate::rows::Rows;
+use crate::triangulation::{Triangulation, TriangulationCertificate, TriangulationVerdict};
 use crate::work::interruptible;
 
 create_exception!(
@@ -213,55 +214,102 @@ impl Verdict {
 /// Attributes
 /// ----------
 /// kind : str
-///     ``"ball"``.
-/// answer : Ball
+///     ``"ball"`` or ``"delaunay"``.
+/// answer : Ball or Triangulation
 ///     The shape.
-/// certificate : BallCertificate
+/// certificate : BallCertificate or TriangulationCertificate
 ///     Its proof.
 /// trace : Trace
 ///     Counters of the run.
+/// simplices, neighbors, hull, duplicates, fingerprint
+///     Those of a triangulation, its answer and certificate, for short. A ball has none.
 #[pyclass(frozen, module = "taut")]
 pub(crate) struct Solution {
     solution: AnySolution,
     #[pyo3(get)]
-    answer: Py<Ball>,
+    answer: Py<PyAny>,
     #[pyo3(get)]
-    certificate: Py<BallCertificate>,
+    certificate: Py<PyAny>,
     #[pyo3(get)]
     trace: Py<Trace>,
 }
 
 impl Solution {
     pub(crate) fn new(py: Python<'_>, solution: AnySolution) -> PyResult<Self> {
-        let found = ball(&solution)?;
-        let (ball, proof) = (&found.answer, &found.certificate);
-        let tail = if ball.center_tail.is_empty() {
-            vec![0.0; ball.center.len()]
-        } else {
-            ball.center_tail.clone()
+        let (answer, certificate, trace) = match &solution {
+            AnySolution::Ball(found) => {
+                let (answer, certificate) = ball(py, found)?;
+                let answer = Py::new(py, answer)?.into_any();
+                (answer, Py::new(py, certificate)?.into_any(), found.trace.clone())
+            }
+            AnySolution::Triangulation(found) => {
+                let answer = Py::new(py, Triangulation::new(py, found)?)?.into_any();
+                let certificate = TriangulationCertificate::new(&found.certificate);
+                (answer, Py::new(py, certificate)?.into_any(), found.trace.clone())
+            }
         };
-        let support = proof.support.iter().map(|&row| i64::try_from(row)).collect::<Result<_, _>>();
-        let support: Vec<i64> = support
-            .map_err(|_| PyValueError::new_err("a row number of the support exceeds 2**63 - 1"))?;
-        let answer = Ball {
-            center: read_only(PyArray1::from_slice(py, &ball.center))?,
-            center_tail: read_only(PyArray1::from_vec(py, tail))?,
-            radius: ball.radius,
-        };
-        let certificate = BallCertificate {
-            items: match proof.items {
-                Items::Points => "points",
-                Items::Balls => "balls",
-            },
-            support: read_only(PyArray1::from_vec(py, support))?,
-            multipliers: read_only(PyArray1::from_slice(py, &proof.multipliers))?,
-            gap: proof.gap,
-            points_hash: proof.points_hash.to_string(),
-        };
-        let trace = Py::new(py, Trace { trace: found.trace.clone() })?;
-        let (answer, certificate) = (Py::new(py, answer)?, Py::new(py, certificate)?);
+        let trace = Py::new(py, Trace { trace })?;
         Ok(Solution { solution, answer, certificate, trace })
     }
+
+    /// An attribute of a part, which only triangulations have.
+    fn of_triangulation(
+        &self,
+        py: Python<'_>,
+        part: &Py<PyAny>,
+        name: &str,
+    ) -> PyResult<Py<PyAny>> {
+        match self.solution {
+            AnySolution::Triangulation(_) => part.getattr(py, name),
+            AnySolution::Ball(_) => {
+                Err(PyAttributeError::new_err(format!("a ball has no {name}: triangulations do")))
+            }
+        }
+    }
+
+    /// Refuses radii where the answer encloses points or none where it encloses balls.
+    fn match_radii(&self, given: bool) -> PyResult<()> {
+        let problem = match (&self.solution, given) {
+            (AnySolution::Ball(found), false) if found.certificate.items == Items::Balls => {
+                "the answer encloses balls: give their radii"
+            }
+            (AnySolution::Ball(found), true) if found.certificate.items == Items::Points => {
+                "the answer encloses points, which have no radii"
+            }
+            (AnySolution::Triangulation(_), true) => "the answer joins points, which have no radii",
+            _ => return Ok(()),
+        };
+        Err(PyValueError::new_err(problem))
+    }
+}
+
+/// A ball and its certificate.
+fn ball(py: Python<'_>, found: &taut::Solution<taut::Ball>) -> PyResult<(Ball, BallCertificate)> {
+    let (ball, proof) = (&found.answer, &found.certificate);
+    let tail = if ball.center_tail.is_empty() {
+        vec![0.0; ball.center.len()]
+    } else {
+        ball.center_tail.clone()
+    };
+    let support = proof.support.iter().map(|&row| i64::try_from(row)).collect::<Result<_, _>>();
+    let support: Vec<i64> = support
+        .map_err(|_| PyValueError::new_err("a row number of the support exceeds 2**63 - 1"))?;
+    let answer = Ball {
+        center: read_only(PyArray1::from_slice(py, &ball.center))?,
+        center_tail: read_only(PyArray1::from_vec(py, tail))?,
+        radius: ball.radius,
+    };
+    let certificate = BallCertificate {
+        items: match proof.items {
+            Items::Points => "points",
+            Items::Balls => "balls",
+        },
+        support: read_only(PyArray1::from_vec(py, support))?,
+        multipliers: read_only(PyArray1::from_slice(py, &proof.multipliers))?,
+        gap: proof.gap,
+        points_hash: proof.points_hash.to_string(),
+    };
+    Ok((answer, certificate))
 }
 
 #[pymethods]
@@ -269,9 +317,39 @@ impl Solution {
     #[getter]
     fn kind(&self) -> &'static str {
         match self.solution {
-            AnySolution::Ball(_) => certify::Ball::KIND,
-            AnySolution::Triangulation(_) => certify::Triangulation::KIND,
+            AnySolution::Ball(_) => "ball",
+            AnySolution::Triangulation(_) => "delaunay",
         }
+    }
+
+    /// ``answer.simplices`` of a triangulation.
+    #[getter]
+    fn simplices(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.of_triangulation(py, &self.answer, "simplices")
+    }
+
+    /// ``answer.neighbors`` of a triangulation.
+    #[getter]
+    fn neighbors(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.of_triangulation(py, &self.answer, "neighbors")
+    }
+
+    /// ``answer.hull`` of a triangulation.
+    #[getter]
+    fn hull(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.of_triangulation(py, &self.answer, "hull")
+    }
+
+    /// ``answer.duplicates`` of a triangulation.
+    #[getter]
+    fn duplicates(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.of_triangulation(py, &self.answer, "duplicates")
+    }
+
+    /// ``certificate.fingerprint`` of a triangulation.
+    #[getter]
+    fn fingerprint(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.of_triangulation(py, &self.certificate, "fingerprint")
     }
 
     /// A second opinion: judges the answer over the points, with code that shares nothing with the solver.
@@ -285,8 +363,8 @@ impl Solution {
     ///
     /// Returns
     /// -------
-    /// Verdict
-    ///     Proved bounds ``lower`` and ``upper``, and their ``gap``.
+    /// Verdict or TriangulationVerdict
+    ///     Proved bounds ``lower`` and ``upper``, and their ``gap``; of a triangulation the counts that were proved.
     ///
     /// Raises
     /// ------
@@ -308,30 +386,22 @@ impl Solution {
         py: Python<'_>,
         points: &Bound<'_, PyAny>,
         radii: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Verdict> {
-        let found = ball(&self.solution)?;
-        match (found.certificate.items, radii) {
-            (Items::Balls, None) => {
-                return Err(PyValueError::new_err("the answer encloses balls: give their radii"));
-            }
-            (Items::Points, Some(_)) => {
-                return Err(PyValueError::new_err(
-                    "the answer encloses points, which have no radii",
-                ));
-            }
-            _ => {}
-        }
+    ) -> PyResult<Py<PyAny>> {
+        self.match_radii(radii.is_some())?;
         // Arrays are put in order in one place, and that is written in Python.
         let rows = py.import("taut._arrays")?.getattr("as_rows")?.call1((points, radii))?;
         let rows = Rows::borrow(&rows)?;
         let source = rows.source()?;
-        let verdict = interruptible(py, |monitor| {
-            found.answer.check(&found.certificate, source.as_ref(), monitor)
-        })?;
+        let verdict = interruptible(py, |monitor| self.solution.check(source.as_ref(), monitor))?;
         match verdict {
-            Ok(certify::Verdict { lower, upper, gap }) => Ok(Verdict { lower, upper, gap }),
+            Ok(AnyVerdict::Ball(certify::Verdict { lower, upper, gap })) => {
+                Ok(Py::new(py, Verdict { lower, upper, gap })?.into_any())
+            }
+            Ok(AnyVerdict::Triangulation(proved)) => {
+                Ok(Py::new(py, TriangulationVerdict::new(&proved))?.into_any())
+            }
             Err(CheckError::Rejected(violation)) => {
-                let balls = found.certificate.items == Items::Balls;
+                let balls = matches!(&self.solution, AnySolution::Ball(found) if found.certificate.items == Items::Balls);
                 Err(Violation::new_err(match violation {
                     certify::Violation::NonFinite { row, column, value } if balls => {
                         not_finite_of_ball(row, column, value, source.dim() - 1)
@@ -386,19 +456,21 @@ impl Solution {
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let found = ball(&self.solution)?;
-        let (radius, gap) = (float(py, found.answer.radius)?, float(py, found.certificate.gap)?);
-        Ok(format!("Solution(kind='{}', radius={radius}, gap={gap})", self.kind()))
-    }
-}
-
-/// The solution as that of a ball, which is all that Python shows so far.
-fn ball(solution: &AnySolution) -> PyResult<&certify::Solution<certify::Ball>> {
-    match solution {
-        AnySolution::Ball(found) => Ok(found),
-        AnySolution::Triangulation(_) => {
-            Err(PyValueError::new_err("this is the answer of a triangulation, not of a ball"))
-        }
+        let kind = self.kind();
+        Ok(match &self.solution {
+            AnySolution::Ball(found) => {
+                let radius = float(py, found.answer.radius)?;
+                let gap = float(py, found.certificate.gap)?;
+                format!("Solution(kind='{kind}', radius={radius}, gap={gap})")
+            }
+            AnySolution::Triangulation(found) => {
+                let certify::TriangulationCounts { sites, simplices, hull } =
+                    found.certificate.counts;
+                format!(
+                    "Solution(kind='{kind}', sites={sites}, simplices={simplices}, hull={hull})"
+                )
+            }
+        })
     }
 }
 

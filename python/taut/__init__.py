@@ -12,6 +12,7 @@ The names, options and defaults are those of the Rust library and of the command
 """
 
 from ._ball import ball, ball_of_balls
+from ._delaunay import delaunay
 from ._generate import generate
 from ._native import (
     Ball,
@@ -19,6 +20,9 @@ from ._native import (
     PassBounds,
     Solution,
     Trace,
+    Triangulation,
+    TriangulationCertificate,
+    TriangulationVerdict,
     Verdict,
     Violation,
     __version__,
@@ -31,11 +35,15 @@ __all__ = [
     "PassBounds",
     "Solution",
     "Trace",
+    "Triangulation",
+    "TriangulationCertificate",
+    "TriangulationVerdict",
     "Verdict",
     "Violation",
     "__version__",
     "ball",
     "ball_of_balls",
+    "delaunay",
     "generate",
     "verify",
 ]

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from ._native import Solution, Verdict
+from ._native import Solution, TriangulationVerdict, Verdict
 
 
-def verify(solution: Solution | str, points: ArrayLike, radii: ArrayLike | None = None) -> Verdict:
+def verify(solution: Solution | str, points: ArrayLike, radii: ArrayLike | None = None) -> Verdict | TriangulationVerdict:
     """Check an answer over the points it was found for.
 
     Parameters
@@ -21,8 +21,8 @@ def verify(solution: Solution | str, points: ArrayLike, radii: ArrayLike | None 
 
     Returns
     -------
-    Verdict
-        Proved bounds ``lower`` and ``upper``, and their ``gap``.
+    Verdict or TriangulationVerdict
+        Proved bounds ``lower`` and ``upper``, and their ``gap``; of a triangulation the counts that were proved.
 
     Raises
     ------
@@ -46,4 +46,5 @@ def verify(solution: Solution | str, points: ArrayLike, radii: ArrayLike | None 
         solution = Solution.from_json(solution)
     elif not isinstance(solution, Solution):
         raise TypeError(f"expected a Solution or its JSON text as str, not {type(solution).__name__}")
-    return solution.check(points, radii)
+    verdict: Verdict | TriangulationVerdict = solution.check(points, radii)
+    return verdict

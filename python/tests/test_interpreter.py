@@ -61,6 +61,24 @@ def test_ctrl_c_stops_the_work_and_others_run_meanwhile():
     assert float(radius) == pytest.approx(1, rel=1e-9)
 
 
+def test_ctrl_c_stops_a_triangulation():
+    """Pressed once the work has begun, which would last for a second or more."""
+    assert run(
+        """
+        import signal, threading, time
+        import taut
+
+        points = taut.generate("uniform", 600_000, 3, seed=1)
+        threading.Timer(0.2, signal.raise_signal, [signal.SIGINT]).start()
+        try:
+            taut.delaunay(points, threads=1)
+        except KeyboardInterrupt:
+            print("stopped")
+        print(len(taut.delaunay(points[:4]).simplices))
+        """
+    ) == ["stopped", "1"]
+
+
 def test_short_work_does_not_wait_for_the_listener():
     taut.ball([[0.0, 1.0]])
     begin = time.perf_counter()

@@ -1,18 +1,17 @@
 //! `taut ball`: the smallest ball around points or balls.
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
 use anyhow::bail;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use taut::{BallMethod, BallOptions, Items, ball_of_source};
 
+use crate::clock::Clock;
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::numbers::seconds;
-use crate::picture::{self, Picture};
+use crate::picture::{Look, Picture};
 use crate::reading::{Points, Reading};
-use crate::report::{self, Fact, Report};
+use crate::report::{self, Report};
 use crate::verify::judge;
 use crate::writing::{self, Outputs};
 
@@ -117,8 +116,9 @@ impl Args {
         let found = &found;
 
         let report = Report { found, points: &points, verdict };
-        let drawn =
-            picture.map(|picture| picture.draw(&report, &picture::Look::default())).transpose()?;
+        let drawn = picture
+            .map(|picture| picture.draw(report.drawing(&Look::default())?, &Look::default()))
+            .transpose()?;
 
         let mut outputs = Outputs::default();
         if let Some(out) = &self.out {
@@ -155,30 +155,6 @@ impl Args {
 
 fn json(found: &taut::Solution<taut::Ball>) -> String {
     found.to_json() + "\n"
-}
-
-/// Seconds by step, for people; no result depends on it and no file holds it.
-struct Clock {
-    start: Instant,
-    laps: Vec<(&'static str, Duration)>,
-}
-
-impl Clock {
-    fn start() -> Self {
-        Clock { start: Instant::now(), laps: Vec::new() }
-    }
-
-    fn lap(&mut self, what: &'static str) {
-        let before: Duration = self.laps.iter().map(|(_, time)| time).sum();
-        self.laps.push((what, self.start.elapsed() - before));
-    }
-
-    fn fact(&self) -> Fact {
-        let all: Duration = self.laps.iter().map(|(_, time)| time).sum();
-        let laps: Vec<String> =
-            self.laps.iter().map(|(what, time)| format!("{what} {}", seconds(*time))).collect();
-        Fact::new("time", seconds(all)).remark(laps.join(", "))
-    }
 }
 
 #[cfg(test)]

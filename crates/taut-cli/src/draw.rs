@@ -2,15 +2,16 @@
 
 use std::path::PathBuf;
 
-use anyhow::bail;
-use taut::AnySolution;
+use taut::{Answer, AnySolution, Solution, Violation};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::picture::{Look, Picture};
-use crate::reading::{Points, Reading};
+use crate::reading::{Opened, Points, Reading};
 use crate::report::Report;
+use crate::triangulation::TriangulationReport;
 use crate::verify::{judge, read_answer, shown};
+use crate::watch::Watch;
 use crate::writing;
 
 /// Draw an answer and its points as SVG, PNG or an interactive HTML page.
@@ -19,7 +20,7 @@ use crate::writing;
 The answer is checked first; one that does not fit the points is not drawn, and the exit code is 1.
 Example: taut draw ball.json points.csv -o ball.html")]
 pub(crate) struct Args {
-    /// The answer, as `taut ball -o` writes it; - is standard input
+    /// The answer, as `taut ball -o` and `taut delaunay -o` write it; - is standard input
     answer: PathBuf,
     #[command(flatten)]
     points: Points,
@@ -42,25 +43,41 @@ impl Args {
         let picture = Picture::of_path(&self.out)?;
         writing::look_at(&[&self.out], &[&self.answer, &self.points.path])?;
         let watch = self.effort.start()?;
-        let name = shown(&self.answer);
-        let AnySolution::Ball(found) = read_answer(&self.answer, &self.points.path)? else {
-            bail!("{name}: this is a triangulation, and only balls can be drawn");
-        };
+        let answer = read_answer(&self.answer, &self.points.path)?;
         let points = self.reading.open(&self.points.path)?;
-        let verdict = match self.no_verify {
-            true => None,
-            false => match judge(&found, &points, &watch)? {
-                Ok(verdict) => Some(verdict),
-                Err(violation) => {
-                    let violation = points.explain_violation(&violation, &name);
-                    writing::complain(&format!("rejected, so not drawn: {violation}"));
-                    return Ok(Outcome::CheckFailed);
-                }
-            },
+        let drawing = match &answer {
+            AnySolution::Ball(found) => self
+                .judged(found, &points, &watch)?
+                .map(|verdict| Report { found, points: &points, verdict }.drawing(&self.look)),
+            AnySolution::Triangulation(found) => {
+                self.judged(found, &points, &watch)?.map(|verdict| {
+                    TriangulationReport { found, points: &points, verdict }.drawing(&self.look)
+                })
+            }
         };
-        let drawn =
-            picture.draw(&Report { found: &found, points: &points, verdict }, &self.look)?;
-        writing::replace(&self.out, &drawn)?;
-        Ok(Outcome::Done)
+        match drawing {
+            Ok(drawing) => {
+                writing::replace(&self.out, &picture.draw(drawing?, &self.look)?)?;
+                Ok(Outcome::Done)
+            }
+            Err(violation) => {
+                let violation = points.explain_violation(&violation, &shown(&self.answer));
+                writing::complain(&format!("rejected, so not drawn: {violation}"));
+                Ok(Outcome::CheckFailed)
+            }
+        }
+    }
+
+    /// The verdict, `None` where none is wanted, or the first violation.
+    fn judged<A: Answer>(
+        &self,
+        found: &Solution<A>,
+        points: &Opened,
+        watch: &Watch,
+    ) -> anyhow::Result<Result<Option<A::Verdict>, Violation>> {
+        match self.no_verify {
+            true => Ok(Ok(None)),
+            false => Ok(judge(found, points, watch)?.map(Some)),
+        }
     }
 }

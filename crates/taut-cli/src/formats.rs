@@ -1,11 +1,11 @@
 //! `taut formats`: what can be read and written.
 
-use taut_io::{Compression, Format};
+use taut_io::{Compression, Format, MeshFormat};
 
 use crate::exit::Outcome;
 use crate::writing;
 
-/// List the formats of points, with what this build reads and writes.
+/// List the formats of points and meshes, with what this build reads and writes.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example: taut formats")]
 pub(crate) struct Args {}
@@ -48,6 +48,10 @@ fn table() -> String {
         "\nAny of them may be compressed, with one of {} as a further extension.\n",
         packed.join(", ")
     );
-    text += "Answers are written as json, pictures as svg, png and html.\n";
+    text += "\nMeshes of triangulations, compressed likewise:\n";
+    for format in MeshFormat::ALL.into_iter().filter(|format| format.is_built()) {
+        text += &format!("{:<9}{}\n", format.name(), format.description());
+    }
+    text += "\nAnswers are written as json, pictures as svg, png and html.\n";
     text
 }

@@ -7,7 +7,9 @@
 
 mod ball;
 mod cli;
+mod clock;
 mod completions;
+mod delaunay;
 mod draw;
 mod effort;
 mod exit;
@@ -21,6 +23,7 @@ mod reading;
 mod report;
 mod size;
 mod tour;
+mod triangulation;
 mod verify;
 mod watch;
 mod writing;

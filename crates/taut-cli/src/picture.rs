@@ -5,12 +5,11 @@ use std::path::Path;
 use anyhow::{anyhow, bail};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use taut_draw::{
-    DrawOptions, Error as DrawError, Fact, Figure, Page, Section, Style, Theme, ball_figures,
-    to_html, to_svg,
+    DrawOptions, Error as DrawError, Fact, Figure, Page, Section, Style, Theme, to_html, to_svg,
 };
 
-use crate::reading::wrong_option;
-use crate::report::Report;
+use crate::reading::{Opened, wrong_option};
+use crate::report;
 
 /// The kinds of picture file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,6 +60,23 @@ impl Default for Look {
     }
 }
 
+impl Look {
+    /// The same as the library has it; `columns` are the names of the coordinates.
+    pub(crate) fn options(&self, columns: Vec<String>) -> DrawOptions {
+        let Look { max_points, width, height, .. } = *self;
+        DrawOptions { max_points, width, height, columns }
+    }
+}
+
+/// Pictures of an answer, and what stands beside them.
+pub(crate) struct Drawing {
+    pub(crate) title: String,
+    /// The file of the points.
+    pub(crate) heading: String,
+    pub(crate) facts: Vec<Fact>,
+    pub(crate) figures: Vec<Figure>,
+}
+
 fn themes() -> impl TypedValueParser<Value = Theme> {
     PossibleValuesParser::new(["light", "dark"]).map(|name| match name.as_str() {
         "dark" => Theme::Dark,
@@ -81,18 +97,18 @@ impl Picture {
     }
 
     /// The bytes of the file.
-    pub(crate) fn draw(self, report: &Report<'_>, look: &Look) -> anyhow::Result<Vec<u8>> {
-        let mut figures = figures(report, look)?;
+    pub(crate) fn draw(self, drawing: Drawing, look: &Look) -> anyhow::Result<Vec<u8>> {
+        let Drawing { title, heading, facts, mut figures } = drawing;
         let style = Style { theme: look.theme };
         if self == Picture::Html {
             let page = Page {
-                title: report.title(),
+                title,
                 intro: String::new(),
                 sections: vec![Section {
-                    heading: report.points.name().to_owned(),
+                    heading,
                     text: String::new(),
                     command: command(),
-                    facts: facts(report),
+                    facts,
                     figures: telling(figures),
                 }],
                 footer: format!("Drawn by taut {}.", env!("CARGO_PKG_VERSION")),
@@ -122,19 +138,13 @@ fn png() -> anyhow::Result<Picture> {
     bail!("this build of taut draws no PNG: draw SVG or HTML, or build it with the feature `png`")
 }
 
-/// All pictures of an answer.
-pub(crate) fn figures(report: &Report<'_>, look: &Look) -> anyhow::Result<Vec<Figure>> {
-    let options = DrawOptions {
-        max_points: look.max_points,
-        width: look.width,
-        height: look.height,
-        columns: report.points.columns(report.found.certificate.items),
-    };
-    ball_figures(report.found, report.points.source(), &options).map_err(|error| match error {
-        DrawError::Read(error) => report.points.reading_failed(error),
+/// What drawing refused of these points.
+pub(crate) fn refused(error: DrawError, points: &Opened) -> anyhow::Error {
+    match error {
+        DrawError::Read(error) => points.reading_failed(error),
         DrawError::Option { .. } => explain(error),
-        other => anyhow!("{}: {other}", report.points.name()),
-    })
+        other => anyhow!("{}: {other}", points.name()),
+    }
 }
 
 /// The pictures without charts of a single value, such as the gap by pass after one pass.
@@ -155,9 +165,9 @@ fn explain(error: DrawError) -> anyhow::Error {
     }
 }
 
-/// The facts of an answer as a page shows them.
-pub(crate) fn facts(report: &Report<'_>) -> Vec<Fact> {
-    report.facts().into_iter().map(|fact| Fact::new(fact.name, fact.value)).collect()
+/// A fact as a page shows it.
+pub(crate) fn fact(fact: report::Fact) -> Fact {
+    Fact::new(fact.name, fact.value)
 }
 
 /// The command that is running, as it would be typed.

@@ -5,9 +5,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use taut::certify::MeshViolation;
+use taut::delaunay::Error as DelaunayError;
 use taut::enclose::Error as SolveError;
 use taut::points::{ReadError, ScalarKind};
-use taut::{Items, PointSource, Violation};
+use taut::{PointSource, Violation};
 use taut_io::{Columns, Format, Header, Input, RawLayout, ReadOptions};
 
 use crate::{size, writing};
@@ -111,9 +113,8 @@ impl Opened {
         &self.input.path
     }
 
-    /// Names of the coordinates, as far as the file has some.
-    pub(crate) fn columns(&self, items: Items) -> Vec<String> {
-        let dim = items.dim(self.input.source.dim());
+    /// Names of the first `dim` coordinates, as far as the file has some.
+    pub(crate) fn names(&self, dim: usize) -> Vec<String> {
         self.input.columns.iter().take(dim).cloned().collect()
     }
 
@@ -121,11 +122,7 @@ impl Opened {
     pub(crate) fn explain(&self, error: SolveError) -> anyhow::Error {
         let last = self.input.source.dim() - 1;
         match error {
-            SolveError::NonFinite { row, column, value } => anyhow!(
-                "{}: the value is {value}, and all coordinates must be finite: repair or remove that row, or \
-                 choose other columns with --columns",
-                self.input.describe_cell(row, column)
-            ),
+            SolveError::NonFinite { row, column, value } => self.not_finite(row, column, value),
             SolveError::NegativeRadius { row, value } => anyhow!(
                 "{}: the radius is {value}, and radii (the last column with --balls) must be at least 0: repair \
                  or remove that row, or choose the columns with --columns",
@@ -142,6 +139,31 @@ impl Opened {
         }
     }
 
+    /// The same of a triangulation.
+    pub(crate) fn explain_delaunay(&self, error: DelaunayError) -> anyhow::Error {
+        match error {
+            DelaunayError::NonFinite { row, column, value } => self.not_finite(row, column, value),
+            DelaunayError::Dimension { dim, expected } => anyhow!(
+                "{}: points have {dim} coordinate{}: expected {expected}; choose them with --columns",
+                self.name(),
+                if dim == 1 { "" } else { "s" }
+            ),
+            DelaunayError::Option { name, value, expected } => wrong_option(name, &value, expected),
+            DelaunayError::Read(error) => self.reading_failed(error),
+            DelaunayError::Cancelled(_) => error.into(),
+            other => anyhow!("{}: {other}", self.name()),
+        }
+    }
+
+    /// A coordinate that is NaN or infinite.
+    pub(crate) fn not_finite(&self, row: u64, column: usize, value: f64) -> anyhow::Error {
+        anyhow!(
+            "{}: the value is {value}, and all coordinates must be finite: repair or remove that row, or \
+             choose other columns with --columns",
+            self.input.describe_cell(row, column)
+        )
+    }
+
     /// Why an answer was rejected: in which of the two files, and where, which a checker cannot know.
     pub(crate) fn explain_violation(&self, violation: &Violation, answer: &str) -> String {
         let points = self.name();
@@ -153,7 +175,10 @@ impl Opened {
                     violation.to_string().replacen(&point, &format!("{point} (row {place})"), 1);
                 format!("{points}: {said}")
             }
-            Violation::Hash { .. } | Violation::Dimension { .. } | Violation::NoRadius { .. } => {
+            Violation::Hash { .. }
+            | Violation::Dimension { .. }
+            | Violation::NoRadius { .. }
+            | Violation::Mesh(MeshViolation::Dimension { .. } | MeshViolation::Id { .. }) => {
                 format!("{points} does not belong to {answer}: {violation}")
             }
             Violation::Support { point, .. } if point >= self.input.source.len() => {

@@ -2,9 +2,11 @@
 
 use taut::certify::Stop;
 use taut::{Ball, Items, Solution, Verdict};
+use taut_draw::ball_figures;
 
 use crate::exit::Outcome;
 use crate::numbers::{abridged, coordinates, count, counted, exact, gap};
+use crate::picture::{self, Drawing, Look};
 use crate::reading::Opened;
 
 /// A ball, the points it belongs to, and what the checker proved (`None` where it was not asked).
@@ -77,6 +79,20 @@ impl Report<'_> {
                 .remark(format!("{support} of them in the support")),
             Fact::new("passes", count(trace.passes)).remark(counted(trace.iterations, "iteration")),
         ]
+    }
+
+    /// Pictures and what stands beside them.
+    pub(crate) fn drawing(&self, look: &Look) -> anyhow::Result<Drawing> {
+        let dim = self.items().dim(self.points.source().dim());
+        let options = look.options(self.points.names(dim));
+        let figures = ball_figures(self.found, self.points.source(), &options)
+            .map_err(|error| picture::refused(error, self.points))?;
+        Ok(Drawing {
+            title: self.title(),
+            heading: self.points.name().to_owned(),
+            facts: self.facts().into_iter().map(picture::fact).collect(),
+            figures,
+        })
     }
 
     fn items(&self) -> Items {

@@ -2,24 +2,30 @@
 
 mod stations;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
 use anyhow::{anyhow, bail};
-use taut::{BallOptions, Violation, ball_of_source};
+use taut::certify::NO_NEIGHBOR;
+use taut::{
+    Answer, BallOptions, DelaunayOptions, Items, Solution, Triangulation, Violation,
+    ball_of_source, delaunay_of_source,
+};
 use taut_draw::{Fact, Page, Section, to_html};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::numbers::{exact, gap, seconds, short};
-use crate::picture::{Look, facts, figures, telling};
+use crate::numbers::{counted, exact, gap, seconds, short};
+use crate::picture::{Drawing, Look, telling};
 use crate::reading::Opened;
 use crate::report::Report;
+use crate::triangulation::TriangulationReport;
 use crate::verify::judge;
 use crate::watch::Watch;
 use crate::writing::{self, Outputs};
-use stations::{STATIONS, Station};
+use stations::{STATIONS, Station, Tool};
 
 /// See every tool at work on samples: one page with pictures, each answer checked.
 #[derive(Debug, clap::Args)]
@@ -60,7 +66,7 @@ impl Args {
                 outcome = Outcome::CheckFailed;
             }
             say(&format!(
-                "{:<24}{:<44} verified {verified:<4} {}\n",
+                "{:<37}{:<44} verified {verified:<4} {}\n",
                 station.heading,
                 stop.said,
                 seconds(clock.elapsed())
@@ -69,7 +75,8 @@ impl Args {
         }
         let mut outputs = Outputs::default();
         if let Some(folder) = &self.samples {
-            for station in STATIONS {
+            let mut written = BTreeSet::new();
+            for station in STATIONS.iter().filter(|station| written.insert(station.file)) {
                 outputs.add(&folder.join(station.file), station.bytes)?;
             }
         }
@@ -111,52 +118,126 @@ struct Stop {
 
 fn visit(station: &Station, watch: &Watch) -> anyhow::Result<Stop> {
     let points = Opened::of_bytes(station.bytes, station.file)?;
+    match station.tool {
+        Tool::Ball(items) => ball(station, items, &points, watch),
+        Tool::Delaunay => triangulation(station, &points, watch),
+    }
+}
+
+fn ball(station: &Station, items: Items, points: &Opened, watch: &Watch) -> anyhow::Result<Stop> {
     let options = BallOptions { epsilon: 0.0, ..BallOptions::default() };
     let found = watch
-        .during("solving", |monitor| {
-            ball_of_source(points.source(), station.items, &options, monitor)
-        })
+        .during("solving", |monitor| ball_of_source(points.source(), items, &options, monitor))
         .map_err(|error| points.explain(error))?;
-
-    let mut verdict = None;
-    let mut verified = true;
-    let mut further = Vec::new();
-    match judge(&found, &points, watch)? {
-        Ok(proved) => verdict = Some(proved),
-        Err(violation) => {
-            verified = false;
-            further.push(Fact::new(
-                "rejected",
-                points.explain_violation(&violation, "the ball found"),
-            ));
-        }
-    }
+    let mut judged = Judged::of(&found, points, watch, "the ball found")?;
     if station.doctored {
         let mut doctored = found.clone();
         doctored.answer.radius *= 1.0 - 1e-6;
-        match judge(&doctored, &points, watch)? {
-            Err(Violation::Outside { row, excess, .. }) => further.push(Fact::new(
-                "a millionth smaller",
-                format!("rejected: point {row} is outside by {}", gap(excess)),
-            )),
-            _ => verified = false,
-        }
+        judged.must_reject("a millionth smaller", judge(&doctored, points, watch)?, |violation| {
+            match violation {
+                Violation::Outside { row, excess, .. } => {
+                    Some(format!("point {row} is outside by {}", gap(*excess)))
+                }
+                _ => None,
+            }
+        });
     }
-    let report = Report { found: &found, points: &points, verdict };
-    let said = match verdict {
+    let said = match judged.verdict {
         Some(proved) => {
             format!("radius {:<12} gap {}", short(found.answer.radius), gap(proved.gap))
         }
         None => format!("radius {}", exact(found.answer.radius)),
     };
-    let section = Section {
-        heading: station.heading.to_owned(),
-        text: station.text.to_owned(),
-        command: station.command.to_owned(),
-        facts: facts(&report).into_iter().chain(further).collect(),
-        figures: telling(figures(&report, &Look::default())?),
+    let report = Report { found: &found, points, verdict: judged.verdict };
+    Ok(judged.stop(station, said, report.drawing(&Look::default())?))
+}
+
+fn triangulation(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result<Stop> {
+    let found = watch
+        .during("solving", |monitor| {
+            delaunay_of_source(points.source(), &DelaunayOptions::default(), monitor)
+        })
+        .map_err(|error| points.explain_delaunay(error))?;
+    let mut judged = Judged::of(&found, points, watch, "the triangulation found")?;
+    if station.doctored {
+        let doctored = with_an_edge_turned(&found);
+        judged.must_reject("an edge turned", judge(&doctored, points, watch)?, |violation| {
+            Some(violation.to_string())
+        });
+    }
+    let counts = found.certificate.counts;
+    let said =
+        format!("{}, {}", counted(counts.simplices, "cell"), counted(counts.hull, "hull facet"));
+    let report = TriangulationReport { found: &found, points, verdict: judged.verdict };
+    Ok(judged.stop(station, said, report.drawing(&Look::default())?))
+}
+
+/// The triangulation with the other diagonal in the first two triangles that share an edge.
+fn with_an_edge_turned(found: &Solution<Triangulation>) -> Solution<Triangulation> {
+    let mut doctored = found.clone();
+    // Without neighbours the checker finds them by itself, as in a file of bare triangles.
+    let neighbors = std::mem::take(&mut doctored.certificate.neighbors);
+    let simplices = &mut doctored.answer.simplices;
+    let Some(facet) = neighbors.iter().position(|&across| across != NO_NEIGHBOR) else {
+        return doctored;
     };
-    Ok(Stop { section, said, verified })
+    let (first, second) = (facet / 3 * 3, neighbors[facet] as usize * 3);
+    let [a, b, c] = [0, 1, 2].map(|i| simplices[first + (facet + i - first) % 3]);
+    let beyond = simplices[second..second + 3].iter().find(|&id| ![a, b, c].contains(id));
+    if let Some(&d) = beyond {
+        simplices[first..first + 3].copy_from_slice(&[a, b, d]);
+        simplices[second..second + 3].copy_from_slice(&[a, d, c]);
+    }
+    doctored
+}
+
+/// What the checker said of an answer.
+struct Judged<V> {
+    verdict: Option<V>,
+    verified: bool,
+    further: Vec<Fact>,
+}
+
+impl<V> Judged<V> {
+    fn of<A: Answer<Verdict = V>>(
+        found: &Solution<A>,
+        points: &Opened,
+        watch: &Watch,
+        name: &str,
+    ) -> anyhow::Result<Self> {
+        Ok(match judge(found, points, watch)? {
+            Ok(verdict) => Judged { verdict: Some(verdict), verified: true, further: Vec::new() },
+            Err(violation) => {
+                let why = points.explain_violation(&violation, name);
+                let further = vec![Fact::new("rejected", why)];
+                Judged { verdict: None, verified: false, further }
+            }
+        })
+    }
+
+    /// A wrong answer must be rejected, for a reason that `why` knows.
+    fn must_reject<W>(
+        &mut self,
+        name: &str,
+        judged: Result<W, Violation>,
+        why: impl Fn(&Violation) -> Option<String>,
+    ) {
+        match judged.err().and_then(|violation| why(&violation)) {
+            Some(why) => self.further.push(Fact::new(name, format!("rejected: {why}"))),
+            None => self.verified = false,
+        }
+    }
+
+    fn stop(self, station: &Station, said: String, drawing: Drawing) -> Stop {
+        let section = Section {
+            heading: station.heading.to_owned(),
+            text: station.text.to_owned(),
+            command: station.command.to_owned(),
+            facts: drawing.facts.into_iter().chain(self.further).collect(),
+            figures: telling(drawing.figures),
+        };
+        Stop { section, said, verified: self.verified }
+    }
 }
 
 fn page(sections: Vec<Section>) -> String {
@@ -164,8 +245,9 @@ fn page(sections: Vec<Section>) -> String {
         title: "A tour of taut".to_owned(),
         intro: "Tight shapes around, through and inside point sets, with proof. Each section shows one tool on one \
                 sample, the command that does the same, and what was found.\n\n\
-                Verified means: a checker that shares no code with the solver read the points again, found every \
-                one of them inside, and proved from the certificate that no smaller ball could hold them all."
+                Verified means: a checker that shares no code with the solver read the points again and proved the \
+                answer from its certificate: every point is inside and no smaller ball could hold them all, or the \
+                triangles are those of Delaunay and there are no others."
             .to_owned(),
         sections,
         footer: format!("Made by taut {}: taut tour. The samples: taut tour --samples DIR.", env!("CARGO_PKG_VERSION")),

@@ -4,15 +4,18 @@ use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
-use taut::certify::{CheckError, JsonError, TriangulationVerdict};
+use taut::certify::{CheckError, JsonError, check_simplices};
 use taut::enclose::Error as SolveError;
-use taut::{Answer, AnySolution, Solution, Triangulation, Verdict, Violation};
+use taut::points::{Blocks, Scratch};
+use taut::{Answer, AnySolution, Solution, Verdict, Violation};
+use taut_io::{Mesh, MeshFormat, open_mesh};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::numbers::{exact, gap};
 use crate::reading::{Opened, Points, Reading};
 use crate::report::{self, Fact};
+use crate::triangulation::proved;
 use crate::watch::Watch;
 use crate::writing;
 
@@ -22,9 +25,10 @@ use crate::writing;
 Columns and the like have to be chosen as for the answer: the certificate knows its points by a hash.
 Exit: 0 proved · 1 rejected, with the first violation, or a larger gap than --epsilon ·
       2 bad input or usage
+A mesh of simplices (.ply, .obj, .off, .vtu, .parquet) is judged as a Delaunay triangulation, without certificate.
 Example: taut verify ball.json points.csv --epsilon 1e-6")]
 pub(crate) struct Args {
-    /// The answer, as `taut ball -o` writes it; - is standard input
+    /// The answer, as `taut ball -o` and `taut delaunay -o` write it; - is standard input
     answer: PathBuf,
     #[command(flatten)]
     points: Points,
@@ -40,6 +44,9 @@ pub(crate) struct Args {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         let watch = self.effort.start()?;
+        if MeshFormat::of_path(&self.answer).0.is_some() {
+            return self.run_mesh(&watch);
+        }
         let answer = read_answer(&self.answer, &self.points.path)?;
         let points = self.reading.open(&self.points.path)?;
         let rejected = |why: String| {
@@ -65,8 +72,8 @@ impl Args {
                 (Outcome::Done, report::text(&title, &facts(&verdict)))
             }),
             AnySolution::Triangulation(found) => judge(found, &points, &watch)?.map(|verdict| {
-                let title = format!("Verified: {}", triangulation(&found.answer));
-                (Outcome::Done, report::text(&title, &facts_of_triangulation(&verdict)))
+                let title = triangulation(points.source().dim());
+                (Outcome::Done, report::text(&title, &proved(&verdict)))
             }),
         };
         let (outcome, said) = judged
@@ -78,6 +85,61 @@ impl Args {
     }
 }
 
+impl Args {
+    /// Judges the simplices of a file of a mesh, which has no certificate.
+    fn run_mesh(&self, watch: &Watch) -> anyhow::Result<Outcome> {
+        let mesh = open_mesh(&self.answer)?;
+        let points = self.reading.open(&self.points.path)?;
+        let judged = match other_vertices(&mesh, &points)? {
+            Some(problem) => Err(problem),
+            None => {
+                let check = |monitor: &taut::Monitor<'_>| {
+                    check_simplices(points.source(), &mesh.simplices, mesh.width, monitor)
+                };
+                verdict(watch.during("checking", check), &points)?
+                    .map_err(|violation| points.explain_violation(&violation, &mesh.path))
+            }
+        };
+        let (outcome, said) = match judged {
+            Ok(verdict) => {
+                let title = triangulation(points.source().dim());
+                (Outcome::Done, report::text(&title, &proved(&verdict)))
+            }
+            Err(why) => (Outcome::CheckFailed, format!("Rejected: {}\n", writing::printable(&why))),
+        };
+        if !self.effort.quiet {
+            writing::say(said.as_bytes())?;
+        }
+        Ok(outcome)
+    }
+}
+
+/// How the vertices of a mesh are not the points, if they are not: ids would then mean something else.
+fn other_vertices(mesh: &Mesh, points: &Opened) -> anyhow::Result<Option<String>> {
+    let Some(vertices) = &mesh.vertices else { return Ok(None) };
+    let (source, name) = (points.source(), points.name());
+    let mine =
+        |problem: String| Ok(Some(format!("{name} does not belong to {}: {problem}", mesh.path)));
+    if vertices.len() as u64 != source.len() {
+        return mine(format!("there are {} points, but {} vertices", source.len(), vertices.len()));
+    }
+    let dim = source.dim().min(3);
+    let (blocks, mut scratch) = (Blocks::of(source), Scratch::new());
+    let mut row = vec![0.0; source.dim()];
+    for block in 0..blocks.count() {
+        let range = blocks.range(block);
+        let first = range.start as usize;
+        let rows = source.read(range, &mut scratch).map_err(|e| points.reading_failed(e))?;
+        for i in 0..rows.len() {
+            rows.copy_row(i, &mut row);
+            if row[..dim] != vertices[first + i][..dim] {
+                return mine(format!("vertex {} is another than point {0}", first + i));
+            }
+        }
+    }
+    Ok(None)
+}
+
 /// The verdict, or the first violation; an error where the points cannot be read.
 pub(crate) fn judge<A: Answer>(
     found: &Solution<A>,
@@ -87,11 +149,19 @@ pub(crate) fn judge<A: Answer>(
     let check = |monitor: &taut::Monitor<'_>| {
         found.answer.check(&found.certificate, points.source(), monitor)
     };
-    match watch.during("checking", check) {
+    verdict(watch.during("checking", check), points)
+}
+
+/// Tells a rejected answer from points that no answer can be judged by.
+fn verdict<V>(
+    judged: Result<V, CheckError>,
+    points: &Opened,
+) -> anyhow::Result<Result<V, Violation>> {
+    match judged {
         Ok(verdict) => Ok(Ok(verdict)),
         // Points no answer can be judged by are no fault of the answer.
         Err(CheckError::Rejected(Violation::NonFinite { row, column, value })) => {
-            Err(points.explain(SolveError::NonFinite { row, column, value }))
+            Err(points.not_finite(row, column, value))
         }
         Err(CheckError::Rejected(Violation::NegativeRadius { row, value })) => {
             Err(points.explain(SolveError::NegativeRadius { row, value }))
@@ -138,21 +208,9 @@ fn epsilon(text: &str) -> Result<f64, String> {
     }
 }
 
-fn triangulation(answer: &Triangulation) -> String {
-    let place = if answer.dimension == 2 { "the plane" } else { "space" };
-    format!("the Delaunay triangulation of the points, in {place}")
-}
-
-fn facts_of_triangulation(verdict: &TriangulationVerdict) -> Vec<Fact> {
-    let counts = verdict.counts;
-    vec![
-        Fact::new("sites", counts.sites.to_string()).remark("distinct points"),
-        Fact::new("simplices", counts.simplices.to_string()),
-        Fact::new("hull", format!("{} facets", counts.hull)),
-        Fact::new("ties", verdict.ties.to_string())
-            .remark("facets with both simplices on one sphere"),
-        Fact::new("fingerprint", verdict.fingerprint.to_string()),
-    ]
+fn triangulation(dimension: usize) -> String {
+    let place = if dimension == 2 { "the plane" } else { "space" };
+    format!("Verified: the Delaunay triangulation of the points, in {place}")
 }
 
 fn facts(verdict: &Verdict) -> Vec<Fact> {

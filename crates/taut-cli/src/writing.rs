@@ -8,6 +8,7 @@ use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 use anyhow::{anyhow, bail};
+use taut::{Answer, Solution};
 use taut_io::{AtomicFile, Error};
 
 use crate::watch::interrupted;
@@ -75,6 +76,31 @@ impl Outputs {
         Ok(())
     }
 
+    /// Prepares the file `path` with the JSON of an answer, piece by piece; `-` is standard output.
+    pub(crate) fn add_json<A: Answer>(
+        &mut self,
+        path: &Path,
+        found: &Solution<A>,
+    ) -> anyhow::Result<()> {
+        if is_stream(path) {
+            self.words.extend_from_slice((found.to_json() + "\n").as_bytes());
+            return Ok(());
+        }
+        let mut file = taut_io::create(path)?;
+        found
+            .write_json(&mut file)
+            .and_then(|()| file.write_all(b"\n"))
+            .and_then(|()| file.flush())
+            .map_err(|source| failed(file.path(), &source))?;
+        self.hold(file);
+        Ok(())
+    }
+
+    /// Keeps a file that is complete, until all of them are.
+    pub(crate) fn hold(&mut self, file: AtomicFile) {
+        self.files.push(file);
+    }
+
     /// Words for standard output.
     pub(crate) fn say(&mut self, words: &str) {
         self.words.extend_from_slice(words.as_bytes());
@@ -82,6 +108,9 @@ impl Outputs {
 
     /// Says the words, then gives the files their names.
     pub(crate) fn finish(self) -> anyhow::Result<()> {
+        if interrupted() && !self.files.is_empty() {
+            bail!("interrupted: all files are as they were");
+        }
         say(&self.words)?;
         self.files.into_iter().try_for_each(AtomicFile::commit)?;
         Ok(())

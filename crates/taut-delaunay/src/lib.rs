@@ -3,7 +3,7 @@
 //! | you want | call | promise |
 //! |---|---|---|
 //! | a triangulation to walk around in | [`Plane::build`], [`Space::build`] | exact for every finite input; a function of the point set alone |
-//! | the simplices with their certificate | [`delaunay()`], [`Triangulation::solution`] | the same bytes for any number of threads |
+//! | the simplices with their certificate | [`delaunay()`], [`delaunay_of_source()`], [`Triangulation::solution`] | the same bytes for any number of threads |
 //!
 //! Not for: more points than memory holds, or other dimensions than two and three.
 
@@ -29,5 +29,5 @@ pub use options::{DelaunayOptions, InsertionOrder};
 pub use plane::constrained::{Constrained, ConstraintError, Piece, Segment, Split};
 pub use query::{AlphaComplex, Location, Locator, Polygon, Polyhedron};
 pub use simplex::{GHOST, Simplex, decode};
-pub use solution::delaunay;
+pub use solution::{delaunay, delaunay_of_source};
 pub use triangulation::{Complex, Plane, Space, Triangulation};

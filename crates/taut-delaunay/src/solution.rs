@@ -7,7 +7,7 @@ use taut_certify::{
     Fingerprint, NO_NEIGHBOR, SiteHash, Solution, Stop, Trace, Triangulation as Answer,
     TriangulationCertificate, TriangulationCounts,
 };
-use taut_points::{Monitor, Points, Scalar, hash_points};
+use taut_points::{Monitor, PointSource, Points, Rows, Scalar, Scratch, hash_points};
 
 use crate::canonical::{CanonicalOrder, arrangement};
 use crate::simplex::{Simplex, decode};
@@ -27,11 +27,33 @@ pub fn delaunay<T: Scalar>(
     points: &Points<'_, T>,
     options: &DelaunayOptions,
 ) -> Result<Solution<Answer>, Error> {
-    let monitor = Monitor::silent();
-    match points.dim() {
-        2 => Plane::build(points, options, &monitor)?.solution(points, &monitor),
-        3 => Space::build(points, options, &monitor)?.solution(points, &monitor),
-        dim => Err(Error::Dimension { dim, expected: "2, the plane, or 3, space" }),
+    delaunay_of_source(points, options, &Monitor::silent())
+}
+
+/// The same for points of any source, with a monitor. They are held in memory while it works.
+///
+/// # Errors
+/// As [`delaunay`], [`Error::Read`] when the points cannot be read, and [`Error::Cancelled`].
+pub fn delaunay_of_source(
+    source: &dyn PointSource,
+    options: &DelaunayOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Answer>, Error> {
+    fn solve<T: Scalar>(
+        points: &Points<'_, T>,
+        options: &DelaunayOptions,
+        monitor: &Monitor<'_>,
+    ) -> Result<Solution<Answer>, Error> {
+        match points.dim() {
+            2 => Plane::build(points, options, monitor)?.solution(points, monitor),
+            3 => Space::build(points, options, monitor)?.solution(points, monitor),
+            dim => Err(Error::Dimension { dim, expected: "2, the plane, or 3, space" }),
+        }
+    }
+    let mut scratch = Scratch::new();
+    match source.read(0..source.len(), &mut scratch)? {
+        Rows::F32(points) => solve(&points, options, monitor),
+        Rows::F64(points) => solve(&points, options, monitor),
     }
 }
 

@@ -3,6 +3,7 @@
 //! | you have | you call | you get |
 //! |---|---|---|
 //! | a ball and its points | [`ball_figures`] | scenes of the plane or of space, and plots |
+//! | a triangulation and its points | [`delaunay_figures`] | scenes of the plane or of space, and the Voronoi diagram |
 //! | a [`Figure`] | [`to_svg`] | SVG text, with a title and a description for screen readers |
 //! | a [`Figure`] | `to_png` (feature `png`) | PNG bytes, the same on every machine: the font is bundled |
 //! | a [`Page`] of figures | [`to_html`] | one file: no network, no library; light, dark and print |
@@ -27,10 +28,12 @@
 
 mod axes;
 mod ball;
+mod delaunay;
 mod error;
 mod figure;
 mod html;
 mod number;
+mod options;
 mod plot;
 #[cfg(feature = "png")]
 mod png;
@@ -42,10 +45,12 @@ mod survey;
 mod svg;
 mod text;
 
-pub use ball::{DrawOptions, ball_figures};
+pub use ball::ball_figures;
+pub use delaunay::delaunay_figures;
 pub use error::Error;
 pub use figure::Figure;
 pub use html::{Fact, Page, Section, to_html};
+pub use options::DrawOptions;
 pub use plot::{Bar, Level, Plot, Scale, Series, SeriesLook};
 #[cfg(feature = "png")]
 pub use png::to_png;

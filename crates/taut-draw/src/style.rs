@@ -55,6 +55,8 @@ pub enum Look {
     Dashed,
     /// A line around a translucent area.
     Filled,
+    /// A thin line, for the many that make up a mesh.
+    Thin,
 }
 
 impl Tone {

@@ -87,7 +87,7 @@ fn directions(dim: usize) -> Vec<Vec<f64>> {
 }
 
 /// SplitMix64 of an item's number (Steele, Lea and Flood, OOPSLA 2014): spreads consecutive numbers evenly.
-fn spread(id: u64) -> u64 {
+pub(crate) fn spread(id: u64) -> u64 {
     let mut z = id.wrapping_add(0x9E37_79B9_7F4A_7C15);
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use taut_points::ReadError;
 
-use crate::{Compression, Format};
+use crate::{Compression, Format, MeshFormat};
 
 /// Where a value stands in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -43,6 +43,33 @@ impl fmt::Display for Row {
             None => write!(f, "row {}", self.0),
         }
     }
+}
+
+/// Where in a file of a mesh something stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MeshPlace {
+    /// Nowhere in particular.
+    File,
+    /// A line of text, from 1.
+    Line(u64),
+    /// An element of a binary file: its kind, and its number from 0.
+    Element(&'static str, u64),
+}
+
+impl fmt::Display for MeshPlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            MeshPlace::File => Ok(()),
+            MeshPlace::Line(line) => write!(f, "line {line}: "),
+            MeshPlace::Element(kind, number) => write!(f, "{kind} {number}: "),
+        }
+    }
+}
+
+/// The names of the formats of meshes that `usable` says.
+fn meshes(usable: impl Fn(MeshFormat) -> bool) -> String {
+    let names = MeshFormat::ALL.into_iter().filter(|&format| usable(format)).map(MeshFormat::name);
+    names.collect::<Vec<_>>().join(", ")
 }
 
 /// A path as messages show it: control characters are escaped, so that no name of a file can speak to a terminal.
@@ -473,6 +500,78 @@ pub enum Error {
         names: usize,
         /// The dimension.
         dim: usize,
+    },
+    /// The name of a file does not tell which format of meshes it has.
+    #[error("{path}: the format of the mesh cannot be told from the name; name it .{}", meshes(MeshFormat::is_built).replace(", ", ", ."))]
+    UnknownMesh {
+        /// The file.
+        path: String,
+    },
+    /// No format of meshes has this name.
+    #[error("`{name}` is no format of meshes; these are {}", meshes(|_| true))]
+    MeshFormatName {
+        /// What was asked for.
+        name: String,
+    },
+    /// The format was left out of this build.
+    #[error(
+        "{path}: this build of taut reads and writes no {format} files; build it with the feature `arrow`"
+    )]
+    MeshNotBuilt {
+        /// The file.
+        path: String,
+        /// The format.
+        format: MeshFormat,
+    },
+    /// The format has no place for such simplices.
+    #[error("{path}: {format} files hold no {}; write one of {}", crate::mesh::nouns(*width), meshes(|f| f.holds(*width) && f.is_built()))]
+    MeshWidth {
+        /// The file.
+        path: String,
+        /// The format.
+        format: MeshFormat,
+        /// Vertices of a simplex.
+        width: usize,
+    },
+    /// The points of a mesh are not of the plane or of space.
+    #[error("{path}: {format} files hold points of the plane or of space, not of dimension {dim}")]
+    MeshDimension {
+        /// The file.
+        path: String,
+        /// The format.
+        format: MeshFormat,
+        /// The dimension of the points.
+        dim: usize,
+    },
+    /// A file is not the mesh that its format demands.
+    #[error("{path} is damaged or no {format} file: {place}{problem}")]
+    Mesh {
+        /// The file.
+        path: String,
+        /// The format.
+        format: MeshFormat,
+        /// Where.
+        place: MeshPlace,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A file of a mesh is of a kind that is not read.
+    #[error("{path}: {place}{problem}, which is not read: write the mesh {remedy}")]
+    MeshKind {
+        /// The file.
+        path: String,
+        /// Where.
+        place: MeshPlace,
+        /// What it is.
+        problem: String,
+        /// How to write it instead.
+        remedy: &'static str,
+    },
+    /// There is no simplex in a file of a mesh.
+    #[error("{path} holds no simplex")]
+    NoSimplices {
+        /// The file.
+        path: String,
     },
     /// A block of points could not be delivered.
     #[error(transparent)]

@@ -104,15 +104,7 @@ impl Format {
 
     /// The format and compression that the name of a file tells: `points.csv.gz` is CSV and gzip.
     pub fn of_path(path: &Path) -> (Option<Format>, Option<Compression>) {
-        let extension = |path: &Path| Some(path.extension()?.to_str()?.to_ascii_lowercase());
-        let last = extension(path);
-        let compression = last
-            .as_deref()
-            .and_then(|last| Compression::ALL.into_iter().find(|c| c.extensions().contains(&last)));
-        let inner = match compression {
-            Some(_) => path.file_stem().and_then(|stem| extension(Path::new(stem))),
-            None => last,
-        };
+        let (inner, compression) = Compression::split(path);
         let format = inner.and_then(|inner| {
             Format::ALL.into_iter().find(|format| format.extensions().contains(&inner.as_str()))
         });
@@ -170,6 +162,20 @@ impl Compression {
             Compression::Xz => &["xz"],
             Compression::Zstd => &["zst", "zstd"],
         }
+    }
+
+    /// The extension of a file, in lower case and without that of a compression, and the compression.
+    pub(crate) fn split(path: &Path) -> (Option<String>, Option<Compression>) {
+        let extension = |path: &Path| Some(path.extension()?.to_str()?.to_ascii_lowercase());
+        let last = extension(path);
+        let compression = last
+            .as_deref()
+            .and_then(|last| Compression::ALL.into_iter().find(|c| c.extensions().contains(&last)));
+        let inner = match compression {
+            Some(_) => path.file_stem().and_then(|stem| extension(Path::new(stem))),
+            None => last,
+        };
+        (inner, compression)
     }
 
     /// The compression whose files begin with these bytes.

@@ -105,7 +105,7 @@ impl Medium {
     }
 
     /// The first bytes (up to 8), which stay to be read.
-    fn peek(self, path: &str) -> Result<(Vec<u8>, Medium), Error> {
+    pub(crate) fn peek(self, path: &str) -> Result<(Vec<u8>, Medium), Error> {
         let failed = |source| Error::reading(path, source);
         let mut head = Vec::new();
         Ok(match self {

@@ -6,6 +6,8 @@
 //! | points of bytes in memory | [`open_bytes`] | the same |
 //! | a file | [`create`] | the earlier file stays as it was until [`AtomicFile::commit`] |
 //! | points as a file | [`write_points`] | block by block, so the points may be larger than memory |
+//! | a mesh on points as a file | [`write_mesh`] | every point is a vertex, in input order |
+//! | a mesh of a file | [`open_mesh`] | every simplex, or an error that names file and line or element |
 //!
 //! ```
 //! use taut_io::{ReadOptions, open_bytes};
@@ -20,7 +22,7 @@
 //! Everything else is decoded once, to memory or, when it outgrows [`ReadOptions::memory`], to a temporary file of
 //! raw values. The names `.gz`, `.xz` and `.zst` compress any format.
 //!
-//! Not for: points of differing dimension, meshes, images.
+//! Not for: points of differing dimension, meshes of polygons or with colours, images.
 
 #![forbid(unsafe_code)]
 
@@ -30,6 +32,7 @@ mod create;
 mod error;
 mod format;
 mod input;
+mod mesh;
 mod options;
 mod read;
 mod sink;
@@ -37,8 +40,9 @@ mod write;
 
 pub use columns::Columns;
 pub use create::{AtomicFile, create};
-pub use error::{Error, Place};
+pub use error::{Error, MeshPlace, Place};
 pub use format::{Compression, Format};
 pub use input::{Input, open, open_bytes};
+pub use mesh::{Mesh, MeshFormat, mesh_file, open_mesh, open_mesh_bytes, write_mesh};
 pub use options::{Header, RawLayout, ReadOptions};
 pub use write::write_points;

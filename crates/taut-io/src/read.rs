@@ -11,7 +11,7 @@ mod npy;
 #[cfg(feature = "arrow")]
 mod parquet;
 #[cfg(feature = "arrow")]
-mod quiet;
+pub(crate) mod quiet;
 mod raw;
 mod rows;
 mod tsplib;
@@ -115,7 +115,7 @@ fn in_place(
 
 /// The first line of what a decoder says; some go on with a trace of calls.
 #[cfg(feature = "arrow")]
-fn first_line(said: &dyn std::fmt::Display) -> String {
+pub(crate) fn first_line(said: &dyn std::fmt::Display) -> String {
     said.to_string().lines().next().unwrap_or_default().trim_end().to_owned()
 }
 

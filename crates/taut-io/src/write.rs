@@ -16,7 +16,7 @@ use taut_points::{Blocks, Monitor, PointSource, ReadError, Rows, Scratch};
 use crate::compress::Encoder;
 use crate::create::{AtomicFile, create};
 use crate::error::shown_path;
-use crate::{Error, Format};
+use crate::{Compression, Error, Format};
 
 /// Writes `source` to `path` in the given format, or in that of the extension; `-` is standard output (CSV).
 ///
@@ -52,11 +52,7 @@ pub fn write_points(
             false => Error::NotBuilt { path: shown, format },
         });
     }
-    let file = create(path)?;
-    let failure = file.failure();
-    let failed = |source| failure(&shown, source);
-    let to = Encoder::new(compression, file).map_err(failed)?;
-    let mut out = Out { to, path: &shown, failure };
+    let mut out = Out::create(path, &shown, compression)?;
     let points = Points { source, columns, monitor };
     match format {
         Format::Csv => text::write(&points, b',', &mut out)?,
@@ -70,19 +66,22 @@ pub fn write_points(
         Format::Arrow => columnar::write_arrow(&points, &mut out)?,
         _ => return Err(Error::NotWritable { path: shown, format }),
     }
-    out.to.finish().map_err(failed)?.commit()
+    out.finish()?.commit()
 }
 
 /// Points to be written.
-struct Points<'a> {
-    source: &'a dyn PointSource,
-    columns: &'a [String],
-    monitor: &'a Monitor<'a>,
+pub(crate) struct Points<'a> {
+    pub(crate) source: &'a dyn PointSource,
+    pub(crate) columns: &'a [String],
+    pub(crate) monitor: &'a Monitor<'a>,
 }
 
 impl Points<'_> {
     /// Calls `write` for each block in order.
-    fn blocks(&self, mut write: impl FnMut(Rows<'_>) -> Result<(), Error>) -> Result<(), Error> {
+    pub(crate) fn blocks(
+        &self,
+        mut write: impl FnMut(Rows<'_>) -> Result<(), Error>,
+    ) -> Result<(), Error> {
         let blocks = Blocks::of(self.source);
         let mut scratch = Scratch::new();
         self.monitor.pass(1, self.source.len());
@@ -98,15 +97,31 @@ impl Points<'_> {
 }
 
 /// The file being written, with its name for messages.
-struct Out<'a> {
-    to: Encoder<AtomicFile>,
-    path: &'a str,
+pub(crate) struct Out<'a> {
+    pub(crate) to: Encoder<AtomicFile>,
+    pub(crate) path: &'a str,
     /// What an error of writing means.
-    failure: fn(&str, std::io::Error) -> Error,
+    pub(crate) failure: fn(&str, std::io::Error) -> Error,
 }
 
-impl Out<'_> {
-    fn put(&mut self, bytes: &[u8]) -> Result<(), Error> {
+impl<'a> Out<'a> {
+    pub(crate) fn create(
+        path: &Path,
+        shown: &'a str,
+        compression: Option<Compression>,
+    ) -> Result<Self, Error> {
+        let file = create(path)?;
+        let failure = file.failure();
+        let to = Encoder::new(compression, file).map_err(|source| failure(shown, source))?;
+        Ok(Out { to, path: shown, failure })
+    }
+
+    /// Ends the compressed stream, if there is one.
+    pub(crate) fn finish(self) -> Result<AtomicFile, Error> {
+        self.to.finish().map_err(|source| (self.failure)(self.path, source))
+    }
+
+    pub(crate) fn put(&mut self, bytes: &[u8]) -> Result<(), Error> {
         self.to.write_all(bytes).map_err(|source| (self.failure)(self.path, source))
     }
 }

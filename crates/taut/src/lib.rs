@@ -5,6 +5,8 @@
 //! | the smallest ball around points | [`ball()`] | R ≤ (1 + ε)·R*, proved | [`enclose`] |
 //! | the smallest ball around balls | [`ball_of_balls()`] | the same | [`enclose`] |
 //! | either, of more points than memory holds | [`ball_of_source()`] | the same | [`enclose`] |
+//! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
+//! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`Plane`], [`Space`] | the same | [mod@delaunay] |
 //! | a second opinion on any answer | [`Solution::check`] | a proved bracket, or the first violation | [`certify`] |
 //! | an answer of yesterday | [`AnySolution::from_json`] | the same bits | [`certify`] |
 //! | points to try with | [`generate()`] | point i depends on the seed and i alone | [`points`] |
@@ -31,6 +33,17 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! Triangulations are answers like any other:
+//!
+//! ```
+//! let points = taut::Points::new(&[0.0, 0.0, 4.0, 0.0, 4.0, 3.0, 0.0, 1.0], 2)?;
+//! let found = taut::delaunay(&points, &taut::DelaunayOptions::default())?;
+//! assert_eq!(found.answer.rows().count(), 2);                            // triangles, as rows of the input
+//! assert_eq!(found.answer.hull.len() / 2, 4);
+//! assert_eq!(found.check(&points)?.counts.sites, 4);                     // proved to be the one and only
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! Nothing but names lives here; each crate behind the door can be used on its own. Files are read and written by
 //! `taut-io`, pictures drawn by `taut-draw`, and the command `taut` is the crate `taut-cli`.
 //!
@@ -41,6 +54,10 @@ pub use taut_certify as certify;
 pub use taut_certify::{
     Answer, AnySolution, Ball, BallCertificate, Items, Solution, Trace, Triangulation,
     TriangulationCertificate, Verdict, Violation,
+};
+pub use taut_delaunay as delaunay;
+pub use taut_delaunay::{
+    DelaunayOptions, InsertionOrder, Plane, Space, delaunay, delaunay_of_source,
 };
 pub use taut_enclose as enclose;
 pub use taut_enclose::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_source};
@@ -54,4 +71,6 @@ mod pages {
     struct Readme;
     #[doc = include_str!("../../../docs/ball.md")]
     struct Ball;
+    #[doc = include_str!("../../../docs/delaunay.md")]
+    struct Delaunay;
 }

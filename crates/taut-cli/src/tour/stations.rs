@@ -2,15 +2,24 @@
 
 use taut::Items;
 
+/// What is done with a sample.
+#[derive(Clone, Copy)]
+pub(super) enum Tool {
+    /// The smallest ball.
+    Ball(Items),
+    /// The Delaunay triangulation.
+    Delaunay,
+}
+
 /// A sample, what is to be seen in it, and the command that shows the same.
 pub(super) struct Station {
     pub(super) heading: &'static str,
     pub(super) text: &'static str,
     pub(super) file: &'static str,
     pub(super) bytes: &'static [u8],
-    pub(super) items: Items,
+    pub(super) tool: Tool,
     pub(super) command: &'static str,
-    /// Whether a ball that is a little too small is shown to the checker as well.
+    /// Whether a wrong answer is shown to the checker as well: a ball a little too small, an edge turned.
     pub(super) doctored: bool,
 }
 
@@ -23,7 +32,7 @@ pub(super) const STATIONS: &[Station] = &[
                that lies outside.",
         file: "clouds.csv",
         bytes: include_bytes!("../../samples/clouds.csv"),
-        items: Items::Points,
+        tool: Tool::Ball(Items::Points),
         command: "taut ball clouds.csv --epsilon 0 --draw clouds.html",
         doctored: true,
     },
@@ -33,7 +42,7 @@ pub(super) const STATIONS: &[Station] = &[
                mouse.",
         file: "knot.xyz",
         bytes: include_bytes!("../../samples/knot.xyz"),
-        items: Items::Points,
+        tool: Tool::Ball(Items::Points),
         command: "taut ball knot.xyz --epsilon 0 --draw knot.html",
         doctored: false,
     },
@@ -44,7 +53,7 @@ pub(super) const STATIONS: &[Station] = &[
                are projections and the distances from the centre.",
         file: "normal-64.npy",
         bytes: include_bytes!("../../samples/normal-64.npy"),
-        items: Items::Points,
+        tool: Tool::Ball(Items::Points),
         command: "taut ball normal-64.npy --epsilon 0 --draw normal-64.html",
         doctored: false,
     },
@@ -54,7 +63,7 @@ pub(super) const STATIONS: &[Station] = &[
                smallest disc that holds all discs.",
         file: "discs.csv",
         bytes: include_bytes!("../../samples/discs.csv"),
-        items: Items::Balls,
+        tool: Tool::Ball(Items::Balls),
         command: "taut ball discs.csv --balls --epsilon 0 --draw discs.html",
         doctored: false,
     },
@@ -65,8 +74,29 @@ pub(super) const STATIONS: &[Station] = &[
                methods cycle. The radius is √50 / 2 = 3.5355…",
         file: "cube-50.tsv.gz",
         bytes: include_bytes!("../../samples/cube-50.tsv.gz"),
-        items: Items::Points,
+        tool: Tool::Ball(Items::Points),
         command: "taut ball cube-50.tsv.gz --epsilon 0 --draw cube-50.html",
+        doctored: false,
+    },
+    Station {
+        heading: "Through the points: a triangulation",
+        text: "The larger cities of Europe (places of GeoNames, CC BY 4.0), joined by triangles whose circumcircles hold \
+               no other city. The Voronoi diagram beside it shows which places are nearest to which city.\n\n\
+               The checker goes over all pairs of neighbouring triangles, in exact arithmetic. Shown the same \
+               triangulation with one edge turned, it names the place that is wrong.",
+        file: "cities.csv",
+        bytes: include_bytes!("../../samples/cities.csv"),
+        tool: Tool::Delaunay,
+        command: "taut delaunay cities.csv -o cities.vtu --draw cities.html",
+        doctored: true,
+    },
+    Station {
+        heading: "A triangulation of space",
+        text: "The knot again, now filled with tetrahedra: what is shown is the convex hull around them.",
+        file: "knot.xyz",
+        bytes: include_bytes!("../../samples/knot.xyz"),
+        tool: Tool::Delaunay,
+        command: "taut delaunay knot.xyz -o knot.vtu --draw knot-hull.html",
         doctored: false,
     },
 ];

@@ -1,5 +1,6 @@
 //! Ctrl-C ends the work with code 130 and leaves files as they were.
 
+use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
@@ -31,4 +32,28 @@ fn an_interrupt_leaves_the_earlier_file_and_nothing_else() {
     assert_eq!(ended.code(), Some(130));
     assert_eq!(desk.files(), ["points.csv"]);
     assert_eq!(desk.text("points.csv"), "earlier points");
+}
+
+#[test]
+fn an_interrupt_stops_a_triangulation() {
+    let desk = Desk::new();
+    desk.taut("generate uniform -n 600000 -d 3 -o points.npy").ends(0);
+    desk.put("mesh.ply", "earlier mesh");
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin!("taut"))
+        .current_dir(desk.path(""))
+        .args("delaunay points.npy -o mesh.ply --threads 1 --progress always".split(' '))
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // It has begun once it says so.
+    let mut said = String::new();
+    let mut words = BufReader::new(child.stderr.take().unwrap());
+    while !said.contains("solving") && words.read_line(&mut said).unwrap() > 0 {}
+    let id = child.id().to_string();
+    assert!(
+        Command::new("sh").args(["-c", &format!("kill -INT {id}")]).status().unwrap().success()
+    );
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(desk.files(), ["mesh.ply", "points.npy"]);
+    assert_eq!(desk.text("mesh.ply"), "earlier mesh");
 }

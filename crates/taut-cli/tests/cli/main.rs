@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod ball;
+mod delaunay;
 mod desk;
 mod generate;
 #[cfg(unix)]

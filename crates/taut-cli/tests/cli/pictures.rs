@@ -68,7 +68,7 @@ fn the_tour_shows_and_verifies_every_tool() {
     let desk = Desk::new();
     let run = desk.taut("tour --samples samples").ends(0).says(&["verified yes", "tour.html"]);
     let stations = run.out.lines().filter(|line| line.contains(" verified yes ")).count();
-    assert_eq!(stations, 5, "{}", run.out);
+    assert_eq!(stations, 7, "{}", run.out);
     assert_eq!(desk.files(), ["samples", "tour.html"]);
     let page = desk.text("tour.html");
     for part in [
@@ -81,14 +81,19 @@ fn the_tour_shows_and_verifies_every_tool() {
         "a millionth smaller",
         "rejected",
         "3.5355339",
+        "Through the points",
+        "Voronoi diagram of 432 points",
+        "an edge turned",
     ] {
         assert!(page.contains(part), "no {part}");
     }
-    assert_eq!(page.matches("verified</th><td>yes</td>").count(), 5);
+    assert_eq!(page.matches("verified</th><td>yes</td>").count(), 7);
     // Each command of the page does what it says.
-    for line in page.lines().filter_map(|line| line.split("taut ball ").nth(1)) {
-        let words = line.split('<').next().unwrap().trim();
-        desk.taut(&format!("ball samples/{words} --quiet")).ends(0);
+    for tool in ["ball", "delaunay"] {
+        for line in page.lines().filter_map(|line| line.split(&format!("taut {tool} ")).nth(1)) {
+            let words = line.split('<').next().unwrap().trim();
+            desk.taut(&format!("{tool} samples/{words} --quiet")).ends(0);
+        }
     }
     let run = desk.taut("tour -o -").ends(0);
     assert_eq!((run.out.as_str(), run.err.as_str()), (page.as_str(), ""));

@@ -2,8 +2,8 @@
 
 use crate::desk::Desk;
 
-const COMMANDS: [&str; 8] =
-    ["ball", "verify", "draw", "generate", "tour", "formats", "completions", "man"];
+const COMMANDS: [&str; 9] =
+    ["ball", "delaunay", "verify", "draw", "generate", "tour", "formats", "completions", "man"];
 
 #[test]
 fn help_explains_every_command_with_an_example() {
@@ -34,6 +34,9 @@ fn formats_lists_what_is_read_and_written() {
         assert_eq!(words[1..3], ["yes", if format == "tsplib" { "no" } else { "yes" }], "{format}");
     }
     assert!(run.out.contains("gz, xz, zst"));
+    for format in ["ply", "obj", "off", "vtu"] {
+        assert!(run.out.contains(&format!("\n{format} ")), "{format}");
+    }
 }
 
 #[test]

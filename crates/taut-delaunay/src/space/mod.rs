@@ -146,6 +146,7 @@ impl Kernel<3, 4> for Mesh {
             self.marks.push(0);
         }
         self.counters.insertions += 4;
+        self.counters.orientations += 1;
     }
 
     fn insert(&mut self, sites: &[u32]) -> Result<(), TooMany> {

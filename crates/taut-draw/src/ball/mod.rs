@@ -6,7 +6,6 @@
 //! *Guarantee.* The items are read twice at most (once for all, once more for those drawn); what is left out is counted
 //! in the caption.
 
-mod options;
 mod passes;
 mod plane;
 mod shadow;
@@ -17,8 +16,7 @@ use taut_points::{PointSource, gather};
 
 use crate::number::{count, counted, short};
 use crate::survey::{Scaled, Survey, survey};
-use crate::{Error, Figure};
-pub use options::DrawOptions;
+use crate::{DrawOptions, Error, Figure};
 
 /// Pictures of a ball and its points: the plane for d ≤ 2, space for d = 3, a projection and the distances from the
 /// centre beyond; then the bounds and the gap by pass, where the trace has them.

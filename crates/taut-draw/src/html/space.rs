@@ -45,6 +45,7 @@ fn layer(layer: &Layer3, stage: &Stage) -> String {
         Look::Solid => "solid",
         Look::Dashed => "dashed",
         Look::Filled => "filled",
+        Look::Thin => "thin",
     };
     let mut marks = Vec::new();
     let mut more = String::new();

@@ -145,7 +145,7 @@
         pen.globalAlpha = low + (high - low) * Math.min(1, Math.max(0, (p.z + 1) / 2));
         pen.fillStyle = pen.strokeStyle = ink;
         if (p.face) { pen.globalAlpha = .25 + .5 * p.light; path(p.face, true); pen.fill(); pen.lineWidth = .4; pen.stroke(); }
-        else if (p.chain) { pen.lineWidth = 2; pen.setLineDash(p.layer.look === "dashed" ? [6, 5] : []); path(p.chain, false); pen.stroke(); pen.setLineDash([]); }
+        else if (p.chain) { pen.lineWidth = p.layer.look === "thin" ? .8 : 2; pen.setLineDash(p.layer.look === "dashed" ? [6, 5] : []); path(p.chain, false); pen.stroke(); pen.setLineDash([]); }
         else if (p.layer.kind === "crosses") {
           pen.lineWidth = 2; pen.beginPath();
           pen.moveTo(p.at[0] - 6, p.at[1]); pen.lineTo(p.at[0] + 6, p.at[1]); pen.moveTo(p.at[0], p.at[1] - 6); pen.lineTo(p.at[0], p.at[1] + 6);

@@ -84,20 +84,31 @@ impl Canvas {
 
     /// A chain of segments; fewer than two places make none.
     pub(super) fn chain(&mut self, places: &[[f64; 2]], closed: bool) {
-        if places.len() < 2 {
-            return;
-        }
+        self.chains([places], closed);
+    }
+
+    /// Chains in one path, which takes a third of the room that a path for each would take.
+    pub(super) fn chains<'a>(
+        &mut self,
+        chains: impl IntoIterator<Item = &'a [[f64; 2]]>,
+        closed: bool,
+    ) {
+        let before = self.body.len();
         self.body.push_str("<path d=\"");
-        for (i, place) in places.iter().enumerate() {
-            let _ = write!(
-                self.body,
-                "{}{} {}",
-                if i == 0 { 'M' } else { 'L' },
-                px(place[0]),
-                px(place[1])
-            );
+        let begun = self.body.len();
+        for places in chains.into_iter().filter(|places| places.len() >= 2) {
+            for (i, place) in places.iter().enumerate() {
+                let letter = if i == 0 { 'M' } else { 'L' };
+                let _ = write!(self.body, "{letter}{} {}", px(place[0]), px(place[1]));
+            }
+            if closed {
+                self.body.push('Z');
+            }
         }
-        self.body.push_str(if closed { "Z\"/>" } else { "\"/>" });
+        match self.body.len() == begun {
+            true => self.body.truncate(before),
+            false => self.body.push_str("\"/>"),
+        }
     }
 
     pub(super) fn text(&mut self, at: [f64; 2], class: &str, anchor: Anchor, text: &str) {
@@ -156,5 +167,6 @@ pub(super) fn stroke(tone: Tone, look: Look) -> (String, &'static str) {
         Look::Solid => (format!("s-{name}"), "stroke-width=\"2\" stroke-linejoin=\"round\""),
         Look::Dashed => (format!("s-{name}"), "stroke-width=\"1.8\" stroke-dasharray=\"6 5\""),
         Look::Filled => (format!("f-{name} e-{name}"), "stroke-width=\"2\" fill-opacity=\"0.07\""),
+        Look::Thin => (format!("s-{name}"), "stroke-width=\"0.8\" stroke-linejoin=\"round\""),
     }
 }

@@ -32,6 +32,9 @@ pub(super) fn draw(scene: &Scene2, chrome: Chrome, canvas: &mut Canvas) {
     }
 }
 
+/// Thin chains in one path: programs that show SVG slow down over very long ones.
+const TOGETHER: usize = 500;
+
 /// As many ticks as fit, `apart` pixels each.
 pub(super) fn ticks_along(pixels: f64, apart: f64) -> usize {
     ((pixels / apart) as usize).clamp(2, 10)
@@ -184,9 +187,14 @@ fn marks(canvas: &mut Canvas, layer: &Layer2, x: &Span, y: &Span, axes: [&Axis; 
             let (classes, attributes) = stroke(layer.tone, layer.look);
             canvas.open(&classes, &format!("data-layer=\"chains\" {attributes}"));
             let closed = matches!(layer.shape, Shape2::Polygons(_));
-            for chain in chains {
-                let places: Vec<_> = chain.iter().filter(|p| finite(p)).map(place).collect();
-                canvas.chain(&places, closed);
+            let placed = |chain: &Vec<[f64; 2]>| -> Vec<[f64; 2]> {
+                chain.iter().filter(|p| finite(p)).map(place).collect()
+            };
+            let chains: Vec<_> = chains.iter().map(placed).collect();
+            // Areas stay apart: laid over each other in one path they would leave holes.
+            let together = if layer.look == Look::Thin { TOGETHER } else { 1 };
+            for some in chains.chunks(together) {
+                canvas.chains(some.iter().map(Vec::as_slice), closed);
             }
         }
         Shape2::Texts(texts) => {

@@ -14,7 +14,7 @@ thread_local! {
 }
 
 /// Calls `work`; a panic in it, on this thread, is returned and not printed.
-pub(super) fn catch<R>(work: impl FnOnce() -> R) -> Result<R, Box<dyn Any + Send>> {
+pub(crate) fn catch<R>(work: impl FnOnce() -> R) -> Result<R, Box<dyn Any + Send>> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
         let before = panic::take_hook();

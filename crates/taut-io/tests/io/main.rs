@@ -8,6 +8,7 @@ mod corpus;
 mod create;
 mod damaged;
 mod data;
+mod mesh;
 mod parsers;
 mod round_trip;
 mod text;

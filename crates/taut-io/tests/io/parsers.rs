@@ -3,13 +3,13 @@
 //! Each panics when a promise is broken: points that are not finite, names that do not fit, two ways to read the
 //! same bytes that differ.
 
-use taut_io::{Format, Header, Input, RawLayout, ReadOptions, open_bytes};
+use taut_io::{Format, Header, Input, RawLayout, ReadOptions, open_bytes, open_mesh_bytes};
 use taut_points::{Monitor, ScalarKind, Scratch, hash_points};
 
 type Parser = (&'static str, fn(&[u8]));
 
 /// Every parser by the name of its fuzz target.
-pub(crate) const ALL: [Parser; 8] = [
+pub(crate) const ALL: [Parser; 13] = [
     ("csv", csv),
     ("npy", npy),
     ("parquet", parquet),
@@ -18,6 +18,11 @@ pub(crate) const ALL: [Parser; 8] = [
     ("xyz", xyz),
     ("raw", raw),
     ("json", json),
+    ("ply", ply),
+    ("obj", obj),
+    ("off", off),
+    ("vtu", vtu),
+    ("simplices", simplices),
 ];
 
 /// Comma, tab and space; with all columns and with some.
@@ -77,6 +82,41 @@ pub(crate) fn json(bytes: &[u8]) {
     let Ok(found) = AnySolution::from_json(text) else { return };
     let again = found.to_json();
     assert_eq!(AnySolution::from_json(&again).expect("written by us"), found);
+}
+
+pub(crate) fn ply(bytes: &[u8]) {
+    mesh(bytes, "fuzz.ply");
+}
+
+pub(crate) fn obj(bytes: &[u8]) {
+    mesh(bytes, "fuzz.obj");
+}
+
+pub(crate) fn off(bytes: &[u8]) {
+    mesh(bytes, "fuzz.off");
+}
+
+pub(crate) fn vtu(bytes: &[u8]) {
+    mesh(bytes, "fuzz.vtu");
+}
+
+/// Parquet with rows of ids.
+pub(crate) fn simplices(bytes: &[u8]) {
+    mesh(bytes, "fuzz.parquet");
+}
+
+fn mesh(bytes: &[u8], name: &str) {
+    match open_mesh_bytes(bytes.to_vec(), name) {
+        Ok(mesh) => {
+            assert!((1..=4).contains(&mesh.width) && !mesh.simplices.is_empty());
+            assert!(mesh.simplices.len().is_multiple_of(mesh.width));
+            if let Some(vertices) = mesh.vertices {
+                assert!(mesh.simplices.iter().all(|&id| (id as usize) < vertices.len()));
+                assert!(vertices.iter().flatten().all(|x| x.is_finite()));
+            }
+        }
+        Err(refused) => assert!(!refused.to_string().is_empty()),
+    }
 }
 
 fn read(bytes: &[u8], format: Format, options: ReadOptions) -> Option<Input> {

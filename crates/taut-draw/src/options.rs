@@ -1,11 +1,12 @@
-//! How to draw a ball.
+//! How to draw an answer.
 
 use crate::{Axis, Error};
 
 /// How to draw. Write `DrawOptions { max_points: 5_000, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawOptions {
-    /// Most items drawn, at least 1, default 20,000; the support is always drawn, and the caption names both counts.
+    /// Most items drawn, at least 1, default 20,000; the support of a ball is always drawn, and the caption names both
+    /// counts.
     pub max_points: usize,
     /// Width of a figure, pixels, from 240 to 10,000, default 720.
     pub width: f64,
@@ -22,7 +23,7 @@ impl Default for DrawOptions {
 }
 
 impl DrawOptions {
-    pub(super) fn check(&self) -> Result<(), Error> {
+    pub(crate) fn check(&self) -> Result<(), Error> {
         let wrong = |name, value: String, expected| Err(Error::Option { name, value, expected });
         if self.max_points == 0 {
             return wrong("max_points", "0".into(), "at least 1");
@@ -37,7 +38,7 @@ impl DrawOptions {
     }
 
     /// The axis of a column in a space of `dim` dimensions.
-    pub(super) fn axis(&self, column: usize, dim: usize) -> Axis {
+    pub(crate) fn axis(&self, column: usize, dim: usize) -> Axis {
         match self.columns.get(column) {
             Some(name) if !name.trim().is_empty() => Axis::named(name.trim()),
             _ if dim <= 3 => Axis::named(["x", "y", "z"][column]),

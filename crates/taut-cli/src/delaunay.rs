@@ -1,0 +1,259 @@
+//! `taut delaunay`: the Delaunay triangulation of points in the plane or in space.
+
+mod alpha;
+mod built;
+mod voronoi;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::bail;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use taut::{DelaunayOptions, InsertionOrder, Monitor, Solution, Triangulation};
+use taut_io::{MeshFormat, mesh_file};
+
+use self::alpha::Alpha;
+use self::built::Built;
+use crate::clock::Clock;
+use crate::effort::Effort;
+use crate::exit::Outcome;
+use crate::picture::{Look, Picture};
+use crate::reading::{Opened, Points, Reading};
+use crate::report;
+use crate::triangulation::TriangulationReport;
+use crate::verify::judge;
+use crate::writing::{self, Outputs};
+
+/// Triangulate points in the plane or in space, with proof.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Ids are rows of the input, from 0. Of equal points the first stands for all; the others are listed as duplicates.
+Points on a line or on a plane in space are no error: their chain or their triangles are the answer.
+Exit: 0 done · 1 the check failed · 2 bad input or usage, nothing written
+Example: taut delaunay points.csv -o mesh.ply --draw mesh.html && taut verify mesh.ply points.csv")]
+pub(crate) struct Args {
+    #[command(flatten)]
+    points: Points,
+    /// In which order points are inserted; the answer does not depend on it
+    #[arg(long, value_name = "NAME", default_value = order_name(InsertionOrder::default()), value_parser = orders())]
+    order: InsertionOrder,
+    /// Chooses the random orders; the answer does not depend on it
+    #[arg(long, value_name = "N", default_value_t = DelaunayOptions::default().seed)]
+    seed: u64,
+    /// Do without the independent check, which costs less than half of the work
+    #[arg(long)]
+    no_verify: bool,
+
+    /// Write the simplices: .json with the certificate, or a mesh as .ply, .obj, .off, .vtu or .parquet; - is JSON on
+    /// standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
+    out: Option<PathBuf>,
+    /// Print the JSON instead of the summary
+    #[arg(long, help_heading = "Writing")]
+    json: bool,
+    /// Leave the neighbours out of the JSON, which makes it half as large and its check slower
+    #[arg(long, help_heading = "Writing")]
+    no_neighbors: bool,
+    /// Write the facets of the convex hull as a mesh
+    #[arg(long, value_name = "FILE", help_heading = "Writing")]
+    hull: Option<PathBuf>,
+    /// Write the Voronoi cells, clipped to the box of the points and a tenth more: GeoJSON in the plane, faces as JSON in
+    /// space
+    #[arg(long, value_name = "FILE", help_heading = "Writing")]
+    voronoi: Option<PathBuf>,
+    #[command(flatten)]
+    alpha: Alpha,
+    /// Draw the triangulation; .svg and .png show one picture, .html all
+    #[arg(long, value_name = "FILE", help_heading = "Writing")]
+    draw: Option<PathBuf>,
+
+    #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
+    effort: Effort,
+}
+
+fn order_name(wanted: InsertionOrder) -> &'static str {
+    InsertionOrder::NAMES.iter().find(|(_, order)| *order == wanted).map_or("", |(name, _)| name)
+}
+
+fn orders() -> impl TypedValueParser<Value = InsertionOrder> {
+    let explained = InsertionOrder::NAMES.map(|(name, order)| {
+        PossibleValue::new(name).help(match order {
+            InsertionOrder::Strided => {
+                "rounds of every 8ᵏ-th point along the Hilbert curve: the best"
+            }
+            InsertionOrder::Random => "rounds of random points, each eight times the last (BRIO)",
+            InsertionOrder::LocalRic => "random within blocks of growing size, simplex by simplex",
+            _ => "along the Hilbert curve, in one round",
+        })
+    });
+    PossibleValuesParser::new(explained).map(|name| {
+        InsertionOrder::NAMES
+            .iter()
+            .find(|(known, _)| *known == name)
+            .map_or_else(InsertionOrder::default, |(_, order)| *order)
+    })
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
+        let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
+        let mesh = self.mesh_format()?;
+        for path in self.hull.iter().chain(self.alpha.files()) {
+            if MeshFormat::of_path(path).0.is_none() {
+                return Err(taut_io::Error::UnknownMesh { path: path.display().to_string() }.into());
+            }
+        }
+        if let Some(path) = self.voronoi.as_ref().filter(|path| !writing::is_stream(path)) {
+            let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
+            if extension.is_none_or(|extension| extension != "json" && extension != "geojson") {
+                bail!("{}: Voronoi cells are .geojson or .json; name one of these", path.display());
+            }
+        }
+        let outputs: Vec<&Path> = [&self.out, &self.draw, &self.hull, &self.voronoi]
+            .into_iter()
+            .flatten()
+            .chain(self.alpha.files())
+            .map(|path| &**path)
+            .collect();
+        writing::look_at(&outputs, &[&self.points.path])?;
+        let watch = self.effort.start()?;
+        let mut clock = Clock::start();
+        let points = self.reading.open(&self.points.path)?;
+        clock.lap("reading");
+
+        let built = watch
+            .during("solving", |monitor| Built::new(points.source(), &self.options(), monitor))
+            .map_err(|error| points.explain_delaunay(error))?;
+        let mut found = watch
+            .during("ordering", |monitor| built.solution(points.source(), monitor))
+            .map_err(|error| points.explain_delaunay(error))?;
+        clock.lap("solving");
+
+        let mut verdict = None;
+        if !self.no_verify {
+            match judge(&found, &points, &watch)? {
+                Ok(proved) => verdict = Some(proved),
+                Err(violation) => {
+                    let violation = points.explain_violation(&violation, "the triangulation found");
+                    writing::complain(&format!("the check failed: {violation}"));
+                    return Ok(Outcome::CheckFailed);
+                }
+            }
+            clock.lap("checking");
+        }
+        let complex = self.alpha.complex(&built);
+        let report = TriangulationReport { found: &found, points: &points, verdict };
+        let mut facts = report.facts();
+        facts.extend(complex.as_ref().map(alpha::Complex::fact));
+        facts.push(built.signs());
+        let drawn = picture
+            .map(|picture| picture.draw(report.drawing(&Look::default())?, &Look::default()))
+            .transpose()?;
+        let title = report.title();
+
+        if self.no_neighbors {
+            found.certificate.neighbors = Vec::new();
+        }
+        let cells = self.voronoi.as_ref().map(|_| voronoi::cells(&built, points.source()));
+        let cells = cells.transpose()?;
+        let mut outputs = Outputs::default();
+        // Watched to the end, so that an interrupt leaves no half of a file.
+        watch.during("writing", |monitor| {
+            self.write(&mut outputs, &found, mesh, &points, monitor)?;
+            if let Some(complex) = &complex {
+                complex.write(&mut outputs, &self.alpha, points.source(), monitor)?;
+            }
+            for (path, bytes) in [(&self.voronoi, cells), (&self.draw, drawn)] {
+                if let (Some(path), Some(bytes)) = (path, bytes) {
+                    outputs.add(path, &bytes)?;
+                }
+            }
+            anyhow::Ok(())
+        })?;
+        clock.lap("writing");
+        // Where the answer goes to standard output, nothing else does.
+        if self.out.as_deref().is_none_or(|out| !writing::is_stream(out)) {
+            if self.json {
+                outputs.say(&(found.to_json() + "\n"));
+            } else if !self.effort.quiet {
+                facts.push(clock.fact());
+                outputs.say(&report::text(&title, &facts));
+            }
+        }
+        outputs.finish()?;
+        Ok(Outcome::Done)
+    }
+
+    /// The format of the mesh that goes to `--out`; none where JSON does.
+    fn mesh_format(&self) -> anyhow::Result<Option<MeshFormat>> {
+        let Some(out) = &self.out else { return Ok(None) };
+        let json = out.extension().is_none_or(|extension| extension.eq_ignore_ascii_case("json"));
+        match MeshFormat::of_path(out).0 {
+            Some(format) => Ok(Some(format)),
+            None if json => Ok(None),
+            None if Picture::of_path(out).is_ok() => {
+                bail!("{}: -o writes JSON or a mesh; draw with --draw {0}", out.display())
+            }
+            None => {
+                let names: Vec<_> = MeshFormat::ALL.iter().map(|format| format.name()).collect();
+                bail!(
+                    "{}: -o writes .json or a mesh as .{}; name one of these",
+                    out.display(),
+                    names.join(", .")
+                )
+            }
+        }
+    }
+
+    fn write(
+        &self,
+        outputs: &mut Outputs,
+        found: &Solution<Triangulation>,
+        mesh: Option<MeshFormat>,
+        points: &Opened,
+        monitor: &Monitor<'_>,
+    ) -> anyhow::Result<()> {
+        let answer = &found.answer;
+        let file = |simplices: &[u32], width: usize, path: &Path| {
+            mesh_file(points.source(), simplices, width, path, None, monitor)
+        };
+        match (&self.out, mesh) {
+            (Some(out), Some(_)) => {
+                outputs.hold(file(&answer.simplices, answer.vertices_per_simplex(), out)?);
+            }
+            (Some(out), None) => outputs.add_json(out, found)?,
+            (None, _) => {}
+        }
+        if let Some(hull) = &self.hull {
+            let width = answer.hull_dimension.map_or(0, usize::from);
+            if width == 0 {
+                bail!("{}: all points are equal, so there is no hull to write", points.name());
+            }
+            outputs.hold(file(&answer.hull, width, hull)?);
+        }
+        Ok(())
+    }
+
+    fn options(&self) -> DelaunayOptions {
+        DelaunayOptions {
+            threads: None, // those of the pool, which reading and checking use as well
+            order: self.order,
+            seed: self.seed,
+            ..DelaunayOptions::default()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{Args as _, FromArgMatches};
+
+    #[test]
+    fn the_defaults_are_those_of_the_library() {
+        let command = super::Args::augment_args(clap::Command::new("delaunay"));
+        let matches = command.get_matches_from(["delaunay", "points.csv"]);
+        let args = super::Args::from_arg_matches(&matches).unwrap();
+        assert_eq!(args.options(), taut::DelaunayOptions::default());
+    }
+}

@@ -1,0 +1,101 @@
+//! What is said about a triangulation: the same facts on the terminal, beside pictures and in the tour.
+
+use taut::certify::TriangulationVerdict;
+use taut::{Solution, Triangulation};
+use taut_draw::delaunay_figures;
+
+use crate::numbers::{count, counted};
+use crate::picture::{self, Drawing, Look};
+use crate::reading::Opened;
+use crate::report::Fact;
+
+/// A triangulation, the points it belongs to, and what the checker proved (`None` where it was not asked).
+pub(crate) struct TriangulationReport<'a> {
+    pub(crate) found: &'a Solution<Triangulation>,
+    pub(crate) points: &'a Opened,
+    pub(crate) verdict: Option<TriangulationVerdict>,
+}
+
+impl TriangulationReport<'_> {
+    /// What this is, in one line.
+    pub(crate) fn title(&self) -> String {
+        let answer = &self.found.answer;
+        let place = if answer.dimension == 2 { "the plane" } else { "space" };
+        let points = counted(self.points.source().len(), "point");
+        format!("Delaunay triangulation of {points} in {place}")
+    }
+
+    /// The numbers, each with its name.
+    pub(crate) fn facts(&self) -> Vec<Fact> {
+        let (answer, certificate) = (&self.found.answer, &self.found.certificate);
+        let counts = certificate.counts;
+        let sites = Fact::new("sites", count(counts.sites)).remark(match answer.duplicates.len() {
+            0 => "no two points are equal".to_owned(),
+            1 => "1 point equals an earlier one".to_owned(),
+            more => format!("{} points equal an earlier one", count(more as u64)),
+        });
+        let hull_dimension = answer.hull_dimension;
+        let span = match (hull_dimension, answer.dimension) {
+            (None, _) => "there are no points",
+            (Some(0), _) => "all points are equal",
+            (Some(1), _) => "all points are on a line",
+            (Some(2), 3) => "all points are on a plane",
+            _ => "the points span all dimensions",
+        };
+        let [simplex, facet] = match hull_dimension {
+            Some(3) => ["tetrahedron", "triangle"],
+            Some(2) => ["triangle", "edge"],
+            Some(1) => ["edge", "end"],
+            _ => ["point", "facet"],
+        };
+        let simplices = match (counts.simplices, simplex) {
+            (more, "tetrahedron") if more != 1 => format!("{} tetrahedra", count(more)),
+            (some, noun) => counted(some, noun),
+        };
+        let verified = match &self.verdict {
+            Some(proved) => Fact::new("verified", "yes").remark(format!(
+                "the only one, with {} decided by the perturbation",
+                counted(proved.ties, "tie")
+            )),
+            None => Fact::new("verified", "not checked"),
+        };
+        vec![
+            sites,
+            Fact::new("simplices", simplices),
+            Fact::new("hull", counted(counts.hull, facet)),
+            Fact::new("dimension", hull_dimension.map_or("–".to_owned(), |d| d.to_string()))
+                .remark(span),
+            verified,
+            Fact::new("hash", certificate.fingerprint.to_string())
+                .remark("of the simplices, whatever their order"),
+        ]
+    }
+
+    /// Pictures and what stands beside them.
+    pub(crate) fn drawing(&self, look: &Look) -> anyhow::Result<Drawing> {
+        let options = look.options(self.points.names(self.points.source().dim()));
+        let figures = delaunay_figures(self.found, self.points.source(), &options)
+            .map_err(|error| picture::refused(error, self.points))?;
+        Ok(Drawing {
+            title: self.title(),
+            heading: self.points.name().to_owned(),
+            facts: self.facts().into_iter().map(picture::fact).collect(),
+            figures,
+        })
+    }
+}
+
+/// What the checker proved, where there is nothing but simplices.
+pub(crate) fn proved(verdict: &TriangulationVerdict) -> Vec<Fact> {
+    let counts = verdict.counts;
+    vec![
+        Fact::new("sites", count(counts.sites)).remark("distinct points"),
+        Fact::new("simplices", count(counts.simplices)),
+        Fact::new("hull", counted(counts.hull, "facet")),
+        Fact::new("ties", count(verdict.ties)).remark("facets with both simplices on one sphere"),
+        Fact::new("refined", count(verdict.refined))
+            .remark("signs that double precision left open, decided exactly"),
+        Fact::new("hash", verdict.fingerprint.to_string())
+            .remark("of the simplices, whatever their order"),
+    ]
+}
