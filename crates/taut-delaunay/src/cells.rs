@@ -30,7 +30,7 @@ use index::LEAF;
 /// A cell has at least this many sites of its own, unless more cells are asked for: below, halos outweigh it.
 pub(crate) const CELL_AT_LEAST: usize = 1 << 14;
 
-/// The triangulation of all sites by `cells` cells, on the current rayon pool. Slots hold no dead simplices.
+/// The triangulation of all sites by `cells` cells, on the current rayon pool.
 pub(crate) fn triangulate<const D: usize, const V: usize, G: Geometry<D, V>>(
     sites: &[[f64; D]],
     cells: usize,

@@ -38,8 +38,8 @@ pub(crate) trait Kernel<const D: usize, const V: usize>: Sized {
     /// The simplex (a ghost if outside the hull) that holds `q`, walking from the live simplex `hint`.
     fn locate(&mut self, q: [f64; D], hint: u32) -> u32;
 
-    /// The slots (dead ones included), the sites and the counters; everything else is freed first.
-    fn finish(self) -> (Vec<Simplex<V>>, Vec<[f64; D]>, Counters);
+    /// The slots (dead ones included), the sites if giving them back takes no memory, and the counters.
+    fn finish(self) -> (Vec<Simplex<V>>, Option<Vec<[f64; D]>>, Counters);
 }
 
 /// What the kernels must know of the coordinates.

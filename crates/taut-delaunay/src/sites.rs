@@ -82,14 +82,19 @@ impl<const D: usize> Sites<D> {
         let largest = largest_magnitude(points)?;
         monitor.check()?;
         let (scale, integral, filtered) = normalisation(points, largest);
-        let at = |i: usize| row(points, i).map(|x| scale.apply(x));
-        let mut rows = hilbert_order(n, at);
+        let rows = hilbert_order(n, |i: usize| row::<T, D>(points, i).map(|x| scale.apply(x)));
         monitor.check()?;
-        let mut coordinates: Vec<[f64; D]> =
-            rows.par_iter().with_min_len(TASK).map(|&i| at(i as usize)).collect();
-        let duplicates = merge(&mut coordinates, &mut rows);
         let settings = Settings { integral, filtered, vectors };
-        Ok(Self { coordinates, rows, duplicates, settings, scale })
+        let mut sites = Self { coordinates: Vec::new(), rows, duplicates: Vec::new(), settings, scale };
+        sites.gather(points);
+        sites.duplicates = merge(&mut sites.coordinates, &mut sites.rows);
+        Ok(sites)
+    }
+
+    /// Reads the coordinates of the sites from the points they stand for.
+    pub(crate) fn gather<T: Scalar>(&mut self, points: &Points<'_, T>) {
+        let site = |&i: &u32| row(points, i as usize).map(|x| self.scale.apply(x));
+        self.coordinates = self.rows.par_iter().with_min_len(TASK).map(site).collect();
     }
 
     /// How many sites there are.

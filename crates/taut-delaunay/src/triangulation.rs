@@ -137,6 +137,9 @@ fn build<T: Scalar, const D: usize, const V: usize>(
         monitor.pass(1, points.len() as u64);
         let mut sites = Sites::new(points, options.vectors, monitor)?;
         let (complex, counters) = complex(&mut sites)?;
+        if sites.coordinates.is_empty() {
+            sites.gather(points);
+        }
         Ok(Triangulation { sites, complex, counters, method: options.order.name() })
     };
     match options.threads {
@@ -192,12 +195,12 @@ fn full<const D: usize, const V: usize, G: Geometry<D, V>>(
         )?;
         return Ok((Complex::Full(simplices), counters));
     }
-    // The kernel takes the coordinates and gives them back, so that they are there once.
+    // The kernel takes the coordinates, so that they are there once; what it does not give back is gathered again.
     let mut mesh = G::Mesh::new(std::mem::take(&mut sites.coordinates), sites.settings);
     mesh.start(start);
     insert_all(&mut mesh, &start, order, monitor)?;
     let (simplices, coordinates, counters) = mesh.finish();
-    sites.coordinates = coordinates;
+    sites.coordinates = coordinates.unwrap_or_default();
     Ok((Complex::Full(simplices), counters))
 }
 

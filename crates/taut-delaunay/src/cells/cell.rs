@@ -31,6 +31,9 @@ const fn halo_spacings(d: usize) -> f64 {
 /// cell small.
 const SCATTERED: usize = 512;
 
+/// How far a leaf looks for sites that were left out, in multiples of its extent.
+const CLEARANCE_EXTENTS: f64 = 2.0;
+
 /// What all cells know.
 pub(crate) struct Whole<'a, const D: usize, const V: usize> {
     pub(crate) sites: &'a [[f64; D]],
@@ -182,13 +185,16 @@ impl<const D: usize, const V: usize> Whole<'_, D, V> {
         }
     }
 
-    /// For each own leaf, the squared distance from its box to the nearest site that is not in the mesh, or less.
+    /// For each own leaf, the squared distance from its box to the nearest site that is not in the mesh, or less: the
+    /// search ends at a few times the extent of the leaf, as only the rare simplex is larger, and a search without end
+    /// took most of the time of a build.
     fn clearances(&self, own: &Range<u32>, here: &SiteSet) -> Vec<f64> {
         let mut open = Vec::new();
         Self::leaves(own)
             .map(|leaf| {
                 let bounds = self.index.bounds(leaf);
-                let nearest = std::cell::Cell::new(f64::INFINITY);
+                let far = CLEARANCE_EXTENTS * bounds.extent();
+                let nearest = std::cell::Cell::new(far * far);
                 let keep = |index: &Index<D>, node| {
                     !self.is_own(own, node)
                         && index.bounds(node).distance_squared(bounds) < nearest.get()
@@ -230,16 +236,10 @@ struct Certifying<'a, const D: usize, const V: usize, G: Geometry<D, V>> {
 }
 
 impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> {
-    fn certify(&mut self, own_local: &Range<u32>, monitor: &Monitor<'_>) -> Result<(), Error> {
-        let is_own = |v: &u32| own_local.contains(v);
+    fn certify(&mut self, own: &Range<u32>, monitor: &Monitor<'_>) -> Result<(), Error> {
         let mut doubtful: Vec<(u32, [u32; V])> = Vec::new();
-        for (t, simplex) in self.mesh.simplices().iter().enumerate() {
-            if simplex.is_live()
-                && simplex.vertices.iter().any(is_own)
-                && !self.is_near(&simplex.vertices)
-            {
-                doubtful.push((t as u32, simplex.vertices));
-            }
+        for t in 0..self.mesh.simplices().len() as u32 {
+            doubtful.extend(self.doubt(own, t));
         }
         let mut star = Vec::new();
         while let Some((t, vertices)) = doubtful.pop() {
@@ -253,34 +253,35 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
             let local = self.mesh.push(self.whole.sites[site as usize]);
             self.mesh.insert(&[local])?;
             star_of(self.mesh.simplices(), self.mesh.last(), local, &mut star);
-            for &t in &star {
-                let vertices = self.mesh.simplices()[t as usize].vertices;
-                if vertices.iter().any(is_own) && !self.is_near(&vertices) {
-                    doubtful.push((t, vertices));
-                }
-            }
+            doubtful.extend(star.iter().filter_map(|&t| self.doubt(own, t)));
             monitor.check()?;
         }
         Ok(())
     }
 
-    fn site(&self, local: u32) -> [f64; D] {
-        self.whole.sites[self.sites[local as usize] as usize]
+    /// Slot `t` with its vertices if it holds a simplex at an own site that may reach a site that was left out.
+    #[inline(always)]
+    fn doubt(&self, own: &Range<u32>, t: u32) -> Option<(u32, [u32; V])> {
+        let simplex = &self.mesh.simplices()[t as usize];
+        let place = simplex.vertices.iter().map(|v| v.wrapping_sub(own.start)).find(|&p| p < own.end - own.start)?;
+        let near = !simplex.is_live() || self.is_near(&simplex.vertices, place);
+        (!near).then_some((t, simplex.vertices))
     }
 
-    /// Whether the sphere of a simplex is too small to reach a site that is not in the mesh.
-    fn is_near(&self, vertices: &[u32; V]) -> bool {
-        if vertices.contains(&GHOST) {
-            return false;
+    /// Whether the sphere of a simplex is too small to reach a site that was left out; `own` is the place of one of its
+    /// vertices among the own sites. Asked of every simplex of the cell.
+    #[inline(always)]
+    fn is_near(&self, vertices: &[u32; V], own: u32) -> bool {
+        // Own sites begin with a leaf.
+        let clearance = self.clearance[own as usize / LEAF];
+        let mut corners = [[0.0; D]; V];
+        for (corner, &v) in corners.iter_mut().zip(vertices) {
+            if v == GHOST {
+                return false;
+            }
+            *corner = self.mesh.site(v);
         }
-        let first = self.own.start as usize / LEAF;
-        let clearance = vertices
-            .iter()
-            .map(|&v| self.sites[v as usize])
-            .filter(|s| self.own.contains(s))
-            .map(|s| self.clearance[s as usize / LEAF - first])
-            .fold(0.0, f64::max);
-        G::reach(vertices.map(|v| self.site(v))).within(clearance)
+        G::reach(corners).within(clearance)
     }
 
     /// A site of the whole set that conflicts with simplex `t`, if there is one: among those of the first leaf that

@@ -1,10 +1,13 @@
 //! From cells to one mesh: each hands over the simplices whose smallest site it owns, and facets between cells are
 //! joined.
 //!
-//! Idea: a cell numbers what it hands over and writes it where it belongs, neighbours of its own resolved on the spot.
-//! For a facet whose two sides are not both its own, the cell that owns the facet's smallest site notes both sides by
-//! their vertices; a table of the simplices along the borders turns the notes into numbers.
+//! Idea: the slots of all cells one after another are the slots of the whole; what a cell does not own is dead there,
+//! so a simplex keeps its number but for an offset, and no table of numbers is needed. For a facet whose two sides
+//! belong to two cells, the cell that owns the facet's smallest site, which knows both, notes them by their vertices; a
+//! table of the simplices along the borders turns the notes into numbers.
 //! Guarantee: every facet is joined exactly once.
+//! Trap: the mesh is written once, by all threads: memory that one thread fills first costs it a page fault every 4 KiB,
+//! which took a third of the time that two threads had saved.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -13,10 +16,10 @@ use rayon::prelude::*;
 
 use super::cell::Cell;
 use crate::Error;
-use crate::simplex::{GHOST, Simplex, code, decode};
+use crate::simplex::{DEAD, GHOST, Simplex, code, decode};
 
-/// No number yet.
-const NONE: u32 = u32::MAX;
+/// Slots one task writes.
+const TASK: usize = 1 << 14;
 
 /// One side of a facet: the vertices of its simplex in ascending order, and the vertex opposite.
 #[derive(Clone, Copy)]
@@ -25,7 +28,7 @@ struct Side<const V: usize> {
     opposite: u32,
 }
 
-/// What a cell leaves for others while it hands over its simplices.
+/// What a cell leaves for others.
 struct Border<const V: usize> {
     /// Facets to join.
     joints: Vec<[Side<V>; 2]>,
@@ -44,82 +47,83 @@ fn smallest_without<const V: usize>(vertices: [u32; V], except: usize) -> u32 {
 }
 
 impl<const V: usize> Cell<V> {
-    /// The sites of a simplex.
-    fn global(&self, simplex: &Simplex<V>) -> [u32; V] {
-        simplex.vertices.map(|v| if v == GHOST { GHOST } else { self.sites[v as usize] })
+    /// Whether a vertex is one of the own sites.
+    #[inline(always)]
+    fn is_own(&self, v: u32) -> bool {
+        v.wrapping_sub(self.own_local.start) < self.own.end - self.own.start
     }
 
-    /// Whether this cell hands the simplex over.
-    fn owns(&self, simplex: &Simplex<V>) -> bool {
-        // Sites are numbered alike here and in the whole, but for those that came later.
-        let own = |v: &u32| self.own_local.contains(v);
-        let before = |v: &u32| *v != GHOST && self.sites[*v as usize] < self.own.start;
-        simplex.is_live()
-            && simplex.vertices.iter().any(own)
-            && !simplex.vertices.iter().any(before)
+    /// The site of a vertex.
+    #[inline(always)]
+    fn global(&self, v: u32) -> u32 {
+        // Own sites are numbered in a row; the rest is looked up.
+        if self.is_own(v) {
+            self.own.start + (v - self.own_local.start)
+        } else if v == GHOST {
+            GHOST
+        } else {
+            self.sites[v as usize]
+        }
     }
 
-    /// A number for each slot that is handed over, and how many there are.
-    fn numbers(&self) -> (Vec<u32>, u32) {
-        let mut next = 0;
-        let numbers = self.simplices.iter().map(|simplex| {
-            if self.owns(simplex) {
-                next += 1;
-                next - 1
-            } else {
-                NONE
+    /// Slot `t` with its sites, if it is live.
+    #[inline(always)]
+    fn sites_of(&self, t: u32) -> Option<[u32; V]> {
+        let simplex = &self.simplices[t as usize];
+        simplex.is_live().then(|| simplex.vertices.map(|v| self.global(v)))
+    }
+
+    /// Whether this cell hands over a simplex with these sites.
+    #[inline(always)]
+    fn owns(&self, sites: &[u32; V]) -> bool {
+        self.own.contains(&sites.iter().copied().fold(GHOST, u32::min))
+    }
+
+    /// Slot `t` as it stands in the whole, where the slots of this cell begin at `offset`. Neighbours of other cells are
+    /// still to be joined.
+    #[inline(always)]
+    fn hand_over(&self, t: u32, offset: u32) -> Simplex<V> {
+        match self.sites_of(t).filter(|sites| self.owns(sites)) {
+            Some(vertices) => {
+                let neighbors = self.simplices[t as usize].neighbors.map(|code| code.wrapping_add(offset << 2));
+                Simplex { vertices, neighbors }
             }
-        });
-        (numbers.collect(), next)
+            None => Simplex { vertices: [DEAD; V], neighbors: [0; V] },
+        }
     }
 
-    /// Writes what this cell hands over to `out`, whose first simplex has number `offset` in the whole. `owner` tells
-    /// which cell a site is of.
-    fn hand_over(
-        &self,
-        numbers: &[u32],
-        offset: u32,
-        out: &mut [Simplex<V>],
-        owner: impl Fn(u32) -> usize,
-    ) -> Border<V> {
+    /// The border of this cell. `owner` tells which cell a site is of.
+    fn border(&self, offset: u32, owner: impl Fn(u32) -> usize) -> Border<V> {
         let mut border = Border { joints: Vec::new(), names: HashMap::new() };
-        for (t, simplex) in self.simplices.iter().enumerate() {
-            let number = numbers[t];
-            if number == NONE
-                && !(simplex.is_live()
-                    && simplex.vertices.iter().any(|v| self.own_local.contains(v)))
-            {
+        let mut name = |t: u32, sites: &[u32; V]| {
+            if self.owns(sites) {
+                border.names.insert(sorted(*sites), offset + t);
+            }
+        };
+        for t in 0..self.simplices.len() as u32 {
+            // A facet between two cells has a side with sites of both; the other side may be all ours.
+            let vertices = &self.simplices[t as usize].vertices;
+            let own = vertices.iter().filter(|&&v| self.is_own(v)).count();
+            if own == 0 || own == V {
                 continue;
             }
-            let vertices = self.global(simplex);
-            let mut neighbors = [NONE; V];
-            let mut inside = true;
+            let Some(sites) = self.sites_of(t) else { continue };
+            name(t, &sites);
             for i in 0..V {
-                let (other, facet) = decode(simplex.neighbors[i]);
-                let other_number = numbers[other as usize];
-                if number != NONE && other_number != NONE {
-                    neighbors[i] = code(other_number + offset, facet as u32);
-                    continue;
-                }
-                inside = false;
-                // Both sides of a facet at an own site are known here; note it from the side that comes first.
-                let first = number != NONE || (other_number == NONE && (t as u32) < other);
-                if first && self.own.contains(&smallest_without(vertices, i)) {
-                    let there = self.global(&self.simplices[other as usize]);
+                let (other, facet) = decode(self.simplices[t as usize].neighbors[i]);
+                let there = self.sites_of(other).expect("a live simplex has live neighbours");
+                name(other, &there);
+                let all_ours = there.iter().all(|site| self.own.contains(site));
+                // Both sides at an own site are right here. Note the facet once, and not if one cell has both sides.
+                let once = t < other || all_ours;
+                if once && self.own.contains(&smallest_without(sites, i)) {
                     let sides = [
-                        Side { key: sorted(vertices), opposite: vertices[i] },
+                        Side { key: sorted(sites), opposite: sites[i] },
                         Side { key: sorted(there), opposite: there[facet] },
                     ];
-                    // A cell that owns both sides has joined them itself.
                     if owner(sides[0].key[0]) != owner(sides[1].key[0]) {
                         border.joints.push(sides);
                     }
-                }
-            }
-            if number != NONE {
-                out[number as usize] = Simplex { vertices, neighbors };
-                if !inside {
-                    border.names.insert(sorted(vertices), number + offset);
                 }
             }
         }
@@ -129,28 +133,27 @@ impl<const V: usize> Cell<V> {
 
 /// One mesh from all cells, in the order of the cells.
 pub(super) fn join<const V: usize>(cells: Vec<Cell<V>>) -> Result<Vec<Simplex<V>>, Error> {
-    let numbers: Vec<(Vec<u32>, u32)> =
-        cells.par_iter().with_max_len(1).map(Cell::numbers).collect();
-    let total: usize = numbers.iter().map(|(_, count)| *count as usize).sum();
+    let mut offsets = vec![0];
+    for cell in &cells {
+        offsets.push(offsets[offsets.len() - 1] + cell.simplices.len());
+    }
+    let total = offsets[cells.len()];
     if total >= 1 << 30 {
         return Err(Error::TooManySimplices);
     }
-    let mut mesh = vec![Simplex { vertices: [0; V], neighbors: [0; V] }; total];
-    let mut rest = mesh.as_mut_slice();
-    let mut offset = 0;
-    let mut tasks = Vec::with_capacity(cells.len());
-    for (cell, (numbers, count)) in cells.iter().zip(&numbers) {
-        let (out, after) = rest.split_at_mut(*count as usize);
-        tasks.push((cell, numbers, offset, out));
-        (rest, offset) = (after, offset + count);
-    }
     let owned: Vec<Range<u32>> = cells.iter().map(|cell| cell.own.clone()).collect();
     let owner = |site: u32| owned.partition_point(|own| own.end <= site);
-    let borders: Vec<Border<V>> = tasks
-        .into_par_iter()
+    let borders: Vec<Border<V>> = cells
+        .par_iter()
+        .zip(&offsets)
         .with_max_len(1)
-        .map(|(cell, numbers, offset, out)| cell.hand_over(numbers, offset, out, owner))
+        .map(|(cell, &offset)| cell.border(offset as u32, owner))
         .collect();
+    let slot = |i: usize| {
+        let cell = offsets.partition_point(|&offset| offset <= i) - 1;
+        cells[cell].hand_over((i - offsets[cell]) as u32, offsets[cell] as u32)
+    };
+    let mut mesh: Vec<Simplex<V>> = (0..total).into_par_iter().with_min_len(TASK).map(slot).collect();
     drop(cells);
     let number = |side: &Side<V>| {
         *borders[owner(side.key[0])]
@@ -166,13 +169,11 @@ pub(super) fn join<const V: usize>(cells: Vec<Cell<V>>) -> Result<Vec<Simplex<V>
     for [(a, opposite_a), (b, opposite_b)] in joints {
         let place = |t: u32, opposite: u32| {
             let vertices = mesh[t as usize].vertices;
-            vertices.iter().position(|&v| v == opposite).expect("the vertex opposite the facet")
-                as u32
+            vertices.iter().position(|&v| v == opposite).expect("the vertex opposite the facet") as u32
         };
         let (i, j) = (place(a, opposite_a), place(b, opposite_b));
         mesh[a as usize].neighbors[i as usize] = code(b, j);
         mesh[b as usize].neighbors[j as usize] = code(a, i);
     }
-    debug_assert!(mesh.iter().all(|s| !s.neighbors.contains(&NONE)));
     Ok(mesh)
 }

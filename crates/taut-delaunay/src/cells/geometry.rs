@@ -30,6 +30,7 @@ pub(crate) struct InPlane;
 impl Geometry<2, 3> for InPlane {
     type Mesh = crate::plane::Mesh;
 
+    #[inline(always)]
     fn reach(corners: [[f64; 2]; 3]) -> Reach<2> {
         Reach::of_triangle(corners)
     }
@@ -53,6 +54,7 @@ pub(crate) struct InSpace;
 impl Geometry<3, 4> for InSpace {
     type Mesh = crate::space::Mesh;
 
+    #[inline(always)]
     fn reach(corners: [[f64; 3]; 4]) -> Reach<3> {
         Reach::of_tetrahedron(corners)
     }

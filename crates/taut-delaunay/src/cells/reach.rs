@@ -20,18 +20,22 @@ pub(crate) struct Reach<const D: usize> {
 /// than 40 terms and 6 factors, each rounded with 2⁻⁵³.
 const SLACK: f64 = 1.0 / (1u64 << 44) as f64;
 
+#[inline(always)]
 fn difference<const D: usize>(p: [f64; D], a: [f64; D]) -> [f64; D] {
     std::array::from_fn(|i| p[i] - a[i])
 }
 
+#[inline(always)]
 fn square<const D: usize>(p: [f64; D]) -> f64 {
     p.iter().map(|x| x * x).sum()
 }
 
+#[inline(always)]
 fn largest<const D: usize>(points: &[[f64; D]]) -> f64 {
-    points.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()))
+    points.iter().flatten().fold(0.0, |m: f64, x| if x.abs() > m { x.abs() } else { m })
 }
 
+#[inline(always)]
 fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
     [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
 }

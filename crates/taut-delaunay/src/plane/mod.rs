@@ -73,6 +73,7 @@ impl Kernel<2, 3> for Mesh {
         self.sites.len() as u32
     }
 
+    #[inline(always)]
     fn site(&self, site: u32) -> [f64; 2] {
         self.sites[site as usize]
     }
@@ -111,6 +112,7 @@ impl Kernel<2, 3> for Mesh {
         number
     }
 
+    #[inline(always)]
     fn simplices(&self) -> &[Simplex<3>] {
         &self.triangles
     }
@@ -124,9 +126,9 @@ impl Kernel<2, 3> for Mesh {
         walk::<Separate>(&view, &self.triangles, hint, &mut self.exact, &mut self.counters).triangle
     }
 
-    fn finish(mut self) -> (Vec<Simplex<3>>, Vec<[f64; 2]>, Counters) {
+    fn finish(mut self) -> (Vec<Simplex<3>>, Option<Vec<[f64; 2]>>, Counters) {
         self.counters.stages = self.exact.stages;
-        (self.triangles, self.sites, self.counters)
+        (self.triangles, Some(self.sites), self.counters)
     }
 }
 

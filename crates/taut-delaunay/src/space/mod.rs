@@ -111,6 +111,7 @@ impl Kernel<3, 4> for Mesh {
         self.sites.len() as u32 - 1
     }
 
+    #[inline(always)]
     fn site(&self, site: u32) -> [f64; 3] {
         self.sites[row(site)].point()
     }
@@ -158,6 +159,7 @@ impl Kernel<3, 4> for Mesh {
         (self.sites.len() - 2) as u32
     }
 
+    #[inline(always)]
     fn simplices(&self) -> &[Simplex<4>] {
         &self.simplices
     }
@@ -171,15 +173,13 @@ impl Kernel<3, 4> for Mesh {
         self.cavity.inside[0]
     }
 
-    fn finish(self) -> (Vec<Simplex<4>>, Vec<[f64; 3]>, Counters) {
-        let Mesh { sites, simplices, mut counters, judge, marks, star, .. } = self;
-        drop((marks, star));
-        let sites = sites[1..].iter().map(Site::point).collect();
+    fn finish(self) -> (Vec<Simplex<4>>, Option<Vec<[f64; 3]>>, Counters) {
+        let Mesh { simplices, mut counters, judge, .. } = self;
         let (stages, behind) = judge.into_parts();
         counters.conflict_tests += behind;
         counters.stages += stages;
         counters.stages.filter += counters.orientations + counters.conflict_tests - stages.calls();
-        (simplices, sites, counters)
+        (simplices, None, counters)
     }
 }
 
