@@ -85,7 +85,8 @@ impl<const D: usize> Sites<D> {
         let rows = hilbert_order(n, |i: usize| row::<T, D>(points, i).map(|x| scale.apply(x)));
         monitor.check()?;
         let settings = Settings { integral, filtered, vectors };
-        let mut sites = Self { coordinates: Vec::new(), rows, duplicates: Vec::new(), settings, scale };
+        let mut sites =
+            Self { coordinates: Vec::new(), rows, duplicates: Vec::new(), settings, scale };
         sites.gather(points);
         sites.duplicates = merge(&mut sites.coordinates, &mut sites.rows);
         Ok(sites)

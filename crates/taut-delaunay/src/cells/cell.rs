@@ -263,7 +263,11 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
     #[inline(always)]
     fn doubt(&self, own: &Range<u32>, t: u32) -> Option<(u32, [u32; V])> {
         let simplex = &self.mesh.simplices()[t as usize];
-        let place = simplex.vertices.iter().map(|v| v.wrapping_sub(own.start)).find(|&p| p < own.end - own.start)?;
+        let place = simplex
+            .vertices
+            .iter()
+            .map(|v| v.wrapping_sub(own.start))
+            .find(|&p| p < own.end - own.start)?;
         let near = !simplex.is_live() || self.is_near(&simplex.vertices, place);
         (!near).then_some((t, simplex.vertices))
     }

@@ -85,7 +85,8 @@ impl<const V: usize> Cell<V> {
     fn hand_over(&self, t: u32, offset: u32) -> Simplex<V> {
         match self.sites_of(t).filter(|sites| self.owns(sites)) {
             Some(vertices) => {
-                let neighbors = self.simplices[t as usize].neighbors.map(|code| code.wrapping_add(offset << 2));
+                let neighbors =
+                    self.simplices[t as usize].neighbors.map(|code| code.wrapping_add(offset << 2));
                 Simplex { vertices, neighbors }
             }
             None => Simplex { vertices: [DEAD; V], neighbors: [0; V] },
@@ -153,7 +154,8 @@ pub(super) fn join<const V: usize>(cells: Vec<Cell<V>>) -> Result<Vec<Simplex<V>
         let cell = offsets.partition_point(|&offset| offset <= i) - 1;
         cells[cell].hand_over((i - offsets[cell]) as u32, offsets[cell] as u32)
     };
-    let mut mesh: Vec<Simplex<V>> = (0..total).into_par_iter().with_min_len(TASK).map(slot).collect();
+    let mut mesh: Vec<Simplex<V>> =
+        (0..total).into_par_iter().with_min_len(TASK).map(slot).collect();
     drop(cells);
     let number = |side: &Side<V>| {
         *borders[owner(side.key[0])]
@@ -169,7 +171,8 @@ pub(super) fn join<const V: usize>(cells: Vec<Cell<V>>) -> Result<Vec<Simplex<V>
     for [(a, opposite_a), (b, opposite_b)] in joints {
         let place = |t: u32, opposite: u32| {
             let vertices = mesh[t as usize].vertices;
-            vertices.iter().position(|&v| v == opposite).expect("the vertex opposite the facet") as u32
+            vertices.iter().position(|&v| v == opposite).expect("the vertex opposite the facet")
+                as u32
         };
         let (i, j) = (place(a, opposite_a), place(b, opposite_b));
         mesh[a as usize].neighbors[i as usize] = code(b, j);
