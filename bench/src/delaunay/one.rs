@@ -62,7 +62,7 @@ fn line<const D: usize, const V: usize>(
         Complex::Point => 1,
         Complex::Line(chain) => chain.len() as u64 - 1,
         Complex::Flat(triangles) => triangles.iter().filter(|t| !t.is_ghost()).count() as u64,
-        Complex::Full(_) => built.simplices().count() as u64,
+        Complex::Full => built.simplices().count() as u64,
     };
     let Counters { insertions, walk_steps, orientations, conflict_tests, replaced, stages } =
         *built.counters();

@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 
 use rayon::prelude::*;
 
-use crate::simplex::{GHOST, Simplex};
+use crate::simplex::{GHOST, Simplex, Slots};
 
 /// Simplices one task arranges.
 const TASK: usize = 1 << 14;
@@ -53,7 +53,7 @@ pub(crate) struct CanonicalOrder {
 
 impl CanonicalOrder {
     /// The order of simplices over `sites` sites.
-    pub(crate) fn of<const V: usize>(simplices: &[Simplex<V>], sites: usize) -> Self {
+    pub(crate) fn of<const V: usize>(simplices: &Slots<V>, sites: usize) -> Self {
         let smallest = |s: &Simplex<V>| s.vertices.iter().copied().min().unwrap_or(GHOST) as usize;
         let mut starts = vec![0u32; sites + 1];
         let mut ghosts = Vec::new();

@@ -22,7 +22,7 @@ pub(crate) use geometry::{Geometry, InPlane, InSpace, conflicts};
 pub(crate) use index::Index;
 
 use crate::kernel::{Counters, Settings};
-use crate::simplex::Simplex;
+use crate::simplex::Slots;
 use crate::{Error, InsertionOrder};
 use cell::{Cell, Whole};
 use index::LEAF;
@@ -38,7 +38,7 @@ pub(crate) fn triangulate<const D: usize, const V: usize, G: Geometry<D, V>>(
     settings: Settings,
     order: (InsertionOrder, u64),
     monitor: &Monitor<'_>,
-) -> Result<(Vec<Simplex<V>>, Counters), Error> {
+) -> Result<(Slots<V>, Counters), Error> {
     let index = Index::build(sites);
     let whole = Whole { sites, index: &index, start, settings, order };
     let leaves = sites.len().div_ceil(LEAF);

@@ -28,6 +28,6 @@ pub use kernel::Counters;
 pub use options::{DelaunayOptions, InsertionOrder};
 pub use plane::constrained::{Constrained, ConstraintError, Piece, Segment, Split};
 pub use query::{AlphaComplex, Location, Locator, Polygon, Polyhedron};
-pub use simplex::{GHOST, Simplex, decode};
+pub use simplex::{GHOST, Simplex, Slots, decode};
 pub use solution::{delaunay, delaunay_of_source};
 pub use triangulation::{Complex, Plane, Space, Triangulation};

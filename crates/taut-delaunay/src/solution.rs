@@ -10,7 +10,7 @@ use taut_certify::{
 use taut_points::{Monitor, PointSource, Points, Rows, Scalar, Scratch, hash_points};
 
 use crate::canonical::{CanonicalOrder, arrangement};
-use crate::simplex::{Simplex, decode};
+use crate::simplex::{Simplex, Slots, code, decode};
 use crate::triangulation::hull_facet;
 use crate::{Complex, DelaunayOptions, Error, Plane, Space, Triangulation};
 
@@ -88,7 +88,7 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
             Complex::Point => (Some(0), self.point(&hashes)),
             Complex::Line(chain) => (Some(1), self.line(chain, &hashes)),
             Complex::Flat(triangles) => (Some(2), self.flat(triangles, &hashes)),
-            Complex::Full(simplices) => (Some(D as u8), self.tables::<D, V>(simplices, &hashes)),
+            Complex::Full => (Some(D as u8), self.tables::<D, V>(&self.slots, &hashes)),
         };
         let points_hash = hash_points(points, monitor)?;
         let sites = self.sites.len() as u64;
@@ -149,7 +149,7 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
     }
 
     /// Triangles on a plane in space, turned as the answer wants them.
-    fn flat(&self, triangles: &[Simplex<3>], hashes: &[SiteHash]) -> Tables {
+    fn flat(&self, triangles: &Slots<3>, hashes: &[SiteHash]) -> Tables {
         let positive =
             triangles.iter().find(|s| !s.is_ghost()).is_none_or(|s| self.turns_left(s.vertices));
         if positive {
@@ -161,11 +161,11 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
                 vertices: [0, 2, 1].map(|i| s.vertices[i]),
                 neighbors: [0, 2, 1].map(|i| {
                     let (other, facet) = decode(s.neighbors[i]);
-                    crate::simplex::code(other, [0, 2, 1][facet])
+                    code(other, [0, 2, 1][facet])
                 }),
             })
             .collect();
-        self.tables::<2, 3>(&turned, hashes)
+        self.tables::<2, 3>(&Slots::of(vec![turned]), hashes)
     }
 
     /// Whether a triangle in space is counter-clockwise in the first of the projections to xy, xz, yz where it is not
@@ -186,7 +186,7 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
     /// Simplices of dimension `K` = `W` − 1 in canonical order.
     fn tables<const K: usize, const W: usize>(
         &self,
-        simplices: &[Simplex<W>],
+        simplices: &Slots<W>,
         hashes: &[SiteHash],
     ) -> Tables {
         let order = CanonicalOrder::of(simplices, self.sites.len());

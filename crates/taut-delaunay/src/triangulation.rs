@@ -8,7 +8,7 @@ use crate::flat::star_of_apex;
 use crate::kernel::{Counters, Kernel, Settings};
 use crate::plane::constrained::{Constrained, ConstraintError, Segment, constrain};
 use crate::rounds::insert_all;
-use crate::simplex::{GHOST, Simplex, decode};
+use crate::simplex::{GHOST, Slots, decode};
 use crate::sites::{Scale, Sites};
 use crate::{DelaunayOptions, Error};
 
@@ -20,7 +20,7 @@ pub type Space = Triangulation<3, 4>;
 
 /// What the sites span, and the simplices on it.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Complex<const V: usize> {
+pub enum Complex {
     /// There are no points.
     Nothing,
     /// All points are equal: one site.
@@ -28,10 +28,9 @@ pub enum Complex<const V: usize> {
     /// All points are on a line: the sites along it, from the lexicographically smallest.
     Line(Vec<u32>),
     /// All points of space are on a plane: the triangles in it with their ghosts, all turning the same way.
-    Flat(Vec<Simplex<3>>),
-    /// The simplices with their ghosts. Slots of dead simplices, if there are any, have no vertex below the number of
-    /// sites.
-    Full(Vec<Simplex<V>>),
+    Flat(Slots<3>),
+    /// The sites span all dimensions: see [`Triangulation::slots`].
+    Full,
 }
 
 /// The Delaunay triangulation of a set of points in the plane (`D = 2`, `V = 3`) or in space (`D = 3`, `V = 4`).
@@ -44,7 +43,8 @@ pub enum Complex<const V: usize> {
 #[derive(Clone, Debug)]
 pub struct Triangulation<const D: usize, const V: usize> {
     pub(crate) sites: Sites<D>,
-    pub(crate) complex: Complex<V>,
+    pub(crate) complex: Complex,
+    pub(crate) slots: Slots<V>,
     pub(crate) counters: Counters,
     /// How it was built, for the trace.
     pub(crate) method: &'static str,
@@ -66,11 +66,9 @@ impl Plane {
     ) -> Result<Self, Error> {
         build(points, "2, the plane", options, monitor, |sites| {
             Ok(match span_of_plane(&sites.coordinates) {
-                Span::Nothing => (Complex::Nothing, Counters::default()),
-                Span::Point => (Complex::Point, Counters::default()),
-                Span::Line | Span::Plane(_) => {
-                    (Complex::Line(along_line(sites)), Counters::default())
-                }
+                Span::Nothing => Complex::Nothing.into(),
+                Span::Point => Complex::Point.into(),
+                Span::Line | Span::Plane(_) => Complex::Line(along_line(sites)).into(),
                 Span::Full(start) => full::<2, 3, InPlane>(sites, start, options, monitor)?,
             })
         })
@@ -88,8 +86,10 @@ impl Plane {
     /// [`ConstraintError`] if segments cross where no site is, name sites that are not there, or rings do not close, and
     /// if the sites do not span the plane.
     pub fn constrained(&self, segments: &[Segment]) -> Result<Constrained, ConstraintError> {
-        let Complex::Full(triangles) = &self.complex else { return Err(ConstraintError::Flat) };
-        let mut triangles = triangles.clone();
+        if !matches!(self.complex, Complex::Full) {
+            return Err(ConstraintError::Flat);
+        }
+        let mut triangles = self.slots.compact();
         let pieces = constrain(&self.sites.coordinates, &mut triangles, segments)?;
         Ok(Constrained::new(self.site_count(), triangles, pieces))
     }
@@ -112,13 +112,27 @@ impl Space {
     ) -> Result<Self, Error> {
         build(points, "3, space", options, monitor, |sites| {
             Ok(match span_of_space(&sites.coordinates) {
-                Span::Nothing => (Complex::Nothing, Counters::default()),
-                Span::Point => (Complex::Point, Counters::default()),
-                Span::Line => (Complex::Line(along_line(sites)), Counters::default()),
+                Span::Nothing => Complex::Nothing.into(),
+                Span::Point => Complex::Point.into(),
+                Span::Line => Complex::Line(along_line(sites)).into(),
                 Span::Plane(on) => flat(sites, on, options, monitor)?,
                 Span::Full(start) => full::<3, 4, InSpace>(sites, start, options, monitor)?,
             })
         })
+    }
+}
+
+/// What a build comes to.
+struct Built<const V: usize> {
+    complex: Complex,
+    slots: Slots<V>,
+    counters: Counters,
+}
+
+impl<const V: usize> From<Complex> for Built<V> {
+    /// No simplices, and no work worth counting.
+    fn from(complex: Complex) -> Self {
+        Self { complex, slots: Slots::default(), counters: Counters::default() }
     }
 }
 
@@ -128,7 +142,7 @@ fn build<T: Scalar, const D: usize, const V: usize>(
     expected: &'static str,
     options: &DelaunayOptions,
     monitor: &Monitor<'_>,
-    complex: impl FnOnce(&mut Sites<D>) -> Result<(Complex<V>, Counters), Error> + Send,
+    complex: impl FnOnce(&mut Sites<D>) -> Result<Built<V>, Error> + Send,
 ) -> Result<Triangulation<D, V>, Error> {
     if points.dim() != D {
         return Err(Error::Dimension { dim: points.dim(), expected });
@@ -136,11 +150,11 @@ fn build<T: Scalar, const D: usize, const V: usize>(
     let solve = || {
         monitor.pass(1, points.len() as u64);
         let mut sites = Sites::new(points, options.vectors, monitor)?;
-        let (complex, counters) = complex(&mut sites)?;
+        let Built { complex, slots, counters } = complex(&mut sites)?;
         if sites.coordinates.is_empty() {
             sites.gather(points);
         }
-        Ok(Triangulation { sites, complex, counters, method: options.order.name() })
+        Ok(Triangulation { sites, complex, slots, counters, method: options.order.name() })
     };
     match options.threads {
         None => solve(),
@@ -181,11 +195,11 @@ fn full<const D: usize, const V: usize, G: Geometry<D, V>>(
     start: [u32; V],
     options: &DelaunayOptions,
     monitor: &Monitor<'_>,
-) -> Result<(Complex<V>, Counters), Error> {
+) -> Result<Built<V>, Error> {
     let order = (options.order, options.seed);
     let cells = cells_for(sites.len(), sites.settings, options)?;
     if cells > 1 {
-        let (simplices, counters) = cells::triangulate::<D, V, G>(
+        let (slots, counters) = cells::triangulate::<D, V, G>(
             &sites.coordinates,
             cells,
             start,
@@ -193,7 +207,7 @@ fn full<const D: usize, const V: usize, G: Geometry<D, V>>(
             order,
             monitor,
         )?;
-        return Ok((Complex::Full(simplices), counters));
+        return Ok(Built { complex: Complex::Full, slots, counters });
     }
     // The kernel takes the coordinates, so that they are there once; what it does not give back is gathered again.
     let mut mesh = G::Mesh::new(std::mem::take(&mut sites.coordinates), sites.settings);
@@ -201,7 +215,7 @@ fn full<const D: usize, const V: usize, G: Geometry<D, V>>(
     insert_all(&mut mesh, &start, order, monitor)?;
     let (simplices, coordinates, counters) = mesh.finish();
     sites.coordinates = coordinates.unwrap_or_default();
-    Ok((Complex::Full(simplices), counters))
+    Ok(Built { complex: Complex::Full, slots: Slots::of(vec![simplices]), counters })
 }
 
 /// Points of space on a plane: with one more point off it, all of whose neighbours are in it.
@@ -210,7 +224,7 @@ fn flat(
     on: [u32; 3],
     options: &DelaunayOptions,
     monitor: &Monitor<'_>,
-) -> Result<(Complex<4>, Counters), Error> {
+) -> Result<Built<4>, Error> {
     let top = sites.len() as u32;
     let mut coordinates = sites.coordinates.clone();
     coordinates.push(apex(&sites.coordinates, on));
@@ -219,7 +233,8 @@ fn flat(
     mesh.start(start);
     insert_all(&mut mesh, &start, (options.order, options.seed), monitor)?;
     let (simplices, _, counters) = mesh.finish();
-    Ok((Complex::Flat(star_of_apex(&simplices, top)), counters))
+    let triangles = Slots::of(vec![star_of_apex(&simplices, top)]);
+    Ok(Built { complex: Complex::Flat(triangles), slots: Slots::default(), counters })
 }
 
 impl<const D: usize, const V: usize> Triangulation<D, V> {
@@ -261,27 +276,28 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
         &self.sites.duplicates
     }
 
-    /// What the sites span, and the simplices.
-    pub fn complex(&self) -> &Complex<V> {
+    /// What the sites span, and the simplices there are if that is less than all dimensions.
+    pub fn complex(&self) -> &Complex {
         &self.complex
     }
 
-    /// The slots of simplices, ghosts included; none if the sites do not span all dimensions.
-    pub fn slots(&self) -> &[Simplex<V>] {
-        match &self.complex {
-            Complex::Full(simplices) => simplices,
-            _ => &[],
-        }
+    /// The slots of simplices, ghosts included, by number; none if the sites do not span all dimensions. A slot may hold
+    /// no simplex: [`simplices`](Self::simplices) and [`ghosts`](Self::ghosts) tell which do.
+    pub fn slots(&self) -> &Slots<V> {
+        &self.slots
     }
 
     /// The numbers of the finite simplices; none if the sites do not span all dimensions.
     pub fn simplices(&self) -> impl Iterator<Item = u32> {
-        (0u32..).zip(self.slots()).filter(|(_, s)| s.is_live() && !s.is_ghost()).map(|(t, _)| t)
+        (0u32..)
+            .zip(self.slots.iter())
+            .filter(|(_, s)| s.is_live() && !s.is_ghost())
+            .map(|(t, _)| t)
     }
 
     /// The numbers of the ghosts: one for each facet of the hull.
     pub fn ghosts(&self) -> impl Iterator<Item = u32> {
-        (0u32..).zip(self.slots()).filter(|(_, s)| s.is_live() && s.is_ghost()).map(|(t, _)| t)
+        (0u32..).zip(self.slots.iter()).filter(|(_, s)| s.is_live() && s.is_ghost()).map(|(t, _)| t)
     }
 
     /// The sites of a simplex in positive order; one of a ghost's is [`GHOST`].
@@ -289,7 +305,7 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
     /// # Panics
     /// If there is no such slot.
     pub fn vertices(&self, simplex: u32) -> [u32; V] {
-        self.slots()[simplex as usize].vertices
+        self.slots[simplex as usize].vertices
     }
 
     /// The simplex across the facet opposite vertex `i`, and the place of the vertex opposite that facet in it.
@@ -297,7 +313,7 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
     /// # Panics
     /// If there is no such slot or vertex.
     pub fn neighbor(&self, simplex: u32, i: usize) -> (u32, usize) {
-        decode(self.slots()[simplex as usize].neighbors[i])
+        decode(self.slots[simplex as usize].neighbors[i])
     }
 
     /// The facets of the convex hull as sites: from outside, vertices are seen in counter-clockwise order in space; in

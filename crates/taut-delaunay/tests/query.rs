@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use taut_delaunay::{DelaunayOptions, Location, Plane, Space};
+use taut_delaunay::{DelaunayOptions, Location, Plane, Segment, Space};
 use taut_points::{Monitor, Points};
 
 fn numbers(count: usize, seed: u64) -> Vec<f64> {
@@ -179,4 +179,32 @@ fn a_large_alpha_in_space_leaves_the_hull() {
         }
     }
     assert!(edges.values().all(|&sum| sum == 0));
+}
+
+/// A square with a square hole, by cells and on one thread alike.
+#[test]
+fn constraints_hold_however_the_triangulation_was_built() {
+    let mut values = numbers(800, 53);
+    values.extend([0.2, 0.2, 0.8, 0.2, 0.8, 0.8, 0.2, 0.8, 0.4, 0.4, 0.6, 0.4, 0.6, 0.6, 0.4, 0.6]);
+    let points = Points::new(&values, 2).expect("whole rows");
+    let mut areas = Vec::new();
+    for cells in [1, 3] {
+        let options = DelaunayOptions { cells: Some(cells), ..DelaunayOptions::default() };
+        let plane = Plane::build(&points, &options, &Monitor::silent()).expect("finite");
+        let site = plane.sites_of_rows();
+        let rings = [[400, 401, 402, 403], [404, 405, 406, 407]];
+        let sides = rings.iter().flat_map(|ring| (0..4).map(|i| [ring[i], ring[(i + 1) % 4]]));
+        let segments: Vec<Segment> =
+            sides.map(|[a, b]| Segment { from: site[a], to: site[b], ring: true }).collect();
+        let constrained = plane.constrained(&segments).expect("nothing crosses");
+        let inside = (0u32..)
+            .zip(constrained.triangles())
+            .filter(|&(t, s)| !s.is_ghost() && constrained.is_inside(t));
+        let doubled = inside.map(|(_, s)| {
+            let [a, b, c] = s.vertices.map(|v| plane.site(v));
+            (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        });
+        areas.push(0.5 * doubled.sum::<f64>());
+    }
+    assert!(areas.iter().all(|area| (area - (0.36 - 0.04)).abs() < 1e-12), "{areas:?}");
 }

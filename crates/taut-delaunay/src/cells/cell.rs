@@ -9,7 +9,7 @@
 //! The halo is the second of the three functions of the cells (assign), this module the third (triangulate).
 
 use std::collections::HashSet;
-use std::ops::Range;
+use std::ops::{Index as At, Range};
 
 use taut_points::Monitor;
 
@@ -324,7 +324,7 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
 
 /// The simplices at vertex `v`, one of which is `t`.
 pub(crate) fn star_of<const V: usize>(
-    simplices: &[Simplex<V>],
+    simplices: &(impl At<usize, Output = Simplex<V>> + ?Sized),
     t: u32,
     v: u32,
     star: &mut Vec<u32>,

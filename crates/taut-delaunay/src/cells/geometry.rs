@@ -1,5 +1,7 @@
 //! What the cells ask of simplices, in the plane and in space.
 
+use std::ops::Index;
+
 use taut_predicates::{Sign, plane, space};
 
 use super::reach::Reach;
@@ -86,7 +88,7 @@ pub(crate) fn corners<const D: usize, const V: usize>(
 /// Whether `q` conflicts with simplex `t` of a mesh, ghosts included: beyond the hull, or on a hull facet's plane and in
 /// conflict with the finite simplex behind it.
 pub(crate) fn conflicts<const D: usize, const V: usize, G: Geometry<D, V>>(
-    simplices: &[Simplex<V>],
+    simplices: &(impl Index<usize, Output = Simplex<V>> + ?Sized),
     t: u32,
     site: impl Fn(u32) -> [f64; D] + Copy,
     q: [f64; D],

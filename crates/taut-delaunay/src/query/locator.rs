@@ -5,7 +5,7 @@ use std::cell::Cell;
 use taut_predicates::Sign;
 
 use crate::cells::{Geometry, InPlane, InSpace, Index, conflicts, star_of};
-use crate::simplex::{GHOST, Simplex, decode};
+use crate::simplex::{GHOST, Slots, decode};
 use crate::{Complex, Triangulation};
 
 /// Where a point lies in a triangulation.
@@ -53,7 +53,7 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
                     .filter(|(_, s)| !s.is_ghost())
                     .for_each(|(t, s)| note(t, &s.vertices));
             }
-            Complex::Full(_) => self.simplices().for_each(|t| note(t as usize, &self.vertices(t))),
+            Complex::Full => self.simplices().for_each(|t| note(t as usize, &self.vertices(t))),
         }
         Locator { triangulation: self, index: Index::build(&self.sites.coordinates), at_site }
     }
@@ -108,7 +108,7 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
                 around
             }
             Complex::Flat(triangles) => around(triangles, at, site),
-            Complex::Full(simplices) => around(simplices, at, site),
+            Complex::Full => around(self.triangulation.slots(), at, site),
         }
     }
 
@@ -179,7 +179,7 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
 }
 
 /// The other vertices of the simplices at `site`, one of which is `t`; ascending.
-fn around<const W: usize>(simplices: &[Simplex<W>], t: u32, site: u32) -> Vec<u32> {
+fn around<const W: usize>(simplices: &Slots<W>, t: u32, site: u32) -> Vec<u32> {
     let mut star = Vec::new();
     star_of(simplices, t, site, &mut star);
     let mut sites: Vec<u32> = star.iter().flat_map(|&t| simplices[t as usize].vertices).collect();
