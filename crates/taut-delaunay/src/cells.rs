@@ -9,6 +9,7 @@
 //! cells, triangulate a cell.
 
 mod cell;
+mod clean;
 mod emit;
 mod geometry;
 mod index;

@@ -1,8 +1,9 @@
 //! One cell: the complete stars of a run of sites, from those sites and as few others as prove it.
 //!
 //! Idea: triangulate the cell's own sites with a halo a few spacings wide. Then every simplex at an own site must be
-//! shown empty of all other sites: most have a sphere smaller than the way to the nearest site left out; the others
-//! are asked of the index, and a site found in conflict is inserted and the new simplices asked in turn.
+//! shown empty of all other sites: most are deep inside (`clean`); of the others most have a sphere smaller than the
+//! way to the nearest site left out; the rest is asked of the index, and a site found in conflict is inserted and the
+//! new simplices asked in turn.
 //! Guarantee: at the end no site of the whole set conflicts with a simplex at an own site, ghosts included, so the
 //! stars of the own sites are those of the triangulation of all sites: exact, ties included, for any halo.
 //! Trap: a halo of fixed width is never enough. At the hull there are slivers with spheres of any size.
@@ -13,6 +14,7 @@ use std::ops::{Index as At, Range};
 
 use taut_points::Monitor;
 
+use super::clean::Clean;
 use super::geometry::{Geometry, conflicts, corners};
 use super::index::{Bounds, Index, LEAF, Node};
 use crate::Error;
@@ -24,7 +26,7 @@ use crate::{InsertionOrder, cells::reach::Reach};
 /// Width of the first halo in mean spacings. Wider costs sites, narrower costs questions to the index; 3 to 4 is flat
 /// in the plane, in space a site of halo costs ten times as much.
 const fn halo_spacings(d: usize) -> f64 {
-    if d == 2 { 3.0 } else { 2.0 }
+    if d == 2 { 3.0 } else { 1.5 }
 }
 
 /// Sites of the other cells, evenly along the curve, that every cell triangulates too: they keep spheres outside the
@@ -106,12 +108,15 @@ impl<const D: usize, const V: usize> Whole<'_, D, V> {
         mesh.start(start);
         insert_all(&mut mesh, &start, self.order, monitor)?;
         let clearance = self.clearances(&own, &here);
+        let missing = |leaf| here.missing(leaf, self.index.run(leaf));
+        let clean = Clean::of(self.index, self.sites, &own, missing);
         let mut cell = Certifying::<D, V, G> {
             whole: self,
             own: own.clone(),
             here,
             sites,
             clearance,
+            clean,
             mesh,
             open: vec![],
         };
@@ -230,6 +235,7 @@ struct Certifying<'a, const D: usize, const V: usize, G: Geometry<D, V>> {
     sites: Vec<u32>,
     /// By own leaf, squared.
     clearance: Vec<f64>,
+    clean: Clean,
     mesh: G::Mesh,
     /// Scratch of queries.
     open: Vec<Node>,
@@ -263,17 +269,19 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
     #[inline(always)]
     fn doubt(&self, own: &Range<u32>, t: u32) -> Option<(u32, [u32; V])> {
         let simplex = &self.mesh.simplices()[t as usize];
-        let place = simplex
-            .vertices
-            .iter()
-            .map(|v| v.wrapping_sub(own.start))
-            .find(|&p| p < own.end - own.start)?;
+        // Dead slots have no vertex among the own sites, nor have ghosts at infinity.
+        let places = simplex.vertices.map(|v| v.wrapping_sub(own.start));
+        let count = own.end - own.start;
+        if places.iter().all(|&place| place < count) && self.clean.holds(places) {
+            return None;
+        }
+        let place = places.into_iter().find(|&place| place < count)?;
         let near = !simplex.is_live() || self.is_near(&simplex.vertices, place);
         (!near).then_some((t, simplex.vertices))
     }
 
     /// Whether the sphere of a simplex is too small to reach a site that was left out; `own` is the place of one of its
-    /// vertices among the own sites. Asked of every simplex of the cell.
+    /// vertices among the own sites.
     #[inline(always)]
     fn is_near(&self, vertices: &[u32; V], own: u32) -> bool {
         // Own sites begin with a leaf.

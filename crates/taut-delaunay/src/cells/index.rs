@@ -28,11 +28,16 @@ impl<const D: usize> Bounds<D> {
         points.into_iter().fold(Self::EMPTY, |b, p| b.union(&Self { low: p, high: p }))
     }
 
-    fn union(&self, other: &Self) -> Self {
+    pub(crate) fn union(&self, other: &Self) -> Self {
         Self {
             low: std::array::from_fn(|i| self.low[i].min(other.low[i])),
             high: std::array::from_fn(|i| self.high[i].max(other.high[i])),
         }
+    }
+
+    /// Whether a point is in the box.
+    pub(crate) fn holds(&self, p: [f64; D]) -> bool {
+        (0..D).all(|i| self.low[i] <= p[i] && p[i] <= self.high[i])
     }
 
     /// The squared distance of the two boxes; 0 if they meet.
