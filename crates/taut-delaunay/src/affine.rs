@@ -56,8 +56,8 @@ pub(crate) fn span_of_space(sites: &[[f64; 3]]) -> Span<4> {
     }
 }
 
-/// A point off the plane of `sites`, three of which, `on`, are not collinear; of about their extent, integral if they
-/// are.
+/// A point off the plane of `sites`, three of which, `on`, are not collinear; integral if they are, and no larger than
+/// their largest coordinate or extent, up to the next integer.
 pub(crate) fn apex(sites: &[[f64; 3]], on: [u32; 3]) -> [f64; 3] {
     let [a, b, c] = on.map(|i| sites[i as usize]);
     let axis = (0..3)

@@ -37,6 +37,16 @@ pub enum Error {
         "the triangulation has more than 2^30 simplices: too many for one triangulation in memory"
     )]
     TooManySimplices,
+    /// An answer was asked for with other points than those the triangulation was built from.
+    #[error(
+        "the triangulation was built from {built} points, but {given} points were given with it"
+    )]
+    OtherPoints {
+        /// Points it was built from.
+        built: u64,
+        /// Points given.
+        given: u64,
+    },
     /// An option is outside its range.
     #[error("option `{name}` is {value}: expected {expected}")]
     Option {

@@ -58,10 +58,10 @@ pub(crate) struct Settings {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct TooMany;
 
-/// Events of a build: the same on every run.
+/// Events of a build. They depend on how it was done (order, cells, vectors), and on nothing else.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
-    /// Sites inserted.
+    /// Sites inserted, those of the first simplex and of the halos of cells included.
     pub insertions: u64,
     /// Simplices visited by the walks to the sites.
     pub walk_steps: u64,
@@ -69,9 +69,9 @@ pub struct Counters {
     pub orientations: u64,
     /// In-circle or in-sphere tests, filtered or not.
     pub conflict_tests: u64,
-    /// Simplices made and destroyed again, or flips in the plane.
+    /// Simplices made and destroyed again.
     pub replaced: u64,
-    /// Where the signs that the first filter left open were decided.
+    /// Where the signs were decided: each orientation and conflict test counts once.
     pub stages: Stages,
 }
 

@@ -1,11 +1,37 @@
 //! Delaunay triangulations of points in the plane and in space: exact, canonical, parallel.
 //!
-//! | you want | call | promise |
-//! |---|---|---|
-//! | a triangulation to walk around in | [`Plane::build`], [`Space::build`] | exact for every finite input; a function of the point set alone |
-//! | the simplices with their certificate | [`delaunay()`], [`delaunay_of_source()`], [`Triangulation::solution`] | the same bytes for any number of threads |
+//! | you want | call | promise | cost |
+//! |---|---|---|---|
+//! | the simplices with their certificate | [`delaunay()`] | exact for every finite input; the same bytes for any number of threads | O(n log n) |
+//! | a triangulation to walk around in | [`Plane::build`], [`Space::build`] | a function of the point set alone | O(n log n) |
+//! | the nearest site, the simplex at a point, Voronoi cells, natural neighbours | [`Triangulation::locator`] | the simplex exactly, areas to rounding | O(log n) a question |
+//! | the alpha shape | [`Plane::alpha_complex`], [`Space::alpha_complex`] | emptiness exactly, radii to rounding | O(simplices) |
+//! | given edges in it | [`Plane::constrained`] | exact; Delaunay as far as the edges let it | O(n), and O(k²) for an edge across k others |
 //!
-//! Not for: more points than memory holds, or other dimensions than two and three.
+//! ```
+//! use taut_delaunay::{DelaunayOptions, Location, Plane, delaunay};
+//! use taut_points::{Monitor, Points};
+//!
+//! let square = [0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0];
+//! let points = Points::new(&square, 2)?;                               // n × d, row-major
+//! let found = delaunay(&points, &DelaunayOptions::default())?;
+//! assert_eq!(found.answer.len(), 2);                                   // rows of the input, two triangles
+//! assert_eq!(found.check(&points)?.ties, 1);                           // a second opinion: four points on a circle
+//!
+//! let plane = Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent())?;
+//! let locator = plane.locator();
+//! let corner = locator.nearest([0.9, 0.2]).expect("there are sites");
+//! assert_eq!(plane.row(corner), 1);                                    // a site is not a row: `row` translates
+//! assert!(matches!(locator.locate([0.5, 0.25]), Location::Inside(_)));
+//! assert_eq!(locator.voronoi_cell(corner, [0.0, 0.0], [1.0, 1.0]).area(), 0.25);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Sites are numbered along a Hilbert curve, simplices by slot; [`Triangulation::row`] and
+//! [`Triangulation::sites_of_rows`] lead to and from the rows of the input.
+//!
+//! Not for: weights (regular triangulations); points that come and go (build again); more points than memory holds;
+//! other dimensions than two and three.
 
 mod affine;
 mod canonical;
@@ -22,6 +48,7 @@ mod sites;
 mod solution;
 mod space;
 mod triangulation;
+mod vector;
 
 pub use error::Error;
 pub use kernel::Counters;

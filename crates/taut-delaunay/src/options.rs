@@ -22,8 +22,7 @@ impl Default for DelaunayOptions {
     }
 }
 
-/// In which order sites are inserted. Each begins with few sites all over the set, so that walks stay short whatever
-/// the input.
+/// In which order sites are inserted. All but [`Hilbert`](Self::Hilbert) begin with few sites all over the set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum InsertionOrder {

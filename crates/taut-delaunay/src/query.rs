@@ -1,7 +1,7 @@
 //! What people do with a triangulation: find where a point lies, the nearest site, Voronoi cells, natural neighbours.
 //!
 //! Idea: sites lie along a Hilbert curve, so boxes over runs of them answer which site is nearest, whatever the sites
-//! span; a walk of a step or two from there finds the simplex.
+//! span; a walk of a few steps from there finds the simplex.
 //! Guarantee: the simplex is exact, and the nearest site is nearest as `f64` computes squared distances.
 //! Reference: Sibson, *A brief description of natural neighbour interpolation*, 1981.
 

@@ -14,7 +14,7 @@ use crate::{Error, InsertionOrder};
 
 /// Sites between two looks at the monitor.
 const BATCH: usize = 1 << 16;
-/// Each round has this many times the sites of all rounds before, less one: 2³.
+/// Each round has 2³ − 1 times the sites of all rounds before.
 const RATIO_BITS: u32 = 3;
 
 impl From<TooMany> for Error {

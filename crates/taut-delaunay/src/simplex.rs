@@ -26,8 +26,8 @@ impl<const V: usize> Simplex<V> {
         self.vertices.contains(&GHOST)
     }
 
-    /// Whether this slot holds a simplex.
-    pub(crate) fn is_live(&self) -> bool {
+    /// Whether this slot holds a simplex; if not, its other contents mean nothing.
+    pub fn is_live(&self) -> bool {
         self.vertices[0] != DEAD
     }
 }

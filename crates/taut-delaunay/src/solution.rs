@@ -69,15 +69,19 @@ struct Tables {
 impl<const D: usize, const V: usize> Triangulation<D, V> {
     /// The answer and its certificate, in rows of the input and in canonical order.
     ///
-    /// `points` are those it was built from. O(n), and as much memory again.
+    /// `points` are those it was built from. O(simplices), and as much memory again.
     ///
     /// # Errors
-    /// [`Error::Cancelled`], or [`Error::Read`] when hashing the points is stopped.
+    /// [`Error::OtherPoints`] if `points` are so many or so few that they cannot be those, [`Error::Cancelled`], or [`Error::Read`] when hashing the points is stopped.
     pub fn solution<T: Scalar>(
         &self,
         points: &Points<'_, T>,
         monitor: &Monitor<'_>,
     ) -> Result<Solution<Answer>, Error> {
+        let rows = self.sites.len() + self.sites.duplicates.len();
+        if points.len() != rows || points.dim() != D {
+            return Err(Error::OtherPoints { built: rows as u64, given: points.len() as u64 });
+        }
         let hashes: Vec<SiteHash> = (0..self.sites.len() as u32)
             .into_par_iter()
             .with_min_len(TASK)

@@ -29,7 +29,7 @@ pub enum Complex {
     Line(Vec<u32>),
     /// All points of space are on a plane: the triangles in it with their ghosts, all turning the same way.
     Flat(Slots<3>),
-    /// The sites span all dimensions: see [`Triangulation::slots`].
+    /// The sites span all dimensions: [`Triangulation::slots`] has the simplices.
     Full,
 }
 
@@ -53,12 +53,13 @@ pub struct Triangulation<const D: usize, const V: usize> {
 impl Plane {
     /// Triangulates points of the plane.
     ///
-    /// O(n log n) expected for any input order. 68 bytes a point beyond the input on one thread, and while more threads
-    /// join their cells, up to twice that.
+    /// O(n log n) expected for any input with [`InsertionOrder::Random`](crate::InsertionOrder::Random); the default is
+    /// no slower on any set of `bench delaunay plane plane-cliffs`, but has no such bound. About 70 bytes a point beyond
+    /// the input on one thread, 110 on two.
     ///
     /// # Errors
     /// [`Error::Dimension`] if points do not have two coordinates, [`Error::NonFinite`], [`Error::TooManyPoints`],
-    /// [`Error::Option`], and [`Error::Cancelled`] when the monitor says so.
+    /// [`Error::TooManySimplices`], [`Error::Option`], and [`Error::Cancelled`] when the monitor says so.
     pub fn build<T: Scalar>(
         points: &Points<'_, T>,
         options: &DelaunayOptions,
@@ -98,9 +99,9 @@ impl Plane {
 impl Space {
     /// Triangulates points of space.
     ///
-    /// O(n log n) expected for points like those of a volume or of a surface; the size of the output, up to n²/2
-    /// tetrahedra, for the worst. About 260 bytes a point beyond the input on one thread for points of a volume, and
-    /// while more threads join their cells, up to twice that.
+    /// O(n log n + simplices) expected with [`InsertionOrder::Random`](crate::InsertionOrder::Random), and in practice
+    /// with the default. There are about 7n tetrahedra for points of a volume or of a surface, n²/2 at worst. About 260
+    /// bytes a point of a volume beyond the input on one thread, 370 on two.
     ///
     /// # Errors
     /// [`Error::Dimension`] if points do not have three coordinates, [`Error::NonFinite`], [`Error::TooManyPoints`],
@@ -317,9 +318,18 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
     }
 
     /// The facets of the convex hull as sites: from outside, vertices are seen in counter-clockwise order in space; in
-    /// the plane the set is to the left of each edge.
+    /// the plane the set is to the left of each edge. None if the sites do not span all dimensions; the answer in
+    /// [`solution`](Self::solution) has the hull of such sets.
     pub fn hull(&self) -> impl Iterator<Item = [u32; D]> {
-        self.ghosts().map(|t| hull_facet(self.vertices(t)))
+        self.ghosts().map(|t| self.hull_facet(t))
+    }
+
+    /// The facet of the convex hull that a ghost stands for, as in [`hull`](Self::hull).
+    ///
+    /// # Panics
+    /// If there is no such slot.
+    pub fn hull_facet(&self, ghost: u32) -> [u32; D] {
+        hull_facet(self.vertices(ghost))
     }
 
     /// Events of the build.

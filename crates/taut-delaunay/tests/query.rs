@@ -15,14 +15,19 @@ fn numbers(count: usize, seed: u64) -> Vec<f64> {
         .collect()
 }
 
+/// Built by three cells, so that there are slots without a simplex.
+fn by_cells() -> DelaunayOptions {
+    DelaunayOptions { cells: Some(3), ..DelaunayOptions::default() }
+}
+
 fn plane(values: &[f64]) -> Plane {
     let points = Points::new(values, 2).expect("whole rows");
-    Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent()).expect("finite")
+    Plane::build(&points, &by_cells(), &Monitor::silent()).expect("finite")
 }
 
 fn space(values: &[f64]) -> Space {
     let points = Points::new(values, 3).expect("whole rows");
-    Space::build(&points, &DelaunayOptions::default(), &Monitor::silent()).expect("finite")
+    Space::build(&points, &by_cells(), &Monitor::silent()).expect("finite")
 }
 
 fn square_distance<const D: usize>(p: [f64; D], q: [f64; D]) -> f64 {
@@ -71,7 +76,7 @@ fn a_point_is_located_in_a_triangle_that_holds_it() {
     for s in 0..plane.site_count() as u32 {
         assert_eq!(locator.locate(plane.site(s)), Location::Site(s));
     }
-    assert_eq!(self::plane(&[0.0, 0.0, 1.0, 1.0]).locator().locate([0.5, 0.0]), Location::Flat);
+    assert_eq!(self::plane(&[0.0, 0.0, 1.0, 1.0]).locator().locate([0.5, 0.0]), Location::Nowhere);
 }
 
 /// The natural neighbours of a point are its neighbours once it is a site: in space, and on grids, where a point may lie
@@ -153,6 +158,81 @@ fn alpha_complexes_are_those_of_the_definition() {
         let singular: BTreeSet<_> =
             complex.singular.iter().map(|&[u, v]| [u.min(v), u.max(v)]).collect();
         assert_eq!(singular, lone, "alpha {alpha}");
+    }
+}
+
+/// All triples of sites in space.
+#[test]
+fn lone_triangles_in_space_are_those_of_the_definition() {
+    let space = space(&numbers(120, 77));
+    let sites: Vec<[f64; 3]> = (0..space.site_count() as u32).map(|s| space.site(s)).collect();
+    let sub = |p: [f64; 3], q: [f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
+    let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+    let mut met = 0;
+    for alpha in [0.1, 0.2, 0.25, 0.3, 0.4] {
+        let complex = space.alpha_complex(alpha);
+        let mut covered = BTreeSet::new();
+        for &t in &complex.simplices {
+            let mut v = space.vertices(t);
+            v.sort_unstable();
+            covered.extend((0..4).map(|i| {
+                let rest: Vec<u32> = (0..4).filter(|&k| k != i).map(|k| v[k]).collect();
+                [rest[0], rest[1], rest[2]]
+            }));
+        }
+        let mut lone = BTreeSet::new();
+        for a in 0..sites.len() {
+            for b in a + 1..sites.len() {
+                for c in b + 1..sites.len() {
+                    // The centre of the circle is a + s(b − a) + t(c − a).
+                    let (u, v) = (sub(sites[b], sites[a]), sub(sites[c], sites[a]));
+                    let (uu, vv, uv) = (dot(u, u), dot(v, v), dot(u, v));
+                    let det = 2.0 * (uu * vv - uv * uv);
+                    let (s, t) = (vv * (uu - uv) / det, uu * (vv - uv) / det);
+                    let center = [0, 1, 2].map(|k| sites[a][k] + s * u[k] + t * v[k]);
+                    let r2 = square_distance(center, sites[a]);
+                    let empty = (0..sites.len())
+                        .filter(|i| ![a, b, c].contains(i))
+                        .all(|i| square_distance(center, sites[i]) >= r2);
+                    if empty && r2 <= alpha * alpha {
+                        lone.insert([a as u32, b as u32, c as u32]);
+                    }
+                }
+            }
+        }
+        let lone: BTreeSet<_> = lone.difference(&covered).copied().collect();
+        let sorted = |mut f: [u32; 3]| {
+            f.sort_unstable();
+            f
+        };
+        let singular: BTreeSet<_> = complex.singular.iter().copied().map(sorted).collect();
+        assert_eq!(singular, lone, "alpha {alpha}");
+        met += lone.len();
+    }
+    assert!(met > 20, "{met}");
+}
+
+/// Radii and places are right where squares leave the range of `f64`.
+#[test]
+fn extreme_scales_are_no_different() {
+    let values = numbers(200, 91);
+    let plain = plane(&values);
+    let expected = plain.alpha_complex(0.1);
+    for scale in [1e-150, 1e150, 1e-300, 1e300] {
+        let scaled: Vec<f64> = values.iter().map(|x| x * scale).collect();
+        let plane = plane(&scaled);
+        let complex = plane.alpha_complex(0.1 * scale);
+        assert_eq!(complex.simplices.len(), expected.simplices.len(), "{scale}");
+        assert_eq!(complex.singular.len(), expected.singular.len(), "{scale}");
+        let locator = plane.locator();
+        assert_eq!(
+            locator.nearest([0.0, 0.0]).map(|s| plane.row(s)),
+            plain.locator().nearest([0.0, 0.0]).map(|s| plain.row(s))
+        );
+        // Far outside in any scale.
+        assert!(matches!(locator.locate([1.5e308, 1e10]), Location::Outside(_)), "{scale}");
+        assert!(locator.nearest([1.5e308, 1e10]).is_some());
+        assert_eq!(locator.locate([f64::NAN, 0.0]), Location::Nowhere);
     }
 }
 

@@ -117,8 +117,8 @@ const NONE: u32 = u32::MAX;
 /// The same slots are used again, in an order that depends on that of the segments.
 ///
 /// # Errors
-/// If segments cross, name sites that are not there, or rings do not close. After the first, triangles are those
-/// constrained by the segments before the second one; after the others, nothing has changed.
+/// If segments cross, name sites that are not there, or rings do not close. On [`ConstraintError::Crossing`] the
+/// triangles hold the segments before the second one; on any other error nothing has changed.
 pub(crate) fn constrain(
     sites: &[[f64; 2]],
     triangles: &mut [Simplex<3>],

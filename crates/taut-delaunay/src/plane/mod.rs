@@ -80,6 +80,8 @@ impl Kernel<2, 3> for Mesh {
 
     fn start(&mut self, [a, b, c]: [u32; 3]) {
         let [p, q, r] = [a, b, c].map(|v| self.sites[v as usize]);
+        self.counters.orientations += 1;
+        self.counters.insertions += 3;
         let (b, c) =
             if orient_exact(p, q, r, &mut self.exact).is_positive() { (b, c) } else { (c, b) };
         // Ghost i lies across the edge opposite vertex i; its ghost vertex has place 0, as has the hull edge.
@@ -103,6 +105,8 @@ impl Kernel<2, 3> for Mesh {
         }
         dispatch::insert(self, sites);
         self.counters.insertions += sites.len() as u64;
+        // The walk finds the first triangle of each cavity, digging counts the others.
+        self.counters.replaced += sites.len() as u64;
         Ok(())
     }
 
@@ -127,7 +131,12 @@ impl Kernel<2, 3> for Mesh {
     }
 
     fn finish(mut self) -> (Vec<Simplex<3>>, Option<Vec<[f64; 2]>>, Counters) {
-        self.counters.stages = self.exact.stages;
+        // The filters of the common path count nothing: what no other stage decided was theirs.
+        let mut stages = self.exact.stages;
+        let open = stages.calls() - stages.filter;
+        stages.filter =
+            (self.counters.orientations + self.counters.conflict_tests).saturating_sub(open);
+        self.counters.stages = stages;
         (self.triangles, Some(self.sites), self.counters)
     }
 }

@@ -332,5 +332,4 @@ fn uniform_points_need_no_exact_arithmetic() {
     let (_, _, counters) = mesh.finish();
     let stages = counters.stages;
     assert!(stages.calls() - stages.filter <= 2, "{stages:?}");
-    assert!(stages.filter * 10 < counters.insertions, "{stages:?}");
 }

@@ -9,6 +9,7 @@ use taut_predicates::{Sign, plane, space};
 
 use crate::simplex::{GHOST, decode};
 use crate::triangulation::hull_facet;
+use crate::vector::{cross, difference, dot, largest, square};
 use crate::{Plane, Space, Triangulation};
 
 /// The alpha complex of a triangulation, down to facets.
@@ -23,40 +24,45 @@ pub struct AlphaComplex<const D: usize> {
     pub singular: Vec<[u32; D]>,
 }
 
-/// Squared lengths and determinants that radii come from.
+/// What the simplices of the plane and of space give.
+///
+/// Radii are taken of the simplex blown up to size 1: products of eight coordinates leave the range of `f64` early.
 trait Radii<const D: usize, const V: usize> {
-    /// The squared circumradius of a simplex.
-    fn circumradius_squared(corners: [[f64; D]; V]) -> f64;
-    /// The squared radius of the smallest sphere through a facet.
-    fn facet_radius_squared(corners: [[f64; D]; D]) -> f64;
+    /// The circumradius of a simplex.
+    fn circumradius(corners: [[f64; D]; V]) -> f64;
+    /// The radius of the smallest sphere through a facet.
+    fn facet_radius(corners: [[f64; D]; D]) -> f64;
     /// Whether `q` lies strictly inside the smallest sphere through a facet.
     fn in_facet_sphere(corners: [[f64; D]; D], q: [f64; D]) -> bool;
 }
 
-fn minus<const D: usize>(p: [f64; D], q: [f64; D]) -> [f64; D] {
-    std::array::from_fn(|i| p[i] - q[i])
+/// The circumradius of the triangle 0, u, v in any dimension; infinite for the flattest.
+fn triangle_radius<const D: usize>(u: [f64; D], v: [f64; D]) -> f64 {
+    let size = largest(&[u, v]);
+    let (u, v) = (u.map(|x| x / size), v.map(|x| x / size));
+    let (u2, v2, w2, uv) = (square(u), square(v), square(difference(u, v)), dot(u, v));
+    finite_or_flat(size * (u2 * v2 * w2 / (4.0 * (u2 * v2 - uv * uv))).sqrt())
 }
 
-fn square<const D: usize>(p: [f64; D]) -> f64 {
-    p.iter().map(|x| x * x).sum()
-}
-
-/// The squared circumradius of the triangle with these sides, in any dimension.
-fn triangle_radius_squared<const D: usize>(u: [f64; D], v: [f64; D]) -> f64 {
-    let (u2, v2, w2) = (square(u), square(v), square(minus(u, v)));
-    let uv: f64 = (0..D).map(|i| u[i] * v[i]).sum();
-    u2 * v2 * w2 / (4.0 * (u2 * v2 - uv * uv))
+/// Rounding may take the square of a vanishing area below 0.
+fn finite_or_flat(radius: f64) -> f64 {
+    if radius.is_nan() { f64::INFINITY } else { radius }
 }
 
 impl Radii<2, 3> for Plane {
-    fn circumradius_squared([a, b, c]: [[f64; 2]; 3]) -> f64 {
-        let (u, v) = (minus(b, a), minus(c, a));
-        let twice_area = u[0] * v[1] - u[1] * v[0];
-        square(u) * square(v) * square(minus(u, v)) / (4.0 * twice_area * twice_area)
+    fn circumradius([a, b, c]: [[f64; 2]; 3]) -> f64 {
+        let (u, v) = (difference(b, a), difference(c, a));
+        let size = largest(&[u, v]);
+        let (u, v) = (u.map(|x| x / size), v.map(|x| x / size));
+        let twice_area = (u[0] * v[1] - u[1] * v[0]).abs();
+        finite_or_flat(
+            size * (square(u) * square(v) * square(difference(u, v))).sqrt() / (2.0 * twice_area),
+        )
     }
 
-    fn facet_radius_squared([a, b]: [[f64; 2]; 2]) -> f64 {
-        0.25 * square(minus(a, b))
+    fn facet_radius([a, b]: [[f64; 2]; 2]) -> f64 {
+        let [x, y] = difference(a, b);
+        0.5 * x.hypot(y)
     }
 
     fn in_facet_sphere([a, b]: [[f64; 2]; 2], q: [f64; 2]) -> bool {
@@ -65,20 +71,18 @@ impl Radii<2, 3> for Plane {
 }
 
 impl Radii<3, 4> for Space {
-    fn circumradius_squared([a, b, c, d]: [[f64; 3]; 4]) -> f64 {
-        let (u, v, w) = (minus(b, a), minus(c, a), minus(d, a));
-        let cross = |p: [f64; 3], q: [f64; 3]| {
-            [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
-        };
+    fn circumradius([a, b, c, d]: [[f64; 3]; 4]) -> f64 {
+        let corners = [difference(b, a), difference(c, a), difference(d, a)];
+        let size = largest(&corners);
+        let [u, v, w] = corners.map(|p| p.map(|x| x / size));
         let (vw, wu, uv) = (cross(v, w), cross(w, u), cross(u, v));
-        let six_fold: f64 = (0..3).map(|i| u[i] * vw[i]).sum();
         let (u2, v2, w2) = (square(u), square(v), square(w));
         let scaled_center: [f64; 3] = std::array::from_fn(|i| u2 * vw[i] + v2 * wu[i] + w2 * uv[i]);
-        square(scaled_center) / (4.0 * six_fold * six_fold)
+        finite_or_flat(size * square(scaled_center).sqrt() / (2.0 * dot(u, vw).abs()))
     }
 
-    fn facet_radius_squared([a, b, c]: [[f64; 3]; 3]) -> f64 {
-        triangle_radius_squared(minus(b, a), minus(c, a))
+    fn facet_radius([a, b, c]: [[f64; 3]; 3]) -> f64 {
+        triangle_radius(difference(b, a), difference(c, a))
     }
 
     fn in_facet_sphere([a, b, c]: [[f64; 3]; 3], q: [f64; 3]) -> bool {
@@ -86,25 +90,24 @@ impl Radii<3, 4> for Space {
     }
 }
 
-/// The squared circumradius of a finite simplex, in units of the input squared; infinite for the flattest.
-fn radius_squared<R: Radii<D, V>, const D: usize, const V: usize>(
+/// The circumradius of a finite simplex in the scale of the sites.
+fn radius<R: Radii<D, V>, const D: usize, const V: usize>(
     of: &Triangulation<D, V>,
     simplex: u32,
 ) -> f64 {
-    let squared = R::circumradius_squared(of.vertices(simplex).map(|v| of.site(v)));
-    if squared.is_nan() { f64::INFINITY } else { squared }
+    R::circumradius(of.vertices(simplex).map(|v| of.sites.coordinates[v as usize]))
 }
 
 fn alpha_complex<R: Radii<D, V>, const D: usize, const V: usize>(
     of: &Triangulation<D, V>,
     alpha: f64,
 ) -> AlphaComplex<D> {
-    let limit = alpha * alpha;
+    let limit = of.scale().apply(alpha);
     let mut complex = AlphaComplex { simplices: vec![], boundary: vec![], singular: vec![] };
     let slots = of.slots();
     let mut inside = vec![false; slots.len()];
     for t in of.simplices() {
-        if radius_squared::<R, D, V>(of, t) <= limit {
+        if radius::<R, D, V>(of, t) <= limit {
             inside[t as usize] = true;
             complex.simplices.push(t);
         }
@@ -127,7 +130,7 @@ fn alpha_complex<R: Radii<D, V>, const D: usize, const V: usize>(
                         .filter(|&&v| v != GHOST)
                         .any(|&v| R::in_facet_sphere(corners, of.sites.coordinates[v as usize]));
                     let sites = hull_facet::<D, V>(with_ghost);
-                    if !hit && R::facet_radius_squared(sites.map(|v| of.site(v))) <= limit {
+                    if !hit && R::facet_radius(corners) <= limit {
                         complex.singular.push(turned(sites));
                     }
                 }
@@ -146,7 +149,7 @@ fn turned<const D: usize>(mut facet: [u32; D]) -> [u32; D] {
 
 impl Plane {
     /// The alpha complex: what an eraser of radius `alpha` that spares the sites leaves of the plane, as triangles and
-    /// edges. Empty if the sites do not span the plane. O(n).
+    /// edges. Empty if the sites do not span the plane. O(simplices).
     pub fn alpha_complex(&self, alpha: f64) -> AlphaComplex<2> {
         alpha_complex::<Self, _, _>(self, alpha)
     }
@@ -156,13 +159,13 @@ impl Plane {
     /// # Panics
     /// If there is no such triangle, or it is a ghost.
     pub fn circumradius(&self, triangle: u32) -> f64 {
-        radius_squared::<Self, _, _>(self, triangle).sqrt()
+        self.scale().inverse().apply(radius::<Self, _, _>(self, triangle))
     }
 }
 
 impl Space {
     /// The alpha complex: what an eraser of radius `alpha` that spares the sites leaves of space, as tetrahedra and
-    /// triangles. Empty if the sites do not span space. O(n).
+    /// triangles. Empty if the sites do not span space. O(simplices).
     pub fn alpha_complex(&self, alpha: f64) -> AlphaComplex<3> {
         alpha_complex::<Self, _, _>(self, alpha)
     }
@@ -172,6 +175,6 @@ impl Space {
     /// # Panics
     /// If there is no such tetrahedron, or it is a ghost.
     pub fn circumradius(&self, tetrahedron: u32) -> f64 {
-        radius_squared::<Self, _, _>(self, tetrahedron).sqrt()
+        self.scale().inverse().apply(radius::<Self, _, _>(self, tetrahedron))
     }
 }

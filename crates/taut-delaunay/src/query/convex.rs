@@ -5,6 +5,8 @@
 //! Guarantee: volumes to rounding. Corners are floating-point numbers: nothing exact may hang on them.
 //! Reference: Sutherland and Hodgman, *Reentrant polygon clipping*, 1974.
 
+use crate::vector::{cross, difference, dot};
+
 /// The half-space of points x with normal·x ≤ offset.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HalfSpace<const D: usize> {
@@ -12,22 +14,10 @@ pub(crate) struct HalfSpace<const D: usize> {
     pub(crate) offset: f64,
 }
 
-fn dot<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
-    (0..D).map(|i| a[i] * b[i]).sum()
-}
-
-fn minus<const D: usize>(a: [f64; D], b: [f64; D]) -> [f64; D] {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
-fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
-    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
-}
-
 impl<const D: usize> HalfSpace<D> {
     /// The points at least as near to `a` as to `b`.
     pub(crate) fn nearer_to(a: [f64; D], b: [f64; D]) -> Self {
-        let normal = minus(b, a);
+        let normal = difference(b, a);
         let middle: [f64; D] = std::array::from_fn(|i| 0.5 * a[i] + 0.5 * b[i]);
         Self { normal, offset: dot(normal, middle) }
     }
@@ -110,7 +100,7 @@ impl Polygon {
     pub fn area(&self) -> f64 {
         let Some(&first) = self.corners.first() else { return 0.0 };
         let fan = self.corners.windows(2).map(|pair| {
-            let (u, v) = (minus(pair[0], first), minus(pair[1], first));
+            let (u, v) = (difference(pair[0], first), difference(pair[1], first));
             u[0] * v[1] - u[1] * v[0]
         });
         0.5 * fan.sum::<f64>()
@@ -156,9 +146,9 @@ impl Body<3> for Polyhedron {
         let Some(&apex) = self.faces.first().and_then(|face| face.first()) else { return 0.0 };
         let mut six_fold = 0.0;
         for face in &self.faces {
-            let a = minus(face[0], apex);
+            let a = difference(face[0], apex);
             for pair in face[1..].windows(2) {
-                six_fold += dot(a, cross(minus(pair[0], apex), minus(pair[1], apex)));
+                six_fold += dot(a, cross(difference(pair[0], apex), difference(pair[1], apex)));
             }
         }
         six_fold / 6.0
@@ -186,7 +176,7 @@ fn around_middle(mut corners: Vec<[f64; 3]>, normal: [f64; 3]) -> Vec<[f64; 3]> 
     let length = |w: [f64; 3]| dot(w, w).sqrt();
     let (lu, lv) = (length(u), length(v));
     let angle = |c: &[f64; 3]| {
-        let w = minus(*c, middle);
+        let w = difference(*c, middle);
         (dot(w, v) / lv).atan2(dot(w, u) / lu)
     };
     corners.sort_by(|a, b| angle(a).total_cmp(&angle(b)));

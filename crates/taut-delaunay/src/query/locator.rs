@@ -8,6 +8,9 @@ use crate::cells::{Geometry, InPlane, InSpace, Index, conflicts, star_of};
 use crate::simplex::{GHOST, Slots, decode};
 use crate::{Complex, Triangulation};
 
+/// Farther than any site in the scale of the sites, with squares that are finite.
+const FAR: f64 = 1e150;
+
 /// Where a point lies in a triangulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location {
@@ -17,13 +20,14 @@ pub enum Location {
     Inside(u32),
     /// Outside the hull: the ghost of a hull facet that it lies beyond.
     Outside(u32),
-    /// The sites do not span all dimensions, so there are no simplices to lie in.
-    Flat,
+    /// In no simplex, as the sites do not span all dimensions, or as a coordinate of the point is not finite.
+    Nowhere,
 }
 
-/// Answers questions about points, one after another, in about a microsecond each.
+/// Answers questions about points, one after another.
 ///
-/// Takes O(n) to make, and five bytes a site.
+/// Takes O(simplices) to make, and five bytes a site. Sites, not rows of the input, go in and come out:
+/// [`Triangulation::row`] translates.
 pub struct Locator<'a, const D: usize, const V: usize> {
     pub(super) triangulation: &'a Triangulation<D, V>,
     index: Index<D>,
@@ -60,18 +64,14 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
 }
 
 impl<const D: usize, const V: usize> Locator<'_, D, V> {
-    /// A point in the coordinates of the sites.
-    fn scaled(&self, point: [f64; D]) -> [f64; D] {
-        point.map(|x| self.triangulation.scale().apply(x))
-    }
-
     /// The site nearest to a point, in `f64` distances; of several the first along the Hilbert curve. `None` if there
-    /// are no sites or the point is not finite.
+    /// are no sites or a coordinate of the point is not finite. O(log n) for well-spread sites.
     pub fn nearest(&self, point: [f64; D]) -> Option<u32> {
-        let q = self.scaled(point);
-        if self.triangulation.site_count() == 0 || q.iter().any(|x| !x.is_finite()) {
+        if self.triangulation.site_count() == 0 || point.iter().any(|x| !x.is_finite()) {
             return None;
         }
+        // So far away, rounding makes all sites equally near; squares must stay finite to see even that.
+        let q = point.map(|x| self.triangulation.scale().apply(x).clamp(-FAR, FAR));
         let best = Cell::new((f64::INFINITY, u32::MAX));
         let distance = |site: u32| {
             let p = self.triangulation.sites.coordinates[site as usize];
@@ -90,7 +90,8 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
         Some(best.get().1).filter(|&site| site != u32::MAX)
     }
 
-    /// The sites whose Voronoi cells share a facet with that of `site`, in order.
+    /// The sites that the triangulation joins with `site`, ascending: their Voronoi cells share a facet with that of
+    /// `site`, or less where more than D + 1 sites lie on one empty sphere.
     ///
     /// # Panics
     /// If there is no such site.
@@ -112,10 +113,10 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
         }
     }
 
-    /// The simplices that would go if `q`, in the coordinates of the sites, were inserted. `first` is one of them.
+    /// The simplices that would go if `q` were inserted. `first` is one of them.
     fn cavity<G: Geometry<D, V>>(&self, q: [f64; D], first: u32) -> Vec<u32> {
         let simplices = self.triangulation.slots();
-        let site = |v: u32| self.triangulation.sites.coordinates[v as usize];
+        let site = |v: u32| self.triangulation.site(v);
         let mut cavity = vec![first];
         let mut seen = std::collections::HashSet::from([first]);
         let mut next = 0;
@@ -133,25 +134,24 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
 
     fn locate_by<G: Geometry<D, V>>(&self, point: [f64; D]) -> Location {
         let simplices = self.triangulation.slots();
-        let q = self.scaled(point);
         let Some(near) = self.nearest(point).filter(|_| !simplices.is_empty()) else {
-            return Location::Flat;
+            return Location::Nowhere;
         };
-        if self.triangulation.sites.coordinates[near as usize] == q {
+        if self.triangulation.site(near) == point {
             return Location::Site(near);
         }
-        // A visibility walk: step through any facet that q lies beyond. In a Delaunay triangulation it ends.
+        // A visibility walk: step through any facet that the point lies beyond. In a Delaunay triangulation it ends. It
+        // goes by the coordinates as they were given, as those of the point may not survive the scale of the sites.
         let mut here = self.at_site[near as usize];
         loop {
             let simplex = simplices[here as usize];
             if simplex.is_ghost() {
                 return Location::Outside(here);
             }
-            let corners =
-                simplex.vertices.map(|v| self.triangulation.sites.coordinates[v as usize]);
+            let corners = simplex.vertices.map(|v| self.triangulation.site(v));
             let beyond = (0..V).find(|&i| {
                 let mut with_q = corners;
-                with_q[i] = q;
+                with_q[i] = point;
                 G::orientation(with_q) == Sign::Negative
             });
             match beyond {
@@ -165,10 +165,10 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
         let first = match self.locate_by::<G>(point) {
             Location::Inside(t) | Location::Outside(t) => t,
             Location::Site(site) => return vec![site],
-            Location::Flat => return Vec::new(),
+            Location::Nowhere => return Vec::new(),
         };
         let simplices = self.triangulation.slots();
-        let cavity = self.cavity::<G>(self.scaled(point), first);
+        let cavity = self.cavity::<G>(point, first);
         let mut sites: Vec<u32> =
             cavity.iter().flat_map(|&t| simplices[t as usize].vertices).collect();
         sites.sort_unstable();
@@ -193,13 +193,14 @@ fn around<const W: usize>(simplices: &Slots<W>, t: u32, site: u32) -> Vec<u32> {
 macro_rules! questions {
     ($d:literal, $v:literal, $geometry:ty) => {
         impl Locator<'_, $d, $v> {
-            /// Where a point lies. Exact, for coordinates that can be scaled like those of the sites without loss.
+            /// Where a point lies: exact for any finite point. One walk of a few steps from the nearest site.
             pub fn locate(&self, point: [f64; $d]) -> Location {
                 self.locate_by::<$geometry>(point)
             }
 
-            /// The natural neighbours of a point: the sites whose Voronoi cells would lose to it, ascending. The site
-            /// itself if it is one; none if the sites do not span all dimensions.
+            /// The natural neighbours of a point: the sites it would be joined with if it were one, ascending. Their
+            /// Voronoi cells would lose to it, or nothing where many sites lie on one sphere. The site itself if the
+            /// point is one; none if it lies [`Nowhere`](Location::Nowhere).
             pub fn natural_neighbors(&self, point: [f64; $d]) -> Vec<u32> {
                 self.natural_neighbors_by::<$geometry>(point)
             }

@@ -70,13 +70,13 @@ macro_rules! interpolation {
         impl Locator<'_, $d, $v> {
             /// Sibson's coordinates of a point: its natural neighbours with the shares they lose to it; they sum to 1.
             ///
-            /// `None` outside the hull, where they mean nothing, and if the sites do not span all dimensions.
+            /// `None` outside the hull, where they mean nothing, and where it lies [`Nowhere`](Location::Nowhere).
             /// O(k²) cuts for k natural neighbours.
             pub fn natural_coordinates(&self, point: [f64; $d]) -> Option<Vec<(u32, f64)>> {
                 match self.locate(point) {
                     Location::Site(site) => return Some(vec![(site, 1.0)]),
                     Location::Inside(_) => {}
-                    Location::Outside(_) | Location::Flat => return None,
+                    Location::Outside(_) | Location::Nowhere => return None,
                 }
                 let sites = self.natural_neighbors(point);
                 let relative: Vec<[f64; $d]> = sites

@@ -1,4 +1,4 @@
-//! Four and eight numbers at a time, on x86-64: the one file of this crate with `unsafe` code.
+//! Four and eight numbers at a time, on x86-64: one of the two files of this crate with `unsafe` code.
 //!
 //! *Guarantee.* What is called here needs a processor that has the instructions, and a value of [`Avx2`] or [`Avx512`] is
 //! the proof: only asking the processor makes one. Addresses come from slices; the rows of a group are checked together.
