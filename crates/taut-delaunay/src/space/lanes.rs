@@ -13,8 +13,8 @@ use taut_predicates::Separate;
 
 use crate::kernel::{Settings, TooMany};
 
+use super::Mesh;
 use super::signs::{Scalar, Unfiltered};
-use super::{Mesh, Site};
 
 #[cfg(target_arch = "x86_64")]
 mod x86;
@@ -64,17 +64,5 @@ pub(super) fn insert(mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
         Level::Four(yes) => yes.insert(mesh, sites),
         #[cfg(target_arch = "x86_64")]
         Level::Eight(yes) => yes.insert(mesh, sites),
-    }
-}
-
-/// [`Mesh::find`], compiled for the level of the mesh.
-pub(super) fn find(mesh: &mut Mesh, q: &Site, hint: u32) {
-    match mesh.level {
-        Level::Unfiltered => mesh.find(Unfiltered, q, hint),
-        Level::Scalar => mesh.find(Scalar::<Separate>(PhantomData), q, hint),
-        #[cfg(target_arch = "x86_64")]
-        Level::Four(yes) => yes.find(mesh, q, hint),
-        #[cfg(target_arch = "x86_64")]
-        Level::Eight(yes) => yes.find(mesh, q, hint),
     }
 }

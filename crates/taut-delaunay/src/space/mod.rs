@@ -28,11 +28,15 @@ mod walk;
 #[cfg(target_arch = "x86_64")]
 mod whole;
 
+use std::marker::PhantomData;
+
+use taut_predicates::Separate;
+
 use crate::kernel::{Counters, Kernel, Settings, TooMany};
 use crate::simplex::{DEAD, GHOST, Simplex, code};
 use cavity::{Cavity, FACETS};
 use lanes::Level;
-use signs::{Judge, Signs};
+use signs::{Judge, Scalar, Signs, Unfiltered};
 use star::Star;
 
 /// The coordinates of a site, padded so that one aligned load fetches them.
@@ -169,8 +173,13 @@ impl Kernel<3, 4> for Mesh {
     }
 
     fn locate(&mut self, q: [f64; 3], hint: u32) -> u32 {
-        lanes::find(self, &Site::new(q), hint);
-        self.cavity.inside[0]
+        let q = &Site::new(q);
+        let Mesh { sites, simplices, judge, counters, level, .. } = self;
+        if matches!(level, Level::Unfiltered) {
+            walk::walk(Unfiltered, sites, simplices, judge, counters, q, hint)
+        } else {
+            walk::walk(Scalar::<Separate>(PhantomData), sites, simplices, judge, counters, q, hint)
+        }
     }
 
     fn finish(self) -> (Vec<Simplex<4>>, Option<Vec<[f64; 3]>>, Counters) {

@@ -40,16 +40,6 @@ impl Avx2 {
         // SAFETY: `self` proves that the processor has the features.
         unsafe { compiled(self, mesh, sites) }
     }
-
-    /// [`Mesh::find`], four numbers at a time.
-    pub(super) fn find(self, mesh: &mut Mesh, q: &Site, hint: u32) {
-        #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
-        fn compiled(yes: Avx2, mesh: &mut Mesh, q: &Site, hint: u32) {
-            mesh.find(yes, q, hint);
-        }
-        // SAFETY: `self` proves that the processor has the features.
-        unsafe { compiled(self, mesh, q, hint) }
-    }
 }
 
 impl Avx512 {
@@ -68,16 +58,6 @@ impl Avx512 {
         }
         // SAFETY: `self` proves that the processor has the features.
         unsafe { compiled(self, mesh, sites) }
-    }
-
-    /// [`Mesh::find`], eight numbers at a time.
-    pub(super) fn find(self, mesh: &mut Mesh, q: &Site, hint: u32) {
-        #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,bmi1,bmi2")]
-        fn compiled(yes: Avx512, mesh: &mut Mesh, q: &Site, hint: u32) {
-            mesh.find(yes, q, hint);
-        }
-        // SAFETY: `self` proves that the processor has the features.
-        unsafe { compiled(self, mesh, q, hint) }
     }
 }
 
