@@ -39,6 +39,8 @@ mod cells;
 mod error;
 mod flat;
 mod kernel;
+#[cfg(test)]
+mod numbers;
 mod options;
 mod plane;
 mod query;

@@ -5,7 +5,8 @@
 //! Guarantee: none on the result, which any order gives alike; random rounds have expected optimal cost for any input.
 //! Trap: a single round along the curve is quadratic on points of two skew lines, and half again as slow on uniform
 //! points, as the cavities of its moving front are large.
-//! Reference: Amenta, Choi, Rote, *Incremental constructions con BRIO*, 2003; the thesis, section 6.3.1 (Local RIC).
+//! Reference: Amenta, Choi, Rote, *Incremental constructions con BRIO*, 2003, for random rounds and
+//! for blocks of a random order that are located first (Local RIC).
 
 use taut_points::Monitor;
 

@@ -186,6 +186,7 @@ fn around_middle(mut corners: Vec<[f64; 3]>, normal: [f64; 3]) -> Vec<[f64; 3]> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numbers::numbers;
 
     #[test]
     fn cutting_a_box_in_half_halves_it() {
@@ -203,11 +204,8 @@ mod tests {
 
     #[test]
     fn two_halves_make_the_whole() {
-        let mut state = 5u64;
-        let mut next = || {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
-        };
+        let mut drawn = numbers(200 * 12 * 4, 5).into_iter().map(|x| x - 0.5);
+        let mut next = || drawn.next().expect("enough are drawn");
         for _ in 0..200 {
             let mut body = Polyhedron::from_box([-1.0; 3], [1.0; 3]);
             for _ in 0..12 {

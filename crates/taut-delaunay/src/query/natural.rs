@@ -113,29 +113,20 @@ interpolation!(3, 4, Polyhedron);
 
 #[cfg(test)]
 mod tests {
+    use crate::numbers::numbers;
     use crate::{DelaunayOptions, Plane, Space};
     use taut_points::{Monitor, Points};
 
-    fn numbers(count: usize) -> Vec<f64> {
-        let mut state = 23u64;
-        (0..count)
-            .map(|_| {
-                state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-                (state >> 11) as f64 / (1u64 << 53) as f64
-            })
-            .collect()
-    }
-
     #[test]
     fn linear_functions_are_reproduced() {
-        let values = numbers(1000);
+        let values = numbers(1000, 23);
         let points = Points::new(&values, 2).expect("whole rows");
         let plane =
             Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent()).expect("finite");
         let heights: Vec<f64> = values.chunks(2).map(|p| 3.0 * p[0] - 2.0 * p[1] + 0.5).collect();
         let locator = plane.locator();
         let mut inside = 0;
-        for q in numbers(400).chunks(2) {
+        for q in numbers(400, 24).chunks(2) {
             if let Some(height) = locator.interpolate(&heights, [q[0], q[1]]) {
                 inside += 1;
                 assert!((height - (3.0 * q[0] - 2.0 * q[1] + 0.5)).abs() < 1e-9, "{q:?}: {height}");
@@ -148,14 +139,14 @@ mod tests {
 
     #[test]
     fn linear_functions_are_reproduced_in_space() {
-        let values = numbers(1500);
+        let values = numbers(1500, 23);
         let points = Points::new(&values, 3).expect("whole rows");
         let space =
             Space::build(&points, &DelaunayOptions::default(), &Monitor::silent()).expect("finite");
         let heights: Vec<f64> = values.chunks(3).map(|p| 3.0 * p[0] - 2.0 * p[1] + p[2]).collect();
         let locator = space.locator();
         let mut inside = 0;
-        for q in numbers(300).chunks(3) {
+        for q in numbers(300, 24).chunks(3) {
             if let Some(height) = locator.interpolate(&heights, [q[0], q[1], q[2]]) {
                 inside += 1;
                 assert!(

@@ -46,18 +46,9 @@ impl Locator<'_, 3, 4> {
 
 #[cfg(test)]
 mod tests {
+    use crate::numbers::numbers;
     use crate::{DelaunayOptions, Plane, Space};
     use taut_points::{Monitor, Points};
-
-    fn numbers(count: usize) -> Vec<f64> {
-        let mut state = 11u64;
-        (0..count)
-            .map(|_| {
-                state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-                (state >> 11) as f64 / (1u64 << 53) as f64
-            })
-            .collect()
-    }
 
     /// The cells of all sites fill the box, whatever the sites span.
     #[test]
@@ -65,8 +56,8 @@ mod tests {
         let line: Vec<f64> =
             (0..20).flat_map(|i| [f64::from(i) * 0.05, f64::from(i) * 0.02]).collect();
         let flat: Vec<f64> =
-            numbers(80).chunks(2).flat_map(|p| [p[0], p[1], p[0] + p[1]]).collect();
-        for values in [numbers(600), line, vec![0.3, 0.4]] {
+            numbers(80, 11).chunks(2).flat_map(|p| [p[0], p[1], p[0] + p[1]]).collect();
+        for values in [numbers(600, 11), line, vec![0.3, 0.4]] {
             let points = Points::new(&values, 2).expect("whole rows");
             let plane = Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent())
                 .expect("finite");
@@ -76,7 +67,7 @@ mod tests {
             let area: f64 = cells.map(|cell| cell.area()).sum();
             assert!((area - 12.0).abs() < 1e-12, "{area}");
         }
-        for values in [numbers(900), flat] {
+        for values in [numbers(900, 11), flat] {
             let points = Points::new(&values, 3).expect("whole rows");
             let space = Space::build(&points, &DelaunayOptions::default(), &Monitor::silent())
                 .expect("finite");
