@@ -15,6 +15,8 @@ mod geometry;
 mod index;
 mod reach;
 
+use std::sync::atomic::AtomicBool;
+
 use rayon::prelude::*;
 use taut_points::Monitor;
 
@@ -29,9 +31,12 @@ use cell::{Cell, Whole};
 use index::LEAF;
 
 /// A cell has at least this many sites of its own, unless more cells are asked for: below, halos outweigh it.
-pub(crate) const CELL_AT_LEAST: usize = 1 << 14;
+pub(crate) const fn cell_at_least(d: usize) -> usize {
+    if d == 2 { 1 << 14 } else { 1 << 16 }
+}
 
-/// The triangulation of all sites by `cells` cells, on the current rayon pool.
+/// The triangulation of all sites by `cells` cells, on the current rayon pool. `None` if cells are of no use, as the
+/// sphere of almost every simplex touches most sites.
 pub(crate) fn triangulate<const D: usize, const V: usize, G: Geometry<D, V>>(
     sites: &[[f64; D]],
     cells: usize,
@@ -39,19 +44,20 @@ pub(crate) fn triangulate<const D: usize, const V: usize, G: Geometry<D, V>>(
     settings: Settings,
     order: (InsertionOrder, u64),
     monitor: &Monitor<'_>,
-) -> Result<(Slots<V>, Counters), Error> {
+) -> Result<Option<(Slots<V>, Counters)>, Error> {
     let index = Index::build(sites);
-    let whole = Whole { sites, index: &index, start, settings, order };
+    let hopeless = AtomicBool::new(false);
+    let whole = Whole { sites, index: &index, start, settings, order, hopeless: &hopeless };
     let leaves = sites.len().div_ceil(LEAF);
     let cells = cells.clamp(1, leaves);
     let cut = |k: usize| (leaves * k / cells * LEAF).min(sites.len()) as u32;
-    let done: Result<Vec<Cell<V>>, Error> = (0..cells)
+    let done: Result<Vec<Option<Cell<V>>>, Error> = (0..cells)
         .into_par_iter()
         .with_max_len(1)
         .map(|k| whole.triangulate::<G>(cut(k)..cut(k + 1), monitor))
         .collect();
-    let done = done?;
+    let Some(done) = done?.into_iter().collect::<Option<Vec<Cell<V>>>>() else { return Ok(None) };
     let mut counters = Counters::default();
     done.iter().for_each(|cell| counters += cell.counters);
-    Ok((emit::join(done)?, counters))
+    Ok(Some((emit::join(done)?, counters)))
 }

@@ -3,7 +3,7 @@
 use taut_points::{Monitor, Points, Scalar};
 
 use crate::affine::{Span, apex, span_of_plane, span_of_space};
-use crate::cells::{self, CELL_AT_LEAST, Geometry, InPlane, InSpace};
+use crate::cells::{self, Geometry, InPlane, InSpace};
 use crate::flat::star_of_apex;
 use crate::kernel::{Counters, Kernel, Settings};
 use crate::plane::constrained::{Constrained, ConstraintError, Segment, constrain};
@@ -181,13 +181,18 @@ fn along_line<const D: usize>(sites: &Sites<D>) -> Vec<u32> {
 }
 
 /// How many cells to cut the sites into.
-fn cells_for(sites: usize, settings: Settings, options: &DelaunayOptions) -> Result<usize, Error> {
+fn cells_for(
+    sites: usize,
+    least: usize,
+    settings: Settings,
+    options: &DelaunayOptions,
+) -> Result<usize, Error> {
     match options.cells {
         Some(0) => Err(Error::Option { name: "cells", value: "0".into(), expected: "at least 1" }),
         // What cannot be filtered cannot be bounded by boxes either.
         _ if !settings.filtered => Ok(1),
         Some(cells) => Ok(cells),
-        None => Ok(rayon::current_num_threads().min((sites / CELL_AT_LEAST).max(1))),
+        None => Ok(rayon::current_num_threads().min((sites / least).max(1))),
     }
 }
 
@@ -198,17 +203,14 @@ fn full<const D: usize, const V: usize, G: Geometry<D, V>>(
     monitor: &Monitor<'_>,
 ) -> Result<Built<V>, Error> {
     let order = (options.order, options.seed);
-    let cells = cells_for(sites.len(), sites.settings, options)?;
+    let cells = cells_for(sites.len(), cells::cell_at_least(D), sites.settings, options)?;
     if cells > 1 {
-        let (slots, counters) = cells::triangulate::<D, V, G>(
-            &sites.coordinates,
-            cells,
-            start,
-            sites.settings,
-            order,
-            monitor,
-        )?;
-        return Ok(Built { complex: Complex::Full, slots, counters });
+        let whole = &sites.coordinates;
+        let joined =
+            cells::triangulate::<D, V, G>(whole, cells, start, sites.settings, order, monitor)?;
+        if let Some((slots, counters)) = joined {
+            return Ok(Built { complex: Complex::Full, slots, counters });
+        }
     }
     // The kernel takes the coordinates, so that they are there once; what it does not give back is gathered again.
     let mut mesh = G::Mesh::new(std::mem::take(&mut sites.coordinates), sites.settings);

@@ -7,12 +7,16 @@
 //! Guarantee: at the end no site of the whole set conflicts with a simplex at an own site, ghosts included, so the
 //! stars of the own sites are those of the triangulation of all sites: exact, ties included, for any halo.
 //! Trap: a halo of fixed width is never enough. At the hull there are slivers with spheres of any size.
+//! Trap: where every sphere touches most sites (points on a circle), a cell would ask about all sites for each simplex
+//! it makes. It gives up after a number of questions, and the whole is triangulated in one.
 //! The halo is the second of the three functions of the cells (assign), this module the third (triangulate).
 
 use std::collections::HashSet;
 use std::ops::{Index as At, Range};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use taut_points::Monitor;
+use taut_predicates::Sign;
 
 use super::clean::Clean;
 use super::geometry::{Geometry, conflicts, corners};
@@ -36,6 +40,17 @@ const SCATTERED: usize = 512;
 /// How far a leaf looks for sites that were left out, in multiples of its extent.
 const CLEARANCE_EXTENTS: f64 = 2.0;
 
+/// A cell gives up if more than one simplex in so many is doubtful: on uniform points it is one in a hundred at most, on
+/// a circle or a sphere, where every sphere touches all sites, more than one in three.
+const DOUBTFUL_SHARE: usize = 10;
+
+/// Sites that a cell may ask about for each of its own before it gives up: on uniform points it asks about one for fifty
+/// in the plane and two in space, in clusters about eight in space.
+const QUESTIONS_EACH: u64 = 64;
+
+/// Most sites that one leaf may add to the halo: the box of a sparse leaf may lie over all of a dense cell.
+const HALO_EACH: usize = 4 * LEAF;
+
 /// What all cells know.
 pub(crate) struct Whole<'a, const D: usize, const V: usize> {
     pub(crate) sites: &'a [[f64; D]],
@@ -44,6 +59,8 @@ pub(crate) struct Whole<'a, const D: usize, const V: usize> {
     pub(crate) start: [u32; V],
     pub(crate) settings: Settings,
     pub(crate) order: (InsertionOrder, u64),
+    /// Set by the first cell that gives up.
+    pub(crate) hopeless: &'a AtomicBool,
 }
 
 /// A cell with the stars of its own sites complete.
@@ -80,12 +97,13 @@ impl SiteSet {
 }
 
 impl<const D: usize, const V: usize> Whole<'_, D, V> {
-    /// Triangulates the cell of the sites `own`, which begin and end at leaves of the index.
+    /// Triangulates the cell of the sites `own`, which begin and end at leaves of the index. `None` if this or another
+    /// cell gave up, as it depends on most of the other sites.
     pub(crate) fn triangulate<G: Geometry<D, V>>(
         &self,
         own: Range<u32>,
         monitor: &Monitor<'_>,
-    ) -> Result<Cell<V>, Error> {
+    ) -> Result<Option<Cell<V>>, Error> {
         let mut here = SiteSet(vec![0; self.sites.len().div_ceil(LEAF)]);
         for leaf in own.start as usize / LEAF..(own.end as usize).div_ceil(LEAF) {
             here.0[leaf] = u64::MAX;
@@ -118,11 +136,14 @@ impl<const D: usize, const V: usize> Whole<'_, D, V> {
             clearance,
             clean,
             mesh,
+            questions: 0,
             open: vec![],
         };
-        cell.certify(&own_local, monitor)?;
+        if !cell.certify(&own_local, monitor)? {
+            return Ok(None);
+        }
         let (simplices, _, counters) = cell.mesh.finish();
-        Ok(Cell { own, sites: cell.sites, own_local, simplices, counters })
+        Ok(Some(Cell { own, sites: cell.sites, own_local, simplices, counters }))
     }
 
     /// Adds the start simplex, sites evenly along the curve, and the extreme sites in some directions.
@@ -179,13 +200,15 @@ impl<const D: usize, const V: usize> Whole<'_, D, V> {
             let near = |index: &Index<D>, node| {
                 !self.is_own(own, node) && index.bounds(node).distance_squared(&bounds) <= width
             };
+            let mut added = 0;
             self.index.visit(&mut open, near, |other| {
                 for site in here.missing(other, self.index.run(other)) {
                     if bounds.distance_squared_to(self.sites[site as usize]) <= width {
                         here.insert(site);
+                        added += 1;
                     }
                 }
-                false
+                added >= HALO_EACH
             });
         }
     }
@@ -237,21 +260,34 @@ struct Certifying<'a, const D: usize, const V: usize, G: Geometry<D, V>> {
     clearance: Vec<f64>,
     clean: Clean,
     mesh: G::Mesh,
+    /// Sites that simplices were held against.
+    questions: u64,
     /// Scratch of queries.
     open: Vec<Node>,
 }
 
 impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> {
-    fn certify(&mut self, own: &Range<u32>, monitor: &Monitor<'_>) -> Result<(), Error> {
+    /// Completes the stars of the own sites; false if that was given up.
+    fn certify(&mut self, own: &Range<u32>, monitor: &Monitor<'_>) -> Result<bool, Error> {
+        let most = QUESTIONS_EACH * u64::from(own.end - own.start);
         let mut doubtful: Vec<(u32, [u32; V])> = Vec::new();
         for t in 0..self.mesh.simplices().len() as u32 {
             doubtful.extend(self.doubt(own, t));
+        }
+        if doubtful.len() > self.mesh.simplices().len() / DOUBTFUL_SHARE {
+            self.whole.hopeless.store(true, Ordering::Relaxed);
         }
         let mut star = Vec::new();
         while let Some((t, vertices)) = doubtful.pop() {
             // An insertion in the meantime may have replaced it.
             if self.mesh.simplices()[t as usize].vertices != vertices {
                 continue;
+            }
+            if self.questions > most {
+                self.whole.hopeless.store(true, Ordering::Relaxed);
+            }
+            if self.whole.hopeless.load(Ordering::Relaxed) {
+                return Ok(false);
             }
             let Some(site) = self.conflicting(t) else { continue };
             self.here.insert(site);
@@ -262,7 +298,7 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
             doubtful.extend(star.iter().filter_map(|&t| self.doubt(own, t)));
             monitor.check()?;
         }
-        Ok(())
+        Ok(true)
     }
 
     /// Slot `t` with its vertices if it holds a simplex at an own site that may reach a site that was left out.
@@ -302,19 +338,42 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
         let simplices = self.mesh.simplices();
         let vertices = simplices[t as usize].vertices;
         let site = |v: u32| self.whole.sites[self.sites[v as usize] as usize];
-        let reach: Reach<D> = match vertices.iter().position(|&v| v == GHOST) {
+        let infinity = vertices.iter().position(|&v| v == GHOST);
+        let reach: Reach<D> = match infinity {
             None => G::reach(vertices.map(site)),
             Some(apex) => G::reach_beyond(corners(vertices, site, [0.0; D]), apex),
         };
+        // What lies on the plane of a hull facet is up to the simplex behind it. Without that, each facet of the hull of
+        // a grid would ask about all of its side.
+        let behind = infinity.map(|apex| {
+            let (behind, _) = decode(simplices[t as usize].neighbors[apex]);
+            (apex, G::reach(simplices[behind as usize].vertices.map(site)))
+        });
         let index = self.whole.index;
         let mut found: Option<(f64, u32)> = None;
+        let mut questions = 0;
         let keep = |index: &Index<D>, node| {
             let bounds = index.bounds(node);
-            !self.whole.is_own(&self.own, node) && reach.most(bounds.low, bounds.high) >= 0.0
+            if self.whole.is_own(&self.own, node) || reach.most(bounds.low, bounds.high) < 0.0 {
+                return false;
+            }
+            let Some((apex, behind)) = &behind else { return true };
+            let mut with_corner = corners(vertices, site, [0.0; D]);
+            let mut on_plane = false;
+            for corner in reach.foremost(bounds.low, bounds.high) {
+                with_corner[*apex] = corner;
+                match G::orientation(with_corner) {
+                    Sign::Positive => return true,
+                    Sign::Negative => {}
+                    Sign::Zero => on_plane = true,
+                }
+            }
+            on_plane && behind.most(bounds.low, bounds.high) >= 0.0
         };
         let mut open = std::mem::take(&mut self.open);
         index.visit(&mut open, keep, |leaf| {
             for other in self.here.missing(leaf, index.run(leaf)) {
+                questions += 1;
                 let q = self.whole.sites[other as usize];
                 let depth = reach.depth(q);
                 if found.is_none_or(|(deepest, _)| depth > deepest)
@@ -326,6 +385,7 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
             found.is_some()
         });
         self.open = open;
+        self.questions += questions;
         found.map(|(_, site)| site)
     }
 }

@@ -95,6 +95,24 @@ impl<const D: usize> Reach<D> {
         most + slack
     }
 
+    /// The corners of the box one of which is where a half-space's form is largest: one, or more where rounding leaves
+    /// open which way the half-space faces along an axis.
+    pub(crate) fn foremost(&self, low: [f64; D], high: [f64; D]) -> impl Iterator<Item = [f64; D]> {
+        // A component of the normal is a difference in the plane, two products of two differences in space.
+        let doubt = if D == 2 { 0.0 } else { self.size * self.size * 16.0 * f64::EPSILON };
+        let beta = self.beta;
+        (0..1 << D)
+            .filter(move |code| {
+                (0..D).all(|i| {
+                    let up = code >> i & 1 == 1;
+                    beta[i].abs() <= doubt || up == (beta[i] > 0.0)
+                })
+            })
+            .map(move |code: usize| {
+                std::array::from_fn(|i| if code >> i & 1 == 1 { high[i] } else { low[i] })
+            })
+    }
+
     /// The form at `q`, rounding not included: larger is deeper inside.
     pub(crate) fn depth(&self, q: [f64; D]) -> f64 {
         let q = difference(q, self.origin);
