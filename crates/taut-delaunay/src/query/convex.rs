@@ -57,6 +57,8 @@ pub(crate) trait Body<const D: usize>: Clone {
     fn from_box(low: [f64; D], high: [f64; D]) -> Self;
     /// Cuts off what is outside.
     fn cut(&mut self, by: &HalfSpace<D>);
+    /// With each corner moved.
+    fn map(self, to: impl Fn([f64; D]) -> [f64; D]) -> Self;
     /// Whether nothing is left.
     fn is_empty(&self) -> bool;
     /// Area or volume.
@@ -84,6 +86,11 @@ impl Body<2> for Polygon {
 
     fn cut(&mut self, by: &HalfSpace<2>) {
         self.corners = cut_loop(&self.corners, by, &mut Vec::new());
+    }
+
+    fn map(mut self, to: impl Fn([f64; 2]) -> [f64; 2]) -> Self {
+        self.corners.iter_mut().for_each(|corner| *corner = to(*corner));
+        self
     }
 
     fn is_empty(&self) -> bool {
@@ -136,6 +143,11 @@ impl Body<3> for Polyhedron {
         if border.len() > 2 {
             self.faces.push(around_middle(border, by.normal));
         }
+    }
+
+    fn map(mut self, to: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
+        self.faces.iter_mut().flatten().for_each(|corner| *corner = to(*corner));
+        self
     }
 
     fn is_empty(&self) -> bool {

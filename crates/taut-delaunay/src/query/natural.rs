@@ -9,6 +9,7 @@
 
 use super::convex::{Body, HalfSpace, Polygon, Polyhedron};
 use super::locator::{Location, Locator};
+use crate::vector::{difference, largest};
 
 /// The box grows by this factor until the cell keeps clear of it.
 const GROWTH: f64 = 16.0;
@@ -39,7 +40,10 @@ impl Touches<3> for Polyhedron {
 
 /// The shares that sites at `neighbors` lose to a new site at 0.
 fn weights<const D: usize, B: Touches<D>>(neighbors: &[[f64; D]]) -> Vec<f64> {
-    let mut half = 4.0 * neighbors.iter().flatten().fold(0.0, |h: f64, x| h.max(x.abs()));
+    // Blown up to size 1, so that volumes are neither 0 nor infinite.
+    let size = largest(neighbors);
+    let neighbors: Vec<[f64; D]> = neighbors.iter().map(|n| n.map(|x| x / size)).collect();
+    let mut half = 4.0;
     let mut taken = B::from_box([-half; D], [half; D]);
     for _ in 0..GROWTHS {
         taken = B::from_box([-half; D], [half; D]);
@@ -79,13 +83,12 @@ macro_rules! interpolation {
                     Location::Outside(_) | Location::Nowhere => return None,
                 }
                 let sites = self.natural_neighbors(point);
-                let relative: Vec<[f64; $d]> = sites
-                    .iter()
-                    .map(|&s| {
-                        let p = self.triangulation.site(s);
-                        std::array::from_fn(|i| p[i] - point[i])
-                    })
-                    .collect();
+                // Inside the hull the scale of the sites does the point no harm.
+                let scale = self.triangulation.scale();
+                let here = point.map(|x| scale.apply(x));
+                let site =
+                    |&s: &u32| difference(self.triangulation.sites.coordinates[s as usize], here);
+                let relative: Vec<[f64; $d]> = sites.iter().map(site).collect();
                 Some(sites.into_iter().zip(weights::<$d, $body>(&relative)).collect())
             }
 
@@ -135,6 +138,27 @@ mod tests {
         assert!(inside > 150);
         assert_eq!(locator.interpolate(&heights, [values[0], values[1]]), Some(heights[0]));
         assert_eq!(locator.interpolate(&heights, [2.0, 2.0]), None);
+    }
+
+    #[test]
+    fn weights_are_the_same_at_any_scale() {
+        let values = numbers(300, 23);
+        let weights_at = |scale: f64| {
+            let scaled: Vec<f64> = values.iter().map(|x| x * scale).collect();
+            let points = Points::new(&scaled, 3).expect("whole rows");
+            let space = Space::build(&points, &DelaunayOptions::default(), &Monitor::silent())
+                .expect("finite");
+            space
+                .locator()
+                .natural_coordinates([0.5 * scale, 0.4 * scale, 0.6 * scale])
+                .expect("inside")
+        };
+        let expected = weights_at(1.0);
+        for scale in [2f64.powi(-1000), 2f64.powi(-300), 2f64.powi(300), 2f64.powi(1000)] {
+            for ((s, w), (t, v)) in weights_at(scale).into_iter().zip(&expected) {
+                assert!(s == *t && (w - v).abs() < 1e-12, "{scale}");
+            }
+        }
     }
 
     #[test]

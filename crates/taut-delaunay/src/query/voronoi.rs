@@ -6,17 +6,30 @@
 
 use super::convex::{Body, HalfSpace, Polygon, Polyhedron};
 use super::locator::Locator;
+use crate::Triangulation;
+use crate::vector::difference;
+
+/// Farther than any site in the scale of the sites; boxes that reach beyond are cut off here, so that products stay
+/// finite.
+const FAR: f64 = (1u64 << 50) as f64;
 
 impl<const D: usize, const V: usize> Locator<'_, D, V> {
-    /// Cuts `body` down to what is nearer to `site` than to any other site.
-    fn cut_to_cell<B: Body<D>>(&self, site: u32, mut body: B) -> B {
-        let here = self.triangulation.site(site);
+    /// What of the box is nearer to `site` than to any other site. In the scale of the sites and relative to `site`, as
+    /// products of coordinates as they are given may leave the range of `f64`.
+    fn cell<B: Body<D>>(&self, site: u32, low: [f64; D], high: [f64; D]) -> B {
+        let Triangulation { sites, .. } = self.triangulation;
+        let here = sites.coordinates[site as usize];
+        let relative =
+            |p: [f64; D]| difference(p.map(|x| sites.scale.apply(x).clamp(-FAR, FAR)), here);
+        let mut body = B::from_box(relative(low), relative(high));
         for other in self.adjacent(site) {
             if !body.is_empty() {
-                body.cut(&HalfSpace::nearer_to(here, self.triangulation.site(other)));
+                let there = difference(sites.coordinates[other as usize], here);
+                body.cut(&HalfSpace::nearer_to([0.0; D], there));
             }
         }
-        body
+        let back = sites.scale.inverse();
+        body.map(|p| std::array::from_fn(|i| back.apply(p[i] + here[i])))
     }
 }
 
@@ -28,7 +41,7 @@ impl Locator<'_, 2, 3> {
     /// # Panics
     /// If there is no such site.
     pub fn voronoi_cell(&self, site: u32, low: [f64; 2], high: [f64; 2]) -> Polygon {
-        self.cut_to_cell(site, Polygon::from_box(low, high))
+        self.cell(site, low, high)
     }
 }
 
@@ -40,15 +53,35 @@ impl Locator<'_, 3, 4> {
     /// # Panics
     /// If there is no such site.
     pub fn voronoi_cell(&self, site: u32, low: [f64; 3], high: [f64; 3]) -> Polyhedron {
-        self.cut_to_cell(site, Polyhedron::from_box(low, high))
+        self.cell(site, low, high)
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::Polygon;
     use crate::numbers::numbers;
     use crate::{DelaunayOptions, Plane, Space};
     use taut_points::{Monitor, Points};
+
+    /// Cells have the same shape at any scale.
+    #[test]
+    fn cells_of_extreme_scales_are_the_same() {
+        let values = numbers(300, 12);
+        let area_in = |scale: f64| {
+            let scaled: Vec<f64> = values.iter().map(|x| x * scale).collect();
+            let points = Points::new(&scaled, 2).expect("whole rows");
+            let plane = Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent())
+                .expect("finite");
+            let cell = plane.locator().voronoi_cell(7, [0.0; 2], [scale; 2]);
+            assert!(cell.corners.len() > 2);
+            Polygon { corners: cell.corners.iter().map(|p| p.map(|x| x / scale)).collect() }.area()
+        };
+        let expected = area_in(1.0);
+        for scale in [1e-300, 1e-150, 1e150, 1e300] {
+            assert!((area_in(scale) / expected - 1.0).abs() < 1e-9, "{scale}");
+        }
+    }
 
     /// The cells of all sites fill the box, whatever the sites span.
     #[test]
