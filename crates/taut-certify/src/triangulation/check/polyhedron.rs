@@ -242,7 +242,7 @@ impl Surface<'_> {
 
 #[cfg(test)]
 mod tests {
-    use taut_points::{Monitor, Points};
+    use taut_points::{Monitor, Points, Scratch};
 
     use super::super::sites::Input;
     use super::*;
@@ -252,7 +252,8 @@ mod tests {
         let mut values = vec![0.0, 0.0, -9.0, 0.0, 0.0, 9.0];
         values.extend(ring.iter().flat_map(|&[x, y]| [x, y, 0.0]));
         let points = Points::new(&values, 3).unwrap();
-        let input = Input::<3>::read(&points, &Monitor::silent()).unwrap();
+        let mut scratch = Scratch::new();
+        let input = Input::<3>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
         let simplices: Vec<u32> = edges.iter().flat_map(|&[a, b]| [a + 2, b + 2, 0, 1]).collect();
         let (sites, simplices) = Sites::of(&input, &simplices, 4).unwrap();
         let tetrahedra: &[[u32; 4]] = simplices.as_chunks().0;
@@ -297,7 +298,8 @@ mod tests {
             .collect();
         let values = leaning.as_flattened();
         let points = Points::new(values, 3).unwrap();
-        let input = Input::<3>::read(&points, &Monitor::silent()).unwrap();
+        let mut scratch = Scratch::new();
+        let input = Input::<3>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
         let simplices: Vec<u32> = star.iter().flat_map(|&[a, b]| [a + 2, b + 2, 0, 1]).collect();
         let (sites, simplices) = Sites::of(&input, &simplices, 4).unwrap();
         let tetrahedra: &[[u32; 4]] = simplices.as_chunks().0;
