@@ -49,6 +49,9 @@ impl Ring for Sized {
 /// Added to every bound for what underflows.
 pub(super) const UNDERFLOW: f64 = f64::from_bits((1023 - 1000) << 52);
 
+/// Most differences in a determinant.
+const MOST: usize = 4;
+
 /// What is known of all coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Signs {
@@ -127,8 +130,7 @@ impl Signs {
         double: impl Fn(&[[DoubleDouble; D]]) -> DoubleDouble,
         exact: impl Fn(&[[Integer; D]]) -> Integer,
     ) -> Ordering {
-        const MOST: usize = 4;
-        let count = points.len();
+        let (count, mut size) = (points.len(), 0.0);
         if self.is_filtered {
             let mut differences = [[0.0; D]; MOST];
             let mut max = [0.0f64; D];
@@ -139,7 +141,7 @@ impl Signs {
                 }
             }
             let value = plain(&differences[..count]);
-            let size = volume(&max);
+            size = volume(&max);
             if value.abs() > bounds.rounding * size + UNDERFLOW {
                 return sign_of(value);
             }
@@ -155,7 +157,31 @@ impl Signs {
                 let integers = differences.map(|row| row.map(|x| (x / self.quantum) as i128));
                 return whole(&integers[..count]).cmp(&0);
             }
-            let with_sums = differences.map(|row| row.map(|x| Sized { value: x, sum: x.abs() }));
+        }
+        self.fine_sign(origin, points, bounds, size, sized, double, exact)
+    }
+
+    /// Stages 4 to 6. Apart from the others, which would be slower for the room that these take.
+    #[inline(never)]
+    fn fine_sign<const D: usize>(
+        &self,
+        origin: &[f64; D],
+        points: &[[f64; D]],
+        bounds: &Bounds,
+        size: f64,
+        sized: impl Fn(&[[Sized; D]]) -> Sized,
+        double: impl Fn(&[[DoubleDouble; D]]) -> DoubleDouble,
+        exact: impl Fn(&[[Integer; D]]) -> Integer,
+    ) -> Ordering {
+        let count = points.len();
+        if self.is_filtered {
+            let mut with_sums = [[Sized { value: 0.0, sum: 0.0 }; D]; MOST];
+            for (difference, point) in with_sums.iter_mut().zip(points) {
+                for k in 0..D {
+                    let value = point[k] - origin[k];
+                    difference[k] = Sized { value, sum: value.abs() };
+                }
+            }
             let Sized { value, sum } = sized(&with_sums[..count]);
             if value.abs() > bounds.rounding_of_sum * sum + UNDERFLOW {
                 return sign_of(value);

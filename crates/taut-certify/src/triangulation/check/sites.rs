@@ -20,6 +20,9 @@ use crate::{CheckError, Violation};
 /// Stands for rows that are no vertex.
 pub(super) const NO_SITE: u32 = u32::MAX;
 
+/// Ids looked up at a time: as many as a core can await from memory, and more.
+const TOUCHED: usize = 128;
+
 /// All rows.
 pub(super) struct Input<'a, const D: usize> {
     rows: Rows<'a>,
@@ -238,22 +241,23 @@ impl<const D: usize> Sites<D> {
         let mut rows = vec![0; n + 1];
         let mut count = 0u32;
         let mut named = simplices.to_vec();
-        for (place, id) in named.iter_mut().enumerate() {
-            let Some(site) = sites.get_mut(*id as usize) else {
-                return Err(MeshViolation::Id {
-                    list: "simplices",
-                    position: place / width,
-                    id: *id,
-                });
-            };
-            // Nobody can foretell whether a site is new. As no branch depends on it, the accesses to memory of many ids
-            // are under way at the same time.
-            let is_new = u32::from(*site == NO_SITE);
-            let number = *site ^ ((*site ^ count) & 0u32.wrapping_sub(is_new));
-            rows[count as usize] = *id;
-            count += is_new;
-            *site = number;
-            *id = number;
+        for (block, ids) in named.chunks_mut(TOUCHED).enumerate() {
+            // Touched in a loop of nothing else, many are on their way from memory at the same time.
+            let touch = |all: u32, &id: &u32| all ^ sites.get(id as usize).copied().unwrap_or(0);
+            std::hint::black_box(ids.iter().fold(0, touch));
+            for (place, id) in ids.iter_mut().enumerate() {
+                let Some(site) = sites.get_mut(*id as usize) else {
+                    let position = (block * TOUCHED + place) / width;
+                    return Err(MeshViolation::Id { list: "simplices", position, id: *id });
+                };
+                // Nobody can foretell whether a site is new, so no branch depends on it.
+                let is_new = u32::from(*site == NO_SITE);
+                let number = *site ^ ((*site ^ count) & 0u32.wrapping_sub(is_new));
+                rows[count as usize] = *id;
+                count += is_new;
+                *site = number;
+                *id = number;
+            }
         }
         rows.truncate(count as usize);
         // One visit to each row, in no order that a processor foresees, with nothing else to do meanwhile.
