@@ -56,7 +56,7 @@ mod prove;
 mod signs;
 mod sites;
 
-use taut_points::{Monitor, PointSource};
+use taut_points::{Monitor, PointSource, Scratch};
 
 use self::prove::Claim;
 use self::sites::Input;
@@ -85,9 +85,10 @@ pub(super) fn check(
         neighbors: &certificate.neighbors,
         lists: Some((&answer.hull, &answer.duplicates)),
     };
+    let mut scratch = Scratch::new();
     let verdict = match found {
-        2 => prove::plane(&read(certificate, source, monitor)?, &claim)?,
-        _ => prove::space(&read(certificate, source, monitor)?, &claim)?,
+        2 => prove::plane(&read(certificate, source, &mut scratch, monitor)?, &claim)?,
+        _ => prove::space(&read(certificate, source, &mut scratch, monitor)?, &claim)?,
     };
     counts(&certificate.counts, &verdict.counts)?;
     if verdict.fingerprint == certificate.fingerprint {
@@ -125,12 +126,13 @@ fn lengths(
 }
 
 /// The rows, if they are those the certificate speaks of.
-fn read<const D: usize>(
+fn read<'a, const D: usize>(
     certificate: &TriangulationCertificate,
-    source: &dyn PointSource,
+    source: &'a dyn PointSource,
+    scratch: &'a mut Scratch,
     monitor: &Monitor<'_>,
-) -> Result<Input<D>, CheckError> {
-    let input = Input::<D>::read(source, monitor)?;
+) -> Result<Input<'a, D>, CheckError> {
+    let input = Input::<D>::read(source, scratch, monitor)?;
     if input.hash == certificate.points_hash {
         return Ok(input);
     }

@@ -1,19 +1,37 @@
 //! Facets: how the simplices pair up across them, which way they face, and whether each pair is locally Delaunay.
+//!
+//! *Idea.* Each inner facet is visited once, from the simplex with the smaller number. Which facets those are, and which
+//! of its vertices a neighbour has beyond one, nobody can foretell; so a batch of simplices is taken in three rounds,
+//! none of which has a branch that is guessed wrong often:
+//! 1. for each simplex N, O and a list of its facets that name a later simplex ([`Batch::prepare`]);
+//! 2. for each of these the neighbour and the in-sphere test in plain arithmetic ([`Batch::cross`]);
+//! 3. for what 2 left open, the same step by step and exactly ([`Complex::settle`]): also all that is wrong.
+//!
+//! The memory accesses of one round do not wait for each other.
+
+use std::cmp::Ordering;
 
 use rayon::prelude::*;
 
 use super::super::{Fingerprint, MeshViolation, NO_NEIGHBOR};
 use super::geometry::{Geometry, Lifted};
 use super::signs::{Signs, UNDERFLOW};
-use super::sites::Sites;
+use super::sites::{NO_SITE, Sites};
 
 /// Simplices in a block of work.
 const BLOCK: usize = 1 << 13;
+
+/// Simplices that go through the rounds together: what is known of them stays in the nearest cache.
+const BATCH: usize = 128;
 
 /// Facet i of a simplex as seen from outside: its vertices in positive order.
 pub(super) trait Facets<const F: usize> {
     /// The vertices of facet `i`, in positive order.
     fn facet(&self, i: usize) -> [u32; F];
+
+    /// The vertex of `other` beyond `face`, and 0 if `back`, the neighbours of `other`, has `number` opposite just that
+    /// vertex; if not, or if `number` stands there twice, some number and one that is not 0.
+    fn beyond(face: &[u32; F], other: &Self, back: &Self, number: u32) -> (u32, u32);
 
     /// Whether two facets are one, seen from its two sides: whether an odd permutation takes one to the other.
     fn are_opposite(f: &[u32; F], g: &[u32; F]) -> bool;
@@ -28,6 +46,15 @@ impl Facets<2> for [u32; 3] {
     }
 
     #[inline(always)]
+    fn beyond(&[a, b]: &[u32; 2], other: &Self, back: &Self, number: u32) -> (u32, u32) {
+        let off =
+            |i: usize, j: usize, k: usize| (back[i] ^ number) | (other[j] ^ b) | (other[k] ^ a);
+        // What is left of three numbers when two of them are taken away.
+        let rest = other[0] ^ other[1] ^ other[2] ^ a ^ b;
+        (rest, off(0, 1, 2).min(off(1, 2, 0)).min(off(2, 0, 1)))
+    }
+
+    #[inline(always)]
     fn are_opposite(&[a, b]: &[u32; 2], g: &[u32; 2]) -> bool {
         *g == [b, a]
     }
@@ -39,6 +66,16 @@ impl Facets<3> for [u32; 4] {
         const PLACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
         let [a, b, c] = PLACES[i];
         [self[a], self[b], self[c]]
+    }
+
+    #[inline(always)]
+    fn beyond(&[a, b, c]: &[u32; 3], other: &Self, back: &Self, number: u32) -> (u32, u32) {
+        let at = |place: usize| usize::from(back[place] == number);
+        let place = (at(1) + 2 * at(2) + 3 * at(3)) & 3;
+        let g = other.facet(place);
+        let off = |x, y, z| (g[0] ^ x) | (g[1] ^ y) | (g[2] ^ z);
+        let turned = off(a, c, b).min(off(c, b, a)).min(off(b, a, c));
+        (other[place], (back[place] ^ number) | turned)
     }
 
     #[inline(always)]
@@ -111,53 +148,63 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
     where
         [u32; V]: Facets<F>,
     {
-        let mut block = Paired::default();
-        for (number, simplex) in (first..).zip(simplices) {
-            block
-                .fingerprint
-                .add(std::array::from_fn::<_, V, _>(|i| self.sites.hashes[simplex[i] as usize]));
-            let points = self.sites.gather(simplex);
-            let prepared = Prepared::<D>::of::<G, V>(&points);
-            if !(self.signs.is_filtered && prepared.is_positive::<G, V>()) {
-                block.refined += 1;
-                if self.signs.orientation::<G, D, V>(&points).is_le() {
-                    return Err(MeshViolation::Orientation { simplex: number });
-                }
-            }
-            // Which facets name a later simplex nobody can foretell, so no branch depends on it.
-            let neighbors = &self.neighbors[number];
-            let (mut later, mut count) = ([0; V], 0);
-            for facet in 0..V {
-                later[count] = facet;
-                count += usize::from(neighbors[facet] as usize >= number);
-            }
-            block.behind += (V - count) as u64;
-            for &facet in &later[..count] {
-                let neighbor = neighbors[facet];
-                if neighbor == NO_NEIGHBOR {
-                    block.open.push((number as u32, facet as u8));
-                    continue;
-                }
-                block.ahead += 1;
-                let apex = self.across(number, facet, neighbor)?;
-                let q = &self.sites.points[apex as usize];
-                if self.signs.is_filtered && prepared.is_outside::<G, V>(&points[0], q) {
-                    continue;
-                }
-                block.refined += 1;
-                let conflict = self.signs.conflict::<G, D, V>(&points, q);
-                block.ties += u64::from(conflict.is_tie);
-                if conflict.is_inside {
-                    return Err(MeshViolation::Conflict {
-                        simplex: number,
-                        neighbor: neighbor as usize,
-                        row: self.sites.rows[apex as usize],
-                        tie: conflict.is_tie,
-                    });
-                }
+        let mut paired = Paired::default();
+        let mut batch = Batch::new();
+        let starts = (first..first + simplices.len()).step_by(BATCH);
+        for (first, simplices) in starts.zip(simplices.chunks(BATCH)) {
+            let ahead = batch.prepare::<G>(self, first, simplices, &mut paired)?;
+            paired.ahead += ahead as u64;
+            paired.behind += (V * simplices.len() - ahead) as u64;
+            batch.cross(self, first, ahead);
+            let open = batch.test::<G>(self, ahead);
+            for &Ahead { place, neighbor } in &batch.open[..open] {
+                let (number, facet) = (first + place as usize / 4, place as usize % 4);
+                self.settle::<G, F>(number, facet, neighbor, &mut paired)?;
             }
         }
-        Ok(block)
+        Ok(paired)
+    }
+
+    /// What is to be said of the orientation of a simplex, exactly.
+    #[inline(never)]
+    fn is_positive<G: Geometry<D, V>>(&self, simplex: usize) -> Result<(), MeshViolation> {
+        match self.signs.orientation::<G, D, V>(&self.sites.gather(&self.simplices[simplex])) {
+            Ordering::Greater => Ok(()),
+            _ => Err(MeshViolation::Orientation { simplex }),
+        }
+    }
+
+    /// What is to be said of a facet, exactly.
+    #[inline(never)]
+    fn settle<G: Geometry<D, V>, const F: usize>(
+        &self,
+        number: usize,
+        facet: usize,
+        neighbor: u32,
+        paired: &mut Paired,
+    ) -> Result<(), MeshViolation>
+    where
+        [u32; V]: Facets<F>,
+    {
+        if neighbor == NO_NEIGHBOR {
+            paired.ahead -= 1;
+            paired.open.push((number as u32, facet as u8));
+            return Ok(());
+        }
+        let apex = self.across(number, facet, neighbor)?;
+        let points = self.sites.gather(&self.simplices[number]);
+        paired.refined += 1;
+        let conflict = self.signs.conflict::<G, D, V>(&points, &self.sites.points[apex as usize]);
+        paired.ties += u64::from(conflict.is_tie);
+        if conflict.is_inside {
+            return Err(MeshViolation::Conflict {
+                simplex: number,
+                neighbor: neighbor as usize,
+                row: self.sites.rows[apex as usize],
+                tie: conflict.is_tie,
+            });
+        }
+        Ok(())
     }
 
     /// The vertex beyond facet `facet` of `number`, in the later simplex `neighbor` that is named there.
@@ -212,8 +259,119 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
     }
 }
 
+/// A facet that names a later simplex, itself or none.
+#[derive(Clone, Copy, Default)]
+struct Ahead {
+    /// 4·(place of the simplex in the batch) + facet.
+    place: u32,
+    neighbor: u32,
+}
+
+/// A few simplices on their way through the rounds. The lists have room for all facets, and stay as long as that.
+struct Batch<const D: usize, const V: usize> {
+    prepared: Vec<Prepared<D>>,
+    ahead: Vec<Ahead>,
+    /// The vertex beyond each of these facets, or [`NO_SITE`] where that has to be settled.
+    apexes: Vec<u32>,
+    /// Those facets that plain arithmetic did not settle.
+    open: Vec<Ahead>,
+}
+
+impl<const D: usize, const V: usize> Batch<D, V> {
+    fn new() -> Self {
+        Batch {
+            prepared: Vec::with_capacity(BATCH),
+            ahead: vec![Ahead::default(); BATCH * V + 1],
+            apexes: vec![NO_SITE; BATCH * V],
+            open: vec![Ahead::default(); BATCH * V + 1],
+        }
+    }
+
+    /// Round 1: how many facets are listed in `ahead`. Checks the orientation on the way.
+    #[inline(always)]
+    fn prepare<G: Geometry<D, V>>(
+        &mut self,
+        complex: &Complex<'_, D, V>,
+        first: usize,
+        simplices: &[[u32; V]],
+        paired: &mut Paired,
+    ) -> Result<usize, MeshViolation> {
+        let Complex { sites, signs, neighbors, .. } = complex;
+        self.prepared.clear();
+        let mut count = 0;
+        let rows = simplices.iter().zip(&neighbors[first..first + simplices.len()]);
+        for (place, (simplex, neighbors)) in rows.enumerate() {
+            let number = first + place;
+            paired.fingerprint.add(simplex.map(|site| sites.hashes[site as usize]));
+            let points = sites.gather(simplex);
+            let prepared = Prepared::<D>::of::<G, V>(&points);
+            if !(signs.is_filtered && prepared.is_positive::<G, V>()) {
+                paired.refined += 1;
+                complex.is_positive::<G>(number)?;
+            }
+            self.prepared.push(prepared);
+            for facet in 0..V {
+                let neighbor = neighbors[facet];
+                self.ahead[count] = Ahead { place: (4 * place + facet) as u32, neighbor };
+                count += usize::from(neighbor as usize >= number);
+            }
+        }
+        Ok(count)
+    }
+
+    /// Round 2, first half: the apexes of the first `count` facets.
+    #[inline(always)]
+    fn cross<const F: usize>(&mut self, complex: &Complex<'_, D, V>, first: usize, count: usize)
+    where
+        [u32; V]: Facets<F>,
+    {
+        let Complex { simplices, neighbors, .. } = *complex;
+        let ahead = &self.ahead[..count];
+        // Some of these are far away. Touched in a loop of nothing else, many are on their way at the same time.
+        let touch = |all: u32, ahead: &Ahead| {
+            let at = ahead.neighbor as usize;
+            all ^ simplices.get(at).map_or(0, |s| s[0]) ^ neighbors.get(at).map_or(0, |n| n[0])
+        };
+        std::hint::black_box(ahead.iter().fold(0, touch));
+        for (apex, &Ahead { place, neighbor }) in self.apexes.iter_mut().zip(ahead) {
+            let (number, facet) = (first + place as usize / 4, place as usize % 4);
+            let neighbor = neighbor as usize;
+            *apex = NO_SITE;
+            if let (Some(other), Some(back)) = (simplices.get(neighbor), neighbors.get(neighbor)) {
+                let face = simplices[number].facet(facet);
+                let (beyond, off) = <[u32; V]>::beyond(&face, other, back, number as u32);
+                // Without a branch, NO_SITE for whatever is off.
+                *apex = beyond | u32::from((off == 0) & (neighbor != number)).wrapping_sub(1);
+            }
+        }
+    }
+
+    /// Round 2, second half: how many facets are listed in `open`.
+    #[inline(always)]
+    fn test<G: Geometry<D, V>>(&mut self, complex: &Complex<'_, D, V>, count: usize) -> usize {
+        let (sites, is_filtered) = (complex.sites, complex.signs.is_filtered);
+        let touch = |all: u64, &apex: &u32| {
+            all ^ sites.points.get(apex as usize).map_or(0, |p| p[0].to_bits())
+        };
+        std::hint::black_box(self.apexes[..count].iter().fold(0, touch));
+        let mut open = 0;
+        for (&ahead, &apex) in self.ahead[..count].iter().zip(&self.apexes) {
+            let prepared = &self.prepared[ahead.place as usize / 4];
+            let is_settled = match sites.points.get(apex as usize) {
+                Some(apex) => is_filtered & prepared.is_outside::<G, V>(apex),
+                None => false,
+            };
+            self.open[open] = ahead;
+            open += usize::from(!is_settled);
+        }
+        open
+    }
+}
+
 /// N and O of a simplex in plain arithmetic, for all its facets.
 struct Prepared<const D: usize> {
+    /// a₀
+    origin: [f64; D],
     lifted: Lifted<f64, D>,
     max: [f64; D],
 }
@@ -229,7 +387,7 @@ impl<const D: usize> Prepared<D> {
                 max[k] = max[k].max(edges[i - 1][k].abs());
             }
         }
-        Prepared { lifted: G::lifted(&edges[..V - 1]), max }
+        Prepared { origin: points[0], lifted: G::lifted(&edges[..V - 1]), max }
     }
 
     #[inline(always)]
@@ -238,10 +396,10 @@ impl<const D: usize> Prepared<D> {
     }
 
     #[inline(always)]
-    fn is_outside<G: Geometry<D, V>, const V: usize>(&self, p: &[f64; D], q: &[f64; D]) -> bool {
+    fn is_outside<G: Geometry<D, V>, const V: usize>(&self, q: &[f64; D]) -> bool {
         let (mut r, mut max) = (*q, self.max);
         for k in 0..D {
-            r[k] -= p[k];
+            r[k] -= self.origin[k];
             max[k] = max[k].max(r[k].abs());
         }
         G::in_sphere(&self.lifted, &r)

@@ -11,6 +11,7 @@
 //! *Triangles in space.* In a plane that does not stand upright on the first two coordinates, minors of those two serve
 //! for the orientation, as projecting the plane to them is affine; only the squares l and |r|² need all three.
 
+use super::signs::UNDERFLOW;
 use crate::arithmetic::{Ring, U};
 
 /// N and O.
@@ -24,6 +25,8 @@ pub(super) struct Lifted<T, const D: usize> {
 pub(super) struct Bounds {
     /// Monomials times roundings on the way of one, times u, with one more rounding for the bound itself.
     pub(super) rounding: f64,
+    /// The same in units of the sum of all |monomials|.
+    pub(super) rounding_of_sum: f64,
     /// The same over [`DoubleDouble`](crate::arithmetic::DoubleDouble), from 8u² for each operation.
     pub(super) rounding_twice: f64,
     /// monomials·m^degree ≤ 2⁵³.
@@ -83,6 +86,7 @@ impl<const D: usize> Geometry<D, 3> for Triangles {
     /// 2 monomials; two differences, a product, a difference.
     const ORIENTATION: Bounds = Bounds {
         rounding: 2.0 * 5.0 * U,
+        rounding_of_sum: 5.0 * U,
         rounding_twice: 2.0 * 3.0 * 8.0 * U * U,
         exact_max: 67_108_864.0,
         integer_max: 1_099_511_627_776.0,
@@ -91,6 +95,7 @@ impl<const D: usize> Geometry<D, 3> for Triangles {
     /// difference, the product with r, and two sums: 12.
     const IN_SPHERE: Bounds = Bounds {
         rounding: 18.0 * 13.0 * U,
+        rounding_of_sum: 13.0 * U,
         rounding_twice: 18.0 * 9.0 * 8.0 * U * U,
         exact_max: 4096.0,
         integer_max: 1_073_741_824.0,
@@ -126,6 +131,31 @@ impl<const D: usize> Geometry<D, 3> for Triangles {
 /// Tetrahedra.
 pub(super) struct Tetrahedra;
 
+/// The plane of a triangle in space, in plain arithmetic, for many points.
+pub(super) struct Plane {
+    origin: [f64; 3],
+    normal: [f64; 3],
+    max: [f64; 3],
+}
+
+impl Plane {
+    #[inline(always)]
+    pub(super) fn of([a, b, c]: &[[f64; 3]; 3]) -> Self {
+        let [b, c] = [b, c].map(|p| std::array::from_fn(|k| p[k] - a[k]));
+        let max = std::array::from_fn(|k| b[k].abs().max(c[k].abs()));
+        Plane { origin: *a, normal: cross(&b, &c), max }
+    }
+
+    /// Whether the tetrahedron of the triangle and `q` is surely negative: the triangle faces away from `q`. All sizes are below 1.
+    #[inline(always)]
+    pub(super) fn is_beneath(&self, q: &[f64; 3]) -> bool {
+        let r: [f64; 3] = std::array::from_fn(|k| q[k] - self.origin[k]);
+        let max = std::array::from_fn(|k| self.max[k].max(r[k].abs()));
+        let bound = Tetrahedra::ORIENTATION.rounding * Tetrahedra::volume(&max) + UNDERFLOW;
+        dot(&self.normal, &r) < -bound
+    }
+}
+
 /// a × b.
 #[inline(always)]
 fn cross<T: Ring>(a: &[T; 3], b: &[T; 3]) -> [T; 3] {
@@ -141,6 +171,7 @@ impl Geometry<3, 4> for Tetrahedra {
     /// 6 monomials; three differences, a product, a difference, a product, two sums: 8.
     const ORIENTATION: Bounds = Bounds {
         rounding: 6.0 * 9.0 * U,
+        rounding_of_sum: 9.0 * U,
         rounding_twice: 6.0 * 6.0 * 8.0 * U * U,
         exact_max: 65_536.0,
         integer_max: 1_099_511_627_776.0,
@@ -149,6 +180,7 @@ impl Geometry<3, 4> for Tetrahedra {
     /// product with r, and three sums: 17.
     const IN_SPHERE: Bounds = Bounds {
         rounding: 72.0 * 18.0 * U,
+        rounding_of_sum: 18.0 * U,
         rounding_twice: 72.0 * 13.0 * 8.0 * U * U,
         exact_max: 512.0,
         integer_max: 16_777_216.0,

@@ -1,6 +1,6 @@
 //! The proof for simplices alone, as a file of a mesh has them: no certificate, no order of any kind.
 
-use taut_points::{Monitor, PointSource};
+use taut_points::{Monitor, PointSource, Scratch};
 
 use super::super::{MeshViolation, TriangulationVerdict};
 use super::prove::{self, Claim};
@@ -20,7 +20,7 @@ use crate::{CheckError, Violation};
 ///
 /// ```
 /// use taut_certify::check_simplices;
-/// use taut_points::{Monitor, Points};
+/// use taut_points::{Monitor, Points, Scratch};
 ///
 /// let points = Points::new(&[0.0, 0.0, 4.0, 0.0, 4.0, 3.0, 0.0, 1.0], 2)?;
 /// let found = check_simplices(&points, &[0, 1, 3, 3, 2, 1], 3, &Monitor::silent())?;
@@ -47,8 +47,9 @@ pub fn check_simplices(
     }
     let claim =
         Claim { hull_dimension: Some(claimed as u8), simplices, neighbors: &[], lists: None };
+    let mut scratch = Scratch::new();
     match found {
-        2 => Ok(prove::plane(&Input::read(source, monitor)?, &claim)?),
-        _ => Ok(prove::space(&Input::read(source, monitor)?, &claim)?),
+        2 => Ok(prove::plane(&Input::read(source, &mut scratch, monitor)?, &claim)?),
+        _ => Ok(prove::space(&Input::read(source, &mut scratch, monitor)?, &claim)?),
     }
 }

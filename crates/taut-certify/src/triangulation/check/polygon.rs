@@ -113,7 +113,7 @@ fn is_listed<const D: usize>(
 
 #[cfg(test)]
 mod tests {
-    use taut_points::{Monitor, Points};
+    use taut_points::{Monitor, Points, Scratch};
 
     use super::super::sites::Input;
     use super::*;
@@ -121,7 +121,8 @@ mod tests {
     fn around_a_centre(edges: &[[u32; 2]]) -> Result<(), MeshViolation> {
         let values = [0., 0., 9., 0., 3., 8., -7., 5., -7., -5., 3., -8.];
         let points = Points::new(&values, 2).unwrap();
-        let input = Input::<2>::read(&points, &Monitor::silent()).unwrap();
+        let mut scratch = Scratch::new();
+        let input = Input::<2>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
         let simplices: Vec<u32> = edges.iter().flat_map(|&[a, b]| [0, a, b]).collect();
         let (sites, simplices) = Sites::of(&input, &simplices, 3).unwrap();
         let open: Vec<(u32, u8)> = (0..edges.len() as u32).map(|triangle| (triangle, 0)).collect();

@@ -25,7 +25,7 @@ use std::cmp::Ordering;
 
 use super::super::{MeshViolation, NO_NEIGHBOR};
 use super::facets::Facets;
-use super::geometry::Tetrahedra;
+use super::geometry::{Plane, Tetrahedra};
 use super::pairing;
 use super::signs::Signs;
 use super::sites::{Sites, turn};
@@ -152,6 +152,7 @@ impl Surface<'_> {
         for (number, (triangle, neighbors)) in
             self.triangles.iter().zip(&self.neighbors).enumerate()
         {
+            let plane = self.plane(triangle);
             for (edge, &neighbor) in neighbors.iter().enumerate() {
                 if (neighbor as usize) < number {
                     continue;
@@ -160,6 +161,9 @@ impl Surface<'_> {
                 let c = triangle[edge];
                 let beyond = self.triangles[neighbor as usize];
                 let d = beyond.into_iter().find(|&v| v != a && v != b).unwrap_or(c);
+                if self.is_surely_beneath(&plane, d) {
+                    continue;
+                }
                 let is_dent = match self
                     .signs
                     .orientation::<Tetrahedra, 3, 4>(&self.sites.gather(&[a, b, c, d]))
@@ -177,6 +181,16 @@ impl Surface<'_> {
         Ok(())
     }
 
+    fn plane(&self, triangle: &[u32; 3]) -> Plane {
+        Plane::of(&self.sites.gather(triangle))
+    }
+
+    /// Plain arithmetic settles nearly all.
+    #[inline(always)]
+    fn is_surely_beneath(&self, plane: &Plane, site: u32) -> bool {
+        self.signs.is_filtered && plane.is_beneath(&self.sites.points[site as usize])
+    }
+
     /// Whether c and d, in one plane with the edge ab, lie on either side of it.
     fn unfolds(&self, sites: [u32; 4]) -> bool {
         let [a, b, c, d] = self.sites.gather(&sites);
@@ -191,7 +205,11 @@ impl Surface<'_> {
     fn is_beneath(&self, of: &[u32]) -> Result<(), MeshViolation> {
         for triangle in &self.triangles {
             let [a, b, c] = *triangle;
-            for &site in of.iter().filter(|&site| !triangle.contains(site)) {
+            let plane = self.plane(triangle);
+            for &site in of {
+                if self.is_surely_beneath(&plane, site) || triangle.contains(&site) {
+                    continue;
+                }
                 let tetrahedron = self.sites.gather(&[a, b, c, site]);
                 if self.signs.orientation::<Tetrahedra, 3, 4>(&tetrahedron).is_gt() {
                     return Err(MeshViolation::HullWinding { row: self.row(site) });
@@ -242,7 +260,7 @@ impl Surface<'_> {
 
 #[cfg(test)]
 mod tests {
-    use taut_points::{Monitor, Points};
+    use taut_points::{Monitor, Points, Scratch};
 
     use super::super::sites::Input;
     use super::*;
@@ -252,7 +270,8 @@ mod tests {
         let mut values = vec![0.0, 0.0, -9.0, 0.0, 0.0, 9.0];
         values.extend(ring.iter().flat_map(|&[x, y]| [x, y, 0.0]));
         let points = Points::new(&values, 3).unwrap();
-        let input = Input::<3>::read(&points, &Monitor::silent()).unwrap();
+        let mut scratch = Scratch::new();
+        let input = Input::<3>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
         let simplices: Vec<u32> = edges.iter().flat_map(|&[a, b]| [a + 2, b + 2, 0, 1]).collect();
         let (sites, simplices) = Sites::of(&input, &simplices, 4).unwrap();
         let tetrahedra: &[[u32; 4]] = simplices.as_chunks().0;
@@ -297,7 +316,8 @@ mod tests {
             .collect();
         let values = leaning.as_flattened();
         let points = Points::new(values, 3).unwrap();
-        let input = Input::<3>::read(&points, &Monitor::silent()).unwrap();
+        let mut scratch = Scratch::new();
+        let input = Input::<3>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
         let simplices: Vec<u32> = star.iter().flat_map(|&[a, b]| [a + 2, b + 2, 0, 1]).collect();
         let (sites, simplices) = Sites::of(&input, &simplices, 4).unwrap();
         let tetrahedra: &[[u32; 4]] = simplices.as_chunks().0;

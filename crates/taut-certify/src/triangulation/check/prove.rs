@@ -34,10 +34,10 @@ impl Claim<'_> {
     /// Steps before any geometry: the vertices, and that there are points if and only if this is said.
     fn begin<const D: usize>(
         &self,
-        input: &Input<D>,
+        input: &Input<'_, D>,
     ) -> Result<(Sites<D>, Vec<u32>), MeshViolation> {
         let is_possible = self.hull_dimension.is_none_or(|dimension| usize::from(dimension) <= D)
-            && self.hull_dimension.is_none() == input.rows.is_empty();
+            && self.hull_dimension.is_none() == (input.len() == 0);
         // Full dimension is proved by the orientation of a simplex.
         let is_low = self.hull_dimension.is_some_and(|dimension| usize::from(dimension) < D);
         if !is_possible || is_low {
@@ -57,7 +57,7 @@ impl Claim<'_> {
 
 /// The proof for points of the plane.
 pub(super) fn plane(
-    input: &Input<2>,
+    input: &Input<'_, 2>,
     claim: &Claim<'_>,
 ) -> Result<TriangulationVerdict, MeshViolation> {
     let (sites, simplices) = claim.begin(input)?;
@@ -69,7 +69,7 @@ pub(super) fn plane(
 
 /// The proof for points of space.
 pub(super) fn space(
-    input: &Input<3>,
+    input: &Input<'_, 3>,
     claim: &Claim<'_>,
 ) -> Result<TriangulationVerdict, MeshViolation> {
     let (mut sites, simplices) = claim.begin(input)?;

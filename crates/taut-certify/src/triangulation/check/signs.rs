@@ -5,12 +5,13 @@
 //! 2. The same value again, now as the exact one: when every coordinate is a multiple of one power of two, 2^q, and the
 //!    differences are so few times 2^q that no operation rounds. Gridded points end here, ties included.
 //! 3. The same in whole numbers of 128 bits.
-//! 4. Double-double, with its bound: points on circles and spheres end here.
-//! 5. Whole numbers of any size.
+//! 4. Plain `f64` once more, with roundings·u·(sum of the |monomials|) as the bound, which is far below that of stage 1.
+//! 5. Double-double, with its bound: the other points on circles and spheres end here.
+//! 6. Whole numbers of any size.
 //!
 //! *Range.* [`Sites`](super::sites::Sites) scales all coordinates by a power of two so that they are below 1 in size:
 //! nothing overflows, and what underflows in a determinant is off by less than 2⁻¹⁰⁷⁰ times a few hundred operations and
-//! factors, for which 2⁻¹⁰⁰⁰ is added to each bound. Where scaling would lose bits, stages 1 to 4 are skipped.
+//! factors, for which 2⁻¹⁰⁰⁰ is added to each bound. Where scaling would lose bits, stages 1 to 5 are skipped.
 //! *Ties.* When q lies on the sphere of a simplex, the lift of each of the d + 2 points is raised by an infinitesimal
 //! amount, infinitely more for a lexicographically larger point. D is linear in the lifts, so the largest point whose
 //! cofactor is not 0 decides: q itself is then outside, and a vertex gives the orientation of the simplex with q in its
@@ -21,8 +22,35 @@ use std::cmp::Ordering;
 use super::geometry::{Bounds, Geometry};
 use crate::arithmetic::{DoubleDouble, Integer, Ring, U, parts};
 
+/// A value and the sum of the |monomials| it is made of.
+#[derive(Clone, Copy)]
+struct Sized {
+    value: f64,
+    sum: f64,
+}
+
+impl Ring for Sized {
+    #[inline(always)]
+    fn plus(&self, other: &Self) -> Self {
+        Sized { value: self.value + other.value, sum: self.sum + other.sum }
+    }
+
+    #[inline(always)]
+    fn minus(&self, other: &Self) -> Self {
+        Sized { value: self.value - other.value, sum: self.sum + other.sum }
+    }
+
+    #[inline(always)]
+    fn times(&self, other: &Self) -> Self {
+        Sized { value: self.value * other.value, sum: self.sum * other.sum }
+    }
+}
+
 /// Added to every bound for what underflows.
 pub(super) const UNDERFLOW: f64 = f64::from_bits((1023 - 1000) << 52);
+
+/// Most differences in a determinant.
+const MOST: usize = 4;
 
 /// What is known of all coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -55,6 +83,7 @@ impl Signs {
             G::volume,
             G::orientation::<f64>,
             G::orientation::<i128>,
+            G::orientation::<Sized>,
             G::orientation::<DoubleDouble>,
             G::orientation::<Integer>,
         )
@@ -81,12 +110,13 @@ impl Signs {
             G::lifted_volume,
             determinant::<G, f64, D, V>,
             determinant::<G, i128, D, V>,
+            determinant::<G, Sized, D, V>,
             determinant::<G, DoubleDouble, D, V>,
             determinant::<G, Integer, D, V>,
         )
     }
 
-    /// The sign of a determinant of the differences of `points` and `origin`, given over four kinds of numbers.
+    /// The sign of a determinant of the differences of `points` and `origin`, given over five kinds of numbers.
     #[inline(always)]
     fn sign<const D: usize, const V: usize>(
         &self,
@@ -96,11 +126,11 @@ impl Signs {
         volume: impl Fn(&[f64; D]) -> f64,
         plain: impl Fn(&[[f64; D]]) -> f64,
         whole: impl Fn(&[[i128; D]]) -> i128,
+        sized: impl Fn(&[[Sized; D]]) -> Sized,
         double: impl Fn(&[[DoubleDouble; D]]) -> DoubleDouble,
         exact: impl Fn(&[[Integer; D]]) -> Integer,
     ) -> Ordering {
-        const MOST: usize = 4;
-        let count = points.len();
+        let (count, mut size) = (points.len(), 0.0);
         if self.is_filtered {
             let mut differences = [[0.0; D]; MOST];
             let mut max = [0.0f64; D];
@@ -111,7 +141,7 @@ impl Signs {
                 }
             }
             let value = plain(&differences[..count]);
-            let size = volume(&max);
+            size = volume(&max);
             if value.abs() > bounds.rounding * size + UNDERFLOW {
                 return sign_of(value);
             }
@@ -126,6 +156,35 @@ impl Signs {
             if largest <= bounds.integer_max * self.quantum {
                 let integers = differences.map(|row| row.map(|x| (x / self.quantum) as i128));
                 return whole(&integers[..count]).cmp(&0);
+            }
+        }
+        self.fine_sign(origin, points, bounds, size, sized, double, exact)
+    }
+
+    /// Stages 4 to 6. Apart from the others, which would be slower for the room that these take.
+    #[inline(never)]
+    fn fine_sign<const D: usize>(
+        &self,
+        origin: &[f64; D],
+        points: &[[f64; D]],
+        bounds: &Bounds,
+        size: f64,
+        sized: impl Fn(&[[Sized; D]]) -> Sized,
+        double: impl Fn(&[[DoubleDouble; D]]) -> DoubleDouble,
+        exact: impl Fn(&[[Integer; D]]) -> Integer,
+    ) -> Ordering {
+        let count = points.len();
+        if self.is_filtered {
+            let mut with_sums = [[Sized { value: 0.0, sum: 0.0 }; D]; MOST];
+            for (difference, point) in with_sums.iter_mut().zip(points) {
+                for k in 0..D {
+                    let value = point[k] - origin[k];
+                    difference[k] = Sized { value, sum: value.abs() };
+                }
+            }
+            let Sized { value, sum } = sized(&with_sums[..count]);
+            if value.abs() > bounds.rounding_of_sum * sum + UNDERFLOW {
+                return sign_of(value);
             }
             let mut twice = [[DoubleDouble { high: 0.0, low: 0.0 }; D]; MOST];
             for (difference, point) in twice.iter_mut().zip(points) {

@@ -1,13 +1,14 @@
 //! The rows of the input, read once, and the sites among them in the order in which the simplices name them.
 //!
 //! *Idea.* Rows come in any order, simplices in an order that follows space. Numbering the sites by first appearance
-//! makes a second copy of the coordinates that is read nearly in order by everything that follows.
+//! makes a copy of the coordinates that is read nearly in order by everything that follows. Rows that are in memory are
+//! not copied otherwise.
 
 use std::collections::HashSet;
 
 use rayon::prelude::*;
 use taut_points::{
-    BlockHash, Blocks, Monitor, PointSource, Points, PointsHash, ReadError, Rows, Scalar, Scratch,
+    BlockHash, Blocks, Monitor, PointSource, PointsHash, ReadError, Rows, Scalar, Scratch,
     hash_block,
 };
 
@@ -23,8 +24,8 @@ pub(super) const NO_SITE: u32 = u32::MAX;
 const TOUCHED: usize = 128;
 
 /// All rows.
-pub(super) struct Input<const D: usize> {
-    pub(super) rows: Vec<[f64; D]>,
+pub(super) struct Input<'a, const D: usize> {
+    rows: Rows<'a>,
     pub(super) hash: PointsHash,
     /// Power of two by which coordinates are multiplied.
     scale: f64,
@@ -40,39 +41,32 @@ struct Block {
 }
 
 impl Block {
-    /// Copies the rows to `out`.
-    fn of<const D: usize>(
-        first: u64,
-        rows: &Rows<'_>,
-        out: &mut [[f64; D]],
-    ) -> Result<Self, Violation> {
-        if let Some((row, column, value)) = rows.first_non_finite() {
+    fn of(first: u64, rows: &Rows<'_>) -> Result<Self, Violation> {
+        let (least, largest) = match rows {
+            Rows::F32(points) => extent(points.values()),
+            Rows::F64(points) => extent(points.values()),
+        };
+        if !f64::from_bits(largest).is_finite()
+            && let Some((row, column, value)) = rows.first_non_finite()
+        {
             return Err(Violation::NonFinite { row: first + row as u64, column, value });
         }
-        let mut block = Block { hash: hash_block(rows), least: i32::MAX, most: i32::MIN };
-        match rows {
-            Rows::F32(points) => block.copy(points, out),
-            Rows::F64(points) => block.copy(points, out),
-        }
-        Ok(block)
-    }
-
-    fn copy<T: Scalar, const D: usize>(&mut self, points: &Points<'_, T>, out: &mut [[f64; D]]) {
-        let mut largest = 0u64;
-        for (to, from) in out.iter_mut().zip(points.rows()) {
-            for (to, &from) in to.iter_mut().zip(from) {
-                // Adding 0 turns −0 into 0 and leaves every other value as it is.
-                let x: f64 = from.into() + 0.0;
-                largest = largest.max(x.abs().to_bits());
-                self.least = self.least.min(lowest_bit(x));
-                *to = x;
-            }
-        }
+        let mut most = i32::MIN;
         if largest > 0 {
             let (mantissa, exponent) = parts(f64::from_bits(largest));
-            self.most = exponent + (u64::BITS - mantissa.leading_zeros()) as i32;
+            most = exponent + (u64::BITS - mantissa.leading_zeros()) as i32;
         }
+        Ok(Block { hash: hash_block(rows), least, most })
     }
+}
+
+/// The place of the lowest bit of all values, and the bits of the largest size: more than all others have if any value
+/// is not finite.
+fn extent<T: Scalar>(values: &[T]) -> (i32, u64) {
+    values.iter().fold((i32::MAX, 0), |(least, largest), &value| {
+        let x: f64 = value.into();
+        (least.min(lowest_bit(x)), largest.max(x.abs().to_bits()))
+    })
 }
 
 /// The place of the lowest bit of `x`, without a branch.
@@ -85,10 +79,11 @@ fn lowest_bit(x: f64) -> i32 {
     if mantissa == 0 { i32::MAX } else { place }
 }
 
-impl<const D: usize> Input<D> {
-    /// One pass.
+impl<'a, const D: usize> Input<'a, D> {
+    /// One pass. Rows that are not in memory are read to `scratch`.
     pub(super) fn read(
-        source: &dyn PointSource,
+        source: &'a dyn PointSource,
+        scratch: &'a mut Scratch,
         monitor: &Monitor<'_>,
     ) -> Result<Self, CheckError> {
         let n = source.len();
@@ -98,18 +93,20 @@ impl<const D: usize> Input<D> {
         }
         monitor.pass(1, n);
         let blocks = Blocks::of(source);
-        let mut rows = vec![[0.0; D]; n as usize];
-        let per_block = (blocks.range(0).end as usize).max(1);
-        let read = |scratch: &mut Scratch, (block, out): (usize, &mut [[f64; D]])| {
+        let rows = source.read(0..n, scratch)?;
+        let read = |block: u64| {
             monitor.check().map_err(ReadError::from)?;
-            let range = blocks.range(block as u64);
-            let first = range.start;
-            let block = Block::of(first, &source.read(range, scratch)?, out)?;
-            monitor.points(out.len() as u64);
+            let range = blocks.range(block);
+            let some = range.start as usize..range.end as usize;
+            let part = match &rows {
+                Rows::F32(points) => Rows::F32(points.slice(some)),
+                Rows::F64(points) => Rows::F64(points.slice(some)),
+            };
+            let block = Block::of(range.start, &part)?;
+            monitor.points(part.len() as u64);
             Ok::<_, CheckError>(block)
         };
-        let blocks: Vec<_> =
-            rows.par_chunks_mut(per_block).enumerate().map_init(Scratch::new, read).collect();
+        let blocks: Vec<_> = (0..blocks.count()).into_par_iter().map(read).collect();
         // The first violation by position, whichever thread met it.
         let blocks = blocks.into_iter().collect::<Result<Vec<Block>, CheckError>>()?;
         let hash = PointsHash::of_blocks(n, source.dim(), blocks.iter().map(|b| b.hash));
@@ -119,6 +116,27 @@ impl<const D: usize> Input<D> {
         Ok(Input { rows, hash, scale, signs })
     }
 
+    /// Number of rows.
+    pub(super) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// A row. Adding 0 turns −0 into 0 and leaves every other value as it is.
+    #[inline(always)]
+    fn row(&self, row: u32) -> [f64; D] {
+        let at = row as usize * D;
+        match &self.rows {
+            Rows::F32(points) => {
+                let values = &points.values()[at..at + D];
+                std::array::from_fn(|k| f64::from(values[k]) + 0.0)
+            }
+            Rows::F64(points) => {
+                let values = &points.values()[at..at + D];
+                std::array::from_fn(|k| values[k] + 0.0)
+            }
+        }
+    }
+
     /// The signs of determinants of rows that went through [`Input::scaled`].
     pub(super) fn signs(&self) -> Signs {
         self.signs
@@ -126,18 +144,20 @@ impl<const D: usize> Input<D> {
 
     /// A row, multiplied by the power of two.
     #[inline(always)]
-    pub(super) fn scaled(&self, row: &[f64; D]) -> [f64; D] {
-        std::array::from_fn(|k| row[k] * self.scale)
+    fn scaled(&self, row: &[f64; D]) -> [f64; D] {
+        row.map(|x| x * self.scale)
     }
 
     /// Dimension of the affine hull. O(n).
     pub(super) fn hull_dimension(&self) -> Option<u8> {
-        let first = self.rows.first()?;
-        let mut rows = 0..self.rows.len() as u32;
-        let Some(second) = rows.find(|&row| self.rows[row as usize] != *first) else {
+        if self.rows.is_empty() {
+            return None;
+        }
+        let mut rows = 0..self.len() as u32;
+        let Some(second) = rows.find(|&row| self.row(row) != self.row(0)) else {
             return Some(0);
         };
-        let at = |row: u32| self.scaled(&self.rows[row as usize]);
+        let at = |row: u32| self.scaled(&self.row(row));
         let (a, b) = (at(0), at(second));
         let Some(third) = rows.find(|&row| self.axes(&a, &b, &at(row)).is_some()) else {
             return Some(1);
@@ -211,35 +231,43 @@ pub(super) struct Sites<const D: usize> {
 impl<const D: usize> Sites<D> {
     /// Numbers the rows that `simplices` name, `width` in each, and returns the simplices in these numbers.
     pub(super) fn of(
-        input: &Input<D>,
+        input: &Input<'_, D>,
         simplices: &[u32],
         width: usize,
     ) -> Result<(Self, Vec<u32>), MeshViolation> {
-        let mut sites = vec![NO_SITE; input.rows.len()];
-        let mut rows = Vec::with_capacity(input.rows.len());
-        let mut named = Vec::with_capacity(simplices.len());
-        for (block, ids) in simplices.chunks(TOUCHED).enumerate() {
-            // Whether a site is new is guessed wrong often, and would be found out one memory access after another.
-            // Touching all first lets these accesses overlap.
-            let touch = |all: u32, &id: &u32| all & sites.get(id as usize).copied().unwrap_or(0);
-            std::hint::black_box(ids.iter().fold(u32::MAX, touch));
-            for (place, &id) in ids.iter().enumerate() {
-                let Some(site) = sites.get_mut(id as usize) else {
+        let n = input.len();
+        let mut sites = vec![NO_SITE; n];
+        // One more, to write to when all are numbered.
+        let mut rows = vec![0; n + 1];
+        let mut count = 0u32;
+        let mut named = simplices.to_vec();
+        for (block, ids) in named.chunks_mut(TOUCHED).enumerate() {
+            // Touched in a loop of nothing else, many are on their way from memory at the same time.
+            let touch = |all: u32, &id: &u32| all ^ sites.get(id as usize).copied().unwrap_or(0);
+            std::hint::black_box(ids.iter().fold(0, touch));
+            for (place, id) in ids.iter_mut().enumerate() {
+                let Some(site) = sites.get_mut(*id as usize) else {
                     let position = (block * TOUCHED + place) / width;
-                    return Err(MeshViolation::Id { list: "simplices", position, id });
+                    return Err(MeshViolation::Id { list: "simplices", position, id: *id });
                 };
-                if *site == NO_SITE {
-                    *site = rows.len() as u32;
-                    rows.push(id);
-                }
-                named.push(*site);
+                // Nobody can foretell whether a site is new, so no branch depends on it.
+                let is_new = u32::from(*site == NO_SITE);
+                let number = *site ^ ((*site ^ count) & 0u32.wrapping_sub(is_new));
+                rows[count as usize] = *id;
+                count += is_new;
+                *site = number;
+                *id = number;
             }
         }
+        rows.truncate(count as usize);
         // One visit to each row, in no order that a processor foresees, with nothing else to do meanwhile.
-        let mut points: Vec<[f64; D]> =
-            rows.par_iter().map(|&row| input.rows[row as usize]).collect();
-        let hashes = points.par_iter().map(|point| SiteHash::of(point)).collect();
-        points.par_iter_mut().for_each(|point| *point = input.scaled(point));
+        let mut points: Vec<[f64; D]> = rows.par_iter().map(|&row| input.row(row)).collect();
+        let hash = |point: &mut [f64; D]| {
+            let hash = SiteHash::of(point);
+            *point = input.scaled(point);
+            hash
+        };
+        let hashes = points.par_iter_mut().map(hash).collect();
         Ok((Sites { points, hashes, rows, sites }, named))
     }
 
@@ -254,17 +282,17 @@ impl<const D: usize> Sites<D> {
     /// tiling name one place by two ids, so they are listed, and each after the vertex.
     pub(super) fn covers(
         &self,
-        input: &Input<D>,
+        input: &Input<'_, D>,
         duplicates: &[[u32; 2]],
     ) -> Result<(), MeshViolation> {
-        let n = input.rows.len() as u32;
+        let n = input.len() as u32;
         let mut before = None;
         for (position, &[row, first]) in duplicates.iter().enumerate() {
             let problem = match () {
                 () if row >= n || first >= n => "there are not so many points",
                 () if before.is_some_and(|before| before >= row) => "the list is not ascending",
                 () if first >= row => "the second must be the earlier one",
-                () if input.rows[row as usize] != input.rows[first as usize] => "they differ",
+                () if input.row(row) != input.row(first) => "they differ",
                 () if self.site(row).is_some() => "the first is a vertex",
                 () if self.site(first).is_none() => "the second is no vertex",
                 () => {
@@ -274,7 +302,7 @@ impl<const D: usize> Sites<D> {
             };
             return Err(MeshViolation::Duplicate { position, row, first, problem });
         }
-        if self.rows.len() + duplicates.len() == input.rows.len() {
+        if self.rows.len() + duplicates.len() == input.len() {
             return Ok(());
         }
         let mut listed = duplicates.iter().map(|d| d[0]).peekable();
@@ -286,15 +314,15 @@ impl<const D: usize> Sites<D> {
     }
 
     /// Every row is a vertex or equals one.
-    pub(super) fn covers_all_places(&self, input: &Input<D>) -> Result<(), MeshViolation> {
-        if self.rows.len() == input.rows.len() {
+    pub(super) fn covers_all_places(&self, input: &Input<'_, D>) -> Result<(), MeshViolation> {
+        if self.rows.len() == input.len() {
             return Ok(());
         }
         // −0 was turned into 0, so equal coordinates have equal bits.
-        let place = |row: u32| input.rows[row as usize].map(f64::to_bits);
+        let place = |row: u32| input.row(row).map(f64::to_bits);
         let places: HashSet<[u64; D]> = self.rows.iter().map(|&row| place(row)).collect();
         let is_missing = |&row: &u32| self.site(row).is_none() && !places.contains(&place(row));
-        match (0..input.rows.len() as u32).find(is_missing) {
+        match (0..input.len() as u32).find(is_missing) {
             Some(row) => Err(MeshViolation::Missing { row }),
             None => Ok(()),
         }
