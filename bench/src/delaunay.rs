@@ -133,7 +133,7 @@ impl Context<'_> {
             let known = (!self.arguments.quick).then_some(input.simplices);
             let found = rounds::run(&file, n as u64, case.dim, &programs, known, self.effort)?;
             let base = uniform.iter().find(|(size, _)| *size == n).map(|(_, cost)| cost.clone());
-            let found = found.beside(base, input.quoted);
+            let found = found.beside(base);
             if input.distribution == "uniform" {
                 uniform.push((n, found.per_point()));
             }

@@ -2,12 +2,13 @@
 
 use std::str::FromStr;
 
-use pyo3::exceptions::{PyOverflowError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use taut::certify::AnySolution;
 use taut::enclose::Error;
 use taut::{BallMethod, BallOptions, Items, ball_of_source};
 
+use crate::numbers::whole;
 use crate::rows::Rows;
 use crate::solution::Solution;
 use crate::work::interruptible;
@@ -47,22 +48,6 @@ pub(crate) fn ball(
                 Items::Balls => raise_of_balls(error, source.dim() - 1),
             })?;
     Solution::new(py, AnySolution::Ball(found))
-}
-
-/// Reads a whole number; one that is too small or too large gets the message of a wrong option.
-pub(crate) fn whole<'py, T: FromPyObjectOwned<'py>>(
-    name: &'static str,
-    value: &Bound<'py, PyAny>,
-    expected: &'static str,
-) -> PyResult<T> {
-    value.extract::<T>().map_err(|error| {
-        let error: PyErr = error.into();
-        if error.is_instance_of::<PyOverflowError>(value.py()) {
-            raise(Error::Option { name, value: value.to_string(), expected })
-        } else {
-            error
-        }
-    })
 }
 
 /// As `raise`, in the words of somebody who gave centres of dimension `dim` and radii in two arrays.

@@ -6,7 +6,7 @@ use taut::certify::AnySolution;
 use taut::delaunay::Error;
 use taut::{DelaunayOptions, InsertionOrder, delaunay_of_source};
 
-use crate::ball::whole;
+use crate::numbers::whole;
 use crate::rows::Rows;
 use crate::solution::Solution;
 use crate::work::interruptible;
@@ -23,8 +23,8 @@ pub(crate) fn delaunay(
     let known = InsertionOrder::NAMES.iter().find(|(name, _)| *name == order);
     let options = DelaunayOptions {
         order: known.map(|(_, order)| *order).ok_or_else(|| {
-            let expected = "one of strided, random, local-ric and hilbert";
-            raise(Error::Option { name: "order", value: format!("{order:?}"), expected })
+            let names = InsertionOrder::NAMES.map(|(name, _)| name).join(", ");
+            PyValueError::new_err(format!("option `order` is {order:?}: expected one of {names}"))
         })?,
         threads: whole("threads", threads, "at least 1, or None")?,
         seed: whole("seed", seed, "0 to 2**64 - 1")?,

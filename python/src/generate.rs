@@ -7,7 +7,7 @@ use taut::Distribution;
 use taut::points::generate::Parameters;
 use taut::points::{Error, Scalar, generate_into};
 
-use crate::ball::whole;
+use crate::numbers::whole;
 use crate::work::interruptible;
 
 /// Fills the n × d array `out`, which NumPy has allocated.

@@ -8,6 +8,7 @@
 mod ball;
 mod delaunay;
 mod generate;
+mod numbers;
 mod rows;
 mod solution;
 mod triangulation;

@@ -17,6 +17,8 @@ pub(super) enum Goal {
     Bytes(f64),
     /// At most this share of predicates gets to an exact stage.
     ExactRate(f64),
+    /// The check of the answer takes at most this share of the processor time of the build, with one thread.
+    Check(f64),
     /// Two threads are at least so many times faster than one, by the clock, in the median of all rounds.
     Speedup(f64),
 }
@@ -55,6 +57,10 @@ impl Goal {
             Goal::ExactRate(bound) => (
                 format!("at most {bound:e} of all predicates decided exactly"),
                 found.exact(one).map(|share| (format!("{share:.1e}"), share <= bound)),
+            ),
+            Goal::Check(share) => (
+                format!("the check takes at most {share} of the processor time of the build"),
+                found.check(one).map(|ratio| (times(ratio), ratio <= share)),
             ),
             Goal::Speedup(factor) => (
                 format!("two threads at least {factor} times faster"),

@@ -9,7 +9,7 @@ use anyhow::{Context as _, Result, bail};
 use taut_delaunay::{Complex, Counters, DelaunayOptions, Plane, Space, Triangulation};
 use taut_points::{Monitor, Points};
 
-use super::program::Build;
+use super::program::{Build, Judged};
 use crate::meter::{Cost, Meter};
 
 /// What to build.
@@ -21,6 +21,9 @@ pub(crate) struct OneArguments {
     /// Threads.
     #[arg(long)]
     threads: usize,
+    /// Judge the answer as well, when the build is over.
+    #[arg(long)]
+    check: bool,
     /// Little-endian doubles, row by row.
     file: PathBuf,
 }
@@ -40,16 +43,41 @@ pub(crate) fn run(arguments: &OneArguments) -> Result<()> {
     let build = match arguments.dim {
         2 => {
             let built = Plane::build(&points, &options, &silent)?;
-            line(n, meter.stop(), &built)
+            let build = line(n, meter.stop(), &built);
+            Build { judged: arguments.judge(&built, &points)?, ..build }
         }
         3 => {
             let built = Space::build(&points, &options, &silent)?;
-            line(n, meter.stop(), &built)
+            let build = line(n, meter.stop(), &built);
+            Build { judged: arguments.judge(&built, &points)?, ..build }
         }
         dim => bail!("--dim is {dim}: expected 2 or 3"),
     };
     println!("{}", serde_json::to_string(&build)?);
     Ok(())
+}
+
+impl OneArguments {
+    /// What it takes to have an answer of the triangulation and to judge it, with as many threads as the build.
+    fn judge<const D: usize, const V: usize>(
+        &self,
+        built: &Triangulation<D, V>,
+        points: &Points<'_, f64>,
+    ) -> Result<Option<Judged>> {
+        if !self.check {
+            return Ok(None);
+        }
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads).build()?;
+        pool.install(|| {
+            let meter = Meter::start();
+            let solution = built.solution(points, &Monitor::silent())?;
+            let answer = meter.stop().cpu;
+            let meter = Meter::start();
+            let verdict = solution.check(points);
+            let check = meter.stop().cpu;
+            Ok(Some(Judged { answer, check, rejected: verdict.err().map(|why| why.to_string()) }))
+        })
+    }
 }
 
 fn line<const D: usize, const V: usize>(
@@ -90,5 +118,6 @@ fn line<const D: usize, const V: usize>(
         peak: cost.peak,
         exact: (calls > 0).then(|| open as f64 / calls as f64),
         counters: BTreeMap::from(counters.map(|(name, count)| (name.to_owned(), count))),
+        judged: None,
     }
 }

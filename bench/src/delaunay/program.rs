@@ -36,6 +36,20 @@ pub(super) struct Build {
     /// What else taut counted.
     #[serde(default)]
     pub(super) counters: BTreeMap<String, u64>,
+    /// What taut's checker said, where it was asked.
+    #[serde(default)]
+    pub(super) judged: Option<Judged>,
+}
+
+/// A triangulation as an answer, judged from the points alone. None of it is part of the build.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Judged {
+    /// Processor seconds from the triangulation to the answer in rows of the input, with its certificate.
+    pub(super) answer: f64,
+    /// Processor seconds of the check.
+    pub(super) check: f64,
+    /// Why it was rejected, if it was.
+    pub(super) rejected: Option<String>,
 }
 
 /// Who triangulates.
@@ -88,14 +102,17 @@ impl Program {
         !matches!(self, Program::Peer(Peer::Delaunator | Peer::Qhull))
     }
 
-    /// How it is called; `None` where `bench/setup` did not get it.
-    fn command(self, dim: usize, file: &Path) -> Result<Option<Command>> {
+    /// How it is called; `None` where `bench/setup` did not get it. `check` asks taut to judge its answer as well.
+    fn command(self, dim: usize, file: &Path, check: bool) -> Result<Option<Command>> {
         let built = folder().join("peers/build");
         let mut command = match self {
             Program::Taut(threads) => {
                 let mut command = Command::new(std::env::current_exe()?);
                 command.arg("one-delaunay").args(["--dim", &dim.to_string()]);
                 command.args(["--threads", &threads.to_string()]);
+                if check {
+                    command.arg("--check");
+                }
                 command
             }
             Program::Peer(Peer::Cgal) => Command::new(built.join(format!("cgal-delaunay-{dim}"))),
@@ -115,14 +132,15 @@ impl Program {
         Ok(Path::new(command.get_program()).exists().then_some(command))
     }
 
-    /// One build of the points in `file`.
+    /// One build of the points in `file`; with `check` taut judges its answer afterwards.
     pub(super) fn build(
         self,
         dim: usize,
         file: &Path,
+        check: bool,
         limit: Duration,
     ) -> Result<Result<Build, Silence>> {
-        match self.command(dim, file)? {
+        match self.command(dim, file, check)? {
             Some(command) => run(command, limit).with_context(|| self.name()),
             None => Ok(Err(Silence::NotInstalled)),
         }

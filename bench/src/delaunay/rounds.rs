@@ -1,4 +1,4 @@
-//! Rounds: all programs build the same file by turns, so that all see the same moods of the machine.
+//! Rounds: all programs build the same file by turns, so that what else the machine does meets all alike.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -7,8 +7,7 @@ use std::time::Duration;
 use anyhow::Result;
 use serde_json::{Value, json};
 
-use super::case::Quoted;
-use super::program::{Build, Program};
+use super::program::{Build, Judged, Program};
 use crate::peer::Silence;
 use crate::stats::{Summary, seconds, times};
 use crate::table::Table;
@@ -40,7 +39,6 @@ pub(super) struct Rounds {
     reference: Option<u64>,
     /// Cost per point of the same programs for a uniform set of this size.
     uniform: Option<PerPoint>,
-    quoted: Option<Quoted>,
 }
 
 /// Nanoseconds of processor time per point, by program.
@@ -71,7 +69,7 @@ pub(super) fn run(
     let exact = |row: &&Row| matches!(row.program, Program::Peer(_)) && row.program.is_exact();
     let told = || rows.iter().filter(exact).find_map(|row| Some(row.builds.first()?.simplices));
     let reference = known.or_else(told);
-    Ok(Rounds { n, rows, reference, uniform: None, quoted: None })
+    Ok(Rounds { n, rows, reference, uniform: None })
 }
 
 impl Row {
@@ -81,7 +79,8 @@ impl Row {
         if self.silence.is_some() || is_peer && used > effort.peer_budget {
             return Ok(());
         }
-        match self.program.build(dim, file, effort.limit)? {
+        // Once is enough: all builds of an input have the same answer.
+        match self.program.build(dim, file, self.builds.is_empty(), effort.limit)? {
             Ok(build) => self.builds.push(build),
             Err(silence) => self.silence = Some(silence),
         }
@@ -106,6 +105,11 @@ impl Row {
         self.builds.iter().filter_map(|build| build.exact).max_by(f64::total_cmp)
     }
 
+    /// What the checker said of its answer, with the processor time of the build that gave it.
+    fn judged(&self) -> Option<(&Judged, f64)> {
+        self.builds.iter().find_map(|build| Some((build.judged.as_ref()?, build.cpu)))
+    }
+
     /// What is to be said of its answers.
     fn judgement(&self, n: u64, reference: Option<u64>) -> String {
         let mut said = Vec::new();
@@ -128,6 +132,10 @@ impl Row {
         if said.is_empty() && !self.builds.is_empty() && reference.is_some() {
             said.push("right".to_owned());
         }
+        said.extend(self.judged().map(|(judged, _)| match &judged.rejected {
+            None => "proved".to_owned(),
+            Some(why) => format!("REJECTED: {why}"),
+        }));
         if !self.program.is_exact() {
             said.push("not exact".to_owned());
         }
@@ -137,9 +145,9 @@ impl Row {
 }
 
 impl Rounds {
-    /// Adds what others did at other times: a uniform set of this size, and a quoted figure.
-    pub(super) fn beside(self, uniform: Option<PerPoint>, quoted: Option<Quoted>) -> Self {
-        Rounds { uniform, quoted, ..self }
+    /// Adds what the programs took for a uniform set of this size.
+    pub(super) fn beside(self, uniform: Option<PerPoint>) -> Self {
+        Rounds { uniform, ..self }
     }
 
     /// What each program took per point.
@@ -175,6 +183,16 @@ impl Rounds {
         self.row(program)?.exact()
     }
 
+    /// Processor time of the check over that of the build.
+    pub(super) fn check(&self, program: Program) -> Option<f64> {
+        self.row(program)?.judged().map(|(judged, build)| judged.check / build)
+    }
+
+    /// The same of the answer in rows of the input, with its certificate.
+    fn answer(&self, program: Program) -> Option<f64> {
+        self.row(program)?.judged().map(|(judged, build)| judged.answer / build)
+    }
+
     /// Wall clock of one thread over that of two, round by round.
     pub(super) fn speedup(&self) -> Option<Summary> {
         let wall = |threads| Some(self.row(Program::Taut(threads))?.of(|build| build.wall));
@@ -200,6 +218,8 @@ impl Rounds {
             "peak per point",
             "simplices",
             "exact stage",
+            "answer ÷ build",
+            "check ÷ build",
             "judgement",
         ]);
         let text = |value: Option<String>| value.unwrap_or_default();
@@ -219,17 +239,10 @@ impl Rounds {
                 text(self.bytes(program).map(|bytes| format!("{bytes:.0} B"))),
                 text(row.builds.first().map(|build| build.simplices.to_string())),
                 text(row.exact().map(|share| format!("{share:.1e}"))),
+                text(self.answer(program).map(times)),
+                text(self.check(program).map(times)),
                 row.judgement(self.n, self.reference),
             ]);
-        }
-        if let Some(Quoted { geogram, cgal }) = self.quoted {
-            let mut cells = vec![String::new(); 11];
-            cells[0] = "Geogram, quoted".to_owned();
-            cells[1] = "1".to_owned();
-            cells[2] = format!("{geogram:.0} ns");
-            cells[3] = times(geogram / cgal);
-            cells[10] = format!("another hour, with CGAL at {cgal:.0} ns");
-            table.push(cells);
         }
         table
     }
@@ -277,12 +290,13 @@ mod tests {
             peak: Some(64_000),
             exact: None,
             counters: BTreeMap::new(),
+            judged: None,
         };
         Row { program, builds: cpu.iter().map(build).collect(), silence: None }
     }
 
     fn rounds(rows: Vec<Row>) -> Rounds {
-        Rounds { n: 1000, rows, reference: Some(1990), uniform: None, quoted: None }
+        Rounds { n: 1000, rows, reference: Some(1990), uniform: None }
     }
 
     #[test]
@@ -300,7 +314,7 @@ mod tests {
         assert!((speedup.max - 2.0).abs() < 1e-12 && (speedup.min - 5.0 / 3.0).abs() < 1e-12);
         assert_eq!((found.bytes(Program::Taut(1)), found.threads()), (Some(64.0), vec![1, 2]));
         assert_eq!(found.of_uniform(Program::Taut(1)), None);
-        let found = found.beside(Some(vec![(Program::Taut(1), 800.0)]), None);
+        let found = found.beside(Some(vec![(Program::Taut(1), 800.0)]));
         assert!((found.of_uniform(Program::Taut(1)).unwrap() - 0.5).abs() < 1e-12);
         assert_eq!(found.of_uniform(Program::Taut(2)), None);
     }
@@ -315,6 +329,16 @@ mod tests {
         let mut short = row(SPADE, &[1.0], 1990);
         short.builds[0].points = 999;
         assert_eq!(judge(short), "WRONG: read 999 points");
+        let mut ours = row(Program::Taut(1), &[2.0, 1.0], 1990);
+        ours.builds[0].judged = Some(Judged { answer: 0.5, check: 0.8, rejected: None });
+        assert_eq!(judge(row(Program::Taut(1), &[1.0], 1990)), "right");
+        ours.builds[1].simplices = 1991;
+        ours.builds[0].judged.as_mut().unwrap().rejected = Some("a dent".to_owned());
+        let found = rounds(vec![ours]);
+        assert_eq!(found.rows[0].judgement(1000, Some(1990)), "WRONG by +1; REJECTED: a dent");
+        // Of the build that was judged, not of the fastest.
+        assert_eq!(found.check(Program::Taut(1)), Some(0.4));
+        assert_eq!(found.answer(Program::Taut(1)), Some(0.25));
         let mut gone = row(SPADE, &[], 0);
         gone.silence = Some(Silence::Ended);
         assert_eq!(judge(gone), "ended without an answer");

@@ -22,9 +22,11 @@ fn is_accepted(case: &Case) {
         }
     }
     let width = case.solution.answer.vertices_per_simplex();
-    if width >= 3 {
-        let mut simplices = case.solution.answer.simplices.clone();
-        simplices.chunks_mut(width).step_by(2).for_each(|simplex| simplex.swap(0, 1));
+    if !case.solution.answer.simplices.is_empty() {
+        // Every other simplex faces the other way, and the last comes first.
+        let simplices = &case.solution.answer.simplices;
+        let mut simplices: Vec<u32> = simplices.rchunks(width).flatten().copied().collect();
+        simplices.chunks_mut(width).step_by(2).for_each(|simplex| simplex.swap(0, width - 1));
         let found = check_simplices(&case.points(), &simplices, width, &Monitor::silent());
         assert_eq!(found.unwrap().fingerprint, verdict.fingerprint, "{}: as a mesh", case.name);
     }
@@ -108,6 +110,38 @@ fn points_of_lower_dimension() {
             .collect();
         is_accepted(&solved("on a plane", &points, 3));
     }
+}
+
+/// Edges and single vertices as a file of a mesh has them.
+#[test]
+fn wrong_meshes_of_collinear_points_are_refused() {
+    let line = [0.0, 0.0, 2.0, 2.0, 1.0, 1.0, 3.0, 3.0, 1.0, 1.0];
+    let judge = |values: &[f64], simplices: &[u32], width| {
+        let points = Points::new(values, 2).unwrap();
+        match check_simplices(&points, simplices, width, &Monitor::silent()) {
+            Ok(found) => Ok(found.counts.hull),
+            Err(CheckError::Rejected(Violation::Mesh(violation))) => Err(violation),
+            Err(other) => panic!("{other}"),
+        }
+    };
+    // Any order, either way, and of equal points any one.
+    assert_eq!(judge(&line, &[3, 1, 0, 2, 1, 2], 2), Ok(2));
+    assert_eq!(judge(&line, &[3, 1, 0, 4, 1, 4], 2), Ok(2));
+    let chain = |position| Err(MeshViolation::Chain { position });
+    assert_eq!(judge(&line, &[3, 1, 0, 2, 4, 1], 2), chain(2), "two ids for one place");
+    assert_eq!(judge(&line, &[0, 1, 2, 1, 1, 3], 2), chain(1), "an edge over a point");
+    assert_eq!(judge(&line, &[0, 2, 2, 1, 1, 3, 1, 2], 2), chain(3), "an edge twice");
+    assert_eq!(judge(&line, &[0, 2, 1, 3], 2), chain(1), "a gap");
+    assert_eq!(judge(&line, &[0, 2, 2, 1], 2), Err(MeshViolation::Missing { row: 3 }));
+    assert_eq!(judge(&line, &[0, 0, 2, 1, 1, 3], 2), chain(0), "a loop");
+    let dimension = |claimed, found| Err(MeshViolation::HullDimension { claimed, found });
+    assert_eq!(judge(&line, &[0, 1, 2, 3], 1), dimension(Some(0), Some(1)));
+    assert_eq!(judge(&[0., 0., 1., 0., 0., 1.], &[0, 1, 1, 2], 2), dimension(Some(1), Some(2)));
+    assert_eq!(judge(&[5.0; 6], &[1], 1), Ok(0));
+    assert_eq!(judge(&[5.0; 6], &[1, 2], 1), chain(1));
+    assert_eq!(judge(&[], &[], 1), dimension(Some(0), None));
+    let none = MeshViolation::Dimension { claimed: 0, found: 2 };
+    assert_eq!(judge(&line, &[], 0), Err(none));
 }
 
 /// Scales at which squares or fifth powers leave the range of f64, and sets that mix them.

@@ -143,8 +143,8 @@ impl Opened {
     pub(crate) fn explain_delaunay(&self, error: DelaunayError) -> anyhow::Error {
         match error {
             DelaunayError::NonFinite { row, column, value } => self.not_finite(row, column, value),
-            DelaunayError::Dimension { dim, expected } => anyhow!(
-                "{}: points have {dim} coordinate{}: expected {expected}; choose them with --columns",
+            DelaunayError::Dimension { dim, .. } => anyhow!(
+                "{}: points have {dim} coordinate{}: expected 2, the plane, or 3, space; choose them with --columns",
                 self.name(),
                 if dim == 1 { "" } else { "s" }
             ),

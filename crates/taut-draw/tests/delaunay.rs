@@ -97,6 +97,30 @@ fn many_points_are_drawn_in_a_window_and_counted() {
     assert!(to_svg(&all[0], &Style::default()).len() < 1_000_000);
 }
 
+/// Copies of the middle lie in every window, points of one square around it in all or in none.
+#[test]
+fn no_picture_has_more_points_than_asked_for() {
+    let most = 500;
+    let options = DrawOptions { max_points: most, ..Default::default() };
+    let copies = [0.0, 0.0].repeat(4000);
+    let others: Vec<f64> = generate(Distribution::Normal, 1500, 2, 4).unwrap();
+    let mut ring = copies.clone();
+    ring.extend((0..1200).flat_map(|i| [1.0, f64::from(i) / 1200.0]));
+    for (values, pictures) in
+        [([&copies, &others[..]].concat(), 3), (ring, 1), (copies, 1), (others, 3)]
+    {
+        let drawn = figures(&values, 2, &options);
+        assert_eq!(drawn.len(), pictures);
+        for figure in &drawn {
+            for layer in &plane(figure).layers {
+                if let Shape2::Points(points) = &layer.shape {
+                    assert!((1..=most).contains(&points.len()), "{}", points.len());
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn space_shows_the_hull_and_few_edges() {
     let values: Vec<f64> = generate(Distribution::Normal, 50, 3, 5).unwrap();

@@ -14,7 +14,7 @@
 //! }
 //! ```
 //!
-//! Not for: points with coordinates that are not finite (validate first), or more than 2³² of them.
+//! Not for: points with coordinates that are not finite (validate first), or 2³² of them or more.
 #![forbid(unsafe_code)]
 
 mod hilbert;

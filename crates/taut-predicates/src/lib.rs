@@ -21,7 +21,8 @@
 //!
 //! Every sign is that of the exact real number: the coordinates are taken as the fractions they are. Finite
 //! coordinates of any magnitude will do; those of infinities and NaN mean nothing (but end, without a panic). Nothing
-//! allocates, nothing depends on the compiler's mood: the arithmetic is plain IEEE, in a fixed order.
+//! allocates. The arithmetic is that of IEEE 754 and of integers, in a fixed order, so no compiler, option or processor
+//! changes a sign.
 //!
 //! # Stages
 //! A call ends at the first stage that is sure of its answer. Each has its idea, proof and sources at its head.
@@ -36,7 +37,8 @@
 //!
 //! A kernel calls the filters itself ([`plane::in_circle_filter`], generic over [`MulAdd`]), and where one answers 0 the
 //! cold continuation ([`plane::conflict_exact`]) with its [`Exact`], which counts the stages. All others call the plain
-//! functions. The figures are of `examples/stages.rs`, on one core of 2024, without fused operations.
+//! functions. The figures are of `examples/stages.rs`, on one core of an AMD EPYC of 2024 (family 26) at 2.6 GHz, without
+//! fused operations.
 
 #![forbid(unsafe_code)]
 

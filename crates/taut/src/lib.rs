@@ -7,6 +7,7 @@
 //! | either, of more points than memory holds | [`ball_of_source()`] | the same | [`enclose`] |
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`Plane`], [`Space`] | the same | [mod@delaunay] |
+//! | edges that must be there | [`Plane::constrained`] | exact, Delaunay as far as they let it be | [mod@delaunay] |
 //! | a second opinion on any answer | [`Solution::check`] | a proved bracket, or the first violation | [`certify`] |
 //! | an answer of yesterday | [`AnySolution::from_json`] | the same bits | [`certify`] |
 //! | points to try with | [`generate()`] | point i depends on the seed and i alone | [`points`] |
@@ -47,7 +48,7 @@
 //! Nothing but names lives here; each crate behind the door can be used on its own. Files are read and written by
 //! `taut-io`, pictures drawn by `taut-draw`, and the command `taut` is the crate `taut-cli`.
 //!
-//! Not for: distances other than Euclidean, or sets where some points may be left out.
+//! Not for: distances other than Euclidean, weights, or sets where some points may be left out.
 #![forbid(unsafe_code)]
 
 pub use taut_certify as certify;

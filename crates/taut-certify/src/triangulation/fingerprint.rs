@@ -5,8 +5,8 @@
 //! depend on any order: of the input rows, of the vertices in a simplex, of the simplices. The scrambling between the
 //! two sums is what makes them tell more than how often each vertex occurs, which a flip of four or five points need
 //! not change.
-//! *Use.* Two triangulations are equal if their fingerprints are, but for a chance of about 2⁻¹²⁸ for every pair of
-//! simplices. *Not* a cryptographic hash.
+//! *Use.* Equal fingerprints speak for equal triangulations as if the hashes of simplices were random numbers of 128 bits;
+//! nothing is proved. *Not* a cryptographic hash.
 
 use std::fmt;
 use std::str::FromStr;

@@ -4,7 +4,7 @@ use taut::delaunay::{Counters, Error};
 use taut::points::{Rows, Scalar, Scratch};
 use taut::{DelaunayOptions, Monitor, Plane, PointSource, Points, Solution, Space, Triangulation};
 
-use crate::numbers::count;
+use crate::numbers::{count, counted};
 use crate::report::Fact;
 
 pub(super) enum Built {
@@ -25,8 +25,8 @@ impl Built {
         ) -> Result<Built, Error> {
             match points.dim() {
                 2 => Ok(Built::Plane(Plane::build(points, options, monitor)?)),
-                3 => Ok(Built::Space(Space::build(points, options, monitor)?)),
-                dim => Err(Error::Dimension { dim, expected: "2, the plane, or 3, space" }),
+                // Other dimensions are refused there.
+                _ => Ok(Built::Space(Space::build(points, options, monitor)?)),
             }
         }
         let mut scratch = Scratch::new();
@@ -61,12 +61,12 @@ impl Built {
     pub(super) fn signs(&self) -> Fact {
         let counters = self.counters();
         let (all, stages) = (counters.orientations + counters.conflict_tests, counters.stages);
-        let exact = stages.double_double + stages.wide + stages.unbounded;
         Fact::new("signs", count(all)).remark(format!(
-            "{} in exact integers, {} in more than double precision, {} ties for the perturbation",
+            "{} by exact whole numbers, {} by double-double, {} by long integers, {}",
             count(stages.integer),
-            count(exact),
-            count(stages.ties)
+            count(stages.double_double),
+            count(stages.wide + stages.unbounded),
+            counted(stages.ties, "tie")
         ))
     }
 }

@@ -23,6 +23,7 @@ fn the_summary_names_every_number() {
         "\n  verified  yes; the only one, with ",
         "\n  hash      ",
         "\n  signs     ",
+        " by exact whole numbers, 0 by double-double, 0 by long integers, 0 ties\n",
         "checking ",
     ]);
     assert_eq!(run.err, "");
@@ -138,23 +139,31 @@ fn doctored_json_is_rejected() {
 #[test]
 fn flat_points_are_an_answer() {
     let desk = Desk::new();
-    for (points, said) in [
-        ("1,1\n1,1\n", ["simplices 1 point\n", "all points are equal\n"]),
-        ("0,0\n2,2\n1,1\n", ["simplices 2 edges\n", "dimension 1; all points are on a line\n"]),
+    for (points, sites, said) in [
+        ("1,1\n1,1\n", 1, ["simplices 1 point\n", "all points are equal\n"]),
+        ("0,0\n2,2\n1,1\n", 3, ["simplices 2 edges\n", "dimension 1; all points are on a line\n"]),
         (
             "0,0,1\n2,0,1\n0,2,1\n",
+            3,
             ["simplices 1 triangle\n", "dimension 2; all points are on a plane\n"],
         ),
-        ("0,0,0\n1,1,1\n", ["simplices 1 edge\n", "dimension 1; all points are on a line\n"]),
+        ("0,0,0\n1,1,1\n", 2, ["simplices 1 edge\n", "dimension 1; all points are on a line\n"]),
     ] {
+        let sites = format!("\n  sites     {sites}; distinct points\n");
         desk.put("flat.csv", points);
         desk.taut("delaunay flat.csv -o flat.json --draw flat.svg")
             .ends(0)
             .says(&said)
             .says(&["verified  yes"]);
         desk.taut("verify flat.json flat.csv").ends(0);
-        desk.taut("delaunay flat.csv -o flat.vtu").ends(0);
+        for mesh in ["flat.vtu", "flat.ply", "flat.obj", "flat.off"] {
+            desk.taut(&format!("delaunay flat.csv -o {mesh}")).ends(0);
+            desk.taut(&format!("verify {mesh} flat.csv")).ends(0).says(&["Verified", &sites]);
+        }
     }
+    desk.put("line.csv", "0,0\n2,2\n1,1\n");
+    desk.put("over.off", "OFF\n3 2 0\n0 0 0\n2 2 0\n1 1 0\n2 0 1\n2 2 1\n");
+    desk.taut("verify over.off line.csv").ends(1).says(&["Rejected: over.off: "]);
     desk.put("flat.csv", "1,1\n1,1\n");
     desk.taut("delaunay flat.csv --hull hull.ply").ends(2).complains(&["all points are equal"]);
 }

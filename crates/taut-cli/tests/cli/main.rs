@@ -8,6 +8,7 @@ mod generate;
 #[cfg(unix)]
 mod interrupt;
 mod pictures;
+mod places;
 mod threads;
 mod usps;
 mod verify;

@@ -4,12 +4,13 @@
 //! some thousands of edges that an eye can tell apart; of more points a window around their middle is drawn as well,
 //! with its own edges and cells as they are: a triangulation of a sample would be another one. In space the hull is a
 //! surface to turn, and of few points all edges show within.
-//! *Guarantee.* At most [`DrawOptions::max_points`] points are drawn with three edges each, the others are counted in the
-//! caption. Voronoi vertices are rounded: they are drawn, not returned.
-//! *Trap.* Where the view ends, edges are cut, so that one long edge does not shrink the rest to a dot.
+//! *Guarantee.* In the plane no picture has more than [`DrawOptions::max_points`] points; the others are counted in the
+//! caption. A window shows of equal points one. Voronoi vertices are rounded: they are drawn, not returned.
+//! *Trap.* Points of a window bring all their edges, three each on average, but one that is joined to all others brings as
+//! many. Where the view ends, edges are cut, so that one long edge does not shrink the rest to a dot.
 
 mod clip;
-mod mesh;
+mod edges;
 mod plane;
 mod space;
 mod voronoi;

@@ -18,7 +18,9 @@ impl Picture<'_> {
             let said = format!("The window of the picture before, with {said}.");
             scenes.push(self.scene(format!("{}: a window", self.title()), said, layers));
         }
-        scenes.extend(self.diagram(window.as_ref()));
+        if window.is_some() || !self.is_crowded() {
+            scenes.extend(self.diagram(window.as_ref()));
+        }
         scenes
     }
 
@@ -79,10 +81,11 @@ impl Picture<'_> {
             .filter_map(|edge| frame.segment(self.at(edge[0]), self.at(edge[1])))
             .map(|ends| ends.to_vec())
             .collect();
-        let ids: Vec<u32> = (0..self.places.len() as u32).filter(holds).collect();
+        let ids = self.within(frame);
+        let noun = if self.answer().duplicates.is_empty() { "point" } else { "distinct point" };
         let said = format!(
             "{} and {} as they are",
-            counted(ids.len() as u64, "point"),
+            counted(ids.len() as u64, noun),
             counted(chains.len() as u64, "edge")
         );
         let mut layers: Vec<Layer2> = lines("edges", Tone::Answer, Look::Thin, chains).collect();
@@ -104,8 +107,7 @@ impl Picture<'_> {
             .map(|ends| ends.to_vec())
             .collect();
         let look = if cells.len() <= BOLD { Look::Solid } else { Look::Thin };
-        let ids: Vec<u32> =
-            (0..self.places.len() as u32).filter(|&id| frame.holds(self.at(id))).collect();
+        let ids = self.within(&frame);
         let mut caption = format!(
             "Each Voronoi cell holds what is nearer to its point than to any other; cells that share an edge \
              belong to points that share one. {} of the diagram are drawn.",

@@ -14,12 +14,18 @@ const WITHIN: usize = 600;
 const MARGIN: f64 = 0.08;
 
 impl Picture<'_> {
-    /// The square around the middle of the points that holds some [`WITHIN`] of them; `None` if all of them can be seen.
+    /// Whether there are more points than an eye can tell apart, or than may be drawn.
+    pub(super) fn is_crowded(&self) -> bool {
+        self.places.len() > CROWDED.min(self.options.max_points)
+    }
+
+    /// The square around the middle of crowded points that holds some [`WITHIN`] distinct ones; `None` if all can be seen,
+    /// or if so many are equally far from the middle that there is no such square.
     pub(super) fn window(&self) -> Option<Frame> {
-        let n = self.places.len();
-        if n <= CROWDED {
+        if !self.is_crowded() {
             return None;
         }
+        let n = self.places.len();
         let unit = unit(self.places.iter().flatten().copied());
         let middle = [0, 1].map(|k| {
             let mut along: Vec<f64> = self.places.iter().map(|at| at[k] / unit).collect();
@@ -27,14 +33,37 @@ impl Picture<'_> {
         });
         let reach =
             |at: &[f64; 3]| (at[0] / unit - middle[0]).abs().max((at[1] / unit - middle[1]).abs());
-        // Copies of the middle reach nowhere; a window needs a width.
-        let mut reaches: Vec<f64> = self.places.iter().map(reach).filter(|&r| r > 0.0).collect();
-        let place = WITHIN.min(reaches.len().checked_sub(1)?);
+        let distinct = self.distinct();
+        let reaches = distinct.iter().map(|&id| reach(&self.places[id as usize]));
+        // The middle itself reaches nowhere; a window needs a width.
+        let mut reaches: Vec<f64> = reaches.filter(|&r| r > 0.0).collect();
+        let most = self.options.max_points;
+        let place = WITHIN.min(most.saturating_sub(2)).min(reaches.len().checked_sub(1)?);
         let half = *reaches.select_nth_unstable_by(place, f64::total_cmp).1;
-        Some(Frame {
+        let frame = Frame {
             low: middle.map(|x| (x - half) * unit),
             high: middle.map(|x| (x + half) * unit),
-        })
+        };
+        (self.within(&frame).len() <= most).then_some(frame)
+    }
+
+    /// The distinct points in a window, ascending.
+    pub(super) fn within(&self, frame: &Frame) -> Vec<u32> {
+        let mut ids = self.distinct();
+        ids.retain(|&id| {
+            let [x, y, _] = self.places[id as usize];
+            frame.holds([x, y])
+        });
+        ids
+    }
+
+    /// All points that equal no earlier one, ascending.
+    fn distinct(&self) -> Vec<u32> {
+        let mut is_copy = vec![false; self.places.len()];
+        for [copy, _] in &self.answer().duplicates {
+            is_copy[*copy as usize] = true;
+        }
+        (0..is_copy.len() as u32).filter(|&id| !is_copy[id as usize]).collect()
     }
 
     /// The box of all points, with room around it.

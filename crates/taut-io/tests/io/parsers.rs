@@ -22,7 +22,7 @@ pub(crate) const ALL: [Parser; 13] = [
     ("obj", obj),
     ("off", off),
     ("vtu", vtu),
-    ("simplices", simplices),
+    ("mesh_parquet", mesh_parquet),
 ];
 
 /// Comma, tab and space; with all columns and with some.
@@ -101,7 +101,7 @@ pub(crate) fn vtu(bytes: &[u8]) {
 }
 
 /// Parquet with rows of ids.
-pub(crate) fn simplices(bytes: &[u8]) {
+pub(crate) fn mesh_parquet(bytes: &[u8]) {
     mesh(bytes, "fuzz.parquet");
 }
 

@@ -14,7 +14,11 @@ pub(super) fn check<const D: usize>(
     let (fingerprint, hull) = match claim.hull_dimension {
         Some(1) => {
             let edges = simplices.as_chunks().0;
-            (fingerprint(sites, edges), chain(sites, edges)?)
+            let hull = match claim.lists {
+                Some(_) => chain(sites, edges.iter().copied().enumerate())?,
+                None => chain(sites, along(sites, edges))?,
+            };
+            (fingerprint(sites, edges), hull)
         }
         Some(_) => {
             // Further simplices would be copies of the first.
@@ -49,17 +53,34 @@ fn fingerprint<const D: usize, const V: usize>(
     sum
 }
 
-/// The two ends of the chain, by rows.
-fn chain<const D: usize>(sites: &Sites<D>, edges: &[[u32; 2]]) -> Result<Vec<u32>, MeshViolation> {
-    let mut before = None;
-    for (position, &[a, b]) in edges.iter().enumerate() {
+/// Edges that come in no order and face either way, with their positions: turned and sorted by their first ends.
+fn along<const D: usize>(
+    sites: &Sites<D>,
+    edges: &[[u32; 2]],
+) -> impl Iterator<Item = (usize, [u32; 2])> {
+    let order = |a: u32, b: u32| {
         let [p, q] = sites.gather(&[a, b]);
-        if before.is_some_and(|before| before != a) || lexicographic(&p, &q).is_ge() {
+        lexicographic(&p, &q)
+    };
+    let turned = |&[a, b]: &[u32; 2]| if order(a, b).is_gt() { [b, a] } else { [a, b] };
+    let mut edges: Vec<_> = edges.iter().map(turned).enumerate().collect();
+    edges.sort_by(|(_, e), (_, f)| order(e[0], f[0]));
+    edges.into_iter()
+}
+
+/// The two ends of the chain, by rows.
+fn chain<const D: usize>(
+    sites: &Sites<D>,
+    edges: impl Iterator<Item = (usize, [u32; 2])>,
+) -> Result<Vec<u32>, MeshViolation> {
+    let mut ends: Option<[u32; 2]> = None;
+    for (position, [a, b]) in edges {
+        let [p, q] = sites.gather(&[a, b]);
+        if ends.is_some_and(|ends| ends[1] != a) || lexicographic(&p, &q).is_ge() {
             return Err(MeshViolation::Chain { position });
         }
-        before = Some(b);
+        ends = Some([ends.map_or(a, |ends| ends[0]), b]);
     }
-    let ends = [edges.first().map(|edge| edge[0]), edges.last().map(|edge| edge[1])];
     Ok(ends.into_iter().flatten().map(|site| sites.rows[site as usize]).collect())
 }
 

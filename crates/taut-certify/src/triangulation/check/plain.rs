@@ -12,8 +12,9 @@ use crate::{CheckError, Violation};
 /// Nothing but the simplices is needed, so that a mesh of any origin can be judged: the neighbours and the hull are
 /// found, simplices may face either way, and of equal points any one may be the vertex. Where points lie on one sphere,
 /// only the triangulation of [`Triangulation`](crate::Triangulation) is accepted, not another Delaunay triangulation.
-/// Triangles (`vertices` = 3) of points in space must cover points on a plane. O(n + simplices), and about
-/// 12·`vertices` bytes for each simplex.
+/// Triangles (`vertices` = 3) of points in space must cover points on a plane, edges points on a line, a single vertex
+/// points that are all equal. O(n + simplices), beside sorting what has no order: facets of the hull in space, the edges
+/// of a line. About 12·`vertices` bytes for each simplex.
 ///
 /// # Errors
 /// [`CheckError::Rejected`] with the first violation, [`CheckError::Read`] when the points cannot be read.
@@ -36,7 +37,7 @@ pub fn check_simplices(
 ) -> Result<TriangulationVerdict, CheckError> {
     let claimed = vertices.saturating_sub(1);
     let found = source.dim();
-    if !(2..=3).contains(&found) || !(2..=found).contains(&claimed) {
+    if !(2..=3).contains(&found) || !(1..=found + 1).contains(&vertices) {
         let claimed = u8::try_from(claimed).unwrap_or(u8::MAX);
         return Err(MeshViolation::Dimension { claimed, found }.into());
     }
