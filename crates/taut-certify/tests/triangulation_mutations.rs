@@ -428,3 +428,34 @@ fn flips_are_refused_as_plain_meshes() {
     }
     assert!(refused > 30, "{refused}");
 }
+
+/// Three tetrahedra around an axis, run through twice over two rows of each point of the ring: every facet has its two
+/// sides, all turn the right way, no dent, and each row of the smallest point sees one sheet.
+#[test]
+fn two_sheets_over_equal_rows_are_refused() {
+    let ring = [[8.0, 0.0, 0.0], [-4.0, 7.0, 0.0], [-4.0, -8.0, 0.0]];
+    let rows: Vec<[f64; 3]> =
+        [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]].into_iter().chain(ring).chain(ring).collect();
+    let around = |ids: &[u32]| -> Vec<u32> {
+        (0..ids.len())
+            .flat_map(|i| {
+                let (r, next) = (rows[ids[i] as usize], rows[ids[(i + 1) % ids.len()] as usize]);
+                let left = r[0] * next[1] - r[1] * next[0] > 0.0;
+                let (a, b) = if left { (0, 1) } else { (1, 0) };
+                // The axis points down from row 0 to row 1.
+                [b, a, ids[i], ids[(i + 1) % ids.len()]]
+            })
+            .collect()
+    };
+    let once = taut_points::Points::new(rows.as_flattened(), 3).unwrap();
+    let verdict = check_simplices(&once, &around(&[2, 3, 4]), 4, &Monitor::silent());
+    assert!(verdict.is_ok(), "one sheet over these points is right: {verdict:?}");
+    let twice = check_simplices(&once, &around(&[2, 3, 4, 5, 6, 7]), 4, &Monitor::silent());
+    assert!(
+        matches!(
+            twice,
+            Err(CheckError::Rejected(Violation::Mesh(MeshViolation::HullWinding { .. })))
+        ),
+        "{twice:?}"
+    );
+}

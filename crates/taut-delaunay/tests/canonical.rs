@@ -132,6 +132,16 @@ fn space_sets() -> Vec<(&'static str, Vec<[f64; 3]>)> {
                 })
                 .collect(),
         ),
+        // Slivers without end: the circumsphere of almost every tetrahedron touches most sites.
+        (
+            "two circles, hardly tilted",
+            (0..700)
+                .map(|i| (TAU * r.next(), f64::from(i % 2) * 1e-12))
+                .map(|(angle, tilt)| {
+                    [2e9 * angle.cos(), 2e8 * angle.cos() + tilt, 4e9 * angle.sin()]
+                })
+                .collect(),
+        ),
         ("one point", vec![[3.0, -4.0, 0.5]]),
         ("nothing", vec![]),
     ]
@@ -150,7 +160,7 @@ fn same_whatever_the_way<const D: usize>(name: &str, points: &[[f64; D]]) {
     let expected = build(points, &alone);
     let source = Points::new(points.as_flattened(), D).expect("whole rows");
     expected.check(&source).unwrap_or_else(|e| panic!("{name}: {e}"));
-    for cells in [2, 3, 8, 64] {
+    for cells in [2, 3, 5, 8, 64] {
         let found = build(
             points,
             &DelaunayOptions { threads: Some(2), cells: Some(cells), ..alone.clone() },

@@ -4,18 +4,20 @@
 //! 1. across each edge of each of them there is just one other, which runs along it the other way, and all hang together;
 //! 2. no dent at any edge: the triangle beyond it does not rise above the plane, and unfolds where it lies in it;
 //! 3. each vertex of the first tetrahedron, and the lexicographically smallest site v, is on no outer side of any of them;
-//! 4. v is a vertex of the surface, the triangles around it form one cycle, and the directions from v to the next
-//!    vertices of this cycle have one local minimum.
+//! 4. no other vertex has the place of v; v is a vertex of the surface, the triangles around it form one cycle, and the
+//!    directions from v to the next vertices of this cycle have one local minimum.
 //!
 //! By 3 the centroid o of the first tetrahedron is strictly inside every triangle, so seen from o every triangle shows
 //! its inner side; by 1 the view from o is a covering of the sphere of directions, unbranched but at vertices. How many
 //! sheets has it? Follow the ray from o through v. A triangle met before v would have v on its outer side, against 3; a
 //! triangle that contains v but does not end there, or that is met beyond v, would contain a convex combination of sites
-//! that is not larger than v, against the choice of v. So all sheets over this direction meet in v, and their number is
-//! how often the cycle around v winds. By 2 the cycle, cut by a plane beside v, is a polygon that only turns left, so it
+//! that is not larger than v, against the choice of v. So all sheets over this direction meet in the place of v, hence, by
+//! 4, in the one vertex v, and their number is how often the cycle around v winds. By 2 the cycle, cut by a plane beside v, is a polygon that only turns left, so it
 //! winds once for each local minimum: once. So the surface is seen once in every direction, and without dents it bounds
 //! a convex body.
 //!
+//! *Trap.* That no two vertices have one place follows from the tiling, which is what is to be proved here. Two rows of
+//! the same point can carry a sheet each, and each winds once around its own vertex.
 //! *Trap.* Euler's formula cannot take the place of 4. Five tetrahedra around one edge, each reaching 144° around it, wind
 //! twice and close up: each is positive, facets pair up, there is no dent, and V − E + F = 2.
 //! *Reference.* Mehlhorn, Näher, Seel, Seidel, Schilz, Schirra, Uhrig, Comput. Geom. 12, 1999, which counts by a ray that
@@ -65,6 +67,9 @@ pub(super) fn check(
     surface.is_connected()?;
     surface.has_no_dent()?;
     let smallest = sites.smallest();
+    if let Some(twin) = sites.twin_of(smallest) {
+        return Err(MeshViolation::HullWinding { row: sites.rows[twin as usize] });
+    }
     let [a, b, c, d] = tetrahedra[0];
     surface.is_beneath(&[a, b, c, d, smallest])?;
     surface.winds_once(smallest)

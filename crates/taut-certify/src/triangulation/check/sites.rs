@@ -337,6 +337,13 @@ impl<const D: usize> Sites<D> {
         (0..self.points.len() as u32).reduce(smaller).unwrap_or(NO_SITE)
     }
 
+    /// Another vertex with the coordinates of `site`.
+    pub(super) fn twin_of(&self, site: u32) -> Option<u32> {
+        let place = self.points[site as usize];
+        (0..self.points.len() as u32)
+            .find(|&other| other != site && self.points[other as usize] == place)
+    }
+
     /// The coordinates of some sites.
     #[inline(always)]
     pub(super) fn gather<const V: usize>(&self, sites: &[u32; V]) -> [[f64; D]; V] {
