@@ -5,7 +5,7 @@
 //! error leaves earlier files as they were.
 
 use std::io::{ErrorKind, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
 use taut::{Answer, Solution};
@@ -13,7 +13,7 @@ use taut_io::{AtomicFile, Error};
 
 use crate::watch::interrupted;
 
-/// Refuses places that cannot be written, or that are among the `inputs`, before any work is done.
+/// Refuses places that cannot be written, that are among the `inputs`, or that are named twice, before any work is done.
 pub(crate) fn look_at(outputs: &[&Path], inputs: &[&Path]) -> anyhow::Result<()> {
     for &output in outputs.iter().filter(|output| !is_stream(output)) {
         let path = output.display().to_string();
@@ -28,7 +28,22 @@ pub(crate) fn look_at(outputs: &[&Path], inputs: &[&Path]) -> anyhow::Result<()>
             bail!("`{path}` is the input: name another file for the answer");
         }
     }
+    for (place, &output) in outputs.iter().enumerate() {
+        if outputs[..place].iter().any(|earlier| same_place(output, earlier)) {
+            let path = output.display();
+            bail!("`{path}` is named for two outputs: name another file for one of them");
+        }
+    }
     Ok(())
+}
+
+/// Whether two outputs would end up in one place, there already or not.
+fn same_place(one: &Path, other: &Path) -> bool {
+    let place = |path: &Path| -> Option<PathBuf> {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        Some(folder.unwrap_or(Path::new(".")).canonicalize().ok()?.join(path.file_name()?))
+    };
+    one == other || same_file(one, other) || place(one).is_some_and(|one| Some(one) == place(other))
 }
 
 /// Whether `-` is meant, standard input or output.

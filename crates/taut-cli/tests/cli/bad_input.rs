@@ -208,6 +208,21 @@ fn an_output_that_is_an_input_is_refused() {
     assert_eq!(desk.text("answer.svg"), desk.text("ball.json"));
 }
 
+#[test]
+fn one_file_for_two_outputs_is_refused() {
+    let desk = Desk::new();
+    desk.put("points.csv", GOOD);
+    for line in [
+        "delaunay points.csv -o same.json --voronoi same.json",
+        "delaunay points.csv -o same.ply --hull ./same.ply",
+        "delaunay points.csv -o - --voronoi -",
+        "ball points.csv -o same.svg --draw same.svg",
+    ] {
+        desk.taut(line).ends(2).complains(&["is named for two outputs"]);
+    }
+    assert!(!desk.path("same.json").exists() && !desk.path("same.ply").exists());
+}
+
 #[cfg(unix)]
 #[test]
 fn an_output_that_is_standard_input_is_refused() {
