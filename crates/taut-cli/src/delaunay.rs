@@ -39,7 +39,7 @@ pub(crate) struct Args {
     /// Chooses the random orders; the answer does not depend on it
     #[arg(long, value_name = "N", default_value_t = DelaunayOptions::default().seed)]
     seed: u64,
-    /// Do without the independent check, which costs less than half of the work
+    /// Do without the independent check, which takes about a quarter of the time
     #[arg(long)]
     no_verify: bool,
 
