@@ -40,13 +40,14 @@ const SCATTERED: usize = 512;
 /// How far a leaf looks for sites that were left out, in multiples of its extent.
 const CLEARANCE_EXTENTS: f64 = 2.0;
 
-/// A cell gives up if more than one simplex in so many is doubtful: on uniform points it is one in a hundred at most, on
-/// a circle or a sphere, where every sphere touches all sites, more than one in three.
-const DOUBTFUL_SHARE: usize = 10;
+/// A cell gives up if more than one simplex in so many is doubtful: on uniform points it is one in a hundred at most; on
+/// a circle or a sphere, where every sphere touches all sites, one in three; on a torus, whose inner spheres touch a
+/// whole meridian, one in sixteen.
+const DOUBTFUL_SHARE: usize = 20;
 
 /// Sites that a cell may ask about for each of its own before it gives up: on uniform points it asks about one for fifty
-/// in the plane and two in space, in clusters about eight in space.
-const QUESTIONS_EACH: u64 = 64;
+/// in the plane and two in space, in clusters of space up to fifteen.
+const QUESTIONS_EACH: u64 = 24;
 
 /// Most sites that one leaf may add to the halo: the box of a sparse leaf may lie over all of a dense cell.
 const HALO_EACH: usize = 4 * LEAF;

@@ -124,9 +124,7 @@ impl<const V: usize> Cell<V> {
     fn border(&self, offset: u32, owner: impl Fn(u32) -> usize) -> Border<V> {
         let mut border = Border { joints: Vec::new(), names: Names::default() };
         let mut name = |t: u32, sites: &[u32; V]| {
-            if self.owns(sites) {
-                border.names.insert(sorted(*sites), offset + t);
-            }
+            border.names.insert(sorted(*sites), offset + t);
         };
         for t in 0..self.simplices.len() as u32 {
             // A facet between two cells has a side with sites of both; the other side may be all ours.
@@ -136,14 +134,19 @@ impl<const V: usize> Cell<V> {
                 continue;
             }
             let Some(sites) = self.sites_of(t) else { continue };
-            name(t, &sites);
+            let ours = self.owns(&sites);
             for i in 0..V {
                 let (other, facet) = decode(self.simplices[t as usize].neighbors[i]);
                 let there = self.sites_of(other).expect("a live simplex has live neighbours");
-                name(other, &there);
-                let all_ours = there.iter().all(|site| self.own.contains(site));
-                // Both sides at an own site are right here. Note the facet once, and not if one cell has both sides.
-                let once = t < other || all_ours;
+                match (ours, self.owns(&there)) {
+                    // A cell that owns both sides has joined them itself.
+                    (true, true) => continue,
+                    (true, false) => name(t, &sites),
+                    (false, true) => name(other, &there),
+                    (false, false) => {}
+                }
+                // Both sides of a facet at an own site are right here. Note it once.
+                let once = t < other || there.iter().all(|site| self.own.contains(site));
                 if once && self.own.contains(&smallest_without(sites, i)) {
                     let sides = [
                         Side { key: sorted(sites), opposite: sites[i] },
