@@ -13,6 +13,11 @@ pub(crate) trait Kernel<const D: usize, const V: usize>: Sized {
     /// A mesh over these sites, none of them inserted yet.
     fn new(sites: Vec<[f64; D]>, settings: Settings) -> Self;
 
+    /// The same over `count` sites, of which `site(i)` is number i.
+    fn gather(count: usize, site: impl Fn(usize) -> [f64; D], settings: Settings) -> Self {
+        Self::new((0..count).map(site).collect(), settings)
+    }
+
     /// How many sites are numbered.
     fn site_count(&self) -> u32;
 

@@ -216,7 +216,6 @@ fn one_file_for_two_outputs_is_refused() {
         "delaunay points.csv -o same.json --voronoi same.json",
         "delaunay points.csv -o same.ply --hull ./same.ply",
         "delaunay points.csv -o - --voronoi -",
-        "ball points.csv -o same.svg --draw same.svg",
     ] {
         desk.taut(line).ends(2).complains(&["is named for two outputs"]);
     }

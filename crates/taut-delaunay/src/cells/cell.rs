@@ -73,6 +73,8 @@ pub(crate) struct Cell<const V: usize> {
     /// Where `own` lies in `sites`.
     pub(crate) own_local: Range<u32>,
     pub(crate) simplices: Vec<Simplex<V>>,
+    /// The slots that have own sites and others, and perhaps some that had.
+    pub(crate) mixed: Vec<u32>,
     pub(crate) counters: Counters,
 }
 
@@ -121,9 +123,9 @@ impl<const D: usize, const V: usize> Whole<'_, D, V> {
         sites.truncate(sites.partition_point(|&s| (s as usize) < self.sites.len()));
         let place = |site: u32| sites.partition_point(|&s| s < site) as u32;
         let own_local = place(own.start)..place(own.end);
-        let coordinates: Vec<[f64; D]> = sites.iter().map(|&s| self.sites[s as usize]).collect();
         let start = self.start.map(place);
-        let mut mesh = G::Mesh::new(coordinates, self.settings);
+        let mut mesh =
+            G::Mesh::gather(sites.len(), |i| self.sites[sites[i] as usize], self.settings);
         mesh.start(start);
         insert_all(&mut mesh, &start, self.order, monitor)?;
         let clearance = self.clearances(&own, &here);
@@ -138,13 +140,15 @@ impl<const D: usize, const V: usize> Whole<'_, D, V> {
             clean,
             mesh,
             questions: 0,
+            mixed: vec![],
             open: vec![],
         };
         if !cell.certify(&own_local, monitor)? {
             return Ok(None);
         }
         let (simplices, _, counters) = cell.mesh.finish();
-        Ok(Some(Cell { own, sites: cell.sites, own_local, simplices, counters }))
+        let (sites, mixed) = (cell.sites, cell.mixed);
+        Ok(Some(Cell { own, sites, own_local, simplices, mixed, counters }))
     }
 
     /// Adds the start simplex, sites evenly along the curve, and the extreme sites in some directions.
@@ -263,6 +267,8 @@ struct Certifying<'a, const D: usize, const V: usize, G: Geometry<D, V>> {
     mesh: G::Mesh,
     /// Sites that simplices were held against.
     questions: u64,
+    /// As in [`Cell`].
+    mixed: Vec<u32>,
     /// Scratch of queries.
     open: Vec<Node>,
 }
@@ -273,7 +279,17 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
         let most = QUESTIONS_EACH * u64::from(own.end - own.start);
         let mut doubtful: Vec<(u32, [u32; V])> = Vec::new();
         for t in 0..self.mesh.simplices().len() as u32 {
-            doubtful.extend(self.doubt(own, t));
+            let vertices = &self.mesh.simplices()[t as usize].vertices;
+            let count = vertices
+                .iter()
+                .filter(|&&v| v.wrapping_sub(own.start) < own.end - own.start)
+                .count();
+            if count > 0 {
+                doubtful.extend(self.doubt(own, t));
+                if count < V {
+                    self.mixed.push(t);
+                }
+            }
         }
         if doubtful.len() > self.mesh.simplices().len() / DOUBTFUL_SHARE {
             self.whole.hopeless.store(true, Ordering::Relaxed);
@@ -297,8 +313,11 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
             self.mesh.insert(&[local])?;
             star_of(self.mesh.simplices(), self.mesh.last(), local, &mut star);
             doubtful.extend(star.iter().filter_map(|&t| self.doubt(own, t)));
+            self.mixed.extend(&star);
             monitor.check()?;
         }
+        self.mixed.sort_unstable();
+        self.mixed.dedup();
         Ok(true)
     }
 

@@ -126,7 +126,7 @@ impl<const V: usize> Cell<V> {
         let mut name = |t: u32, sites: &[u32; V]| {
             border.names.insert(sorted(*sites), offset + t);
         };
-        for t in 0..self.simplices.len() as u32 {
+        for &t in &self.mixed {
             // A facet between two cells has a side with sites of both; the other side may be all ours.
             let vertices = &self.simplices[t as usize].vertices;
             let own = vertices.iter().filter(|&&v| self.is_own(v)).count();

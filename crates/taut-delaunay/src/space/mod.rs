@@ -89,13 +89,16 @@ pub(crate) struct Mesh {
 
 impl Kernel<3, 4> for Mesh {
     fn new(sites: Vec<[f64; 3]>, settings: Settings) -> Self {
+        Self::gather(sites.len(), |i| sites[i], settings)
+    }
+
+    fn gather(count: usize, site: impl Fn(usize) -> [f64; 3], settings: Settings) -> Self {
         // Uniform points take 6.77 simplices each, ghosts included; cavities leave a few dead slots. Pages that are never
         // touched cost nothing.
-        let slots = (sites.len() * 69 / 10 + 1024).min(SIMPLICES_MAX);
-        let mut rows = Vec::with_capacity(sites.len() + 1);
+        let slots = (count * 69 / 10 + 1024).min(SIMPLICES_MAX);
+        let mut rows = Vec::with_capacity(count + 1);
         rows.push(Site::GHOST);
-        let count = sites.len();
-        rows.extend(sites.into_iter().map(Site::new));
+        rows.extend((0..count).map(|i| Site::new(site(i))));
         Mesh {
             sites: rows,
             simplices: Vec::with_capacity(slots),
