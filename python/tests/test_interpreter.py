@@ -16,10 +16,17 @@ def points():
     return taut.generate("sphere", 20_000, 20, seed=1)
 
 
+# A job in the background may have been started with Ctrl-C ignored, and hands that on.
+LISTEN = """
+import signal
+signal.signal(signal.SIGINT, signal.default_int_handler)
+"""
+
+
 def run(program):
     """What a program prints in an interpreter of its own, where a late Ctrl-C can stop no other test."""
     done = subprocess.run(
-        [sys.executable, "-c", textwrap.dedent(program)],
+        [sys.executable, "-c", LISTEN + textwrap.dedent(program)],
         capture_output=True,
         text=True,
         timeout=60,
