@@ -8,4 +8,4 @@ mod ring;
 pub(crate) use double_double::{Compensated, Known, U, square, two_product, two_sum};
 pub(crate) use exact::ExactSum;
 pub(crate) use integer::{Integer, parts};
-pub(crate) use ring::{DoubleDouble, Ring};
+pub(crate) use ring::{DoubleDouble, Residue, Ring};

@@ -1,6 +1,9 @@
 //! Numbers that can be added and multiplied: one formula for a determinant serves every precision.
 
-use super::double_double::two_sum;
+use std::cmp::Ordering;
+
+use super::double_double::{two_product, two_sum};
+use super::integer::parts;
 
 /// What a determinant is made of.
 pub(crate) trait Ring: Clone {
@@ -26,21 +29,38 @@ impl Ring for f64 {
     }
 }
 
-/// Callers see to it that nothing overflows.
-impl Ring for i128 {
+/// A whole number modulo 2¹²⁸: the number itself, if it is known to be smaller than 2¹²⁷ in size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Residue(u128);
+
+impl Residue {
+    /// The residue of value/2^exponent, for a finite value of which no bit lies below 2^exponent.
+    pub(crate) fn scaled(value: f64, exponent: i32) -> Self {
+        let (mantissa, own) = parts(value);
+        let size = u128::from(mantissa).checked_shl((own - exponent) as u32).unwrap_or(0);
+        Residue(if value < 0.0 { size.wrapping_neg() } else { size })
+    }
+
+    /// The whole number with this residue that is at least −2¹²⁷ and less than 2¹²⁷, compared with 0.
+    pub(crate) fn sign(self) -> Ordering {
+        (self.0 as i128).cmp(&0)
+    }
+}
+
+impl Ring for Residue {
     #[inline(always)]
-    fn plus(&self, other: &i128) -> i128 {
-        self + other
+    fn plus(&self, other: &Residue) -> Residue {
+        Residue(self.0.wrapping_add(other.0))
     }
 
     #[inline(always)]
-    fn minus(&self, other: &i128) -> i128 {
-        self - other
+    fn minus(&self, other: &Residue) -> Residue {
+        Residue(self.0.wrapping_sub(other.0))
     }
 
     #[inline(always)]
-    fn times(&self, other: &i128) -> i128 {
-        self * other
+    fn times(&self, other: &Residue) -> Residue {
+        Residue(self.0.wrapping_mul(other.0))
     }
 }
 
@@ -59,16 +79,6 @@ pub(crate) struct DoubleDouble {
 fn fast_two_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
     DoubleDouble { high, low: b - (high - a) }
-}
-
-/// The error of the product where the processor has a fused multiply-add, and where it has none.
-#[inline(always)]
-fn two_product(a: f64, b: f64) -> (f64, f64) {
-    if cfg!(target_feature = "fma") {
-        let product = a * b;
-        return (product, a.mul_add(b, -product));
-    }
-    super::double_double::two_product(a, b)
 }
 
 impl DoubleDouble {

@@ -47,7 +47,9 @@
 
 mod facets;
 mod geometry;
+mod input;
 mod line;
+mod near_ties;
 mod pairing;
 mod plain;
 mod polygon;
@@ -59,7 +61,7 @@ mod sites;
 use taut_points::{Monitor, PointSource, Scratch};
 
 use self::prove::Claim;
-use self::sites::Input;
+use self::input::Input;
 use super::{
     MeshViolation, Triangulation, TriangulationCertificate, TriangulationCounts,
     TriangulationVerdict,

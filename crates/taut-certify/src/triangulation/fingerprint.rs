@@ -19,7 +19,7 @@ use taut_points::Points;
 pub struct Fingerprint(pub u128);
 
 /// The hash of one site.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SiteHash(u128);
 
 /// Well spread bits: the fractions of π, e, √2, √3 and √5.

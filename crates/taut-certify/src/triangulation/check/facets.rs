@@ -4,8 +4,9 @@
 //! of its vertices a neighbour has beyond one, nobody can foretell; so a batch of simplices is taken in three rounds,
 //! none of which has a branch that is guessed wrong often:
 //! 1. for each simplex N, O and a list of its facets that name a later simplex ([`Batch::prepare`]);
-//! 2. for each of these the neighbour and the in-sphere test in plain arithmetic ([`Batch::cross`]);
-//! 3. for what 2 left open, the same step by step and exactly ([`Complex::settle`]): also all that is wrong.
+//! 2. for each of these the neighbour and the in-sphere test in plain arithmetic ([`Batch::cross`], [`Batch::test`]);
+//! 3. for what 2 left open, ties where plain arithmetic is exact ([`Complex::settle`]), then all near ties of the batch
+//!    together ([`NearTies`]), and what is still open one by one: also all that is wrong.
 //!
 //! The memory accesses of one round do not wait for each other.
 
@@ -13,16 +14,18 @@ use std::cmp::Ordering;
 
 use rayon::prelude::*;
 
-use super::super::{Fingerprint, MeshViolation, NO_NEIGHBOR};
+use super::super::{Fingerprint, MeshViolation, NO_NEIGHBOR, SiteHash};
 use super::geometry::{Geometry, Lifted};
-use super::signs::{Signs, UNDERFLOW};
-use super::sites::{NO_SITE, Sites};
+use super::near_ties::NearTies;
+use super::signs::{Conflict, Signs, UNDERFLOW, sign_of};
+use super::sites::{NO_SITE, Recent, Sites};
 
 /// Simplices in a block of work.
 const BLOCK: usize = 1 << 13;
 
-/// Simplices that go through the rounds together: what is known of them stays in the nearest cache.
-const BATCH: usize = 128;
+/// Simplices that go through the rounds together. What is known of them stays in the second cache; with fewer, more of the
+/// vertices beyond them have not been met yet.
+const BATCH: usize = 1024;
 
 /// Facet i of a simplex as seen from outside: its vertices in positive order.
 pub(super) trait Facets<const F: usize> {
@@ -101,7 +104,7 @@ pub(super) struct Paired {
 
 /// The simplices of one kind, with their neighbours.
 pub(super) struct Complex<'a, const D: usize, const V: usize> {
-    pub(super) sites: &'a Sites<D>,
+    pub(super) sites: &'a Sites<'a, D>,
     pub(super) signs: Signs,
     pub(super) simplices: &'a [[u32; V]],
     pub(super) neighbors: &'a [[u32; V]],
@@ -118,7 +121,9 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
             .simplices
             .par_chunks(BLOCK)
             .enumerate()
-            .map(|(block, simplices)| self.block::<G, F>(block * BLOCK, simplices))
+            .map_init(Batch::new, |batch, (block, simplices)| {
+                self.block::<G, F>(batch, block * BLOCK, simplices)
+            })
             .collect();
         let mut all = Paired::default();
         for block in blocks {
@@ -142,6 +147,7 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
 
     fn block<G: Geometry<D, V>, const F: usize>(
         &self,
+        batch: &mut Batch<D, V>,
         first: usize,
         simplices: &[[u32; V]],
     ) -> Result<Paired, MeshViolation>
@@ -149,7 +155,6 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
         [u32; V]: Facets<F>,
     {
         let mut paired = Paired::default();
-        let mut batch = Batch::new();
         let starts = (first..first + simplices.len()).step_by(BATCH);
         for (first, simplices) in starts.zip(simplices.chunks(BATCH)) {
             let ahead = batch.prepare::<G>(self, first, simplices, &mut paired)?;
@@ -157,10 +162,13 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
             paired.behind += (V * simplices.len() - ahead) as u64;
             batch.cross(self, first, ahead);
             let open = batch.test::<G>(self, ahead);
-            for &Ahead { place, neighbor } in &batch.open[..open] {
-                let (number, facet) = (first + place as usize / 4, place as usize % 4);
-                self.settle::<G, F>(number, facet, neighbor, &mut paired)?;
+            let Batch { open: listed, near_ties, .. } = &mut *batch;
+            for facet in &listed[..open] {
+                self.settle::<G, F>(first, facet, near_ties, &mut paired)?;
             }
+            near_ties.settle::<G>(&self.signs, |facet, conflict| {
+                self.conclude(first, facet, conflict, &mut paired)
+            })?;
         }
         Ok(paired)
     }
@@ -174,37 +182,59 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
         }
     }
 
-    /// What is to be said of a facet, exactly.
-    #[inline(never)]
+    /// What is to be said of a facet that [`Batch::test`] left open, unless it is a near tie.
     fn settle<G: Geometry<D, V>, const F: usize>(
         &self,
-        number: usize,
-        facet: usize,
-        neighbor: u32,
+        first: usize,
+        facet: &Facet,
+        near_ties: &mut NearTies<D, V>,
         paired: &mut Paired,
     ) -> Result<(), MeshViolation>
     where
         [u32; V]: Facets<F>,
     {
-        if neighbor == NO_NEIGHBOR {
+        let number = first + facet.ahead.place as usize / 4;
+        if facet.ahead.neighbor == NO_NEIGHBOR {
             paired.ahead -= 1;
-            paired.open.push((number as u32, facet as u8));
+            paired.open.push((number as u32, (facet.ahead.place % 4) as u8));
             return Ok(());
         }
-        let apex = self.across(number, facet, neighbor)?;
-        let points = self.sites.gather(&self.simplices[number]);
-        paired.refined += 1;
-        let conflict = self.signs.conflict::<G, D, V>(&points, &self.sites.points[apex as usize]);
-        paired.ties += u64::from(conflict.is_tie);
-        if conflict.is_inside {
-            return Err(MeshViolation::Conflict {
-                simplex: number,
-                neighbor: neighbor as usize,
-                row: self.sites.rows[apex as usize],
-                tie: conflict.is_tie,
-            });
+        if facet.apex == NO_SITE {
+            let wrong = self.across(number, facet.ahead.place as usize % 4, facet.ahead.neighbor);
+            return wrong.map(|_| ());
         }
-        Ok(())
+        paired.refined += 1;
+        let apex = self.sites.point(facet.apex);
+        let simplex = self.sites.gather(&self.simplices[number]);
+        let Tested { value, size, largest } = facet.tested;
+        let conflict = if !self.signs.is_filtered {
+            self.signs.conflict::<G, D, V>(&simplex, &apex)
+        } else if largest <= G::IN_SPHERE.exact_max * self.signs.quantum {
+            self.signs.conflict_of::<G, D, V>(&simplex, &apex, sign_of(value))
+        } else {
+            near_ties.push(*facet, simplex, apex, size);
+            return Ok(());
+        };
+        self.conclude(first, facet, conflict, paired)
+    }
+
+    fn conclude(
+        &self,
+        first: usize,
+        facet: &Facet,
+        conflict: Conflict,
+        paired: &mut Paired,
+    ) -> Result<(), MeshViolation> {
+        paired.ties += u64::from(conflict.is_tie);
+        if !conflict.is_inside {
+            return Ok(());
+        }
+        Err(MeshViolation::Conflict {
+            simplex: first + facet.ahead.place as usize / 4,
+            neighbor: facet.ahead.neighbor as usize,
+            row: facet.apex,
+            tie: conflict.is_tie,
+        })
     }
 
     /// The vertex beyond facet `facet` of `number`, in the later simplex `neighbor` that is named there.
@@ -261,29 +291,41 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
 
 /// A facet that names a later simplex, itself or none.
 #[derive(Clone, Copy, Default)]
-struct Ahead {
+pub(super) struct Ahead {
     /// 4·(place of the simplex in the batch) + facet.
     place: u32,
     neighbor: u32,
 }
 
+/// The same, with the vertex beyond it, or [`NO_SITE`] where there is none to be had.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Facet {
+    ahead: Ahead,
+    apex: u32,
+    tested: Tested,
+}
+
 /// A few simplices on their way through the rounds. The lists have room for all facets, and stay as long as that.
 struct Batch<const D: usize, const V: usize> {
+    recent: Recent<D>,
     prepared: Vec<Prepared<D>>,
     ahead: Vec<Ahead>,
-    /// The vertex beyond each of these facets, or [`NO_SITE`] where that has to be settled.
+    /// The vertex beyond each of these facets, or [`NO_SITE`].
     apexes: Vec<u32>,
     /// Those facets that plain arithmetic did not settle.
-    open: Vec<Ahead>,
+    open: Vec<Facet>,
+    near_ties: NearTies<D, V>,
 }
 
 impl<const D: usize, const V: usize> Batch<D, V> {
     fn new() -> Self {
         Batch {
+            recent: Recent::new(),
             prepared: Vec::with_capacity(BATCH),
             ahead: vec![Ahead::default(); BATCH * V + 1],
             apexes: vec![NO_SITE; BATCH * V],
-            open: vec![Ahead::default(); BATCH * V + 1],
+            open: vec![Facet::default(); BATCH * V + 1],
+            near_ties: NearTies::new(),
         }
     }
 
@@ -299,11 +341,16 @@ impl<const D: usize, const V: usize> Batch<D, V> {
         let Complex { sites, signs, neighbors, .. } = complex;
         self.prepared.clear();
         let mut count = 0;
+        self.recent.bring(sites, simplices.as_flattened());
         let rows = simplices.iter().zip(&neighbors[first..first + simplices.len()]);
         for (place, (simplex, neighbors)) in rows.enumerate() {
             let number = first + place;
-            paired.fingerprint.add(simplex.map(|site| sites.hashes[site as usize]));
-            let points = sites.gather(simplex);
+            let (mut hashes, mut points) = ([SiteHash::default(); V], [[0.0; D]; V]);
+            for i in 0..V {
+                let vertex = self.recent.vertex(sites, simplex[i]);
+                (hashes[i], points[i]) = (vertex.hash, vertex.point);
+            }
+            paired.fingerprint.add(hashes);
             let prepared = Prepared::<D>::of::<G, V>(&points);
             if !(signs.is_filtered && prepared.is_positive::<G, V>()) {
                 paired.refined += 1;
@@ -350,18 +397,15 @@ impl<const D: usize, const V: usize> Batch<D, V> {
     #[inline(always)]
     fn test<G: Geometry<D, V>>(&mut self, complex: &Complex<'_, D, V>, count: usize) -> usize {
         let (sites, is_filtered) = (complex.sites, complex.signs.is_filtered);
-        let touch = |all: u64, &apex: &u32| {
-            all ^ sites.points.get(apex as usize).map_or(0, |p| p[0].to_bits())
-        };
-        std::hint::black_box(self.apexes[..count].iter().fold(0, touch));
         let mut open = 0;
         for (&ahead, &apex) in self.ahead[..count].iter().zip(&self.apexes) {
             let prepared = &self.prepared[ahead.place as usize / 4];
-            let is_settled = match sites.points.get(apex as usize) {
-                Some(apex) => is_filtered & prepared.is_outside::<G, V>(apex),
-                None => false,
+            let tested = match apex {
+                NO_SITE => Tested::default(),
+                apex => prepared.test::<G, V>(&self.recent.vertex(sites, apex).point),
             };
-            self.open[open] = ahead;
+            let is_settled = is_filtered & tested.is_outside::<G, D, V>();
+            self.open[open] = Facet { ahead, apex, tested };
             open += usize::from(!is_settled);
         }
         open
@@ -396,13 +440,33 @@ impl<const D: usize> Prepared<D> {
     }
 
     #[inline(always)]
-    fn is_outside<G: Geometry<D, V>, const V: usize>(&self, q: &[f64; D]) -> bool {
+    fn test<G: Geometry<D, V>, const V: usize>(&self, q: &[f64; D]) -> Tested {
         let (mut r, mut max) = (*q, self.max);
         for k in 0..D {
             r[k] -= self.origin[k];
             max[k] = max[k].max(r[k].abs());
         }
-        G::in_sphere(&self.lifted, &r)
-            < -(G::IN_SPHERE.rounding * G::lifted_volume(&max) + UNDERFLOW)
+        Tested {
+            value: G::in_sphere(&self.lifted, &r),
+            size: G::lifted_volume(&max),
+            largest: max.iter().fold(0.0f64, |largest, &m| largest.max(m)),
+        }
+    }
+}
+
+/// D in plain arithmetic.
+#[derive(Clone, Copy, Default)]
+struct Tested {
+    value: f64,
+    /// The largest monomial there can be.
+    size: f64,
+    /// The largest difference of coordinates.
+    largest: f64,
+}
+
+impl Tested {
+    #[inline(always)]
+    fn is_outside<G: Geometry<D, V>, const D: usize, const V: usize>(&self) -> bool {
+        self.value < -(G::IN_SPHERE.rounding * self.size + UNDERFLOW)
     }
 }

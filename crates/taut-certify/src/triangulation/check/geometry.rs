@@ -31,8 +31,16 @@ pub(super) struct Bounds {
     pub(super) rounding_twice: f64,
     /// monomials·m^degree ≤ 2⁵³.
     pub(super) exact_max: f64,
-    /// monomials·m^degree < 2¹²⁷, and differences have at most 53 bits.
-    pub(super) integer_max: f64,
+    /// Factors in a monomial.
+    pub(super) degree: i32,
+}
+
+impl Bounds {
+    /// What a determinant over [`DoubleDouble`](crate::arithmetic::DoubleDouble) is off by at most, if no monomial is
+    /// larger than `size`.
+    pub(super) fn of_double_double(&self, size: f64) -> f64 {
+        self.rounding_twice * (1.0 + 64.0 * U) * size + UNDERFLOW
+    }
 }
 
 /// A kind of simplices: `V` vertices with `D` coordinates.
@@ -69,8 +77,12 @@ pub(super) trait Geometry<const D: usize, const V: usize>: Sync {
 /// |v|².
 #[inline(always)]
 fn square<T: Ring, const D: usize>(v: &[T; D]) -> T {
-    let first = v[0].times(&v[0]);
-    v[1..].iter().fold(first, |sum, x| sum.plus(&x.times(x)))
+    // A loop: a closure would not be compiled for the vectors that its caller is compiled for.
+    let mut sum = v[0].times(&v[0]);
+    for x in &v[1..] {
+        sum = sum.plus(&x.times(x));
+    }
+    sum
 }
 
 /// aᵢbⱼ − aⱼbᵢ.
@@ -89,7 +101,7 @@ impl<const D: usize> Geometry<D, 3> for Triangles {
         rounding_of_sum: 5.0 * U,
         rounding_twice: 2.0 * 3.0 * 8.0 * U * U,
         exact_max: 67_108_864.0,
-        integer_max: 1_099_511_627_776.0,
+        degree: 2,
     };
     /// 18 monomials for D = 3. For eᵢ: four differences, 3 roundings in a square, its product with a coordinate, a
     /// difference, the product with r, and two sums: 12.
@@ -98,7 +110,7 @@ impl<const D: usize> Geometry<D, 3> for Triangles {
         rounding_of_sum: 13.0 * U,
         rounding_twice: 18.0 * 9.0 * 8.0 * U * U,
         exact_max: 4096.0,
-        integer_max: 1_073_741_824.0,
+        degree: 4,
     };
 
     #[inline(always)]
@@ -174,7 +186,7 @@ impl Geometry<3, 4> for Tetrahedra {
         rounding_of_sum: 9.0 * U,
         rounding_twice: 6.0 * 6.0 * 8.0 * U * U,
         exact_max: 65_536.0,
-        integer_max: 1_099_511_627_776.0,
+        degree: 3,
     };
     /// 72 monomials. For eᵢ: five differences, 3 roundings in a square, 2 in a minor, their product, two sums, the
     /// product with r, and three sums: 17.
@@ -183,7 +195,7 @@ impl Geometry<3, 4> for Tetrahedra {
         rounding_of_sum: 18.0 * U,
         rounding_twice: 72.0 * 13.0 * 8.0 * U * U,
         exact_max: 512.0,
-        integer_max: 16_777_216.0,
+        degree: 5,
     };
 
     #[inline(always)]
@@ -191,9 +203,10 @@ impl Geometry<3, 4> for Tetrahedra {
         let (b, c, d) = (&edges[0], &edges[1], &edges[2]);
         let (lb, lc, ld) = (square(b), square(c), square(d));
         let (cd, db, bc) = (cross(c, d), cross(d, b), cross(b, c));
-        let normal = std::array::from_fn(|k| {
-            lb.times(&cd[k]).plus(&lc.times(&db[k])).plus(&ld.times(&bc[k]))
-        });
+        let mut normal = b.clone();
+        for k in 0..3 {
+            normal[k] = lb.times(&cd[k]).plus(&lc.times(&db[k])).plus(&ld.times(&bc[k]));
+        }
         Lifted { normal, orientation: dot(&bc, d) }
     }
 

@@ -3,14 +3,14 @@
 use super::super::{Fingerprint, MeshViolation, NO_NEIGHBOR, TriangulationVerdict};
 use super::prove::{Claim, counted};
 use super::signs::lexicographic;
-use super::sites::Sites;
+use super::sites::{Recent, Sites};
 
 /// Checks the simplices of points whose hull has dimension 1 at most, which is known already.
 pub(super) fn check<const D: usize>(
-    sites: &Sites<D>,
-    simplices: &[u32],
+    sites: &Sites<'_, D>,
     claim: &Claim<'_>,
 ) -> Result<TriangulationVerdict, MeshViolation> {
+    let simplices = claim.simplices;
     let (fingerprint, hull) = match claim.hull_dimension {
         Some(1) => {
             let edges = simplices.as_chunks().0;
@@ -38,24 +38,26 @@ pub(super) fn check<const D: usize>(
         let position = (0..listed.len().max(hull.len())).find(differs).unwrap_or(0);
         return Err(MeshViolation::HullFacet { position });
     }
+    claim.covers(sites)?;
     let counts = counted(sites, simplices.len() / width, hull.len());
     Ok(TriangulationVerdict { counts, fingerprint, ties: 0, refined: 0 })
 }
 
 fn fingerprint<const D: usize, const V: usize>(
-    sites: &Sites<D>,
+    sites: &Sites<'_, D>,
     simplices: &[[u32; V]],
 ) -> Fingerprint {
     let mut sum = Fingerprint::default();
+    let mut recent = Recent::new();
     for simplex in simplices {
-        sum.add(simplex.map(|site| sites.hashes[site as usize]));
+        sum.add(simplex.map(|id| recent.vertex(sites, id).hash));
     }
     sum
 }
 
 /// Edges that come in no order and face either way, with their positions: turned and sorted by their first ends.
 fn along<const D: usize>(
-    sites: &Sites<D>,
+    sites: &Sites<'_, D>,
     edges: &[[u32; 2]],
 ) -> impl Iterator<Item = (usize, [u32; 2])> {
     let order = |a: u32, b: u32| {
@@ -70,7 +72,7 @@ fn along<const D: usize>(
 
 /// The two ends of the chain, by rows.
 fn chain<const D: usize>(
-    sites: &Sites<D>,
+    sites: &Sites<'_, D>,
     edges: impl Iterator<Item = (usize, [u32; 2])>,
 ) -> Result<Vec<u32>, MeshViolation> {
     let mut ends: Option<[u32; 2]> = None;
@@ -81,7 +83,7 @@ fn chain<const D: usize>(
         }
         ends = Some([ends.map_or(a, |ends| ends[0]), b]);
     }
-    Ok(ends.into_iter().flatten().map(|site| sites.rows[site as usize]).collect())
+    Ok(ends.into_iter().flatten().collect())
 }
 
 /// Beyond the first end of an edge lies the next one, beyond the second the one before.

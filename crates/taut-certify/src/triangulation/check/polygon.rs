@@ -14,7 +14,7 @@ use super::sites::{NO_SITE, Sites};
 
 /// Checks the polygon of the open edges, and that `listed` has just these, if it is given.
 pub(super) fn check<const D: usize>(
-    sites: &Sites<D>,
+    sites: &Sites<'_, D>,
     signs: &Signs,
     triangles: &[[u32; 3]],
     open: &[(u32, u8)],
@@ -23,9 +23,8 @@ pub(super) fn check<const D: usize>(
 where
     Triangles: Geometry<D, 3>,
 {
-    let broken =
-        |site: u32| MeshViolation::HullOpen { dimension: 2, row: sites.rows[site as usize] };
-    let mut next = vec![NO_SITE; sites.points.len()];
+    let broken = |row: u32| MeshViolation::HullOpen { dimension: 2, row };
+    let mut next = vec![NO_SITE; sites.rows()];
     for &(triangle, edge) in open {
         let [a, b] = triangles[triangle as usize].facet(usize::from(edge));
         if next[a as usize] != NO_SITE {
@@ -34,9 +33,8 @@ where
         next[a as usize] = b;
     }
     if let Some(listed) = listed {
-        is_listed(sites, triangles, open, listed, &next)?;
+        is_listed(triangles, open, listed, &next)?;
     }
-    let point = |site: u32| &sites.points[site as usize];
     let Some(&(triangle, edge)) = open.first() else { return Err(broken(0)) };
     let [start, _] = triangles[triangle as usize].facet(usize::from(edge));
     let (mut a, mut steps, mut minima) = (start, 0, 0);
@@ -49,17 +47,17 @@ where
         if c == NO_SITE {
             return Err(broken(b));
         }
+        let corner = sites.gather(&[a, b, c]);
         let (before, after) =
-            (lexicographic(point(a), point(b)), lexicographic(point(b), point(c)));
-        let is_dent = match signs.orientation::<Triangles, D, 3>(&sites.gather(&[a, b, c])) {
+            (lexicographic(&corner[0], &corner[1]), lexicographic(&corner[1], &corner[2]));
+        let is_dent = match signs.orientation::<Triangles, D, 3>(&corner) {
             Ordering::Greater => false,
             // Straight on, not back.
             Ordering::Equal => before != after,
             Ordering::Less => true,
         };
         if is_dent {
-            let [ridge, row] = [b, c].map(|site| sites.rows[site as usize]);
-            return Err(MeshViolation::HullDent { ridge: vec![ridge], row });
+            return Err(MeshViolation::HullDent { ridge: vec![b], row: c });
         }
         minima += usize::from(before == Ordering::Greater && after == Ordering::Less);
         (a, steps) = (b, steps + 1);
@@ -81,12 +79,11 @@ where
     }
     match minima {
         1 => Ok(()),
-        _ => Err(MeshViolation::HullWinding { row: sites.rows[start as usize] }),
+        _ => Err(MeshViolation::HullWinding { row: start }),
     }
 }
 
-fn is_listed<const D: usize>(
-    sites: &Sites<D>,
+fn is_listed(
     triangles: &[[u32; 3]],
     open: &[(u32, u8)],
     listed: &[u32],
@@ -94,13 +91,12 @@ fn is_listed<const D: usize>(
 ) -> Result<(), MeshViolation> {
     let mut seen = vec![false; next.len()];
     for (position, edge) in listed.chunks_exact(2).enumerate() {
-        let [a, b] = [edge[0], edge[1]].map(|id| sites.site(id));
-        match (a, b) {
-            (Some(a), Some(b)) if next[a as usize] == b && !seen[a as usize] => {
-                seen[a as usize] = true;
-            }
-            _ => return Err(MeshViolation::HullFacet { position }),
+        let (a, b) = (edge[0] as usize, edge[1]);
+        // NO_SITE may be listed as well, and stands for the ends of all that are not on the hull.
+        if b == NO_SITE || next.get(a) != Some(&b) || seen[a] {
+            return Err(MeshViolation::HullFacet { position });
         }
+        seen[a] = true;
     }
     for &(triangle, edge) in open {
         let (simplex, facet) = (triangle as usize, usize::from(edge));
@@ -115,7 +111,7 @@ fn is_listed<const D: usize>(
 mod tests {
     use taut_points::{Monitor, Points, Scratch};
 
-    use super::super::sites::Input;
+    use super::super::input::Input;
     use super::*;
 
     fn around_a_centre(edges: &[[u32; 2]]) -> Result<(), MeshViolation> {
@@ -124,7 +120,7 @@ mod tests {
         let mut scratch = Scratch::new();
         let input = Input::<2>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
         let simplices: Vec<u32> = edges.iter().flat_map(|&[a, b]| [0, a, b]).collect();
-        let (sites, simplices) = Sites::of(&input, &simplices, 3).unwrap();
+        let sites = Sites::of(&input, &simplices, 3).unwrap();
         let open: Vec<(u32, u8)> = (0..edges.len() as u32).map(|triangle| (triangle, 0)).collect();
         check(&sites, &input.signs(), simplices.as_chunks().0, &open, None)
     }

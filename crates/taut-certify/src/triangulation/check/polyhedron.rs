@@ -30,11 +30,12 @@ use super::facets::Facets;
 use super::geometry::{Plane, Tetrahedra};
 use super::pairing;
 use super::signs::Signs;
-use super::sites::{Sites, turn};
+use super::input::turn;
+use super::sites::Sites;
 
 /// A closed surface of triangles, counter-clockwise from outside.
 struct Surface<'a> {
-    sites: &'a Sites<3>,
+    sites: &'a Sites<'a, 3>,
     signs: &'a Signs,
     triangles: Vec<[u32; 3]>,
     neighbors: Vec<[u32; 3]>,
@@ -42,7 +43,7 @@ struct Surface<'a> {
 
 /// Checks the surface of the open facets, and that `listed` has just these, if it is given.
 pub(super) fn check(
-    sites: &Sites<3>,
+    sites: &Sites<'_, 3>,
     signs: &Signs,
     tetrahedra: &[[u32; 4]],
     open: &[(u32, u8)],
@@ -50,12 +51,11 @@ pub(super) fn check(
 ) -> Result<(), MeshViolation> {
     let facet = |&(t, i): &(u32, u8)| tetrahedra[t as usize].facet(usize::from(i));
     if let Some(listed) = listed {
-        is_listed(sites, open, &facet, listed)?;
+        is_listed(open, &facet, listed)?;
     }
     let triangles: Vec<[u32; 3]> = open.iter().map(facet).collect();
-    let broken =
-        |site: u32| MeshViolation::HullOpen { dimension: 3, row: sites.rows[site as usize] };
-    let neighbors = pairing::pair(&triangles, sites.points.len()).map_err(|violation| {
+    let broken = |row: u32| MeshViolation::HullOpen { dimension: 3, row };
+    let neighbors = pairing::pair(&triangles, sites.rows()).map_err(|violation| {
         let at = match violation {
             MeshViolation::Shared { simplex, .. } => triangles[simplex][0],
             _ => 0,
@@ -68,7 +68,7 @@ pub(super) fn check(
     surface.has_no_dent()?;
     let smallest = sites.smallest();
     if let Some(twin) = sites.twin_of(smallest) {
-        return Err(MeshViolation::HullWinding { row: sites.rows[twin as usize] });
+        return Err(MeshViolation::HullWinding { row: twin });
     }
     let [a, b, c, d] = tetrahedra[0];
     surface.is_beneath(&[a, b, c, d, smallest])?;
@@ -76,7 +76,6 @@ pub(super) fn check(
 }
 
 fn is_listed(
-    sites: &Sites<3>,
     open: &[(u32, u8)],
     facet: &impl Fn(&(u32, u8)) -> [u32; 3],
     listed: &[u32],
@@ -85,11 +84,7 @@ fn is_listed(
         open.iter().enumerate().map(|(place, open)| (turned(facet(open)), place)).collect();
     let mut claimed = Vec::with_capacity(listed.len() / 3);
     for (position, row) in listed.chunks_exact(3).enumerate() {
-        let row = [row[0], row[1], row[2]].map(|id| sites.site(id));
-        let [Some(a), Some(b), Some(c)] = row else {
-            return Err(MeshViolation::HullFacet { position });
-        };
-        claimed.push((turned([a, b, c]), position));
+        claimed.push((turned([row[0], row[1], row[2]]), position));
     }
     found.sort_unstable();
     claimed.sort_unstable();
@@ -122,12 +117,8 @@ fn turned([a, b, c]: [u32; 3]) -> [u32; 3] {
 }
 
 impl Surface<'_> {
-    fn row(&self, site: u32) -> u32 {
-        self.sites.rows[site as usize]
-    }
-
-    fn broken(&self, site: u32) -> MeshViolation {
-        MeshViolation::HullOpen { dimension: 3, row: self.row(site) }
+    fn broken(&self, row: u32) -> MeshViolation {
+        MeshViolation::HullOpen { dimension: 3, row }
     }
 
     fn is_closed(&self) -> Result<(), MeshViolation> {
@@ -178,8 +169,8 @@ impl Surface<'_> {
                     Ordering::Less => false,
                 };
                 if is_dent {
-                    let ridge = vec![self.row(a), self.row(b)];
-                    return Err(MeshViolation::HullDent { ridge, row: self.row(d) });
+                    let ridge = vec![a, b];
+                    return Err(MeshViolation::HullDent { ridge, row: d });
                 }
             }
         }
@@ -193,7 +184,7 @@ impl Surface<'_> {
     /// Plain arithmetic settles nearly all.
     #[inline(always)]
     fn is_surely_beneath(&self, plane: &Plane, site: u32) -> bool {
-        self.signs.is_filtered && plane.is_beneath(&self.sites.points[site as usize])
+        self.signs.is_filtered && plane.is_beneath(&self.sites.point(site))
     }
 
     /// Whether c and d, in one plane with the edge ab, lie on either side of it.
@@ -217,7 +208,7 @@ impl Surface<'_> {
                 }
                 let tetrahedron = self.sites.gather(&[a, b, c, site]);
                 if self.signs.orientation::<Tetrahedra, 3, 4>(&tetrahedron).is_gt() {
-                    return Err(MeshViolation::HullWinding { row: self.row(site) });
+                    return Err(MeshViolation::HullWinding { row: site });
                 }
             }
         }
@@ -227,7 +218,7 @@ impl Surface<'_> {
     fn winds_once(&self, v: u32) -> Result<(), MeshViolation> {
         let around = self.triangles.iter().filter(|triangle| triangle.contains(&v)).count();
         let Some(start) = self.triangles.iter().position(|triangle| triangle.contains(&v)) else {
-            return Err(MeshViolation::HullWinding { row: self.row(v) });
+            return Err(MeshViolation::HullWinding { row: v });
         };
         let mut cycle = Vec::with_capacity(around);
         let mut triangle = start;
@@ -235,13 +226,13 @@ impl Surface<'_> {
             let place = self.triangles[triangle].iter().position(|&site| site == v).unwrap_or(0);
             // The triangle is v, x, y; the next one shares the edge from y to v, which is opposite x.
             let x = self.triangles[triangle][(place + 1) % 3];
-            cycle.push(self.sites.points[x as usize]);
+            cycle.push(self.sites.point(x));
             triangle = self.neighbors[triangle][(place + 1) % 3] as usize;
             if triangle == start || cycle.len() == around {
                 break;
             }
         }
-        let apex = &self.sites.points[v as usize];
+        let apex = &self.sites.point(v);
         let is_smaller = |a: &[f64; 3], b: &[f64; 3]| {
             // By y/x, then z/x, of the directions from v, where x is not 0 but leans infinitesimally towards y, and
             // infinitely less towards z: positive for all of them, as v is the smallest.
@@ -259,7 +250,7 @@ impl Surface<'_> {
         if triangle == start && count == around && minima == 1 {
             return Ok(());
         }
-        Err(MeshViolation::HullWinding { row: self.row(v) })
+        Err(MeshViolation::HullWinding { row: v })
     }
 }
 
@@ -267,7 +258,8 @@ impl Surface<'_> {
 mod tests {
     use taut_points::{Monitor, Points, Scratch};
 
-    use super::super::sites::Input;
+    use super::super::input::Input;
+    use super::super::sites::Recent;
     use super::*;
 
     /// Tetrahedra over the axis from (0, 0, −9) to (0, 0, 9), one for each of these edges around it.
@@ -278,13 +270,14 @@ mod tests {
         let mut scratch = Scratch::new();
         let input = Input::<3>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
         let simplices: Vec<u32> = edges.iter().flat_map(|&[a, b]| [a + 2, b + 2, 0, 1]).collect();
-        let (sites, simplices) = Sites::of(&input, &simplices, 4).unwrap();
+        let sites = Sites::of(&input, &simplices, 4).unwrap();
+        Recent::new().bring(&sites, &simplices);
         let tetrahedra: &[[u32; 4]] = simplices.as_chunks().0;
         for tetrahedron in tetrahedra {
             let points = sites.gather(tetrahedron);
             assert!(input.signs().orientation::<Tetrahedra, 3, 4>(&points).is_gt());
         }
-        let neighbors = pairing::pair(tetrahedra, sites.points.len()).unwrap();
+        let neighbors = pairing::pair(tetrahedra, sites.rows()).unwrap();
         let open: Vec<(u32, u8)> = (0..tetrahedra.len() as u32)
             .flat_map(|t| (0..4u8).map(move |i| (t, i)))
             .filter(|&(t, i)| neighbors[t as usize][usize::from(i)] == NO_NEIGHBOR)
@@ -324,16 +317,17 @@ mod tests {
         let mut scratch = Scratch::new();
         let input = Input::<3>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
         let simplices: Vec<u32> = star.iter().flat_map(|&[a, b]| [a + 2, b + 2, 0, 1]).collect();
-        let (sites, simplices) = Sites::of(&input, &simplices, 4).unwrap();
+        let sites = Sites::of(&input, &simplices, 4).unwrap();
+        Recent::new().bring(&sites, &simplices);
         let tetrahedra: &[[u32; 4]] = simplices.as_chunks().0;
         let triangles: Vec<[u32; 3]> =
             tetrahedra.iter().flat_map(|t| [t.facet(2), t.facet(3)]).collect();
-        let neighbors = pairing::pair(&triangles, sites.points.len()).unwrap();
+        let neighbors = pairing::pair(&triangles, sites.rows()).unwrap();
         let surface = Surface { sites: &sites, signs: &input.signs(), triangles, neighbors };
         assert_eq!(surface.is_closed(), Ok(()));
         assert_eq!(surface.is_connected(), Ok(()));
         assert_eq!(surface.has_no_dent(), Ok(()));
-        assert_eq!(sites.rows[sites.smallest() as usize], 0);
+        assert_eq!(sites.smallest(), 0);
         assert!(surface.winds_once(sites.smallest()).is_err());
     }
 }

@@ -8,7 +8,8 @@ use super::super::{MeshViolation, TriangulationCounts, TriangulationVerdict};
 use super::facets::{Complex, Facets, Paired};
 use super::geometry::{Geometry, Tetrahedra, Triangles};
 use super::signs::Signs;
-use super::sites::{Input, Sites};
+use super::input::Input;
+use super::sites::Sites;
 use super::{line, pairing, polygon, polyhedron};
 
 /// What is to be proved.
@@ -31,11 +32,11 @@ impl Claim<'_> {
         self.lists.map(|(hull, _)| hull)
     }
 
-    /// Steps before any geometry: the vertices, and that there are points if and only if this is said.
-    fn begin<const D: usize>(
+    /// Steps before any geometry: every id is a row, and there are points if and only if this is said.
+    fn begin<'i, const D: usize>(
         &self,
-        input: &Input<'_, D>,
-    ) -> Result<(Sites<D>, Vec<u32>), MeshViolation> {
+        input: &'i Input<'i, D>,
+    ) -> Result<Sites<'i, D>, MeshViolation> {
         let is_possible = self.hull_dimension.is_none_or(|dimension| usize::from(dimension) <= D)
             && self.hull_dimension.is_none() == (input.len() == 0);
         // Full dimension is proved by the orientation of a simplex.
@@ -46,12 +47,15 @@ impl Claim<'_> {
                 return Err(MeshViolation::HullDimension { claimed: self.hull_dimension, found });
             }
         }
-        let (sites, simplices) = Sites::of(input, self.simplices, self.width())?;
+        Sites::of(input, self.simplices, self.width())
+    }
+
+    /// Every row is a vertex or stands for one. All vertices were named.
+    pub(super) fn covers<const D: usize>(&self, sites: &Sites<'_, D>) -> Result<(), MeshViolation> {
         match self.lists {
-            Some((_, duplicates)) => sites.covers(input, duplicates)?,
-            None => sites.covers_all_places(input)?,
+            Some((_, duplicates)) => sites.covers(duplicates),
+            None => sites.covers_all_places(),
         }
-        Ok((sites, simplices))
     }
 }
 
@@ -60,10 +64,10 @@ pub(super) fn plane(
     input: &Input<'_, 2>,
     claim: &Claim<'_>,
 ) -> Result<TriangulationVerdict, MeshViolation> {
-    let (sites, simplices) = claim.begin(input)?;
+    let sites = claim.begin(input)?;
     match claim.hull_dimension {
-        Some(2) => triangles(input.signs(), &sites, simplices, claim),
-        _ => line::check(&sites, &simplices, claim),
+        Some(2) => triangles(input.signs(), &sites, claim),
+        _ => line::check(&sites, claim),
     }
 }
 
@@ -72,11 +76,11 @@ pub(super) fn space(
     input: &Input<'_, 3>,
     claim: &Claim<'_>,
 ) -> Result<TriangulationVerdict, MeshViolation> {
-    let (mut sites, simplices) = claim.begin(input)?;
+    let sites = claim.begin(input)?;
     match claim.hull_dimension {
-        Some(3) => tetrahedra(input.signs(), &sites, simplices, claim),
+        Some(3) => tetrahedra(input.signs(), &sites, claim),
         Some(2) => {
-            let [a, b, c] = match simplices.first_chunk() {
+            let [a, b, c] = match claim.simplices.first_chunk() {
                 Some(first) => sites.gather(first),
                 None => return Err(MeshViolation::Missing { row: 0 }),
             };
@@ -84,26 +88,23 @@ pub(super) fn space(
                 return Err(MeshViolation::Orientation { simplex: 0 });
             };
             // The lexicographic order stays: in an upright plane, equal first coordinates make equal dropped ones.
-            for point in &mut sites.points {
-                *point = [point[i], point[j], point[3 - i - j]];
-            }
-            triangles(input.signs(), &sites, simplices, claim)
+            triangles(input.signs(), &sites.with_axes([i, j, 3 - i - j]), claim)
         }
-        _ => line::check(&sites, &simplices, claim),
+        _ => line::check(&sites, claim),
     }
 }
 
 fn triangles<const D: usize>(
     signs: Signs,
-    sites: &Sites<D>,
-    simplices: Vec<u32>,
+    sites: &Sites<'_, D>,
     claim: &Claim<'_>,
 ) -> Result<TriangulationVerdict, MeshViolation> {
-    let simplices = rows::<3>(&simplices);
+    let simplices = rows::<3>(claim.simplices);
     let simplices = facing::<Triangles, D, 3>(sites, &signs, simplices, claim);
-    let neighbors = neighbors::<3, 2>(sites.points.len(), &simplices, claim)?;
+    let neighbors = neighbors::<3, 2>(sites.rows(), &simplices, claim)?;
     let complex = Complex { sites, signs, simplices: &simplices, neighbors: &neighbors };
     let paired = complex.check::<Triangles, 2>()?;
+    claim.covers(sites)?;
     polygon::check(sites, &signs, &simplices, &paired.open, claim.hull())?;
     let counts = counted(sites, simplices.len(), paired.open.len());
     debug_assert_eq!(counts.simplices + 2 + counts.hull, 2 * counts.sites);
@@ -113,15 +114,15 @@ fn triangles<const D: usize>(
 
 fn tetrahedra(
     signs: Signs,
-    sites: &Sites<3>,
-    simplices: Vec<u32>,
+    sites: &Sites<'_, 3>,
     claim: &Claim<'_>,
 ) -> Result<TriangulationVerdict, MeshViolation> {
-    let simplices = rows::<4>(&simplices);
+    let simplices = rows::<4>(claim.simplices);
     let simplices = facing::<Tetrahedra, 3, 4>(sites, &signs, simplices, claim);
-    let neighbors = neighbors::<4, 3>(sites.points.len(), &simplices, claim)?;
+    let neighbors = neighbors::<4, 3>(sites.rows(), &simplices, claim)?;
     let complex = Complex { sites, signs, simplices: &simplices, neighbors: &neighbors };
     let paired = complex.check::<Tetrahedra, 3>()?;
+    claim.covers(sites)?;
     polyhedron::check(sites, &signs, &simplices, &paired.open, claim.hull())?;
     let counts = counted(sites, simplices.len(), paired.open.len());
     let Paired { fingerprint, ties, refined, .. } = paired;
@@ -134,7 +135,7 @@ fn rows<const V: usize>(values: &[u32]) -> &[[u32; V]] {
 
 /// The simplices as they are; positively oriented where the claim says nothing of their orientation.
 fn facing<'a, G: Geometry<D, V>, const D: usize, const V: usize>(
-    sites: &Sites<D>,
+    sites: &Sites<'_, D>,
     signs: &Signs,
     simplices: &'a [[u32; V]],
     claim: &Claim<'_>,
@@ -167,12 +168,12 @@ where
 }
 
 pub(super) fn counted<const D: usize>(
-    sites: &Sites<D>,
+    sites: &Sites<'_, D>,
     simplices: usize,
     hull: usize,
 ) -> TriangulationCounts {
     TriangulationCounts {
-        sites: sites.points.len() as u64,
+        sites: sites.count() as u64,
         simplices: simplices as u64,
         hull: hull as u64,
     }

@@ -4,14 +4,16 @@
 //! 1. Plain `f64`, with the bound (monomials × roundings)·u·(product of the largest differences).
 //! 2. The same value again, now as the exact one: when every coordinate is a multiple of one power of two, 2^q, and the
 //!    differences are so few times 2^q that no operation rounds. Gridded points end here, ties included.
-//! 3. The same in whole numbers of 128 bits.
-//! 4. Plain `f64` once more, with roundings·u·(sum of the |monomials|) as the bound, which is far below that of stage 1.
-//! 5. Double-double, with its bound: the other points on circles and spheres end here.
+//! 3. Plain `f64` once more, with roundings·u·(sum of the |monomials|) as the bound, which is far below that of stage 1.
+//! 4. Double-double, with its bound: points near circles and spheres end here.
+//! 5. Whole numbers modulo 2¹²⁸. The value in units of 2^q is a whole number. Stage 4 tells how large it can be at most;
+//!    where that is less than 2¹²⁷ the residue is the number, however large the products are that cancel. Ties of points
+//!    on turned grids end here.
 //! 6. Whole numbers of any size.
 //!
-//! *Range.* [`Sites`](super::sites::Sites) scales all coordinates by a power of two so that they are below 1 in size:
+//! *Range.* [`Input`](super::input::Input) scales all coordinates by a power of two so that they are below 1 in size:
 //! nothing overflows, and what underflows in a determinant is off by less than 2⁻¹⁰⁷⁰ times a few hundred operations and
-//! factors, for which 2⁻¹⁰⁰⁰ is added to each bound. Where scaling would lose bits, stages 1 to 5 are skipped.
+//! factors, for which 2⁻¹⁰⁰⁰ is added to each bound. Where scaling would lose bits, only stage 6 is left.
 //! *Ties.* When q lies on the sphere of a simplex, the lift of each of the d + 2 points is raised by an infinitesimal
 //! amount, infinitely more for a lexicographically larger point. D is linear in the lifts, so the largest point whose
 //! cofactor is not 0 decides: q itself is then outside, and a vertex gives the orientation of the simplex with q in its
@@ -20,7 +22,7 @@
 use std::cmp::Ordering;
 
 use super::geometry::{Bounds, Geometry};
-use crate::arithmetic::{DoubleDouble, Integer, Ring, U, parts};
+use crate::arithmetic::{DoubleDouble, Integer, Residue, Ring, U, parts};
 
 /// A value and the sum of the |monomials| it is made of.
 #[derive(Clone, Copy)]
@@ -82,9 +84,9 @@ impl Signs {
             &G::ORIENTATION,
             G::volume,
             G::orientation::<f64>,
-            G::orientation::<i128>,
             G::orientation::<Sized>,
             G::orientation::<DoubleDouble>,
+            G::orientation::<Residue>,
             G::orientation::<Integer>,
         )
     }
@@ -95,23 +97,32 @@ impl Signs {
         simplex: &[[f64; D]; V],
         q: &[f64; D],
     ) -> Ordering {
-        fn determinant<G: Geometry<D, V>, T: Ring, const D: usize, const V: usize>(
-            differences: &[[T; D]],
-        ) -> T {
-            let (edges, r) = differences.split_at(V - 1);
-            G::in_sphere(&G::lifted(edges), &r[0])
-        }
-        let mut others = [*q; V];
-        others[..V - 1].copy_from_slice(&simplex[1..]);
         self.sign::<D, V>(
             &simplex[0],
-            &others,
+            &others(simplex, q),
             &G::IN_SPHERE,
             G::lifted_volume,
             determinant::<G, f64, D, V>,
-            determinant::<G, i128, D, V>,
             determinant::<G, Sized, D, V>,
             determinant::<G, DoubleDouble, D, V>,
+            determinant::<G, Residue, D, V>,
+            determinant::<G, Integer, D, V>,
+        )
+    }
+
+    /// The same in whole numbers, where |D| ≤ `most`.
+    pub(super) fn in_sphere_exactly<G: Geometry<D, V>, const D: usize, const V: usize>(
+        &self,
+        simplex: &[[f64; D]; V],
+        q: &[f64; D],
+        most: f64,
+    ) -> Ordering {
+        self.exact_sign(
+            &simplex[0],
+            &others(simplex, q),
+            &G::IN_SPHERE,
+            most,
+            determinant::<G, Residue, D, V>,
             determinant::<G, Integer, D, V>,
         )
     }
@@ -125,9 +136,9 @@ impl Signs {
         bounds: &Bounds,
         volume: impl Fn(&[f64; D]) -> f64,
         plain: impl Fn(&[[f64; D]]) -> f64,
-        whole: impl Fn(&[[i128; D]]) -> i128,
         sized: impl Fn(&[[Sized; D]]) -> Sized,
         double: impl Fn(&[[DoubleDouble; D]]) -> DoubleDouble,
+        residue: impl Fn(&[[Residue; D]]) -> Residue,
         exact: impl Fn(&[[Integer; D]]) -> Integer,
     ) -> Ordering {
         let (count, mut size) = (points.len(), 0.0);
@@ -153,15 +164,11 @@ impl Signs {
             if max[..V - 1].contains(&0.0) {
                 return Ordering::Equal;
             }
-            if largest <= bounds.integer_max * self.quantum {
-                let integers = differences.map(|row| row.map(|x| (x / self.quantum) as i128));
-                return whole(&integers[..count]).cmp(&0);
-            }
         }
-        self.fine_sign(origin, points, bounds, size, sized, double, exact)
+        self.fine_sign(origin, points, bounds, size, sized, double, residue, exact)
     }
 
-    /// Stages 4 to 6. Apart from the others, which would be slower for the room that these take.
+    /// Stages 3 to 6. Apart from the others, which would be slower for the room that these take.
     #[inline(never)]
     fn fine_sign<const D: usize>(
         &self,
@@ -171,9 +178,10 @@ impl Signs {
         size: f64,
         sized: impl Fn(&[[Sized; D]]) -> Sized,
         double: impl Fn(&[[DoubleDouble; D]]) -> DoubleDouble,
+        residue: impl Fn(&[[Residue; D]]) -> Residue,
         exact: impl Fn(&[[Integer; D]]) -> Integer,
     ) -> Ordering {
-        let count = points.len();
+        let (count, mut most) = (points.len(), f64::INFINITY);
         if self.is_filtered {
             let mut with_sums = [[Sized { value: 0.0, sum: 0.0 }; D]; MOST];
             for (difference, point) in with_sums.iter_mut().zip(points) {
@@ -193,9 +201,36 @@ impl Signs {
                 }
             }
             let value = double(&twice[..count]).high;
-            if value.abs() > bounds.rounding_twice * (1.0 + 64.0 * U) * size + UNDERFLOW {
+            let bound = bounds.of_double_double(size);
+            if value.abs() > bound {
                 return sign_of(value);
             }
+            most = value.abs() + bound;
+        }
+        self.exact_sign(origin, points, bounds, most, residue, exact)
+    }
+
+    /// Stages 5 and 6, where the determinant is at most `most` in size.
+    fn exact_sign<const D: usize>(
+        &self,
+        origin: &[f64; D],
+        points: &[[f64; D]],
+        bounds: &Bounds,
+        most: f64,
+        residue: impl Fn(&[[Residue; D]]) -> Residue,
+        exact: impl Fn(&[[Integer; D]]) -> Integer,
+    ) -> Ordering {
+        // All powers are exact. One bit less than there is makes up for the rounding of `most`.
+        if most < self.quantum.powi(bounds.degree) * 2f64.powi(126) {
+            let least = parts(self.quantum).1;
+            let residues = |point: &[f64; D]| point.map(|x| Residue::scaled(x, least));
+            let base = residues(origin);
+            let mut differences = [base; MOST];
+            for (difference, point) in differences.iter_mut().zip(points) {
+                let point = residues(point);
+                *difference = std::array::from_fn(|k| point[k].minus(&base[k]));
+            }
+            return residue(&differences[..points.len()]).sign();
         }
         let all = || points.iter().chain([origin]).flatten().filter(|&&x| x != 0.0);
         let least = all().map(|&x| parts(x).1).min().unwrap_or(0);
@@ -218,7 +253,18 @@ impl Signs {
         simplex: &[[f64; D]; V],
         q: &[f64; D],
     ) -> Conflict {
-        match self.in_sphere::<G, D, V>(simplex, q) {
+        self.conflict_of::<G, D, V>(simplex, q, self.in_sphere::<G, D, V>(simplex, q))
+    }
+
+    /// The same where the sign of D is known.
+    #[inline(always)]
+    pub(super) fn conflict_of<G: Geometry<D, V>, const D: usize, const V: usize>(
+        &self,
+        simplex: &[[f64; D]; V],
+        q: &[f64; D],
+        in_sphere: Ordering,
+    ) -> Conflict {
+        match in_sphere {
             Ordering::Less => Conflict { is_inside: false, is_tie: false },
             Ordering::Greater => Conflict { is_inside: true, is_tie: false },
             Ordering::Equal => {
@@ -227,32 +273,73 @@ impl Signs {
         }
     }
 
+    /// Whether q, on the sphere of a positively oriented simplex, is inside under the perturbation.
     fn wins_tie<G: Geometry<D, V>, const D: usize, const V: usize>(
         &self,
         simplex: &[[f64; D]; V],
         q: &[f64; D],
     ) -> bool {
-        let mut places: [usize; V] = std::array::from_fn(|i| i);
-        places.sort_unstable_by(|&i, &j| lexicographic(&simplex[j], &simplex[i]));
-        for i in places {
-            if lexicographic(&simplex[i], q) == Ordering::Less {
+        // Vertices that are not larger than q come too late. Nearly always the largest decides.
+        let mut above = [false; V];
+        for i in 0..V {
+            above[i] = is_less(q, &simplex[i]);
+        }
+        loop {
+            let mut largest = V;
+            for i in 0..V {
+                if above[i] && (largest == V || is_less(&simplex[largest], &simplex[i])) {
+                    largest = i;
+                }
+            }
+            // Either q is the largest that is left: it is raised more than all of them. Or q is the smallest of all and
+            // all cofactors of the vertices vanish, which cannot be, as their sum does not.
+            if largest == V {
                 return false;
             }
+            above[largest] = false;
             let mut replaced = *simplex;
-            replaced[i] = *q;
+            replaced[largest] = *q;
             match self.orientation::<G, D, V>(&replaced) {
                 Ordering::Equal => {}
                 sign => return sign == Ordering::Greater,
             }
         }
-        // q is the smallest of all, and all cofactors of the vertices vanish: their sum does not.
-        false
     }
 }
 
+/// D from the differences to the first vertex: of the other vertices, then of q.
 #[inline(always)]
-fn sign_of(value: f64) -> Ordering {
+fn determinant<G: Geometry<D, V>, T: Ring, const D: usize, const V: usize>(
+    differences: &[[T; D]],
+) -> T {
+    let (edges, r) = differences.split_at(V - 1);
+    G::in_sphere(&G::lifted(edges), &r[0])
+}
+
+/// The points of D but the first vertex.
+#[inline(always)]
+fn others<const D: usize, const V: usize>(
+    simplex: &[[f64; D]; V],
+    q: &[f64; D],
+) -> [[f64; D]; V] {
+    let mut others = [*q; V];
+    others[..V - 1].copy_from_slice(&simplex[1..]);
+    others
+}
+
+#[inline(always)]
+pub(super) fn sign_of(value: f64) -> Ordering {
     value.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
+}
+
+/// Whether b is raised more.
+#[inline(always)]
+fn is_less<const D: usize>(a: &[f64; D], b: &[f64; D]) -> bool {
+    let mut is_less = false;
+    for k in (0..D).rev() {
+        is_less = (a[k] < b[k]) | (a[k] == b[k]) & is_less;
+    }
+    is_less
 }
 
 /// The order of points in which the larger ones are raised more.
