@@ -111,3 +111,48 @@ impl Ring for DoubleDouble {
         fast_two_sum(product, error + cross)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::Integer;
+    use super::*;
+
+    fn sign_of(x: f64) -> Ordering {
+        x.partial_cmp(&0.0).unwrap()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// (a² − b²) − (a − b)(a + b) + c, where products have far more than 128 bits.
+        #[test]
+        fn residues_survive_what_cancels(
+            a in -1.0f64..1.0, b in -1.0f64..1.0, c in -100i32..100, low in -200i32..-110,
+        ) {
+            let c = f64::from(c) * 2f64.powi(low);
+            fn value<T: Ring>(a: T, b: T, c: T) -> T {
+                let squares = a.times(&a).minus(&b.times(&b));
+                squares.minus(&a.minus(&b).times(&a.plus(&b))).plus(&c)
+            }
+            // Random numbers below 1 are multiples of 2⁻¹¹⁰ as well.
+            let [a, b] = [a, b].map(|x| (x + 2.0) - 2.0);
+            let of = |x| Integer::scaled(x, low);
+            prop_assert_eq!(value(of(a), of(b), of(c)).sign(), sign_of(c));
+            let of = |x| Residue::scaled(x, low);
+            prop_assert_eq!(value(of(a), of(b), of(c)).sign(), sign_of(c));
+        }
+    }
+
+    #[test]
+    fn residues_have_signs() {
+        for (value, sign) in
+            [(3.0, Ordering::Greater), (-3.0, Ordering::Less), (0.0, Ordering::Equal)]
+        {
+            assert_eq!(Residue::scaled(value, -60).sign(), sign);
+        }
+        // 2^200 is 0 modulo 2^128.
+        assert_eq!(Residue::scaled(1.0, -200).sign(), Ordering::Equal);
+    }
+}

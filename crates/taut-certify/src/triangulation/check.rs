@@ -40,8 +40,9 @@
 //! space the same proof runs on two coordinates in which the plane is not upright, with |p|² of all three. On a line the
 //! edges must be a chain in lexicographic order.
 //!
-//! *Cost.* O(n + simplices), beside a sort of the facets of the hull in space. Coordinates are gathered once in the order
-//! in which simplices name them; from then on the memory is read nearly in order.
+//! *Cost.* O(n + simplices), beside a sort of the facets of the hull in space. Simplices that follow space name a row
+//! while it is at hand, so each row is fetched about once. Beside the input and what is checked, a bit for each row and a
+//! few bytes for each facet of the hull are kept (four more for each row in the plane).
 //! *Reference.* Delaunay's lemma for regular triangulations: Edelsbrunner, Geometry and Topology for Mesh Generation,
 //! 2001, section 1.3. Coverings by facet crossings: Mehlhorn et al., Comput. Geom. 12, 1999.
 
@@ -60,8 +61,8 @@ mod sites;
 
 use taut_points::{Monitor, PointSource, Scratch};
 
-use self::prove::Claim;
 use self::input::Input;
+use self::prove::Claim;
 use super::{
     MeshViolation, Triangulation, TriangulationCertificate, TriangulationCounts,
     TriangulationVerdict,

@@ -320,7 +320,7 @@ struct Batch<const D: usize, const V: usize> {
 impl<const D: usize, const V: usize> Batch<D, V> {
     fn new() -> Self {
         Batch {
-            recent: Recent::new(),
+            recent: Recent::new(BATCH * V),
             prepared: Vec::with_capacity(BATCH),
             ahead: vec![Ahead::default(); BATCH * V + 1],
             apexes: vec![NO_SITE; BATCH * V],
@@ -341,7 +341,8 @@ impl<const D: usize, const V: usize> Batch<D, V> {
         let Complex { sites, signs, neighbors, .. } = complex;
         self.prepared.clear();
         let mut count = 0;
-        self.recent.bring(sites, simplices.as_flattened());
+        simplices.as_flattened().iter().for_each(|&id| self.recent.want(id));
+        self.recent.bring(sites);
         let rows = simplices.iter().zip(&neighbors[first..first + simplices.len()]);
         for (place, (simplex, neighbors)) in rows.enumerate() {
             let number = first + place;
@@ -390,7 +391,9 @@ impl<const D: usize, const V: usize> Batch<D, V> {
                 // Without a branch, NO_SITE for whatever is off.
                 *apex = beyond | u32::from((off == 0) & (neighbor != number)).wrapping_sub(1);
             }
+            self.recent.want(*apex);
         }
+        self.recent.bring(complex.sites);
     }
 
     /// Round 2, second half: how many facets are listed in `open`.

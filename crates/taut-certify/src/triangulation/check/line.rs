@@ -48,7 +48,7 @@ fn fingerprint<const D: usize, const V: usize>(
     simplices: &[[u32; V]],
 ) -> Fingerprint {
     let mut sum = Fingerprint::default();
-    let mut recent = Recent::new();
+    let mut recent = Recent::new(0);
     for simplex in simplices {
         sum.add(simplex.map(|id| recent.vertex(sites, id).hash));
     }

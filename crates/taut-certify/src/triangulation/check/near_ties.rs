@@ -70,10 +70,8 @@ impl<S: Simd> Ring for Lanes<S> {
         let simd = self.simd;
         let product = simd.mul_f64s(self.high, other.high);
         let error = simd.mul_add_f64s(self.high, other.high, simd.neg_f64s(product));
-        let cross = simd.add_f64s(
-            simd.mul_f64s(self.high, other.low),
-            simd.mul_f64s(self.low, other.high),
-        );
+        let cross =
+            simd.add_f64s(simd.mul_f64s(self.high, other.low), simd.mul_f64s(self.low, other.high));
         Self::fast_two_sum(simd, product, simd.add_f64s(error, cross))
     }
 }
@@ -99,13 +97,7 @@ impl<const D: usize, const V: usize> NearTies<D, V> {
     }
 
     /// Adds a facet of `simplex` with `apex` beyond it; no monomial of the determinant is larger than `size`.
-    pub(super) fn push(
-        &mut self,
-        facet: Facet,
-        simplex: [[f64; D]; V],
-        apex: [f64; D],
-        size: f64,
-    ) {
+    pub(super) fn push(&mut self, facet: Facet, simplex: [[f64; D]; V], apex: [f64; D], size: f64) {
         self.ties.push(NearTie { facet, simplex, apex, size });
     }
 
@@ -120,7 +112,11 @@ impl<const D: usize, const V: usize> NearTies<D, V> {
         }
         self.values.clear();
         let (ties, values) = (&self.ties, &mut self.values);
-        Arch::new().dispatch(Determinants { ties, values, geometry: std::marker::PhantomData::<G> });
+        Arch::new().dispatch(Determinants {
+            ties,
+            values,
+            geometry: std::marker::PhantomData::<G>,
+        });
         for (tie, &value) in self.ties.iter().zip(&self.values) {
             let NearTie { facet, simplex, apex, size } = tie;
             let bound = G::IN_SPHERE.of_double_double(*size);
@@ -171,6 +167,55 @@ impl<G: Geometry<D, V>, const D: usize, const V: usize> WithSimd for Determinant
             let value = G::in_sphere(&G::lifted(edges), &r[0]).high;
             simd.partial_store_f64s(&mut lanes[..width], value);
             self.values.extend_from_slice(&lanes[..ties.len()]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+
+    use super::super::geometry::{Tetrahedra, Triangles};
+    use super::*;
+    use crate::arithmetic::DoubleDouble;
+
+    /// The determinants of some facets by lanes, and each by [`DoubleDouble`].
+    fn agree<G: Geometry<D, V>, const D: usize, const V: usize>(
+        values: &[f64],
+    ) -> Result<(), TestCaseError> {
+        let points: &[[f64; D]] = values.as_chunks().0;
+        let mut ties = NearTies::<D, V>::new();
+        let mut expected = vec![];
+        for points in points.chunks_exact(V + 1) {
+            let simplex: [[f64; D]; V] = std::array::from_fn(|i| points[i]);
+            ties.push(Facet::default(), simplex, points[V], 0.0);
+            let differences: Vec<[DoubleDouble; D]> = points[1..]
+                .iter()
+                .map(|p| std::array::from_fn(|k| DoubleDouble::difference(p[k], points[0][k])))
+                .collect();
+            let (edges, r) = differences.split_at(V - 1);
+            expected.push(G::in_sphere(&G::lifted(edges), &r[0]).high);
+        }
+        let NearTies { ties, values } = &mut ties;
+        let geometry = std::marker::PhantomData::<G>;
+        Arch::new().dispatch(Determinants { ties, values, geometry });
+        prop_assert_eq!(values.as_slice(), expected.as_slice());
+        Arch::Scalar.dispatch(Determinants { ties, values, geometry });
+        let twice = [expected.as_slice(), expected.as_slice()].concat();
+        prop_assert_eq!(values.as_slice(), twice.as_slice());
+        Ok(())
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// Any number of facets, so that vectors are full or not.
+        #[test]
+        fn lanes_give_the_bits_of_single_numbers(values in vec(-1.0f64..1.0, 0..400)) {
+            agree::<Triangles, 2, 3>(&values)?;
+            agree::<Triangles, 3, 3>(&values)?;
+            agree::<Tetrahedra, 3, 4>(&values)?;
         }
     }
 }

@@ -3,8 +3,8 @@
 use taut_points::{Monitor, PointSource, Scratch};
 
 use super::super::{MeshViolation, TriangulationVerdict};
-use super::prove::{self, Claim};
 use super::input::Input;
+use super::prove::{self, Claim};
 use crate::{CheckError, Violation};
 
 /// Proves that `simplices`, rows of `vertices` ids each, are the Delaunay triangulation of the points of `source`.

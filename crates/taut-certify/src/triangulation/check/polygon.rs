@@ -10,7 +10,10 @@ use super::super::MeshViolation;
 use super::facets::Facets;
 use super::geometry::{Geometry, Triangles};
 use super::signs::{Signs, lexicographic};
-use super::sites::{NO_SITE, Sites};
+use super::sites::Sites;
+
+/// Stands for no edge.
+const NO_EDGE: u32 = u32::MAX;
 
 /// Checks the polygon of the open edges, and that `listed` has just these, if it is given.
 pub(super) fn check<const D: usize>(
@@ -24,30 +27,34 @@ where
     Triangles: Geometry<D, 3>,
 {
     let broken = |row: u32| MeshViolation::HullOpen { dimension: 2, row };
-    let mut next = vec![NO_SITE; sites.rows()];
-    for &(triangle, edge) in open {
-        let [a, b] = triangles[triangle as usize].facet(usize::from(edge));
-        if next[a as usize] != NO_SITE {
+    let edges: Vec<[u32; 2]> =
+        open.iter().map(|&(t, e)| triangles[t as usize].facet(usize::from(e))).collect();
+    // The edge that leaves each vertex.
+    let mut leaving = vec![NO_EDGE; sites.rows()];
+    for (number, &[a, _]) in (0u32..).zip(&edges) {
+        if std::mem::replace(&mut leaving[a as usize], number) != NO_EDGE {
             return Err(broken(a));
         }
-        next[a as usize] = b;
     }
     if let Some(listed) = listed {
-        is_listed(triangles, open, listed, &next)?;
+        is_listed(&edges, open, listed, &leaving)?;
     }
-    let Some(&(triangle, edge)) = open.first() else { return Err(broken(0)) };
-    let [start, _] = triangles[triangle as usize].facet(usize::from(edge));
-    let (mut a, mut steps, mut minima) = (start, 0, 0);
+    // The walk goes by numbers of edges, which come in an order that follows space as rows need not.
+    let next: Vec<u32> = edges.iter().map(|&[_, b]| leaving[b as usize]).collect();
+    if let Some(last) = next.iter().position(|&next| next == NO_EDGE) {
+        return Err(broken(edges[last][1]));
+    }
+    let points: Vec<[f64; D]> = edges.iter().map(|&[a, _]| sites.point(a)).collect();
+    if edges.is_empty() {
+        return Err(broken(0));
+    }
+    let (mut reached, mut edge, mut minima) = (vec![false; edges.len()], 0, 0);
+    let mut corner = [points[0]; 3];
+    corner[1] = points[next[0] as usize];
     loop {
-        let b = next[a as usize];
-        if b == NO_SITE {
-            return Err(broken(a));
-        }
-        let c = next[b as usize];
-        if c == NO_SITE {
-            return Err(broken(b));
-        }
-        let corner = sites.gather(&[a, b, c]);
+        let second = next[edge] as usize;
+        let third = next[second] as usize;
+        corner[2] = points[third];
         let (before, after) =
             (lexicographic(&corner[0], &corner[1]), lexicographic(&corner[1], &corner[2]));
         let is_dent = match signs.orientation::<Triangles, D, 3>(&corner) {
@@ -57,54 +64,49 @@ where
             Ordering::Less => true,
         };
         if is_dent {
-            return Err(MeshViolation::HullDent { ridge: vec![b], row: c });
+            let [ridge, row] = [second, third].map(|edge| edges[edge][0]);
+            return Err(MeshViolation::HullDent { ridge: vec![ridge], row });
         }
         minima += usize::from(before == Ordering::Greater && after == Ordering::Less);
-        (a, steps) = (b, steps + 1);
-        if a == start {
+        reached[edge] = true;
+        edge = second;
+        corner = [corner[1], corner[2], corner[2]];
+        if reached[edge] {
             break;
         }
-        // A cycle that does not come back to its start has an edge twice.
-        if steps == open.len() {
-            return Err(broken(a));
-        }
     }
-    if steps != open.len() {
-        for _ in 0..steps {
-            a = std::mem::replace(&mut next[a as usize], NO_SITE);
-        }
-        let mut starts = open.iter().map(|&(t, e)| triangles[t as usize].facet(usize::from(e))[0]);
-        let elsewhere = starts.find(|&site| next[site as usize] != NO_SITE);
-        return Err(broken(elsewhere.unwrap_or(start)));
+    if edge != 0 {
+        return Err(broken(edges[edge][0]));
+    }
+    if let Some(elsewhere) = reached.iter().position(|&reached| !reached) {
+        return Err(broken(edges[elsewhere][0]));
     }
     match minima {
         1 => Ok(()),
-        _ => Err(MeshViolation::HullWinding { row: start }),
+        _ => Err(MeshViolation::HullWinding { row: edges[0][0] }),
     }
 }
 
 fn is_listed(
-    triangles: &[[u32; 3]],
+    edges: &[[u32; 2]],
     open: &[(u32, u8)],
     listed: &[u32],
-    next: &[u32],
+    leaving: &[u32],
 ) -> Result<(), MeshViolation> {
-    let mut seen = vec![false; next.len()];
-    for (position, edge) in listed.chunks_exact(2).enumerate() {
-        let (a, b) = (edge[0] as usize, edge[1]);
-        // NO_SITE may be listed as well, and stands for the ends of all that are not on the hull.
-        if b == NO_SITE || next.get(a) != Some(&b) || seen[a] {
+    let mut seen = vec![false; edges.len()];
+    for (position, &edge) in listed.as_chunks().0.iter().enumerate() {
+        let found = leaving.get(edge[0] as usize).map_or(NO_EDGE, |&number| number) as usize;
+        if edges.get(found) != Some(&edge) || std::mem::replace(&mut seen[found], true) {
             return Err(MeshViolation::HullFacet { position });
         }
-        seen[a] = true;
     }
-    for &(triangle, edge) in open {
-        let (simplex, facet) = (triangle as usize, usize::from(edge));
-        if !seen[triangles[simplex].facet(facet)[0] as usize] {
-            return Err(MeshViolation::Open { simplex, facet });
+    match seen.iter().position(|&seen| !seen) {
+        Some(place) => {
+            let (simplex, facet) = (open[place].0 as usize, usize::from(open[place].1));
+            Err(MeshViolation::Open { simplex, facet })
         }
+        None => Ok(()),
     }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -28,9 +28,9 @@ use std::cmp::Ordering;
 use super::super::{MeshViolation, NO_NEIGHBOR};
 use super::facets::Facets;
 use super::geometry::{Plane, Tetrahedra};
+use super::input::turn;
 use super::pairing;
 use super::signs::Signs;
-use super::input::turn;
 use super::sites::Sites;
 
 /// A closed surface of triangles, counter-clockwise from outside.
@@ -39,6 +39,8 @@ struct Surface<'a> {
     signs: &'a Signs,
     triangles: Vec<[u32; 3]>,
     neighbors: Vec<[u32; 3]>,
+    /// The corners of each triangle: rows are in no order that memory likes.
+    corners: Vec<[[f64; 3]; 3]>,
 }
 
 /// Checks the surface of the open facets, and that `listed` has just these, if it is given.
@@ -51,7 +53,7 @@ pub(super) fn check(
 ) -> Result<(), MeshViolation> {
     let facet = |&(t, i): &(u32, u8)| tetrahedra[t as usize].facet(usize::from(i));
     if let Some(listed) = listed {
-        is_listed(open, &facet, listed)?;
+        is_listed(open, &facet, listed, sites.rows())?;
     }
     let triangles: Vec<[u32; 3]> = open.iter().map(facet).collect();
     let broken = |row: u32| MeshViolation::HullOpen { dimension: 3, row };
@@ -62,7 +64,8 @@ pub(super) fn check(
         };
         broken(at)
     })?;
-    let surface = Surface { sites, signs, triangles, neighbors };
+    let corners = triangles.iter().map(|triangle| sites.gather(triangle)).collect();
+    let surface = Surface { sites, signs, triangles, neighbors, corners };
     surface.is_closed()?;
     surface.is_connected()?;
     surface.has_no_dent()?;
@@ -79,32 +82,59 @@ fn is_listed(
     open: &[(u32, u8)],
     facet: &impl Fn(&(u32, u8)) -> [u32; 3],
     listed: &[u32],
+    rows: usize,
 ) -> Result<(), MeshViolation> {
-    let mut found: Vec<([u32; 3], usize)> =
-        open.iter().enumerate().map(|(place, open)| (turned(facet(open)), place)).collect();
-    let mut claimed = Vec::with_capacity(listed.len() / 3);
-    for (position, row) in listed.chunks_exact(3).enumerate() {
-        claimed.push((turned([row[0], row[1], row[2]]), position));
-    }
-    found.sort_unstable();
-    claimed.sort_unstable();
-    let mut found = found.into_iter().peekable();
+    let found = open.iter().enumerate().map(|(place, open)| packed(facet(open), place)).collect();
+    let listed = listed.as_chunks::<3>().0.iter().enumerate();
+    let claimed = listed.map(|(position, &row)| packed(row, position)).collect();
+    let mut found = sorted(found, rows).into_iter().peekable();
     let mut missing = None;
-    for (facet, position) in claimed {
-        while let Some((_, place)) = found.next_if(|f| f.0 < facet) {
-            missing.get_or_insert(place);
+    for claim in sorted(claimed, rows) {
+        while let Some(before) = found.next_if(|found| found >> 32 < claim >> 32) {
+            missing.get_or_insert(before);
         }
-        if found.next_if(|f| f.0 == facet).is_none() {
-            return Err(MeshViolation::HullFacet { position });
+        if found.next_if(|found| found >> 32 == claim >> 32).is_none() {
+            return Err(MeshViolation::HullFacet { position: claim as u32 as usize });
         }
     }
-    match missing.or(found.next().map(|f| f.1)) {
-        Some(place) => {
-            let (simplex, facet) = open[place];
+    match missing.or(found.next()) {
+        Some(missing) => {
+            let (simplex, facet) = open[missing as u32 as usize];
             Err(MeshViolation::Open { simplex: simplex as usize, facet: usize::from(facet) })
         }
         None => Ok(()),
     }
+}
+
+/// A triangle, whichever vertex it begins with, and its place in a list, as one number that sorts fast.
+fn packed(triangle: [u32; 3], place: usize) -> u128 {
+    let [a, b, c] = turned(triangle).map(u128::from);
+    a << 96 | b << 64 | c << 32 | place as u128
+}
+
+/// Sorted, by counting first vertices where there are many: few triangles have the same one. Vertices that are no rows
+/// come last.
+fn sorted(mut triangles: Vec<u128>, rows: usize) -> Vec<u128> {
+    if triangles.len() < rows / 8 {
+        triangles.sort_unstable();
+        return triangles;
+    }
+    let first = |triangle: &u128| ((triangle >> 96) as usize).min(rows);
+    let mut starts = vec![0usize; rows + 2];
+    for triangle in &triangles {
+        starts[first(triangle) + 1] += 1;
+    }
+    for vertex in 0..=rows {
+        starts[vertex + 1] += starts[vertex];
+    }
+    let mut sorted = vec![0; triangles.len()];
+    for triangle in triangles {
+        let place = &mut starts[first(&triangle)];
+        sorted[*place] = triangle;
+        *place += 1;
+    }
+    sorted.chunk_by_mut(|a, b| first(a) == first(b)).for_each(<[u128]>::sort_unstable);
+    sorted
 }
 
 /// The same cycle, from its smallest number on.
@@ -145,74 +175,72 @@ impl Surface<'_> {
     }
 
     fn has_no_dent(&self) -> Result<(), MeshViolation> {
-        for (number, (triangle, neighbors)) in
-            self.triangles.iter().zip(&self.neighbors).enumerate()
-        {
-            let plane = self.plane(triangle);
+        // Which of two triangles has the smaller number nobody can foretell, so no branch depends on it: each edge is
+        // listed once, as 4·triangle + edge.
+        let mut edges = vec![0u64; self.triangles.len() * 3 / 2 + 1];
+        let mut count = 0;
+        for (number, neighbors) in self.neighbors.iter().enumerate() {
             for (edge, &neighbor) in neighbors.iter().enumerate() {
-                if (neighbor as usize) < number {
-                    continue;
-                }
-                let [a, b] = triangle.facet(edge);
-                let c = triangle[edge];
-                let beyond = self.triangles[neighbor as usize];
-                let d = beyond.into_iter().find(|&v| v != a && v != b).unwrap_or(c);
-                if self.is_surely_beneath(&plane, d) {
-                    continue;
-                }
-                let is_dent = match self
-                    .signs
-                    .orientation::<Tetrahedra, 3, 4>(&self.sites.gather(&[a, b, c, d]))
-                {
-                    Ordering::Greater => true,
-                    Ordering::Equal => !self.unfolds([a, b, c, d]),
-                    Ordering::Less => false,
-                };
-                if is_dent {
-                    let ridge = vec![a, b];
-                    return Err(MeshViolation::HullDent { ridge, row: d });
-                }
+                edges[count] = (4 * number + edge) as u64;
+                count += usize::from(neighbor as usize > number);
+            }
+        }
+        for edge in &edges[..count] {
+            let (number, edge) = ((edge / 4) as usize, (edge % 4) as usize);
+            let neighbor = self.neighbors[number][edge] as usize;
+            let [a, b] = self.triangles[number].facet(edge);
+            let beyond = &self.triangles[neighbor];
+            let is_far = |place: usize| usize::from((beyond[place] != a) & (beyond[place] != b));
+            let place = is_far(1) + 2 * is_far(2);
+            let (corners, d) = (&self.corners[number], &self.corners[neighbor][place]);
+            if !self.is_surely_beneath(&Plane::of(corners), d) && self.is_dent(corners, edge, d) {
+                return Err(MeshViolation::HullDent { ridge: vec![a, b], row: beyond[place] });
             }
         }
         Ok(())
     }
 
-    fn plane(&self, triangle: &[u32; 3]) -> Plane {
-        Plane::of(&self.sites.gather(triangle))
-    }
-
-    /// Plain arithmetic settles nearly all.
-    #[inline(always)]
-    fn is_surely_beneath(&self, plane: &Plane, site: u32) -> bool {
-        self.signs.is_filtered && plane.is_beneath(&self.sites.point(site))
-    }
-
-    /// Whether c and d, in one plane with the edge ab, lie on either side of it.
-    fn unfolds(&self, sites: [u32; 4]) -> bool {
-        let [a, b, c, d] = self.sites.gather(&sites);
-        // One projection in which abc is not flat shows the plane as it is.
-        [[0, 1], [0, 2], [1, 2]].into_iter().any(|axes| {
-            let beside = turn(self.signs, &a, &b, &c, axes);
-            beside.is_ne() && turn(self.signs, &b, &a, &d, axes) == beside
-        })
-    }
-
     /// None of these sites is on the outer side of a triangle.
     fn is_beneath(&self, of: &[u32]) -> Result<(), MeshViolation> {
-        for triangle in &self.triangles {
-            let [a, b, c] = *triangle;
-            let plane = self.plane(triangle);
-            for &site in of {
-                if self.is_surely_beneath(&plane, site) || triangle.contains(&site) {
+        let of: Vec<(u32, [f64; 3])> = of.iter().map(|&v| (v, self.sites.point(v))).collect();
+        for (triangle, corners) in self.triangles.iter().zip(&self.corners) {
+            let plane = Plane::of(corners);
+            for &(site, point) in &of {
+                if self.is_surely_beneath(&plane, &point) || triangle.contains(&site) {
                     continue;
                 }
-                let tetrahedron = self.sites.gather(&[a, b, c, site]);
-                if self.signs.orientation::<Tetrahedra, 3, 4>(&tetrahedron).is_gt() {
+                let [a, b, c] = *corners;
+                if self.signs.orientation::<Tetrahedra, 3, 4>(&[a, b, c, point]).is_gt() {
                     return Err(MeshViolation::HullWinding { row: site });
                 }
             }
         }
         Ok(())
+    }
+
+    /// Plain arithmetic settles nearly all.
+    #[inline(always)]
+    fn is_surely_beneath(&self, plane: &Plane, point: &[f64; 3]) -> bool {
+        self.signs.is_filtered && plane.is_beneath(point)
+    }
+
+    /// Whether d, beyond the edge opposite corner `edge`, rises above the triangle or is folded onto it.
+    fn is_dent(&self, corners: &[[f64; 3]; 3], edge: usize, d: &[f64; 3]) -> bool {
+        let [a, b, c] = [1, 2, 0].map(|k| corners[(edge + k) % 3]);
+        match self.signs.orientation::<Tetrahedra, 3, 4>(&[a, b, c, *d]) {
+            Ordering::Greater => true,
+            Ordering::Equal => !self.unfolds(&[a, b, c, *d]),
+            Ordering::Less => false,
+        }
+    }
+
+    /// Whether c and d, in one plane with the edge ab, lie on either side of it.
+    fn unfolds(&self, [a, b, c, d]: &[[f64; 3]; 4]) -> bool {
+        // One projection in which abc is not flat shows the plane as it is.
+        [[0, 1], [0, 2], [1, 2]].into_iter().any(|axes| {
+            let beside = turn(self.signs, a, b, c, axes);
+            beside.is_ne() && turn(self.signs, b, a, d, axes) == beside
+        })
     }
 
     fn winds_once(&self, v: u32) -> Result<(), MeshViolation> {
@@ -271,7 +299,9 @@ mod tests {
         let input = Input::<3>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
         let simplices: Vec<u32> = edges.iter().flat_map(|&[a, b]| [a + 2, b + 2, 0, 1]).collect();
         let sites = Sites::of(&input, &simplices, 4).unwrap();
-        Recent::new().bring(&sites, &simplices);
+        let mut recent = Recent::new(simplices.len());
+        simplices.iter().for_each(|&id| recent.want(id));
+        recent.bring(&sites);
         let tetrahedra: &[[u32; 4]] = simplices.as_chunks().0;
         for tetrahedron in tetrahedra {
             let points = sites.gather(tetrahedron);
@@ -318,12 +348,16 @@ mod tests {
         let input = Input::<3>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
         let simplices: Vec<u32> = star.iter().flat_map(|&[a, b]| [a + 2, b + 2, 0, 1]).collect();
         let sites = Sites::of(&input, &simplices, 4).unwrap();
-        Recent::new().bring(&sites, &simplices);
+        let mut recent = Recent::new(simplices.len());
+        simplices.iter().for_each(|&id| recent.want(id));
+        recent.bring(&sites);
         let tetrahedra: &[[u32; 4]] = simplices.as_chunks().0;
         let triangles: Vec<[u32; 3]> =
             tetrahedra.iter().flat_map(|t| [t.facet(2), t.facet(3)]).collect();
         let neighbors = pairing::pair(&triangles, sites.rows()).unwrap();
-        let surface = Surface { sites: &sites, signs: &input.signs(), triangles, neighbors };
+        let corners = triangles.iter().map(|triangle| sites.gather(triangle)).collect();
+        let signs = &input.signs();
+        let surface = Surface { sites: &sites, signs, triangles, neighbors, corners };
         assert_eq!(surface.is_closed(), Ok(()));
         assert_eq!(surface.is_connected(), Ok(()));
         assert_eq!(surface.has_no_dent(), Ok(()));

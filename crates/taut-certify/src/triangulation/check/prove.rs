@@ -7,8 +7,8 @@ use rayon::prelude::*;
 use super::super::{MeshViolation, TriangulationCounts, TriangulationVerdict};
 use super::facets::{Complex, Facets, Paired};
 use super::geometry::{Geometry, Tetrahedra, Triangles};
-use super::signs::Signs;
 use super::input::Input;
+use super::signs::Signs;
 use super::sites::Sites;
 use super::{line, pairing, polygon, polyhedron};
 

@@ -22,7 +22,7 @@
 use std::cmp::Ordering;
 
 use super::geometry::{Bounds, Geometry};
-use crate::arithmetic::{DoubleDouble, Integer, Residue, Ring, U, parts};
+use crate::arithmetic::{DoubleDouble, Integer, Residue, Ring, parts};
 
 /// A value and the sum of the |monomials| it is made of.
 #[derive(Clone, Copy)]
@@ -318,10 +318,7 @@ fn determinant<G: Geometry<D, V>, T: Ring, const D: usize, const V: usize>(
 
 /// The points of D but the first vertex.
 #[inline(always)]
-fn others<const D: usize, const V: usize>(
-    simplex: &[[f64; D]; V],
-    q: &[f64; D],
-) -> [[f64; D]; V] {
+fn others<const D: usize, const V: usize>(simplex: &[[f64; D]; V], q: &[f64; D]) -> [[f64; D]; V] {
     let mut others = [*q; V];
     others[..V - 1].copy_from_slice(&simplex[1..]);
     others

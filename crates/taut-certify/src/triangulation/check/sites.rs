@@ -82,7 +82,11 @@ impl<'a, const D: usize> Sites<'a, D> {
     /// The same of some rows.
     #[inline(always)]
     pub(super) fn gather<const V: usize>(&self, ids: &[u32; V]) -> [[f64; D]; V] {
-        ids.map(|id| self.point(id))
+        let mut points = [[0.0; D]; V];
+        for i in 0..V {
+            points[i] = self.point(ids[i]);
+        }
+        points
     }
 
     /// Notes that a row is a vertex.
@@ -184,26 +188,29 @@ pub(super) struct Vertex<const D: usize> {
 
 /// Vertices met a short while ago, each at a place that its id tells.
 ///
-/// [`Recent::bring`] has no branch that depends on what is at hand, and its loads from memory do not wait for each other.
+/// No branch depends on what is at hand, and loads from memory do not wait for each other: rows are asked for first
+/// ([`Recent::want`]), then brought all together.
 pub(super) struct Recent<const D: usize> {
     /// The id that was last asked for at each place.
     wanted: Vec<u32>,
     /// The vertex at each place.
     vertices: Vec<Vertex<D>>,
-    /// The ids that were not at hand.
+    /// The first `count` are the ids that are not at hand.
     missing: Vec<u32>,
+    count: usize,
 }
 
 impl<const D: usize> Recent<D> {
     /// Of a Hilbert order, this many keep nearly all that will come again, and stay in the second cache.
     const BITS: u32 = 12;
 
-    pub(super) fn new() -> Self {
+    pub(super) fn new(room: usize) -> Self {
         let nothing = Vertex { id: NO_SITE, hash: SiteHash::default(), point: [0.0; D] };
         Recent {
             wanted: vec![NO_SITE; 1 << Self::BITS],
             vertices: vec![nothing; 1 << Self::BITS],
-            missing: Vec::new(),
+            missing: vec![NO_SITE; room + 1],
+            count: 0,
         }
     }
 
@@ -213,23 +220,25 @@ impl<const D: usize> Recent<D> {
         (id.wrapping_mul(0x9E37_79B9) >> (u32::BITS - Self::BITS)) as usize
     }
 
-    /// Has these rows at hand. [`NO_SITE`] is passed over.
+    /// Asks for a row, or for none by [`NO_SITE`], one of at most `room` before the next [`Recent::bring`].
     #[inline(always)]
-    pub(super) fn bring(&mut self, sites: &Sites<'_, D>, ids: &[u32]) {
-        self.missing.resize(ids.len() + 1, 0);
-        let mut count = 0;
-        for &id in ids {
-            let wanted = &mut self.wanted[Self::place(id)];
-            self.missing[count] = id;
-            count += usize::from((*wanted != id) & (id != NO_SITE));
-            *wanted = id;
-        }
-        let missing = &self.missing[..count];
+    pub(super) fn want(&mut self, id: u32) {
+        let wanted = &mut self.wanted[Self::place(id)];
+        self.missing[self.count] = id;
+        self.count += usize::from((*wanted != id) & (id != NO_SITE));
+        *wanted = id;
+    }
+
+    /// Has all that were asked for at hand.
+    #[inline(always)]
+    pub(super) fn bring(&mut self, sites: &Sites<'_, D>) {
+        let missing = &self.missing[..self.count];
         let touch = |all: u64, &id: &u32| all ^ sites.input.row(id)[0].to_bits();
         std::hint::black_box(missing.iter().fold(0, touch));
         for &id in missing {
             self.vertices[Self::place(id)] = sites.vertex(id);
         }
+        self.count = 0;
     }
 
     /// A vertex that was brought.
@@ -241,5 +250,45 @@ impl<const D: usize> Recent<D> {
             *vertex = sites.vertex(id);
         }
         vertex
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taut_points::{Monitor, Points, Scratch};
+
+    use super::*;
+
+    #[test]
+    fn rows_that_share_a_place_do_not_stand_for_each_other() {
+        let values: Vec<f64> = (0..40_000).map(f64::from).collect();
+        let points = Points::new(&values, 2).unwrap();
+        let mut scratch = Scratch::new();
+        let input = Input::<2>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
+        let sites = Sites::of(&input, &[0, 1, 2], 3).unwrap();
+        let mut recent = Recent::new(20_000);
+        for round in 0..2 {
+            for id in (0..20_000).step_by(1 + round) {
+                recent.want(id);
+            }
+            recent.want(NO_SITE);
+            recent.bring(&sites);
+            for id in (0..20_000).rev() {
+                let vertex = recent.vertex(&sites, id);
+                assert_eq!((vertex.id, vertex.point), (id, sites.point(id)));
+            }
+        }
+        assert_eq!(sites.count(), 20_000);
+        assert!(!sites.is_named(20_000) && !sites.is_named(NO_SITE));
+    }
+
+    #[test]
+    fn an_id_that_is_no_row_is_named_by_its_place() {
+        let points = Points::new(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0], 2).unwrap();
+        let mut scratch = Scratch::new();
+        let input = Input::<2>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
+        let found = Sites::of(&input, &[0, 1, 2, 0, 2, 3], 3).err();
+        let expected = MeshViolation::Id { list: "simplices", position: 1, id: 3 };
+        assert_eq!(found, Some(expected));
     }
 }
