@@ -5,6 +5,7 @@ mod goals;
 pub(crate) mod one;
 mod program;
 mod rounds;
+mod sets;
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -63,6 +64,9 @@ pub(crate) struct Arguments {
     /// How many simplices the points of that file have; without it the exact peers say so.
     #[arg(long, requires = "file")]
     simplices: Option<u64>,
+    /// Measure nothing: compare the simplices of taut with those of CGAL, one by one, on the inputs of the cases.
+    #[arg(long, conflicts_with_all = ["file", "json", "peers"])]
+    sets: bool,
     /// Write everything that was measured to this file.
     #[arg(long)]
     json: Option<PathBuf>,
@@ -104,6 +108,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     }
     if arguments.quick {
         println!("Quick: inputs are smaller than the cases say. Not to be quoted.\n");
+    }
+    if arguments.sets {
+        return sets::run(&cases, arguments.quick);
     }
     for case in cases {
         println!("## {}\n{}\n", case.name, case.about);

@@ -1,0 +1,93 @@
+//! The simplices of taut beside those of CGAL, by rows of the input.
+//!
+//! In general position there is one Delaunay triangulation, so the two sets are equal. Among points on one circle or
+//! sphere a program may have its own choice; how many simplices are in both is said.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use anyhow::{Context as _, Result, ensure};
+use taut_delaunay::{DelaunayOptions, Plane, Space, Triangulation};
+use taut_points::{Monitor, Points, generate};
+
+use super::case::Case;
+use crate::input::SEED;
+use crate::peer::folder;
+use crate::table::Table;
+
+/// Compares the sets of all inputs of `cases`, each input once.
+pub(super) fn run(cases: &[&Case], quick: bool) -> Result<()> {
+    let mut table = Table::new(&["input", "taut", "CGAL", "in both", "equal"]);
+    let mut done = Vec::new();
+    let temp = tempfile::tempdir()?;
+    let file = temp.path().join("points.f64");
+    for case in cases {
+        for input in case.inputs {
+            let n = if quick { input.n / 10 } else { input.n };
+            let distribution = input.distribution(n, case.dim)?;
+            let what = format!("{distribution} -n {n} -d {}", case.dim);
+            if done.contains(&what) {
+                continue;
+            }
+            let values: Vec<f64> = generate(distribution, n, case.dim, SEED)?;
+            let mut out = BufWriter::new(File::create(&file)?);
+            values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))?;
+            out.into_inner()?;
+            let points = Points::new(&values, case.dim)?;
+            let (ours, theirs, common) = match case.dim {
+                2 => compare(ours(&Plane::build(&points, &options(), &Monitor::silent())?), &file)?,
+                _ => compare(ours(&Space::build(&points, &options(), &Monitor::silent())?), &file)?,
+            };
+            let equal = if common == ours && ours == theirs { "yes" } else { "no" };
+            let cells = [ours, theirs, common].map(|count| count.to_string());
+            table.push([vec![what.clone()], cells.to_vec(), vec![equal.into()]].concat());
+            done.push(what);
+        }
+    }
+    println!("{table}");
+    Ok(())
+}
+
+fn options() -> DelaunayOptions {
+    DelaunayOptions::default()
+}
+
+/// The simplices by rows, each ascending, in ascending order.
+fn ours<const D: usize, const V: usize>(built: &Triangulation<D, V>) -> Vec<[u32; V]> {
+    let rows = |simplex| built.vertices(simplex).map(|site| built.row(site));
+    sorted(built.simplices().map(rows).collect())
+}
+
+fn sorted<const V: usize>(mut simplices: Vec<[u32; V]>) -> Vec<[u32; V]> {
+    simplices.iter_mut().for_each(|simplex| simplex.sort_unstable());
+    simplices.sort_unstable();
+    simplices
+}
+
+/// How many simplices taut has, CGAL has on the points in `file`, and both have.
+fn compare<const V: usize>(ours: Vec<[u32; V]>, file: &Path) -> Result<(usize, usize, usize)> {
+    let program = folder().join(format!("peers/build/cgal-simplices-{}", V - 1));
+    ensure!(program.exists(), "{} is not installed: run bench/setup", program.display());
+    let output = Command::new(&program).arg(file).stderr(Stdio::inherit()).output();
+    let output = output.with_context(|| program.display().to_string())?;
+    ensure!(output.status.success(), "{} ended with {}", program.display(), output.status);
+    let rows = output.stdout.as_chunks::<4>().0.iter().map(|bytes| u32::from_le_bytes(*bytes));
+    let theirs = sorted(rows.collect::<Vec<u32>>().as_chunks::<V>().0.to_vec());
+    let common = ours.iter().filter(|simplex| theirs.binary_search(simplex).is_ok()).count();
+    Ok((ours.len(), theirs.len(), common))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn simplices_are_told_apart_by_their_rows_alone() {
+        let values = [0.0, 0.0, 4.0, 0.0, 4.0, 3.0, 0.0, 1.0];
+        let points = Points::new(&values, 2).unwrap();
+        let built = Plane::build(&points, &options(), &Monitor::silent()).unwrap();
+        assert_eq!(ours(&built), sorted(vec![[3, 1, 0], [2, 3, 1]]));
+    }
+}
