@@ -33,7 +33,7 @@ pub(super) trait Facets<const F: usize> {
     fn facet(&self, i: usize) -> [u32; F];
 
     /// The vertex of `other` beyond `face`, and 0 if `back`, the neighbours of `other`, has `number` opposite just that
-    /// vertex; if not, or if `number` stands there twice, some number and one that is not 0.
+    /// vertex; if not, some number and one that is not 0, as perhaps where `number` stands there twice.
     fn beyond(face: &[u32; F], other: &Self, back: &Self, number: u32) -> (u32, u32);
 
     /// Whether two facets are one, seen from its two sides: whether an odd permutation takes one to the other.
@@ -155,6 +155,8 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
         [u32; V]: Facets<F>,
     {
         let mut paired = Paired::default();
+        // A block that failed before may have left some, and each would leave more.
+        batch.near_ties.forget();
         let starts = (first..first + simplices.len()).step_by(BATCH);
         for (first, simplices) in starts.zip(simplices.chunks(BATCH)) {
             let ahead = batch.prepare::<G>(self, first, simplices, &mut paired)?;
@@ -199,23 +201,25 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
             paired.open.push((number as u32, (facet.ahead.place % 4) as u8));
             return Ok(());
         }
-        if facet.apex == NO_SITE {
-            let wrong = self.across(number, facet.ahead.place as usize % 4, facet.ahead.neighbor);
-            return wrong.map(|_| ());
+        let (mut facet, is_tested) = (*facet, facet.apex != NO_SITE);
+        if !is_tested {
+            // Wrong, unless the neighbour names this simplex twice: once too often, which the counts show.
+            facet.apex =
+                self.across(number, facet.ahead.place as usize % 4, facet.ahead.neighbor)?;
         }
         paired.refined += 1;
         let apex = self.sites.point(facet.apex);
         let simplex = self.sites.gather(&self.simplices[number]);
         let Tested { value, size, largest } = facet.tested;
-        let conflict = if !self.signs.is_filtered {
+        let conflict = if !(self.signs.is_filtered && is_tested) {
             self.signs.conflict::<G, D, V>(&simplex, &apex)
         } else if largest <= G::IN_SPHERE.exact_max * self.signs.quantum {
             self.signs.conflict_of::<G, D, V>(&simplex, &apex, sign_of(value))
         } else {
-            near_ties.push(*facet, simplex, apex, size);
+            near_ties.push(facet, simplex, apex, size);
             return Ok(());
         };
-        self.conclude(first, facet, conflict, paired)
+        self.conclude(first, &facet, conflict, paired)
     }
 
     fn conclude(
@@ -471,5 +475,42 @@ impl Tested {
     #[inline(always)]
     fn is_outside<G: Geometry<D, V>, const D: usize, const V: usize>(&self) -> bool {
         self.value < -(G::IN_SPHERE.rounding * self.size + UNDERFLOW)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taut_points::{Monitor, Points, Scratch};
+
+    use super::super::geometry::Triangles;
+    use super::super::input::Input;
+    use super::super::pairing;
+    use super::*;
+
+    #[test]
+    fn a_block_that_failed_leaves_nothing_to_the_next() {
+        let values = [0.0, 0.0, 0.7, 0.1, 0.9, 0.9, 0.1, 0.6];
+        let points = Points::new(&values, 2).unwrap();
+        let mut scratch = Scratch::new();
+        let input = Input::<2>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
+        let sites = Sites::of(&input, &[0, 1, 2, 3], 1).unwrap();
+        let mut batch = Batch::new();
+        let mut judge = |simplices: &[[u32; 3]], is_spoilt: bool| {
+            let mut neighbors = pairing::pair(simplices, sites.rows()).unwrap();
+            if is_spoilt {
+                neighbors[0][2] = 1;
+            }
+            let signs = input.signs();
+            let complex = Complex { sites: &sites, signs, simplices, neighbors: &neighbors };
+            complex.block::<Triangles, 2>(&mut batch, 0, simplices).map(|paired| paired.open.len())
+        };
+        let (right, wrong) = ([[0, 1, 3], [1, 2, 3]], [[0, 1, 2], [0, 2, 3]]);
+        let conflict = judge(&wrong, false);
+        assert!(matches!(conflict, Err(MeshViolation::Conflict { .. })), "{conflict:?}");
+        assert_eq!(judge(&right, false), Ok(4));
+        // The conflict waits among the near ties when the block fails on another facet.
+        let spoilt = judge(&wrong, true);
+        assert!(matches!(spoilt, Err(MeshViolation::Neighbor { .. })), "{spoilt:?}");
+        assert_eq!(judge(&right, false), Ok(4));
     }
 }

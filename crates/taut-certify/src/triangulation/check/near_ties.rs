@@ -101,6 +101,11 @@ impl<const D: usize, const V: usize> NearTies<D, V> {
         self.ties.push(NearTie { facet, simplex, apex, size });
     }
 
+    /// Drops what a block that failed has left.
+    pub(super) fn forget(&mut self) {
+        self.ties.clear();
+    }
+
     /// Tells of each what it is, and forgets them.
     pub(super) fn settle<G: Geometry<D, V>>(
         &mut self,
