@@ -14,7 +14,7 @@ use crate::{CheckError, Violation};
 /// only the triangulation of [`Triangulation`](crate::Triangulation) is accepted, not another Delaunay triangulation.
 /// Triangles (`vertices` = 3) of points in space must cover points on a plane, edges points on a line, a single vertex
 /// points that are all equal. O(n + simplices), beside sorting what has no order: facets of the hull in space, the edges
-/// of a line. About 12·`vertices` bytes for each simplex.
+/// of a line. About 16·`vertices` bytes for each simplex and 8 for each row.
 ///
 /// # Errors
 /// [`CheckError::Rejected`] with the first violation, [`CheckError::Read`] when the points cannot be read.

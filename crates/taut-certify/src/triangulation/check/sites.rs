@@ -1,8 +1,8 @@
 //! The rows that simplices name: their coordinates, ready for determinants, and which rows were named at all.
 //!
-//! *Idea.* Simplices follow space, rows come in any order. Nothing is renumbered or copied for that: the few hundred rows
-//! that simplices name again and again for a while are kept at hand ([`Recent`]), and each further row is visited once in
-//! memory. What grows with the input is one bit for a row.
+//! *Idea.* Simplices follow space, rows come in any order. Nothing is renumbered or copied for that: the few
+//! thousand rows that simplices name again and again for a while are kept at hand ([`Recent`]), so that most rows are
+//! fetched from memory once. What grows with the input is one bit for a row.
 
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicU64, Ordering};
