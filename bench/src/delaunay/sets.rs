@@ -1,7 +1,8 @@
 //! The simplices of taut beside those of CGAL, by rows of the input.
 //!
 //! In general position there is one Delaunay triangulation, so the two sets are equal. Among points on one circle or
-//! sphere a program may have its own choice; how many simplices are in both is said.
+//! sphere a program may have its own choice, and of equal rows it may name another; how many simplices are in both is
+//! said.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -22,6 +23,7 @@ pub(super) fn run(cases: &[&Case], quick: bool) -> Result<()> {
     let mut table = Table::new(&["input", "taut", "CGAL", "in both", "equal"]);
     let mut done = Vec::new();
     let temp = tempfile::tempdir()?;
+    let (options, silent) = (DelaunayOptions::default(), Monitor::silent());
     let file = temp.path().join("points.f64");
     for case in cases {
         for input in case.inputs {
@@ -37,8 +39,8 @@ pub(super) fn run(cases: &[&Case], quick: bool) -> Result<()> {
             out.into_inner()?;
             let points = Points::new(&values, case.dim)?;
             let (ours, theirs, common) = match case.dim {
-                2 => compare(ours(&Plane::build(&points, &options(), &Monitor::silent())?), &file)?,
-                _ => compare(ours(&Space::build(&points, &options(), &Monitor::silent())?), &file)?,
+                2 => compare(ours(&Plane::build(&points, &options, &silent)?), &file)?,
+                _ => compare(ours(&Space::build(&points, &options, &silent)?), &file)?,
             };
             let equal = if common == ours && ours == theirs { "yes" } else { "no" };
             let cells = [ours, theirs, common].map(|count| count.to_string());
@@ -48,10 +50,6 @@ pub(super) fn run(cases: &[&Case], quick: bool) -> Result<()> {
     }
     println!("{table}");
     Ok(())
-}
-
-fn options() -> DelaunayOptions {
-    DelaunayOptions::default()
 }
 
 /// The simplices by rows, each ascending, in ascending order.
@@ -87,7 +85,7 @@ mod tests {
     fn simplices_are_told_apart_by_their_rows_alone() {
         let values = [0.0, 0.0, 4.0, 0.0, 4.0, 3.0, 0.0, 1.0];
         let points = Points::new(&values, 2).unwrap();
-        let built = Plane::build(&points, &options(), &Monitor::silent()).unwrap();
+        let built = Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent()).unwrap();
         assert_eq!(ours(&built), sorted(vec![[3, 1, 0], [2, 3, 1]]));
     }
 }

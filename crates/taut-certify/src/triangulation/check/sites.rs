@@ -155,9 +155,12 @@ impl<'a, const D: usize> Sites<'a, D> {
         }
         // −0 was turned into 0, so equal coordinates have equal bits.
         let place = |row: u32| self.input.row(row).map(f64::to_bits);
-        let places: HashSet<[u64; D]> = self.all_named().map(place).collect();
-        let is_missing = |&row: &u32| !self.is_named(row) && !places.contains(&place(row));
-        match (0..self.rows() as u32).find(is_missing) {
+        let others = || (0..self.rows() as u32).filter(|&row| !self.is_named(row));
+        let mut open: HashSet<[u64; D]> = others().map(place).collect();
+        for id in self.all_named() {
+            open.remove(&place(id));
+        }
+        match others().find(|&row| open.contains(&place(row))) {
             Some(row) => Err(MeshViolation::Missing { row }),
             None => Ok(()),
         }
