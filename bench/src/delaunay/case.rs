@@ -68,7 +68,7 @@ const PLANE_MUST: &[Goal] = &[Goal::OfCgal(0.55), Goal::Check(0.5)];
 const PLANE_AIM: &[Goal] = &[Goal::OfCgal(0.38)];
 const SPACE_MUST: &[Goal] = &[Goal::OfCgal(0.6), Goal::Check(0.5)];
 const SPACE_AIM: &[Goal] = &[Goal::OfCgal(0.37)];
-const CLIFF: &[Goal] = &[Goal::OfUniform(2.0)];
+const CLIFF: &[Goal] = &[Goal::OfUniform(2.0), Goal::Check(0.5)];
 
 /// All cases, in the order in which they run.
 pub(super) const CASES: &[Case] = &[
@@ -92,7 +92,8 @@ pub(super) const CASES: &[Case] = &[
         name: "plane-large",
         about: "Ten million points of the plane, one thread.",
         dim: 2,
-        inputs: &[input("uniform", 10_000_000, 19_999_955).goals(&[Goal::OfCgal(0.5)], PLANE_AIM)],
+        inputs: &[input("uniform", 10_000_000, 19_999_955)
+            .goals(&[Goal::OfCgal(0.5), Goal::Check(0.5)], PLANE_AIM)],
         peers: &[Peer::Cgal, Peer::Spade, Peer::Delaunator],
         threads: &[1],
     },
@@ -141,7 +142,8 @@ pub(super) const CASES: &[Case] = &[
         dim: 3,
         inputs: &[
             input("torus", 1_000_000, 6_117_584).goals(SPACE_MUST, &[Goal::OfCgal(0.4)]),
-            input("sphere", 100_000, 302_075).goals(&[Goal::OfCgal(0.5)], &[Goal::OfCgal(0.27)]),
+            input("sphere", 100_000, 302_075)
+                .goals(&[Goal::OfCgal(0.5), Goal::Check(0.5)], &[Goal::OfCgal(0.27)]),
             input("skew", 4_000, 1_999 * 1_999),
         ],
         peers: &[Peer::Cgal],

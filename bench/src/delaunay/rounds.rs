@@ -79,8 +79,7 @@ impl Row {
         if self.silence.is_some() || is_peer && used > effort.peer_budget {
             return Ok(());
         }
-        // Once is enough: all builds of an input have the same answer.
-        match self.program.build(dim, file, self.builds.is_empty(), effort.limit)? {
+        match self.program.build(dim, file, true, effort.limit)? {
             Ok(build) => self.builds.push(build),
             Err(silence) => self.silence = Some(silence),
         }
@@ -105,9 +104,16 @@ impl Row {
         self.builds.iter().filter_map(|build| build.exact).max_by(f64::total_cmp)
     }
 
-    /// What the checker said of its answer, with the processor time of the build that gave it.
-    fn judged(&self) -> Option<(&Judged, f64)> {
-        self.builds.iter().find_map(|build| Some((build.judged.as_ref()?, build.cpu)))
+    /// What the checker said of its answers: a rejection if there was one.
+    fn judged(&self) -> Option<&Judged> {
+        let judged = || self.builds.iter().filter_map(|build| build.judged.as_ref());
+        judged().find(|judged| judged.rejected.is_some()).or(judged().next())
+    }
+
+    /// The least of these times over the least time of a build.
+    fn of_build(&self, time: impl Fn(&Judged) -> f64) -> Option<f64> {
+        let times = self.builds.iter().filter_map(|build| build.judged.as_ref()).map(time);
+        Some(times.min_by(f64::total_cmp)? / self.cpu()?)
     }
 
     /// What is to be said of its answers.
@@ -132,7 +138,7 @@ impl Row {
         if said.is_empty() && !self.builds.is_empty() && reference.is_some() {
             said.push("right".to_owned());
         }
-        said.extend(self.judged().map(|(judged, _)| match &judged.rejected {
+        said.extend(self.judged().map(|judged| match &judged.rejected {
             None => "proved".to_owned(),
             Some(why) => format!("REJECTED: {why}"),
         }));
@@ -185,12 +191,12 @@ impl Rounds {
 
     /// Processor time of the check over that of the build.
     pub(super) fn check(&self, program: Program) -> Option<f64> {
-        self.row(program)?.judged().map(|(judged, build)| judged.check / build)
+        self.row(program)?.of_build(|judged| judged.check)
     }
 
     /// The same of the answer in rows of the input, with its certificate.
     fn answer(&self, program: Program) -> Option<f64> {
-        self.row(program)?.judged().map(|(judged, build)| judged.answer / build)
+        self.row(program)?.of_build(|judged| judged.answer)
     }
 
     /// Wall clock of one thread over that of two, round by round.
@@ -336,9 +342,9 @@ mod tests {
         ours.builds[0].judged.as_mut().unwrap().rejected = Some("a dent".to_owned());
         let found = rounds(vec![ours]);
         assert_eq!(found.rows[0].judgement(1000, Some(1990)), "WRONG by +1; REJECTED: a dent");
-        // Of the build that was judged, not of the fastest.
-        assert_eq!(found.check(Program::Taut(1)), Some(0.4));
-        assert_eq!(found.answer(Program::Taut(1)), Some(0.25));
+        // The least time over that of the fastest build.
+        assert_eq!(found.check(Program::Taut(1)), Some(0.8));
+        assert_eq!(found.answer(Program::Taut(1)), Some(0.5));
         let mut gone = row(SPADE, &[], 0);
         gone.silence = Some(Silence::Ended);
         assert_eq!(judge(gone), "ended without an answer");
