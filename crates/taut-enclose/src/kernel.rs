@@ -15,6 +15,7 @@
 mod exact;
 mod lanes;
 mod portable;
+pub(crate) mod triangle;
 pub(crate) mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;
