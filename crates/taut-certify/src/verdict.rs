@@ -2,13 +2,15 @@
 
 use taut_points::ReadError;
 
-use crate::{MeshViolation, TriangulationVerdict};
+use crate::{EllipsoidVerdict, MeshViolation, TriangulationVerdict};
 
 /// What was proved of an answer of any kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AnyVerdict {
     /// Of a minimum enclosing ball.
     Ball(Verdict),
+    /// Of a minimum volume enclosing ellipsoid.
+    Ellipsoid(EllipsoidVerdict),
     /// Of a Delaunay triangulation.
     Triangulation(TriangulationVerdict),
 }
@@ -89,6 +91,28 @@ pub enum Violation {
         /// Columns there are.
         columns: usize,
     },
+    /// Certificates of this kind do not speak of such items.
+    #[error("the certificate of {article} speaks of {items}: there is no proof of that form", article = article(kind))]
+    Items {
+        /// Kind of the answer.
+        kind: &'static str,
+        /// What the rows are said to be.
+        items: &'static str,
+    },
+    /// The certificate speaks of ellipsoids, but no dimension has rows of that many numbers.
+    #[error(
+        "ellipsoids in dimension d have rows of d(d + 3)/2 numbers, 2, 5, 9, 14, …, but rows have {columns}"
+    )]
+    NoShape {
+        /// Columns there are.
+        columns: usize,
+    },
+    /// An ellipsoid of the input has a shape matrix with a negative eigenvalue.
+    #[error("the shape matrix of ellipsoid {row} is not positive semidefinite")]
+    NegativeShape {
+        /// Ellipsoid, from 0.
+        row: u64,
+    },
     /// The certificate names no point at all.
     #[error("the support is empty: a bound needs at least one point")]
     EmptySupport,
@@ -101,6 +125,24 @@ pub enum Violation {
         point: u64,
         /// What is wrong with that.
         problem: &'static str,
+    },
+    /// The list of rows left out names a row that does not exist, or one that it must not name.
+    #[error("entry {position} of the list of rows left out names row {row}, {problem}")]
+    LeftOut {
+        /// Position in the list, from 0.
+        position: usize,
+        /// The row it names.
+        row: u64,
+        /// What is wrong with that.
+        problem: &'static str,
+    },
+    /// A hull is given where the ellipsoid has the dimension of the space.
+    #[error("a hull is given, but the factor has {rank} rows in dimension {dim}: nothing is flat")]
+    NeedlessHull {
+        /// Rows of the factor.
+        rank: usize,
+        /// Dimension of the space.
+        dim: usize,
     },
     /// The multipliers are not convex.
     #[error("the multipliers sum to {sum:?}: expected 1")]
@@ -147,6 +189,11 @@ pub enum Violation {
     /// Something is wrong with a triangulation.
     #[error(transparent)]
     Mesh(#[from] MeshViolation),
+}
+
+fn article(kind: &str) -> String {
+    let article = if kind.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    format!("{article} {kind}")
 }
 
 /// A count with its noun.

@@ -110,8 +110,8 @@ impl<'p> Pass<'p> {
             return Err(Error::NonFinite { row: first_row + row as u64, column, value });
         }
         let largest = match self.scan.items {
-            Items::Points => None,
             Items::Balls => Some(largest_radius(first_row, points)?),
+            Items::Points | Items::Ellipsoids => None,
         };
         Ok(BlockReport { farthest, hash: hash_block(&rows), largest, overflow: !finite })
     }
