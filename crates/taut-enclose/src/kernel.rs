@@ -13,6 +13,7 @@
 //! subtraction, so it is only done where it matters.
 
 mod exact;
+pub(crate) mod extremes;
 mod lanes;
 mod portable;
 pub(crate) mod triangle;

@@ -12,7 +12,7 @@ pub(super) fn cholesky(a: &mut [f64], n: usize) -> bool {
         }
         let pivot = row[i] - dot(&row[..i], &row[..i]);
         // A pivot of nothing but rounding is none.
-        if !(pivot > 4.0 * f64::EPSILON * row[i]) {
+        if !(pivot > 4.0 * n as f64 * f64::EPSILON * row[i]) {
             return false;
         }
         row[i] = pivot.sqrt();
@@ -98,9 +98,8 @@ fn tridiagonal(matrix: &[f64], n: usize) -> (Vec<f64>, Vec<f64>) {
         beside[k] = alpha;
         let scale = 2.0 / dot(&v, &v);
         // A ← A − vw′ − wv′ with p = scale·Av and w = p − (scale·v′p/2)v, on what is below and right.
-        let mut w: Vec<f64> = (k + 1..n)
-            .map(|i| scale * dot(&a[i * n + k + 1..(i + 1) * n], &v))
-            .collect();
+        let mut w: Vec<f64> =
+            (k + 1..n).map(|i| scale * dot(&a[i * n + k + 1..(i + 1) * n], &v)).collect();
         let half = scale * dot(&v, &w) / 2.0;
         add_scaled(&mut w, -half, &v);
         for i in k + 1..n {
@@ -137,7 +136,7 @@ mod tests {
                 assert!((one - if i == j { 1.0 } else { 0.0 }).abs() < 1e-14);
             }
         }
-        assert!(!cholesky(&mut vec![1.0, 0.0, 1.0, 1.0], 2));
+        assert!(!cholesky(&mut [1.0, 0.0, 1.0, 1.0], 2));
     }
 
     #[test]

@@ -23,10 +23,6 @@ pub(super) struct Factor {
 }
 
 impl Factor {
-    pub(super) fn len(&self) -> usize {
-        self.size
-    }
-
     fn row(&self, i: usize) -> &[f64] {
         &self.rows[i * self.stride + i..i * self.stride + self.size]
     }
@@ -114,7 +110,8 @@ impl Factor {
     pub(super) fn delete(&mut self, position: usize) {
         let (stride, size) = (self.stride, self.size);
         for i in 0..position {
-            self.rows.copy_within(i * stride + position + 1..i * stride + size, i * stride + position);
+            self.rows
+                .copy_within(i * stride + position + 1..i * stride + size, i * stride + position);
         }
         // The row of the deleted point lives on as a carry: rotated with the next row it clears what that row has
         // below the diagonal, which is its own old diagonal entry, and becomes the row above it.

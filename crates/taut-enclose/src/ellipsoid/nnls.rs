@@ -18,9 +18,9 @@ use std::collections::HashSet;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
 
+use super::counters::Counters;
 use super::factor::Factor;
 use super::pool::copy_row;
-use super::trace::Counters;
 use super::whitener::Whitened;
 use crate::kernel::triangle::{POINTS, Triangle, forms, moments};
 use crate::kernel::vector::dot;
@@ -313,11 +313,11 @@ impl<'a> ActiveSet<'a> {
     /// The points of largest gradient above the tolerance, the best first.
     fn batch(&self, gradient: &[f64], tolerance: f64, tabu: &HashSet<usize>) -> Vec<usize> {
         let members: HashSet<usize> = self.members.iter().copied().collect();
-        let worth = |i: &usize| gradient[*i] > tolerance && !members.contains(i) && !tabu.contains(i);
+        let worth =
+            |i: &usize| gradient[*i] > tolerance && !members.contains(i) && !tabu.contains(i);
         let mut batch: Vec<usize> = (0..gradient.len()).filter(worth).collect();
         let keep = (self.members.len() / 8).max(8);
-        let better =
-            |a: &usize, b: &usize| gradient[*b].total_cmp(&gradient[*a]).then(a.cmp(b));
+        let better = |a: &usize, b: &usize| gradient[*b].total_cmp(&gradient[*a]).then(a.cmp(b));
         if batch.len() > keep {
             batch.select_nth_unstable_by(keep, better);
             batch.truncate(keep);

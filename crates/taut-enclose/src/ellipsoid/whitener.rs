@@ -16,6 +16,17 @@ use crate::kernel::triangle::{POINTS, Triangle, images, moments};
 /// Turns after which it is left at that: each takes off at least some ten digits of a condition number.
 const TURNS: usize = 40;
 
+/// How a covariance became the identity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rebased {
+    /// By plain factors.
+    Plainly,
+    /// By shifted factors: rounding could not tell the points from points in a hyperplane at first.
+    Shifted,
+    /// Not at all: the points do lie in a hyperplane, or far beyond the range of `f64`.
+    Never,
+}
+
 /// y = Mx − t.
 #[derive(Clone, Debug)]
 pub(super) struct Whitener {
@@ -78,9 +89,10 @@ impl Whitener {
 
     /// Makes the covariance of the weighted points the identity; the last turn starts from one within `near` of it.
     ///
-    /// Returns whether it was reached: it is not for points in a hyperplane.
-    pub(super) fn rebase(&mut self, pool: &Pool, near: f64) -> bool {
+    /// What it costs in rounding is known from what it returns.
+    pub(super) fn rebase(&mut self, pool: &Pool, near: f64) -> Rebased {
         let (dim, m) = (self.dim, self.dim + 1);
+        let mut how = Rebased::Plainly;
         let support = pool.support();
         for _ in 0..TURNS {
             let images = self.apply(&support);
@@ -97,29 +109,33 @@ impl Whitener {
                 }
                 largest = largest.max(covariance[a * dim + a]);
             }
-            if !(largest.is_finite() && largest > 0.0) {
-                return false;
+            if !(largest > 0.0 && covariance.iter().all(|v| v.is_finite())) {
+                return Rebased::Never;
             }
-            let lower = shifted_cholesky(covariance, dim, largest);
+            let (lower, shifted) = shifted_cholesky(covariance, dim, largest);
+            if shifted {
+                how = Rebased::Shifted;
+            }
             self.shift.iter_mut().zip(&mean).for_each(|(t, y)| *t += y);
             forward(&lower, dim, &mut self.shift);
             divide_rows(&lower, dim, &mut self.matrix);
             if far < near {
-                return true;
+                return how;
             }
         }
-        false
+        Rebased::Never
     }
 }
 
-/// The factor of A + σ1 for the least σ tried that has one: 0, or 1e-15 times d and the largest entry, and upwards.
-fn shifted_cholesky(matrix: Vec<f64>, dim: usize, largest: f64) -> Vec<f64> {
+/// The factor of A + σ1 for the least σ tried that has one: 0, or 1e-15 times d and the largest entry, and upwards; and
+/// whether σ is not 0.
+fn shifted_cholesky(matrix: Vec<f64>, dim: usize, largest: f64) -> (Vec<f64>, bool) {
     let mut shift = 0.0;
     loop {
         let mut lower = matrix.clone();
         (0..dim).for_each(|a| lower[a * dim + a] += shift);
         if cholesky(&mut lower, dim) {
-            return lower;
+            return (lower, shift > 0.0);
         }
         shift = if shift == 0.0 { 1e-15 * dim as f64 * largest } else { shift * 30.0 };
     }

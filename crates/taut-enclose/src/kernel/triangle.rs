@@ -219,9 +219,8 @@ unsafe fn block<L: Lanes, const STORE: bool, const FORM: bool>(
     let (matrix, shift) = (triangle.matrix.as_ptr(), triangle.shift.as_ptr());
     // SAFETY: rows a < dim of T and of the block; columns b ≤ a.
     unsafe {
-        let row = |b: usize| -> [L; WIDE] {
-            std::array::from_fn(|i| L::load(x.add(b * POINTS + 8 * i)))
-        };
+        let row =
+            |b: usize| -> [L; WIDE] { std::array::from_fn(|i| L::load(x.add(b * POINTS + 8 * i))) };
         let start = |a: usize| [L::broadcast(-*shift.add(a)); WIDE];
         let mut sums = [L::zero(); WIDE];
         let mut finish = |a: usize, values: [L; WIDE]| {
@@ -284,9 +283,8 @@ unsafe fn arrange<L: Lanes, T: Scalar>(values: &[T], center: &Center, x: &mut [f
     for group in 0..WIDE {
         // SAFETY: each start is that of a row within `values`; coordinates j .. j + count stay below dim.
         unsafe {
-            let starts: [*const T; 8] = std::array::from_fn(|i| {
-                values.as_ptr().add((group * 8 + i).min(rows - 1) * dim)
-            });
+            let starts: [*const T; 8] =
+                std::array::from_fn(|i| values.as_ptr().add((group * 8 + i).min(rows - 1) * dim));
             for j in (0..dim).step_by(8) {
                 let count = (dim - j).min(8);
                 let eight: [L; 8] = std::array::from_fn(|i| {
