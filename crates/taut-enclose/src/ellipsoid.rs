@@ -8,6 +8,7 @@ mod counters;
 mod dense;
 mod factor;
 mod flat;
+mod interior;
 mod newton;
 mod nnls;
 mod options;

@@ -14,6 +14,7 @@ use taut_points::{Monitor, ReadError};
 
 use super::counters::Counters;
 use super::dense::line_search;
+use super::interior;
 use super::nnls::{self, Outcome};
 use super::pool::Pool;
 use super::whitener::{Rebased, Whitener};
@@ -51,6 +52,7 @@ pub(super) fn solve(
     let m = dim + 1;
     let mut best: Option<(f64, Vec<f64>)> = None;
     let mut patience = PATIENCE;
+    let interior_steps = counters.interior;
     for _ in 0..STEPS {
         monitor.check().map_err(ReadError::from)?;
         if whitener.rebase(pool, NEAR) == Rebased::Never {
@@ -70,8 +72,14 @@ pub(super) fn solve(
         counters.steps += 1;
         let excess = largest - dim as f64;
         let model = nnls::solve(dim, &whitened, pool.weights(), MODEL * excess, counters);
-        let Outcome::Solved(step) = model else {
-            break;
+        let step = match model {
+            Outcome::Solved(step) => step,
+            // Once: what it hands back is a basis, and models made there are short.
+            Outcome::Stuck if interior_steps == counters.interior => {
+                interior::solve(pool, whitener, 0.3 * tolerance, counters, monitor)?;
+                continue;
+            }
+            Outcome::Stuck => break,
         };
         let t = length(&step.matrix, m);
         if t < 1e-12 {

@@ -32,6 +32,10 @@ const JUMP: f64 = 100.0;
 /// A point of the pool with no multiplier whose |y|² is below this part of d is of no use any more.
 const USEFUL: f64 = 0.9;
 
+/// Passes without a better gap that show that rounding is in the way, of gaps below [`SMALL`].
+const STALE: u32 = 3;
+const SMALL: f64 = 1e-6;
+
 /// Points of the first pool, and points that may join after a pass.
 fn sizes(dim: usize, n: u64) -> (usize, usize) {
     let p = (dim + 1) * (dim + 2) / 2;
@@ -64,6 +68,7 @@ pub(super) fn solve(
     // With all points in the pool there is nothing to come.
     let mut tolerance = if pool.len() as u64 == survey.len() { 0.6 * wanted } else { 1e-2 };
     let mut last = f64::INFINITY;
+    let (mut best, mut stale) = (f64::INFINITY, 0);
     let stop = loop {
         newton::solve(&mut pool, &mut whitener, tolerance, &mut counters, survey.monitor())?;
         let center = center_of(&sample.origin, &whitener);
@@ -85,7 +90,10 @@ pub(super) fn solve(
             break Stop::PassBudget;
         }
         let added = add(&mut pool, survey, &sample.origin, &whitener, &far, later)?;
-        if added == 0 && tolerance == 0.0 {
+        stale = if progress.best_gap() < best { 0 } else { stale + 1 };
+        best = progress.best_gap();
+        // Rounds of a pool may pass without a better gap as long as that is large.
+        if added == 0 && tolerance == 0.0 || stale == STALE && best < SMALL {
             break Stop::Rounding;
         }
         // What is outside is in the pool already: only a sharper solution of the pool can help.
