@@ -168,8 +168,7 @@ impl Sums {
         }
         let (mut sum, mut size) = (0.0, 0.0);
         for a in 0..self.rank {
-            let beside_one = matrix[a * (a + 3) / 2].minus(&DoubleDouble::of(1.0));
-            let term = beside_one.rounded().ln_1p();
+            let term = logarithm(&matrix[a * (a + 3) / 2]);
             sum -= 0.5 * term;
             size += term.abs();
         }
@@ -190,4 +189,10 @@ impl Sums {
         rank * (of_sums + of_factors + 2.0 * self.error) / weight
             * (1.0 + (self.count + 16) as f64 * U)
     }
+}
+
+/// log x, relatively to a few units in the last place: near 1 from x − 1, which doubled precision knows as well.
+fn logarithm(x: &DoubleDouble) -> f64 {
+    let beside_one = x.minus(&DoubleDouble::of(1.0)).rounded();
+    if beside_one.abs() < 0.5 { beside_one.ln_1p() } else { x.rounded().ln() }
 }
