@@ -54,11 +54,11 @@ pub(super) fn check(
     structure::check(ellipsoid, certificate, source)?;
     let frame = Frame::of(ellipsoid);
     let difference = agreement::matrix(ellipsoid, &frame)?;
-    let log_volume = agreement::log_volume(ellipsoid, &frame)?;
     let hull = ellipsoid.hull.as_ref().map(|hull| HullTest::of(&frame, hull));
     if let Some(hull) = &hull {
         hull.check(&frame)?;
     }
+    let log_volume = agreement::log_volume(ellipsoid, &frame)?;
     monitor.pass(1, source.len());
     let enclosure = Enclosure::of(&frame, hull.as_ref(), certificate);
     let enclosed = enclosure.check(source, certificate.points_hash, monitor)?;
