@@ -39,6 +39,9 @@ fn bound<N: Field>(frame: &Frame<'_>, item: &Item<'_>) -> f64 {
         return excess_of_square(square, image.len()) + error;
     }
     let shape = Shape::<N>::of(frame, item);
+    if !shape.trace.is_finite() {
+        return f64::INFINITY;
+    }
     let distance = 1.0 + excess_of_square(square, image.len());
     let simply = (distance + shape.trace.sqrt() - 1.0) * (1.0 + 8.0 * U) + error;
     if simply <= -1e-9 {
