@@ -186,6 +186,90 @@ pub enum Violation {
         /// What the checker finds.
         proved: f64,
     },
+    /// An item reaches outside the ellipsoid.
+    #[error("row {row} reaches to |F(x − c)| = {norm:?}, outside the ellipsoid by {excess:e}")]
+    OutsideEllipsoid {
+        /// The first such row, from 0.
+        row: u64,
+        /// How far it reaches: 1 is the border.
+        norm: f64,
+        /// norm − 1.
+        excess: f64,
+    },
+    /// A row that is said to be left out lies inside.
+    #[error("row {row} is said to be left out, but reaches only to |F(x − c)| = {norm:?}")]
+    NotOutside {
+        /// The first such row, from 0.
+        row: u64,
+        /// How far it reaches: 1 is the border.
+        norm: f64,
+    },
+    /// The matrix of an ellipsoid is not its factor multiplied out, or not symmetric.
+    #[error("entry ({row}, {column}) of the matrix is {claimed:?}, but the factor gives {found:?}")]
+    Matrix {
+        /// Row, from 0.
+        row: usize,
+        /// Column, from 0.
+        column: usize,
+        /// What the answer says.
+        claimed: f64,
+        /// What the factor gives.
+        found: f64,
+    },
+    /// The log-volume is not that of the factor.
+    #[error("the log-volume is {claimed:?}, but the factor gives {found:?}")]
+    LogVolume {
+        /// What the answer says.
+        claimed: f64,
+        /// What the factor gives, infinite when it is singular.
+        found: f64,
+    },
+    /// The basis of the hull is not orthonormal.
+    #[error("rows {first} and {second} of the basis of the hull are off orthonormal by {off:e}")]
+    Basis {
+        /// One row, from 0.
+        first: usize,
+        /// The other, or the same.
+        second: usize,
+        /// Their product, less 1 when they are the same.
+        off: f64,
+    },
+    /// A row of the factor does not lie in the hull.
+    #[error("row {row} of the factor lies off the hull by {off:e} of its length")]
+    Span {
+        /// Row, from 0.
+        row: usize,
+        /// How far off, relatively.
+        off: f64,
+    },
+    /// An item lies farther from the hull than stated.
+    #[error("row {row} lies {distance:e} off the hull, but the distance stated is {claimed:e}")]
+    OffHull {
+        /// The first such row, from 0.
+        row: u64,
+        /// How far off.
+        distance: f64,
+        /// The distance stated.
+        claimed: f64,
+    },
+    /// The set is not as flat as a hull says.
+    #[error("points {distance:e} off a hull are not flat: rounding explains {allowed:e}")]
+    NotFlat {
+        /// The distance stated.
+        distance: f64,
+        /// What would have been accepted.
+        allowed: f64,
+    },
+    /// The gap proved for a log-volume is larger than the gap claimed.
+    #[error(
+        "the multipliers prove a gap of {proved:e} in log-volume, the certificate claims {claimed:e}"
+    )]
+    LogGap {
+        /// What the certificate says.
+        claimed: f64,
+        /// What the checker finds.
+        proved: f64,
+    },
     /// Something is wrong with a triangulation.
     #[error(transparent)]
     Mesh(#[from] MeshViolation),
