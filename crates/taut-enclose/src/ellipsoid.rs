@@ -1,13 +1,15 @@
 //! The minimum volume enclosing ellipsoid of points: one problem, one certificate, several methods.
 //!
-//! A method ([`rounds`]) ends with convex multipliers and the pass made with the ellipsoid they mean ([`outcome`]);
+//! A method ([`rounds`], [`first_order`]) ends with convex multipliers and the pass made with the ellipsoid they mean ([`outcome`]);
 //! [`proof`] turns that into an answer and its certificate, whatever the method was.
 
 mod compensated;
 mod counters;
 mod dense;
 mod factor;
+mod first_order;
 mod flat;
+mod initial;
 mod interior;
 mod newton;
 mod nnls;
@@ -111,5 +113,8 @@ fn method(
     whitener: Whitener,
     options: &EllipsoidOptions,
 ) -> Result<Outcome, Error> {
-    rounds::solve(survey, sample, whitener, options)
+    match options.method {
+        EllipsoidMethod::Newton => rounds::solve(survey, sample, whitener, options),
+        _ => first_order::solve(survey, sample, options),
+    }
 }

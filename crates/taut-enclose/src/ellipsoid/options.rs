@@ -99,6 +99,14 @@ impl EllipsoidOptions {
         if !(0.0..1.0).contains(&self.epsilon) {
             return wrong("epsilon", self.epsilon.to_string(), "a number in [0, 1)");
         }
+        let exact = [EllipsoidMethod::Newton, EllipsoidMethod::ThesisInitial];
+        if self.epsilon == 0.0 && !exact.contains(&self.method) {
+            return wrong(
+                "epsilon",
+                "0".into(),
+                "more than 0, as this method needs about d²/ε passes",
+            );
+        }
         if self.max_passes < 2 {
             return wrong(
                 "max_passes",

@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use taut_certify::{PassBounds, Stop};
 
 use super::counters::Counters;
+use super::newton::gap;
 use super::survey::Found;
+use super::whitener::Whitener;
 use crate::kernel::Center;
 
 /// Multipliers, the ellipsoid they mean, and the pass that shows how far points lie outside.
@@ -45,23 +47,25 @@ impl Progress {
         Progress { dim, best: None, history: vec![] }
     }
 
-    /// Takes note of a pass, and of the points worked on then; returns its gap.
-    pub(super) fn note(&mut self, candidate: Candidate, working_set: usize) -> f64 {
-        let gap = super::newton::gap(self.dim, candidate.found.largest);
-        let lower = trial_log_volume(self.dim, &candidate.matrix);
-        let upper = (lower + gap).min(f64::MAX);
+    /// Takes note of a pass with this whitener, in which |y|² was at most `largest`, and of the points worked on then.
+    pub(super) fn note(
+        &mut self,
+        whitener: &Whitener,
+        working_set: usize,
+        largest: f64,
+        candidate: impl FnOnce() -> Candidate,
+    ) {
+        let lower = trial_log_volume(self.dim, whitener.matrix());
+        let upper = (lower + gap(self.dim, largest)).min(f64::MAX);
         self.history.push(PassBounds { lower, upper, working_set: working_set as u64 });
-        let better = |best: &Candidate| candidate.found.largest < best.found.largest;
-        if self.best.as_ref().is_none_or(better) {
-            self.best = Some(candidate);
+        if self.best.as_ref().is_none_or(|best| largest < best.found.largest) {
+            self.best = Some(candidate());
         }
-        gap
     }
 
     /// The gap of the best candidate.
     pub(super) fn best_gap(&self) -> f64 {
-        let gap = |best: &Candidate| super::newton::gap(self.dim, best.found.largest);
-        self.best.as_ref().map_or(f64::INFINITY, gap)
+        self.best.as_ref().map_or(f64::INFINITY, |best| gap(self.dim, best.found.largest))
     }
 
     pub(super) fn into_outcome(self, stop: Stop, counters: Counters, core_set: usize) -> Outcome {

@@ -1,6 +1,6 @@
 //! The points a solver works on, coordinate by coordinate in blocks, each with its multiplier.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use crate::kernel::triangle::POINTS;
 
@@ -9,7 +9,7 @@ use crate::kernel::triangle::POINTS;
 pub(super) struct Pool {
     dim: usize,
     ids: Vec<u64>,
-    known: HashSet<u64>,
+    positions: HashMap<u64, usize>,
     /// Coordinate j of point i stands at (i / 32)·32d + 32j + i % 32; the last block is filled with zeros.
     blocks: Vec<f64>,
     /// u, and zeros up to the end of the last block.
@@ -18,7 +18,7 @@ pub(super) struct Pool {
 
 impl Pool {
     pub(super) fn new(dim: usize) -> Self {
-        Pool { dim, ids: vec![], known: HashSet::new(), blocks: vec![], weights: vec![] }
+        Pool { dim, ids: vec![], positions: HashMap::new(), blocks: vec![], weights: vec![] }
     }
 
     pub(super) fn dim(&self) -> usize {
@@ -34,7 +34,12 @@ impl Pool {
     }
 
     pub(super) fn contains(&self, id: u64) -> bool {
-        self.known.contains(&id)
+        self.positions.contains_key(&id)
+    }
+
+    /// Where a point stands.
+    pub(super) fn position(&self, id: u64) -> Option<usize> {
+        self.positions.get(&id).copied()
     }
 
     pub(super) fn blocks(&self) -> &[f64] {
@@ -67,10 +72,11 @@ impl Pool {
 
     /// Adds a point unless it is there already; the row is relative to the origin.
     pub(super) fn push(&mut self, id: u64, row: &[f64], weight: f64) {
-        if !self.known.insert(id) {
+        let i = self.len();
+        if self.contains(id) {
             return;
         }
-        let i = self.len();
+        self.positions.insert(id, i);
         if i.is_multiple_of(POINTS) {
             self.blocks.resize(self.blocks.len() + POINTS * self.dim, 0.0);
             self.weights.resize(self.weights.len() + POINTS, 0.0);

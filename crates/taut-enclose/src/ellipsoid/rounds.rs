@@ -26,7 +26,7 @@ use crate::kernel::{Center, DoubleDouble};
 use crate::top::Far;
 
 /// Points this near the border, relative, are listed at most: the proof measures again what rounding cannot tell apart.
-const LISTED: f64 = 1e-6;
+pub(super) const LISTED: f64 = 1e-6;
 /// A point this many times d beyond gets weight before the next step.
 const JUMP: f64 = 100.0;
 /// A point of the pool with no multiplier whose |y|² is below this part of d is of no use any more.
@@ -81,7 +81,8 @@ pub(super) fn solve(
             return Err(Error::Overflow);
         }
         let far = outside(&found, dim, &pool);
-        progress.note(candidate(&pool, &whitener, center, found), pool.len());
+        let size = pool.len();
+        progress.note(&whitener, size, largest, || candidate(&pool, &whitener, center, found));
         let reached = gap(dim, largest);
         if progress.best_gap() <= wanted {
             break Stop::Converged;
@@ -148,7 +149,7 @@ fn first_pool(
 }
 
 /// The centre of a whitener in the coordinates of the source; in two terms where rounding it to one could be seen.
-fn center_of(origin: &[f64], whitener: &Whitener) -> Center {
+pub(super) fn center_of(origin: &[f64], whitener: &Whitener) -> Center {
     /// Far below the rounding of a leverage.
     const UNSEEN: f64 = 1e-16;
     let terms: Vec<DoubleDouble> =
@@ -165,7 +166,12 @@ fn center_of(origin: &[f64], whitener: &Whitener) -> Center {
     center
 }
 
-fn candidate(pool: &Pool, whitener: &Whitener, center: Center, found: Found) -> Candidate {
+pub(super) fn candidate(
+    pool: &Pool,
+    whitener: &Whitener,
+    center: Center,
+    found: Found,
+) -> Candidate {
     let weighted = pool.ids().iter().zip(pool.weights()).filter(|(_, u)| **u > 0.0);
     let mut pairs: Vec<(u64, f64)> = weighted.map(|(&id, &u)| (id, u)).collect();
     pairs.sort_unstable_by_key(|pair| pair.0);

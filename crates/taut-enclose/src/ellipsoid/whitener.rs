@@ -12,6 +12,7 @@
 use super::dense::{cholesky, divide_rows, forward};
 use super::pool::Pool;
 use crate::kernel::triangle::{POINTS, Triangle, images, moments};
+use crate::kernel::vector::dot;
 
 /// Turns after which it is left at that: each takes off at least some ten digits of a condition number.
 const TURNS: usize = 40;
@@ -87,6 +88,31 @@ impl Whitener {
         Whitened { blocks, leverages }
     }
 
+    /// Follows a step of weight β to the point x, in coordinates in which the covariance is the identity.
+    pub(super) fn step(&mut self, x: &[f64], beta: f64) {
+        let dim = self.dim;
+        let y: Vec<f64> = (0..dim)
+            .map(|a| dot(&self.matrix[a * dim..a * dim + a + 1], &x[..=a]) - self.shift[a])
+            .collect();
+        let mut covariance = vec![0.0; dim * dim];
+        for a in 0..dim {
+            for b in 0..=a {
+                let identity = if a == b { 1.0 } else { 0.0 };
+                covariance[a * dim + b] = (1.0 - beta) * (identity + beta * y[a] * y[b]);
+            }
+        }
+        // A step away goes at most to where a weight is 0, but rounding may call that singular.
+        let (lower, _) = shifted_cholesky(covariance, dim, 1.0);
+        self.move_to(&lower, &y.iter().map(|y| beta * y).collect::<Vec<_>>());
+    }
+
+    /// M ← L⁻¹M, t ← L⁻¹(t + ȳ).
+    fn move_to(&mut self, lower: &[f64], mean: &[f64]) {
+        self.shift.iter_mut().zip(mean).for_each(|(t, y)| *t += y);
+        forward(lower, self.dim, &mut self.shift);
+        divide_rows(lower, self.dim, &mut self.matrix);
+    }
+
     /// Makes the covariance of the weighted points the identity; the last turn starts from one within `near` of it.
     ///
     /// What it costs in rounding is known from what it returns.
@@ -116,9 +142,7 @@ impl Whitener {
             if shifted {
                 how = Rebased::Shifted;
             }
-            self.shift.iter_mut().zip(&mean).for_each(|(t, y)| *t += y);
-            forward(&lower, dim, &mut self.shift);
-            divide_rows(&lower, dim, &mut self.matrix);
+            self.move_to(&lower, &mean);
             if far < near {
                 return how;
             }
