@@ -82,6 +82,10 @@ pub(super) fn solve(
         for j in batch {
             let (column, row) = set.column(j);
             if set.b(j) - dot(&column, &set.v) < WORTH * gradient[best] {
+                // The best can only have lost its gradient to rounding.
+                if j == best {
+                    tabu.insert(j);
+                }
                 continue;
             }
             set.enter(j, column, row, counters);
