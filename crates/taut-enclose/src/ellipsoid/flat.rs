@@ -27,6 +27,8 @@ use crate::kernel::{Center, DoubleDouble};
 
 /// What residuals may be beyond the rounding of the coordinates, for √d of them, and still count as none.
 const ROUNDINGS: f64 = 16.0;
+/// Part of the radius that no sum shows, whatever is added to it.
+const NOTHING: f64 = 1e-100;
 
 /// An affine subspace through an origin, in coordinates of extent 1.
 struct Span {
@@ -272,8 +274,15 @@ fn flat(
         }
     }
     let center = lifted(&span.origin, &directions, &inner.center);
-    let map = Map { matrix: &matrix, center: &center, triangular: false };
     let (extents, distance) = extents(survey, &center, &directions)?;
+    // What no point makes anything of only has squares that vanish.
+    for row in matrix.chunks_exact_mut(dim) {
+        row.iter_mut()
+            .zip(&extents)
+            .filter(|(m, e)| (**m * **e).abs() < NOTHING)
+            .for_each(|(m, _)| *m = 0.0);
+    }
+    let map = Map { matrix: &matrix, center: &center, triangular: false };
     let settled = settle(survey, inner, map, spread(&matrix, &extents))?;
     let logs: f64 = (0..rank).map(|a| inner.matrix[a * rank + a].ln()).sum();
     let log_volume = log_unit_ball(rank) - logs - rank as f64 * settled.scale.ln();

@@ -63,8 +63,12 @@ pub(super) fn answer(
         }
     }
     let finite = matrix.iter().flatten().chain(factor).all(|v| v.is_finite());
-    // A diagonal entry that vanished would let points of any size in.
-    let seen = (0..dim).all(|a| matrix[a][a] > 0.0 || rows.iter().all(|row| row[a] == 0.0));
+    // Where digits of the diagonal are lost, Q lets points of any size in. In a hull, other coordinates tell.
+    let digits = |a: usize| matrix[a][a] >= f64::MIN_POSITIVE / f64::EPSILON;
+    let seen = match hull {
+        Some(_) => rows.is_empty() || (0..dim).any(digits),
+        None => (0..dim).all(digits),
+    };
     if !finite || !seen || !log_volume.is_finite() {
         return Err(Error::Overflow);
     }

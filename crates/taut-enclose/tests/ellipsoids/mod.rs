@@ -40,7 +40,11 @@ pub fn judge(
     // A point on the border exactly is outside by what the checker rounds up.
     assert!(verdict.excess < 1e-25, "{name}: a point is outside by {:e}", verdict.excess);
     let claimed = found.certificate.gap;
-    assert!(verdict.gap <= claimed + 1e-15, "{name}: gap {:e} of {claimed:e}", verdict.gap);
+    assert!(
+        verdict.gap <= claimed * (1.0 + 1e-9) + 2e-15 * verdict.rank as f64,
+        "{name}: gap {:e} of {claimed:e}",
+        verdict.gap
+    );
     assert_eq!(verdict.rank, found.answer.rank(), "{name}");
     match AnySolution::from_json(&found.to_json()) {
         Ok(AnySolution::Ellipsoid(again)) if again == *found => {}
