@@ -193,14 +193,24 @@ impl<T: Scalar> Work for Leverages<'_, T> {
         let dim = self.center.dim();
         let (x, shift) = self.scratch.split_at_mut(dim * POINTS);
         let triangle = Triangle { matrix: self.matrix, shift };
-        let mut sums = [0.0; POINTS];
-        for (values, out) in self.values.chunks(dim * POINTS).zip(self.out.chunks_mut(POINTS)) {
-            // SAFETY: features are the caller's promise; `x` has room for a block, and `values` holds at least a row.
+        let none = std::ptr::null_mut();
+        let (blocks, rest) = self.out.as_chunks_mut::<POINTS>();
+        let (values, last) = self.values.split_at(blocks.len() * POINTS * dim);
+        for (values, out) in values.chunks_exact(dim * POINTS).zip(blocks) {
+            // SAFETY: features are the caller's promise; `x` has room for a block, and `values` is one.
             unsafe {
                 arrange::<L, T>(values, self.center, x);
-                block::<L, false, false>(triangle, x.as_ptr(), std::ptr::null_mut(), &mut sums);
+                block::<L, false, false>(triangle, x.as_ptr(), none, out);
             }
-            out.copy_from_slice(&sums[..out.len()]);
+        }
+        if !rest.is_empty() {
+            let mut sums = [0.0; POINTS];
+            // SAFETY: as above; `last` holds a row for each place of `rest`, which is not empty.
+            unsafe {
+                arrange::<L, T>(last, self.center, x);
+                block::<L, false, false>(triangle, x.as_ptr(), none, &mut sums);
+            }
+            rest.copy_from_slice(&sums[..rest.len()]);
         }
     }
 }
