@@ -69,7 +69,7 @@ pub(super) fn solve(
         set.crash(3 * p / 5, counters);
     }
     let (pivots, exchanges) = (counters.pivots, counters.exchanges);
-    let patience = patience(u.len(), p);
+    let patience = patience(u.len(), p, counters.interior > 0);
     let mut tabu = HashSet::new();
     loop {
         let matrix = set.matrix();
@@ -100,12 +100,16 @@ pub(super) fn solve(
     }
 }
 
-/// Exchanges and pivots after which an interior-point method would have been faster.
+/// Exchanges and pivots after which an interior-point method would have been faster; less where it once was.
 ///
 /// That takes some fifteen products of a k × p matrix with itself, an exchange a few sweeps of a p × p factor. Measured
 /// on shells of thickness 1e-8: k/10 and k/3 exchanges are within a tenth of the best for p = 496 and for p = 66.
-fn patience(k: usize, p: usize) -> (u64, u64) {
-    let exchanges = if p > 150 { k / 10 } else { k / 3 };
+fn patience(k: usize, p: usize, again: bool) -> (u64, u64) {
+    let exchanges = match (p > 150, again) {
+        (true, false) => k / 10,
+        (true, true) => k / 40,
+        (false, _) => k / 3,
+    };
     (64 + exchanges as u64, 640 + k as u64)
 }
 

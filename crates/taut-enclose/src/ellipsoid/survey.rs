@@ -194,8 +194,7 @@ fn block<T: Scalar>(
         let values = &mut values[..part.len()];
         leverages(part.values(), query.matrix, query.center, &mut scratch, values);
         let far = largest(values);
-        // Of finite points a value can only be too large, or the difference of two such.
-        report.finite &= if first { all_finite(values) } else { far.is_finite() };
+        report.finite &= all_finite(values);
         report.largest = report.largest.max(far);
         // Rows come in order, so what equals the bound of this block loses to the row that set it; what equals a
         // bound set by another block may still win by its number, and `Top` decides.

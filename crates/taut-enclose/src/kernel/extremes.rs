@@ -48,6 +48,9 @@ mod tests {
                 assert!(all_finite(&values));
             }
         }
-        assert_eq!((largest(&[]), largest(&[-1.0]), all_finite(&[f64::INFINITY])), (0.0, 0.0, false));
+        assert_eq!(
+            (largest(&[]), largest(&[-1.0]), all_finite(&[f64::INFINITY])),
+            (0.0, 0.0, false)
+        );
     }
 }

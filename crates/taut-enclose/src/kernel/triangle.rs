@@ -323,9 +323,8 @@ unsafe fn arrange<L: Lanes, T: Scalar>(values: &[T], center: &Center, x: &mut [f
     for group in 0..WIDE {
         // SAFETY: each start is that of a row within `values`; coordinates j .. j + count stay below dim.
         unsafe {
-            let starts: [*const T; 8] = std::array::from_fn(|i| {
-                values.as_ptr().add((group * 8 + i).min(rows - 1) * dim)
-            });
+            let starts: [*const T; 8] =
+                std::array::from_fn(|i| values.as_ptr().add((group * 8 + i).min(rows - 1) * dim));
             for j in (0..dim).step_by(8) {
                 let count = (dim - j).min(8);
                 let eight: [L; 8] = std::array::from_fn(|i| {
