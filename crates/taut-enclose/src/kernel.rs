@@ -13,8 +13,10 @@
 //! subtraction, so it is only done where it matters.
 
 mod exact;
+pub(crate) mod extremes;
 mod lanes;
 mod portable;
+pub(crate) mod triangle;
 pub(crate) mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;

@@ -15,10 +15,12 @@
 //! Not for: distances other than Euclidean; sets where some points may be left out.
 
 mod ball;
+mod ellipsoid;
 mod error;
 mod kernel;
 mod scan;
 mod top;
 
 pub use ball::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_source};
+pub use ellipsoid::{EllipsoidMethod, EllipsoidOptions, ellipsoid, ellipsoid_of_source};
 pub use error::Error;
