@@ -210,11 +210,14 @@ impl Picture<'_> {
                 n => format!(" All {} are drawn.", counted(n, thing)),
             };
         } else {
+            let far = match self.survey.far {
+                0 => String::new(),
+                far => format!("{} more that reach far, ", count(far)),
+            };
             words += &format!(
-                " {} of {} are drawn: the support, {} more that reach far, and an even sample of the others.",
+                " {} of {} are drawn: the support, {far}and an even sample of the others.",
                 count(drawn),
                 counted(n, thing),
-                count(self.survey.far),
             );
         }
         if self.survey.outside > 0 {

@@ -78,18 +78,15 @@ impl Picture<'_> {
         {
             layers.extend(self.spread(&ids, name, tone, &panels, &scales, &mut beyond)?);
         }
-        let size = self.dot_size();
+        let support = self.support()?;
+        // A panel is small: many marks of full size would hide it.
+        let part = if support.len() <= 30 { 0.5 } else { 0.3 };
         let mut marks = Vec::new();
-        for mark in self.support()? {
+        for mark in &support {
             for panel in &panels {
                 let at = self.place(&mark.at, panel, &scales);
-                let label = mark.label.clone();
-                marks.push(Point2 {
-                    id: Some(mark.id),
-                    at,
-                    size: (0.5 * mark.size).max(size),
-                    label,
-                });
+                let (size, label) = (part * mark.size, mark.label.clone());
+                marks.push(Point2 { id: Some(mark.id), at, size, label });
             }
         }
         layers.push(line(self.support_name(), Tone::Support, Look::Solid, Shape2::Points(marks)));

@@ -75,6 +75,13 @@ fn root(items: Items, row: &[f64]) -> Vec<Vec<f64>> {
     (0..3).map(|k| l.iter().map(|row| row[k]).collect()).collect()
 }
 
+/// A turn of the view, in whole degrees, that shows the longest axis from its side; 35 where it stands upright.
+fn azimuth(axes: &[Vec<f64>]) -> f64 {
+    let Some([x, y, z]) = axes.first().map(|axis| at(axis)) else { return 35.0 };
+    let level = super::body::length(&[x, y]);
+    if level > 0.25 * z.abs() { (y.atan2(x).to_degrees() + 70.0).round() } else { 35.0 }
+}
+
 fn at(row: &[f64]) -> Place {
     [row[0], row[1], row[2]]
 }
@@ -121,7 +128,7 @@ impl Picture<'_> {
             axes: [0, 1, 2].map(|k| self.options.axis(k, 3)),
             layers,
             projection: Projection::Perspective,
-            azimuth: 35.0,
+            azimuth: azimuth(&axes),
             elevation: 22.0,
             width: self.options.width,
             height: self.options.height,
