@@ -124,7 +124,7 @@ fn exact_norm(ellipsoid: &Ellipsoid, row: &[f64]) -> f64 {
         .collect();
     let image =
         |f: &Vec<f64>| -> BigRational { f.iter().zip(&offset).map(|(&f, x)| exact(f) * x).sum() };
-    let square: BigRational = ellipsoid.factor.iter().map(|f| image(f)).map(|y| &y * &y).sum();
+    let square: BigRational = ellipsoid.factor.iter().map(image).map(|y| &y * &y).sum();
     square.to_f64().unwrap().sqrt()
 }
 
