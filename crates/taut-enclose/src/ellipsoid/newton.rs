@@ -71,11 +71,14 @@ pub(super) fn solve(
         }
         counters.steps += 1;
         let excess = largest - dim as f64;
-        let model = nnls::solve(dim, &whitened, pool.weights(), MODEL * excess, counters);
+        let tried = counters.interior > interior_steps;
+        let patience = nnls::patience(pool.len(), dim, interior_steps > 0, tried);
+        let u = pool.weights();
+        let model = nnls::solve(dim, &whitened, u, MODEL * excess, patience, counters);
         let step = match model {
             Outcome::Solved(step) => step,
             // Once: what it hands back is a basis, and models made there are short.
-            Outcome::Stuck if interior_steps == counters.interior => {
+            Outcome::Stuck if !tried => {
                 interior::solve(pool, whitener, 0.3 * tolerance, counters, monitor)?;
                 continue;
             }

@@ -52,12 +52,14 @@ pub(super) struct Step {
     pub(super) matrix: Vec<f64>,
 }
 
-/// Solves the model over the pool `whitened`, from the multipliers `u`, until no gradient exceeds `tolerance`.
+/// Solves the model over the pool `whitened`, from the multipliers `u`, until no gradient exceeds `tolerance`; gives up
+/// after as many exchanges and pivots as `patience` says.
 pub(super) fn solve(
     dim: usize,
     whitened: &Whitened,
     u: &[f64],
     tolerance: f64,
+    patience: (u64, u64),
     counters: &mut Counters,
 ) -> Outcome {
     let p = (dim + 1) * (dim + 2) / 2;
@@ -69,7 +71,6 @@ pub(super) fn solve(
         set.crash(3 * p / 5, counters);
     }
     let (pivots, exchanges) = (counters.pivots, counters.exchanges);
-    let patience = patience(u.len(), p, counters.interior > 0);
     let mut tabu = HashSet::new();
     loop {
         let matrix = set.matrix();
@@ -100,17 +101,21 @@ pub(super) fn solve(
     }
 }
 
-/// Exchanges and pivots after which an interior-point method would have been faster; less where it once was.
+/// Exchanges and pivots after which an interior-point method would have been faster on k points; less where it was
+/// faster `before`, and many where it has just been tried.
 ///
 /// That takes some fifteen products of a k × p matrix with itself, an exchange a few sweeps of a p × p factor. Measured
 /// on shells of thickness 1e-8: k/10 and k/3 exchanges are within a tenth of the best for p = 496 and for p = 66.
-fn patience(k: usize, p: usize, again: bool) -> (u64, u64) {
-    let exchanges = match (p > 150, again) {
+pub(super) fn patience(k: usize, dim: usize, before: bool, tried: bool) -> (u64, u64) {
+    let many = (dim + 1) * (dim + 2) / 2 > 150;
+    let exchanges = match (many, before) {
+        _ if tried => 4 * k,
         (true, false) => k / 10,
         (true, true) => k / 40,
         (false, _) => k / 3,
     };
-    (64 + exchanges as u64, 640 + k as u64)
+    let pivots = if tried { 10 * k } else { k };
+    (64 + exchanges as u64, 640 + pivots as u64)
 }
 
 struct ActiveSet<'a> {
@@ -367,7 +372,8 @@ mod tests {
     fn check_optimal(dim: usize, whitened: &Whitened, u: &[f64], p: usize) -> u64 {
         let k = whitened.leverages.len();
         let mut counters = Counters::default();
-        let Outcome::Solved(step) = solve(dim, whitened, u, 1e-9, &mut counters) else {
+        let Outcome::Solved(step) = solve(dim, whitened, u, 1e-9, (9999, 9999), &mut counters)
+        else {
             panic!("a small model takes few steps")
         };
         assert!(step.weights.len() <= p);
