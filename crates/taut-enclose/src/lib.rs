@@ -4,8 +4,8 @@
 //! |---|---|---|---|
 //! | smallest ball around points | [`ball()`] | R ≤ (1 + ε)·R*, proved | few passes of O(nd) |
 //! | smallest ball around balls | [`ball_of_balls()`] | the same | the same |
-//! | either ball, larger than memory | [`ball_of_source()`] | the same | the same, one block per thread in memory |
-//! | ellipsoid of least volume around points | [`ellipsoid()`] | log-volume ≤ least + ε, proved | few passes of O(nd²) |
+//! | either, larger than memory | [`ball_of_source()`] | the same | the same, one block per thread in memory |
+//! | smallest ellipsoid around points | [`ellipsoid()`] | log-volume ≤ optimum + ε, proved | few passes of O(nd²) |
 //! | the same, larger than memory | [`ellipsoid_of_source()`] | the same | the same, one block per thread in memory |
 //! ```
 //! let points = taut_points::Points::new(&[0.0, 0.0, 2.0, 0.0, 1.0, 1.0], 2)?;   // n × d, row-major

@@ -179,12 +179,13 @@ impl Work for Moments<'_> {
     }
 }
 
-struct Leverages<'a, T> {
-    values: &'a [T],
-    matrix: &'a [f64],
-    center: &'a Center,
-    scratch: &'a mut [f64],
-    out: &'a mut [f64],
+pub(super) struct Leverages<'a, T> {
+    pub(super) values: &'a [T],
+    pub(super) matrix: &'a [f64],
+    pub(super) center: &'a Center,
+    /// A block and, behind it, a shift of zeros.
+    pub(super) scratch: &'a mut [f64],
+    pub(super) out: &'a mut [f64],
 }
 
 impl<T: Scalar> Work for Leverages<'_, T> {
@@ -291,7 +292,7 @@ unsafe fn block<L: Lanes, const STORE: bool, const FORM: bool>(
 unsafe fn arrange<L: Lanes, T: Scalar>(values: &[T], center: &Center, x: &mut [f64]) {
     let dim = center.dim();
     let rows = values.len() / dim;
-    debug_assert!(rows >= 1 && rows <= POINTS && x.len() >= dim * POINTS);
+    debug_assert!((1..=POINTS).contains(&rows) && x.len() >= dim * POINTS);
     let x = x.as_mut_ptr();
     let ahead = values.as_ptr().cast::<u8>().wrapping_add(AHEAD);
     for line in (0..size_of_val(values)).step_by(64) {
