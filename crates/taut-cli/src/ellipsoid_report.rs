@@ -1,6 +1,7 @@
 //! What is said about an ellipsoid: the same facts on the terminal, beside pictures and in the tour.
 
-use taut::{Ellipsoid, EllipsoidVerdict, Items, Solution};
+use taut::certify::Stop;
+use taut::{Ellipsoid, EllipsoidMethod, EllipsoidVerdict, Items, Solution};
 use taut_draw::ellipsoid_figures;
 
 use crate::numbers::{abridged, coordinates, count, counted, exact, gap};
@@ -72,7 +73,7 @@ impl EllipsoidReport<'_> {
             ));
         }
         facts.extend([
-            Fact::new("method", &*trace.method).remark(stopped(trace.stop)),
+            Fact::new("method", &*trace.method).remark(self.ended()),
             Fact::new("core-set", counted(trace.core_set, self.noun()))
                 .remark(format!("{support} of them in the support")),
             Fact::new("passes", count(trace.passes)).remark(counted(trace.iterations, "iteration")),
@@ -91,6 +92,16 @@ impl EllipsoidReport<'_> {
             facts: self.facts().into_iter().map(picture::fact).collect(),
             figures,
         })
+    }
+
+    fn ended(&self) -> &'static str {
+        let trace = &self.found.trace;
+        match trace.stop {
+            Stop::PassBudget if trace.method == EllipsoidMethod::ThesisInitial.name() => {
+                "done, as it does not search: the gap is what its points prove"
+            }
+            stop => stopped(stop),
+        }
     }
 
     fn noun(&self) -> &'static str {

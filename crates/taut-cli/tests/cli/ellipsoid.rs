@@ -232,6 +232,9 @@ fn every_method_ends_in_a_certificate() {
         );
         assert!(code == 3 || gap <= 0.05, "{method}: {gap}");
     }
+    desk.taut("ellipsoid points.npy --method thesis-initial")
+        .ends(3)
+        .says(&["method     thesis-initial; done, as it does not search"]);
     // The directions of Algorithm 3 are drawn from the seed.
     let start = |seed| {
         desk.taut(&format!("ellipsoid points.npy --method thesis-initial --json --seed {seed}"))
