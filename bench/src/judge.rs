@@ -60,7 +60,7 @@ impl std::fmt::Display for Judgement {
     }
 }
 
-/// Judges the ball of a peer against the input and the bracket that was proved for it.
+/// Judges the ball of a peer against the input, points or balls, and the bracket that was proved for it.
 pub(crate) fn judge(
     source: &dyn PointSource,
     items: Items,
@@ -75,10 +75,7 @@ pub(crate) fn judge(
             rows.copy_row(i, &mut row);
             let distance =
                 row.iter().zip(center).map(|(x, c)| (x - c) * (x - c)).sum::<f64>().sqrt();
-            let this = match items {
-                Items::Points => distance,
-                Items::Balls => distance + row[center.len()],
-            };
+            let this = distance + if items == Items::Balls { row[center.len()] } else { 0.0 };
             // A NaN of the peer, in centre or radius, must be lost neither in a comparison nor in a maximum.
             let inside = this <= radius * (1.0 + ROUNDING);
             outside += u64::from(!inside);

@@ -43,9 +43,9 @@ pub(crate) fn ball(
     let source = rows.source()?;
     let found =
         interruptible(py, |monitor| ball_of_source(source.as_ref(), items, &options, monitor))?
-            .map_err(|error| match items {
-                Items::Points => raise(error),
-                Items::Balls => raise_of_balls(error, source.dim() - 1),
+            .map_err(|error| match balls {
+                false => raise(error),
+                true => raise_of_balls(error, source.dim() - 1),
             })?;
     Solution::new(py, AnySolution::Ball(found))
 }

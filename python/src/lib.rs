@@ -7,6 +7,7 @@
 
 mod ball;
 mod delaunay;
+mod ellipsoid;
 mod generate;
 mod numbers;
 mod rows;
@@ -23,6 +24,8 @@ mod _native {
     use crate::ball::ball;
     #[pymodule_export]
     use crate::delaunay::delaunay;
+    #[pymodule_export]
+    use crate::ellipsoid::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipsoid};
     #[pymodule_export]
     use crate::generate::generate;
     #[pymodule_export]

@@ -1,4 +1,4 @@
-//! Whole numbers as Python has them: of any size.
+//! Numbers as Python has them: whole ones of any size, and others as it writes them.
 
 use pyo3::exceptions::{PyOverflowError, PyValueError};
 use pyo3::prelude::*;
@@ -17,4 +17,9 @@ pub(crate) fn whole<'py, T: FromPyObjectOwned<'py>>(
             error
         }
     })
+}
+
+/// A number as Python writes it.
+pub(crate) fn float(py: Python<'_>, value: f64) -> PyResult<String> {
+    Ok(value.into_pyobject(py)?.repr()?.to_string())
 }

@@ -9,7 +9,9 @@ use taut::Items;
 use taut::certify::{self, AnySolution, AnyVerdict, CheckError, Stop};
 
 use crate::ball::{negative_radius, not_finite_of_ball};
-use crate::rows::Rows;
+use crate::ellipsoid::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict};
+use crate::numbers::float;
+use crate::rows::{Rows, numbers};
 use crate::triangulation::{Triangulation, TriangulationCertificate, TriangulationVerdict};
 use crate::work::interruptible;
 
@@ -83,7 +85,7 @@ impl BallCertificate {
 /// Attributes
 /// ----------
 /// lower, upper : float
-///     Proved lower bound on the optimal radius, and a radius that encloses all points.
+///     Proved lower bound on the optimal radius or log-volume, and one with which all points are enclosed.
 /// working_set : int
 ///     Points in the working set then.
 #[pyclass(frozen, get_all, module = "taut")]
@@ -214,15 +216,15 @@ impl Verdict {
 /// Attributes
 /// ----------
 /// kind : str
-///     ``"ball"`` or ``"delaunay"``.
-/// answer : Ball or Triangulation
+///     ``"ball"``, ``"ellipsoid"`` or ``"delaunay"``.
+/// answer : Ball, Ellipsoid or Triangulation
 ///     The shape.
-/// certificate : BallCertificate or TriangulationCertificate
+/// certificate : BallCertificate, EllipsoidCertificate or TriangulationCertificate
 ///     Its proof.
 /// trace : Trace
 ///     Counters of the run.
 /// simplices, neighbors, hull, duplicates, fingerprint
-///     Those of a triangulation, its answer and certificate, for short. A ball has none.
+///     Those of a triangulation, its answer and certificate, for short. Other shapes have none.
 #[pyclass(frozen, module = "taut")]
 pub(crate) struct Solution {
     solution: AnySolution,
@@ -240,6 +242,11 @@ impl Solution {
             AnySolution::Ball(found) => {
                 let (answer, certificate) = ball(py, found)?;
                 let answer = Py::new(py, answer)?.into_any();
+                (answer, Py::new(py, certificate)?.into_any(), found.trace.clone())
+            }
+            AnySolution::Ellipsoid(found) => {
+                let answer = Py::new(py, Ellipsoid::new(py, &found.answer)?)?.into_any();
+                let certificate = EllipsoidCertificate::new(py, &found.certificate)?;
                 (answer, Py::new(py, certificate)?.into_any(), found.trace.clone())
             }
             AnySolution::Triangulation(found) => {
@@ -261,26 +268,55 @@ impl Solution {
     ) -> PyResult<Py<PyAny>> {
         match self.solution {
             AnySolution::Triangulation(_) => part.getattr(py, name),
-            AnySolution::Ball(_) => {
-                Err(PyAttributeError::new_err(format!("a ball has no {name}: triangulations do")))
+            AnySolution::Ball(_) | AnySolution::Ellipsoid(_) => {
+                let article = if self.kind().starts_with('e') { "an" } else { "a" };
+                let problem = format!("{article} {} has no {name}: triangulations do", self.kind());
+                Err(PyAttributeError::new_err(problem))
             }
         }
     }
 
     /// Refuses radii where the answer encloses points or none where it encloses balls.
     fn match_radii(&self, given: bool) -> PyResult<()> {
-        let problem = match (&self.solution, given) {
-            (AnySolution::Ball(found), false) if found.certificate.items == Items::Balls => {
-                "the answer encloses balls: give their radii"
+        let problem = match (self.items(), given) {
+            (Some(Items::Balls), false) => "the answer encloses balls: give their radii",
+            (Some(Items::Points), true) => "the answer encloses points, which have no radii",
+            (Some(Items::Ellipsoids), true) => {
+                "the answer encloses ellipsoids, which have no radii"
             }
-            (AnySolution::Ball(found), true) if found.certificate.items == Items::Points => {
-                "the answer encloses points, which have no radii"
-            }
-            (AnySolution::Triangulation(_), true) => "the answer joins points, which have no radii",
+            (None, true) => "the answer joins points, which have no radii",
             _ => return Ok(()),
         };
         Err(PyValueError::new_err(problem))
     }
+
+    /// What the answer encloses, if it encloses anything.
+    fn items(&self) -> Option<Items> {
+        match &self.solution {
+            AnySolution::Ball(found) => Some(found.certificate.items),
+            AnySolution::Ellipsoid(found) => Some(found.certificate.items),
+            AnySolution::Triangulation(_) => None,
+        }
+    }
+}
+
+/// What the rows are, in a word.
+pub(crate) fn name_of_items(items: Items) -> &'static str {
+    match items {
+        Items::Points => "points",
+        Items::Balls => "balls",
+        Items::Ellipsoids => "ellipsoids",
+    }
+}
+
+/// Row numbers as NumPy has them: signed.
+pub(crate) fn row_numbers(py: Python<'_>, rows: &[u64]) -> PyResult<Py<PyArray1<i64>>> {
+    let signed = rows.iter().map(|&row| i64::try_from(row)).collect::<Result<Vec<i64>, _>>();
+    numbers(
+        py,
+        signed
+            .map_err(|_| PyValueError::new_err("a row number of the support exceeds 2**63 - 1"))?,
+    )
 }
 
 /// A ball and its certificate.
@@ -291,21 +327,15 @@ fn ball(py: Python<'_>, found: &taut::Solution<taut::Ball>) -> PyResult<(Ball, B
     } else {
         ball.center_tail.clone()
     };
-    let support = proof.support.iter().map(|&row| i64::try_from(row)).collect::<Result<_, _>>();
-    let support: Vec<i64> = support
-        .map_err(|_| PyValueError::new_err("a row number of the support exceeds 2**63 - 1"))?;
     let answer = Ball {
-        center: read_only(PyArray1::from_slice(py, &ball.center))?,
-        center_tail: read_only(PyArray1::from_vec(py, tail))?,
+        center: numbers(py, ball.center.clone())?,
+        center_tail: numbers(py, tail)?,
         radius: ball.radius,
     };
     let certificate = BallCertificate {
-        items: match proof.items {
-            Items::Points => "points",
-            Items::Balls => "balls",
-        },
-        support: read_only(PyArray1::from_vec(py, support))?,
-        multipliers: read_only(PyArray1::from_slice(py, &proof.multipliers))?,
+        items: name_of_items(proof.items),
+        support: row_numbers(py, &proof.support)?,
+        multipliers: numbers(py, proof.multipliers.clone())?,
         gap: proof.gap,
         points_hash: proof.points_hash.to_string(),
     };
@@ -318,6 +348,7 @@ impl Solution {
     fn kind(&self) -> &'static str {
         match self.solution {
             AnySolution::Ball(_) => "ball",
+            AnySolution::Ellipsoid(_) => "ellipsoid",
             AnySolution::Triangulation(_) => "delaunay",
         }
     }
@@ -363,7 +394,7 @@ impl Solution {
     ///
     /// Returns
     /// -------
-    /// Verdict or TriangulationVerdict
+    /// Verdict, EllipsoidVerdict or TriangulationVerdict
     ///     Proved bounds ``lower`` and ``upper``, and their ``gap``; of a triangulation the counts that were proved.
     ///
     /// Raises
@@ -397,11 +428,14 @@ impl Solution {
             Ok(AnyVerdict::Ball(certify::Verdict { lower, upper, gap })) => {
                 Ok(Py::new(py, Verdict { lower, upper, gap })?.into_any())
             }
+            Ok(AnyVerdict::Ellipsoid(proved)) => {
+                Ok(Py::new(py, EllipsoidVerdict::new(proved))?.into_any())
+            }
             Ok(AnyVerdict::Triangulation(proved)) => {
                 Ok(Py::new(py, TriangulationVerdict::new(&proved))?.into_any())
             }
             Err(CheckError::Rejected(violation)) => {
-                let balls = matches!(&self.solution, AnySolution::Ball(found) if found.certificate.items == Items::Balls);
+                let balls = self.items() == Some(Items::Balls);
                 Err(Violation::new_err(match violation {
                     certify::Violation::NonFinite { row, column, value } if balls => {
                         not_finite_of_ball(row, column, value, source.dim() - 1)
@@ -463,6 +497,11 @@ impl Solution {
                 let gap = float(py, found.certificate.gap)?;
                 format!("Solution(kind='{kind}', radius={radius}, gap={gap})")
             }
+            AnySolution::Ellipsoid(found) => {
+                let volume = float(py, found.answer.log_volume)?;
+                let gap = float(py, found.certificate.gap)?;
+                format!("Solution(kind='{kind}', log_volume={volume}, gap={gap})")
+            }
             AnySolution::Triangulation(found) => {
                 let certify::TriangulationCounts { sites, simplices, hull } =
                     found.certificate.counts;
@@ -472,15 +511,4 @@ impl Solution {
             }
         })
     }
-}
-
-/// An array that refuses to be written to, as what was proved of it would no longer hold.
-fn read_only<'py, T: numpy::Element>(array: Bound<'py, PyArray1<T>>) -> PyResult<Py<PyArray1<T>>> {
-    array.call_method1("setflags", (false,))?;
-    Ok(array.unbind())
-}
-
-/// A number as Python writes it.
-fn float(py: Python<'_>, value: f64) -> PyResult<String> {
-    Ok(value.into_pyobject(py)?.repr()?.to_string())
 }

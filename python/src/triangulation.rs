@@ -1,8 +1,10 @@
 //! Triangulations as Python sees them.
 
-use numpy::{Element, PyArray1, PyArray2, PyArrayMethods};
+use numpy::PyArray2;
 use pyo3::prelude::*;
 use taut::certify::{self, NO_NEIGHBOR};
+
+use crate::rows::table;
 
 /// The Delaunay triangulation of a point set. Ids are rows of the points, from 0.
 ///
@@ -135,12 +137,4 @@ impl TriangulationVerdict {
             "TriangulationVerdict(sites={sites}, simplices={simplices}, hull={hull}, ties={ties})"
         )
     }
-}
-
-/// Rows of `width` numbers that cannot be written to.
-fn table<T: Element>(py: Python<'_>, values: Vec<T>, width: usize) -> PyResult<Py<PyArray2<T>>> {
-    let rows = values.len().checked_div(width).unwrap_or(0);
-    let array = PyArray1::from_vec(py, values).reshape([rows, width])?;
-    array.call_method1("setflags", (false,))?;
-    Ok(array.unbind())
 }

@@ -13,10 +13,15 @@ The names, options and defaults are those of the Rust library and of the command
 
 from ._ball import ball, ball_of_balls
 from ._delaunay import delaunay
+from ._ellipsoid import ellipsoid
 from ._generate import generate
 from ._native import (
     Ball,
     BallCertificate,
+    Ellipsoid,
+    EllipsoidCertificate,
+    EllipsoidVerdict,
+    Hull,
     PassBounds,
     Solution,
     Trace,
@@ -32,6 +37,10 @@ from ._verify import verify
 __all__ = [
     "Ball",
     "BallCertificate",
+    "Ellipsoid",
+    "EllipsoidCertificate",
+    "EllipsoidVerdict",
+    "Hull",
     "PassBounds",
     "Solution",
     "Trace",
@@ -44,6 +53,7 @@ __all__ = [
     "ball",
     "ball_of_balls",
     "delaunay",
+    "ellipsoid",
     "generate",
     "verify",
 ]

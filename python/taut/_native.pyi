@@ -6,6 +6,10 @@ from numpy.typing import ArrayLike, NDArray
 __all__ = [
     "Ball",
     "BallCertificate",
+    "Ellipsoid",
+    "EllipsoidCertificate",
+    "EllipsoidVerdict",
+    "Hull",
     "PassBounds",
     "Solution",
     "Trace",
@@ -17,6 +21,7 @@ __all__ = [
     "__version__",
     "ball",
     "delaunay",
+    "ellipsoid",
     "generate",
 ]
 
@@ -35,6 +40,14 @@ def ball(
 def delaunay(
     rows: NDArray[np.float32] | NDArray[np.float64],
     order: str,
+    threads: int | None,
+    seed: int,
+) -> Solution: ...
+def ellipsoid(
+    rows: NDArray[np.float32] | NDArray[np.float64],
+    epsilon: float,
+    method: str,
+    max_passes: int,
     threads: int | None,
     seed: int,
 ) -> Solution: ...
@@ -75,6 +88,61 @@ class BallCertificate:
     def gap(self) -> float: ...
     @property
     def points_hash(self) -> str: ...
+
+@final
+class Ellipsoid:
+    @property
+    def center(self) -> NDArray[np.float64]: ...
+    @property
+    def center_tail(self) -> NDArray[np.float64]: ...
+    @property
+    def matrix(self) -> NDArray[np.float64]: ...
+    @property
+    def factor(self) -> NDArray[np.float64]: ...
+    @property
+    def hull(self) -> Hull | None: ...
+    @property
+    def log_volume(self) -> float: ...
+    @property
+    def rank(self) -> int: ...
+    def norm(self, points: ArrayLike) -> NDArray[np.float64]: ...
+
+@final
+class Hull:
+    @property
+    def basis(self) -> NDArray[np.float64]: ...
+    @property
+    def distance(self) -> float: ...
+
+@final
+class EllipsoidCertificate:
+    @property
+    def items(self) -> str: ...
+    @property
+    def support(self) -> NDArray[np.int64]: ...
+    @property
+    def multipliers(self) -> NDArray[np.float64]: ...
+    @property
+    def left_out(self) -> NDArray[np.int64]: ...
+    @property
+    def gap(self) -> float: ...
+    @property
+    def points_hash(self) -> str: ...
+
+@final
+class EllipsoidVerdict:
+    @property
+    def lower(self) -> float: ...
+    @property
+    def upper(self) -> float: ...
+    @property
+    def gap(self) -> float: ...
+    @property
+    def excess(self) -> float: ...
+    @property
+    def matrix_excess(self) -> float: ...
+    @property
+    def rank(self) -> int: ...
 
 @final
 class PassBounds:

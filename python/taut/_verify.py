@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from ._native import Solution, TriangulationVerdict, Verdict
+from ._native import EllipsoidVerdict, Solution, TriangulationVerdict, Verdict
 
 
-def verify(solution: Solution | str, points: ArrayLike, radii: ArrayLike | None = None) -> Verdict | TriangulationVerdict:
+def verify(
+    solution: Solution | str, points: ArrayLike, radii: ArrayLike | None = None
+) -> Verdict | EllipsoidVerdict | TriangulationVerdict:
     """Check an answer over the points it was found for.
 
     Parameters
@@ -21,7 +23,7 @@ def verify(solution: Solution | str, points: ArrayLike, radii: ArrayLike | None 
 
     Returns
     -------
-    Verdict or TriangulationVerdict
+    Verdict, EllipsoidVerdict or TriangulationVerdict
         Proved bounds ``lower`` and ``upper``, and their ``gap``; of a triangulation the counts that were proved.
 
     Raises
@@ -46,5 +48,5 @@ def verify(solution: Solution | str, points: ArrayLike, radii: ArrayLike | None 
         solution = Solution.from_json(solution)
     elif not isinstance(solution, Solution):
         raise TypeError(f"expected a Solution or its JSON text as str, not {type(solution).__name__}")
-    verdict: Verdict | TriangulationVerdict = solution.check(points, radii)
+    verdict: Verdict | EllipsoidVerdict | TriangulationVerdict = solution.check(points, radii)
     return verdict

@@ -2,10 +2,12 @@
 
 mod double_double;
 mod exact;
+mod field;
 mod integer;
 mod ring;
 
 pub(crate) use double_double::{Compensated, Known, U, square, two_product, two_sum};
 pub(crate) use exact::ExactSum;
+pub(crate) use field::{Field, factorise};
 pub(crate) use integer::{Integer, parts};
 pub(crate) use ring::{DoubleDouble, Residue, Ring};

@@ -6,28 +6,7 @@ use serde::{Deserialize, Serialize};
 use taut_points::{Monitor, PointSource, PointsHash};
 
 use crate::json::{hash_from_hex, hash_to_hex};
-use crate::{Answer, CheckError, Verdict};
-
-/// What the rows of a source stand for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Items {
-    /// Each row is a point.
-    #[default]
-    Points,
-    /// Each row is a ball: its centre, then its radius ≥ 0 in the last column.
-    Balls,
-}
-
-impl Items {
-    /// The dimension of the space in which rows of `columns` numbers lie.
-    pub fn dim(self, columns: usize) -> usize {
-        match self {
-            Items::Points => columns,
-            Items::Balls => columns.saturating_sub(1),
-        }
-    }
-}
+use crate::{Answer, CheckError, Items, Verdict};
 
 /// A ball in ℝᵈ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,7 +37,7 @@ pub struct Ball {
     expecting = "the certificate of a ball: an object with items, support and multipliers"
 )]
 pub struct BallCertificate {
-    /// Points or balls.
+    /// Points or balls; a ball around ellipsoids has no certificate of this form.
     pub items: Items,
     /// Row numbers of the items with λᵢ > 0, from 0, ascending.
     pub support: Vec<u64>,

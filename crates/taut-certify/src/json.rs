@@ -6,7 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de::DeserializeOwn
 use serde_json::ser::{Formatter, PrettyFormatter};
 use taut_points::{Monitor, PointSource, PointsHash};
 
-use crate::{Answer, AnyVerdict, Ball, CheckError, Solution, Trace, Triangulation};
+use crate::{Answer, AnyVerdict, Ball, CheckError, Ellipsoid, Solution, Trace, Triangulation};
 
 /// Version of the document; it grows by one when a reader of the old one would misread the new.
 pub const SCHEMA: u32 = 1;
@@ -183,6 +183,8 @@ pub(crate) fn hash_from_hex<'de, D: Deserializer<'de>>(
 pub enum AnySolution {
     /// A minimum enclosing ball.
     Ball(Solution<Ball>),
+    /// A minimum volume enclosing ellipsoid.
+    Ellipsoid(Solution<Ellipsoid>),
     /// A Delaunay triangulation.
     Triangulation(Solution<Triangulation>),
 }
@@ -211,6 +213,7 @@ impl AnySolution {
         }
         match head.kind.as_str() {
             Ball::KIND => Ok(AnySolution::Ball(parse(text)?)),
+            Ellipsoid::KIND => Ok(AnySolution::Ellipsoid(parse(text)?)),
             Triangulation::KIND => Ok(AnySolution::Triangulation(parse(text)?)),
             _ => Err(JsonError::Kind { found: head.kind }),
         }
@@ -220,6 +223,7 @@ impl AnySolution {
     pub fn to_json(&self) -> String {
         match self {
             AnySolution::Ball(found) => found.to_json(),
+            AnySolution::Ellipsoid(found) => found.to_json(),
             AnySolution::Triangulation(found) => found.to_json(),
         }
     }
@@ -236,6 +240,9 @@ impl AnySolution {
         match self {
             AnySolution::Ball(found) => {
                 found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Ball)
+            }
+            AnySolution::Ellipsoid(found) => {
+                found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Ellipsoid)
             }
             AnySolution::Triangulation(found) => found
                 .answer

@@ -3,6 +3,7 @@
 //! | answer | certificate | what the checker proves from the input alone |
 //! |---|---|---|
 //! | [`Ball`] | [`BallCertificate`] | every point is inside; no smaller ball than r/(1 + gap) holds them all |
+//! | [`Ellipsoid`] | [`EllipsoidCertificate`] | every point is inside; no ellipsoid of a log-volume less by more than the gap holds them all |
 //! | [`Triangulation`] | [`TriangulationCertificate`] | the simplices are *the* Delaunay triangulation of the points |
 //!
 //! A [`Solution`] is an answer, its certificate and a trace of counters. [`Solution::check`] reads the points again
@@ -33,12 +34,16 @@
 
 mod arithmetic;
 mod ball;
+mod ellipsoid;
+mod items;
 mod json;
 mod solution;
 mod triangulation;
 mod verdict;
 
-pub use ball::{Ball, BallCertificate, Items};
+pub use ball::{Ball, BallCertificate};
+pub use ellipsoid::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull};
+pub use items::Items;
 pub use json::{AnySolution, JsonError, SCHEMA};
 pub use solution::{Answer, PassBounds, Solution, Stop, Trace};
 pub use triangulation::{

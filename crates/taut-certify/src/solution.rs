@@ -55,7 +55,7 @@ impl<A: Answer> Solution<A> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stop {
-    /// The wanted gap was reached; for ε = 0, no point violates the ball beyond rounding.
+    /// The wanted gap was reached; for ε = 0, no point violates the answer beyond rounding.
     #[default]
     Converged,
     /// Rounding lets no smaller gap be proved; the gap reached is larger than the one wanted.
@@ -71,9 +71,9 @@ pub enum Stop {
     expecting = "the bounds of a pass: an object with lower, upper and working_set"
 )]
 pub struct PassBounds {
-    /// Lower bound on the optimal radius, proved by the multipliers of that moment.
+    /// Lower bound on the optimal radius or log-volume, proved by the multipliers of that moment.
     pub lower: f64,
-    /// Radius that encloses all points from the centre of that moment.
+    /// Radius or log-volume that encloses all points from the centre of that moment.
     pub upper: f64,
     /// Points in the working set then.
     pub working_set: u64,

@@ -2,13 +2,15 @@
 
 use taut_points::ReadError;
 
-use crate::{MeshViolation, TriangulationVerdict};
+use crate::{EllipsoidVerdict, MeshViolation, TriangulationVerdict};
 
 /// What was proved of an answer of any kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AnyVerdict {
     /// Of a minimum enclosing ball.
     Ball(Verdict),
+    /// Of a minimum volume enclosing ellipsoid.
+    Ellipsoid(EllipsoidVerdict),
     /// Of a Delaunay triangulation.
     Triangulation(TriangulationVerdict),
 }
@@ -89,6 +91,28 @@ pub enum Violation {
         /// Columns there are.
         columns: usize,
     },
+    /// Certificates of this kind do not speak of such items.
+    #[error("the certificate of {article} speaks of {items}: there is no proof of that form", article = article(kind))]
+    Items {
+        /// Kind of the answer.
+        kind: &'static str,
+        /// What the rows are said to be.
+        items: &'static str,
+    },
+    /// The certificate speaks of ellipsoids, but no dimension has rows of that many numbers.
+    #[error(
+        "ellipsoids in dimension d have rows of d(d + 3)/2 numbers, 2, 5, 9, 14, …, but rows have {columns}"
+    )]
+    NoShape {
+        /// Columns there are.
+        columns: usize,
+    },
+    /// An ellipsoid of the input has a shape matrix with a negative eigenvalue.
+    #[error("the shape matrix of ellipsoid {row} is not positive semidefinite")]
+    NegativeShape {
+        /// Ellipsoid, from 0.
+        row: u64,
+    },
     /// The certificate names no point at all.
     #[error("the support is empty: a bound needs at least one point")]
     EmptySupport,
@@ -101,6 +125,24 @@ pub enum Violation {
         point: u64,
         /// What is wrong with that.
         problem: &'static str,
+    },
+    /// The list of rows left out names a row that does not exist, or one that it must not name.
+    #[error("entry {position} of the list of points left out names point {row}, {problem}")]
+    LeftOut {
+        /// Position in the list, from 0.
+        position: usize,
+        /// The row it names.
+        row: u64,
+        /// What is wrong with that.
+        problem: &'static str,
+    },
+    /// A hull is given where the ellipsoid has the dimension of the space.
+    #[error("a hull is given, but the factor has {rank} rows in dimension {dim}: nothing is flat")]
+    NeedlessHull {
+        /// Rows of the factor.
+        rank: usize,
+        /// Dimension of the space.
+        dim: usize,
     },
     /// The multipliers are not convex.
     #[error("the multipliers sum to {sum:?}: expected 1")]
@@ -144,9 +186,98 @@ pub enum Violation {
         /// What the checker finds.
         proved: f64,
     },
+    /// An item reaches outside the ellipsoid.
+    #[error("point {row} reaches to |F(x − c)| = {norm:?}, outside the ellipsoid by {excess:e}")]
+    OutsideEllipsoid {
+        /// The first such row, from 0.
+        row: u64,
+        /// How far it reaches: 1 is the border.
+        norm: f64,
+        /// norm − 1.
+        excess: f64,
+    },
+    /// A row that is said to be left out lies inside.
+    #[error("point {row} is said to be left out, but reaches only to |F(x − c)| = {norm:?}")]
+    NotOutside {
+        /// The first such row, from 0.
+        row: u64,
+        /// How far it reaches: 1 is the border.
+        norm: f64,
+    },
+    /// The matrix of an ellipsoid is not its factor multiplied out, or not symmetric.
+    #[error("entry ({row}, {column}) of the matrix is {claimed:?}, but the factor gives {found:?}")]
+    Matrix {
+        /// Row, from 0.
+        row: usize,
+        /// Column, from 0.
+        column: usize,
+        /// What the answer says.
+        claimed: f64,
+        /// What the factor gives.
+        found: f64,
+    },
+    /// The log-volume is not that of the factor.
+    #[error("the log-volume is {claimed:?}, but the factor gives {found:?}")]
+    LogVolume {
+        /// What the answer says.
+        claimed: f64,
+        /// What the factor gives, infinite when it is singular.
+        found: f64,
+    },
+    /// The basis of the hull is not orthonormal.
+    #[error("rows {first} and {second} of the basis of the hull are off orthonormal by {off:e}")]
+    Basis {
+        /// One row, from 0.
+        first: usize,
+        /// The other, or the same.
+        second: usize,
+        /// Their product, less 1 when they are the same.
+        off: f64,
+    },
+    /// A row of the factor does not lie in the hull.
+    #[error("row {row} of the factor lies off the hull by {off:e} of its length")]
+    Span {
+        /// Row, from 0.
+        row: usize,
+        /// How far off, relatively.
+        off: f64,
+    },
+    /// An item lies farther from the hull than stated.
+    #[error("point {row} lies {distance:e} off the hull, but the distance stated is {claimed:e}")]
+    OffHull {
+        /// The first such row, from 0.
+        row: u64,
+        /// How far off.
+        distance: f64,
+        /// The distance stated.
+        claimed: f64,
+    },
+    /// The set is not as flat as a hull says.
+    #[error("points {distance:e} off a hull are not flat: rounding explains {allowed:e}")]
+    NotFlat {
+        /// The distance stated.
+        distance: f64,
+        /// What would have been accepted.
+        allowed: f64,
+    },
+    /// The gap proved for a log-volume is larger than the gap claimed.
+    #[error(
+        "the multipliers prove a gap of {proved:e} in log-volume, the certificate claims {claimed:e}"
+    )]
+    LogGap {
+        /// What the certificate says.
+        claimed: f64,
+        /// What the checker finds.
+        proved: f64,
+    },
     /// Something is wrong with a triangulation.
     #[error(transparent)]
     Mesh(#[from] MeshViolation),
+}
+
+fn article(kind: &str) -> String {
+    let article = if kind.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    format!("{article} {kind}")
 }
 
 /// A count with its noun.

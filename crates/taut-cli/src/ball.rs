@@ -138,7 +138,7 @@ impl Args {
             }
         }
         outputs.finish()?;
-        Ok(report::outcome(found, self.epsilon))
+        Ok(report::outcome(found.trace.stop, found.certificate.gap, self.epsilon))
     }
 
     fn options(&self) -> BallOptions {

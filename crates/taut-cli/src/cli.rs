@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 
 use crate::exit::Outcome;
-use crate::{ball, completions, delaunay, draw, formats, generate, man, tour, verify};
+use crate::{ball, completions, delaunay, draw, ellipsoid, formats, generate, man, tour, verify};
 
 /// Tight shapes around, through and inside point sets, with proof.
 #[derive(Debug, Parser)]
@@ -21,6 +21,7 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Ball(ball::Args),
+    Ellipsoid(ellipsoid::Args),
     Delaunay(delaunay::Args),
     Verify(verify::Args),
     Draw(draw::Args),
@@ -35,6 +36,7 @@ impl Cli {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         match &self.command {
             Command::Ball(args) => args.run(),
+            Command::Ellipsoid(args) => args.run(),
             Command::Delaunay(args) => args.run(),
             Command::Verify(args) => args.run(),
             Command::Draw(args) => args.run(),

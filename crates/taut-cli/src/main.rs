@@ -12,6 +12,8 @@ mod completions;
 mod delaunay;
 mod draw;
 mod effort;
+mod ellipsoid;
+mod ellipsoid_report;
 mod exit;
 mod formats;
 mod generate;

@@ -10,12 +10,13 @@ use std::time::Instant;
 use anyhow::{anyhow, bail};
 use taut::certify::NO_NEIGHBOR;
 use taut::{
-    Answer, BallOptions, DelaunayOptions, Items, Solution, Triangulation, Violation,
-    ball_of_source, delaunay_of_source,
+    Answer, BallOptions, DelaunayOptions, Ellipsoid, EllipsoidOptions, Items, Solution,
+    Triangulation, Violation, ball_of_source, delaunay_of_source, ellipsoid_of_source,
 };
 use taut_draw::{Fact, Page, Section, to_html};
 
 use crate::effort::Effort;
+use crate::ellipsoid_report::EllipsoidReport;
 use crate::exit::Outcome;
 use crate::numbers::{count, exact, gap, seconds, short};
 use crate::picture::{Drawing, Look, telling};
@@ -120,6 +121,7 @@ fn visit(station: &Station, watch: &Watch) -> anyhow::Result<Stop> {
     let points = Opened::of_bytes(station.bytes, station.file)?;
     match station.tool {
         Tool::Ball(items) => ball(station, items, &points, watch),
+        Tool::Ellipsoid => ellipsoid(station, &points, watch),
         Tool::Delaunay => triangulation(station, &points, watch),
     }
 }
@@ -150,6 +152,48 @@ fn ball(station: &Station, items: Items, points: &Opened, watch: &Watch) -> anyh
     };
     let report = Report { found: &found, points, verdict: judged.verdict };
     Ok(judged.stop(station, said, report.drawing(&Look::default())?))
+}
+
+fn ellipsoid(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result<Stop> {
+    let options = EllipsoidOptions { epsilon: 0.0, ..EllipsoidOptions::default() };
+    let found = watch
+        .during("solving", |monitor| ellipsoid_of_source(points.source(), &options, monitor))
+        .map_err(|error| points.explain(error))?;
+    let mut judged = Judged::of(&found, points, watch, "the ellipsoid found")?;
+    if station.doctored {
+        let doctored = a_millionth_flatter(&found);
+        judged.must_reject("a millionth flatter", judge(&doctored, points, watch)?, |violation| {
+            match violation {
+                Violation::OutsideEllipsoid { row, excess, .. } => {
+                    Some(format!("point {row} is outside by {}", gap(*excess)))
+                }
+                _ => None,
+            }
+        });
+    }
+    let volume = short(found.answer.log_volume);
+    let said = match judged.verdict {
+        Some(proved) => format!("log-volume {volume:<12} gap {}", gap(proved.gap)),
+        None => format!("log-volume {volume}"),
+    };
+    let report = EllipsoidReport { found: &found, points, verdict: judged.verdict };
+    Ok(judged.stop(station, said, report.drawing(&Look::default())?))
+}
+
+/// The ellipsoid with one row of F longer by a millionth, so flatter, and all else to match.
+fn a_millionth_flatter(found: &Solution<Ellipsoid>) -> Solution<Ellipsoid> {
+    let mut doctored = found.clone();
+    let Ellipsoid { factor, matrix, log_volume, .. } = &mut doctored.answer;
+    if let Some(first) = factor.first_mut() {
+        first.iter_mut().for_each(|f| *f *= 1.0 + 1e-6);
+        *log_volume -= f64::ln_1p(1e-6);
+    }
+    for (i, row) in matrix.iter_mut().enumerate() {
+        for (j, q) in row.iter_mut().enumerate() {
+            *q = factor.iter().map(|f| f[i] * f[j]).sum();
+        }
+    }
+    doctored
 }
 
 fn triangulation(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result<Stop> {
@@ -245,8 +289,8 @@ fn page(sections: Vec<Section>) -> String {
         intro: "Tight shapes around, through and inside point sets, with proof. Each section shows one tool on one \
                 sample, the command that does the same, and what was found.\n\n\
                 Verified means: a checker that shares no code with the solver read the points again and proved the \
-                answer from its certificate: every point is inside and no smaller ball could hold them all, or the \
-                triangles are those of Delaunay and there are no others."
+                answer from its certificate: every point is inside and no smaller shape of its kind could hold them \
+                all, or the triangles are those of Delaunay and there are no others."
             .to_owned(),
         sections,
         footer: format!("Made by taut {}: taut tour. The samples: taut tour --samples DIR.", env!("CARGO_PKG_VERSION")),

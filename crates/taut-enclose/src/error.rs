@@ -7,7 +7,7 @@ use taut_points::ReadError;
 #[non_exhaustive]
 pub enum Error {
     /// There is nothing to enclose.
-    #[error("the point set is empty: a ball needs at least one point")]
+    #[error("the point set is empty: an enclosing shape needs at least one point")]
     Empty,
     /// A coordinate is NaN or infinite.
     #[error("coordinate {column} of point {row} is {value}: all coordinates must be finite")]
@@ -34,7 +34,7 @@ pub enum Error {
         columns: usize,
     },
     /// The points reach so far that the radius exceeds the largest `f64`.
-    #[error("the radius exceeds the largest number of double precision: scale the points down")]
+    #[error("the points reach too far for numbers of double precision: scale them down")]
     Overflow,
     /// An option is outside its range.
     #[error("option `{name}` is {value}: expected {expected}")]

@@ -12,9 +12,12 @@
 //! A centre that needs more than one `f64` per coordinate is subtracted in two terms, which costs one more load and
 //! subtraction, so it is only done where it matters.
 
+pub(crate) mod compensated;
 mod exact;
+pub(crate) mod extremes;
 mod lanes;
 mod portable;
+pub(crate) mod triangle;
 pub(crate) mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;

@@ -5,6 +5,8 @@
 //! | smallest ball around points | [`ball()`] | R ≤ (1 + ε)·R*, proved | few passes of O(nd) |
 //! | smallest ball around balls | [`ball_of_balls()`] | the same | the same |
 //! | either, larger than memory | [`ball_of_source()`] | the same | the same, one block per thread in memory |
+//! | smallest ellipsoid around points | [`ellipsoid()`] | log-volume ≤ optimum + ε, proved | few passes of O(nd²) |
+//! | the same, larger than memory | [`ellipsoid_of_source()`] | the same | the same, one block per thread in memory |
 //! ```
 //! let points = taut_points::Points::new(&[0.0, 0.0, 2.0, 0.0, 1.0, 1.0], 2)?;   // n × d, row-major
 //! let found = taut_enclose::ball(&points, &Default::default())?;
@@ -15,10 +17,12 @@
 //! Not for: distances other than Euclidean; sets where some points may be left out.
 
 mod ball;
+mod ellipsoid;
 mod error;
 mod kernel;
 mod scan;
 mod top;
 
 pub use ball::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_source};
+pub use ellipsoid::{EllipsoidMethod, EllipsoidOptions, ellipsoid, ellipsoid_of_source};
 pub use error::Error;

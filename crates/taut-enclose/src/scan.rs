@@ -68,8 +68,15 @@ impl<'a> Scan<'a> {
         items: Items,
         monitor: &'a Monitor<'a>,
     ) -> Result<Self, Error> {
-        if items == Items::Balls && source.dim() < 2 {
-            return Err(Error::NoRadius { columns: source.dim() });
+        match items {
+            Items::Balls if source.dim() < 2 => {
+                return Err(Error::NoRadius { columns: source.dim() });
+            }
+            Items::Ellipsoids => {
+                let (name, value) = ("items", "ellipsoids".into());
+                return Err(Error::Option { name, value, expected: "points or balls" });
+            }
+            Items::Points | Items::Balls => {}
         }
         if source.is_empty() {
             return Err(Error::Empty);

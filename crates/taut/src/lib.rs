@@ -4,7 +4,9 @@
 //! |---|---|---|---|
 //! | the smallest ball around points | [`ball()`] | R ≤ (1 + ε)·R*, proved | [`enclose`] |
 //! | the smallest ball around balls | [`ball_of_balls()`] | the same | [`enclose`] |
-//! | either, of more points than memory holds | [`ball_of_source()`] | the same | [`enclose`] |
+//! | either ball, of more points than memory holds | [`ball_of_source()`] | the same | [`enclose`] |
+//! | the ellipsoid of least volume around points | [`ellipsoid()`] | log-volume ≤ least + ε, proved | [`enclose`] |
+//! | the same, of more points than memory holds | [`ellipsoid_of_source()`] | the same | [`enclose`] |
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`Plane`], [`Space`] | the same | [mod@delaunay] |
 //! | edges that must be there | [`Plane::constrained`] | exact, Delaunay as far as they let it be | [mod@delaunay] |
@@ -34,6 +36,22 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! Ellipsoids fit closer than balls, and points in a flat are no exception:
+//!
+//! ```
+//! let points = taut::Points::new(&[0.0, 0.0, 4.0, 0.0, 4.0, 2.0, 0.0, 2.0, 1.0, 1.0], 2)?;
+//! let found = taut::ellipsoid(&points, &taut::EllipsoidOptions::default())?;
+//! assert!((found.answer.log_volume.exp() - 4.0 * std::f64::consts::PI).abs() < 1e-9);
+//! assert!(found.answer.norm(&[1.0, 1.0]) < 1.0);                         // inside: |F(x − c)| is less than 1
+//! assert!(found.check(&points)?.gap <= 1e-9);                            // in log-volume, so e^gap in volume
+//!
+//! let line = taut::Points::new(&[0.0, 0.0, 3.0, 4.0, 1.5, 2.0], 2)?;
+//! let segment = taut::ellipsoid(&line, &taut::EllipsoidOptions::default())?.answer;
+//! assert_eq!(segment.rank(), 1);                                         // its volume is a length
+//! assert!((segment.log_volume.exp() - 5.0).abs() < 1e-9);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! Triangulations are answers like any other:
 //!
 //! ```
@@ -53,15 +71,18 @@
 
 pub use taut_certify as certify;
 pub use taut_certify::{
-    Answer, AnySolution, Ball, BallCertificate, Items, Solution, Trace, Triangulation,
-    TriangulationCertificate, Verdict, Violation,
+    Answer, AnySolution, Ball, BallCertificate, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict,
+    Items, Solution, Trace, Triangulation, TriangulationCertificate, Verdict, Violation,
 };
 pub use taut_delaunay as delaunay;
 pub use taut_delaunay::{
     DelaunayOptions, InsertionOrder, Plane, Space, delaunay, delaunay_of_source,
 };
 pub use taut_enclose as enclose;
-pub use taut_enclose::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_source};
+pub use taut_enclose::{
+    BallMethod, BallOptions, EllipsoidMethod, EllipsoidOptions, ball, ball_of_balls,
+    ball_of_source, ellipsoid, ellipsoid_of_source,
+};
 pub use taut_points as points;
 pub use taut_points::{Distribution, Monitor, PointSource, Points, generate};
 
@@ -74,4 +95,6 @@ mod pages {
     struct Ball;
     #[doc = include_str!("../../../docs/delaunay.md")]
     struct Delaunay;
+    #[doc = include_str!("../../../docs/ellipsoid.md")]
+    struct Ellipsoid;
 }

@@ -1,6 +1,8 @@
 //! Certificates made from multipliers with exact fractions, so that tests know what is true.
 #![allow(dead_code, reason = "each test file uses its part")]
 
+pub(crate) mod ellipsoids;
+
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use taut_certify::{Ball, BallCertificate, CheckError, Items, Solution, Trace, Verdict, Violation};

@@ -7,6 +7,8 @@ use taut::Items;
 pub(super) enum Tool {
     /// The smallest ball.
     Ball(Items),
+    /// The ellipsoid of least volume.
+    Ellipsoid,
     /// The Delaunay triangulation.
     Delaunay,
 }
@@ -19,7 +21,7 @@ pub(super) struct Station {
     pub(super) bytes: &'static [u8],
     pub(super) tool: Tool,
     pub(super) command: &'static str,
-    /// Whether a wrong answer is shown to the checker as well: a ball a little too small, an edge turned.
+    /// Whether a wrong answer is shown to the checker as well: a shape a little too small, an edge turned.
     pub(super) doctored: bool,
 }
 
@@ -76,6 +78,28 @@ pub(super) const STATIONS: &[Station] = &[
         bytes: include_bytes!("../../samples/cube-50.tsv.gz"),
         tool: Tool::Ball(Items::Points),
         command: "taut ball cube-50.tsv.gz --epsilon 0 --draw cube-50.html",
+        doctored: false,
+    },
+    Station {
+        heading: "Around them, closer: an ellipsoid",
+        text: "Four lengths of 150 irises, in centimetres (UCI Machine Learning Repository, CC BY 4.0). No ellipsoid of \
+               four dimensions around them has less volume; what is shown are its shadows on each pair of \
+               lengths. It follows how lengths grow together, which a ball cannot, and does not depend on \
+               their units.\n\n\
+               Shown an ellipsoid that is a millionth flatter, the checker names a flower that lies outside.",
+        file: "iris.csv",
+        bytes: include_bytes!("../../samples/iris.csv"),
+        tool: Tool::Ellipsoid,
+        command: "taut ellipsoid iris.csv --epsilon 0 --draw iris.html",
+        doctored: true,
+    },
+    Station {
+        heading: "An ellipsoid in space",
+        text: "The knot once more: it is flatter than a ball, and so is what holds it.",
+        file: "knot.xyz",
+        bytes: include_bytes!("../../samples/knot.xyz"),
+        tool: Tool::Ellipsoid,
+        command: "taut ellipsoid knot.xyz --epsilon 0 --draw knot-ellipsoid.html",
         doctored: false,
     },
     Station {

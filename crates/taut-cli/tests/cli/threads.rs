@@ -12,6 +12,8 @@ fn results_are_the_same_bytes_for_1_2_and_8_threads() {
         "ball points.npy --json",
         "ball points.npy --json --epsilon 1e-3 --method thesis-fast",
         "ball cube.npy --json",
+        "ellipsoid points.npy --json",
+        "ellipsoid points.npy --json --epsilon 0.5 --method thesis-core-set",
         "generate clusters -n 20000 -d 5",
     ] {
         let one = desk.taut(&format!("{line} --threads 1")).ends(0).out;

@@ -2,8 +2,18 @@
 
 use crate::desk::Desk;
 
-const COMMANDS: [&str; 9] =
-    ["ball", "delaunay", "verify", "draw", "generate", "tour", "formats", "completions", "man"];
+const COMMANDS: [&str; 10] = [
+    "ball",
+    "ellipsoid",
+    "delaunay",
+    "verify",
+    "draw",
+    "generate",
+    "tour",
+    "formats",
+    "completions",
+    "man",
+];
 
 #[test]
 fn help_explains_every_command_with_an_example() {

@@ -42,6 +42,36 @@ pub(super) trait Lanes: Copy {
     /// # Safety
     /// See [`zero`](Self::zero).
     unsafe fn sum_each(rows: [Self; 8]) -> [f64; 8];
+    /// Eight times the same value.
+    ///
+    /// # Safety
+    /// See [`zero`](Self::zero).
+    unsafe fn broadcast(value: f64) -> Self;
+    /// sum + self·factor.
+    ///
+    /// # Safety
+    /// See [`zero`](Self::zero).
+    unsafe fn multiply_add(self, factor: Self, sum: Self) -> Self;
+    /// Writes the eight values to `to`.
+    ///
+    /// # Safety
+    /// Eight values must be writable at `to`.
+    unsafe fn store(self, to: *mut f64);
+    /// Asks for the memory at `at`, which is not read, to be brought near.
+    ///
+    /// # Safety
+    /// See [`zero`](Self::zero); `at` may point anywhere.
+    unsafe fn prefetch(at: *const u8);
+    /// The even lanes of sixteen values in two vectors, and the odd ones.
+    ///
+    /// # Safety
+    /// See [`zero`](Self::zero).
+    unsafe fn split(first: Self, second: Self) -> (Self, Self);
+    /// Lane i of result j is lane j of row i.
+    ///
+    /// # Safety
+    /// See [`zero`](Self::zero).
+    unsafe fn transpose(rows: [Self; 8]) -> [Self; 8];
 }
 
 /// x − c for eight coordinates from `j` on, or for the `count` that are left.

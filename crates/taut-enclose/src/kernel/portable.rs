@@ -51,4 +51,40 @@ impl Lanes for Portable {
     unsafe fn sum_each(rows: [Self; 8]) -> [f64; 8] {
         rows.map(|Portable([a, b, c, d, e, f, g, h])| ((a + b) + (c + d)) + ((e + f) + (g + h)))
     }
+
+    #[inline(always)]
+    unsafe fn broadcast(value: f64) -> Self {
+        Portable([value; 8])
+    }
+
+    #[inline(always)]
+    unsafe fn multiply_add(self, factor: Self, sum: Self) -> Self {
+        Portable(std::array::from_fn(|i| sum.0[i] + self.0[i] * factor.0[i]))
+    }
+
+    #[inline(always)]
+    unsafe fn store(self, to: *mut f64) {
+        for (i, value) in self.0.into_iter().enumerate() {
+            // SAFETY: eight values are writable at `to`, by the caller's promise.
+            unsafe { to.add(i).write_unaligned(value) };
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn prefetch(_: *const u8) {}
+
+    #[inline(always)]
+    unsafe fn split(first: Self, second: Self) -> (Self, Self) {
+        let all = [first.0, second.0];
+        let lane = |i: usize| all[i / 8][i % 8];
+        (
+            Portable(std::array::from_fn(|i| lane(2 * i))),
+            Portable(std::array::from_fn(|i| lane(2 * i + 1))),
+        )
+    }
+
+    #[inline(always)]
+    unsafe fn transpose(rows: [Self; 8]) -> [Self; 8] {
+        std::array::from_fn(|j| Portable(std::array::from_fn(|i| rows[i].0[j])))
+    }
 }

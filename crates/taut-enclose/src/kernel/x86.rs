@@ -6,6 +6,7 @@ mod avx512;
 
 use taut_points::Scalar;
 
+use super::triangle::Work;
 use super::{Center, all_rows, short_rows};
 use avx2::Avx2;
 use avx512::Avx512;
@@ -27,6 +28,45 @@ pub(super) fn squared_distances<T: Scalar>(
         true
     } else {
         false
+    }
+}
+
+/// Does the work with the best registers there are, or gives it back when the processor has none of the features.
+pub(super) fn run<W: Work>(work: W) -> Option<W> {
+    run_as(Set::Avx512, work).and_then(|work| run_as(Set::Avx2, work))
+}
+
+/// Instruction sets with a file of their own.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Set {
+    Avx512,
+    Avx2,
+}
+
+/// Does the work with the given instruction set, or gives it back when the processor does not have it.
+pub(super) fn run_as<W: Work>(set: Set, work: W) -> Option<W> {
+    #[target_feature(enable = "avx512f,fma")]
+    fn with_avx512<W: Work>(work: W) {
+        // SAFETY: this function is only called where the feature is.
+        unsafe { work.run::<Avx512>() }
+    }
+    #[target_feature(enable = "avx2,fma")]
+    fn with_avx2<W: Work>(work: W) {
+        // SAFETY: this function is only called where the features are.
+        unsafe { work.run::<Avx2>() }
+    }
+    match set {
+        Set::Avx512 if is_x86_feature_detected!("avx512f") => {
+            // SAFETY: the processor has just been asked; every one with AVX-512F has FMA.
+            unsafe { with_avx512(work) };
+            None
+        }
+        Set::Avx2 if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") => {
+            // SAFETY: the processor has just been asked for both features.
+            unsafe { with_avx2(work) };
+            None
+        }
+        _ => Some(work),
     }
 }
 

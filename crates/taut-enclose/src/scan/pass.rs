@@ -8,6 +8,7 @@ use taut_points::{BlockHash, Points, PointsHash, Rows, Scalar, hash_block, map_b
 
 use super::{Found, Query, Scan};
 use crate::Error;
+use crate::kernel::extremes::{all_finite, largest};
 use crate::kernel::{Center, squared_distances};
 use crate::top::{Face, Far, Top, TopByFace};
 
@@ -110,8 +111,8 @@ impl<'p> Pass<'p> {
             return Err(Error::NonFinite { row: first_row + row as u64, column, value });
         }
         let largest = match self.scan.items {
-            Items::Points => None,
             Items::Balls => Some(largest_radius(first_row, points)?),
+            Items::Points | Items::Ellipsoids => None,
         };
         Ok(BlockReport { farthest, hash: hash_block(&rows), largest, overflow: !finite })
     }
@@ -202,25 +203,6 @@ fn add_radii<T: Scalar>(balls: &Points<'_, T>, reaches: &mut [f64]) {
         let reach = reach2.sqrt() + ball[balls.dim() - 1].into();
         *reach2 = reach * reach;
     }
-}
-
-/// The largest value, by eight running maxima; values that are not numbers are passed over.
-fn largest(values: &[f64]) -> f64 {
-    let mut lanes = [0.0f64; 8];
-    let (chunks, rest) = values.as_chunks::<8>();
-    for chunk in chunks {
-        for (lane, &value) in lanes.iter_mut().zip(chunk) {
-            *lane = if value > *lane { value } else { *lane };
-        }
-    }
-    lanes.iter().chain(rest).fold(0.0, |m, &v| if v > m { v } else { m })
-}
-
-/// Whether all values are finite, without a branch for each.
-fn all_finite(values: &[f64]) -> bool {
-    // Times 0 a value is 0, or NaN if it is infinite or NaN; zeros of either sign have no bits but the sign.
-    let bits = values.iter().fold(0, |bits, v| bits | (v * 0.0).to_bits());
-    bits << 1 == 0
 }
 
 /// The face of the cube around the centre towards which a row lies.

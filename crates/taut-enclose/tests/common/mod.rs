@@ -150,7 +150,7 @@ fn prove(values: &[f64], columns: usize, found: &Solution<Ball>) -> Result<Proof
         Twofold::sum(row[j] * scale, -answer.center[j] * scale).minus(tail(j).into())
     };
     let radius_of = |row: &[f64]| match certificate.items {
-        Items::Points => 0.0,
+        Items::Points | Items::Ellipsoids => 0.0,
         Items::Balls => row[dim] * scale,
     };
     let distance2 = |row: &[f64]| {

@@ -20,11 +20,11 @@ use taut_points::{
     BlockHash, Monitor, PointSource, Points, PointsHash, Rows, Scalar, hash_block, map_blocks,
 };
 
-use super::super::{Ball, Items};
+use super::super::Ball;
 use super::difference::{Difference, is_tame_number, underflow};
 use super::scale::Scale;
 use crate::arithmetic::{ExactSum, Known, U, two_sum};
-use crate::{CheckError, Violation};
+use crate::{CheckError, Items, Violation};
 
 const LANES: usize = 8;
 
@@ -102,8 +102,8 @@ impl<'a> Enclosure<'a> {
             let (position, r) = item(self.items, row);
             let plain = plain_square::<T, SCALED>(position, &self.ball.center, self.scale.up);
             let (inside, beyond) = match self.items {
-                Items::Points => thresholds_of_points,
                 Items::Balls => self.thresholds(self.ball.radius - r),
+                _ => thresholds_of_points,
             };
             if plain < inside && r >= 0.0 {
                 continue;

@@ -20,12 +20,12 @@
 
 use taut_points::{Monitor, PointSource, ReadError, Rows, Scalar, Scratch};
 
-use super::super::{Ball, BallCertificate, Items};
+use super::super::{Ball, BallCertificate};
 use super::difference::{Difference, is_tame_number, underflow};
 use super::enclosure::{excess_square, item};
 use super::scale::Scale;
 use crate::arithmetic::{Compensated, Known, U, two_product, two_sum};
-use crate::{CheckError, Violation};
+use crate::{CheckError, Items, Violation};
 
 /// Multipliers below this count as 0.
 const LEAST_MULTIPLIER: f64 = f64::from_bits((1023 - 200) << 52);

@@ -2,15 +2,18 @@
 
 use taut_points::PointSource;
 
-use super::super::{Ball, BallCertificate, Items};
-use crate::Violation;
+use super::super::{Ball, BallCertificate};
 use crate::arithmetic::{Compensated, U, two_sum};
+use crate::{Items, Violation};
 
 pub(super) fn check(
     ball: &Ball,
     certificate: &BallCertificate,
     source: &dyn PointSource,
 ) -> Result<(), Violation> {
+    if certificate.items == Items::Ellipsoids {
+        return Err(Violation::Items { kind: "ball", items: "ellipsoids" });
+    }
     let dim = certificate.items.dim(source.dim());
     if certificate.items == Items::Balls && dim == 0 {
         return Err(Violation::NoRadius { columns: source.dim() });

@@ -95,4 +95,69 @@ impl Lanes for Avx2 {
             sums
         }
     }
+
+    #[inline(always)]
+    unsafe fn broadcast(value: f64) -> Self {
+        // SAFETY: see above.
+        unsafe { Avx2(_mm256_set1_pd(value), _mm256_set1_pd(value)) }
+    }
+
+    #[inline(always)]
+    unsafe fn multiply_add(self, factor: Self, sum: Self) -> Self {
+        // SAFETY: see above.
+        unsafe {
+            Avx2(_mm256_fmadd_pd(self.0, factor.0, sum.0), _mm256_fmadd_pd(self.1, factor.1, sum.1))
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn store(self, to: *mut f64) {
+        // SAFETY: see above.
+        unsafe {
+            _mm256_storeu_pd(to, self.0);
+            _mm256_storeu_pd(to.add(4), self.1);
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn prefetch(at: *const u8) {
+        // SAFETY: see above; a prefetch reads nothing that the program sees.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(at.cast()) }
+    }
+
+    #[inline(always)]
+    unsafe fn split(first: Self, second: Self) -> (Self, Self) {
+        // SAFETY: see above.
+        unsafe {
+            let order = |v: __m256d| _mm256_permute4x64_pd::<0b11_01_10_00>(v);
+            let even = |v: Self| order(_mm256_unpacklo_pd(v.0, v.1));
+            let odd = |v: Self| order(_mm256_unpackhi_pd(v.0, v.1));
+            (Avx2(even(first), even(second)), Avx2(odd(first), odd(second)))
+        }
+    }
+
+    /// Four squares of four rows and four columns.
+    #[inline(always)]
+    unsafe fn transpose(rows: [Self; 8]) -> [Self; 8] {
+        // SAFETY: see above.
+        unsafe {
+            let square = |a: __m256d, b: __m256d, c: __m256d, d: __m256d| {
+                let (ab_even, ab_odd) = (_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
+                let (cd_even, cd_odd) = (_mm256_unpacklo_pd(c, d), _mm256_unpackhi_pd(c, d));
+                [
+                    _mm256_permute2f128_pd::<0x20>(ab_even, cd_even),
+                    _mm256_permute2f128_pd::<0x20>(ab_odd, cd_odd),
+                    _mm256_permute2f128_pd::<0x31>(ab_even, cd_even),
+                    _mm256_permute2f128_pd::<0x31>(ab_odd, cd_odd),
+                ]
+            };
+            let left = |i: usize| square(rows[i].0, rows[i + 1].0, rows[i + 2].0, rows[i + 3].0);
+            let right = |i: usize| square(rows[i].1, rows[i + 1].1, rows[i + 2].1, rows[i + 3].1);
+            let (first, last) = ([left(0), left(4)], [right(0), right(4)]);
+            std::array::from_fn(|j| {
+                let half = if j < 4 { &first } else { &last };
+                Avx2(half[0][j % 4], half[1][j % 4])
+            })
+        }
+    }
 }

@@ -84,4 +84,62 @@ impl Lanes for Avx512 {
             sums
         }
     }
+
+    #[inline(always)]
+    unsafe fn broadcast(value: f64) -> Self {
+        // SAFETY: see above.
+        Avx512(unsafe { _mm512_set1_pd(value) })
+    }
+
+    #[inline(always)]
+    unsafe fn multiply_add(self, factor: Self, sum: Self) -> Self {
+        // SAFETY: see above.
+        Avx512(unsafe { _mm512_fmadd_pd(self.0, factor.0, sum.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn store(self, to: *mut f64) {
+        // SAFETY: see above.
+        unsafe { _mm512_storeu_pd(to, self.0) }
+    }
+
+    #[inline(always)]
+    unsafe fn prefetch(at: *const u8) {
+        // SAFETY: see above; a prefetch reads nothing that the program sees.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(at.cast()) }
+    }
+
+    #[inline(always)]
+    unsafe fn split(first: Self, second: Self) -> (Self, Self) {
+        // SAFETY: see above.
+        unsafe {
+            let even = _mm512_setr_epi64(0, 2, 4, 6, 8, 10, 12, 14);
+            let odd = _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15);
+            (
+                Avx512(_mm512_permutex2var_pd(first.0, even, second.0)),
+                Avx512(_mm512_permutex2var_pd(first.0, odd, second.0)),
+            )
+        }
+    }
+
+    /// Pairs of rows are interleaved, then quarters put together, twice.
+    #[inline(always)]
+    unsafe fn transpose(rows: [Self; 8]) -> [Self; 8] {
+        // SAFETY: see above.
+        unsafe {
+            let even = |a: __m512d, b| _mm512_shuffle_f64x2::<0b10_00_10_00>(a, b);
+            let odd = |a: __m512d, b| _mm512_shuffle_f64x2::<0b11_01_11_01>(a, b);
+            // Of the even lanes of each row, or of the odd: lanes 0, 2, 4, 6 of all eight rows.
+            let four = |pairs: [__m512d; 4]| {
+                let (a, b) = (even(pairs[0], pairs[1]), even(pairs[2], pairs[3]));
+                let (c, d) = (odd(pairs[0], pairs[1]), odd(pairs[2], pairs[3]));
+                [even(a, b), even(c, d), odd(a, b), odd(c, d)]
+            };
+            let low = |i: usize| _mm512_unpacklo_pd(rows[2 * i].0, rows[2 * i + 1].0);
+            let high = |i: usize| _mm512_unpackhi_pd(rows[2 * i].0, rows[2 * i + 1].0);
+            let of_even = four([low(0), low(1), low(2), low(3)]);
+            let of_odd = four([high(0), high(1), high(2), high(3)]);
+            std::array::from_fn(|j| Avx512(if j % 2 == 0 { of_even[j / 2] } else { of_odd[j / 2] }))
+        }
+    }
 }

@@ -1,0 +1,87 @@
+//! The checker of the ellipsoid, in arithmetic of its own.
+//!
+//! *Problem.* Given rows that stand for points, balls or ellipsoids, an ellipsoid E = {x : |F(x − c)| ≤ 1} with F of r
+//! rows, and multipliers uᵢ > 0 on a few rows, prove that E encloses all rows but those left out, and that no enclosing
+//! ellipsoid has a log-volume below that of E by more than the gap.
+//! *Idea.* Everything is judged in the frame of the answer, y = F(x − c), where E is the unit ball and a good answer
+//! makes all matrices nearly I. So neither scale, offset nor the ratio of the axes costs digits.
+//! - Upper bound: |y| ≤ 1 + excess for all rows, in one pass: [`enclosure`], for balls and ellipsoids [`reach`]. E enlarged
+//!   by 1 + excess encloses them, so r·log(1 + excess) is added to the gap.
+//! - Lower bound: −½ log det W for the weighted covariance W of the support, in doubled precision: [`lower_bound`].
+//! - The rest of the answer says the same in other words: matrix and log-volume in [`agreement`], the flat in [`hull`].
+//!
+//! *Flat sets.* With r < d rows in F the images y are those of the projection to the hull, and the claim is about them:
+//! no ellipsoid of dimension r that encloses the projections has less volume. That the set is flat is itself judged.
+//! *Rows left out.* They take no part in anything but the hash; each must reach outside, so that the list is exactly
+//! that of the rows not enclosed.
+//! *Order.* Structure, agreement, one pass (finite rows, hash, enclosure), then the support rows (gap).
+//! *Cost.* A pass of nr(d + 1)/2 multiplications for a triangular F and points, O(n(rd² + r³)) for ellipsoids;
+//! O(kr²) for k rows of support and O(dr² + r³), in doubled precision. Memory: O(d²) beside a block for each thread.
+//! *Tolerances.* They only ask that stated numbers are what they are said to be, up to what writing them down as `f64`
+//! costs, and weaken neither bound; each is derived where it stands.
+
+mod agreement;
+mod enclosure;
+mod frame;
+mod hull;
+mod item;
+mod lower_bound;
+mod panel;
+mod reach;
+mod structure;
+
+use taut_points::{Monitor, PointSource};
+
+use self::enclosure::Enclosure;
+use self::frame::Frame;
+use self::hull::HullTest;
+use super::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict};
+use crate::arithmetic::U;
+use crate::{CheckError, Violation};
+
+/// How much the gap claimed may fall short of the gap proved, relatively and for each dimension.
+///
+/// A solver finds its gap in arithmetic of its own, from an ellipsoid of which each axis is rounded by a few units in the
+/// last place.
+const GAP_SLACK: (f64, f64) = (1e-9, 2e-15);
+
+pub(super) fn check(
+    ellipsoid: &Ellipsoid,
+    certificate: &EllipsoidCertificate,
+    source: &dyn PointSource,
+    monitor: &Monitor<'_>,
+) -> Result<EllipsoidVerdict, CheckError> {
+    structure::check(ellipsoid, certificate, source)?;
+    let frame = Frame::of(ellipsoid);
+    let difference = agreement::matrix(ellipsoid, &frame)?;
+    let hull = ellipsoid.hull.as_ref().map(|hull| HullTest::of(&frame, hull));
+    if let Some(hull) = &hull {
+        hull.check(&frame)?;
+    }
+    let log_volume = agreement::log_volume(ellipsoid, &frame)?;
+    monitor.pass(1, source.len());
+    let enclosure = Enclosure::of(&frame, hull.as_ref(), certificate);
+    let enclosed = enclosure.check(source, certificate.points_hash, monitor)?;
+    if let Some(hull) = &hull {
+        hull.is_flat(certificate.items, &enclosed, &frame)?;
+    }
+    let rank = frame.rank as f64;
+    let enlarged = rank * enclosed.excess;
+    let gap =
+        (lower_bound::gap(&frame, certificate, source, monitor)? + enlarged) * (1.0 + 4.0 * U);
+    let (relative, absolute) = GAP_SLACK;
+    let is_proved = gap <= certificate.gap * (1.0 + relative) + absolute * rank;
+    if !is_proved {
+        return Err(Violation::LogGap { claimed: certificate.gap, proved: gap }.into());
+    }
+    let upper = log_volume + enlarged;
+    let twice = enclosed.excess * (2.0 + enclosed.excess);
+    Ok(EllipsoidVerdict {
+        lower: if gap == 0.0 { upper } else { (upper - gap).next_down() },
+        upper,
+        gap,
+        excess: enclosed.excess,
+        matrix_excess: (difference.bound(&enclosed.extents) + twice) * (1.0 + 16.0 * U),
+        rank: frame.rank,
+    })
+}

@@ -1,0 +1,129 @@
+//! The affine hull of a rank-deficient set: orthonormal, spanning the rows of the factor, and no farther from any item
+//! than stated.
+//!
+//! *Tolerances.* With u = 2⁻⁵³: an orthonormal basis written down as `f64` has products BBᵀ that differ from I by less
+//! than 16(d + 4)u; a point of such a hull then appears to lie off it by up to 32(d + 4)√(r + 1)·u times its distance
+//! from c, and so do the rows of F. The width of a flat ellipsoid is a root, so that of this part it is the root.
+//! *What counts as flat.* A set whose distance from the hull could come from rounding its coordinates, 8du times the
+//! largest, or is less than 1e-10 of its extent; for ellipsoids 1e-6, since a shape matrix knows half as many digits
+//! of a short axis.
+
+use super::super::Hull;
+use super::enclosure::Enclosed;
+use super::frame::Frame;
+use super::item::Item;
+use crate::arithmetic::{Compensated, Known, U};
+use crate::{Items, Violation};
+
+/// One hull, ready to be compared with items.
+pub(super) struct HullTest<'a> {
+    hull: &'a Hull,
+    /// 32(d + 4)√(r + 1)·u.
+    rounding: f64,
+}
+
+impl<'a> HullTest<'a> {
+    pub(super) fn of(frame: &Frame<'_>, hull: &'a Hull) -> Self {
+        let rounding = 32.0 * (frame.dim + 4) as f64 * ((frame.rank + 1) as f64).sqrt() * U;
+        HullTest { hull, rounding }
+    }
+
+    /// Whether the basis is orthonormal and spans the rows of the factor.
+    pub(super) fn check(&self, frame: &Frame<'_>) -> Result<(), Violation> {
+        let basis = &self.hull.basis;
+        let tolerance = 16.0 * (frame.dim + 4) as f64 * U;
+        for (i, row) in basis.iter().enumerate() {
+            for (j, other) in basis[..=i].iter().enumerate() {
+                let mut sum = Compensated::default();
+                row.iter().zip(other).for_each(|(&a, &b)| sum.add_product(a, b));
+                sum.add(if i == j { -1.0 } else { 0.0 });
+                let Known { high, .. } = sum.known();
+                let is_orthonormal = high.abs() <= tolerance;
+                if !is_orthonormal {
+                    return Err(Violation::Basis { first: j, second: i, off: high });
+                }
+            }
+        }
+        for row in 0..frame.rank {
+            let factor = frame.full_row(row);
+            let off = length(&self.off(factor));
+            let is_spanned = off <= self.rounding * length(factor);
+            if !is_spanned {
+                return Err(Violation::Span { row, off: off / length(factor) });
+            }
+        }
+        Ok(())
+    }
+
+    /// (I − BᵀB)x.
+    fn off(&self, x: &[f64]) -> Vec<f64> {
+        let mut rest = x.to_vec();
+        for row in &self.hull.basis {
+            let along: f64 = row.iter().zip(x).map(|(b, x)| b * x).sum();
+            rest.iter_mut().zip(row).for_each(|(rest, b)| *rest -= along * b);
+        }
+        rest
+    }
+
+    /// Whether the item is as near to the hull as it must be.
+    pub(super) fn judge(
+        &self,
+        row: u64,
+        item: &Item<'_>,
+        frame: &Frame<'_>,
+    ) -> Result<(), Violation> {
+        let offset = frame.offset::<f64>(item.center());
+        let (mut distance, mut tolerance) = (length(&self.off(&offset)), length(&offset));
+        if !item.is_point() {
+            distance += self.thickness(item, frame);
+            let widths: Vec<f64> = (0..frame.dim).map(|j| item.width(j, frame.scale)).collect();
+            tolerance += length(&widths) / self.rounding.sqrt();
+        }
+        let allowed = self.hull.distance * frame.scale + self.rounding * tolerance;
+        let is_near = distance <= allowed;
+        if is_near {
+            return Ok(());
+        }
+        let (distance, claimed) = (distance / frame.scale, self.hull.distance);
+        Err(Violation::OffHull { row, distance, claimed })
+    }
+
+    /// The root of the trace of (I − BᵀB)S(I − BᵀB), times s: how far the item reaches off its own centre at most.
+    fn thickness(&self, item: &Item<'_>, frame: &Frame<'_>) -> f64 {
+        let dim = frame.dim;
+        let entry = |j: usize, k: usize| item.shape::<f64>(j.max(k), j.min(k), frame.scale);
+        let columns: Vec<Vec<f64>> = (0..dim)
+            .map(|k| self.off(&(0..dim).map(|j| entry(j, k)).collect::<Vec<_>>()))
+            .collect();
+        let trace: f64 = (0..dim)
+            .map(|j| self.off(&columns.iter().map(|column| column[j]).collect::<Vec<_>>())[j])
+            .sum();
+        trace.max(0.0).sqrt()
+    }
+
+    /// Whether the set is flat enough to be called so.
+    pub(super) fn is_flat(
+        &self,
+        items: Items,
+        enclosed: &Enclosed,
+        frame: &Frame<'_>,
+    ) -> Result<(), Violation> {
+        let largest = enclosed.coordinates.iter().fold(0.0f64, |m, &x| m.max(x));
+        let part = if items == Items::Ellipsoids { 1e-6 } else { 1e-10 };
+        let extent = length(&enclosed.extents) / frame.scale;
+        let allowed = part * extent + 8.0 * frame.dim as f64 * U * largest;
+        match self.hull.distance <= allowed {
+            true => Ok(()),
+            false => Err(Violation::NotFlat { distance: self.hull.distance, allowed }),
+        }
+    }
+}
+
+/// The length of a vector, whatever its size.
+fn length(x: &[f64]) -> f64 {
+    let largest = x.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    if largest == 0.0 || largest.is_infinite() {
+        return largest;
+    }
+    largest * x.iter().map(|v| (v / largest).powi(2)).sum::<f64>().sqrt()
+}

@@ -1,0 +1,198 @@
+//! By how much the log-volume can be larger than necessary, from the multipliers and the rows they stand on.
+//!
+//! *Formula.* With yᵢ = F(pᵢ − c), weights uᵢ/Σu, their mean ȳ and W = r·Σuᵢ(yᵢ − ȳ)(yᵢ − ȳ)ᵀ/Σu, no ellipsoid of ℝʳ that
+//! encloses the yᵢ has less than √det W times the volume of the unit ball. As y ↦ x multiplies all volumes by the same
+//! number, and the answer is what it makes of the unit ball,
+//!
+//! > log-volume of the answer − log-volume of any enclosing ellipsoid ≤ −½ log det W.
+//!
+//! Proof: let {y : |G(y − b)| ≤ 1} enclose the yᵢ. Averaging |G(yᵢ − b)|² ≤ 1 gives tr(GWGᵀ)/r + |G(ȳ − b)|² ≤ 1, and the
+//! mean of the eigenvalues of GWGᵀ is at least its determinant to the power 1/r, so det G²·det W ≤ 1.
+//! *Why in this form.* For a good answer W is nearly I, whatever the scale, the offset and the axes of the points are:
+//! no cancellation is left but that in F(pᵢ − c), which is done in doubled precision. That c is the mean of the pᵢ need not
+//! be asked: |ȳ| > 0 makes W smaller, as tr W ≤ r(1 − |ȳ|²) when all |yᵢ| ≤ 1.
+//! *Rounding.* What W is off by, and what its factorisation W = L·D·Lᵀ is, is less than s in norm. So W − sI is
+//! factorised in place of W, which makes the determinant smaller. Then −½ log det W ≤ −½ Σ log Dᵢ.
+//! *Reference.* Todd, Minimum-Volume Ellipsoids, SIAM 2016, chapter 2.
+
+use taut_points::{Monitor, PointSource, ReadError, Rows, Scratch};
+
+use super::super::EllipsoidCertificate;
+use super::frame::Frame;
+use super::item::Item;
+use crate::CheckError;
+use crate::arithmetic::{DoubleDouble, Field, Ring, U, factorise};
+
+/// −½ log det W, rounded up; infinite where W is singular. Every row is already known to be valid and inside.
+pub(super) fn gap(
+    frame: &Frame<'_>,
+    certificate: &EllipsoidCertificate,
+    source: &dyn PointSource,
+    monitor: &Monitor<'_>,
+) -> Result<f64, CheckError> {
+    let mut sums = Sums::new(frame.rank);
+    let mut scratch = Scratch::new();
+    for (position, (&id, &u)) in
+        certificate.support.iter().zip(&certificate.multipliers).enumerate()
+    {
+        monitor.check().map_err(ReadError::from)?;
+        let row: Vec<f64> = match source.read(id..id + 1, &mut scratch)? {
+            Rows::F32(points) => points.row(0).iter().map(|&v| v.into()).collect(),
+            Rows::F64(points) => points.row(0).to_vec(),
+        };
+        let item = Item::of(certificate.items, frame.dim, &row);
+        let direction = certificate.directions.get(position).map_or(&[][..], Vec::as_slice);
+        let (offset, errors) = touching(frame, &item, direction);
+        let sizes: Vec<f64> = offset.iter().map(|x| x.rounded().abs()).collect();
+        let error = frame.image_error::<DoubleDouble>(&sizes, errors.as_deref());
+        sums.add(u, &frame.image(&offset), error);
+    }
+    Ok(sums.gap())
+}
+
+/// The point of the item that lies farthest in a direction, less the centre, times s; and what that may be off by.
+///
+/// With v = Sa and q = aᵀv the point is m + v/√q. Where q is not known to be positive, it is m, which belongs to the
+/// item as well.
+fn touching(
+    frame: &Frame<'_>,
+    item: &Item<'_>,
+    direction: &[f64],
+) -> (Vec<DoubleDouble>, Option<Vec<f64>>) {
+    let mut offset: Vec<DoubleDouble> = frame.offset(item.center());
+    let longest = direction.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    if item.is_point() || longest == 0.0 {
+        return (offset, None);
+    }
+    let dim = frame.dim;
+    let a: Vec<f64> = direction.iter().map(|v| v / longest).collect();
+    let entry = |j: usize, k: usize| item.shape::<DoubleDouble>(j.max(k), j.min(k), frame.scale);
+    let zero = DoubleDouble::of(0.0);
+    let mut errors = Vec::with_capacity(dim);
+    let (mut v, mut q, mut q_error) = (Vec::with_capacity(dim), zero, 0.0);
+    for (j, &aj) in a.iter().enumerate() {
+        let (mut sum, mut size) = (zero, 0.0);
+        for (k, &ak) in a.iter().enumerate() {
+            let term = entry(j, k).times(&DoubleDouble::of(ak));
+            sum = sum.plus(&term);
+            size += term.rounded().abs();
+        }
+        let error = (dim + 8) as f64 * DoubleDouble::ROUNDOFF * size + f64::MIN_POSITIVE;
+        q = q.plus(&sum.times(&DoubleDouble::of(aj)));
+        q_error +=
+            2.0 * error * aj.abs() + (dim + 8) as f64 * DoubleDouble::ROUNDOFF * size * aj.abs();
+        errors.push(error);
+        v.push(sum);
+    }
+    let is_known = q.rounded() > 1e6 * q_error;
+    if !is_known {
+        return (offset, None);
+    }
+    let root = q.root();
+    for ((x, v), error) in offset.iter_mut().zip(&v).zip(&mut errors) {
+        let step = v.over(&root);
+        *x = x.plus(&step);
+        let relative = q_error / q.rounded() + 8.0 * DoubleDouble::ROUNDOFF;
+        *error = (*error / root.rounded() + relative * step.rounded().abs()) * (1.0 + 16.0 * U)
+            + 8.0 * DoubleDouble::ROUNDOFF * x.rounded().abs();
+    }
+    (offset, Some(errors))
+}
+
+/// Sums over the support.
+struct Sums {
+    rank: usize,
+    /// Σu.
+    weight: DoubleDouble,
+    /// Σuᵢyᵢ.
+    mean: Vec<DoubleDouble>,
+    /// The lower triangle of Σuᵢyᵢyᵢᵀ, row by row.
+    squares: Vec<DoubleDouble>,
+    /// Σuᵢ|yᵢ|², and what rounding of the yᵢ adds to it in norm.
+    size: f64,
+    error: f64,
+    count: usize,
+}
+
+impl Sums {
+    fn new(rank: usize) -> Self {
+        let zero = DoubleDouble::of(0.0);
+        Sums {
+            rank,
+            weight: zero,
+            mean: vec![zero; rank],
+            squares: vec![zero; rank * (rank + 1) / 2],
+            size: 0.0,
+            error: 0.0,
+            count: 0,
+        }
+    }
+
+    /// Takes in one point, off by `error` in length.
+    fn add(&mut self, u: f64, y: &[DoubleDouble], error: f64) {
+        let weight = DoubleDouble::of(u);
+        self.weight = self.weight.plus(&weight);
+        let mut squares = self.squares.iter_mut();
+        for (a, ya) in y.iter().enumerate() {
+            let term = weight.times(ya);
+            self.mean[a] = self.mean[a].plus(&term);
+            for (yb, square) in y[..=a].iter().zip(&mut squares) {
+                *square = square.plus(&term.times(yb));
+            }
+        }
+        let length2: f64 = y.iter().map(|y| y.rounded() * y.rounded()).sum();
+        self.size += u * length2;
+        self.error += u * error * (2.0 * length2.sqrt() + error);
+        self.count += 1;
+    }
+
+    /// −½ Σ log Dᵢ.
+    fn gap(&self) -> f64 {
+        let rank = DoubleDouble::of(self.rank as f64);
+        let mut matrix = Vec::with_capacity(self.squares.len());
+        for a in 0..self.rank {
+            let ma = self.mean[a].over(&self.weight);
+            for b in 0..=a {
+                let mb = self.mean[b].over(&self.weight);
+                let square = self.squares[a * (a + 1) / 2 + b].over(&self.weight);
+                matrix.push(rank.times(&square.minus(&ma.times(&mb))));
+            }
+        }
+        let shift = DoubleDouble::of(self.shift());
+        for a in 0..self.rank {
+            let at = a * (a + 3) / 2;
+            matrix[at] = matrix[at].minus(&shift);
+        }
+        if !factorise(&mut matrix, self.rank) {
+            return f64::INFINITY;
+        }
+        let (mut sum, mut size) = (0.0, 0.0);
+        for a in 0..self.rank {
+            let term = logarithm(&matrix[a * (a + 3) / 2]);
+            sum -= 0.5 * term;
+            size += term.abs();
+        }
+        // Logarithms are good to a few units in the last place on every platform; so are the numbers given to them.
+        let gap = sum + (self.rank + 16) as f64 * U * size;
+        gap.max(0.0)
+    }
+
+    /// s: what W and its factorisation are off by, in norm.
+    ///
+    /// Each entry of the two sums passes at most k + 8 roundings, and the norm of the matrix of the sums of sizes is at
+    /// most Σuᵢ|yᵢ|²; the mean weighs no more than the squares do. tr W ≤ r·Σuᵢ|yᵢ|²/Σu.
+    fn shift(&self) -> f64 {
+        let rank = self.rank as f64;
+        let of_sums = (2 * self.count + 32) as f64 * DoubleDouble::ROUNDOFF * self.size;
+        let of_factors = (4 * self.rank + 16) as f64 * DoubleDouble::ROUNDOFF * self.size;
+        let weight = self.weight.rounded();
+        rank * (of_sums + of_factors + 2.0 * self.error) / weight
+            * (1.0 + (self.count + 16) as f64 * U)
+    }
+}
+
+/// log x, relatively to a few units in the last place: near 1 from x − 1, which doubled precision knows as well.
+fn logarithm(x: &DoubleDouble) -> f64 {
+    let beside_one = x.minus(&DoubleDouble::of(1.0)).rounded();
+    if beside_one.abs() < 0.5 { beside_one.ln_1p() } else { x.rounded().ln() }
+}

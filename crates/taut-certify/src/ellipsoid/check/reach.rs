@@ -1,0 +1,211 @@
+//! How far an ellipsoid {m + v : vvᵀ ⪯ S} reaches in the frame of another: the largest |F(x − c)| over its points x.
+//!
+//! *Formula.* With g = F(m − c) and A = FSFᵀ, the images y = g + w of its points have wwᵀ ⪯ A. For every μ with
+//! μI − A positive definite,
+//!
+//! > |y|² ≤ φ(μ) = μ·(1 + gᵀ(μI − A)⁻¹g),
+//!
+//! and the least φ(μ) is the largest |y|² (this is the S-lemma). Proof of the bound: μI − wwᵀ ⪰ μI − A, so
+//! φ(μ) ≥ μ·(1 + gᵀ(μI − wwᵀ)⁻¹g) = μ + |g|² + (gᵀw)²/(μ − |w|²), and that minus |g + w|² is
+//! (μ − |w|² − gᵀw)²/(μ − |w|²) ≥ 0.
+//! *Idea.* μ is found in plain `f64`, by Newton steps on |A^½(μI − A)⁻¹g| = 1, the condition of the minimum; which μ
+//! is found does not matter for the proof. φ(μ) is then bounded in plain `f64`, and, where that is not enough, in
+//! doubled precision.
+//! *Rounding.* A is off by at most η in norm, and the factorisation of μI − A by at most σ: so (μ − η − σ)I − A is
+//! factorised instead, which makes φ larger.
+//! *Trap.* Where g has no part along the longest axes of A, the minimum lies at μ = λmax(A), where μI − A is singular:
+//! μ is then raised until the factorisation succeeds.
+//! *Reference.* Pólik and Terlaky, A survey of the S-lemma, SIAM Review 49(3), 2007; Moré and Sorensen, SIAM J. Sci.
+//! Stat. Comput. 4(3), 1983, for the Newton steps.
+
+use super::enclosure::excess_of_square;
+use super::frame::Frame;
+use super::item::Item;
+use crate::arithmetic::{DoubleDouble, Field, U, factorise};
+
+/// The largest |F(x − c)| − 1 over the item, or a little more.
+pub(super) fn excess(frame: &Frame<'_>, item: &Item<'_>) -> f64 {
+    let plain = bound::<f64>(frame, item);
+    if plain <= 0.0 { plain } else { bound::<DoubleDouble>(frame, item) }
+}
+
+fn bound<N: Field>(frame: &Frame<'_>, item: &Item<'_>) -> f64 {
+    let offset: Vec<N> = frame.offset(item.center());
+    let sizes: Vec<f64> = offset.iter().map(|x| x.rounded().abs()).collect();
+    let error = frame.image_error::<N>(&sizes, None);
+    let image = frame.image(&offset);
+    let square = image.iter().fold(N::of(-1.0), |sum, y| sum.plus(&y.times(y)));
+    if item.is_point() {
+        return excess_of_square(square, image.len()) + error;
+    }
+    let shape = Shape::<N>::of(frame, item);
+    if !shape.trace.is_finite() {
+        return f64::INFINITY;
+    }
+    let distance = 1.0 + excess_of_square(square, image.len());
+    let simply = (distance + shape.trace.sqrt() - 1.0) * (1.0 + 8.0 * U) + error;
+    if simply <= -1e-9 {
+        return simply;
+    }
+    let rounded: Vec<f64> = image.iter().map(Field::rounded).collect();
+    let mu = multiplier(&shape.rounded(), &rounded, shape.trace);
+    simply.min(shape.excess(&image, mu) + error)
+}
+
+/// A = FSFᵀ.
+struct Shape<N> {
+    n: usize,
+    /// The lower triangle, row by row.
+    lower: Vec<N>,
+    /// tr A, rounded up.
+    trace: f64,
+    /// η.
+    error: f64,
+}
+
+impl<N: Field> Shape<N> {
+    fn of(frame: &Frame<'_>, item: &Item<'_>) -> Self {
+        let (n, dim) = (frame.rank, frame.dim);
+        let entry = |j: usize, k: usize| item.shape::<N>(j.max(k), j.min(k), frame.scale);
+        let shape: Vec<N> = (0..dim * dim).map(|at| entry(at / dim, at % dim)).collect();
+        let widths: Vec<f64> = (0..dim).map(|j| item.width(j, frame.scale)).collect();
+        let mut lower = Vec::with_capacity(n * (n + 1) / 2);
+        let mut products = vec![N::of(0.0); n * dim];
+        let (mut trace, mut sizes) = (0.0, 0.0);
+        for a in 0..n {
+            let product = &mut products[a * dim..(a + 1) * dim];
+            let (row, span) = frame.row(a);
+            for (&f, j) in row.iter().zip(span.clone()) {
+                let f = N::of(f);
+                for (sum, s) in product.iter_mut().zip(&shape[j * dim..(j + 1) * dim]) {
+                    *sum = sum.plus(&f.times(s));
+                }
+            }
+            for b in 0..=a {
+                let (row, span) = frame.row(b);
+                let terms = row.iter().zip(&products[a * dim..(a + 1) * dim][span]);
+                lower.push(terms.fold(N::of(0.0), |sum, (&f, p)| sum.plus(&N::of(f).times(p))));
+            }
+            trace += lower[lower.len() - 1].rounded();
+            let size: f64 = row.iter().zip(span).map(|(f, j)| f.abs() * widths[j]).sum();
+            sizes += size * size;
+        }
+        // |Sⱼₖ| ≤ √(SⱼⱼSₖₖ), so no sum of sizes in the entry (a, b) exceeds the product of two of these.
+        let error = (2 * dim + 16) as f64 * N::ROUNDOFF * sizes + f64::MIN_POSITIVE;
+        let trace = trace.max(0.0) * (1.0 + (n + 8) as f64 * U) + n as f64 * error;
+        Shape { n, lower, trace, error }
+    }
+
+    fn rounded(&self) -> Vec<f64> {
+        self.lower.iter().map(Field::rounded).collect()
+    }
+
+    /// √φ(μ) − 1 for a μ near the one given, rounded up.
+    fn excess(&self, g: &[N], mu: f64) -> f64 {
+        let least = self.error + self.rounding(mu);
+        let mut raised = least;
+        let mut best = f64::INFINITY;
+        while best.is_infinite() && raised <= self.trace + least {
+            best = self.excess_at(g, mu + raised);
+            raised = 4.0 * raised.max(U * U * mu);
+        }
+        best.min(self.excess_at(g, mu + (4.0 * U * mu).max(2.0 * least)))
+    }
+
+    /// σ.
+    fn rounding(&self, mu: f64) -> f64 {
+        (16 * self.n + 64) as f64 * N::ROUNDOFF * (self.n as f64 * mu)
+    }
+
+    fn excess_at(&self, g: &[N], mu: f64) -> f64 {
+        let n = self.n;
+        let lowered = N::of(mu).minus(&N::of(self.error)).minus(&N::of(self.rounding(mu)));
+        let mut factor: Vec<N> = self.lower.iter().map(|v| N::of(0.0).minus(v)).collect();
+        for j in 0..n {
+            let at = j * (j + 3) / 2;
+            factor[at] = lowered.minus(&self.lower[at]);
+        }
+        if !factorise(&mut factor, n) {
+            return f64::INFINITY;
+        }
+        let mut solved = Vec::with_capacity(n);
+        let mut square = N::of(0.0);
+        for i in 0..n {
+            let row = &factor[i * (i + 1) / 2..];
+            let value = solved
+                .iter()
+                .zip(row)
+                .fold(g[i], |rest: N, (t, l): (&N, &N)| rest.minus(&t.times(l)));
+            solved.push(value);
+            square = square.plus(&value.times(&value).over(&row[i]));
+        }
+        let rounding = 1.0 + 4.0 * (n + 8) as f64 * N::ROUNDOFF;
+        let excess =
+            N::of(mu).minus(&N::of(1.0)).plus(&N::of(mu).times(&square).times(&N::of(rounding)));
+        excess_of_square(excess, n)
+    }
+}
+
+/// μ where φ is least, or a little more, in plain `f64`; nothing that is proved depends on how good it is.
+fn multiplier(lower: &[f64], g: &[f64], trace: f64) -> f64 {
+    let n = g.len();
+    let times = |x: &[f64]| -> Vec<f64> {
+        let at = |i: usize, j: usize| lower[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
+        (0..n).map(|i| (0..n).map(|j| at(i, j) * x[j]).sum()).collect()
+    };
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let mut below = (0..n).map(|j| lower[j * (j + 3) / 2]).fold(0.0, f64::max);
+    // The left side of the condition is at most √(gᵀAg)/(μ − λmax).
+    let mut above = trace + dot(g, &times(g)).max(0.0).sqrt();
+    let mut mu = above;
+    for _ in 0..STEPS {
+        let mut factor: Vec<f64> = lower.iter().map(|v| -v).collect();
+        (0..n).for_each(|j| factor[j * (j + 3) / 2] += mu);
+        let mut next = f64::NAN;
+        if factorise(&mut factor, n) {
+            let z = solve(&factor, g);
+            let az = times(&z);
+            let square = dot(&z, &az);
+            if square > 1.0 {
+                below = mu
+            } else {
+                above = mu
+            }
+            if (square - 1.0).abs() < 1e-9 {
+                return mu;
+            }
+            next = mu + (square.sqrt() - 1.0) * square / dot(&az, &solve(&factor, &z));
+        } else {
+            below = mu;
+        }
+        if above - below <= 2.0 * U * above {
+            break;
+        }
+        let is_between = below < next && next < above;
+        mu = if is_between { next } else { 0.5 * (below + above) };
+    }
+    above
+}
+
+/// Halving alone would need as many steps as `f64` has bits.
+const STEPS: usize = 64;
+
+/// (L·D·Lᵀ)⁻¹x.
+fn solve(factor: &[f64], x: &[f64]) -> Vec<f64> {
+    let row = |i: usize| &factor[i * (i + 1) / 2..][..=i];
+    let mut x = x.to_vec();
+    for i in 0..x.len() {
+        let known: f64 = row(i).iter().zip(&x[..i]).map(|(l, x)| l * x).sum();
+        x[i] -= known;
+    }
+    for i in (0..x.len()).rev() {
+        x[i] /= row(i)[i];
+    }
+    for i in (0..x.len()).rev() {
+        let value = x[i];
+        for (x, l) in x[..i].iter_mut().zip(row(i)) {
+            *x -= l * value;
+        }
+    }
+    x
+}

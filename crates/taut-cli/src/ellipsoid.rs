@@ -1,0 +1,169 @@
+//! `taut ellipsoid`: the ellipsoid of least volume around points.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::bail;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use taut::{EllipsoidMethod, EllipsoidOptions, ellipsoid_of_source};
+
+use crate::clock::Clock;
+use crate::effort::Effort;
+use crate::ellipsoid_report::EllipsoidReport;
+use crate::exit::Outcome;
+use crate::picture::{Look, Picture};
+use crate::reading::{Points, Reading};
+use crate::report;
+use crate::verify::judge;
+use crate::writing::{self, Outputs};
+
+/// Find the ellipsoid of least volume around a point set, with proof.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Points in a line, a plane or another flat are solved in that flat, and the summary says so.
+Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
+      3 stopped early by a budget, or where rounding hides the gap that was asked for;
+        the gap reached is reported
+Example: taut ellipsoid points.csv -o ellipsoid.json --draw ellipsoid.html &&
+         taut verify ellipsoid.json points.csv")]
+pub(crate) struct Args {
+    #[command(flatten)]
+    points: Points,
+    /// Proved gap to reach, in [0, 1): log-volume ≤ least + ε; 0 is exact to rounding
+    #[arg(long, value_name = "REAL", default_value = "1e-9", allow_negative_numbers = true)]
+    epsilon: f64,
+    /// The way to find it; all end in the same certificate
+    #[arg(
+        long, value_name = "NAME", default_value = EllipsoidMethod::default().name(), value_parser = methods()
+    )]
+    method: EllipsoidMethod,
+    /// Most reads of all points, then the best ellipsoid so far is given with its gap: at least 2; a read or two more
+    /// settle flat sets and the scale of extreme coordinates
+    #[arg(long, value_name = "N", default_value_t = EllipsoidOptions::default().max_passes)]
+    max_passes: u64,
+    /// Chooses the directions of Algorithm 3, from which all methods but newton and thesis-khachiyan start
+    #[arg(long, value_name = "N", default_value_t = EllipsoidOptions::default().seed)]
+    seed: u64,
+    /// Do without the independent check, which is one more read of all points
+    #[arg(long)]
+    no_verify: bool,
+
+    /// Write ellipsoid and certificate as JSON; - is standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
+    out: Option<PathBuf>,
+    /// Print the JSON instead of the summary
+    #[arg(long, help_heading = "Writing")]
+    json: bool,
+    /// Draw ellipsoid and points; .svg and .png show one picture, .html all
+    #[arg(long, value_name = "FILE", help_heading = "Writing")]
+    draw: Option<PathBuf>,
+
+    #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
+    effort: Effort,
+}
+
+fn methods() -> impl TypedValueParser<Value = EllipsoidMethod> {
+    let explained = EllipsoidMethod::ALL.map(|method| {
+        PossibleValue::new(method.name()).help(match method {
+            EllipsoidMethod::Newton => "pools of far points, Newton's method on each: the best",
+            EllipsoidMethod::ThesisInitial => {
+                "Algorithm 3: at most 2d points, no search; its gap may be large"
+            }
+            EllipsoidMethod::ThesisKhachiyan => {
+                "Algorithm 4: steps to the farthest point, from equal weights on all; needs ε > 0"
+            }
+            EllipsoidMethod::ThesisCoreSet => {
+                "Algorithm 5: the same steps from Algorithm 3, for a small core-set; needs ε > 0"
+            }
+            EllipsoidMethod::AwaySteps => "the same with steps away from near points; needs ε > 0",
+        })
+    });
+    PossibleValuesParser::new(explained).try_map(|name| name.parse::<EllipsoidMethod>())
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
+        let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
+        if let Some(out) = &self.out
+            && Picture::of_path(out).is_ok()
+        {
+            bail!("{}: -o writes JSON; draw with --draw {0}", out.display());
+        }
+        let outputs: Vec<&Path> =
+            [&self.out, &self.draw].into_iter().flatten().map(|path| &**path).collect();
+        writing::look_at(&outputs, &[&self.points.path])?;
+        let watch = self.effort.start()?;
+        let mut clock = Clock::start();
+        let points = self.reading.open(&self.points.path)?;
+        clock.lap("reading");
+
+        let options = self.options();
+        let found = watch
+            .during("solving", |monitor| ellipsoid_of_source(points.source(), &options, monitor))
+            .map_err(|error| points.explain(error))?;
+        clock.lap("solving");
+
+        let mut verdict = None;
+        if !self.no_verify {
+            match judge(&found, &points, &watch)? {
+                Ok(proved) => verdict = Some(proved),
+                Err(violation) => {
+                    let violation = points.explain_violation(&violation, "the ellipsoid found");
+                    writing::complain(&format!("the check failed: {violation}"));
+                    return Ok(Outcome::CheckFailed);
+                }
+            }
+            clock.lap("checking");
+        }
+
+        let report = EllipsoidReport { found: &found, points: &points, verdict };
+        let drawn = picture
+            .map(|picture| picture.draw(report.drawing(&Look::default())?, &Look::default()))
+            .transpose()?;
+
+        let mut outputs = Outputs::default();
+        let json = || found.to_json() + "\n";
+        if let Some(out) = &self.out {
+            outputs.add(out, json().as_bytes())?;
+        }
+        if let (Some(path), Some(drawn)) = (&self.draw, drawn) {
+            outputs.add(path, &drawn)?;
+        }
+        // Where the answer goes to standard output, nothing else does.
+        if self.out.as_deref().is_none_or(|out| !writing::is_stream(out)) {
+            if self.json {
+                outputs.say(&json());
+            } else if !self.effort.quiet {
+                let mut facts = report.facts();
+                facts.push(clock.fact());
+                outputs.say(&report::text(&report.title(), &facts));
+            }
+        }
+        outputs.finish()?;
+        Ok(report::outcome(found.trace.stop, found.certificate.gap, self.epsilon))
+    }
+
+    fn options(&self) -> EllipsoidOptions {
+        EllipsoidOptions {
+            epsilon: self.epsilon,
+            method: self.method,
+            max_passes: self.max_passes,
+            threads: None, // those of the pool, which reading and checking use as well
+            seed: self.seed,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{Args as _, FromArgMatches};
+
+    #[test]
+    fn the_defaults_are_those_of_the_library() {
+        let command = super::Args::augment_args(clap::Command::new("ellipsoid"));
+        let matches = command.get_matches_from(["ellipsoid", "points.csv"]);
+        let args = super::Args::from_arg_matches(&matches).unwrap();
+        assert_eq!(args.options(), taut::EllipsoidOptions::default());
+    }
+}

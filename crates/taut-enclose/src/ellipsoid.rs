@@ -1,0 +1,119 @@
+//! The minimum volume enclosing ellipsoid of points: one problem, one certificate, several methods.
+//!
+//! A method ([`rounds`], [`first_order`]) ends with convex multipliers and the pass made with the ellipsoid they mean ([`outcome`]);
+//! [`proof`] turns that into an answer and its certificate, whatever the method was.
+
+mod counters;
+mod dense;
+mod factor;
+mod first_order;
+mod flat;
+mod initial;
+mod interior;
+mod newton;
+mod nnls;
+mod options;
+mod outcome;
+mod pool;
+mod proof;
+mod rounds;
+mod sample;
+mod survey;
+mod whitener;
+
+use taut_certify::{Ellipsoid, Solution};
+use taut_points::{Monitor, PointSource, Points, Scalar};
+
+use self::flat::Look;
+use self::outcome::Outcome;
+use self::sample::Sample;
+use self::survey::Survey;
+use self::whitener::Whitener;
+use crate::Error;
+pub use options::{EllipsoidMethod, EllipsoidOptions};
+
+/// Gap that rounding leaves, for each dimension.
+const ROUNDING: f64 = 5e-15;
+
+/// The ellipsoid of least volume that encloses `points`, n × d.
+///
+/// The answer holds every point, and its certificate proves that no enclosing ellipsoid has a log-volume less by more
+/// than the gap. The gap is at most [`EllipsoidOptions::epsilon`] unless [`Trace::stop`](taut_certify::Trace::stop) says
+/// why not. Points in an affine subspace are solved in that subspace, and the answer says so
+/// ([`Ellipsoid::hull`]); duplicates, few points and far-off points are solved as any others.
+///
+/// *Cost* of the default method: three to five passes of O(nd²) on ordinary data, about a dozen where all points lie
+/// near one ellipsoid, beside a problem of a few times d² points in memory.
+///
+/// ```
+/// use taut_enclose::{EllipsoidOptions, ellipsoid};
+///
+/// let corners = [0.0f32, 0.0, 4.0, 0.0, 4.0, 2.0, 0.0, 2.0, 1.0, 1.0];
+/// let points = taut_points::Points::new(&corners, 2)?;
+/// let found = ellipsoid(&points, &EllipsoidOptions::default())?;
+/// // The ellipse through the corners of a rectangle: half axes √2 times those of the rectangle.
+/// assert!((found.answer.log_volume - (4.0 * std::f64::consts::PI).ln()).abs() < 1e-12);
+/// assert!((found.answer.matrix[0][0] - 1.0 / 8.0).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Empty`], [`Error::NonFinite`], [`Error::Overflow`], [`Error::Option`].
+pub fn ellipsoid<T: Scalar>(
+    points: &Points<'_, T>,
+    options: &EllipsoidOptions,
+) -> Result<Solution<Ellipsoid>, Error> {
+    ellipsoid_of_source(points, options, &Monitor::silent())
+}
+
+/// The ellipsoid of least volume that encloses the points of a source of any size, in memory or not.
+///
+/// One block for each thread is held at a time, beside the pool; the answer is the same, bit by bit, for every medium
+/// the rows come from. `monitor` hears of each pass and can stop the work between two blocks or two steps.
+///
+/// # Errors
+/// As [`ellipsoid()`], and [`Error::Read`] when the source fails or `monitor` stops the work.
+pub fn ellipsoid_of_source(
+    source: &dyn PointSource,
+    options: &EllipsoidOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Ellipsoid>, Error> {
+    options.check()?;
+    let Some(threads) = options.threads else { return solve(source, options, monitor) };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|_| {
+        Error::Option {
+            name: "threads",
+            value: threads.to_string(),
+            expected: "as many threads as the system grants",
+        }
+    })?;
+    pool.install(|| solve(source, options, monitor))
+}
+
+fn solve(
+    source: &dyn PointSource,
+    options: &EllipsoidOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Ellipsoid>, Error> {
+    let mut survey = Survey::new(source, monitor)?;
+    match flat::look(&mut survey, options)? {
+        Look::Flat(found) => Ok(*found),
+        Look::Full(sample, whitener) => {
+            let outcome = method(&mut survey, &sample, whitener, options)?;
+            proof::prove(&mut survey, outcome, options)
+        }
+    }
+}
+
+/// Solves a set that does not lie in a hyperplane.
+fn method(
+    survey: &mut Survey<'_>,
+    sample: &Sample,
+    whitener: Whitener,
+    options: &EllipsoidOptions,
+) -> Result<Outcome, Error> {
+    match options.method {
+        EllipsoidMethod::Newton => rounds::solve(survey, sample, whitener, options),
+        _ => first_order::solve(survey, sample, options),
+    }
+}

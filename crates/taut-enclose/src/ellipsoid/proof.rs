@@ -1,0 +1,252 @@
+//! From a method's outcome to an answer with a certificate.
+//!
+//! *Upper.* The points that may lie farthest outside are measured again with twice the digits, with F as it will be
+//! returned: rounding the entries of F moves points by up to 2⁻⁵³ times the condition of the set, so F is scaled,
+//! rounded and measured until every point is inside.
+//! *Lower.* With u alone: ln κ_d + (d/2) ln d + ½ ln det Σ, for Σ the covariance of the support. In coordinates
+//! y = F(x − c) it is nearly 1/d, so what is proved is not lost in logarithms of large numbers.
+//! *Trap.* Of a thin shell more points are near the border than a pass lists. Then one more pass measures with twice
+//! the digits whatever might be outside.
+
+use taut_certify::{Ellipsoid, EllipsoidCertificate, Hull, Items, Solution, Stop, Trace};
+
+use super::dense::{cholesky, divide_rows};
+use super::outcome::{Candidate, Outcome, log_unit_ball};
+use super::survey::Survey;
+use super::{EllipsoidOptions, ROUNDING};
+use crate::Error;
+use crate::kernel::Center;
+use crate::kernel::compensated::Map;
+use crate::kernel::triangle::leverages;
+use crate::kernel::vector::dot;
+use crate::top::{Far, Top};
+
+/// u of the rounding of `f64`.
+const UNIT: f64 = f64::EPSILON / 2.0;
+/// What the claimed gap may lack of the proved one, for each dimension: the logarithms.
+const LOGARITHMS: f64 = 2e-15;
+/// Scales tried before a bound on the rounding of F takes the place of measuring.
+const ATTEMPTS: u32 = 8;
+/// Points near the border that are measured for each of them.
+const MEASURED: usize = 1 << 14;
+
+/// Turns an outcome for points that span the space into a solution.
+pub(super) fn prove(
+    survey: &mut Survey<'_>,
+    outcome: Outcome,
+    options: &EllipsoidOptions,
+) -> Result<Solution<Ellipsoid>, Error> {
+    let dim = survey.dim();
+    let best = &outcome.best;
+    let map = Map { matrix: &best.matrix, center: &best.center, triangular: true };
+    let settled = settle(survey, best, map, triangular_spread(&best.matrix, dim))?;
+    let logs: f64 = (0..dim).map(|a| settled.factor[a * dim + a].ln()).sum();
+    let log_volume = log_unit_ball(dim) - logs;
+    let answer = answer(&settled.factor, best.center.clone(), log_volume, None)?;
+    Ok(solution(survey, answer, outcome, settled.gap, options))
+}
+
+/// Puts together an answer from F, r × d.
+pub(super) fn answer(
+    factor: &[f64],
+    center: Center,
+    log_volume: f64,
+    hull: Option<Hull>,
+) -> Result<Ellipsoid, Error> {
+    let dim = center.dim();
+    let rows: Vec<Vec<f64>> = factor.chunks_exact(dim).map(<[f64]>::to_vec).collect();
+    let mut matrix = vec![vec![0.0; dim]; dim];
+    for a in 0..dim {
+        for b in 0..=a {
+            let entry: f64 = rows.iter().map(|row| row[a] * row[b]).sum();
+            (matrix[a][b], matrix[b][a]) = (entry, entry);
+        }
+    }
+    let finite = matrix.iter().flatten().chain(factor).all(|v| v.is_finite());
+    // Where digits of the diagonal are lost, Q lets points of any size in. In a hull, other coordinates tell.
+    let digits = |a: usize| matrix[a][a] >= f64::MIN_POSITIVE;
+    let seen = match hull {
+        Some(_) => rows.is_empty() || (0..dim).any(digits),
+        None => (0..dim).all(digits),
+    };
+    if !finite || !seen || !log_volume.is_finite() {
+        return Err(Error::Overflow);
+    }
+    Ok(Ellipsoid {
+        center: center.high,
+        center_tail: center.low,
+        matrix,
+        factor: rows,
+        hull,
+        log_volume,
+    })
+}
+
+/// The solution of an outcome whose answer is settled.
+pub(super) fn solution(
+    survey: &Survey<'_>,
+    answer: Ellipsoid,
+    outcome: Outcome,
+    gap: f64,
+    options: &EllipsoidOptions,
+) -> Solution<Ellipsoid> {
+    let wanted =
+        if options.epsilon > 0.0 { options.epsilon } else { 4.0 * ROUNDING * answer.rank() as f64 };
+    let mut stop = outcome.stop;
+    if stop == Stop::Converged && gap > wanted {
+        stop = Stop::Rounding;
+    }
+    let trace = Trace {
+        method: options.method.name().to_owned(),
+        stop,
+        passes: survey.passes(),
+        iterations: outcome.iterations,
+        core_set: outcome.core_set,
+        history: outcome.history,
+        counters: outcome.counters,
+    };
+    let certificate = EllipsoidCertificate {
+        items: Items::Points,
+        support: outcome.best.support,
+        multipliers: outcome.best.multipliers,
+        directions: vec![],
+        left_out: vec![],
+        gap,
+        points_hash: survey.hash(),
+    };
+    Solution { answer, certificate, trace }
+}
+
+/// Bounds | |M||x − c| | where |M(x − c)| ≤ 1: how much larger than its result the terms of a product are.
+///
+/// |x_b − c_b| is at most the norm of row b of M⁻¹.
+pub(super) fn triangular_spread(matrix: &[f64], dim: usize) -> f64 {
+    let mut inverse = vec![0.0; dim * dim];
+    (0..dim).for_each(|a| inverse[a * dim + a] = 1.0);
+    divide_rows(matrix, dim, &mut inverse);
+    let extents: Vec<f64> = inverse.chunks_exact(dim).map(|row| dot(row, row).sqrt()).collect();
+    spread(matrix, &extents)
+}
+
+/// | |M|·extents |.
+pub(super) fn spread(matrix: &[f64], extents: &[f64]) -> f64 {
+    let terms = |row: &[f64]| row.iter().zip(extents).map(|(m, e)| (m * e).abs()).sum::<f64>();
+    matrix.chunks_exact(extents.len()).map(|row| terms(row).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Bound on the relative error of |M(x − c)|² as a pass finds it, for the points that lie farthest out: differences,
+/// products and sums of each coordinate.
+pub(super) fn pass_error(dim: usize, spread: f64) -> f64 {
+    2.0 * (dim as f64 + 5.0) * UNIT * spread
+}
+
+/// F, r × d, such that every point has |F(x − c)| ≤ 1.
+pub(super) struct Settled {
+    pub(super) factor: Vec<f64>,
+    /// F is s times the matrix given, but for rounding.
+    pub(super) scale: f64,
+    /// Its log-volume less a lower bound on that of any enclosing ellipsoid.
+    pub(super) gap: f64,
+}
+
+/// Scales M so that every point is inside; `spread` bounds | |M||x − c| | where |M(x − c)| ≤ 1.
+pub(super) fn settle(
+    survey: &mut Survey<'_>,
+    best: &Candidate,
+    map: Map<'_>,
+    spread: f64,
+) -> Result<Settled, Error> {
+    let found = &best.found;
+    let near = found.largest * (1.0 - 2.0 * pass_error(map.dim(), spread));
+    let in_support = |id: &u64| best.support.binary_search(id).is_ok();
+    let (others, all) = if map.triangular && found.listed_above < near {
+        let far = found.far.iter().take_while(|far| far.reach2 >= near);
+        (far.map(|far| far.id).filter(|id| !in_support(id)).collect(), found.largest)
+    } else {
+        let (far, largest) = measure(survey, map, near, spread)?;
+        let others: Vec<u64> = far.iter().map(|far| far.id).filter(|id| !in_support(id)).collect();
+        (if far.len() < MEASURED { others } else { vec![] }, largest)
+    };
+    let all_measured = map.triangular && found.listed_above < near || !others.is_empty();
+    let support = survey.rows(&best.support)?;
+    let others = survey.rows(&others)?;
+    let mut scale = 1.0 / all.sqrt();
+    for attempt in 0.. {
+        if attempt == ATTEMPTS || !all_measured {
+            // Rounding the entries of sM moves an image by at most UNIT·spread of it.
+            scale = (1.0 - UNIT * (spread + 3.0)) / all.sqrt();
+        }
+        let factor: Vec<f64> = map.matrix.iter().map(|m| m * scale).collect();
+        let scaled = map.with(&factor);
+        let (images, squares) = scaled.images(&support);
+        let (_, other_squares) = scaled.images(&others);
+        let largest = squares.iter().chain(&other_squares).fold(0.0f64, |m, &v| m.max(v));
+        if largest <= 1.0 || attempt == ATTEMPTS || !all_measured {
+            let gap = lower_gap(&images, &best.multipliers, map.rank());
+            let gap = (gap + LOGARITHMS * map.rank() as f64).min(f64::MAX);
+            return Ok(Settled { factor, scale, gap });
+        }
+        scale *= (1.0 - f64::from(1u32 << attempt) * UNIT) / largest.sqrt();
+    }
+    unreachable!("the loop ends with the last attempt")
+}
+
+/// One pass in which all points that may lie farthest out are measured with twice the digits: the largest
+/// |M(x − c)|², and who comes so near that rounding of F could put it first.
+fn measure(
+    survey: &mut Survey<'_>,
+    map: Map<'_>,
+    near: f64,
+    spread: f64,
+) -> Result<(Vec<Far>, f64), Error> {
+    let dim = map.dim();
+    let lists = survey.visit(|first, rows| {
+        let mut top = Top::new(MEASURED);
+        let mut scratch = vec![];
+        let mut values = [0.0; 64];
+        for (part, rows) in rows.chunks(64 * dim).enumerate() {
+            let count = rows.len() / dim;
+            let values = &mut values[..count];
+            if map.triangular {
+                leverages(rows, map.matrix, map.center, &mut scratch, values);
+                if values.iter().all(|&v| v < near) {
+                    continue;
+                }
+            }
+            let (_, squares) = map.images(rows);
+            for (i, reach2) in squares.into_iter().enumerate() {
+                top.offer(Far { id: first + (part * 64 + i) as u64, reach2 });
+            }
+        }
+        top
+    })?;
+    let mut all = Top::new(MEASURED);
+    lists.into_iter().for_each(|list| all.merge(list));
+    let mut far = all.into_sorted();
+    let largest = far.first().map_or(0.0, |far| far.reach2);
+    far.retain(|far| far.reach2 >= largest * (1.0 - 4.0 * UNIT * (spread + 3.0)));
+    Ok((far, largest))
+}
+
+/// −½ ln det(r·Σ) for the covariance Σ of weighted images, n × r.
+fn lower_gap(images: &[f64], weights: &[f64], rank: usize) -> f64 {
+    let total: f64 = weights.iter().sum();
+    let mut mean = vec![0.0; rank];
+    for (y, u) in images.chunks_exact(rank).zip(weights) {
+        mean.iter_mut().zip(y).for_each(|(s, y)| *s += u / total * y);
+    }
+    let mut covariance = vec![0.0; rank * rank];
+    let mut z = vec![0.0; rank];
+    for (y, u) in images.chunks_exact(rank).zip(weights) {
+        z.iter_mut().zip(y).zip(&mean).for_each(|((z, y), m)| *z = y - m);
+        for a in 0..rank {
+            let row = &mut covariance[a * rank..a * rank + a + 1];
+            let factor = u / total * rank as f64 * z[a];
+            row.iter_mut().zip(&z).for_each(|(s, z)| *s += factor * z);
+        }
+    }
+    if !cholesky(&mut covariance, rank) {
+        return f64::INFINITY;
+    }
+    -(0..rank).map(|a| covariance[a * rank + a].ln()).sum::<f64>().min(0.0)
+}

@@ -1,0 +1,244 @@
+//! Pools of far points: a few passes over all points, and Newton's method on what they find.
+//!
+//! *Idea.* A sample gives a whitener, a pass with it the points of largest leverage: the first pool. Its ellipsoid is
+//! found ([`newton`]), a pass lists the points outside, some of them join the pool, and so on until none is outside by
+//! more than the wanted gap. The pool's multipliers prove a lower bound for all points at any moment.
+//! *Guarantee.* Lower bounds never fall. Three to five passes on ordinary data, about a dozen where all points lie near
+//! one ellipsoid; the points in memory are those of the pool.
+//! *Trap.* The points farthest outside are often near-copies of each other, so each sector around the centre may only
+//! give a few: a sector is a coordinate of the image and its sign.
+//! *Trap.* A point that lies very far outside gets weight at once: models are made at multipliers, and one of leverage
+//! 1e16 has no digit in a model made without it.
+
+use taut_certify::Stop;
+
+use super::counters::Counters;
+use super::newton::{self, gap};
+use super::outcome::{Candidate, Outcome, Progress};
+use super::pool::{Pool, copy_row};
+use super::proof::{pass_error, triangular_spread};
+use super::sample::Sample;
+use super::survey::{Found, Query, Survey};
+use super::whitener::Whitener;
+use super::{EllipsoidOptions, ROUNDING};
+use crate::Error;
+use crate::kernel::{Center, DoubleDouble};
+use crate::top::Far;
+
+/// Points this near the border, relative, are listed at most: the proof measures again what rounding cannot tell apart.
+pub(super) const LISTED: f64 = 1e-6;
+/// A point this many times d beyond gets weight before the next step.
+const JUMP: f64 = 100.0;
+/// A point of the pool with no multiplier whose |y|² is below this part of d is of no use any more.
+const USEFUL: f64 = 0.9;
+
+/// Passes without a better gap that show that rounding is in the way, of gaps below [`SMALL`].
+const STALE: u32 = 3;
+const SMALL: f64 = 1e-6;
+
+/// Points of the first pool, and points that may join after a pass.
+fn sizes(dim: usize, n: u64) -> (usize, usize) {
+    let p = (dim + 1) * (dim + 2) / 2;
+    let first = match dim {
+        0..=10 => 4 * p,
+        11..=20 => 2 * p,
+        21..=50 => p,
+        _ => 1326.max(12 * dim),
+    };
+    // Of many points a larger pool costs nothing beside a pass, and saves one.
+    let many = if n >= 100_000 { 1000 } else { 64 };
+    let later = if dim <= 50 { p.min(600) } else { 6 * dim };
+    (first.max(many), later.max(64))
+}
+
+/// The ellipsoid of the points of a survey that do not lie in a hyperplane.
+pub(super) fn solve(
+    survey: &mut Survey<'_>,
+    sample: &Sample,
+    mut whitener: Whitener,
+    options: &EllipsoidOptions,
+) -> Result<Outcome, Error> {
+    let dim = survey.dim();
+    let wanted = options.epsilon.max(ROUNDING * dim as f64);
+    let (first, later) = sizes(dim, survey.len());
+    let mut counters = Counters::default();
+    let mut progress = Progress::new(dim);
+    let mut pool = first_pool(survey, sample, &mut whitener, first)?;
+    let mut later = later;
+    // With all points in the pool there is nothing to come.
+    let mut tolerance = if pool.len() as u64 == survey.len() { 0.6 * wanted } else { 1e-2 };
+    let mut last = f64::INFINITY;
+    let (mut best, mut stale) = (f64::INFINITY, 0);
+    let stop = loop {
+        newton::solve(&mut pool, &mut whitener, tolerance, &mut counters, survey.monitor())?;
+        let center = center_of(&sample.origin, &whitener);
+        let matrix = whitener.matrix();
+        let doubt = 3.0 * pass_error(dim, triangular_spread(matrix, dim));
+        let above = dim as f64 * (1.0 - doubt.min(LISTED));
+        let found = survey.pass(Query { matrix, center: &center, above, keep: 4 * later })?;
+        let largest = found.largest;
+        if !largest.is_finite() {
+            return Err(Error::Overflow);
+        }
+        let far = outside(&found, dim, &pool);
+        let size = pool.len();
+        progress.note(&whitener, size, largest, || candidate(&pool, &whitener, center, found));
+        let reached = gap(dim, largest);
+        if progress.best_gap() <= wanted {
+            break Stop::Converged;
+        }
+        if survey.passes() >= options.max_passes {
+            break Stop::PassBudget;
+        }
+        let added = add(&mut pool, survey, &sample.origin, &whitener, &far, later)?;
+        stale = if progress.best_gap() < best { 0 } else { stale + 1 };
+        best = progress.best_gap();
+        // Rounds of a pool may pass without a better gap as long as that is large.
+        if added == 0 && tolerance == 0.0 || stale == STALE && best < SMALL {
+            break Stop::Rounding;
+        }
+        // What is outside is in the pool already: only a sharper solution of the pool can help.
+        let hard = counters.interior > 0;
+        let sharper = if 1e-2 * reached < 1e-3 && !hard {
+            0.6 * wanted
+        } else {
+            (1e-2 * reached).max(0.6 * wanted)
+        };
+        tolerance = if added == 0 { 0.0 } else { sharper };
+        if reached > last / 3.0 {
+            later *= 2;
+        }
+        last = reached;
+        if largest > JUMP * dim as f64 {
+            jump(&mut pool, added);
+        }
+    };
+    let core_set = pool.len();
+    Ok(progress.into_outcome(stop, counters, core_set))
+}
+
+/// Equal weights on points of large leverage, on an affine basis, and on what is extreme in the sample.
+fn first_pool(
+    survey: &mut Survey<'_>,
+    sample: &Sample,
+    whitener: &mut Whitener,
+    size: usize,
+) -> Result<Pool, Error> {
+    let dim = survey.dim();
+    let n = survey.len();
+    if n == sample.pool.len() as u64 && n <= 2 * size as u64 {
+        return Ok(sample.pool.clone());
+    }
+    let images = whitener.apply(&sample.pool);
+    let mut leverages = images.leverages.clone();
+    leverages.sort_unstable_by(|a, b| b.total_cmp(a));
+    // Few of the listed points should be thrown away again, and enough should be listed.
+    let rank = 2 * size as u64 * leverages.len() as u64 / n + 10;
+    let above = leverages.get(rank as usize).copied().unwrap_or(0.0);
+    let center = center_of(&sample.origin, whitener);
+    let query = Query { matrix: whitener.matrix(), center: &center, above, keep: size };
+    let found = survey.pass(query)?;
+    let mut pool = Pool::new(dim);
+    let ids: Vec<u64> = found.far.iter().map(|far| far.id).collect();
+    let rows = survey.rows_from(&sample.origin, &ids)?;
+    for (&id, row) in ids.iter().zip(rows.chunks_exact(dim)) {
+        pool.push(id, row, 1.0);
+    }
+    let mut row = vec![0.0; dim];
+    for i in sample.spread(&images.blocks) {
+        sample.pool.copy_row(i, &mut row);
+        pool.push(sample.pool.ids()[i], &row, 1.0);
+    }
+    pool.normalise();
+    Ok(pool)
+}
+
+/// The centre of a whitener in the coordinates of the source; in two terms where rounding it to one could be seen.
+pub(super) fn center_of(origin: &[f64], whitener: &Whitener) -> Center {
+    /// Far below the rounding of a leverage.
+    const UNSEEN: f64 = 1e-16;
+    let terms: Vec<DoubleDouble> =
+        origin.iter().zip(whitener.center()).map(|(&o, c)| DoubleDouble::sum(o, c)).collect();
+    let mut center = Center {
+        high: terms.iter().map(|term| term.high).collect(),
+        low: terms.iter().map(|term| term.low).collect(),
+    };
+    let rows = whitener.matrix().chunks_exact(origin.len());
+    let moved = |row: &[f64]| row.iter().zip(&center.low).map(|(m, c)| (m * c).abs()).sum::<f64>();
+    if rows.map(moved).fold(0.0, f64::max) < UNSEEN {
+        center.low.clear();
+    }
+    center
+}
+
+pub(super) fn candidate(
+    pool: &Pool,
+    whitener: &Whitener,
+    center: Center,
+    found: Found,
+) -> Candidate {
+    let weighted = pool.ids().iter().zip(pool.weights()).filter(|(_, u)| **u > 0.0);
+    let mut pairs: Vec<(u64, f64)> = weighted.map(|(&id, &u)| (id, u)).collect();
+    pairs.sort_unstable_by_key(|pair| pair.0);
+    let (support, multipliers) = pairs.into_iter().unzip();
+    Candidate { support, multipliers, matrix: whitener.matrix().to_vec(), center, found }
+}
+
+/// The points outside that are not in the pool.
+fn outside(found: &Found, dim: usize, pool: &Pool) -> Vec<Far> {
+    let beyond = |far: &&Far| far.reach2 > dim as f64 * (1.0 + 1e-14) && !pool.contains(far.id);
+    found.far.iter().filter(beyond).copied().collect()
+}
+
+/// Takes some of the far points to the pool, and useless points out of it; says how many were taken.
+fn add(
+    pool: &mut Pool,
+    survey: &Survey<'_>,
+    origin: &[f64],
+    whitener: &Whitener,
+    far: &[Far],
+    most: usize,
+) -> Result<usize, Error> {
+    let dim = pool.dim();
+    if pool.len() > 4 * most {
+        let leverages = whitener.apply(pool).leverages;
+        let weights = pool.weights().to_vec();
+        pool.retain(|i| weights[i] > 0.0 || leverages[i] > USEFUL * dim as f64);
+    }
+    let ids: Vec<u64> = far.iter().map(|far| far.id).collect();
+    let rows = survey.rows_from(origin, &ids)?;
+    let mut arrivals = Pool::new(dim);
+    for (&id, row) in ids.iter().zip(rows.chunks_exact(dim)) {
+        arrivals.push(id, row, 0.0);
+    }
+    let images = whitener.apply(&arrivals).blocks;
+    let each = most.div_ceil(dim);
+    let mut taken = vec![0; 2 * dim];
+    let mut image = vec![0.0; dim];
+    let mut added = 0;
+    for (i, (&id, row)) in ids.iter().zip(rows.chunks_exact(dim)).enumerate() {
+        copy_row(&images, dim, i, &mut image);
+        let sector = &mut taken[sector(&image)];
+        if *sector < each && added < most {
+            *sector += 1;
+            added += 1;
+            pool.push(id, row, 0.0);
+        }
+    }
+    Ok(added)
+}
+
+/// The coordinate of largest absolute value, and its sign.
+fn sector(image: &[f64]) -> usize {
+    let largest = (0..image.len()).max_by(|&a, &b| image[a].abs().total_cmp(&image[b].abs()));
+    largest.map_or(0, |j| 2 * j + usize::from(image[j] < 0.0))
+}
+
+/// Half of the weight goes to the points that came last.
+fn jump(pool: &mut Pool, added: usize) {
+    let k = pool.len();
+    for (i, u) in pool.weights_mut().iter_mut().enumerate() {
+        *u = if i + added < k { *u / 2.0 } else { 0.5 / added as f64 };
+    }
+    pool.normalise();
+}

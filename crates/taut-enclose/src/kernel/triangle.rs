@@ -1,0 +1,345 @@
+//! Triangular products of many points at once: where solvers of ellipsoids spend their time.
+//!
+//! *Problem.* For a lower triangular T and a shift t: z = Tx − t for many points x, and |z|² or x·z for each.
+//! *Idea.* [`POINTS`] points stand coordinate by coordinate, so that a register holds one coordinate of eight of them.
+//! Two rows of T are worked on together: each load of points serves both, and eight accumulators hide the latency of
+//! the multiply-add. Rows of a block of points are brought into that order, eight by eight, in registers.
+//! *Guarantee.* What a point gets depends on it and on T, t alone, not on its neighbours.
+//! *Trap.* The centre is subtracted first: T(x − c), never Tx − Tc, which loses all digits far from the origin.
+#![allow(unsafe_code)]
+
+use taut_points::Scalar;
+
+use super::lanes::Lanes;
+use super::{Center, portable};
+
+/// Points of one block: coordinate j of point i stands at 32·j + i.
+pub(crate) const POINTS: usize = 32;
+/// Registers for one coordinate of a block.
+const WIDE: usize = POINTS / 8;
+
+/// Bytes by which memory is asked for before it is read: at 1e6 × 10 a pass takes half the time with it.
+const AHEAD: usize = 8192;
+
+/// A lower triangular matrix by rows, d × d, of which nothing above the diagonal is read, and a shift.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Triangle<'a> {
+    /// T.
+    pub(crate) matrix: &'a [f64],
+    /// t.
+    pub(crate) shift: &'a [f64],
+}
+
+impl Triangle<'_> {
+    fn dim(&self) -> usize {
+        self.shift.len()
+    }
+}
+
+/// z = Tx − t for the points of a block, and |z|² of each.
+pub(crate) fn images(triangle: Triangle<'_>, x: &[f64], z: &mut [f64], out: &mut [f64; POINTS]) {
+    let dim = triangle.dim();
+    assert!(triangle.matrix.len() == dim * dim && x.len() == dim * POINTS && z.len() == x.len());
+    let z = z.as_mut_ptr();
+    dispatch(Images { triangle, x: x.as_ptr(), z, out });
+}
+
+/// x·(Tx − t) for each point of a block.
+pub(crate) fn forms(triangle: Triangle<'_>, x: &[f64], out: &mut [f64; POINTS]) {
+    let dim = triangle.dim();
+    assert!(triangle.matrix.len() == dim * dim && x.len() == dim * POINTS);
+    dispatch(Forms { triangle, x: x.as_ptr(), out });
+}
+
+/// Σ wxx′, Σ wx and Σ w over the points of many blocks, the lower triangle with the diagonal, (d + 1) × (d + 1) by rows:
+/// the points are taken to have a last coordinate 1. `weights` has one entry per point, 0 for those that fill a block.
+pub(crate) fn moments(dim: usize, x: &[f64], weights: &[f64]) -> Vec<f64> {
+    assert!(x.len() == dim * weights.len() && weights.len().is_multiple_of(POINTS));
+    let m = dim + 1;
+    // Eight partial sums for each entry.
+    let mut sums = vec![0.0; 8 * m * (m + 1) / 2];
+    dispatch(Moments { dim, x, weights, sums: &mut sums });
+    let mut moments = vec![0.0; m * m];
+    let mut entries = sums.as_chunks::<8>().0.iter();
+    for a in 0..m {
+        for (b, [p, q, r, s, t, u, v, w]) in entries.by_ref().take(a + 1).enumerate() {
+            moments[a * m + b] = ((p + q) + (r + s)) + ((t + u) + (v + w));
+        }
+    }
+    moments
+}
+
+/// |T(x − c)|² for each row x of `values`. `scratch` is memory to work in, of any length.
+///
+/// The relative error is of the order of d·2⁻⁵³ times |T||x − c| over |T(x − c)|: large when T has to undo a strong
+/// correlation of coordinates.
+pub(crate) fn leverages<T: Scalar>(
+    values: &[T],
+    matrix: &[f64],
+    center: &Center,
+    scratch: &mut Vec<f64>,
+    out: &mut [f64],
+) {
+    let dim = center.dim();
+    assert!(matrix.len() == dim * dim && values.len() == dim * out.len());
+    assert!(center.low.is_empty() || center.low.len() == dim);
+    scratch.clear();
+    // The second half is the shift, which is 0 here.
+    scratch.resize(dim * POINTS + dim, 0.0);
+    dispatch(Leverages { values, matrix, center, scratch, out });
+}
+
+/// Work that is compiled once for each instruction set.
+pub(super) trait Work {
+    /// # Safety
+    /// The processor has the features of `L`.
+    unsafe fn run<L: Lanes>(self);
+}
+
+fn dispatch(work: impl Work) {
+    #[cfg(target_arch = "x86_64")]
+    let Some(work) = super::x86::run(work) else { return };
+    // SAFETY: the portable lanes need no feature of the processor.
+    unsafe { work.run::<portable::Portable>() }
+}
+
+struct Images<'a> {
+    triangle: Triangle<'a>,
+    x: *const f64,
+    z: *mut f64,
+    out: &'a mut [f64; POINTS],
+}
+
+impl Work for Images<'_> {
+    #[inline(always)]
+    unsafe fn run<L: Lanes>(self) {
+        // SAFETY: features are the caller's promise; `images` checked the lengths.
+        unsafe { block::<L, true, false>(self.triangle, self.x, self.z, self.out) }
+    }
+}
+
+struct Forms<'a> {
+    triangle: Triangle<'a>,
+    x: *const f64,
+    out: &'a mut [f64; POINTS],
+}
+
+impl Work for Forms<'_> {
+    #[inline(always)]
+    unsafe fn run<L: Lanes>(self) {
+        // SAFETY: features are the caller's promise; `forms` checked the lengths; nothing is stored to the null.
+        unsafe { block::<L, false, true>(self.triangle, self.x, std::ptr::null_mut(), self.out) }
+    }
+}
+
+struct Moments<'a> {
+    dim: usize,
+    x: &'a [f64],
+    weights: &'a [f64],
+    sums: &'a mut [f64],
+}
+
+impl Work for Moments<'_> {
+    #[inline(always)]
+    unsafe fn run<L: Lanes>(self) {
+        let dim = self.dim;
+        let blocks = self.weights.as_chunks::<POINTS>().0;
+        debug_assert_eq!(self.sums.len(), 4 * (dim + 1) * (dim + 2));
+        for (x, weights) in self.x.chunks_exact(dim * POINTS).zip(blocks) {
+            // SAFETY: features are the caller's promise; a block has d·POINTS values and POINTS weights, and there are
+            // eight sums for each of the (d + 1)(d + 2)/2 entries.
+            unsafe {
+                let load = |from: *const f64| -> [L; WIDE] {
+                    std::array::from_fn(|i| L::load(from.add(8 * i)))
+                };
+                let weights = load(weights.as_ptr());
+                let mut sum = self.sums.as_mut_ptr();
+                let mut add = |terms: [L; WIDE], with: [L; WIDE]| {
+                    let mut total = L::load(sum.cast_const());
+                    for i in 0..WIDE {
+                        total = terms[i].multiply_add(with[i], total);
+                    }
+                    total.store(sum);
+                    sum = sum.add(8);
+                };
+                for a in 0..dim {
+                    let row = load(x.as_ptr().add(a * POINTS));
+                    let row: [L; WIDE] =
+                        std::array::from_fn(|i| row[i].multiply_add(weights[i], L::zero()));
+                    for b in 0..=a {
+                        add(row, load(x.as_ptr().add(b * POINTS)));
+                    }
+                }
+                for b in 0..dim {
+                    add(weights, load(x.as_ptr().add(b * POINTS)));
+                }
+                add(weights, [L::broadcast(1.0); WIDE]);
+            }
+        }
+    }
+}
+
+pub(super) struct Leverages<'a, T> {
+    pub(super) values: &'a [T],
+    pub(super) matrix: &'a [f64],
+    pub(super) center: &'a Center,
+    /// A block and, behind it, a shift of zeros.
+    pub(super) scratch: &'a mut [f64],
+    pub(super) out: &'a mut [f64],
+}
+
+impl<T: Scalar> Work for Leverages<'_, T> {
+    #[inline(always)]
+    unsafe fn run<L: Lanes>(self) {
+        let dim = self.center.dim();
+        let (x, shift) = self.scratch.split_at_mut(dim * POINTS);
+        let triangle = Triangle { matrix: self.matrix, shift };
+        let none = std::ptr::null_mut();
+        let (blocks, rest) = self.out.as_chunks_mut::<POINTS>();
+        let (values, last) = self.values.split_at(blocks.len() * POINTS * dim);
+        for (values, out) in values.chunks_exact(dim * POINTS).zip(blocks) {
+            // SAFETY: features are the caller's promise; `x` has room for a block, and `values` is one.
+            unsafe {
+                arrange::<L, T>(values, self.center, x);
+                block::<L, false, false>(triangle, x.as_ptr(), none, out);
+            }
+        }
+        if !rest.is_empty() {
+            let mut sums = [0.0; POINTS];
+            // SAFETY: as above; `last` holds a row for each place of `rest`, which is not empty.
+            unsafe {
+                arrange::<L, T>(last, self.center, x);
+                block::<L, false, false>(triangle, x.as_ptr(), none, &mut sums);
+            }
+            rest.copy_from_slice(&sums[..rest.len()]);
+        }
+    }
+}
+
+/// z = Tx − t for a block; |z|² or, if `FORM`, x·z for each point; z itself if `STORE`.
+///
+/// # Safety
+/// The processor has the features of `L`; T is d × d for a shift of length d, and d blocks of [`POINTS`] values can be
+/// read at `x` and, if `STORE`, written at `z`.
+#[inline(always)]
+unsafe fn block<L: Lanes, const STORE: bool, const FORM: bool>(
+    triangle: Triangle<'_>,
+    x: *const f64,
+    z: *mut f64,
+    out: &mut [f64; POINTS],
+) {
+    let dim = triangle.dim();
+    debug_assert_eq!(triangle.matrix.len(), dim * dim);
+    let (matrix, shift) = (triangle.matrix.as_ptr(), triangle.shift.as_ptr());
+    // SAFETY: rows a < dim of T and of the block; columns b ≤ a.
+    unsafe {
+        let row =
+            |b: usize| -> [L; WIDE] { std::array::from_fn(|i| L::load(x.add(b * POINTS + 8 * i))) };
+        let start = |a: usize| [L::broadcast(-*shift.add(a)); WIDE];
+        let mut sums = [L::zero(); WIDE];
+        let mut finish = |a: usize, values: [L; WIDE]| {
+            let with = if FORM { row(a) } else { values };
+            for i in 0..WIDE {
+                sums[i] = values[i].multiply_add(with[i], sums[i]);
+                if STORE {
+                    values[i].store(z.add(a * POINTS + 8 * i));
+                }
+            }
+        };
+        let mut a = 0;
+        while a + 1 < dim {
+            let (upper, lower) = (matrix.add(a * dim), matrix.add((a + 1) * dim));
+            let (mut first, mut second) = (start(a), start(a + 1));
+            for b in 0..=a {
+                let x = row(b);
+                let (t, s) = (L::broadcast(*upper.add(b)), L::broadcast(*lower.add(b)));
+                for i in 0..WIDE {
+                    first[i] = x[i].multiply_add(t, first[i]);
+                    second[i] = x[i].multiply_add(s, second[i]);
+                }
+            }
+            let (x, s) = (row(a + 1), L::broadcast(*lower.add(a + 1)));
+            for i in 0..WIDE {
+                second[i] = x[i].multiply_add(s, second[i]);
+            }
+            finish(a, first);
+            finish(a + 1, second);
+            a += 2;
+        }
+        if a < dim {
+            let upper = matrix.add(a * dim);
+            let mut first = start(a);
+            for b in 0..=a {
+                let (x, t) = (row(b), L::broadcast(*upper.add(b)));
+                for i in 0..WIDE {
+                    first[i] = x[i].multiply_add(t, first[i]);
+                }
+            }
+            finish(a, first);
+        }
+        for (i, sum) in sums.into_iter().enumerate() {
+            sum.store(out.as_mut_ptr().add(8 * i));
+        }
+    }
+}
+
+/// x − c of up to [`POINTS`] rows, coordinate by coordinate; missing rows repeat the last.
+///
+/// # Safety
+/// The processor has the features of `L`; `values` holds between 1 and [`POINTS`] rows of `center.dim()` values, and
+/// `x` has room for [`POINTS`].
+#[inline(always)]
+unsafe fn arrange<L: Lanes, T: Scalar>(values: &[T], center: &Center, x: &mut [f64]) {
+    let dim = center.dim();
+    let rows = values.len() / dim;
+    debug_assert!((1..=POINTS).contains(&rows) && x.len() >= dim * POINTS);
+    let x = x.as_mut_ptr();
+    let ahead = values.as_ptr().cast::<u8>().wrapping_add(AHEAD);
+    for line in (0..size_of_val(values)).step_by(64) {
+        // SAFETY: features are the caller's promise.
+        unsafe { L::prefetch(ahead.wrapping_add(line)) };
+    }
+    let less = |column: L, j: usize| {
+        // SAFETY: features are the caller's promise; both terms of the centre have dim > j coordinates.
+        unsafe {
+            let once = column.sub(L::broadcast(center.high[j]));
+            match center.low.get(j) {
+                Some(&low) => once.sub(L::broadcast(low)),
+                None => once,
+            }
+        }
+    };
+    if dim == 2 && rows == POINTS {
+        for group in 0..WIDE {
+            // SAFETY: `values` holds 64 values, of which these are 16; there is room for as many at `x`.
+            unsafe {
+                let from = values.as_ptr().add(16 * group);
+                let (first, second) = L::split(L::load(from), L::load(from.add(8)));
+                less(first, 0).store(x.add(8 * group));
+                less(second, 1).store(x.add(POINTS + 8 * group));
+            }
+        }
+        return;
+    }
+    for group in 0..WIDE {
+        // SAFETY: each start is that of a row within `values`; coordinates j .. j + count stay below dim.
+        unsafe {
+            let starts: [*const T; 8] =
+                std::array::from_fn(|i| values.as_ptr().add((group * 8 + i).min(rows - 1) * dim));
+            for j in (0..dim).step_by(8) {
+                let count = (dim - j).min(8);
+                let eight: [L; 8] = std::array::from_fn(|i| {
+                    if count == 8 {
+                        L::load(starts[i].add(j))
+                    } else {
+                        L::load_first(starts[i].add(j), count)
+                    }
+                });
+                let columns = L::transpose(eight);
+                for k in 0..count {
+                    less(columns[k], j + k).store(x.add((j + k) * POINTS + 8 * group));
+                }
+            }
+        }
+    }
+}
