@@ -11,17 +11,35 @@ use crate::{Answer, CheckError, Items};
 /// An ellipsoid {x : |F(x − c)| ≤ 1} in ℝᵈ, or in an affine subspace of dimension r < d.
 ///
 /// ```
-/// # use taut_certify::Ellipsoid;
-/// let flat = Ellipsoid {
-///     center: vec![1.0, 0.0],
-///     center_tail: vec![],
-///     matrix: vec![vec![0.25, 0.0], vec![0.0, 1.0]],
-///     factor: vec![vec![0.5, 0.0], vec![0.0, 1.0]],
-///     hull: None,
-///     log_volume: (2.0 * std::f64::consts::PI).ln(),
+/// use taut_certify::{Ellipsoid, EllipsoidCertificate, Items, Solution, Trace};
+/// use taut_points::{Monitor, Points, hash_points};
+///
+/// // The corners of a rectangle, of sides 4 and 2; each has its part in the proof.
+/// let points = Points::new(&[-2.0, -1.0, 2.0, -1.0, -2.0, 1.0, 2.0, 1.0], 2)?;
+/// let (long, short) = (8f64.sqrt(), 2f64.sqrt());
+/// let by_hand = Solution {
+///     answer: Ellipsoid {
+///         center: vec![0.0, 0.0],
+///         center_tail: vec![],
+///         matrix: vec![vec![0.125, 0.0], vec![0.0, 0.5]],
+///         factor: vec![vec![1.0 / long, 0.0], vec![0.0, 1.0 / short]],
+///         hull: None,
+///         log_volume: (4.0 * std::f64::consts::PI).ln(),
+///     },
+///     certificate: EllipsoidCertificate {
+///         items: Items::Points,
+///         support: vec![0, 1, 2, 3],
+///         multipliers: vec![0.25; 4],
+///         directions: vec![],
+///         left_out: vec![],
+///         gap: 1e-12,
+///         points_hash: hash_points(&points, &Monitor::silent())?,
+///     },
+///     trace: Trace::default(),
 /// };
-/// assert_eq!((flat.dim(), flat.rank()), (2, 2));
-/// assert_eq!(flat.norm(&[3.0, 0.0]), 1.0); // on its border
+/// assert!(by_hand.check(&points)?.gap < 1e-14);
+/// assert_eq!(by_hand.answer.norm(&[0.0, 0.5 * short]), 0.5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(

@@ -127,7 +127,7 @@ pub enum Violation {
         problem: &'static str,
     },
     /// The list of rows left out names a row that does not exist, or one that it must not name.
-    #[error("entry {position} of the list of rows left out names row {row}, {problem}")]
+    #[error("entry {position} of the list of points left out names point {row}, {problem}")]
     LeftOut {
         /// Position in the list, from 0.
         position: usize,
@@ -187,7 +187,7 @@ pub enum Violation {
         proved: f64,
     },
     /// An item reaches outside the ellipsoid.
-    #[error("row {row} reaches to |F(x − c)| = {norm:?}, outside the ellipsoid by {excess:e}")]
+    #[error("point {row} reaches to |F(x − c)| = {norm:?}, outside the ellipsoid by {excess:e}")]
     OutsideEllipsoid {
         /// The first such row, from 0.
         row: u64,
@@ -197,7 +197,7 @@ pub enum Violation {
         excess: f64,
     },
     /// A row that is said to be left out lies inside.
-    #[error("row {row} is said to be left out, but reaches only to |F(x − c)| = {norm:?}")]
+    #[error("point {row} is said to be left out, but reaches only to |F(x − c)| = {norm:?}")]
     NotOutside {
         /// The first such row, from 0.
         row: u64,
@@ -243,7 +243,7 @@ pub enum Violation {
         off: f64,
     },
     /// An item lies farther from the hull than stated.
-    #[error("row {row} lies {distance:e} off the hull, but the distance stated is {claimed:e}")]
+    #[error("point {row} lies {distance:e} off the hull, but the distance stated is {claimed:e}")]
     OffHull {
         /// The first such row, from 0.
         row: u64,

@@ -3,7 +3,9 @@
 
 mod common;
 
-use common::ellipsoids::{Case, certify, certify_but, hash, solve, solved};
+use common::ellipsoids::{
+    Case, certify, certify_but, hash, orthonormal, solve, solved, transposed_product,
+};
 use common::{exact, normalised, numbers};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
@@ -161,6 +163,36 @@ proptest! {
             prop_assert_eq!((shaped.lower, shaped.upper, shaped.gap), (plain.lower, plain.upper, plain.gap));
             prop_assert!((shaped.matrix_excess / plain.matrix_excess - 1.0).abs() <= 1e-14);
         }
+    }
+}
+
+/// A factor need not be triangular: turned by any rotation it describes the same ellipsoid, also where axes differ by
+/// many orders of magnitude.
+#[test]
+fn any_factor_will_do() {
+    for (dim, ratio) in [(2, 1.0), (3, 1e4), (5, 1e2), (8, 10.0)] {
+        let stretch = |i: usize| f64::powi(ratio, (i % dim) as i32);
+        let values: Vec<f64> =
+            numbers(6 * dim * dim, 31).iter().enumerate().map(|(i, v)| v * stretch(i)).collect();
+        let plain = solved("plain", &values, dim);
+        let rotation = orthonormal(&numbers(dim * dim, 32), dim, dim);
+        let mut turned = plain.clone();
+        let answer = &mut turned.solution.answer;
+        answer.factor = rotation
+            .iter()
+            .map(|r| {
+                let entry =
+                    |k: usize| (0..dim).map(|a| r[a] * plain.solution.answer.factor[a][k]).sum();
+                (0..dim).map(entry).collect()
+            })
+            .collect();
+        answer.matrix = transposed_product(&answer.factor, dim);
+        turned.solution.certificate.gap += 1e-10;
+        let (plain, found) = (plain.verdict(), turned.verdict());
+        assert!((plain.upper - found.upper).abs() <= 1e-10, "{dim}: {plain:?} {found:?}");
+        assert!((plain.gap - found.gap).abs() <= 1e-10, "{dim}: {plain:?} {found:?}");
+        turned.solution.answer.log_volume += 1e-9;
+        assert!(matches!(turned.violation(), Violation::LogVolume { .. }));
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use taut::{Answer, AnySolution, Solution, Violation};
 
 use crate::effort::Effort;
+use crate::ellipsoid_report::EllipsoidReport;
 use crate::exit::Outcome;
 use crate::picture::{Look, Picture};
 use crate::reading::{Opened, Points, Reading};
@@ -49,6 +50,9 @@ impl Args {
             AnySolution::Ball(found) => self
                 .judged(found, &points, &watch)?
                 .map(|verdict| Report { found, points: &points, verdict }.drawing(&self.look)),
+            AnySolution::Ellipsoid(found) => self.judged(found, &points, &watch)?.map(|verdict| {
+                EllipsoidReport { found, points: &points, verdict }.drawing(&self.look)
+            }),
             AnySolution::Triangulation(found) => {
                 self.judged(found, &points, &watch)?.map(|verdict| {
                     TriangulationReport { found, points: &points, verdict }.drawing(&self.look)

@@ -12,6 +12,7 @@ mod completions;
 mod delaunay;
 mod draw;
 mod effort;
+mod ellipsoid_report;
 mod exit;
 mod formats;
 mod generate;

@@ -168,7 +168,10 @@ impl Opened {
     pub(crate) fn explain_violation(&self, violation: &Violation, answer: &str) -> String {
         let points = self.name();
         match *violation {
-            Violation::Outside { row, .. } => {
+            Violation::Outside { row, .. }
+            | Violation::OutsideEllipsoid { row, .. }
+            | Violation::NotOutside { row, .. }
+            | Violation::OffHull { row, .. } => {
                 // Points count from 0, rows of a file from 1.
                 let (point, place) = (format!("point {row}"), self.input.describe_cell(row, 0).row);
                 let said =
@@ -178,10 +181,13 @@ impl Opened {
             Violation::Hash { .. }
             | Violation::Dimension { .. }
             | Violation::NoRadius { .. }
+            | Violation::NoShape { .. }
             | Violation::Mesh(MeshViolation::Dimension { .. } | MeshViolation::Id { .. }) => {
                 format!("{points} does not belong to {answer}: {violation}")
             }
-            Violation::Support { point, .. } if point >= self.input.source.len() => {
+            Violation::Support { point, .. } | Violation::LeftOut { row: point, .. }
+                if point >= self.input.source.len() =>
+            {
                 format!("{points} does not belong to {answer}: {violation}")
             }
             _ => format!("{answer}: {violation}"),

@@ -103,11 +103,12 @@ impl Report<'_> {
         match self.items() {
             Items::Points => "point",
             Items::Balls => "ball",
+            Items::Ellipsoids => "ellipsoid",
         }
     }
 }
 
-fn stopped(stop: Stop) -> &'static str {
+pub(crate) fn stopped(stop: Stop) -> &'static str {
     match stop {
         Stop::Converged => "converged",
         Stop::Rounding => "stopped where this method's rounding allows no smaller gap",

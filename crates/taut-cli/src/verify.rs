@@ -11,6 +11,7 @@ use taut::{Answer, AnySolution, Solution, Verdict, Violation};
 use taut_io::{Mesh, MeshFormat, open_mesh};
 
 use crate::effort::Effort;
+use crate::ellipsoid_report::proved_of_ellipsoid;
 use crate::exit::Outcome;
 use crate::numbers::{exact, gap};
 use crate::reading::{Opened, Points, Reading};
@@ -57,11 +58,7 @@ impl Args {
         let judged = match &answer {
             AnySolution::Ball(found) => judge(found, &points, &watch)?.map(|verdict| {
                 if verdict.gap > most {
-                    let proved = verdict.gap;
-                    // All digits: rounded to a few, the gap could look like the one allowed.
-                    return rejected(format!(
-                        "{name}: a gap of {proved:e} is proved, larger than --epsilon {most:e}"
-                    ));
+                    return rejected(too_loose(&name, verdict.gap, most));
                 }
                 // A loose certificate is as true as a tight one: how tight it is belongs to what is said.
                 let title = format!(
@@ -70,6 +67,17 @@ impl Args {
                     exact(found.answer.radius)
                 );
                 (Outcome::Done, report::text(&title, &facts(&verdict)))
+            }),
+            AnySolution::Ellipsoid(found) => judge(found, &points, &watch)?.map(|verdict| {
+                if verdict.gap > most {
+                    return rejected(too_loose(&name, verdict.gap, most));
+                }
+                let title = format!(
+                    "Verified within a gap of {}: ellipsoid of log-volume {}",
+                    gap(verdict.gap),
+                    exact(found.answer.log_volume)
+                );
+                (Outcome::Done, report::text(&title, &proved_of_ellipsoid(&verdict)))
             }),
             AnySolution::Triangulation(found) => judge(found, &points, &watch)?.map(|verdict| {
                 let title = triangulation(points.source().dim());
@@ -211,6 +219,11 @@ fn epsilon(text: &str) -> Result<f64, String> {
 fn triangulation(dimension: usize) -> String {
     let place = if dimension == 2 { "the plane" } else { "space" };
     format!("Verified: the Delaunay triangulation of the points, in {place}")
+}
+
+/// All digits: rounded to a few, the gap could look like the one allowed.
+fn too_loose(name: &str, proved: f64, most: f64) -> String {
+    format!("{name}: a gap of {proved:e} is proved, larger than --epsilon {most:e}")
 }
 
 fn facts(verdict: &Verdict) -> Vec<Fact> {

@@ -3,6 +3,7 @@
 //! | you have | you call | you get |
 //! |---|---|---|
 //! | a ball and its points | [`ball_figures`] | scenes of the plane or of space, and plots |
+//! | an ellipsoid and its points | [`ellipsoid_figures`] | scenes of the plane or of space, shadows on pairs of coordinates, and plots |
 //! | a triangulation and its points | [`delaunay_figures`] | scenes of the plane or of space, and the Voronoi diagram |
 //! | a [`Figure`] | [`to_svg`] | SVG text, with a title and a description for screen readers |
 //! | a [`Figure`] | `to_png` (feature `png`) | PNG bytes, the same on every machine: the font is bundled |
@@ -29,11 +30,13 @@
 mod axes;
 mod ball;
 mod delaunay;
+mod ellipsoid;
 mod error;
 mod figure;
 mod html;
 mod number;
 mod options;
+mod passes;
 mod plot;
 #[cfg(feature = "png")]
 mod png;
@@ -47,6 +50,7 @@ mod text;
 
 pub use ball::ball_figures;
 pub use delaunay::delaunay_figures;
+pub use ellipsoid::ellipsoid_figures;
 pub use error::Error;
 pub use figure::Figure;
 pub use html::{Fact, Page, Section, to_html};

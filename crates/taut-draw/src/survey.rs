@@ -1,4 +1,4 @@
-//! One read of all items of a ball: which are drawn, and how far each reaches from the centre.
+//! One read of all items of a shape: which are drawn, and how far each reaches from the centre.
 //!
 //! *Idea.* Where there are more items than a picture can hold, three kinds are kept: the support; the items that reach
 //! farthest, with those extreme in a few directions, since they shape the ball; and of the others those whose numbers
@@ -8,19 +8,19 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
-use taut_certify::{Ball, BallCertificate, Items};
+use taut_certify::{Ball, Items};
 use taut_points::{Blocks, PointSource, Scratch};
 
 use crate::Error;
 use crate::axes::unit;
 
-/// Resolution of the histogram of distances, as parts of the radius.
+/// Resolution of the histogram of distances, as parts of the way to the border.
 const FINE: usize = 12_000;
 
-/// How near to the radius an item counts as close to the boundary, as a part of the radius.
+/// How near to the border an item counts as close to it, as a part of the way there.
 pub(crate) const CLOSE: f64 = 1e-3;
 
-/// Beyond this part of the radius an item counts as outside: rounding explains less.
+/// Beyond this part of the way an item counts as outside: rounding explains less.
 const OUTSIDE: f64 = 1e-9;
 
 /// What a read of all items found.
@@ -29,12 +29,33 @@ pub(crate) struct Survey {
     pub(crate) ids: Vec<u64>,
     /// How many of them were taken because they reach far.
     pub(crate) far: u64,
-    /// Items by the part of the radius they reach, in steps of 1/FINE.
+    /// Items by the part of the way to the border they reach, in steps of 1/FINE.
     fine: Vec<u64>,
-    /// Items that reach within CLOSE of the radius.
+    /// Items that reach within CLOSE of the border.
     pub(crate) close: u64,
-    /// Items that reach beyond the radius by more than rounding.
+    /// Items that reach beyond the border by more than rounding.
     pub(crate) outside: u64,
+}
+
+/// What one item is called.
+pub(crate) fn noun(items: Items) -> &'static str {
+    match items {
+        Items::Points => "point",
+        Items::Balls => "ball",
+        Items::Ellipsoids => "ellipsoid",
+    }
+}
+
+/// A shape that says how far items reach.
+pub(crate) trait Measure {
+    /// Coordinates of its centre.
+    fn dim(&self) -> usize;
+
+    /// The vector from the centre to an item's place, in some unit.
+    fn offset(&self, row: &[f64]) -> Vec<f64>;
+
+    /// How far an item reaches from the centre, as a part of the way to the border.
+    fn part(&self, row: &[f64], items: Items) -> f64;
 }
 
 /// Numbers of a ball, scaled so that sums of squares neither overflow nor vanish.
@@ -54,19 +75,34 @@ impl Scaled {
         Scaled { unit, center, radius: ball.radius / unit }
     }
 
-    /// The vector from the centre to an item's place, in units.
-    pub(crate) fn offset<'a>(&'a self, row: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-        row.iter().zip(&self.center).map(|(p, c)| p / self.unit - c)
-    }
-
     /// How far an item reaches from the centre, in units.
     pub(crate) fn reach(&self, row: &[f64], items: Items) -> f64 {
-        let square: f64 = self.offset(row).map(|v| v * v).sum();
+        let square: f64 = self.offset(row).iter().map(|v| v * v).sum();
         let own = match items {
-            Items::Points => 0.0,
             Items::Balls => row[self.center.len()] / self.unit,
+            Items::Points | Items::Ellipsoids => 0.0,
         };
         square.sqrt() + own
+    }
+}
+
+impl Measure for Scaled {
+    fn dim(&self) -> usize {
+        self.center.len()
+    }
+
+    fn offset(&self, row: &[f64]) -> Vec<f64> {
+        row.iter().zip(&self.center).map(|(p, c)| p / self.unit - c).collect()
+    }
+
+    fn part(&self, row: &[f64], items: Items) -> f64 {
+        let reach = self.reach(row, items);
+        match reach {
+            // A finite reach is a finite part, however small the ball.
+            _ if self.radius > 0.0 && reach.is_finite() => (reach / self.radius).min(f64::MAX),
+            0.0 => 1.0,
+            _ => 1.0 + reach,
+        }
     }
 }
 
@@ -94,22 +130,32 @@ pub(crate) fn spread(id: u64) -> u64 {
     z ^ (z >> 31)
 }
 
+/// What a survey is asked to look at.
+pub(crate) struct Question<'a> {
+    pub(crate) items: Items,
+    /// Rows that are drawn in any case.
+    pub(crate) support: &'a [u64],
+    /// Rows that are not measured, ascending: the shape is not about them.
+    pub(crate) left_out: &'a [u64],
+    /// Most items to draw.
+    pub(crate) most: usize,
+}
+
 /// Reads all items once.
 pub(crate) fn survey(
-    scaled: &Scaled,
-    certificate: &BallCertificate,
+    shape: &dyn Measure,
+    question: &Question<'_>,
     source: &dyn PointSource,
-    most: usize,
 ) -> Result<Survey, Error> {
     let n = source.len();
-    let all = n <= most as u64;
-    let support: BTreeSet<u64> = certificate.support.iter().copied().collect();
-    let room = most.saturating_sub(support.len());
+    let all = n <= question.most as u64;
+    let support: BTreeSet<u64> = question.support.iter().copied().collect();
+    let room = question.most.saturating_sub(support.len());
     // More far items than this would show as a ring where their density meets that of the sample.
     let far_room = room / 50;
-    let directions = if all { Vec::new() } else { directions(scaled.center.len()) };
+    let directions = if all { Vec::new() } else { directions(shape.dim()) };
     let mut extreme: Vec<Option<(f64, u64)>> = vec![None; directions.len()];
-    // Distances are at least 0, so their bits order as they do; ties go to the lower number.
+    // Parts are at least 0, so their bits order as they do; ties go to the lower number.
     let mut far: BinaryHeap<Reverse<(u64, Reverse<u64>)>> = BinaryHeap::new();
     let mut sample: BinaryHeap<(u64, u64)> = BinaryHeap::new();
     let mut found =
@@ -128,28 +174,30 @@ pub(crate) fn survey(
                 let what = format!("coordinate {column} of point {id}");
                 return Err(Error::NonFinite { what, value: row[column] });
             }
-            if let (Items::Balls, Some(&value)) = (certificate.items, row.last())
+            if let (Items::Balls, Some(&value)) = (question.items, row.last())
                 && value < 0.0
             {
                 return Err(Error::NegativeRadius { what: format!("radius of ball {id}"), value });
             }
-            let reach = scaled.reach(&row, certificate.items);
-            if !reach.is_finite() {
-                // Only beside a ball many orders of magnitude smaller, which cannot be the answer for this point.
+            let part = shape.part(&row, question.items);
+            if !part.is_finite() {
+                // Only beside a shape many orders of magnitude smaller, which cannot be the answer for this point.
                 let what = format!("distance of point {id} from the centre, in radii,");
-                return Err(Error::NonFinite { what, value: reach });
+                return Err(Error::NonFinite { what, value: part });
             }
-            let part = if scaled.radius > 0.0 { reach / scaled.radius } else { 1.0 };
-            found.fine[((part * FINE as f64) as usize).min(FINE)] += 1;
-            found.close += u64::from(part >= 1.0 - CLOSE);
-            found.outside += u64::from(reach > scaled.radius * (1.0 + OUTSIDE));
+            if question.left_out.binary_search(&id).is_err() {
+                found.fine[((part * FINE as f64) as usize).min(FINE)] += 1;
+                found.close += u64::from(part >= 1.0 - CLOSE);
+                found.outside += u64::from(part > 1.0 + OUTSIDE);
+            }
             if all {
                 continue;
             }
-            keep(&mut far, Reverse((reach.to_bits(), Reverse(id))), far_room);
+            keep(&mut far, Reverse((part.to_bits(), Reverse(id))), far_room);
             keep(&mut sample, (spread(id), id), room);
+            let offset = if directions.is_empty() { Vec::new() } else { shape.offset(&row) };
             for (direction, best) in directions.iter().zip(&mut extreme) {
-                let along: f64 = scaled.offset(&row).zip(direction).map(|(v, u)| v * u).sum();
+                let along: f64 = offset.iter().zip(direction).map(|(v, u)| v * u).sum();
                 if best.is_none_or(|(most, _)| along > most) {
                     *best = Some((along, id));
                 }
@@ -176,7 +224,7 @@ pub(crate) fn survey(
         far.into_sorted_vec().into_iter().map(|Reverse((_, Reverse(id)))| id).collect();
     let with_far = fill(far, before + far_room);
     found.far = (with_far - before) as u64;
-    fill(sample.into_sorted_vec().into_iter().map(|(_, id)| id).collect(), most);
+    fill(sample.into_sorted_vec().into_iter().map(|(_, id)| id).collect(), question.most);
     found.ids = ids.into_iter().collect();
     Ok(found)
 }
@@ -192,8 +240,8 @@ fn keep<T: Ord>(heap: &mut BinaryHeap<T>, item: T, room: usize) {
 }
 
 impl Survey {
-    /// The histogram from the smallest distance to the radius in about `wanted` bins: (from, to, items), ends as parts
-    /// of the radius.
+    /// The histogram from the smallest distance to the border in about `wanted` bins: (from, to, items), ends as parts
+    /// of the way.
     pub(crate) fn bins(&self, wanted: usize) -> Vec<(f64, f64, u64)> {
         let lowest = self.fine.iter().position(|&c| c > 0).unwrap_or(0).min(FINE - 1);
         let step = (FINE - lowest).div_ceil(wanted).max(1);
@@ -201,7 +249,7 @@ impl Survey {
         let mut top = FINE;
         while top > lowest {
             let bottom = top.saturating_sub(step);
-            // What reaches the radius or beyond belongs to the last bin.
+            // What reaches the border or beyond belongs to the last bin.
             let end = if top == FINE { FINE + 1 } else { top };
             let items = self.fine[bottom..end].iter().sum();
             bins.push((bottom as f64 / FINE as f64, top as f64 / FINE as f64, items));

@@ -53,8 +53,8 @@
 
 pub use taut_certify as certify;
 pub use taut_certify::{
-    Answer, AnySolution, Ball, BallCertificate, Items, Solution, Trace, Triangulation,
-    TriangulationCertificate, Verdict, Violation,
+    Answer, AnySolution, Ball, BallCertificate, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict,
+    Items, Solution, Trace, Triangulation, TriangulationCertificate, Verdict, Violation,
 };
 pub use taut_delaunay as delaunay;
 pub use taut_delaunay::{

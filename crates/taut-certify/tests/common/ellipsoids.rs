@@ -1,6 +1,8 @@
 //! Certificates of ellipsoids from multipliers, in plain arithmetic, and a slow solver to find multipliers with.
 #![allow(dead_code, reason = "each test file uses its part")]
 
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
 use taut_certify::{
     CheckError, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, Items, Solution, Trace,
     Violation,
@@ -34,6 +36,8 @@ impl Case {
         self.check().unwrap_or_else(|error| panic!("{}: {error}", self.name))
     }
 }
+
+use super::exact;
 
 type Rows = Vec<Vec<f64>>;
 
@@ -110,6 +114,20 @@ fn log_determinant(factor: &Rows) -> f64 {
     factor.iter().enumerate().map(|(j, row)| row[j].abs().ln()).sum()
 }
 
+/// |F(x − c)| by fractions, rounded to one `f64`.
+fn exact_norm(ellipsoid: &Ellipsoid, row: &[f64]) -> f64 {
+    let offset: Vec<BigRational> = (0..row.len())
+        .map(|j| {
+            let tail = ellipsoid.center_tail.get(j).copied().unwrap_or(0.0);
+            exact(row[j]) - exact(ellipsoid.center[j]) - exact(tail)
+        })
+        .collect();
+    let image =
+        |f: &Vec<f64>| -> BigRational { f.iter().zip(&offset).map(|(&f, x)| exact(f) * x).sum() };
+    let square: BigRational = ellipsoid.factor.iter().map(image).map(|y| &y * &y).sum();
+    square.to_f64().unwrap().sqrt()
+}
+
 /// The ellipsoid of these multipliers over points, all of which it encloses but for rounding; the gap claimed is the one
 /// that plain arithmetic finds.
 pub(crate) fn certify(
@@ -156,10 +174,12 @@ pub(crate) fn certify_but(
         log_volume: 0.0,
     };
     let inside = |i: usize| !left_out.contains(&(i as u64));
-    let most = (0..all.len())
-        .filter(|&i| inside(i))
-        .map(|i| ellipsoid.norm(&all[i]))
-        .fold((dim as f64).sqrt(), f64::max);
+    let norms: Vec<f64> = all.iter().map(|row| ellipsoid.norm(row)).collect();
+    let far = (0..all.len()).filter(|&i| inside(i)).map(|i| norms[i]).fold(0.0, f64::max);
+    // Only rows that may be the farthest are worth fractions, but in narrow sets rounding hides which is.
+    let near_far = (0..all.len()).filter(|&i| inside(i) && norms[i] > far * (1.0 - 1e-6));
+    let most =
+        near_far.map(|i| exact_norm(&ellipsoid, &all[i])).fold((dim as f64).sqrt(), f64::max);
     factor.iter_mut().flatten().for_each(|f| *f /= most * (1.0 + 1e-15));
     ellipsoid.matrix = transposed_product(&factor, dim);
     ellipsoid.log_volume = log_unit_ball(dim) - log_determinant(&factor);

@@ -6,7 +6,6 @@
 //! *Guarantee.* The items are read twice at most (once for all, once more for those drawn); what is left out is counted
 //! in the caption.
 
-mod passes;
 mod plane;
 mod shadow;
 mod space;
@@ -15,7 +14,8 @@ use taut_certify::{Ball, BallCertificate, Items, Solution};
 use taut_points::{PointSource, gather};
 
 use crate::number::{count, counted, short};
-use crate::survey::{Scaled, Survey, survey};
+use crate::passes::{Gap, Words, passes};
+use crate::survey::{Question, Scaled, Survey, noun, survey};
 use crate::{DrawOptions, Error, Figure};
 
 /// Pictures of a ball and its points: the plane for d ≤ 2, space for d = 3, a projection and the distances from the
@@ -32,7 +32,13 @@ pub fn ball_figures(
     options.check()?;
     check(solution, source)?;
     let scaled = Scaled::new(&solution.answer);
-    let survey = survey(&scaled, &solution.certificate, source, options.max_points)?;
+    let question = Question {
+        items: solution.certificate.items,
+        support: &solution.certificate.support,
+        left_out: &[],
+        most: options.max_points,
+    };
+    let survey = survey(&scaled, &question, source)?;
     let picture = Picture { solution, source, options, scaled, survey };
     let mut figures = match solution.answer.center.len() {
         1 => vec![Figure::Plane(picture.line()?)],
@@ -44,7 +50,9 @@ pub fn ball_figures(
             figures
         }
     };
-    figures.extend(picture.passes().into_iter().map(Figure::Plot));
+    let words = Words { quantity: "radius", answer: "the smallest radius", gap: Gap::Relative };
+    let passes = passes(&solution.trace.history, &words, options);
+    figures.extend(passes.into_iter().map(Figure::Plot));
     Ok(figures)
 }
 
@@ -108,10 +116,7 @@ impl Picture<'_> {
 
     /// "point" or "ball".
     fn thing(&self) -> &'static str {
-        match self.certificate().items {
-            Items::Points => "point",
-            Items::Balls => "ball",
-        }
+        noun(self.certificate().items)
     }
 
     fn title(&self) -> String {
@@ -225,7 +230,7 @@ impl Picture<'_> {
     fn others_name(&self) -> String {
         match self.certificate().items {
             Items::Points => "points".into(),
-            Items::Balls => "balls of the input".into(),
+            items @ (Items::Balls | Items::Ellipsoids) => format!("{}s of the input", noun(items)),
         }
     }
 

@@ -6,7 +6,7 @@ use taut_points::Scratch;
 use super::Picture;
 use crate::number::{count, counted, short};
 use crate::project::{dot, plane};
-use crate::survey::CLOSE;
+use crate::survey::{CLOSE, Measure};
 use crate::{Aspect, Axis, Bar, Error, Level, Plot, Scale, Scene2, Series, SeriesLook, Tone};
 
 /// A plane to project on.
@@ -24,7 +24,7 @@ impl Picture<'_> {
         let Shadow { directions, shares } = self.directions()?;
         let place = |id| {
             let row = self.row(id)?;
-            let offset: Vec<f64> = self.scaled.offset(&row).collect();
+            let offset = self.scaled.offset(&row);
             let at = [0, 1].map(|k| dot(&offset, &directions[k]) * self.scaled.unit);
             Ok((at, row.get(dim).copied().unwrap_or(0.0)))
         };
@@ -132,7 +132,7 @@ impl Picture<'_> {
         let thing = self.thing();
         let farthest = match self.certificate().items {
             Items::Points => "distance from the centre",
-            Items::Balls => "distance from the centre to the far side",
+            Items::Balls | Items::Ellipsoids => "distance from the centre to the far side",
         };
         Ok(Some(Plot {
             title: format!("How far the {thing}s reach"),

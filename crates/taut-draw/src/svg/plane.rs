@@ -129,15 +129,18 @@ fn marks(canvas: &mut Canvas, layer: &Layer2, x: &Span, y: &Span, axes: [&Axis; 
     let place = |p: &[f64; 2]| [x.place(p[0]), y.place(p[1])];
     let finite = |p: &[f64; 2]| p[0].is_finite() && p[1].is_finite();
     let title = |id: Option<u64>, at: [f64; 2], label: &str| {
-        let who = id.map(|id| format!("point {id}: ")).unwrap_or_default();
-        let what = if label.is_empty() { String::new() } else { format!("; {label}") };
-        format!(
-            "{who}{} = {}, {} = {}{what}",
-            axes[0].name,
-            short(at[0], 6),
-            axes[1].name,
-            short(at[1], 6)
-        )
+        let who = id.map(|id| format!("point {id}"));
+        // Places on an axis that is hidden mean nothing.
+        let shown = axes.iter().zip(at).filter(|(axis, _)| !axis.name.is_empty());
+        let places: Vec<String> =
+            shown.map(|(axis, v)| format!("{} = {}", axis.name, short(v, 6))).collect();
+        let places = (!places.is_empty()).then(|| places.join(", "));
+        let what = (!label.is_empty()).then(|| label.to_owned());
+        let said: Vec<String> = places.into_iter().chain(what).collect();
+        who.into_iter()
+            .chain((!said.is_empty()).then(|| said.join("; ")))
+            .collect::<Vec<_>>()
+            .join(": ")
     };
     match &layer.shape {
         Shape2::Points(points) => {

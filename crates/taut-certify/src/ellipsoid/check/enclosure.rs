@@ -66,7 +66,9 @@ impl<'a> Enclosure<'a> {
         monitor: &Monitor<'_>,
     ) -> Result<Enclosed, CheckError> {
         let blocks = map_blocks(source, monitor, |first, rows| {
-            if let Some((row, column, value)) = rows.first_non_finite() {
+            if !is_finite(&rows)
+                && let Some((row, column, value)) = rows.first_non_finite()
+            {
                 let row = first + row as u64;
                 return Err(CheckError::from(Violation::NonFinite { row, column, value }));
             }
@@ -119,27 +121,25 @@ impl<'a> Enclosure<'a> {
     fn points(&self, first: u64, values: &[f64], found: &mut Enclosed) -> Result<(), Violation> {
         let dim = self.frame.dim;
         let mut panel = Panel::of(self.frame, values);
-        let mut left_out = self.left_out_of(first, panel.rows()).peekable();
-        for row in self.left_out_of(first, panel.rows()) {
-            panel.forget(row);
-        }
+        let left_out: Vec<usize> = self.left_out_of(first, panel.rows()).collect();
+        left_out.iter().for_each(|&row| panel.forget(row));
         let threshold = panel.measure(self.frame);
         found.widen(panel.extents());
-        for (row, point) in values.chunks_exact(dim).enumerate() {
-            let number = first + row as u64;
-            if left_out.next_if_eq(&row).is_some() {
-                let excess = self.excess(point);
-                reaches_outside(number, excess)?;
-                continue;
+        // Rows of the panel that need a look of their own; the centre, which stands for those left out, is inside.
+        for row in panel.beyond(threshold) {
+            found.take(first + row as u64, self.excess(&values[row * dim..][..dim]))?;
+        }
+        for row in left_out {
+            reaches_outside(first + row as u64, self.excess(&values[row * dim..][..dim]))?;
+        }
+        if let Some(hull) = self.hull {
+            let mut left_out = self.left_out_of(first, panel.rows()).peekable();
+            for (row, point) in values.chunks_exact(dim).enumerate() {
+                if left_out.next_if_eq(&row).is_none() {
+                    hull.judge(first + row as u64, &Item::Point(point), self.frame)?;
+                    found.coordinates(point);
+                }
             }
-            if let Some(hull) = &self.hull {
-                hull.judge(number, &Item::Point(point), self.frame)?;
-                found.coordinates(point);
-            }
-            if panel.square(row) <= threshold {
-                continue;
-            }
-            found.take(number, self.excess(point))?;
         }
         Ok(())
     }
@@ -183,6 +183,14 @@ pub(super) fn excess_of_square<N: Field>(t: N, steps: usize) -> f64 {
     let rounding = (steps + 8) as f64 * 4.0 * N::ROUNDOFF * (2.0 + t.abs());
     let t = t + 4.0 * U * t.abs() + rounding;
     if t > 1.0 { (1.0 + t).sqrt() - 1.0 } else { t / 2.0 }
+}
+
+/// Whether all coordinates are finite, in a form that compilers turn into vector instructions.
+fn is_finite(rows: &Rows<'_>) -> bool {
+    match rows {
+        Rows::F32(points) => points.values().iter().fold(true, |all, v| all & v.is_finite()),
+        Rows::F64(points) => points.values().iter().fold(true, |all, v| all & v.is_finite()),
+    }
 }
 
 /// Refuses to leave out what lies inside.

@@ -34,19 +34,13 @@ impl Panel {
         let rows = values.len() / dim;
         let groups = rows.div_ceil(LANES);
         let mut offsets = vec![[0.0; LANES]; groups * dim];
-        for (row, point) in values.chunks_exact(dim).enumerate() {
-            let group = &mut offsets[row / LANES * dim..][..dim];
-            for (b, (offset, x)) in group.iter_mut().zip(point).enumerate() {
-                offset[row % LANES] = x - frame.center[b];
-            }
+        let (whole, rest) = values.split_at(rows / LANES * LANES * dim);
+        let mut groups_of_offsets = offsets.chunks_exact_mut(dim);
+        for (points, group) in whole.chunks_exact(LANES * dim).zip(&mut groups_of_offsets) {
+            fill(frame, points, LANES, group);
         }
-        for group in offsets.chunks_exact_mut(dim) {
-            for (b, offset) in group.iter_mut().enumerate() {
-                let tail = frame.tail(b);
-                for x in offset {
-                    *x = (*x - tail) * frame.scale;
-                }
-            }
+        if let Some(group) = groups_of_offsets.next() {
+            fill(frame, rest, rows % LANES, group);
         }
         let squares = vec![[0.0; LANES]; groups];
         Panel { rows, dim, offsets, extents: vec![0.0; dim], squares }
@@ -79,12 +73,36 @@ impl Panel {
         if proved > 0.0 { proved * proved * (1.0 - 4.0 * U) } else { -1.0 }
     }
 
-    pub(super) fn square(&self, row: usize) -> f64 {
-        self.squares[row / LANES][row % LANES]
+    /// The points that are not proved to be inside, in order.
+    pub(super) fn beyond(&self, threshold: f64) -> impl Iterator<Item = usize> {
+        let is_open = move |square: &f64| {
+            let is_proved = *square <= threshold;
+            !is_proved
+        };
+        let groups = self.squares.iter().enumerate();
+        groups
+            .filter(move |(_, squares)| squares.iter().fold(false, |any, s| any | is_open(s)))
+            .flat_map(move |(group, squares)| {
+                let open = (0..LANES).filter(move |&lane| is_open(&squares[lane]));
+                open.map(move |lane| group * LANES + lane)
+            })
+            .filter(|&row| row < self.rows)
     }
 
     pub(super) fn extents(&self) -> &[f64] {
         &self.extents
+    }
+}
+
+/// The offsets of up to eight points; those that are missing stand at the centre.
+#[inline(always)]
+fn fill(frame: &Frame<'_>, points: &[f64], count: usize, group: &mut [Lanes]) {
+    let dim = group.len();
+    for (b, offsets) in group.iter_mut().enumerate() {
+        let (center, tail) = (frame.center[b], frame.tail(b));
+        for lane in 0..count {
+            offsets[lane] = ((points[lane * dim + b] - center) - tail) * frame.scale;
+        }
     }
 }
 

@@ -1,0 +1,253 @@
+//! The ellipsoid {c + Xy : |y| ≤ 1}, and the items it encloses, as shapes with shadows.
+//!
+//! *Idea.* X is the inverse of F, within the hull where there is one. The shadow of the ellipsoid on some coordinates
+//! is that of their rows of X alone: {c_J + X_J y : |y| ≤ 1}, whose shape matrix is the block J of the inverse of Q.
+//! *Scale.* F is divided by its largest entry s and offsets are multiplied by it, so that no square overflows.
+
+use taut_certify::{Ellipsoid, Items};
+
+use crate::project::dot;
+use crate::survey::Measure;
+
+/// An ellipsoid, ready to be drawn.
+pub(super) struct Body {
+    pub(super) center: Vec<f64>,
+    tail: Vec<f64>,
+    /// F/s, by rows.
+    factor: Vec<Vec<f64>>,
+    /// X·s, by rows: d rows of r numbers.
+    axes: Vec<Vec<f64>>,
+    scale: f64,
+}
+
+impl Body {
+    pub(super) fn of(ellipsoid: &Ellipsoid) -> Self {
+        let largest = ellipsoid.factor.iter().flatten().fold(0.0f64, |m, v| m.max(v.abs()));
+        let scale = if largest > 0.0 { largest } else { 1.0 };
+        let factor: Vec<Vec<f64>> =
+            ellipsoid.factor.iter().map(|row| row.iter().map(|v| v / scale).collect()).collect();
+        let dim = ellipsoid.dim();
+        let axes = match &ellipsoid.hull {
+            None => inverse(&factor),
+            Some(hull) => {
+                let square: Vec<Vec<f64>> =
+                    factor.iter().map(|f| hull.basis.iter().map(|b| dot(f, b)).collect()).collect();
+                let within = inverse(&square);
+                let rank = hull.basis.len();
+                let entry = |j: usize, k: usize| -> f64 {
+                    (0..rank).map(|i| hull.basis[i][j] * within[i][k]).sum()
+                };
+                (0..dim).map(|j| (0..rank).map(|k| entry(j, k)).collect()).collect()
+            }
+        };
+        let center = ellipsoid.center.clone();
+        Body { center, tail: ellipsoid.center_tail.clone(), factor, axes, scale }
+    }
+
+    pub(super) fn rank(&self) -> usize {
+        self.factor.len()
+    }
+
+    /// The row of X.
+    fn row(&self, j: usize) -> Vec<f64> {
+        self.axes[j].iter().map(|v| v / self.scale).collect()
+    }
+
+    /// How far the ellipsoid reaches from its centre along a coordinate.
+    pub(super) fn half_width(&self, j: usize) -> f64 {
+        length(&self.row(j))
+    }
+
+    /// The cosine of the angle between two rows of X: the correlation of two coordinates; 0 where one is constant.
+    pub(super) fn correlation(&self, j: usize, k: usize) -> f64 {
+        let (a, b) = (&self.axes[j], &self.axes[k]);
+        let product = length(a) * length(b);
+        if product > 0.0 { dot(a, b) / product } else { 0.0 }
+    }
+
+    /// The shadow on two coordinates.
+    pub(super) fn shadow(&self, j: usize, k: usize) -> Shadow {
+        let (a, b) = (self.row(j), self.row(k));
+        let wide = length(&a);
+        let slope = if wide > 0.0 { self.correlation(j, k) * length(&b) } else { 0.0 };
+        let rest: Vec<f64> = b
+            .iter()
+            .zip(&a)
+            .map(|(b, a)| if wide > 0.0 { b - slope * (a / wide) } else { *b })
+            .collect();
+        Shadow([[wide, 0.0], [slope, length(&rest)]])
+    }
+
+    /// X as columns along the axes of the ellipsoid, the longest first; for three dimensions at most.
+    pub(super) fn principal(&self) -> Vec<Vec<f64>> {
+        let rank = self.rank();
+        let mut columns: Vec<Vec<f64>> =
+            (0..rank).map(|k| self.axes.iter().map(|row| row[k] / self.scale).collect()).collect();
+        // One-sided Jacobi rotations: columns are turned in pairs until they are orthogonal.
+        for _ in 0..SWEEPS {
+            for a in 0..rank {
+                for b in a + 1..rank {
+                    let (la, lb) = (length(&columns[a]), length(&columns[b]));
+                    if la == 0.0 || lb == 0.0 {
+                        continue;
+                    }
+                    let ratio = lb / la;
+                    let cosine: f64 =
+                        columns[a].iter().zip(&columns[b]).map(|(x, y)| (x / la) * (y / lb)).sum();
+                    let angle = 0.5 * (2.0 * cosine * ratio).atan2(1.0 - ratio * ratio);
+                    let (sin, cos) = angle.sin_cos();
+                    for j in 0..columns[a].len() {
+                        let (x, y) = (columns[a][j], columns[b][j]);
+                        columns[a][j] = cos * x + sin * y;
+                        columns[b][j] = cos * y - sin * x;
+                    }
+                }
+            }
+        }
+        columns.sort_by(|a, b| length(b).total_cmp(&length(a)));
+        columns
+    }
+}
+
+/// Three columns are orthogonal to rounding after a handful.
+const SWEEPS: usize = 12;
+
+impl Measure for Body {
+    fn dim(&self) -> usize {
+        self.center.len()
+    }
+
+    fn offset(&self, row: &[f64]) -> Vec<f64> {
+        let tails = self.tail.iter().copied().chain(std::iter::repeat(0.0));
+        let places = row.iter().zip(&self.center).zip(tails);
+        places.map(|((x, c), tail)| ((x - c) - tail) * self.scale).collect()
+    }
+
+    /// |F(x − c)| at the farthest point of the item; for balls and ellipsoids found by climbing from their centre.
+    fn part(&self, row: &[f64], items: Items) -> f64 {
+        let image =
+            |offset: &[f64]| -> Vec<f64> { self.factor.iter().map(|f| dot(f, offset)).collect() };
+        let mut image_here = image(&self.offset(row));
+        if items == Items::Points {
+            return length(&image_here);
+        }
+        let dim = self.dim();
+        let mut best = length(&image_here);
+        for _ in 0..CLIMB {
+            let upwards: Vec<f64> = (0..dim)
+                .map(|j| self.factor.iter().zip(&image_here).map(|(f, y)| f[j] * y).sum())
+                .collect();
+            // From the very centre no way leads up: any direction will do to leave it.
+            let upwards = if length(&upwards) > 0.0 { upwards } else { vec![1.0; dim] };
+            let point = touching(items, dim, row, &upwards);
+            image_here = image(&self.offset(&point));
+            best = best.max(length(&image_here));
+        }
+        best
+    }
+}
+
+/// Steps of the climb: for a picture, the first few tell all.
+const CLIMB: usize = 12;
+
+/// The point of an item that lies farthest in a direction.
+pub(super) fn touching(items: Items, dim: usize, row: &[f64], direction: &[f64]) -> Vec<f64> {
+    let center = &row[..dim];
+    let long = length(direction);
+    let unit: Vec<f64> =
+        direction.iter().map(|v| if long > 0.0 { v / long } else { 0.0 }).collect();
+    let step: Vec<f64> = match items {
+        Items::Points => vec![0.0; dim],
+        Items::Balls => unit.iter().map(|v| v * row[dim]).collect(),
+        Items::Ellipsoids => {
+            let entry = |j: usize, k: usize| row[dim + j.max(k) * (j.max(k) + 1) / 2 + j.min(k)];
+            let along: Vec<f64> =
+                (0..dim).map(|j| (0..dim).map(|k| entry(j, k) * unit[k]).sum()).collect();
+            let square = dot(&along, &unit);
+            let root = square.max(0.0).sqrt();
+            along.iter().map(|v| if root > 0.0 { v / root } else { 0.0 }).collect()
+        }
+    };
+    center.iter().zip(step).map(|(c, s)| c + s).collect()
+}
+
+/// An ellipse {L·(cos t, sin t)} about some place, L lower triangular.
+#[derive(Clone, Copy)]
+pub(super) struct Shadow(pub(super) [[f64; 2]; 2]);
+
+impl Shadow {
+    /// The shadow of an item on two coordinates; `None` for points.
+    pub(super) fn of_item(
+        items: Items,
+        dim: usize,
+        row: &[f64],
+        j: usize,
+        k: usize,
+    ) -> Option<Self> {
+        match items {
+            Items::Points => None,
+            Items::Balls => Some(Shadow([[row[dim], 0.0], [0.0, row[dim]]])),
+            Items::Ellipsoids => {
+                let entry =
+                    |j: usize, k: usize| row[dim + j.max(k) * (j.max(k) + 1) / 2 + j.min(k)];
+                let wide = entry(j, j).max(0.0).sqrt();
+                let slope = if wide > 0.0 { entry(j, k) / wide } else { 0.0 };
+                let rest = (entry(k, k) - slope * slope).max(0.0).sqrt();
+                Some(Shadow([[wide, 0.0], [slope, rest]]))
+            }
+        }
+    }
+
+    /// The ellipse as a chain of `steps` corners about a centre, each axis in its own scale.
+    pub(super) fn chain(&self, center: [f64; 2], part: f64, steps: usize) -> Vec<[f64; 2]> {
+        let [[a, _], [b, c]] = self.0;
+        let corner = |i: usize| {
+            let (sin, cos) = (std::f64::consts::TAU * i as f64 / steps as f64).sin_cos();
+            [center[0] + part * a * cos, center[1] + part * (b * cos + c * sin)]
+        };
+        (0..steps).map(corner).collect()
+    }
+}
+
+/// The length of a vector, whatever its size.
+pub(super) fn length(x: &[f64]) -> f64 {
+    let largest = x.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    if largest == 0.0 || largest.is_infinite() {
+        return largest;
+    }
+    largest * x.iter().map(|v| (v / largest).powi(2)).sum::<f64>().sqrt()
+}
+
+/// The inverse of a square matrix, by elimination with pivots chosen by their size beside the largest entry of their row.
+/// Where a pivot is 0 the row stays as it is: the picture of a singular factor is no picture of anything.
+fn inverse(matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let n = matrix.len();
+    let mut rows: Vec<Vec<f64>> = matrix
+        .iter()
+        .enumerate()
+        .map(|(i, row)| {
+            let size = row.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+            let size = if size > 0.0 { size } else { 1.0 };
+            let unit = (0..n).map(|k| if k == i { 1.0 } else { 0.0 });
+            row.iter().copied().chain(unit).map(|v| v / size).collect()
+        })
+        .collect();
+    for k in 0..n {
+        let best =
+            (k..n).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs())).unwrap_or(k);
+        rows.swap(k, best);
+        let pivot = rows[k][k];
+        if pivot == 0.0 {
+            continue;
+        }
+        rows[k].iter_mut().for_each(|v| *v /= pivot);
+        let pivot_row = rows[k].clone();
+        for (i, row) in rows.iter_mut().enumerate() {
+            let factor = row[k];
+            if i != k && factor != 0.0 {
+                row.iter_mut().zip(&pivot_row).for_each(|(v, p)| *v -= factor * p);
+            }
+        }
+    }
+    rows.into_iter().map(|row| row[n..].to_vec()).collect()
+}

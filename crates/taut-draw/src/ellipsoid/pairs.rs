@@ -1,0 +1,223 @@
+//! An ellipsoid of more than three dimensions: its shadows on pairs of coordinates, all in one picture.
+//!
+//! *Idea.* Below the diagonal of a square of panels stands, for each pair of coordinates, the shadow of the ellipsoid with
+//! those of the items; on the diagonal the name and the range of the coordinate. Every panel is scaled so that the
+//! ellipse fills it: what is seen of an ellipse is how its two coordinates go together.
+//! *Limits.* Of more than seven coordinates the six are drawn whose shadows are tilted most: others say little.
+
+use taut_certify::Items;
+
+use super::Picture;
+use super::body::Shadow;
+use super::plane::{COARSE, FINE, Place};
+use crate::number::{count, short};
+use crate::{Aspect, Axis, Error, Layer2, Look, Point2, Scene2, Shape2, Text2, Tone};
+
+/// Up to this many coordinates are all drawn; of more, one less.
+const ALL: usize = 7;
+
+/// How far a panel reaches, in half-widths of the ellipsoid.
+const REACH: f64 = 1.12;
+
+/// Half the width of a panel, where panels stand one unit apart.
+const HALF: f64 = 0.46;
+
+/// Coordinates that are drawn of `dim`.
+fn drawn(dim: usize) -> usize {
+    if dim <= ALL { dim } else { ALL - 1 }
+}
+
+/// Most items to draw in each panel for a picture of `max_points` marks.
+pub(super) fn most(max_points: usize, dim: usize) -> usize {
+    let panels = drawn(dim) * (drawn(dim) - 1) / 2;
+    (max_points / panels).max(1)
+}
+
+/// One panel: two coordinates and where it stands.
+struct Panel {
+    j: usize,
+    k: usize,
+    middle: Place,
+}
+
+impl Picture<'_> {
+    /// d > 3.
+    pub(super) fn pairs(&self) -> Result<Scene2, Error> {
+        let dim = self.dim();
+        let chosen = self.coordinates();
+        let panels: Vec<Panel> = (0..chosen.len())
+            .flat_map(|row| (0..row).map(move |column| (row, column)))
+            .map(|(row, column)| Panel {
+                j: chosen[column],
+                k: chosen[row],
+                middle: [column as f64, -(row as f64)],
+            })
+            .collect();
+        let scales: Vec<f64> = (0..dim).map(|j| self.scale(j)).collect();
+        let frames = panels.iter().map(|panel| square(panel.middle)).collect();
+        let chains = panels.iter().map(|panel| {
+            let part = |j: usize| HALF / scales[j];
+            let Shadow([[a, _], [b, c]]) = self.body.shadow(panel.j, panel.k);
+            let scaled = Shadow([[a * part(panel.j), 0.0], [b * part(panel.k), c * part(panel.k)]]);
+            scaled.chain(panel.middle, 1.0, FINE)
+        });
+        let line = |name: String, tone, look, shape| Layer2 { name, tone, look, shape };
+        let mut layers = vec![
+            line(String::new(), Tone::Muted, Look::Thin, Shape2::Polygons(frames)),
+            line(
+                "shadow of the smallest ellipsoid".into(),
+                Tone::Answer,
+                Look::Filled,
+                Shape2::Polygons(chains.collect()),
+            ),
+        ];
+        let (inside, out) = self.others();
+        let mut beyond = 0;
+        for (ids, name, tone) in
+            [(inside, self.others_name(), Tone::Point), (out, self.left_out_name(), Tone::Third)]
+        {
+            layers.extend(self.spread(&ids, name, tone, &panels, &scales, &mut beyond)?);
+        }
+        let support = self.support()?;
+        // A panel is small: many marks of full size would hide it.
+        let part = if support.len() <= 30 { 0.5 } else { 0.3 };
+        let mut marks = Vec::new();
+        for mark in &support {
+            for panel in &panels {
+                let at = self.place(&mark.at, panel, &scales);
+                let (size, label) = (part * mark.size, mark.label.clone());
+                marks.push(Point2 { id: Some(mark.id), at, size, label });
+            }
+        }
+        layers.push(line(self.support_name(), Tone::Support, Look::Solid, Shape2::Points(marks)));
+        layers.push(line(
+            String::new(),
+            Tone::Ink,
+            Look::Solid,
+            Shape2::Texts(self.words(&chosen)),
+        ));
+        let side = self.options.width.max(self.options.height);
+        Ok(Scene2 {
+            title: self.title(),
+            caption: format!(
+                "{} Shadows on pairs of coordinates, each scaled to fill its panel; on the diagonal, the range of the \
+                 coordinate over the ellipsoid.{}{}{}",
+                self.facts(),
+                self.choice(&chosen),
+                self.counts(),
+                match beyond {
+                    0 => String::new(),
+                    k =>
+                        format!(" {} marks fall outside their panels and are not drawn.", count(k)),
+                },
+            ),
+            x: Axis::default(),
+            y: Axis::default(),
+            aspect: Aspect::Equal,
+            layers,
+            width: side,
+            height: side,
+        })
+    }
+
+    /// The coordinates that are drawn, ascending: of many, those with the largest correlations.
+    fn coordinates(&self) -> Vec<usize> {
+        let dim = self.dim();
+        let mut tilted: Vec<(f64, usize)> = (0..dim)
+            .map(|j| {
+                let others = (0..dim).filter(|&k| k != j);
+                (others.map(|k| self.body.correlation(j, k).abs()).fold(0.0, f64::max), j)
+            })
+            .collect();
+        tilted.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let mut chosen: Vec<usize> = tilted.into_iter().take(drawn(dim)).map(|(_, j)| j).collect();
+        chosen.sort_unstable();
+        chosen
+    }
+
+    fn choice(&self, chosen: &[usize]) -> String {
+        if chosen.len() == self.dim() {
+            return String::new();
+        }
+        format!(
+            " {} of {} coordinates are drawn, those whose shadows are tilted most.",
+            chosen.len(),
+            self.dim()
+        )
+    }
+
+    /// How far the panels of a coordinate reach; a coordinate that is constant has panels of its rounding.
+    fn scale(&self, j: usize) -> f64 {
+        let width = self.body.half_width(j);
+        let least = f64::EPSILON * self.body.center[j].abs();
+        let width = width.max(least);
+        REACH * if width > 0.0 { width } else { 1.0 }
+    }
+
+    fn place(&self, point: &[f64], panel: &Panel, scales: &[f64]) -> Place {
+        let along = |j: usize| (point[j] - self.body.center[j]) / scales[j] * HALF;
+        [panel.middle[0] + along(panel.j), panel.middle[1] + along(panel.k)]
+    }
+
+    /// Items in all panels; counts what falls outside.
+    fn spread(
+        &self,
+        ids: &[u64],
+        name: String,
+        tone: Tone,
+        panels: &[Panel],
+        scales: &[f64],
+        beyond: &mut u64,
+    ) -> Result<Option<Layer2>, Error> {
+        let (dim, items) = (self.dim(), self.certificate().items);
+        let size = (0.6 * self.dot_size()).max(1.0);
+        let (mut points, mut chains) = (Vec::new(), Vec::new());
+        for &id in ids {
+            let row = self.row(id)?;
+            for panel in panels {
+                let at = self.place(&row, panel, scales);
+                let is_inside = (0..2).all(|i| (at[i] - panel.middle[i]).abs() <= HALF);
+                if !is_inside {
+                    *beyond += 1;
+                    continue;
+                }
+                match Shadow::of_item(items, dim, &row, panel.j, panel.k) {
+                    None => points.push(Point2 { id: Some(id), at, size, label: String::new() }),
+                    Some(Shadow([[a, _], [b, c]])) => {
+                        let part = |j: usize| HALF / scales[j];
+                        let (x, y) = (part(panel.j), part(panel.k));
+                        chains.push(Shadow([[a * x, 0.0], [b * y, c * y]]).chain(at, 1.0, COARSE));
+                    }
+                }
+            }
+        }
+        if points.is_empty() && chains.is_empty() {
+            return Ok(None);
+        }
+        let (look, shape) = match items {
+            Items::Points => (Look::Filled, Shape2::Points(points)),
+            Items::Balls | Items::Ellipsoids => (Look::Thin, Shape2::Polygons(chains)),
+        };
+        Ok(Some(Layer2 { name, tone, look, shape }))
+    }
+
+    /// Names and ranges, on the diagonal.
+    fn words(&self, chosen: &[usize]) -> Vec<Text2> {
+        let words = |(i, &j): (usize, &usize)| {
+            let (c, w) = (self.body.center[j], self.body.half_width(j));
+            let at = [i as f64, -(i as f64)];
+            [
+                Text2 { at: [at[0], at[1] + 0.08], text: self.options.axis(j, self.dim()).name },
+                Text2 {
+                    at: [at[0], at[1] - 0.12],
+                    text: format!("{} to {}", short(c - w, 3), short(c + w, 3)),
+                },
+            ]
+        };
+        chosen.iter().enumerate().flat_map(words).collect()
+    }
+}
+
+fn square([x, y]: Place) -> Vec<Place> {
+    vec![[x - HALF, y - HALF], [x + HALF, y - HALF], [x + HALF, y + HALF], [x - HALF, y + HALF]]
+}
