@@ -5,7 +5,7 @@
 
 mod compensated;
 mod counters;
-mod dense;
+pub(crate) mod dense;
 mod factor;
 mod first_order;
 mod flat;
@@ -14,12 +14,12 @@ mod interior;
 mod newton;
 mod nnls;
 mod options;
-mod outcome;
+pub(crate) mod outcome;
 mod pool;
 mod proof;
 mod rounds;
 mod sample;
-mod survey;
+pub(crate) mod survey;
 mod whitener;
 
 use taut_certify::{Ellipsoid, Solution};
