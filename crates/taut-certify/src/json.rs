@@ -6,7 +6,10 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de::DeserializeOwn
 use serde_json::ser::{Formatter, PrettyFormatter};
 use taut_points::{Monitor, PointSource, PointsHash};
 
-use crate::{Answer, AnyVerdict, Ball, CheckError, Ellipsoid, RobustEllipsoid, Solution, Trace, Triangulation};
+use crate::{
+    Answer, AnyVerdict, Ball, CheckError, Ellipsoid, RobustEllipsoid, Solution, Trace,
+    Triangulation,
+};
 
 /// Version of the document; it grows by one when a reader of the old one would misread the new.
 pub const SCHEMA: u32 = 1;

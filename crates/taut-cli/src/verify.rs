@@ -7,9 +7,7 @@ use anyhow::{anyhow, bail};
 use taut::certify::{CheckError, JsonError, check_simplices};
 use taut::enclose::Error as SolveError;
 use taut::points::{Blocks, Scratch};
-use taut::{
-    Answer, AnySolution, RobustEllipsoid, RobustVerdict, Solution, Verdict, Violation,
-};
+use taut::{Answer, AnySolution, RobustEllipsoid, RobustVerdict, Solution, Verdict, Violation};
 use taut_io::{Mesh, MeshFormat, open_mesh};
 
 use crate::effort::Effort;

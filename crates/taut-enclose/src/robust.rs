@@ -38,18 +38,20 @@ pub use options::RobustOptions;
 ///
 /// *What is proved.* The certificate names the h points; the checker takes their mean and covariance anew, all factors,
 /// weights and flags, and that no C-step leads on from them. That no other h points have a lower determinant is *not*
-/// proved: the problem is NP-hard, and like all programs for it this one ends in a local optimum, of the best of six
-/// starts. For `mve` and `trim` it is proved besides that no smaller ellipsoid holds the points kept.
+/// proved: the problem is NP-hard, and like all programs for it this one ends in a local optimum, the best of those that
+/// six rankings and 500 simplices lead to. For `mve` and `trim` it is proved besides that no smaller ellipsoid holds the points kept.
 ///
-/// *Equivariance.* Shifting and scaling coordinates shifts and scales the answer. Other affine maps may change which
-/// local optimum is found, as the starts look at coordinates; the optimum itself is affine equivariant, and so is the
-/// answer wherever starts end in the same one.
+/// *Equivariance.* What is minimised is affine equivariant, and so is the answer wherever the starts lead to the same
+/// optimum, as they do on all but small or shapeless sets. The starts themselves are not: rankings look at coordinates
+/// one by one, which only bears shifts and scales, and simplices are drawn by the bits of the points, so that their
+/// order does not matter.
 ///
 /// *Exact fit.* When h points lie in a hyperplane, or a smaller subspace, that is reported, not refused: the answer has
 /// a [`hull`](RobustEllipsoid::hull), centre and scatter are those of the points on it, and all others are flagged.
 ///
-/// *Cost.* By `mcd`, up to 4000 points: six rankings of O(nd² log n), and some ten C-steps of O(nd²) for each. Beyond,
-/// they see a sample of 2000, and the points themselves are read some thirty times.
+/// *Cost.* By `mcd`, for up to 4000 points: rankings of O(nd² log n), a thousand C-steps on up to 600 points, and some
+/// hundred C-steps of O(nd²) on all. Beyond, starts see a sample of 2000, and all points are read some sixty times. By
+/// `mve` and `trim`, a C-step solves a smallest ellipsoid of the points kept.
 ///
 /// ```
 /// use taut_enclose::{RobustOptions, robust_ellipsoid};
@@ -75,7 +77,7 @@ pub fn robust_ellipsoid<T: Scalar>(
 
 /// The same for points of a source, in memory or not.
 ///
-/// Beside one block for each thread, 9 bytes a point are held; by `mve` and `trim`, and where many points lie in a
+/// Beside one block for each thread, some 30 bytes a point are held; by `mve` and `trim`, and where many points lie in a
 /// subspace, the points kept as well.
 ///
 /// # Errors

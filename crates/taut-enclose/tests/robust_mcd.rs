@@ -11,7 +11,7 @@ fn mcd() -> RobustOptions {
     by(RobustMethod::Mcd)
 }
 
-/// The best determinants, locations and outliers that the R package robustbase publishes with its tests, rows from 1.
+/// The best determinants, locations and outliers (rows from 1) that the R package robustbase publishes with its tests.
 #[test]
 fn classical_sets_have_the_determinants_of_the_literature() {
     type Case = (&'static str, usize, f64, &'static [f64], &'static [u64]);
@@ -28,8 +28,20 @@ fn classical_sets_have_the_determinants_of_the_literature() {
             &[1.54, 1.78, 1.69],
             &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14],
         ),
-        ("rb_wood.csv", 5, -36.270094, &[0.587, 0.122, 0.531, 0.538, 0.892], &[4, 6, 7, 8, 11, 16, 19]),
-        ("rb_coleman.csv", 5, 1.286808, &[2.76, 48.38, 6.12, 25.00, 6.40], &[1, 6, 9, 10, 11, 15, 18]),
+        (
+            "rb_wood.csv",
+            5,
+            -36.270094,
+            &[0.587, 0.122, 0.531, 0.538, 0.892],
+            &[4, 6, 7, 8, 11, 16, 19],
+        ),
+        (
+            "rb_coleman.csv",
+            5,
+            1.286808,
+            &[2.76, 48.38, 6.12, 25.00, 6.40],
+            &[1, 6, 9, 10, 11, 15, 18],
+        ),
         (
             "rb_bushfire.csv",
             5,
@@ -51,14 +63,18 @@ fn classical_sets_have_the_determinants_of_the_literature() {
             return;
         };
         let found = solve(name, &values, *dim, &mcd());
-        println!(
-            "{name}: {} of {log_det}, {:?}, weighed out {:?}, flagged {:?}",
-            found.certificate.objective,
-            found.answer.center,
-            found.certificate.weighed_out.iter().map(|r| r + 1).collect::<Vec<_>>(),
-            found.answer.flagged.iter().map(|r| r + 1).collect::<Vec<_>>(),
-        );
-        let _ = (center, outliers);
+        let below = log_det - found.certificate.objective;
+        assert!(below > -1e-6, "{name}: {}", found.certificate.objective);
+        // Of the milk, a better subset is found than is published.
+        if below < 1e-6 {
+            let flagged: Vec<u64> = found.answer.flagged.iter().map(|row| row + 1).collect();
+            assert_eq!(flagged, *outliers, "{name}");
+            for (c, wanted) in found.answer.center.iter().zip(*center) {
+                assert!((c - wanted).abs() < 5e-3 * wanted.abs(), "{name}: {c} of {wanted}");
+            }
+        } else {
+            assert_eq!(*name, "rb_milk.csv", "{below}");
+        }
     }
 }
 
@@ -165,8 +181,7 @@ fn order_threads_and_precision_change_nothing() {
         let found = solve("f64", &values, dim, &mcd());
         for threads in [1, 2, 5] {
             let options = RobustOptions { threads: Some(threads), ..mcd() };
-            let again =
-                robust_ellipsoid(&Points::new(&values, dim).unwrap(), &options).unwrap();
+            let again = robust_ellipsoid(&Points::new(&values, dim).unwrap(), &options).unwrap();
             assert_eq!(again.to_json(), found.to_json());
             let single = robust_ellipsoid(&Points::new(&narrow, dim).unwrap(), &options).unwrap();
             assert_eq!(single.to_json(), found.to_json());
@@ -223,8 +238,10 @@ fn few_values_with_many_ties_are_solved() {
     // Small integers: ties of distances, flat halves, copies.
     for seed in 0..60 {
         for dim in 1..4 {
-            let values: Vec<f64> =
-                normal(9 + seed as usize % 20, dim, seed).iter().map(|v| (1.5 * v).round()).collect();
+            let values: Vec<f64> = normal(9 + seed as usize % 20, dim, seed)
+                .iter()
+                .map(|v| (1.5 * v).round())
+                .collect();
             let found = solve(&format!("ties {seed}, {dim}"), &values, dim, &mcd());
             judge("again", &values, dim, &found);
         }

@@ -108,7 +108,8 @@ fn factors(
     if rank == 0 {
         agree("the quantile", cutoff, 0.0, 0.0)?;
         agree("the factor of the scatter of the points kept", raw_scale, 1.0, 0.0)?;
-        agree("the factor of the scatter", scale, 1.0, 0.0)?;
+        let wanted = if method == RobustMethod::Trim { 0.0 } else { 1.0 };
+        agree("the factor of the scatter", scale, wanted, 0.0)?;
         return Ok(false);
     }
     let (h, n) = (certificate.kept as usize, on_hull as usize);
@@ -122,7 +123,10 @@ fn factors(
         RobustMethod::Mve | RobustMethod::Trim => {
             // The border holds h/(n + 1) of normal points; Rousseeuw and van Zomeren's factor for small samples.
             let small = if n > rank { 1.0 + 15.0 / (n - rank) as f64 } else { 1.0 };
-            (small * small / quantile(h as f64 / (n as f64 + 1.0), rank), consistency(part(left), rank))
+            (
+                small * small / quantile(h as f64 / (n as f64 + 1.0), rank),
+                consistency(part(left), rank),
+            )
         }
     };
     let last = if left == n { 1.0 } else { last };
@@ -133,7 +137,7 @@ fn factors(
         agree("the factor of the scatter", scale, 0.0, 0.0)?;
         return Ok(false);
     }
-    agree("the level", level, probability(cutoff, rank), 1e-12)?;
+    agree("the level", level, probability(cutoff, rank), 1e-13 * (10 + rank) as f64)?;
     if scale == raw_scale && certificate.weighed_out == certificate.left_out {
         return Ok(false);
     }
@@ -149,9 +153,13 @@ fn same(
     slack: f64,
 ) -> Result<(), Violation> {
     let (one, other) = (answer.ellipsoid(), &enclosure.ellipsoid);
-    let hulls = one.hull.as_ref().map(|h| h.basis.len()) == other.hull.as_ref().map(|h| h.basis.len());
+    let hulls =
+        one.hull.as_ref().map(|h| h.basis.len()) == other.hull.as_ref().map(|h| h.basis.len());
     agree("the dimension of the hull", one.rank() as f64, other.rank() as f64, 0.0)?;
-    if !hulls || one.center != other.center || (slack == 0.0 && one.center_tail != other.center_tail) {
+    if !hulls
+        || one.center != other.center
+        || (slack == 0.0 && one.center_tail != other.center_tail)
+    {
         return Err(Violation::Estimate {
             what: "the first coordinate of the centre".into(),
             claimed: one.center[0],

@@ -10,8 +10,8 @@ use taut_points::{Monitor, Points};
 
 use super::estimate::{Estimate, Look};
 use super::flat::{Flat, hull};
-use super::{RobustOptions, enclosing};
 use super::starts::nearest;
+use super::{RobustOptions, enclosing};
 use crate::Error;
 use crate::ellipsoid::survey::Survey;
 

@@ -32,7 +32,11 @@ pub(super) struct Around {
     pub(super) metric: Estimate,
 }
 
-fn around(data: &Survey<'_>, ids: &[u64], epsilon: f64) -> Result<Solution<taut_certify::Ellipsoid>, Error> {
+fn around(
+    data: &Survey<'_>,
+    ids: &[u64],
+    epsilon: f64,
+) -> Result<Solution<taut_certify::Ellipsoid>, Error> {
     let rows = data.rows(ids)?;
     let points = Points::new(&rows, data.dim()).expect("rows of the dimension");
     ellipsoid(&points, &EllipsoidOptions { epsilon, ..Default::default() })
@@ -92,9 +96,10 @@ pub(super) fn enclose(
             // F = AB with A lower triangular.
             Some(hull) => (answer.factor.iter().enumerate())
                 .flat_map(|(a, row)| {
-                    hull.basis.iter().enumerate().map(move |(b, direction)| {
-                        if b <= a { dot(row, direction) } else { 0.0 }
-                    })
+                    hull.basis
+                        .iter()
+                        .enumerate()
+                        .map(move |(b, direction)| if b <= a { dot(row, direction) } else { 0.0 })
                 })
                 .collect(),
         };

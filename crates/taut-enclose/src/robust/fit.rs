@@ -103,8 +103,7 @@ pub(super) fn place(
         (Some(part), Some(raw)) => marked(&raw.kept, |row| part.ids[row]),
         (None, raw) => raw.as_ref().map_or(vec![], |raw| marked(&raw.kept, |row| row as u64)),
     };
-    let Around { enclosure, kept, part, metric } =
-        enclosing::enclose(data, kept, options.epsilon)?;
+    let Around { enclosure, kept, part, metric } = enclosing::enclose(data, kept, options.epsilon)?;
     let mark = |ids: &mut dyn Iterator<Item = u64>| -> Vec<bool> {
         let mut kept = kept.iter().copied().peekable();
         ids.map(|id| kept.next_if_eq(&id).is_some()).collect()

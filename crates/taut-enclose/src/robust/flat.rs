@@ -129,9 +129,7 @@ impl Flat {
     pub(super) fn rotated_columns(&self, matrix: &[f64]) -> Vec<f64> {
         let (dim, rank) = (self.dim(), self.rank());
         let mut lifted = vec![0.0; dim * rank];
-        for (direction, row) in
-            self.basis.chunks_exact(dim).zip(matrix.chunks_exact(rank.max(1)))
-        {
+        for (direction, row) in self.basis.chunks_exact(dim).zip(matrix.chunks_exact(rank.max(1))) {
             for (j, b) in direction.iter().enumerate() {
                 add_scaled(&mut lifted[j * rank..(j + 1) * rank], *b, row);
             }

@@ -47,8 +47,10 @@ mod tests {
         for n in 2..values.len() {
             let part = &mut values[..n];
             part.sort_unstable_by(f64::total_cmp);
-            let mut pairs: Vec<f64> =
-                (0..n).flat_map(|i| (0..i).map(move |j| (i, j))).map(|(i, j)| part[i] - part[j]).collect();
+            let mut pairs: Vec<f64> = (0..n)
+                .flat_map(|i| (0..i).map(move |j| (i, j)))
+                .map(|(i, j)| part[i] - part[j])
+                .collect();
             pairs.sort_unstable_by(f64::total_cmp);
             let half = n / 2 + 1;
             assert_eq!(qn(part), NORMAL * pairs[half * (half - 1) / 2 - 1], "{n}");

@@ -2,7 +2,7 @@
 //!
 //! *Problem.* Of n points find the h whose covariance has the least determinant, or that fit the smallest ellipsoid.
 //! *Idea.* Two kinds of starts, as they fail on different data: six rankings ([`starts`](super::starts)), and
-//! [`ELEMENTS`] simplices of d + 1 points. Simplices are tried by two C-steps on few points, and the best of them go
+//! [`ELEMENTS`] simplices of d + 1 points where d ≤ [`ELEMENTS_DIM_MAX`]. Simplices are tried by two C-steps on few points, and the best of them go
 //! on with the rankings, to the end, on at most [`SAMPLE`] points (twice that if these are all). The best of those are
 //! tried on all points, and the best of them go on to the end.
 //! *Guarantee.* The rows found are the h nearest in their own metric: no C-step leads on from them. That no other h
@@ -27,6 +27,8 @@ const SAMPLE: usize = 2000;
 const SMALL_SAMPLE: usize = 300;
 /// Simplices tried, as many as FastMCD does.
 const ELEMENTS: u64 = 500;
+/// Dimension beyond which none is tried: d + 1 points without an outlier among them are too rare then.
+const ELEMENTS_DIM_MAX: usize = 20;
 /// Simplices that go on.
 const BEST_ELEMENTS: usize = 10;
 /// Candidates that are tried on all points, and how many of them go on to the end.
@@ -123,7 +125,7 @@ fn ends_on_sample(
 fn best_simplices(sample: &[f64], dim: usize, part: usize) -> Result<Vec<Estimate>, Error> {
     let rows = sample.len() / dim;
     let few = if rows > 2 * SMALL_SAMPLE { SMALL_SAMPLE.max(5 * dim).min(rows) } else { rows };
-    if few <= dim + 1 {
+    if few <= dim + 1 || dim > ELEMENTS_DIM_MAX {
         return Ok(vec![]);
     }
     let part = (part * few).div_ceil(rows);

@@ -31,8 +31,7 @@ pub fn judge(
     found: &Solution<RobustEllipsoid>,
 ) -> RobustVerdict {
     let points = Points::new(values, dim).unwrap();
-    let verdict =
-        found.check(&points).unwrap_or_else(|error| panic!("{name}: {error}\n{found:?}"));
+    let verdict = found.check(&points).unwrap_or_else(|error| panic!("{name}: {error}\n{found:?}"));
     assert_eq!(verdict.rank, found.answer.factor.len(), "{name}");
     match AnySolution::from_json(&found.to_json()) {
         Ok(again @ AnySolution::Robust(_)) => {

@@ -46,7 +46,8 @@ pub(super) fn consistency(part: f64, d: usize) -> f64 {
 /// reweighted MCD. Where the formula gives less than 0 or more than 50 it is not used.
 pub(super) fn small_sample(reweighted: bool, h: usize, n: usize, d: usize) -> f64 {
     let half = (n + d).div_ceil(2).min(n);
-    let alpha = if n > half { 0.5 + (h as f64 - half as f64) / (2 * (n - half)) as f64 } else { 1.0 };
+    let alpha =
+        if n > half { 0.5 + (h as f64 - half as f64) / (2 * (n - half)) as f64 } else { 1.0 };
     let alpha = alpha.clamp(0.5, 1.0);
     let dim = d as f64;
     // 1 − f = e^u/n^v at α = 0.5 and at 0.875.
@@ -70,14 +71,12 @@ pub(super) fn small_sample(reweighted: bool, h: usize, n: usize, d: usize) -> f6
             through((1.42764571687802, 1.26263336932151), (1.06141115981725, 1.28907991440387)),
             through((0.455179464070565, 1.11192541278794), (0.294241208320834, 1.09649329149811)),
         ),
-        (true, 1) => (
-            lacks(1.11098143415027, 1.5182890270453),
-            lacks(-0.66046776772861, 0.88939595831888),
-        ),
-        (true, 2) => (
-            lacks(3.11101712909049, 1.91401056721863),
-            lacks(0.79473550581058, 1.10081930350091),
-        ),
+        (true, 1) => {
+            (lacks(1.11098143415027, 1.5182890270453), lacks(-0.66046776772861, 0.88939595831888))
+        }
+        (true, 2) => {
+            (lacks(3.11101712909049, 1.91401056721863), lacks(0.79473550581058, 1.10081930350091))
+        }
         (true, _) => (
             through((1.02842572724793, 1.67659883081926), (0.26800273450853, 1.35968562893582)),
             through((0.544482443573914, 1.25994483222292), (0.343791072183285, 1.25159004257133)),

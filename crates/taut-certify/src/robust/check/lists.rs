@@ -48,7 +48,27 @@ pub(super) fn check(
     ] {
         ascending(list, rows, n)?;
     }
+    flagged(answer, certificate)?;
     kept(certificate, n)
+}
+
+/// By `trim`, the rows flagged are those left out, as on the border nothing else would tell, and none is weighed out.
+fn flagged(answer: &RobustEllipsoid, certificate: &RobustCertificate) -> Result<(), Violation> {
+    let (flagged, left_out) = (&answer.flagged, &certificate.left_out);
+    if certificate.method != RobustMethod::Trim {
+        return Ok(());
+    }
+    length("the list of points weighed out", certificate.weighed_out.len(), 0)?;
+    if flagged == left_out {
+        return Ok(());
+    }
+    let missing = left_out.iter().find(|row| flagged.binary_search(row).is_err());
+    let spare = flagged.iter().find(|row| left_out.binary_search(row).is_err());
+    let (problem, row) = match (missing, spare) {
+        (Some(&row), _) => ("lacks", row),
+        (None, spare) => ("names", spare.copied().unwrap_or(0)),
+    };
+    Err(Violation::Listed { list: "flagged", problem, row, distance: 1.0 })
 }
 
 /// Whether as many rows are kept as is said, and the ellipsoid around them leaves out the same.

@@ -92,7 +92,8 @@ impl Sums {
         slack: f64,
     ) -> Result<(), Violation> {
         let (mean, covariance) = self.estimate();
-        let wrong = |what: String, claimed, found| Err(Violation::Estimate { what, claimed, found });
+        let wrong =
+            |what: String, claimed, found| Err(Violation::Estimate { what, claimed, found });
         for (a, value) in mean.iter().enumerate() {
             let is_zero = value.rounded().abs() <= slack;
             if !is_zero {
@@ -106,7 +107,8 @@ impl Sums {
                 let found = covariance[a * (a + 1) / 2 + b].rounded() * border;
                 let agrees = (found - wanted).abs() <= slack;
                 if !agrees {
-                    let what = format!("entry ({a}, {b}) of the scatter, in the frame of the ellipsoid,");
+                    let what =
+                        format!("entry ({a}, {b}) of the scatter, in the frame of the ellipsoid,");
                     return wrong(what, wanted, found);
                 }
             }
@@ -310,9 +312,7 @@ impl Scan<'_> {
                     continue;
                 }
                 let square = match (around, raw) {
-                    (Some(around), _) => {
-                        length(&around.image(&around.offset::<f64>(&row))).powi(2)
-                    }
+                    (Some(around), _) => length(&around.image(&around.offset::<f64>(&row))).powi(2),
                     (None, Some(raw)) => {
                         raw.square(&self.frame.image(&self.frame.offset::<DoubleDouble>(&row)))
                     }
