@@ -231,7 +231,8 @@ fn flagged(
             let square: f64 = image.map(|y| y * y).sum();
             let is_off =
                 placed.flat.as_ref().is_some_and(|flat| flat.project(row).1 > flat.distance);
-            if !(square <= 1.0) || is_off {
+            let is_inside = square <= 1.0 && !is_off;
+            if !is_inside {
                 outside.push(id);
             }
         }

@@ -97,7 +97,11 @@ fn lists(found: &Found, n: u64) -> Vec<Mutation> {
             let is_in = rows.get(at) == Some(&row);
             all.push(mutation(format!("{name}: {row}"), move |found| {
                 let rows = list(found);
-                if is_in { drop(rows.remove(at)) } else { rows.insert(at, row) }
+                if is_in {
+                    rows.remove(at);
+                } else {
+                    rows.insert(at, row);
+                }
             }));
         }
         if rows.len() > 1 {
@@ -127,10 +131,10 @@ fn others(found: &Found) -> Vec<Mutation> {
         mutation("nothing kept", |f| f.certificate.kept = 0),
         mutation("hash", |f| f.certificate.points_hash.0 ^= 1),
         mutation("no centre", |f| f.answer.center.clear()),
-        mutation("a row of the matrix", |f| drop(f.answer.matrix.pop())),
-        mutation("a row of the factor", |f| drop(f.answer.factor.pop())),
-        mutation("a number of the factor", |f| drop(f.answer.factor[0].pop())),
-        mutation("a row of the scatter", |f| drop(f.answer.scatter.pop())),
+        mutation("a row of the matrix", |f| _ = f.answer.matrix.pop()),
+        mutation("a row of the factor", |f| _ = f.answer.factor.pop()),
+        mutation("a number of the factor", |f| _ = f.answer.factor[0].pop()),
+        mutation("a row of the scatter", |f| _ = f.answer.scatter.pop()),
         mutation("an asymmetric scatter", |f| f.answer.scatter[0][1] *= 1.0 + 1e-14),
         mutation("tail", |f| f.answer.center_tail = vec![1.0]),
         mutation("another enclosure", |f| match &mut f.certificate.enclosure {

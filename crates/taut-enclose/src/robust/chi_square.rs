@@ -15,7 +15,7 @@ fn log_gamma_of_half(k: usize) -> f64 {
 /// P(χ² ≤ x) with d degrees of freedom.
 pub(super) fn probability(x: f64, d: usize) -> f64 {
     let (a, x) = (d as f64 / 2.0, x / 2.0);
-    if !(x > 0.0) {
+    if x.is_nan() || x <= 0.0 {
         return 0.0;
     }
     let front = (a * x.ln() - x - log_gamma_of_half(d)).exp();
@@ -49,7 +49,7 @@ pub(super) fn probability(x: f64, d: usize) -> f64 {
 
 /// The x with P(χ² ≤ x) = p, for p in [0, 1).
 pub(super) fn quantile(p: f64, d: usize) -> f64 {
-    if !(p > 0.0) {
+    if p.is_nan() || p <= 0.0 {
         return 0.0;
     }
     let (mut low, mut high) = (0.0, d as f64);

@@ -97,7 +97,8 @@ pub(super) fn concentrate(
             Err(flat) => return Ok(Found::Flat(flat)),
         };
         // Rows that differ by rounding alone could follow each other in a circle.
-        if !(better.log_det() < here.log_det() - criterion.least_step()) {
+        let leads_on = better.log_det() < here.log_det() - criterion.least_step();
+        if !leads_on {
             break;
         }
         (kept, here) = (next, better);

@@ -148,7 +148,8 @@ impl Estimate {
                 }
             }
             // No deviation at all, exactly.
-            if (0..dim).any(|a| !(covariance[a * dim + a] > 0.0)) {
+            let deviates = |a: usize| covariance[a * dim + a] > 0.0;
+            if !(0..dim).all(deviates) {
                 return Ok(Look::Singular);
             }
             let Some((lower, is_near)) = factor(covariance, dim) else {
@@ -178,10 +179,11 @@ impl Estimate {
             .zip(&self.center)
             .map(|(row, c)| c.abs() + dot(row, row).sqrt())
             .collect();
-        self.matrix.chunks_exact(dim).any(|row| {
+        let is_clear = |row: &[f64]| {
             let noise: f64 = row.iter().zip(&sizes).map(|(m, s)| (m * s).powi(2)).sum();
-            !(noise.sqrt() * f64::EPSILON < NOISE)
-        })
+            noise.sqrt() * f64::EPSILON < NOISE
+        };
+        !self.matrix.chunks_exact(dim).all(is_clear)
     }
 }
 

@@ -321,7 +321,7 @@ impl Scan<'_> {
                 if is_out && square < near.0 {
                     near = (square, id);
                 }
-                if !is_out && !(square <= far.0) {
+                if !is_out && (square > far.0 || square.is_nan()) {
                     far = (square, id);
                 }
                 if reweighted {
@@ -334,7 +334,7 @@ impl Scan<'_> {
         let mut far = (f64::NEG_INFINITY, 0);
         let mut near = (f64::INFINITY, 0);
         for (one, other) in ends {
-            far = if one.0 > far.0 { one } else { far };
+            far = if one.0 > far.0 || one.0.is_nan() { one } else { far };
             near = if other.0 < near.0 { other } else { near };
         }
         let is_nearest = far.0 <= near.0 * (1.0 + slack) + slack;
