@@ -72,6 +72,11 @@ pub struct Ellipsoid {
 }
 
 /// The affine subspace {c + Bᵀz : z ∈ ℝʳ} in which a rank-deficient set lies, but for rounding.
+///
+/// The claim of the answer is then about the projections of the points to it: no ellipsoid of dimension r that encloses
+/// them has less volume. The checker takes a set for flat when `distance` is at most 1e-10 of its extent (1e-6 for
+/// ellipsoids, whose shape matrices know half as many digits of a short axis), or 8d·2⁻⁵³ times its largest coordinate,
+/// which rounding the coordinates explains.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a hull: an object with basis and distance")]
 pub struct Hull {

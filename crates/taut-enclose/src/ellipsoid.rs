@@ -3,7 +3,6 @@
 //! A method ([`rounds`], [`first_order`]) ends with convex multipliers and the pass made with the ellipsoid they mean ([`outcome`]);
 //! [`proof`] turns that into an answer and its certificate, whatever the method was.
 
-mod compensated;
 mod counters;
 pub(crate) mod dense;
 mod factor;

@@ -12,6 +12,7 @@
 //! A centre that needs more than one `f64` per coordinate is subtracted in two terms, which costs one more load and
 //! subtraction, so it is only done where it matters.
 
+pub(crate) mod compensated;
 mod exact;
 pub(crate) mod extremes;
 mod lanes;

@@ -6,6 +6,8 @@
 //! | smallest ball around balls | [`ball_of_balls()`] | the same | the same |
 //! | centre, scatter and outliers | [`robust_ellipsoid()`] | all proved but that no other points kept would do better | some ten to thirty passes of O(nd²) |
 //! | either, larger than memory | [`ball_of_source()`] | the same | the same, one block per thread in memory |
+//! | smallest ellipsoid around points | [`ellipsoid()`] | log-volume ≤ optimum + ε, proved | few passes of O(nd²) |
+//! | the same, larger than memory | [`ellipsoid_of_source()`] | the same | the same, one block per thread in memory |
 //! ```
 //! let points = taut_points::Points::new(&[0.0, 0.0, 2.0, 0.0, 1.0, 1.0], 2)?;   // n × d, row-major
 //! let found = taut_enclose::ball(&points, &Default::default())?;

@@ -4,6 +4,7 @@ mod bad_input;
 mod ball;
 mod delaunay;
 mod desk;
+mod ellipsoid;
 mod generate;
 #[cfg(unix)]
 mod interrupt;

@@ -12,7 +12,7 @@ pub(crate) fn cholesky(a: &mut [f64], n: usize) -> bool {
         }
         let pivot = row[i] - dot(&row[..i], &row[..i]);
         // A pivot of nothing but rounding is none.
-        if !(pivot > 4.0 * n as f64 * f64::EPSILON * row[i]) {
+        if pivot.is_nan() || pivot <= 4.0 * n as f64 * f64::EPSILON * row[i] {
             return false;
         }
         row[i] = pivot.sqrt();
@@ -53,7 +53,7 @@ pub(super) fn line_search(e: &[f64], n: usize, c: f64) -> f64 {
             let ratio = b / pivot;
             derivative = diagonal[i] - 2.0 * ratio * db + ratio * ratio * derivative;
             pivot = 1.0 + t * diagonal[i] - ratio * b;
-            if !(pivot > 1e-13) {
+            if pivot.is_nan() || pivot <= 1e-13 {
                 return None;
             }
             sum += derivative / pivot;

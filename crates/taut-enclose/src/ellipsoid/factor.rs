@@ -47,7 +47,7 @@ impl Factor {
         .ok()?;
         for (i, &h) in diagonal.iter().enumerate() {
             let pivot = rows[i * size + i];
-            if !(pivot * pivot > least * h) {
+            if pivot.is_nan() || pivot * pivot <= least * h {
                 return None;
             }
         }

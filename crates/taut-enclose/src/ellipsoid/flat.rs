@@ -13,7 +13,6 @@ use std::ops::Range;
 use taut_certify::{Ellipsoid, Hull, Solution, Stop};
 use taut_points::{PointSource, Points, ReadError, Rows, Scalar, ScalarKind, Scratch};
 
-use super::compensated::Map;
 use super::counters::Counters;
 use super::outcome::{Candidate, Outcome, log_unit_ball};
 use super::proof::{answer, settle, solution, spread};
@@ -22,6 +21,7 @@ use super::survey::{Found, Survey};
 use super::whitener::{Rebased, Whitener};
 use super::{EllipsoidOptions, method};
 use crate::Error;
+use crate::kernel::compensated::Map;
 use crate::kernel::vector::{add_scaled, dot};
 use crate::kernel::{Center, DoubleDouble};
 

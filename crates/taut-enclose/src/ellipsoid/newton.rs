@@ -71,11 +71,14 @@ pub(super) fn solve(
         }
         counters.steps += 1;
         let excess = largest - dim as f64;
-        let model = nnls::solve(dim, &whitened, pool.weights(), MODEL * excess, counters);
+        let tried = counters.interior > interior_steps;
+        let patience = nnls::patience(pool.len(), dim, interior_steps > 0, tried);
+        let u = pool.weights();
+        let model = nnls::solve(dim, &whitened, u, MODEL * excess, patience, counters);
         let step = match model {
             Outcome::Solved(step) => step,
             // Once: what it hands back is a basis, and models made there are short.
-            Outcome::Stuck if interior_steps == counters.interior => {
+            Outcome::Stuck if !tried => {
                 interior::solve(pool, whitener, 0.3 * tolerance, counters, monitor)?;
                 continue;
             }
@@ -115,4 +118,44 @@ fn length(matrix: &[f64], m: usize) -> f64 {
     }
     // The last entry of N is Σv.
     line_search(&e, m, m as f64 * e[m * m - 1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn solved(rows: &[f64], dim: usize) -> (Pool, f64) {
+        let mut pool = Pool::new(dim);
+        for (i, row) in rows.chunks_exact(dim).enumerate() {
+            pool.push(i as u64, row, 1.0);
+        }
+        pool.normalise();
+        let mut whitener = Whitener::of_scales(&vec![1.0; dim]);
+        let (mut counters, monitor) = (Counters::default(), Monitor::silent());
+        let largest = solve(&mut pool, &mut whitener, 1e-13, &mut counters, &monitor).unwrap();
+        (pool, largest)
+    }
+
+    #[test]
+    fn known_designs_are_found() {
+        // A triangle with an inner point, which gets no weight; a square with its centre.
+        let (pool, largest) = solved(&[0.0, 0.0, 5.0, 0.0, 0.0, 1.0, 1.0, 0.25], 2);
+        assert!(gap(2, largest) <= 1e-13);
+        assert!(pool.weights()[..3].iter().all(|u| (u - 1.0 / 3.0).abs() < 1e-13));
+        assert_eq!(pool.weights()[3], 0.0);
+        let (pool, largest) = solved(&[1.0, 1.0, -1.0, 1.0, -1.0, -1.0, 1.0, -1.0, 0.0, 0.0], 2);
+        assert!(gap(2, largest) <= 1e-13);
+        assert_eq!(pool.weights()[4], 0.0);
+        // On a line the two ends, half and half.
+        let (pool, largest) = solved(&[3.0, -1.0, 0.5, 2.9], 1);
+        assert!(gap(1, largest) <= 1e-13);
+        assert!(pool.weights()[..2].iter().all(|u| (u - 0.5).abs() < 1e-15));
+        assert_eq!(pool.weights()[2..], [0.0, 0.0]);
+    }
+
+    #[test]
+    fn a_gap_is_the_growth_in_volume() {
+        assert_eq!((gap(3, 3.0), gap(3, 2.9)), (0.0, 0.0));
+        assert!((gap(2, 4.0) - 2f64.ln()).abs() < 1e-15);
+    }
 }

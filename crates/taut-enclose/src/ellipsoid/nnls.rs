@@ -52,12 +52,14 @@ pub(super) struct Step {
     pub(super) matrix: Vec<f64>,
 }
 
-/// Solves the model over the pool `whitened`, from the multipliers `u`, until no gradient exceeds `tolerance`.
+/// Solves the model over the pool `whitened`, from the multipliers `u`, until no gradient exceeds `tolerance`; gives up
+/// after as many exchanges and pivots as `patience` says.
 pub(super) fn solve(
     dim: usize,
     whitened: &Whitened,
     u: &[f64],
     tolerance: f64,
+    patience: (u64, u64),
     counters: &mut Counters,
 ) -> Outcome {
     let p = (dim + 1) * (dim + 2) / 2;
@@ -69,7 +71,6 @@ pub(super) fn solve(
         set.crash(3 * p / 5, counters);
     }
     let (pivots, exchanges) = (counters.pivots, counters.exchanges);
-    let patience = patience(u.len(), p);
     let mut tabu = HashSet::new();
     loop {
         let matrix = set.matrix();
@@ -100,13 +101,21 @@ pub(super) fn solve(
     }
 }
 
-/// Exchanges and pivots after which an interior-point method would have been faster.
+/// Exchanges and pivots after which an interior-point method would have been faster on k points; less where it was
+/// faster `before`, and many where it has just been tried.
 ///
 /// That takes some fifteen products of a k × p matrix with itself, an exchange a few sweeps of a p × p factor. Measured
 /// on shells of thickness 1e-8: k/10 and k/3 exchanges are within a tenth of the best for p = 496 and for p = 66.
-fn patience(k: usize, p: usize) -> (u64, u64) {
-    let exchanges = if p > 150 { k / 10 } else { k / 3 };
-    (64 + exchanges as u64, 640 + k as u64)
+pub(super) fn patience(k: usize, dim: usize, before: bool, tried: bool) -> (u64, u64) {
+    let many = (dim + 1) * (dim + 2) / 2 > 150;
+    let exchanges = match (many, before) {
+        _ if tried => 4 * k,
+        (true, false) => k / 10,
+        (true, true) => k / 40,
+        (false, _) => k / 3,
+    };
+    let pivots = if tried { 10 * k } else { k };
+    (64 + exchanges as u64, 640 + pivots as u64)
 }
 
 struct ActiveSet<'a> {
@@ -336,5 +345,88 @@ impl<'a> ActiveSet<'a> {
         }
         batch.sort_unstable_by(better);
         batch
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ellipsoid::newton::NEAR;
+    use crate::ellipsoid::pool::Pool;
+    use crate::ellipsoid::whitener::{Rebased, Whitener};
+    use taut_points::{Distribution, generate};
+
+    /// Rows with equal weights, under their whitener.
+    fn whitened(rows: &[f64], dim: usize) -> Whitened {
+        let mut pool = Pool::new(dim);
+        for (i, row) in rows.chunks_exact(dim).enumerate() {
+            pool.push(i as u64, row, 1.0);
+        }
+        pool.normalise();
+        let mut whitener = Whitener::of_scales(&vec![1.0; dim]);
+        assert_eq!(whitener.rebase(&pool, NEAR), Rebased::Plainly);
+        whitener.apply(&pool)
+    }
+
+    /// v ≥ 0, g ≤ 0 and gv = 0, with g = b − Hv from all of H.
+    fn check_optimal(dim: usize, whitened: &Whitened, u: &[f64], p: usize) -> u64 {
+        let k = whitened.leverages.len();
+        let mut counters = Counters::default();
+        let Outcome::Solved(step) = solve(dim, whitened, u, 1e-9, (9999, 9999), &mut counters)
+        else {
+            panic!("a small model takes few steps")
+        };
+        assert!(step.weights.len() <= p);
+        let mut rows = vec![vec![1.0; dim + 1]; k];
+        for (i, row) in rows.iter_mut().enumerate() {
+            copy_row(&whitened.blocks, dim, i, &mut row[..dim]);
+        }
+        for (i, row) in rows.iter().enumerate() {
+            let product =
+                |j: usize| row.iter().zip(&rows[j]).map(|(a, b)| a * b).sum::<f64>().powi(2);
+            let sum: f64 = step.weights.iter().map(|&(j, v)| product(j) * v).sum();
+            let g = 2.0 * whitened.leverages[i] + 1.0 - dim as f64 - sum;
+            assert!(g <= 2e-9, "point {i}: {g:e}");
+            if let Some((_, v)) = step.weights.iter().find(|(j, _)| *j == i) {
+                assert!(*v >= 0.0 && g.abs() < 1e-9, "point {i}: {v:e}, {g:e}");
+            }
+        }
+        counters.exchanges
+    }
+
+    #[test]
+    fn models_are_solved_to_their_optimality_conditions() {
+        for (n, dim) in [(40, 2), (300, 4), (500, 7), (400, 26)] {
+            let p = (dim + 1) * (dim + 2) / 2;
+            let rows: Vec<f64> = generate(Distribution::Normal, n, dim, 3).unwrap();
+            let points = whitened(&rows, dim);
+            // Cold, warm from the first points, and warm from one.
+            check_optimal(dim, &points, &vec![1.0 / n as f64; n], p);
+            let mut u = vec![0.0; n];
+            u[..p.min(n / 2)].fill(0.1);
+            check_optimal(dim, &points, &u, p);
+            u.fill(0.0);
+            u[n - 1] = 1.0;
+            check_optimal(dim, &points, &u, p);
+        }
+    }
+
+    /// Points near a sphere: more of them fit a model than can be independent, and copies always depend.
+    #[test]
+    fn dependent_points_are_exchanged() {
+        let (n, dim) = (2000, 4);
+        let mut rows: Vec<f64> = generate(Distribution::Normal, n, dim, 8).unwrap();
+        for (i, row) in rows.chunks_exact_mut(dim).enumerate() {
+            let length = dot(row, row).sqrt() * (1.0 + 1e-7 * (i % 97) as f64);
+            row.iter_mut().for_each(|v| *v /= length);
+        }
+        let twice: Vec<f64> = rows.iter().chain(&rows).copied().collect();
+        for rows in [rows, twice] {
+            let points = whitened(&rows, dim);
+            let mut u = vec![0.0; points.leverages.len()];
+            u[..15].fill(1.0 / 15.0);
+            let exchanges = check_optimal(dim, &points, &u, 15);
+            assert!(exchanges > 0);
+        }
     }
 }

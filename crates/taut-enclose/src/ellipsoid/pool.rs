@@ -1,6 +1,7 @@
 //! The points a solver works on, coordinate by coordinate in blocks, each with its multiplier.
 
 use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
 
 use crate::kernel::triangle::POINTS;
 
@@ -9,7 +10,7 @@ use crate::kernel::triangle::POINTS;
 pub(super) struct Pool {
     dim: usize,
     ids: Vec<u64>,
-    positions: HashMap<u64, usize>,
+    positions: HashMap<u64, usize, BuildHasherDefault<IdHasher>>,
     /// Coordinate j of point i stands at (i / 32)·32d + 32j + i % 32; the last block is filled with zeros.
     blocks: Vec<f64>,
     /// u, and zeros up to the end of the last block.
@@ -18,7 +19,7 @@ pub(super) struct Pool {
 
 impl Pool {
     pub(super) fn new(dim: usize) -> Self {
-        Pool { dim, ids: vec![], positions: HashMap::new(), blocks: vec![], weights: vec![] }
+        Pool { dim, ids: vec![], positions: HashMap::default(), blocks: vec![], weights: vec![] }
     }
 
     pub(super) fn dim(&self) -> usize {
@@ -49,11 +50,6 @@ impl Pool {
     /// u of the points, without what fills the last block.
     pub(super) fn weights(&self) -> &[f64] {
         &self.weights[..self.len()]
-    }
-
-    /// u, filled up to whole blocks.
-    pub(super) fn padded_weights(&self) -> &[f64] {
-        &self.weights
     }
 
     pub(super) fn weights_mut(&mut self) -> &mut [f64] {
@@ -109,11 +105,38 @@ impl Pool {
         *self = kept;
     }
 
-    /// Only the points with a multiplier.
-    pub(super) fn support(&self) -> Pool {
-        let mut support = self.clone();
-        support.retain(|i| self.weights[i] > 0.0);
-        support
+    /// The blocks and padded weights of the points with a multiplier alone.
+    pub(super) fn support(&self) -> (Vec<f64>, Vec<f64>) {
+        let used: Vec<usize> = (0..self.len()).filter(|&i| self.weights[i] > 0.0).collect();
+        let size = used.len().next_multiple_of(POINTS);
+        let (mut blocks, mut weights) = (vec![0.0; size * self.dim], vec![0.0; size]);
+        for (k, &i) in used.iter().enumerate() {
+            weights[k] = self.weights[i];
+            for j in 0..self.dim {
+                blocks[place(self.dim, k, j)] = self.blocks[place(self.dim, i, j)];
+            }
+        }
+        (blocks, weights)
+    }
+}
+
+/// A hash of row numbers: one multiplication, as they are no secret and come from no enemy.
+#[derive(Clone, Copy, Debug, Default)]
+struct IdHasher(u64);
+
+impl Hasher for IdHasher {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&byte| self.write_u64(byte.into()));
+    }
+
+    fn write_u64(&mut self, id: u64) {
+        // 2⁶⁴ over the golden ratio, and the upper half down, which tables look at first.
+        let product = (self.0 ^ id).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        self.0 = product ^ (product >> 32);
     }
 }
 

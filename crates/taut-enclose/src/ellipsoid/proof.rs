@@ -10,13 +10,13 @@
 
 use taut_certify::{Ellipsoid, EllipsoidCertificate, Hull, Items, Solution, Stop, Trace};
 
-use super::compensated::Map;
 use super::dense::{cholesky, divide_rows};
 use super::outcome::{Candidate, Outcome, log_unit_ball};
 use super::survey::Survey;
 use super::{EllipsoidOptions, ROUNDING};
 use crate::Error;
 use crate::kernel::Center;
+use crate::kernel::compensated::Map;
 use crate::kernel::triangle::leverages;
 use crate::kernel::vector::dot;
 use crate::top::{Far, Top};
@@ -64,7 +64,7 @@ pub(super) fn answer(
     }
     let finite = matrix.iter().flatten().chain(factor).all(|v| v.is_finite());
     // Where digits of the diagonal are lost, Q lets points of any size in. In a hull, other coordinates tell.
-    let digits = |a: usize| matrix[a][a] >= f64::MIN_POSITIVE / f64::EPSILON;
+    let digits = |a: usize| matrix[a][a] >= f64::MIN_POSITIVE;
     let seen = match hull {
         Some(_) => rows.is_empty() || (0..dim).any(digits),
         None => (0..dim).all(digits),

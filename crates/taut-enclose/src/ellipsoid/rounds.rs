@@ -98,7 +98,12 @@ pub(super) fn solve(
             break Stop::Rounding;
         }
         // What is outside is in the pool already: only a sharper solution of the pool can help.
-        let sharper = if 1e-2 * reached < 1e-3 { 0.6 * wanted } else { 1e-2 * reached };
+        let hard = counters.interior > 0;
+        let sharper = if 1e-2 * reached < 1e-3 && !hard {
+            0.6 * wanted
+        } else {
+            (1e-2 * reached).max(0.6 * wanted)
+        };
         tolerance = if added == 0 { 0.0 } else { sharper };
         if reached > last / 3.0 {
             later *= 2;

@@ -19,6 +19,8 @@ use crate::top::{Far, Top};
 
 /// Rows whose leverages are worked out before they are compared.
 const ROWS_AT_ONCE: usize = 256;
+/// Leverages that one comparison disposes of, where some of those at once are large.
+const GROUP: usize = 32;
 
 /// What a pass is to look for.
 #[derive(Clone, Copy)]
@@ -191,8 +193,8 @@ fn block<T: Scalar>(
         let part = points.slice(start..points.len().min(start + ROWS_AT_ONCE));
         let values = &mut values[..part.len()];
         leverages(part.values(), query.matrix, query.center, &mut scratch, values);
-        report.finite &= all_finite(values);
         let far = largest(values);
+        report.finite &= all_finite(values);
         report.largest = report.largest.max(far);
         // Rows come in order, so what equals the bound of this block loses to the row that set it; what equals a
         // bound set by another block may still win by its number, and `Top` decides.
@@ -201,9 +203,15 @@ fn block<T: Scalar>(
         if !worth(far, &top) {
             continue;
         }
-        for (id, &reach2) in (first_row + start as u64..).zip(values.iter()) {
-            if worth(reach2, &top) {
-                top.offer(Far { id, reach2 });
+        for (group, values) in values.chunks(GROUP).enumerate() {
+            if !worth(largest(values), &top) {
+                continue;
+            }
+            let first = first_row + (start + group * GROUP) as u64;
+            for (id, &reach2) in (first..).zip(values) {
+                if worth(reach2, &top) {
+                    top.offer(Far { id, reach2 });
+                }
             }
         }
     }

@@ -76,15 +76,20 @@ impl Whitener {
 
     /// The images of all points of a pool.
     pub(super) fn apply(&self, pool: &Pool) -> Whitened {
+        let mut whitened = self.apply_to(pool.blocks());
+        whitened.leverages.truncate(pool.len());
+        whitened
+    }
+
+    fn apply_to(&self, points: &[f64]) -> Whitened {
         let size = POINTS * self.dim;
-        let mut blocks = vec![0.0; pool.blocks().len()];
-        let mut leverages = Vec::with_capacity(blocks.len() / self.dim);
+        let mut blocks = vec![0.0; points.len()];
+        let mut leverages = Vec::with_capacity(points.len() / self.dim);
         let mut out = [0.0; POINTS];
-        for (x, y) in pool.blocks().chunks_exact(size).zip(blocks.chunks_exact_mut(size)) {
+        for (x, y) in points.chunks_exact(size).zip(blocks.chunks_exact_mut(size)) {
             images(Triangle { matrix: &self.matrix, shift: &self.shift }, x, y, &mut out);
             leverages.extend(out);
         }
-        leverages.truncate(pool.len());
         Whitened { blocks, leverages }
     }
 
@@ -119,10 +124,10 @@ impl Whitener {
     pub(super) fn rebase(&mut self, pool: &Pool, near: f64) -> Rebased {
         let (dim, m) = (self.dim, self.dim + 1);
         let mut how = Rebased::Plainly;
-        let support = pool.support();
+        let (points, weights) = pool.support();
         for _ in 0..TURNS {
-            let images = self.apply(&support);
-            let moments = moments(dim, &images.blocks, support.padded_weights());
+            let images = self.apply_to(&points);
+            let moments = moments(dim, &images.blocks, &weights);
             let total = moments[m * m - 1];
             let mean: Vec<f64> = moments[dim * m..][..dim].iter().map(|s| s / total).collect();
             let mut covariance = vec![0.0; dim * dim];

@@ -57,6 +57,16 @@ pub(super) trait Lanes: Copy {
     /// # Safety
     /// Eight values must be writable at `to`.
     unsafe fn store(self, to: *mut f64);
+    /// Asks for the memory at `at`, which is not read, to be brought near.
+    ///
+    /// # Safety
+    /// See [`zero`](Self::zero); `at` may point anywhere.
+    unsafe fn prefetch(at: *const u8);
+    /// The even lanes of sixteen values in two vectors, and the odd ones.
+    ///
+    /// # Safety
+    /// See [`zero`](Self::zero).
+    unsafe fn split(first: Self, second: Self) -> (Self, Self);
     /// Lane i of result j is lane j of row i.
     ///
     /// # Safety

@@ -71,6 +71,19 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
+    unsafe fn prefetch(_: *const u8) {}
+
+    #[inline(always)]
+    unsafe fn split(first: Self, second: Self) -> (Self, Self) {
+        let all = [first.0, second.0];
+        let lane = |i: usize| all[i / 8][i % 8];
+        (
+            Portable(std::array::from_fn(|i| lane(2 * i))),
+            Portable(std::array::from_fn(|i| lane(2 * i + 1))),
+        )
+    }
+
+    #[inline(always)]
     unsafe fn transpose(rows: [Self; 8]) -> [Self; 8] {
         std::array::from_fn(|j| Portable(std::array::from_fn(|i| rows[i].0[j])))
     }

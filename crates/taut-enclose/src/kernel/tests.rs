@@ -107,3 +107,178 @@ fn ties_are_told_exactly() {
     assert!(within(&[3.0, 4.0], 0.0, 0.0, 6.0, 1.0));
     assert!(!within(&[3.0, 4.0], 0.0, 0.0, 5.0 + r - 1e-15, r));
 }
+
+/// T(x − c), as [`triangle`] should have it.
+fn image(matrix: &[f64], x: &[f64], center: &Center, shift: &[f64]) -> Vec<f64> {
+    let dim = center.dim();
+    let difference = |j: usize| {
+        let low = center.low.get(j).copied().unwrap_or(0.0);
+        DoubleDouble::sum(x[j], -center.high[j]).sub(low.into())
+    };
+    let row = |a: usize| {
+        (0..=a).fold(DoubleDouble::from(-shift[a]), |sum, b| {
+            sum.add(difference(b).mul(matrix[a * dim + b].into()))
+        })
+    };
+    (0..dim).map(|a| row(a).high).collect()
+}
+
+/// A lower triangular matrix whose entries above the diagonal would spoil everything.
+fn lower(dim: usize) -> Vec<f64> {
+    let entry = |a: usize, b: usize| if b > a { f64::NAN } else { ((a * 7 + b * 3) as f64).sin() };
+    (0..dim * dim).map(|at| entry(at / dim, at % dim)).collect()
+}
+
+/// The same by every kind of lanes.
+fn leverages_of_each<T: Scalar>(
+    values: &[T],
+    matrix: &[f64],
+    center: &Center,
+    rows: usize,
+) -> Vec<Vec<f64>> {
+    let mut scratch = vec![0.0; center.dim() * (triangle::POINTS + 1)];
+    let mut results = vec![vec![0.0; rows]];
+    let work =
+        triangle::Leverages { values, matrix, center, scratch: &mut scratch, out: &mut results[0] };
+    // SAFETY: the portable lanes need no feature; lengths match.
+    #[allow(unsafe_code)]
+    unsafe {
+        triangle::Work::run::<portable::Portable>(work)
+    };
+    #[cfg(target_arch = "x86_64")]
+    for set in [x86::Set::Avx512, x86::Set::Avx2] {
+        let mut out = vec![0.0; rows];
+        let scratch = &mut scratch;
+        let work = triangle::Leverages { values, matrix, center, scratch, out: &mut out };
+        if x86::run_as(set, work).is_none() {
+            results.push(out);
+        }
+    }
+    results
+}
+
+fn check_leverages<T: Scalar>(dim: usize, rows: usize, offset: f64, two_terms: bool) {
+    let values: Vec<T> = normal(rows, dim).into_iter().map(|v| T::from_f64(v + offset)).collect();
+    let low =
+        if two_terms { (0..dim).map(|j| offset * 1e-17 * j as f64).collect() } else { vec![] };
+    let center = Center { high: vec![offset + 0.25; dim], low };
+    let matrix = lower(dim);
+    let mut found = vec![0.0; rows];
+    triangle::leverages(&values, &matrix, &center, &mut vec![1.0; 3], &mut found);
+    let others = leverages_of_each(&values, &matrix, &center, rows);
+    for (i, &value) in found.iter().enumerate() {
+        let row: Vec<f64> = values[i * dim..][..dim].iter().map(|&v| v.into()).collect();
+        let exact = image(&matrix, &row, &center, &vec![0.0; dim]);
+        let exact: f64 = exact.iter().map(|y| y * y).sum();
+        let terms = dim as f64 * row.iter().map(|x| (x - offset).abs() + 1.0).sum::<f64>().powi(2);
+        assert!((value - exact).abs() <= 1e-15 * terms, "d {dim}, row {i}: {value}, {exact}");
+        // Each instruction set, with roundings of its own.
+        for other in &others {
+            assert!((other[i] - exact).abs() <= 1e-15 * terms, "d {dim}, row {i}: {}", other[i]);
+        }
+        // A row does not depend on its neighbours, nor on where it stands.
+        let mut alone = [0.0];
+        let one = &values[i * dim..][..dim];
+        triangle::leverages(one, &matrix, &center, &mut vec![], &mut alone);
+        assert_eq!(alone[0], value, "d {dim}, row {i}");
+    }
+}
+
+#[test]
+fn leverages_agree_with_double_double() {
+    let dims: Vec<usize> =
+        if cfg!(miri) { vec![1, 2, 9] } else { (1..20).chain([31, 64, 65]).collect() };
+    let counts: &[usize] = if cfg!(miri) { &[1, 33] } else { &[1, 7, 31, 32, 33, 100] };
+    for dim in dims {
+        for &rows in counts {
+            check_leverages::<f64>(dim, rows, 0.0, false);
+            check_leverages::<f32>(dim, rows, 0.0, false);
+            check_leverages::<f64>(dim, rows, 1e9, true);
+        }
+    }
+}
+
+#[test]
+fn images_forms_and_moments_agree_with_plain_loops() {
+    for dim in [1, 2, 3, 8, 9, 20] {
+        let points = 2 * triangle::POINTS;
+        let rows = normal(points, dim);
+        let mut blocks = vec![0.0; points * dim];
+        for (i, row) in rows.chunks_exact(dim).enumerate() {
+            for (j, &x) in row.iter().enumerate() {
+                blocks[i / 32 * 32 * dim + 32 * j + i % 32] = x;
+            }
+        }
+        let (matrix, shift) = (lower(dim), normal(1, dim));
+        let center = Center { high: vec![0.0; dim], low: vec![] };
+        let weights: Vec<f64> = (0..points).map(|i| (i % 5) as f64).collect();
+        let triangle = triangle::Triangle { matrix: &matrix, shift: &shift };
+        let (mut z, mut out) = (vec![0.0; 32 * dim], [0.0; 32]);
+        for (k, block) in blocks.chunks_exact(32 * dim).enumerate() {
+            triangle::images(triangle, block, &mut z, &mut out);
+            let mut forms = [0.0; 32];
+            triangle::forms(triangle, block, &mut forms);
+            for i in 0..32 {
+                let row = &rows[(32 * k + i) * dim..][..dim];
+                let wanted = image(&matrix, row, &center, &shift);
+                let square: f64 = wanted.iter().map(|y| y * y).sum();
+                let form: f64 = wanted.iter().zip(row).map(|(y, x)| y * x).sum();
+                assert!((out[i] - square).abs() < 1e-12 * (1.0 + square));
+                assert!((forms[i] - form).abs() < 1e-12 * (1.0 + square));
+                for (j, wanted) in wanted.iter().enumerate() {
+                    assert!((z[32 * j + i] - wanted).abs() < 1e-12 * (1.0 + wanted.abs()));
+                }
+            }
+        }
+        let moments = triangle::moments(dim, &blocks, &weights);
+        let m = dim + 1;
+        let coordinate = |i: usize, a: usize| if a == dim { 1.0 } else { rows[i * dim + a] };
+        for a in 0..m {
+            for b in 0..=a {
+                let wanted: f64 =
+                    (0..points).map(|i| weights[i] * coordinate(i, a) * coordinate(i, b)).sum();
+                assert!((moments[a * m + b] - wanted).abs() < 1e-11);
+            }
+        }
+    }
+}
+
+/// All instruction sets split and transpose alike.
+#[test]
+fn lanes_move_values_alike_everywhere() {
+    struct Moved<'a>(&'a mut Vec<f64>);
+    impl triangle::Work for Moved<'_> {
+        #[allow(unsafe_code)]
+        unsafe fn run<L: Lanes>(self) {
+            let values: Vec<f64> = (0..64).map(f64::from).collect();
+            // SAFETY: features are the caller's promise; each load and store stays within 64 values.
+            unsafe {
+                let rows: [L; 8] = std::array::from_fn(|i| L::load(values.as_ptr().add(8 * i)));
+                let (even, odd) = L::split(rows[0], rows[1]);
+                let columns = L::transpose(rows);
+                let mut eight = [0.0; 8];
+                for lanes in [even, odd].iter().chain(&columns) {
+                    lanes.store(eight.as_mut_ptr());
+                    self.0.extend(eight);
+                }
+            }
+        }
+    }
+    let mut wanted: Vec<f64> = (0..8).map(|i| f64::from(2 * i)).collect();
+    wanted.extend((0..8).map(|i| f64::from(2 * i + 1)));
+    wanted.extend((0..64).map(|at| f64::from(at % 8 * 8 + at / 8)));
+    let mut found = vec![];
+    // SAFETY: the portable lanes need no feature.
+    #[allow(unsafe_code)]
+    unsafe {
+        triangle::Work::run::<portable::Portable>(Moved(&mut found))
+    };
+    assert_eq!(found, wanted);
+    #[cfg(target_arch = "x86_64")]
+    for set in [x86::Set::Avx512, x86::Set::Avx2] {
+        let mut found = vec![];
+        if x86::run_as(set, Moved(&mut found)).is_none() {
+            assert_eq!(found, wanted, "{set:?}");
+        }
+    }
+}

@@ -34,6 +34,8 @@ macro_rules! dispatched {
     };
 }
 
+pub(crate) use dispatched;
+
 #[inline(always)]
 fn multiply_add<const FUSED: bool>(a: f64, b: f64, sum: f64) -> f64 {
     if FUSED { a.mul_add(b, sum) } else { sum + a * b }

@@ -33,6 +33,18 @@ pub(super) fn squared_distances<T: Scalar>(
 
 /// Does the work with the best registers there are, or gives it back when the processor has none of the features.
 pub(super) fn run<W: Work>(work: W) -> Option<W> {
+    run_as(Set::Avx512, work).and_then(|work| run_as(Set::Avx2, work))
+}
+
+/// Instruction sets with a file of their own.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Set {
+    Avx512,
+    Avx2,
+}
+
+/// Does the work with the given instruction set, or gives it back when the processor does not have it.
+pub(super) fn run_as<W: Work>(set: Set, work: W) -> Option<W> {
     #[target_feature(enable = "avx512f,fma")]
     fn with_avx512<W: Work>(work: W) {
         // SAFETY: this function is only called where the feature is.
@@ -43,16 +55,19 @@ pub(super) fn run<W: Work>(work: W) -> Option<W> {
         // SAFETY: this function is only called where the features are.
         unsafe { work.run::<Avx2>() }
     }
-    if is_x86_feature_detected!("avx512f") {
-        // SAFETY: the processor has just been asked; every one with AVX-512F has FMA.
-        unsafe { with_avx512(work) };
-    } else if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-        // SAFETY: the processor has just been asked for both features.
-        unsafe { with_avx2(work) };
-    } else {
-        return Some(work);
+    match set {
+        Set::Avx512 if is_x86_feature_detected!("avx512f") => {
+            // SAFETY: the processor has just been asked; every one with AVX-512F has FMA.
+            unsafe { with_avx512(work) };
+            None
+        }
+        Set::Avx2 if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") => {
+            // SAFETY: the processor has just been asked for both features.
+            unsafe { with_avx2(work) };
+            None
+        }
+        _ => Some(work),
     }
-    None
 }
 
 /// # Safety

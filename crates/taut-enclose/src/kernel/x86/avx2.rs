@@ -119,6 +119,23 @@ impl Lanes for Avx2 {
         }
     }
 
+    #[inline(always)]
+    unsafe fn prefetch(at: *const u8) {
+        // SAFETY: see above; a prefetch reads nothing that the program sees.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(at.cast()) }
+    }
+
+    #[inline(always)]
+    unsafe fn split(first: Self, second: Self) -> (Self, Self) {
+        // SAFETY: see above.
+        unsafe {
+            let order = |v: __m256d| _mm256_permute4x64_pd::<0b11_01_10_00>(v);
+            let even = |v: Self| order(_mm256_unpacklo_pd(v.0, v.1));
+            let odd = |v: Self| order(_mm256_unpackhi_pd(v.0, v.1));
+            (Avx2(even(first), even(second)), Avx2(odd(first), odd(second)))
+        }
+    }
+
     /// Four squares of four rows and four columns.
     #[inline(always)]
     unsafe fn transpose(rows: [Self; 8]) -> [Self; 8] {

@@ -103,6 +103,25 @@ impl Lanes for Avx512 {
         unsafe { _mm512_storeu_pd(to, self.0) }
     }
 
+    #[inline(always)]
+    unsafe fn prefetch(at: *const u8) {
+        // SAFETY: see above; a prefetch reads nothing that the program sees.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(at.cast()) }
+    }
+
+    #[inline(always)]
+    unsafe fn split(first: Self, second: Self) -> (Self, Self) {
+        // SAFETY: see above.
+        unsafe {
+            let even = _mm512_setr_epi64(0, 2, 4, 6, 8, 10, 12, 14);
+            let odd = _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15);
+            (
+                Avx512(_mm512_permutex2var_pd(first.0, even, second.0)),
+                Avx512(_mm512_permutex2var_pd(first.0, odd, second.0)),
+            )
+        }
+    }
+
     /// Pairs of rows are interleaved, then quarters put together, twice.
     #[inline(always)]
     unsafe fn transpose(rows: [Self; 8]) -> [Self; 8] {

@@ -4,36 +4,36 @@
 //! Sci. Comput. 26(6), 2005, algorithm Dot2); eight points side by side, so that the compiler uses full registers.
 //! *Guarantee.* The error of a coordinate of an image is one rounding of it, and about d²·2⁻¹⁰⁴ times |M||x − c|.
 
-use crate::kernel::{Center, DoubleDouble};
+use super::{Center, DoubleDouble};
 
 /// Eight points side by side.
 type Eight = [f64; 8];
 
 /// A linear map by rows, r × d, and the centre it is taken from.
 #[derive(Clone, Copy)]
-pub(super) struct Map<'a> {
-    pub(super) matrix: &'a [f64],
-    pub(super) center: &'a Center,
+pub(crate) struct Map<'a> {
+    pub(crate) matrix: &'a [f64],
+    pub(crate) center: &'a Center,
     /// Whether it is square and lower triangular; what is above the diagonal is not read then.
-    pub(super) triangular: bool,
+    pub(crate) triangular: bool,
 }
 
 impl<'a> Map<'a> {
     /// The same with another matrix.
-    pub(super) fn with<'b>(&'b self, matrix: &'b [f64]) -> Map<'b> {
+    pub(crate) fn with<'b>(&'b self, matrix: &'b [f64]) -> Map<'b> {
         Map { matrix, ..*self }
     }
 
-    pub(super) fn dim(&self) -> usize {
+    pub(crate) fn dim(&self) -> usize {
         self.center.dim()
     }
 
-    pub(super) fn rank(&self) -> usize {
+    pub(crate) fn rank(&self) -> usize {
         self.matrix.len() / self.dim()
     }
 
     /// M(x − c) for each row, n × r, and |M(x − c)|² rounded up.
-    pub(super) fn images(&self, rows: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    pub(crate) fn images(&self, rows: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let (dim, rank) = (self.dim(), self.rank());
         let count = rows.len() / dim;
         let (mut images, mut squares) = (vec![0.0; count * rank], vec![0.0; count]);
