@@ -6,7 +6,10 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de::DeserializeOwn
 use serde_json::ser::{Formatter, PrettyFormatter};
 use taut_points::{Monitor, PointSource, PointsHash};
 
-use crate::{Answer, AnyVerdict, Ball, CheckError, Ellipsoid, Solution, Trace, Triangulation};
+use crate::{
+    Answer, AnyVerdict, Ball, CheckError, Ellipsoid, RobustEllipsoid, Solution, Trace,
+    Triangulation,
+};
 
 /// Version of the document; it grows by one when a reader of the old one would misread the new.
 pub const SCHEMA: u32 = 1;
@@ -185,6 +188,8 @@ pub enum AnySolution {
     Ball(Solution<Ball>),
     /// A minimum volume enclosing ellipsoid.
     Ellipsoid(Solution<Ellipsoid>),
+    /// A robust ellipsoid.
+    Robust(Box<Solution<RobustEllipsoid>>),
     /// A Delaunay triangulation.
     Triangulation(Solution<Triangulation>),
 }
@@ -214,6 +219,7 @@ impl AnySolution {
         match head.kind.as_str() {
             Ball::KIND => Ok(AnySolution::Ball(parse(text)?)),
             Ellipsoid::KIND => Ok(AnySolution::Ellipsoid(parse(text)?)),
+            RobustEllipsoid::KIND => Ok(AnySolution::Robust(Box::new(parse(text)?))),
             Triangulation::KIND => Ok(AnySolution::Triangulation(parse(text)?)),
             _ => Err(JsonError::Kind { found: head.kind }),
         }
@@ -224,6 +230,7 @@ impl AnySolution {
         match self {
             AnySolution::Ball(found) => found.to_json(),
             AnySolution::Ellipsoid(found) => found.to_json(),
+            AnySolution::Robust(found) => found.to_json(),
             AnySolution::Triangulation(found) => found.to_json(),
         }
     }
@@ -243,6 +250,9 @@ impl AnySolution {
             }
             AnySolution::Ellipsoid(found) => {
                 found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Ellipsoid)
+            }
+            AnySolution::Robust(found) => {
+                found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Robust)
             }
             AnySolution::Triangulation(found) => found
                 .answer

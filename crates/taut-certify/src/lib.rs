@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | [`Ball`] | [`BallCertificate`] | every point is inside; no smaller ball than r/(1 + gap) holds them all |
 //! | [`Ellipsoid`] | [`EllipsoidCertificate`] | every point is inside; no ellipsoid of a log-volume less by more than the gap holds them all |
+//! | [`RobustEllipsoid`] | [`RobustCertificate`] | centre, scatter, factors and flags are those of the points kept; no C-step leads on from them; by `mve` and `trim`, no smaller ellipsoid holds them |
 //! | [`Triangulation`] | [`TriangulationCertificate`] | the simplices are *the* Delaunay triangulation of the points |
 //!
 //! A [`Solution`] is an answer, its certificate and a trace of counters. [`Solution::check`] reads the points again
@@ -37,6 +38,7 @@ mod ball;
 mod ellipsoid;
 mod items;
 mod json;
+mod robust;
 mod solution;
 mod triangulation;
 mod verdict;
@@ -45,6 +47,9 @@ pub use ball::{Ball, BallCertificate};
 pub use ellipsoid::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull};
 pub use items::Items;
 pub use json::{AnySolution, JsonError, SCHEMA};
+pub use robust::{
+    Enclosure, RobustCertificate, RobustEllipsoid, RobustMethod, RobustMethodError, RobustVerdict,
+};
 pub use solution::{Answer, PassBounds, Solution, Stop, Trace};
 pub use triangulation::{
     Fingerprint, FingerprintFormError, MeshViolation, NO_NEIGHBOR, SiteHash, Triangulation,

@@ -2,7 +2,7 @@
 
 use taut_points::ReadError;
 
-use crate::{EllipsoidVerdict, MeshViolation, TriangulationVerdict};
+use crate::{EllipsoidVerdict, MeshViolation, RobustVerdict, TriangulationVerdict};
 
 /// What was proved of an answer of any kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,6 +11,8 @@ pub enum AnyVerdict {
     Ball(Verdict),
     /// Of a minimum volume enclosing ellipsoid.
     Ellipsoid(EllipsoidVerdict),
+    /// Of a robust ellipsoid.
+    Robust(RobustVerdict),
     /// Of a Delaunay triangulation.
     Triangulation(TriangulationVerdict),
 }
@@ -269,6 +271,42 @@ pub enum Violation {
         claimed: f64,
         /// What the checker finds.
         proved: f64,
+    },
+    /// A number of a robust estimate is not what the points give.
+    #[error("{what} is {claimed:?}, but the points give {found:?}")]
+    Estimate {
+        /// The number in question.
+        what: String,
+        /// What the answer or certificate says.
+        claimed: f64,
+        /// What was found.
+        found: f64,
+    },
+    /// A list of rows of a robust estimate names a row that does not belong there, or lacks one that does.
+    #[error("the list of points {list} {problem} point {row}, at {distance:?} times its border")]
+    Listed {
+        /// The list.
+        list: &'static str,
+        /// "names" or "lacks".
+        problem: &'static str,
+        /// The first such row, from 0.
+        row: u64,
+        /// Its distance in units of the border that the list is about, infinite for a point off the hull.
+        distance: f64,
+    },
+    /// The points kept are not the nearest in their own metric: a C-step leads on from them.
+    #[error(
+        "point {kept} is kept at a squared distance of {distance:?}, but point {other} is left out at {nearer:?}"
+    )]
+    NotNearest {
+        /// The farthest row kept, from 0.
+        kept: u64,
+        /// Its squared distance in the metric of the rows kept.
+        distance: f64,
+        /// The nearest row left out.
+        other: u64,
+        /// Its squared distance.
+        nearer: f64,
     },
     /// Something is wrong with a triangulation.
     #[error(transparent)]

@@ -53,6 +53,12 @@ impl Args {
             AnySolution::Ellipsoid(found) => self.judged(found, &points, &watch)?.map(|verdict| {
                 EllipsoidReport { found, points: &points, verdict }.drawing(&self.look)
             }),
+            AnySolution::Robust(_) => {
+                anyhow::bail!(
+                    "{} is a robust ellipsoid: only balls, ellipsoids and triangulations are drawn",
+                    shown(&self.answer)
+                )
+            }
             AnySolution::Triangulation(found) => {
                 self.judged(found, &points, &watch)?.map(|verdict| {
                     TriangulationReport { found, points: &points, verdict }.drawing(&self.look)

@@ -171,6 +171,7 @@ impl Opened {
             Violation::Outside { row, .. }
             | Violation::OutsideEllipsoid { row, .. }
             | Violation::NotOutside { row, .. }
+            | Violation::Listed { row, .. }
             | Violation::OffHull { row, .. } => {
                 // Points count from 0, rows of a file from 1.
                 let (point, place) = (format!("point {row}"), self.input.describe_cell(row, 0).row);

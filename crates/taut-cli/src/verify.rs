@@ -7,7 +7,7 @@ use anyhow::{anyhow, bail};
 use taut::certify::{CheckError, JsonError, check_simplices};
 use taut::enclose::Error as SolveError;
 use taut::points::{Blocks, Scratch};
-use taut::{Answer, AnySolution, Solution, Verdict, Violation};
+use taut::{Answer, AnySolution, RobustEllipsoid, RobustVerdict, Solution, Verdict, Violation};
 use taut_io::{Mesh, MeshFormat, open_mesh};
 
 use crate::effort::Effort;
@@ -78,6 +78,15 @@ impl Args {
                     exact(found.answer.log_volume)
                 );
                 (Outcome::Done, report::text(&title, &proved_of_ellipsoid(&verdict)))
+            }),
+            AnySolution::Robust(found) => judge(found, &points, &watch)?.map(|verdict| {
+                let title = format!(
+                    "Verified: robust ellipsoid by {} of {} of {} points",
+                    found.certificate.method,
+                    found.certificate.kept,
+                    points.source().len()
+                );
+                (Outcome::Done, report::text(&title, &proved_of_robust(found, &verdict)))
             }),
             AnySolution::Triangulation(found) => judge(found, &points, &watch)?.map(|verdict| {
                 let title = triangulation(points.source().dim());
@@ -158,6 +167,24 @@ pub(crate) fn judge<A: Answer>(
         found.answer.check(&found.certificate, points.source(), monitor)
     };
     verdict(watch.during("checking", check), points)
+}
+
+/// What was proved of a robust ellipsoid, and what was not.
+fn proved_of_robust(found: &Solution<RobustEllipsoid>, verdict: &RobustVerdict) -> Vec<Fact> {
+    let mut facts = vec![
+        Fact::new("objective", exact(verdict.objective))
+            .remark("a local optimum: no C-step leads on; other points kept might do better"),
+        Fact::new("outliers", found.answer.flagged.len().to_string())
+            .remark("exactly the points outside the ellipsoid"),
+        Fact::new("dimension", verdict.rank.to_string()),
+    ];
+    if let Some(enclosure) = &verdict.enclosure {
+        facts.push(
+            Fact::new("gap", gap(enclosure.gap))
+                .remark("in log-volume, of the ellipsoid around the points kept"),
+        );
+    }
+    facts
 }
 
 /// Tells a rejected answer from points that no answer can be judged by.

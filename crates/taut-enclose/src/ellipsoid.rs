@@ -4,7 +4,7 @@
 //! [`proof`] turns that into an answer and its certificate, whatever the method was.
 
 mod counters;
-mod dense;
+pub(crate) mod dense;
 mod factor;
 mod first_order;
 mod flat;
@@ -13,12 +13,12 @@ mod interior;
 mod newton;
 mod nnls;
 mod options;
-mod outcome;
+pub(crate) mod outcome;
 mod pool;
 mod proof;
 mod rounds;
 mod sample;
-mod survey;
+pub(crate) mod survey;
 mod whitener;
 
 use taut_certify::{Ellipsoid, Solution};

@@ -4,6 +4,7 @@
 //! |---|---|---|---|
 //! | smallest ball around points | [`ball()`] | R ≤ (1 + ε)·R*, proved | few passes of O(nd) |
 //! | smallest ball around balls | [`ball_of_balls()`] | the same | the same |
+//! | centre, scatter and outliers | [`robust_ellipsoid()`] | all proved but that no other points kept would do better | some ten to thirty passes of O(nd²) |
 //! | either, larger than memory | [`ball_of_source()`] | the same | the same, one block per thread in memory |
 //! | smallest ellipsoid around points | [`ellipsoid()`] | log-volume ≤ optimum + ε, proved | few passes of O(nd²) |
 //! | the same, larger than memory | [`ellipsoid_of_source()`] | the same | the same, one block per thread in memory |
@@ -14,15 +15,17 @@
 //! assert!(found.check(&points)?.gap <= 1e-9);                                    // a second opinion, not the solver's
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
-//! Not for: distances other than Euclidean; sets where some points may be left out.
+//! Not for: distances other than Euclidean; balls where some points may be left out.
 
 mod ball;
 mod ellipsoid;
 mod error;
 mod kernel;
+mod robust;
 mod scan;
 mod top;
 
 pub use ball::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_source};
 pub use ellipsoid::{EllipsoidMethod, EllipsoidOptions, ellipsoid, ellipsoid_of_source};
 pub use error::Error;
+pub use robust::{RobustOptions, robust_ellipsoid, robust_ellipsoid_of_source};

@@ -7,6 +7,7 @@
 //! | either ball, of more points than memory holds | [`ball_of_source()`] | the same | [`enclose`] |
 //! | the ellipsoid of least volume around points | [`ellipsoid()`] | log-volume ≤ least + ε, proved | [`enclose`] |
 //! | the same, of more points than memory holds | [`ellipsoid_of_source()`] | the same | [`enclose`] |
+//! | centre and scatter of most points, and the outliers | [`robust_ellipsoid()`] | all but the choice of points proved; that choice a local optimum | [`enclose`] |
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`Plane`], [`Space`] | the same | [mod@delaunay] |
 //! | edges that must be there | [`Plane::constrained`] | exact, Delaunay as far as they let it be | [mod@delaunay] |
@@ -66,13 +67,14 @@
 //! Nothing but names lives here; each crate behind the door can be used on its own. Files are read and written by
 //! `taut-io`, pictures drawn by `taut-draw`, and the command `taut` is the crate `taut-cli`.
 //!
-//! Not for: distances other than Euclidean, weights, or sets where some points may be left out.
+//! Not for: distances other than Euclidean, or weights.
 #![forbid(unsafe_code)]
 
 pub use taut_certify as certify;
 pub use taut_certify::{
     Answer, AnySolution, Ball, BallCertificate, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict,
-    Items, Solution, Trace, Triangulation, TriangulationCertificate, Verdict, Violation,
+    Items, RobustCertificate, RobustEllipsoid, RobustMethod, RobustVerdict, Solution, Trace,
+    Triangulation, TriangulationCertificate, Verdict, Violation,
 };
 pub use taut_delaunay as delaunay;
 pub use taut_delaunay::{
@@ -80,8 +82,8 @@ pub use taut_delaunay::{
 };
 pub use taut_enclose as enclose;
 pub use taut_enclose::{
-    BallMethod, BallOptions, EllipsoidMethod, EllipsoidOptions, ball, ball_of_balls,
-    ball_of_source, ellipsoid, ellipsoid_of_source,
+    BallMethod, BallOptions, EllipsoidMethod, EllipsoidOptions, RobustOptions, ball, ball_of_balls,
+    ball_of_source, ellipsoid, ellipsoid_of_source, robust_ellipsoid, robust_ellipsoid_of_source,
 };
 pub use taut_points as points;
 pub use taut_points::{Distribution, Monitor, PointSource, Points, generate};

@@ -20,10 +20,10 @@
 //! *Tolerances.* They only ask that stated numbers are what they are said to be, up to what writing them down as `f64`
 //! costs, and weaken neither bound; each is derived where it stands.
 
-mod agreement;
+pub(crate) mod agreement;
 mod enclosure;
-mod frame;
-mod hull;
+pub(crate) mod frame;
+pub(crate) mod hull;
 mod item;
 mod lower_bound;
 mod panel;
@@ -45,7 +45,7 @@ use crate::{CheckError, Violation};
 /// last place.
 const GAP_SLACK: (f64, f64) = (1e-9, 2e-15);
 
-pub(super) fn check(
+pub(crate) fn check(
     ellipsoid: &Ellipsoid,
     certificate: &EllipsoidCertificate,
     source: &dyn PointSource,

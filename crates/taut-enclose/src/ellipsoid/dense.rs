@@ -3,7 +3,7 @@
 use crate::kernel::vector::{add_scaled, dot};
 
 /// A ← L with A = LL′, of the lower triangle by rows, n × n; false when A is not positive definite to rounding.
-pub(super) fn cholesky(a: &mut [f64], n: usize) -> bool {
+pub(crate) fn cholesky(a: &mut [f64], n: usize) -> bool {
     for i in 0..n {
         let (above, row) = a.split_at_mut(i * n);
         for j in 0..i {
@@ -21,7 +21,7 @@ pub(super) fn cholesky(a: &mut [f64], n: usize) -> bool {
 }
 
 /// b ← L⁻¹b.
-pub(super) fn forward(lower: &[f64], n: usize, b: &mut [f64]) {
+pub(crate) fn forward(lower: &[f64], n: usize, b: &mut [f64]) {
     for i in 0..n {
         let row = &lower[i * n..i * n + i + 1];
         b[i] = (b[i] - dot(&row[..i], &b[..i])) / row[i];
@@ -29,7 +29,7 @@ pub(super) fn forward(lower: &[f64], n: usize, b: &mut [f64]) {
 }
 
 /// M ← L⁻¹M for lower triangular matrices.
-pub(super) fn divide_rows(lower: &[f64], n: usize, m: &mut [f64]) {
+pub(crate) fn divide_rows(lower: &[f64], n: usize, m: &mut [f64]) {
     for i in 0..n {
         let (above, row) = m.split_at_mut(i * n);
         for j in 0..i {

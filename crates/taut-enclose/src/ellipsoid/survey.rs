@@ -46,7 +46,7 @@ pub(super) struct Found {
 }
 
 /// The points of a source, as a solver sees them.
-pub(super) struct Survey<'a> {
+pub(crate) struct Survey<'a> {
     source: &'a dyn PointSource,
     monitor: &'a Monitor<'a>,
     passes: u64,
@@ -60,7 +60,7 @@ struct BlockReport {
 }
 
 impl<'a> Survey<'a> {
-    pub(super) fn new(
+    pub(crate) fn new(
         source: &'a dyn PointSource,
         monitor: &'a Monitor<'a>,
     ) -> Result<Self, Error> {
@@ -70,38 +70,38 @@ impl<'a> Survey<'a> {
         Ok(Survey { source, monitor, passes: 0, hash: None })
     }
 
-    pub(super) fn dim(&self) -> usize {
+    pub(crate) fn dim(&self) -> usize {
         self.source.dim()
     }
 
-    pub(super) fn len(&self) -> u64 {
+    pub(crate) fn len(&self) -> u64 {
         self.source.len()
     }
 
-    pub(super) fn source(&self) -> &'a dyn PointSource {
+    pub(crate) fn source(&self) -> &'a dyn PointSource {
         self.source
     }
 
-    pub(super) fn monitor(&self) -> &'a Monitor<'a> {
+    pub(crate) fn monitor(&self) -> &'a Monitor<'a> {
         self.monitor
     }
 
-    pub(super) fn passes(&self) -> u64 {
+    pub(crate) fn passes(&self) -> u64 {
         self.passes
     }
 
     /// Adds the passes that were made over the same points in other coordinates.
-    pub(super) fn count(&mut self, passes: u64) {
+    pub(crate) fn count(&mut self, passes: u64) {
         self.passes += passes;
     }
 
     /// The hash of the rows; known after the first pass.
-    pub(super) fn hash(&self) -> PointsHash {
+    pub(crate) fn hash(&self) -> PointsHash {
         self.hash.expect("the first pass hashes the rows")
     }
 
     /// The rows with the given numbers.
-    pub(super) fn rows(&self, ids: &[u64]) -> Result<Vec<f64>, Error> {
+    pub(crate) fn rows(&self, ids: &[u64]) -> Result<Vec<f64>, Error> {
         Ok(gather(self.source, ids)?)
     }
 
@@ -120,7 +120,7 @@ impl<'a> Survey<'a> {
     }
 
     /// One pass of another kind: calls `work` with the number of the first row and the rows of each block.
-    pub(super) fn visit<R: Send>(
+    pub(crate) fn visit<R: Send>(
         &mut self,
         work: impl Fn(u64, &[f64]) -> R + Sync,
     ) -> Result<Vec<R>, Error> {

@@ -15,7 +15,7 @@ use crate::Violation;
 use crate::arithmetic::{DoubleDouble, Field, Ring, U};
 
 /// What Q and FᵀF differ by, over s².
-pub(super) struct Difference {
+pub(crate) struct Difference {
     entries: Vec<f64>,
     dim: usize,
 }
@@ -31,7 +31,7 @@ impl Difference {
 }
 
 /// Compares the matrix with the factor.
-pub(super) fn matrix(ellipsoid: &Ellipsoid, frame: &Frame<'_>) -> Result<Difference, Violation> {
+pub(crate) fn matrix(ellipsoid: &Ellipsoid, frame: &Frame<'_>) -> Result<Difference, Violation> {
     let dim = frame.dim;
     let mut product = vec![DoubleDouble::of(0.0); dim * (dim + 1) / 2];
     for a in 0..frame.rank {
@@ -69,7 +69,7 @@ pub(super) fn matrix(ellipsoid: &Ellipsoid, frame: &Frame<'_>) -> Result<Differe
 }
 
 /// Compares the log-volume with the factor; returns it as found here.
-pub(super) fn log_volume(ellipsoid: &Ellipsoid, frame: &Frame<'_>) -> Result<f64, Violation> {
+pub(crate) fn log_volume(ellipsoid: &Ellipsoid, frame: &Frame<'_>) -> Result<f64, Violation> {
     let claimed = ellipsoid.log_volume;
     let singular = Violation::LogVolume { claimed, found: f64::INFINITY };
     let mut logs = log_unit_ball(frame.rank);
@@ -89,7 +89,7 @@ pub(super) fn log_volume(ellipsoid: &Ellipsoid, frame: &Frame<'_>) -> Result<f64
 }
 
 /// log κᵣ as a sum of logarithms: κ₀ = 1, κ₁ = 2, κᵣ = κᵣ₋₂·2π/r.
-fn log_unit_ball(rank: usize) -> Vec<f64> {
+pub(crate) fn log_unit_ball(rank: usize) -> Vec<f64> {
     let first = if rank % 2 == 1 { vec![std::f64::consts::LN_2] } else { vec![] };
     let steps = (2..=rank).filter(|k| k % 2 == rank % 2);
     first.into_iter().chain(steps.map(|k| (std::f64::consts::TAU / k as f64).ln())).collect()

@@ -130,7 +130,11 @@ impl<'a> Enclosure<'a> {
             found.take(first + row as u64, self.excess(&values[row * dim..][..dim]))?;
         }
         for row in left_out {
-            reaches_outside(first + row as u64, self.excess(&values[row * dim..][..dim]))?;
+            let point = &values[row * dim..][..dim];
+            // Off the hull is outside, wherever the projection lies.
+            if !self.hull.is_some_and(|hull| hull.is_off(point, self.frame)) {
+                reaches_outside(first + row as u64, self.excess(point))?;
+            }
         }
         if let Some(hull) = self.hull {
             let mut left_out = self.left_out_of(first, panel.rows()).peekable();

@@ -16,20 +16,20 @@ use crate::arithmetic::{Compensated, Known, U};
 use crate::{Items, Violation};
 
 /// One hull, ready to be compared with items.
-pub(super) struct HullTest<'a> {
+pub(crate) struct HullTest<'a> {
     hull: &'a Hull,
     /// 32(d + 4)√(r + 1)·u.
     rounding: f64,
 }
 
 impl<'a> HullTest<'a> {
-    pub(super) fn of(frame: &Frame<'_>, hull: &'a Hull) -> Self {
+    pub(crate) fn of(frame: &Frame<'_>, hull: &'a Hull) -> Self {
         let rounding = 32.0 * (frame.dim + 4) as f64 * ((frame.rank + 1) as f64).sqrt() * U;
         HullTest { hull, rounding }
     }
 
     /// Whether the basis is orthonormal and spans the rows of the factor.
-    pub(super) fn check(&self, frame: &Frame<'_>) -> Result<(), Violation> {
+    pub(crate) fn check(&self, frame: &Frame<'_>) -> Result<(), Violation> {
         let basis = &self.hull.basis;
         let tolerance = 16.0 * (frame.dim + 4) as f64 * U;
         for (i, row) in basis.iter().enumerate() {
@@ -56,7 +56,7 @@ impl<'a> HullTest<'a> {
     }
 
     /// (I − BᵀB)x.
-    fn off(&self, x: &[f64]) -> Vec<f64> {
+    pub(crate) fn off(&self, x: &[f64]) -> Vec<f64> {
         let mut rest = x.to_vec();
         for row in &self.hull.basis {
             let along: f64 = row.iter().zip(x).map(|(b, x)| b * x).sum();
@@ -86,6 +86,13 @@ impl<'a> HullTest<'a> {
         }
         let (distance, claimed) = (distance / frame.scale, self.hull.distance);
         Err(Violation::OffHull { row, distance, claimed })
+    }
+
+    /// Whether a point is farther off the hull than stated, whatever rounding does.
+    pub(super) fn is_off(&self, point: &[f64], frame: &Frame<'_>) -> bool {
+        let offset = frame.offset::<f64>(point);
+        length(&self.off(&offset))
+            > self.hull.distance * frame.scale + self.rounding * length(&offset)
     }
 
     /// The root of the trace of (I − BᵀB)S(I − BᵀB), times s: how far the item reaches off its own centre at most.
@@ -120,7 +127,7 @@ impl<'a> HullTest<'a> {
 }
 
 /// The length of a vector, whatever its size.
-fn length(x: &[f64]) -> f64 {
+pub(crate) fn length(x: &[f64]) -> f64 {
     let largest = x.iter().fold(0.0f64, |m, v| m.max(v.abs()));
     if largest == 0.0 || largest.is_infinite() {
         return largest;

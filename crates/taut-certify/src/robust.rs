@@ -1,0 +1,180 @@
+//! Robust ellipsoids: what most of the points say of centre and scatter, whatever the others say.
+
+mod check;
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+use taut_points::{Monitor, PointSource, PointsHash};
+
+use crate::json::{hash_from_hex, hash_to_hex};
+use crate::{Answer, CheckError, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull};
+
+/// What an estimate of centre and scatter is to be robust by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RobustMethod {
+    /// Minimum covariance determinant: the h points whose covariance has the least determinant, then reweighted.
+    #[default]
+    Mcd,
+    /// Minimum volume ellipsoid: the h points that fit the smallest ellipsoid, then reweighted.
+    Mve,
+    /// The smallest ellipsoid around h points, as it stands.
+    Trim,
+}
+
+impl RobustMethod {
+    /// All methods, the default first.
+    pub const ALL: [RobustMethod; 3] = [RobustMethod::Mcd, RobustMethod::Mve, RobustMethod::Trim];
+
+    /// The name on the command line, in Python and in JSON.
+    pub const fn name(self) -> &'static str {
+        match self {
+            RobustMethod::Mcd => "mcd",
+            RobustMethod::Mve => "mve",
+            RobustMethod::Trim => "trim",
+        }
+    }
+}
+
+impl fmt::Display for RobustMethod {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A word that names no method of robust estimation.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("robust method {0:?} is not known: expected mcd, mve or trim")]
+pub struct RobustMethodError(String);
+
+impl FromStr for RobustMethod {
+    type Err = RobustMethodError;
+    fn from_str(name: &str) -> Result<Self, RobustMethodError> {
+        let found = RobustMethod::ALL.into_iter().find(|method| method.name() == name);
+        found.ok_or_else(|| RobustMethodError(name.to_owned()))
+    }
+}
+
+/// Centre and scatter of most of the points, the ellipsoid they mean, and the points that lie outside it.
+///
+/// By `mcd` and `mve` the ellipsoid is the tolerance ellipsoid (x − c)ᵀS⁻¹(x − c) ≤ χ²: of normal points it holds the
+/// part that was asked for. By `trim` it is the smallest ellipsoid around the points that were kept.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "a robust ellipsoid: an object with center, matrix, factor, log_volume, scatter, log_det and flagged"
+)]
+pub struct RobustEllipsoid {
+    /// The d coordinates of the centre c.
+    pub center: Vec<f64>,
+    /// What is to be added to `center` for the exact centre, as in [`Ellipsoid::center_tail`]; empty but by `trim`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub center_tail: Vec<f64>,
+    /// Q, d rows of d numbers: (x − c)ᵀQ(x − c) ≤ 1 is the ellipsoid.
+    pub matrix: Vec<Vec<f64>>,
+    /// F, r rows of d numbers, Q = FᵀF: a point is inside if and only if |F(x − c)| ≤ 1, where x − c is formed first.
+    pub factor: Vec<Vec<f64>>,
+    /// The affine subspace in which most points lie exactly; absent when there is none. All points off it are flagged.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hull: Option<Hull>,
+    /// The natural logarithm of the volume of the ellipsoid, of dimension r; 0 for a single point.
+    pub log_volume: f64,
+    /// S, the scatter, d rows of d numbers: for normal points an estimate of their covariance. Its rank is r.
+    pub scatter: Vec<Vec<f64>>,
+    /// ln det S, of dimension r: where a hull is given, the determinant is that of S within it. 0 for r = 0.
+    pub log_det: f64,
+    /// Rows outside the ellipsoid or off the hull, ascending: the outliers.
+    pub flagged: Vec<u64>,
+}
+
+impl RobustEllipsoid {
+    /// The ellipsoid alone.
+    pub fn ellipsoid(&self) -> Ellipsoid {
+        Ellipsoid {
+            center: self.center.clone(),
+            center_tail: self.center_tail.clone(),
+            matrix: self.matrix.clone(),
+            factor: self.factor.clone(),
+            hull: self.hull.clone(),
+            log_volume: self.log_volume,
+        }
+    }
+}
+
+/// What robust estimates are made of, so that all of it can be calculated again from the points.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "the certificate of a robust ellipsoid: an object with method, kept, left_out, objective and others"
+)]
+pub struct RobustCertificate {
+    /// What was minimised.
+    pub method: RobustMethod,
+    /// h, how many points were asked for.
+    pub kept: u64,
+    /// Rows not among them, ascending. By `mcd` there are n − h; by `mve` and `trim` perhaps fewer, as an ellipsoid may
+    /// hold more points than it was asked to.
+    pub left_out: Vec<u64>,
+    /// What was minimised, reached: by `mcd` ln det of the covariance (divisor h − 1) of the points kept, by `mve` and
+    /// `trim` the log-volume of the ellipsoid around them. Of dimension r where a hull is given.
+    pub objective: f64,
+    /// The part of normal points that the tolerance ellipsoid holds. By `trim`, 1.
+    pub level: f64,
+    /// The quantile of χ² with r degrees of freedom at `level`; 0 by `trim` and for r = 0.
+    pub cutoff: f64,
+    /// By what the scatter of the points kept is multiplied before outliers are weighed out.
+    pub raw_scale: f64,
+    /// By what the covariance of the points not weighed out is multiplied; 0 by `trim`, where nothing is weighed.
+    pub scale: f64,
+    /// Rows weighed out, ascending: those beyond `cutoff` in the metric of the points kept.
+    pub weighed_out: Vec<u64>,
+    /// By `mve` and `trim`, the ellipsoid around the points kept, and the proof that it is the smallest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub enclosure: Option<Enclosure>,
+    /// The hash of the rows this was made for.
+    #[serde(serialize_with = "hash_to_hex", deserialize_with = "hash_from_hex")]
+    pub points_hash: PointsHash,
+}
+
+/// The smallest ellipsoid around the points kept.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an enclosure: an object with ellipsoid and certificate")]
+pub struct Enclosure {
+    /// It holds every row but those left out.
+    pub ellipsoid: Ellipsoid,
+    /// Why no smaller one does.
+    pub certificate: EllipsoidCertificate,
+}
+
+/// What was proved of a robust ellipsoid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RobustVerdict {
+    /// What the method minimises, of the points kept, as found here. By `mcd` no C-step lowers it; that no other points
+    /// have less is not proved.
+    pub objective: f64,
+    /// By `mve` and `trim`, what was proved of the ellipsoid around the points kept.
+    pub enclosure: Option<EllipsoidVerdict>,
+    /// Points on the hull; all of them where there is none.
+    pub on_hull: u64,
+    /// Whether centre and scatter are those of the points not weighed out, rather than of the points kept.
+    pub reweighted: bool,
+    /// r, the dimension of the ellipsoid.
+    pub rank: usize,
+}
+
+impl Answer for RobustEllipsoid {
+    type Certificate = RobustCertificate;
+    type Verdict = RobustVerdict;
+    const KIND: &'static str = "robust-ellipsoid";
+
+    fn check(
+        &self,
+        certificate: &RobustCertificate,
+        source: &dyn PointSource,
+        monitor: &Monitor<'_>,
+    ) -> Result<RobustVerdict, CheckError> {
+        check::check(self, certificate, source, monitor)
+    }
+}

@@ -1,0 +1,208 @@
+//! Mean and covariance of the rows kept, as a centre and a whitener, and the passes that find them.
+//!
+//! *Idea.* S is never formed: M, lower triangular, stands for M′M = S⁻¹. A pass takes moments of y = M(x − c) for the
+//! rows kept; their covariance C = LL′ replaces M by L⁻¹M. Near the end C is nearly the identity, so neither units,
+//! offset nor the ratio of the axes costs digits.
+//! *Flat.* Rounding of the coordinates moves row a of y by about Σ |M_ab|·ulp(x_b). When that is no small part of 1,
+//! which is the deviation of y, the rows lie in a hyperplane as far as their digits tell.
+//! *Trap.* A covariance may be indefinite after a far outlier was dropped and yet not be flat: it is shifted, and the
+//! moments taken again in the better metric.
+
+use crate::Error;
+use crate::ellipsoid::dense::{cholesky, divide_rows, forward};
+use crate::ellipsoid::survey::Survey;
+use crate::kernel::Center;
+use crate::kernel::triangle::{POINTS, Triangle, images, leverages, moments};
+use crate::kernel::vector::dot;
+
+/// Turns of shifting after which rows count as flat: each takes off some ten digits of a condition number.
+const TURNS: usize = 40;
+
+/// Part of a deviation that rounding of coordinates may make up before the direction counts as flat.
+const NOISE: f64 = 1.0 / 16.0;
+
+/// c and M.
+#[derive(Clone, Debug)]
+pub(super) struct Estimate {
+    pub(super) center: Vec<f64>,
+    /// Lower triangular by rows, zeros above: M′M = S⁻¹.
+    pub(super) matrix: Vec<f64>,
+}
+
+/// What the rows kept say.
+pub(super) enum Look {
+    /// Mean and covariance.
+    Full(Estimate),
+    /// The same, but some direction is as thin as rounding of the coordinates.
+    Noise(Estimate),
+    /// Some direction has no thickness at all.
+    Singular,
+}
+
+impl Estimate {
+    /// A first metric: the largest distance of a coordinate from that of the first row kept is 1.
+    pub(super) fn rough(data: &mut Survey<'_>, kept: &[bool]) -> Result<Self, Error> {
+        let dim = data.dim();
+        let first = kept.iter().position(|&kept| kept).unwrap_or(0) as u64;
+        let center = data.rows(&[first])?;
+        let extents = data.visit(|first, rows| {
+            let mut extents = vec![0.0f64; dim];
+            for (row, _) in rows.chunks_exact(dim).zip(&kept[first as usize..]).filter(|(_, k)| **k)
+            {
+                for ((e, x), c) in extents.iter_mut().zip(row).zip(&center) {
+                    *e = e.max((x - c).abs());
+                }
+            }
+            extents
+        })?;
+        let mut matrix = vec![0.0; dim * dim];
+        for j in 0..dim {
+            let extent = extents.iter().fold(0.0f64, |m, block| m.max(block[j]));
+            let scale = if extent > 0.0 { 1.0 / extent } else { 1.0 };
+            if !scale.is_normal() {
+                return Err(Error::Overflow);
+            }
+            matrix[j * dim + j] = scale;
+        }
+        Ok(Estimate { center, matrix })
+    }
+
+    pub(super) fn dim(&self) -> usize {
+        self.center.len()
+    }
+
+    /// ln det S.
+    pub(super) fn log_det(&self) -> f64 {
+        let dim = self.dim();
+        -2.0 * (0..dim).map(|a| self.matrix[a * dim + a].ln()).sum::<f64>()
+    }
+
+    /// |M(x − c)|² of all rows.
+    pub(super) fn distances(&self, data: &mut Survey<'_>) -> Result<Vec<f64>, Error> {
+        let center = Center { high: self.center.clone(), low: vec![] };
+        let dim = self.dim();
+        let blocks = data.visit(|_, rows| {
+            let mut squares = vec![0.0; rows.len() / dim];
+            let mut scratch = vec![];
+            leverages(rows, &self.matrix, &center, &mut scratch, &mut squares);
+            squares
+        })?;
+        let mut all = blocks.concat();
+        // Not a number but a square too large for one.
+        all.iter_mut().filter(|d| d.is_nan()).for_each(|d| *d = f64::INFINITY);
+        Ok(all)
+    }
+
+    /// Σ yy′, Σ y and Σ 1 over the rows kept, for y = M(x − c): (d + 1) × (d + 1), lower triangle.
+    fn moments(&self, data: &mut Survey<'_>, kept: &[bool]) -> Result<Vec<f64>, Error> {
+        let dim = self.dim();
+        let shift = vec![0.0; dim];
+        let blocks = data.visit(|first, rows| {
+            let kept = &kept[first as usize..];
+            let chosen: Vec<&[f64]> =
+                rows.chunks_exact(dim).zip(kept).filter(|(_, k)| **k).map(|(row, _)| row).collect();
+            let blocks = chosen.len().div_ceil(POINTS);
+            let mut y = vec![0.0; blocks * dim * POINTS];
+            let mut weights = vec![0.0; blocks * POINTS];
+            weights[..chosen.len()].fill(1.0);
+            let mut x = vec![0.0; dim * POINTS];
+            let mut squares = [0.0; POINTS];
+            for (chosen, y) in chosen.chunks(POINTS).zip(y.chunks_exact_mut(dim * POINTS)) {
+                for (i, row) in chosen.iter().enumerate() {
+                    for (j, (value, c)) in row.iter().zip(&self.center).enumerate() {
+                        x[j * POINTS + i] = value - c;
+                    }
+                }
+                let triangle = Triangle { matrix: &self.matrix, shift: &shift };
+                images(triangle, &x, y, &mut squares);
+            }
+            moments(dim, &y, &weights)
+        })?;
+        let mut all = vec![0.0; (dim + 1) * (dim + 1)];
+        for block in blocks {
+            all.iter_mut().zip(block).for_each(|(sum, term)| *sum += term);
+        }
+        Ok(all)
+    }
+
+    /// Mean and covariance (divisor k − 1) of the k rows kept.
+    pub(super) fn of_rows(&self, data: &mut Survey<'_>, kept: &[bool]) -> Result<Look, Error> {
+        let dim = self.dim();
+        let mut next = self.clone();
+        for _ in 0..TURNS {
+            let moments = next.moments(data, kept)?;
+            if moments.iter().any(|v| !v.is_finite()) {
+                return Err(Error::Overflow);
+            }
+            let last = &moments[dim * (dim + 1)..];
+            let count = last[dim];
+            if count < dim as f64 + 1.0 {
+                return Ok(Look::Singular);
+            }
+            let mut mean: Vec<f64> = last[..dim].iter().map(|s| s / count).collect();
+            let mut covariance = vec![0.0; dim * dim];
+            for a in 0..dim {
+                for b in 0..=a {
+                    let product = moments[a * (dim + 1) + b] - mean[a] * mean[b] * count;
+                    covariance[a * dim + b] = product / (count - 1.0);
+                }
+            }
+            // No deviation at all, exactly.
+            let deviates = |a: usize| covariance[a * dim + a] > 0.0;
+            if !(0..dim).all(deviates) {
+                return Ok(Look::Singular);
+            }
+            let Some((lower, is_near)) = factor(covariance, dim) else {
+                return Err(Error::Overflow);
+            };
+            forward(&next.matrix, dim, &mut mean);
+            next.center.iter_mut().zip(&mean).for_each(|(c, m)| *c += m);
+            divide_rows(&lower, dim, &mut next.matrix);
+            if next.matrix.iter().any(|m| !m.is_finite()) {
+                return Ok(Look::Singular);
+            }
+            if is_near {
+                return Ok(if next.is_noise() { Look::Noise(next) } else { Look::Full(next) });
+            }
+        }
+        Ok(Look::Singular)
+    }
+
+    /// Whether rounding of the coordinates could make up what is left of some direction.
+    fn is_noise(&self) -> bool {
+        let dim = self.dim();
+        let mut inverse = vec![0.0; dim * dim];
+        (0..dim).for_each(|a| inverse[a * dim + a] = 1.0);
+        divide_rows(&self.matrix, dim, &mut inverse);
+        let sizes: Vec<f64> = inverse
+            .chunks_exact(dim)
+            .zip(&self.center)
+            .map(|(row, c)| c.abs() + dot(row, row).sqrt())
+            .collect();
+        let is_clear = |row: &[f64]| {
+            let noise: f64 = row.iter().zip(&sizes).map(|(m, s)| (m * s).powi(2)).sum();
+            noise.sqrt() * f64::EPSILON < NOISE
+        };
+        !self.matrix.chunks_exact(dim).all(is_clear)
+    }
+}
+
+/// L with C = LL′, and whether C was so near the identity that L has all its digits. Shifted where C is indefinite.
+fn factor(covariance: Vec<f64>, dim: usize) -> Option<(Vec<f64>, bool)> {
+    let mut lower = covariance.clone();
+    if cholesky(&mut lower, dim) {
+        let is_near = (0..dim).all(|a| (1e-3..1e3).contains(&lower[a * dim + a]));
+        return Some((lower, is_near));
+    }
+    let largest = (0..dim).map(|a| covariance[a * dim + a]).fold(f64::MIN_POSITIVE, f64::max);
+    let mut shift = 1e-15 * dim as f64 * largest;
+    while shift.is_finite() {
+        lower.copy_from_slice(&covariance);
+        (0..dim).for_each(|a| lower[a * dim + a] += shift);
+        if cholesky(&mut lower, dim) {
+            return Some((lower, false));
+        }
+        shift *= 30.0;
+    }
+    None
+}

@@ -1,0 +1,198 @@
+//! From the rows kept to the final estimate, in the subspace where most rows lie.
+
+use taut_certify::{Enclosure, RobustMethod};
+use taut_points::{Monitor, Points};
+
+use super::chi_square::{
+    mcd_reweighted_scale, mcd_scale, mve_reweighted_scale, mve_scale, quantile,
+};
+use super::concentrate::{Criterion, Found, Raw};
+use super::enclosing::Around;
+use super::estimate::{Estimate, Look};
+use super::flat::{Flat, Part};
+use super::{RobustOptions, enclosing, search};
+use crate::Error;
+use crate::ellipsoid::survey::Survey;
+
+/// An estimate with all it was made from.
+pub(super) struct Fit {
+    /// Rows kept.
+    pub(super) kept: Vec<bool>,
+    pub(super) objective: f64,
+    pub(super) raw_scale: f64,
+    /// Rows not weighed out.
+    pub(super) weighed: Vec<bool>,
+    /// Their mean and covariance; the scatter is `scale` times that.
+    pub(super) estimate: Estimate,
+    pub(super) scale: f64,
+    pub(super) cutoff: f64,
+    pub(super) enclosure: Option<Enclosure>,
+}
+
+/// A fit and where it is.
+pub(super) struct Placed {
+    /// The subspace, unless it is the whole space, and the rows on it.
+    pub(super) flat: Option<Flat>,
+    pub(super) ids: Option<Vec<u64>>,
+    /// In coordinates of the subspace, over the rows on it.
+    pub(super) fit: Fit,
+}
+
+impl Placed {
+    /// The rows of all n that are not marked.
+    pub(super) fn others(&self, marked: &[bool], n: u64) -> Vec<u64> {
+        let Some(ids) = &self.ids else {
+            return (0..n).zip(marked).filter(|(_, marked)| !**marked).map(|(id, _)| id).collect();
+        };
+        let mut here = ids.iter().zip(marked).filter(|(_, m)| **m).map(|(id, _)| *id).peekable();
+        (0..n).filter(|id| here.next_if_eq(id).is_none()).collect()
+    }
+}
+
+/// Rows kept, in the subspace where h of them lie.
+struct Descent {
+    part: Option<Part>,
+    /// None where the subspace is a point.
+    raw: Option<Raw>,
+}
+
+/// Finds the rows to keep, within a subspace if h rows lie in one.
+fn descend(
+    data: &mut Survey<'_>,
+    h: usize,
+    options: &RobustOptions,
+    steps: &mut u64,
+) -> Result<Descent, Error> {
+    let flat = match search::solve(Criterion::of(options), data, h, steps)? {
+        Found::Full(raw) => return Ok(Descent { part: None, raw: Some(raw) }),
+        Found::Flat(flat) => flat,
+    };
+    let part = flat.holding(data, h)?;
+    if part.flat.rank() == 0 {
+        return Ok(Descent { part: Some(part), raw: None });
+    }
+    let points = Points::new(&part.values, part.flat.rank()).expect("rows of the rank");
+    let silent = Monitor::silent();
+    let mut within = Survey::new(&points, &silent)?;
+    let inner = descend(&mut within, h, options, steps)?;
+    data.count(within.passes());
+    let part = match inner.part {
+        None => part,
+        Some(deeper) => Part {
+            flat: part.flat.within(&deeper.flat),
+            ids: deeper.ids.into_iter().map(|id| part.ids[id as usize]).collect(),
+            values: deeper.values,
+        },
+    };
+    Ok(Descent { part: Some(part), raw: inner.raw })
+}
+
+/// Finds the rows to keep and fits, within a subspace if h rows lie in one.
+pub(super) fn place(
+    data: &mut Survey<'_>,
+    h: usize,
+    options: &RobustOptions,
+    steps: &mut u64,
+) -> Result<Placed, Error> {
+    let Descent { part, raw } = descend(data, h, options, steps)?;
+    if options.method == RobustMethod::Mcd {
+        return finish(data, part, raw, None, h, options);
+    }
+    let kept: Vec<u64> = match (&part, &raw) {
+        (Some(part), None) => part.ids.clone(),
+        (Some(part), Some(raw)) => marked(&raw.kept, |row| part.ids[row]),
+        (None, raw) => raw.as_ref().map_or(vec![], |raw| marked(&raw.kept, |row| row as u64)),
+    };
+    let Around { enclosure, kept, part, metric } = enclosing::enclose(data, kept, options.epsilon)?;
+    let mark = |ids: &mut dyn Iterator<Item = u64>| -> Vec<bool> {
+        let mut kept = kept.iter().copied().peekable();
+        ids.map(|id| kept.next_if_eq(&id).is_some()).collect()
+    };
+    let marks = match &part {
+        Some(part) => mark(&mut part.ids.iter().copied()),
+        None => mark(&mut (0..data.len())),
+    };
+    let raw = (metric.dim() > 0).then_some(Raw { estimate: metric, kept: marks });
+    finish(data, part, raw, Some(enclosure), h, options)
+}
+
+fn marked(marks: &[bool], id: impl Fn(usize) -> u64) -> Vec<u64> {
+    marks.iter().enumerate().filter(|(_, marked)| **marked).map(|(row, _)| id(row)).collect()
+}
+
+/// Weighs outliers out where the rows kept are.
+fn finish(
+    data: &mut Survey<'_>,
+    part: Option<Part>,
+    raw: Option<Raw>,
+    enclosure: Option<Enclosure>,
+    h: usize,
+    options: &RobustOptions,
+) -> Result<Placed, Error> {
+    let mut fit = match (&part, raw) {
+        (None, Some(raw)) => reweighted(data, raw, h, options)?,
+        (Some(part), Some(raw)) => {
+            let points = Points::new(&part.values, part.flat.rank()).expect("rows of the rank");
+            let silent = Monitor::silent();
+            reweighted(&mut Survey::new(&points, &silent)?, raw, h, options)?
+        }
+        (part, None) => {
+            let rows = part.as_ref().map_or(0, |part| part.ids.len());
+            let kept = if options.method == RobustMethod::Mcd { h } else { rows };
+            point(rows, kept)
+        }
+    };
+    if let Some(enclosure) = enclosure {
+        fit.objective = enclosure.ellipsoid.log_volume;
+        fit.enclosure = Some(enclosure);
+    }
+    let (flat, ids) = part.map(|part| (part.flat, part.ids)).unzip();
+    Ok(Placed { flat, ids, fit })
+}
+
+/// The fit of rows that are all one point; h of them are kept.
+fn point(rows: usize, h: usize) -> Fit {
+    Fit {
+        kept: (0..rows).map(|row| row < h).collect(),
+        objective: 0.0,
+        raw_scale: 1.0,
+        weighed: vec![true; rows],
+        estimate: Estimate { center: vec![], matrix: vec![] },
+        scale: 1.0,
+        cutoff: 0.0,
+        enclosure: None,
+    }
+}
+
+/// Weighs out what lies beyond the quantile in the metric of the rows kept.
+fn reweighted(
+    data: &mut Survey<'_>,
+    raw: Raw,
+    h: usize,
+    options: &RobustOptions,
+) -> Result<Fit, Error> {
+    let (n, dim) = (data.len() as usize, data.dim());
+    let (objective, kept) = (raw.estimate.log_det(), raw.kept);
+    let cutoff = quantile(options.level, dim);
+    let raw_scale = match options.method {
+        RobustMethod::Mcd => mcd_scale(h, n, dim),
+        _ => mve_scale(h, n, dim),
+    };
+    let distances = raw.estimate.distances(data)?;
+    let weighed: Vec<bool> = distances.iter().map(|d| *d <= cutoff * raw_scale).collect();
+    let left = weighed.iter().filter(|weighed| **weighed).count();
+    let is_final = h == n || options.method == RobustMethod::Trim;
+    let look = if is_final { Look::Singular } else { raw.estimate.of_rows(data, &weighed)? };
+    let (estimate, weighed, scale) = match look {
+        Look::Full(estimate) | Look::Noise(estimate) => {
+            let scale = match options.method {
+                RobustMethod::Mcd => mcd_reweighted_scale(left, h, n, dim),
+                _ => mve_reweighted_scale(left, n, dim),
+            };
+            (estimate, weighed, scale)
+        }
+        // Of all rows nothing is weighed out, trimming is done; and what is left must not be flat.
+        Look::Singular => (raw.estimate, kept.clone(), raw_scale),
+    };
+    Ok(Fit { kept, objective, raw_scale, weighed, estimate, scale, cutoff, enclosure: None })
+}

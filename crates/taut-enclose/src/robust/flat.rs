@@ -1,0 +1,148 @@
+//! The exact fit: h rows in a hyperplane, or in a subspace of any dimension below d.
+//!
+//! *Idea.* The determinant is 0 for all h rows of the subspace alike, so the estimate goes on within it: rows of the
+//! subspace, in coordinates of an orthonormal basis, are a point set of their own. Rows off it are outliers whatever
+//! their distance.
+//! *Reference.* Rousseeuw, Van Driessen, Technometrics 41, 1999, section 3.3, who report the hyperplane and stop there.
+
+use taut_certify::Hull;
+use taut_points::Points;
+
+use crate::ellipsoid::survey::Survey;
+use crate::kernel::vector::{add_scaled, dot};
+use crate::{EllipsoidOptions, Error, ellipsoid};
+
+/// How many times farther off than the rows kept another row may be and still count as on the subspace.
+const SLACK: f64 = 2.0;
+
+/// An affine subspace {o + B′z}.
+#[derive(Clone, Debug)]
+pub(super) struct Flat {
+    pub(super) origin: Vec<f64>,
+    /// B, r orthonormal rows.
+    pub(super) basis: Vec<f64>,
+    /// Rows on it are no farther off than this.
+    pub(super) distance: f64,
+}
+
+/// A subspace and the rows on it.
+pub(super) struct Part {
+    pub(super) flat: Flat,
+    pub(super) ids: Vec<u64>,
+    /// Their coordinates in it.
+    pub(super) values: Vec<f64>,
+}
+
+/// The subspace that holds the rows kept, if they lie in one.
+pub(super) fn hull(data: &mut Survey<'_>, kept: &[bool]) -> Result<Option<Flat>, Error> {
+    let ids: Vec<u64> = (0..).zip(kept).filter(|(_, kept)| **kept).map(|(id, _)| id).collect();
+    let rows = data.rows(&ids)?;
+    let points = Points::new(&rows, data.dim()).expect("rows of the dimension");
+    let found = ellipsoid(&points, &EllipsoidOptions { epsilon: 0.5, ..Default::default() })?;
+    let answer = found.answer;
+    Ok(answer.hull.map(|hull| Flat::of_hull(answer.center, &hull)))
+}
+
+impl Flat {
+    pub(super) fn of_hull(origin: Vec<f64>, hull: &Hull) -> Self {
+        Flat { origin, basis: hull.basis.concat(), distance: SLACK * hull.distance }
+    }
+
+    pub(super) fn dim(&self) -> usize {
+        self.origin.len()
+    }
+
+    pub(super) fn rank(&self) -> usize {
+        self.basis.len() / self.dim()
+    }
+
+    /// B(x − o), and how far x is off.
+    pub(super) fn project(&self, row: &[f64]) -> (Vec<f64>, f64) {
+        let mut rest: Vec<f64> = row.iter().zip(&self.origin).map(|(x, o)| x - o).collect();
+        let largest = rest.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        if largest == 0.0 {
+            return (vec![0.0; self.rank()], 0.0);
+        }
+        // Units that no square overflows in.
+        rest.iter_mut().for_each(|v| *v /= largest);
+        let mut image = vec![];
+        for direction in self.basis.chunks_exact(self.dim()) {
+            let product = dot(&rest, direction);
+            add_scaled(&mut rest, -product, direction);
+            image.push(product * largest);
+        }
+        (image, largest * dot(&rest, &rest).sqrt())
+    }
+
+    /// Widened until h rows count as on it, should rounding have put some of those it was made from outside.
+    pub(super) fn holding(mut self, data: &mut Survey<'_>, h: usize) -> Result<Part, Error> {
+        loop {
+            let (ids, values) = self.rows_on(data)?;
+            if ids.len() >= h {
+                return Ok(Part { flat: self, ids, values });
+            }
+            self.distance = (2.0 * self.distance).max(f64::MIN_POSITIVE);
+        }
+    }
+
+    /// The rows on the subspace: their numbers, and their coordinates in it.
+    pub(super) fn rows_on(&self, data: &mut Survey<'_>) -> Result<(Vec<u64>, Vec<f64>), Error> {
+        let dim = self.dim();
+        let blocks = data.visit(|first, rows| {
+            let (mut ids, mut values) = (vec![], vec![]);
+            for (id, row) in (first..).zip(rows.chunks_exact(dim)) {
+                let (image, off) = self.project(row);
+                if off <= self.distance {
+                    ids.push(id);
+                    values.extend(image);
+                }
+            }
+            (ids, values)
+        })?;
+        let (ids, values): (Vec<_>, Vec<_>) = blocks.into_iter().unzip();
+        Ok((ids.concat(), values.concat()))
+    }
+
+    /// o + B′z.
+    pub(super) fn lifted(&self, image: &[f64]) -> Vec<f64> {
+        let mut point = self.origin.clone();
+        for (direction, z) in self.basis.chunks_exact(self.dim()).zip(image) {
+            add_scaled(&mut point, *z, direction);
+        }
+        point
+    }
+
+    /// AB for A with r columns: its rows in the space of the points.
+    pub(super) fn rotated_rows(&self, matrix: &[f64]) -> Vec<f64> {
+        let mut lifted = vec![];
+        for row in matrix.chunks_exact(self.rank().max(1)) {
+            let mut sum = vec![0.0; self.dim()];
+            for (direction, a) in self.basis.chunks_exact(self.dim()).zip(row) {
+                add_scaled(&mut sum, *a, direction);
+            }
+            lifted.extend(sum);
+        }
+        lifted
+    }
+
+    /// B′A for A with r rows and columns, d × r.
+    pub(super) fn rotated_columns(&self, matrix: &[f64]) -> Vec<f64> {
+        let (dim, rank) = (self.dim(), self.rank());
+        let mut lifted = vec![0.0; dim * rank];
+        for (direction, row) in self.basis.chunks_exact(dim).zip(matrix.chunks_exact(rank.max(1))) {
+            for (j, b) in direction.iter().enumerate() {
+                add_scaled(&mut lifted[j * rank..(j + 1) * rank], *b, row);
+            }
+        }
+        lifted
+    }
+
+    /// The subspace of a subspace: `inner` is given in coordinates of this one.
+    pub(super) fn within(&self, inner: &Flat) -> Flat {
+        Flat {
+            origin: self.lifted(&inner.origin),
+            basis: self.rotated_rows(&inner.basis),
+            distance: self.distance + inner.distance,
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! What to keep, and how sure to be.
+
+use taut_certify::RobustMethod;
+
+use crate::Error;
+
+/// How to estimate. Write `RobustOptions { method: RobustMethod::Mve, ..Default::default() }`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobustOptions {
+    /// What is to be minimised. Default [`RobustMethod::Mcd`].
+    pub method: RobustMethod,
+    /// About which part α of the points is kept; the answer bears that the others are anything. `None`, the default, is
+    /// 0.5 for `mcd` and `mve`, 0.9 for `trim`.
+    ///
+    /// By `mcd` and `mve`, in [0.5, 1]: h = ⌊2k − n + 2(n − k)α⌋ with k = ⌊(n + d + 1)/2⌋, which is k at 0.5, where most
+    /// outliers are borne, and n at 1, where nothing is robust: the classical mean and covariance, the smallest
+    /// ellipsoid around all points. By `trim`, in (0, 1]: h = ⌈αn⌉.
+    pub coverage: Option<f64>,
+    /// The part of normal points that the tolerance ellipsoid is to hold. Range [0.5, 1), default 0.975. Not looked at
+    /// by `trim`.
+    pub level: f64,
+    /// Wanted gap of the smallest ellipsoids of `mve` and `trim`, as in
+    /// [`EllipsoidOptions::epsilon`](crate::EllipsoidOptions::epsilon). Range (0, 1), default 1e-9.
+    pub epsilon: f64,
+    /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
+    pub threads: Option<usize>,
+}
+
+impl Default for RobustOptions {
+    fn default() -> Self {
+        RobustOptions {
+            method: RobustMethod::default(),
+            coverage: None,
+            level: 0.975,
+            epsilon: 1e-9,
+            threads: None,
+        }
+    }
+}
+
+impl RobustOptions {
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let wrong = |name, value: String, expected| Err(Error::Option { name, value, expected });
+        let (inside, expected) = match (self.method, self.coverage) {
+            (_, None) => (true, ""),
+            (RobustMethod::Trim, Some(part)) => (part > 0.0 && part <= 1.0, "a number in (0, 1]"),
+            (_, Some(part)) => ((0.5..=1.0).contains(&part), "a number in [0.5, 1]"),
+        };
+        if !inside {
+            return wrong("coverage", self.coverage.unwrap_or(0.0).to_string(), expected);
+        }
+        if !(0.5..1.0).contains(&self.level) {
+            return wrong("level", self.level.to_string(), "a number in [0.5, 1)");
+        }
+        if !(self.epsilon > 0.0 && self.epsilon < 1.0) {
+            return wrong("epsilon", self.epsilon.to_string(), "a number in (0, 1)");
+        }
+        if self.threads == Some(0) {
+            return wrong("threads", "0".into(), "at least 1");
+        }
+        Ok(())
+    }
+
+    /// h for n points in dimension d.
+    pub(super) fn kept(&self, n: usize, dim: usize) -> usize {
+        let wanted = match (self.method, self.coverage) {
+            (RobustMethod::Trim, part) => (part.unwrap_or(0.9) * n as f64).ceil() as usize,
+            (_, part) => {
+                let half = least(n, dim);
+                let more = 2.0 * (n - half) as f64 * part.unwrap_or(0.5);
+                (2.0 * half as f64 - n as f64 + more).floor() as usize
+            }
+        };
+        wanted.clamp(1, n)
+    }
+}
+
+/// ⌊(n + d + 1)/2⌋, but no more than n: the h that bears most outliers.
+pub(super) fn least(n: usize, dim: usize) -> usize {
+    (n + dim).div_ceil(2).min(n)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_points_kept_are_between_half_and_all() {
+        let kept = |method, coverage, n, dim| {
+            RobustOptions { method, coverage, ..Default::default() }.kept(n, dim)
+        };
+        assert_eq!(kept(RobustMethod::Mcd, None, 75, 3), 39);
+        assert_eq!(kept(RobustMethod::Mcd, Some(0.75), 75, 3), 57);
+        assert_eq!(kept(RobustMethod::Mve, Some(1.0), 75, 3), 75);
+        assert_eq!(kept(RobustMethod::Mcd, None, 3, 10), 3);
+        assert_eq!(kept(RobustMethod::Trim, None, 101, 3), 91);
+        assert_eq!(kept(RobustMethod::Trim, Some(1e-9), 101, 3), 1);
+    }
+}
