@@ -33,6 +33,20 @@ pub enum Error {
         /// Columns there are.
         columns: usize,
     },
+    /// Ellipsoids were announced, but no dimension has rows of that many numbers.
+    #[error(
+        "ellipsoids in dimension d have rows of d(d + 3)/2 numbers, 2, 5, 9, 14, …, but rows have {columns}"
+    )]
+    NoShape {
+        /// Columns there are.
+        columns: usize,
+    },
+    /// An ellipsoid of the input has a shape matrix with a negative eigenvalue.
+    #[error("the shape matrix of ellipsoid {row} is not positive semidefinite")]
+    NegativeShape {
+        /// Ellipsoid, from 0.
+        row: u64,
+    },
     /// The points reach so far that the radius exceeds the largest `f64`.
     #[error("the points reach too far for numbers of double precision: scale them down")]
     Overflow,
