@@ -20,6 +20,7 @@
 //!         items: Items::Points,
 //!         support: vec![0, 1],
 //!         multipliers: vec![0.5, 0.5],
+//!         directions: vec![],
 //!         gap: 0.0,
 //!         points_hash: hash_points(&points, &Monitor::silent())?,
 //!     },

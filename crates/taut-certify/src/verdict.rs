@@ -91,14 +91,6 @@ pub enum Violation {
         /// Columns there are.
         columns: usize,
     },
-    /// Certificates of this kind do not speak of such items.
-    #[error("the certificate of {article} speaks of {items}: there is no proof of that form", article = article(kind))]
-    Items {
-        /// Kind of the answer.
-        kind: &'static str,
-        /// What the rows are said to be.
-        items: &'static str,
-    },
     /// The certificate speaks of ellipsoids, but no dimension has rows of that many numbers.
     #[error(
         "ellipsoids in dimension d have rows of d(d + 3)/2 numbers, 2, 5, 9, 14, …, but rows have {columns}"
@@ -273,11 +265,6 @@ pub enum Violation {
     /// Something is wrong with a triangulation.
     #[error(transparent)]
     Mesh(#[from] MeshViolation),
-}
-
-fn article(kind: &str) -> String {
-    let article = if kind.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
-    format!("{article} {kind}")
 }
 
 /// A count with its noun.

@@ -22,7 +22,7 @@ mod scan;
 mod shapes;
 mod top;
 
-pub use ball::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_source};
+pub use ball::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_ellipsoids, ball_of_source};
 pub use ellipsoid::{
     EllipsoidMethod, EllipsoidOptions, ellipsoid, ellipsoid_of_balls, ellipsoid_of_ellipsoids,
     ellipsoid_of_items, ellipsoid_of_source,

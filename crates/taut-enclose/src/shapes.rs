@@ -11,6 +11,7 @@ pub(crate) mod eigen;
 pub(crate) mod frame;
 pub(crate) mod reach;
 
+use rayon::prelude::*;
 use taut_certify::Items;
 use taut_points::{BlockHash, Monitor, PointSource, PointsHash, Rows, hash_block, map_blocks};
 
@@ -25,6 +26,7 @@ pub(crate) struct Shapes {
     columns: usize,
     values: Vec<f64>,
     hash: PointsHash,
+    factors: Vec<Vec<f64>>,
 }
 
 impl Shapes {
@@ -48,8 +50,11 @@ impl Shapes {
         let blocks = map_blocks(source, monitor, |first, rows| block(first, &rows))?;
         let hash = PointsHash::of_blocks(source.len(), columns, blocks.iter().map(|block| block.0));
         let values: Vec<f64> = blocks.into_iter().flat_map(|block| block.1).collect();
-        let shapes = Shapes { dim, items, columns, values, hash };
-        (0..shapes.len()).try_for_each(|i| shapes.is_valid(i))?;
+        let mut shapes = Shapes { dim, items, columns, values, hash, factors: vec![] };
+        let factors = (0..shapes.len()).into_par_iter().with_min_len(32);
+        let factors: Vec<_> = factors.map(|i| shapes.factorise(i)).collect();
+        // The first item refused, not the first that a thread met.
+        shapes.factors = factors.into_iter().collect::<Result<_, _>>()?;
         Ok(shapes)
     }
 
@@ -112,23 +117,23 @@ impl Shapes {
         }
     }
 
-    fn is_valid(&self, i: usize) -> Result<(), Error> {
-        let row = i as u64;
-        match self.items {
-            Items::Balls if self.described(i)[0] < 0.0 => {
-                Err(Error::NegativeRadius { row, value: self.described(i)[0] })
-            }
-            Items::Ellipsoids => self.factor(i).map(|_| ()),
-            _ => Ok(()),
-        }
+    /// Rows e with S = Σ ee′, as many as S has rank.
+    pub(crate) fn factor(&self, i: usize) -> std::slice::ChunksExact<'_, f64> {
+        self.factors[i].chunks_exact(self.dim)
     }
 
-    /// Rows e with S = Σ ee′, as many as S has rank.
-    ///
-    /// They come from the eigenvectors of D^−½SD^−½, D being the diagonal of S, so that units of coordinates do not
-    /// matter. Fails where an eigenvalue is negative beyond rounding.
-    pub(crate) fn factor(&self, i: usize) -> Result<Vec<Vec<f64>>, Error> {
+    /// The factor of item i, which comes from the eigenvectors of D^−½SD^−½, D being the diagonal of S, so that units of
+    /// coordinates do not matter. Fails where an eigenvalue is negative beyond rounding.
+    fn factorise(&self, i: usize) -> Result<Vec<f64>, Error> {
         let dim = self.dim;
+        if self.items == Items::Balls {
+            let radius = self.described(i)[0];
+            if radius < 0.0 {
+                return Err(Error::NegativeRadius { row: i as u64, value: radius });
+            }
+            let entry = |at: usize| if at / dim == at % dim { radius } else { 0.0 };
+            return Ok(if radius == 0.0 { vec![] } else { (0..dim * dim).map(entry).collect() });
+        }
         let refused = || Error::NegativeShape { row: i as u64 };
         if self.is_point(i) {
             return Ok(vec![]);
@@ -163,7 +168,7 @@ impl Shapes {
             }
             if *value > rounding {
                 let root = value.sqrt();
-                rows.push(vector.iter().zip(&widths).map(|(v, w)| root * v * w).collect());
+                rows.extend(vector.iter().zip(&widths).map(|(v, w)| root * v * w));
             }
         }
         Ok(rows)

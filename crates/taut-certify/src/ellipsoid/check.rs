@@ -22,12 +22,12 @@
 
 mod agreement;
 mod enclosure;
-mod frame;
+pub(crate) mod frame;
 mod hull;
-mod item;
-mod lower_bound;
+pub(crate) mod item;
+pub(crate) mod lower_bound;
 mod panel;
-mod reach;
+pub(crate) mod reach;
 mod structure;
 
 use taut_points::{Monitor, PointSource};

@@ -93,11 +93,11 @@ fn generators(shapes: &Shapes) -> Result<OwnedPoints<f64>, Error> {
     let mut values = vec![];
     for i in 0..shapes.len() {
         let center = shapes.center(i);
-        let axes = shapes.factor(i)?;
-        if axes.is_empty() {
+        let axes = shapes.factor(i);
+        if axes.len() == 0 {
             values.extend_from_slice(center);
         }
-        for axis in &axes {
+        for axis in axes {
             for sign in [1.0, -1.0] {
                 values.extend(center.iter().zip(axis).map(|(m, e)| m + sign * e));
             }
@@ -166,8 +166,9 @@ impl Base {
         let wanted = options.epsilon.max(ROUNDING * rank as f64);
         let mut counters = Counters::default();
         let mut whitener = Whitener::of_scales(&vec![1.0; rank]);
-        let widths = widths(&framed);
-        let (mut pool, mut touches) = first_pool(&framed);
+        let axes = axes(&framed);
+        let widths: Vec<f64> = axes.iter().map(Axes::longest).collect();
+        let (mut pool, mut touches) = first_pool(&framed, axes);
         let later = LATER * (rank + 1) * (rank + 2) / 2;
         let later = later.max(64);
         let mut best: Option<Best> = None;
@@ -391,27 +392,37 @@ fn square(shape: &[f64], center: &[f64]) -> f64 {
     farthest(&lambda, &h).square
 }
 
-/// The longest half axis of each item, rounded up.
-fn widths(framed: &Framed) -> Vec<f64> {
-    let rank = framed.rank;
-    let width = |i: usize| {
-        let (lambda, _) = eigen(&mut framed.shape(i).to_vec(), rank);
-        lambda.into_iter().fold(0.0, f64::max).sqrt() * (1.0 + 1e-12)
+/// Squares of half axes, and their directions as rows.
+struct Axes {
+    squares: Vec<f64>,
+    directions: Vec<f64>,
+}
+
+impl Axes {
+    /// The longest half axis, rounded up.
+    fn longest(&self) -> f64 {
+        self.squares.iter().copied().fold(0.0, f64::max).sqrt() * (1.0 + 1e-12)
+    }
+}
+
+fn axes(framed: &Framed) -> Vec<Axes> {
+    let axes = |i: usize| {
+        let (squares, directions) = eigen(&mut framed.shape(i).to_vec(), framed.rank);
+        Axes { squares, directions }
     };
-    (0..framed.len()).into_par_iter().with_min_len(32).map(width).collect()
+    (0..framed.len()).into_par_iter().with_min_len(32).map(axes).collect()
 }
 
 /// Equal weights on ends of axes that lie far out, on an affine basis, and on what is extreme in a sample.
-fn first_pool(framed: &Framed) -> (Pool, Touches) {
+fn first_pool(framed: &Framed, axes: Vec<Axes>) -> (Pool, Touches) {
     let rank = framed.rank;
     let mut list = vec![];
     let mut points = vec![];
-    for i in 0..framed.len() {
-        let (lambda, vectors) = eigen(&mut framed.shape(i).to_vec(), rank);
+    for (i, axes) in axes.into_iter().enumerate() {
         let before = list.len();
-        for (&lambda, v) in lambda.iter().zip(vectors.chunks_exact(rank)) {
+        for (&square, v) in axes.squares.iter().zip(axes.directions.chunks_exact(rank)) {
             // An axis that rounding may have made is none.
-            if lambda > 1e-14 {
+            if square > 1e-14 {
                 list.push(Touch { item: i, direction: v.to_vec() });
                 list.push(Touch { item: i, direction: v.iter().map(|v| -v).collect() });
             }

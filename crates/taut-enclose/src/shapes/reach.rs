@@ -143,7 +143,7 @@ mod tests {
         let n = h.len();
         for seed in 0..2000u64 {
             let mut z: Vec<f64> =
-                (0..n).map(|k| ((seed * 7 + k as u64 * 13) as f64 * 0.7391).sin()).collect();
+                (0..n).map(|k| (0.5 + (seed * 7 + k as u64 * 13) as f64 * 0.7391).sin()).collect();
             let norm = z.iter().map(|z| z * z).sum::<f64>().sqrt();
             z.iter_mut().for_each(|z| *z /= norm);
             let value: f64 = (0..n).map(|k| (h[k] + lambda[k].sqrt() * z[k]).powi(2)).sum();

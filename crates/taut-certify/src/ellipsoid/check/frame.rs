@@ -12,21 +12,21 @@ use crate::arithmetic::{Field, U};
 const UNDERFLOW: f64 = f64::from_bits((1023 - 900) << 52);
 
 /// F, c and s.
-pub(super) struct Frame<'a> {
-    pub(super) dim: usize,
-    pub(super) rank: usize,
-    pub(super) center: &'a [f64],
+pub(crate) struct Frame<'a> {
+    pub(crate) dim: usize,
+    pub(crate) rank: usize,
+    pub(crate) center: &'a [f64],
     center_tail: &'a [f64],
     /// F/s by rows.
     factor: Vec<f64>,
     /// In which columns each row of F has its entries other than 0.
     spans: Vec<Range<usize>>,
     /// s.
-    pub(super) scale: f64,
+    pub(crate) scale: f64,
 }
 
 impl<'a> Frame<'a> {
-    pub(super) fn of(ellipsoid: &'a Ellipsoid) -> Self {
+    pub(crate) fn of(ellipsoid: &'a Ellipsoid) -> Self {
         let rows = &ellipsoid.factor;
         let largest = rows.iter().flatten().fold(0.0f64, |m, v| m.max(v.abs()));
         let scale = power_of_two_below(largest);
@@ -47,24 +47,24 @@ impl<'a> Frame<'a> {
 
     /// The row of F/s between its outermost entries other than 0, and where that is.
     #[inline(always)]
-    pub(super) fn row(&self, a: usize) -> (&[f64], Range<usize>) {
+    pub(crate) fn row(&self, a: usize) -> (&[f64], Range<usize>) {
         let span = self.spans[a].clone();
         let start = a * self.dim;
         (&self.factor[start + span.start..start + span.end], span)
     }
 
     /// The whole row of F/s.
-    pub(super) fn full_row(&self, a: usize) -> &[f64] {
+    pub(crate) fn full_row(&self, a: usize) -> &[f64] {
         &self.factor[a * self.dim..(a + 1) * self.dim]
     }
 
     #[inline(always)]
-    pub(super) fn tail(&self, column: usize) -> f64 {
+    pub(crate) fn tail(&self, column: usize) -> f64 {
         self.center_tail.get(column).copied().unwrap_or(0.0)
     }
 
     /// (x − c)·s.
-    pub(super) fn offset<N: Field>(&self, point: &[f64]) -> Vec<N> {
+    pub(crate) fn offset<N: Field>(&self, point: &[f64]) -> Vec<N> {
         (0..self.dim)
             .map(|b| {
                 let offset = N::difference(point[b], self.center[b]);
@@ -74,7 +74,7 @@ impl<'a> Frame<'a> {
     }
 
     /// F(x − c) for an offset (x − c)·s.
-    pub(super) fn image<N: Field>(&self, offset: &[N]) -> Vec<N> {
+    pub(crate) fn image<N: Field>(&self, offset: &[N]) -> Vec<N> {
         (0..self.rank)
             .map(|a| {
                 let (row, span) = self.row(a);
@@ -87,7 +87,7 @@ impl<'a> Frame<'a> {
 
     /// What [`Frame::image`] may be off by, in length: for a point whose offset has the sizes `sizes`, when offsets are
     /// off by a few roundings and by `errors` beyond that. Rounded up.
-    pub(super) fn image_error<N: Field>(&self, sizes: &[f64], errors: Option<&[f64]>) -> f64 {
+    pub(crate) fn image_error<N: Field>(&self, sizes: &[f64], errors: Option<&[f64]>) -> f64 {
         let rounding = (self.dim + 8) as f64 * N::ROUNDOFF;
         let weight = |b: usize| {
             let tail = 4.0 * N::ROUNDOFF * (self.tail(b) * self.scale).abs();

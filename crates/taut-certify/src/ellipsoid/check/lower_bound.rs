@@ -54,7 +54,7 @@ pub(super) fn gap(
 ///
 /// With v = Sa and q = aᵀv the point is m + v/√q. Where q is not known to be positive, it is m, which belongs to the
 /// item as well.
-fn touching(
+pub(crate) fn touching(
     frame: &Frame<'_>,
     item: &Item<'_>,
     direction: &[f64],
