@@ -2,7 +2,7 @@
 
 mod shapes;
 
-use shapes::{Item, random_items, rows_of};
+use shapes::{Item, border, random_items, rows_of};
 use taut_certify::{Ball, Solution};
 use taut_enclose::{BallMethod, BallOptions, Error, ball, ball_of_balls, ball_of_ellipsoids};
 use taut_points::Points;
@@ -124,4 +124,65 @@ fn bad_rows_are_named() {
         Error::Option { name: "method", .. }
     ));
     assert!(matches!(error(&[0.0, -1.0], 2, &plain), Error::NegativeShape { row: 0 }));
+}
+
+/// Of n points at equal angles on each border the radius is too small by (π/n)² or so, relatively.
+#[test]
+fn twenty_ellipses_have_the_ball_of_points_on_their_borders() {
+    for seed in 0..3 {
+        let items = random_items(20, 2, seed, 1.0);
+        let points: Vec<f64> = items.iter().flat_map(|item| border(item, 5000)).collect();
+        let wanted = ball(&Points::new(&points, 2).unwrap(), &BallOptions::default()).unwrap();
+        let off = solved(&items, 1e-9).answer.radius / wanted.answer.radius - 1.0;
+        assert!((-2e-9..1e-6).contains(&off), "{off:e}");
+    }
+}
+
+/// Whatever is done to an answer or its certificate, either it is refused or it still says the truth.
+#[test]
+fn doctored_answers_are_refused() {
+    let (values, columns) = rows_of(&random_items(60, 4, 21, 0.6));
+    let rows = Points::new(&values, columns).unwrap();
+    let found = ball_of_ellipsoids(&rows, &BallOptions::default()).unwrap();
+    found.check(&rows).unwrap();
+    let refused = |what: &str, doctor: &dyn Fn(&mut Solution<Ball>)| {
+        let mut other = found.clone();
+        doctor(&mut other);
+        assert!(other != found, "{what} changes nothing");
+        assert!(other.check(&rows).is_err(), "{what} is accepted");
+    };
+    refused("a smaller radius", &|s| s.answer.radius *= 1.0 - 1e-12);
+    refused("a larger radius", &|s| s.answer.radius *= 1.0 + 1e-8);
+    refused("a radius of 0", &|s| s.answer.radius = 0.0);
+    refused("a NaN", &|s| s.answer.radius = f64::NAN);
+    refused("a smaller gap", &|s| s.certificate.gap = 0.0);
+    refused("another hash", &|s| s.certificate.points_hash.0 ^= 1);
+    refused("no directions", &|s| s.certificate.directions.clear());
+    refused("other items", &|s| s.certificate.items = taut_certify::Items::Points);
+    refused("too many multipliers", &|s| s.certificate.multipliers.push(0.1));
+    for j in 0..4 {
+        refused("a moved centre", &|s| s.answer.center[j] += 1e-7);
+        refused("a moved centre", &|s| s.answer.center[j] -= 1e-7);
+    }
+    for k in 0..found.certificate.support.len() {
+        refused("another multiplier", &|s| s.certificate.multipliers[k] *= 1.01);
+        refused("a turned direction", &|s| {
+            s.certificate.directions[k].iter_mut().for_each(|v| *v = -*v)
+        });
+        refused("an infinite direction", &|s| s.certificate.directions[k][1] = f64::INFINITY);
+        refused("no direction", &|s| s.certificate.directions[k].fill(0.0));
+        refused("another row", &|s| s.certificate.support[k] += 1000);
+        refused("moved weight", &|s| {
+            let last = (k + 1) % s.certificate.multipliers.len();
+            let half = s.certificate.multipliers[k] / 2.0;
+            s.certificate.multipliers[k] -= half;
+            s.certificate.multipliers[last] += half;
+        });
+    }
+    let mut moved = values.clone();
+    for at in (0..values.len()).step_by(17) {
+        moved[at] += 1e-3;
+        assert!(found.check(&Points::new(&moved, columns).unwrap()).is_err());
+        moved[at] = values[at];
+    }
 }

@@ -2,7 +2,7 @@
 
 mod shapes;
 
-use shapes::{Item, random_items, rows_of};
+use shapes::{Item, border, random_items, rows_of};
 use taut_certify::{Ellipsoid, Items, Solution};
 use taut_enclose::{
     EllipsoidMethod, EllipsoidOptions, Error, ellipsoid, ellipsoid_of_balls,
@@ -278,4 +278,16 @@ fn bad_rows_are_named() {
     let balls = Points::new(&[0.0, 1.0, 0.0, -1.0], 2).unwrap();
     let negative = ellipsoid_of_balls(&balls, &options).unwrap_err();
     assert!(matches!(negative, Error::NegativeRadius { row: 1, .. }));
+}
+
+/// Of n points at equal angles on each border the ellipse is too small by (π/n)² or so, in log-area.
+#[test]
+fn twenty_ellipses_have_the_ellipse_of_points_on_their_borders() {
+    for seed in 0..3 {
+        let items = random_items(20, 2, seed, 1.0);
+        let points: Vec<f64> = items.iter().flat_map(|item| border(item, 5000)).collect();
+        let wanted = ellipsoid(&Points::new(&points, 2).unwrap(), &EllipsoidOptions::default());
+        let off = solved(&items, 1e-9).answer.log_volume - wanted.unwrap().answer.log_volume;
+        assert!((-2e-9..1e-6).contains(&off), "{off:e}");
+    }
 }

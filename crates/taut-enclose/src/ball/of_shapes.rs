@@ -92,7 +92,7 @@ pub(super) fn solve(
             Axes { squares, directions }
         })
         .collect();
-    let start = pass(&framed, &axes, &vec![0.0; dim], 0.0);
+    let start = pass(&framed, &axes, &vec![0.0; dim], 0.0, &vec![vec![]; shapes.len()]);
     let mut trace =
         Trace { method: options.method.name().to_owned(), passes: 2, ..Trace::default() };
     let mut touches: Vec<Touch> = vec![];
@@ -117,7 +117,11 @@ pub(super) fn solve(
         trace.passes += 1;
         monitor.pass(trace.passes, shapes.len() as u64);
         monitor.check().map_err(ReadError::from)?;
-        let found = pass(&framed, &axes, &center, radius * radius);
+        let mut seeds = vec![vec![]; shapes.len()];
+        for touch in active.support().iter().map(|&i| &touches[set.id(i) as usize]) {
+            seeds[touch.item].push(&touch.direction[..]);
+        }
+        let found = pass(&framed, &axes, &center, radius * radius, &seeds);
         monitor.points(shapes.len() as u64);
         let upper = found.farthest.sqrt();
         trace.history.push(PassBounds {
@@ -199,7 +203,13 @@ fn add(
 }
 
 /// Asks every item for its farthest point from a centre.
-fn pass(framed: &Framed, axes: &[Axes], center: &[f64], square: f64) -> Found {
+fn pass(
+    framed: &Framed,
+    axes: &[Axes],
+    center: &[f64],
+    square: f64,
+    seeds: &[Vec<&[f64]>],
+) -> Found {
     let beyond = square * (1.0 + TOLERANCE);
     let each: Vec<(f64, Vec<(f64, Touch)>)> = (0..framed.len())
         .into_par_iter()
@@ -214,7 +224,8 @@ fn pass(framed: &Framed, axes: &[Axes], center: &[f64], square: f64) -> Found {
             let mut touches = vec![];
             if best.square > beyond {
                 let worth = square + WORTH * (best.square - square);
-                alternatives(&axes.squares, &h, &best, |square, beta| {
+                let seeds: Vec<Vec<f64>> = seeds[i].iter().map(|a| seed(axes, a)).collect();
+                alternatives(&axes.squares, &h, &best, &seeds, |square, beta| {
                     if square >= worth {
                         let mut direction = vec![0.0; dim];
                         for (&beta, v) in beta.iter().zip(axes.directions.chunks_exact(dim)) {
@@ -235,6 +246,12 @@ fn pass(framed: &Framed, axes: &[Axes], center: &[f64], square: f64) -> Found {
     }
     found.outside.sort_by(|a, b| b.0.total_cmp(&a.0));
     found
+}
+
+/// A point of an item by z along its axes, up to length: Λ^½ times the direction.
+fn seed(axes: &Axes, direction: &[f64]) -> Vec<f64> {
+    let rows = axes.directions.chunks_exact(direction.len());
+    rows.zip(&axes.squares).map(|(v, l)| l.max(0.0).sqrt() * dot(v, direction)).collect()
 }
 
 /// Both bounds again, from the centre as it is returned.

@@ -183,7 +183,8 @@ impl Base {
             monitor.check().map_err(ReadError::from)?;
             let matrix = whitener.matrix();
             let center = whitener.center();
-            let found = pass(&framed, &widths, matrix, &center);
+            let seeds = touches.seeds(&pool, shapes.len());
+            let found = pass(&framed, &widths, matrix, &center, &seeds);
             monitor.points(shapes.len() as u64);
             if !found.largest.is_finite() {
                 return Err(Error::Overflow);
@@ -377,6 +378,16 @@ impl Base {
 }
 
 impl Touches {
+    /// The directions of the points with a multiplier, by item.
+    fn seeds(&self, pool: &Pool, items: usize) -> Vec<Vec<&[f64]>> {
+        let mut seeds = vec![vec![]; items];
+        let weighted = pool.ids().iter().zip(pool.weights()).filter(|(_, u)| **u > 0.0);
+        for touch in weighted.map(|(&id, _)| &self.list[id as usize]) {
+            seeds[touch.item].push(&touch.direction[..]);
+        }
+        seeds
+    }
+
     /// The points with a multiplier.
     fn support(&self, pool: &Pool) -> Vec<(Touch, f64)> {
         let weighted = pool.ids().iter().zip(pool.weights()).filter(|(_, u)| **u > 0.0);
@@ -455,14 +466,20 @@ fn first_pool(framed: &Framed, axes: Vec<Axes>) -> (Pool, Touches) {
 }
 
 /// Asks every item for its farthest point from the centre in the metric of M.
-fn pass(framed: &Framed, widths: &[f64], matrix: &[f64], center: &[f64]) -> Found {
+fn pass(
+    framed: &Framed,
+    widths: &[f64],
+    matrix: &[f64],
+    center: &[f64],
+    seeds: &[Vec<&[f64]>],
+) -> Found {
     let rank = framed.rank;
     let stretch = stretch(matrix, rank);
     let border = rank as f64;
     let each: Vec<(f64, Vec<(f64, Touch)>)> = (0..framed.len())
         .into_par_iter()
         .with_min_len(32)
-        .map(|i| item(framed, i, matrix, center, stretch * widths[i], border))
+        .map(|i| item(framed, i, matrix, center, stretch * widths[i], border, &seeds[i]))
         .collect();
     let mut found = Found { largest: border, squares: vec![], outside: vec![] };
     for (square, touches) in each {
@@ -495,6 +512,7 @@ fn item(
     center: &[f64],
     width: f64,
     border: f64,
+    seeds: &[&[f64]],
 ) -> (f64, Vec<(f64, Touch)>) {
     let rank = framed.rank;
     let offset: Vec<f64> = framed.center(i).iter().zip(center).map(|(m, c)| m - c).collect();
@@ -524,7 +542,9 @@ fn item(
     let beyond = border * (1.0 + 1e-14);
     if best.square > beyond {
         let worth = border + WORTH * (best.square - border);
-        alternatives(&lambda, &h, &best, |square, beta| {
+        let seeds: Vec<Vec<f64>> =
+            seeds.iter().map(|a| seed(framed.shape(i), matrix, &lambda, &vectors, a)).collect();
+        alternatives(&lambda, &h, &best, &seeds, |square, beta| {
             if square >= worth {
                 touches.push((
                     square,
@@ -534,6 +554,15 @@ fn item(
         });
     }
     (best.square, touches)
+}
+
+/// A point that touched in the direction a, by z along the axes of its item, up to length: Λ^−½V′MSa.
+fn seed(shape: &[f64], matrix: &[f64], lambda: &[f64], vectors: &[f64], a: &[f64]) -> Vec<f64> {
+    let rank = a.len();
+    let v: Vec<f64> = shape.chunks_exact(rank).map(|row| dot(row, a)).collect();
+    let image: Vec<f64> = matrix.chunks_exact(rank).map(|row| dot(row, &v)).collect();
+    let z = |(axis, &l): (&[f64], &f64)| if l > 0.0 { dot(axis, &image) / l.sqrt() } else { 0.0 };
+    vectors.chunks_exact(rank).zip(lambda).map(z).collect()
 }
 
 /// M′Vβ, of length 1.

@@ -91,12 +91,16 @@ fn shift(gaps: &[f64], weights: &[f64]) -> f64 {
     delta
 }
 
-/// The farthest point, and others that are nearly as far: what lies along the longest axes is moved to each of them in
-/// turn, in both directions. Calls `found` with |h + Λ^½z|² and β of each.
+/// The farthest point, and others that are nearly as far: what lies along the longest axes is turned to each of them, in
+/// both directions, and to where `seeds` have their parts along these axes. Calls `found` with |h + Λ^½z|² and β of each.
+///
+/// Seeds are vectors z; a solver gives points that touched before, so that those which touch in a circle keep their places
+/// on it while it moves.
 pub(crate) fn alternatives(
     lambda: &[f64],
     h: &[f64],
     best: &Farthest,
+    seeds: &[Vec<f64>],
     mut found: impl FnMut(f64, &[f64]),
 ) {
     let top = lambda.iter().copied().fold(0.0, f64::max);
@@ -108,19 +112,29 @@ pub(crate) fn alternatives(
         .map(|k| (h[k] + lambda[k].max(0.0) * best.beta[k]).powi(2))
         .sum();
     let along: f64 = long.iter().map(|&k| lambda[k] * best.beta[k] * best.beta[k]).sum();
-    let aside: f64 = long.iter().map(|&k| h[k] * h[k]).sum();
     let mut beta = best.beta.clone();
-    long.iter().for_each(|&k| beta[k] = 0.0);
+    let mut turn = |z: &dyn Fn(usize) -> f64| {
+        let length = long.iter().map(|&k| z(k) * z(k)).sum::<f64>().sqrt();
+        if length == 0.0 {
+            return;
+        }
+        let mut value = rest;
+        for &k in &long {
+            let part = along.sqrt() * z(k) / length;
+            beta[k] = part / lambda[k].sqrt();
+            value += (h[k] + lambda[k].sqrt() * part).powi(2);
+        }
+        found(value, &beta);
+    };
     for &k in &long {
         for sign in [1.0, -1.0] {
-            if long.len() == 1 && sign * best.beta[k] > 0.0 {
-                continue;
+            if long.len() > 1 || sign * best.beta[k] <= 0.0 {
+                turn(&|j| if j == k { sign } else { 0.0 });
             }
-            beta[k] = sign * (along / lambda[k]).sqrt();
-            let value = rest + aside - h[k] * h[k] + (h[k] + lambda[k] * beta[k]).powi(2);
-            found(value, &beta);
-            beta[k] = 0.0;
         }
+    }
+    if long.len() > 1 {
+        seeds.iter().for_each(|seed| turn(&|k| seed[k]));
     }
 }
 
@@ -149,7 +163,8 @@ mod tests {
             let value: f64 = (0..n).map(|k| (h[k] + lambda[k].sqrt() * z[k]).powi(2)).sum();
             assert!(value <= found.square * (1.0 + 1e-12));
         }
-        alternatives(lambda, h, &found, |value, beta| {
+        let seeds = [(0..n).map(|k| 1.0 / (1.0 + k as f64)).collect()];
+        alternatives(lambda, h, &found, &seeds, |value, beta| {
             let z2: f64 = lambda.iter().zip(beta).map(|(l, b)| l * b * b).sum();
             let square: f64 =
                 lambda.iter().zip(beta).zip(h).map(|((l, b), h)| (h + l * b).powi(2)).sum();

@@ -69,3 +69,18 @@ pub fn random_items(n: usize, dim: usize, seed: u64, size: f64) -> Vec<Item> {
         })
         .collect()
 }
+
+/// Points on the border of an ellipse, at equal angles.
+pub fn border(item: &Item, count: usize) -> Vec<f64> {
+    // A root of S by Cholesky, with zeros where S is singular.
+    let s = &item.shape;
+    let a = s[0].sqrt();
+    let b = if a > 0.0 { s[2] / a } else { 0.0 };
+    let c = (s[3] - b * b).max(0.0).sqrt();
+    (0..count)
+        .flat_map(|k| {
+            let (sine, cosine) = (std::f64::consts::TAU * k as f64 / count as f64).sin_cos();
+            [item.center[0] + a * cosine, item.center[1] + b * cosine + c * sine]
+        })
+        .collect()
+}
