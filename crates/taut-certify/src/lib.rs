@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | [`Ball`] | [`BallCertificate`] | every point is inside; no smaller ball than r/(1 + gap) holds them all |
 //! | [`Ellipsoid`] | [`EllipsoidCertificate`] | every point is inside; no ellipsoid of a log-volume less by more than the gap holds them all |
+//! | [`InscribedEllipsoid`] | [`InscribedCertificate`] | it lies in every half-space; no ellipsoid in the polytope has a log-volume larger by more than the gap |
 //! | [`Triangulation`] | [`TriangulationCertificate`] | the simplices are *the* Delaunay triangulation of the points |
 //!
 //! A [`Solution`] is an answer, its certificate and a trace of counters. [`Solution::check`] reads the points again
@@ -36,6 +37,7 @@
 mod arithmetic;
 mod ball;
 mod ellipsoid;
+mod inscribed;
 mod items;
 mod json;
 mod solution;
@@ -44,6 +46,7 @@ mod verdict;
 
 pub use ball::{Ball, BallCertificate};
 pub use ellipsoid::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull};
+pub use inscribed::{InscribedCertificate, InscribedEllipsoid, InscribedVerdict};
 pub use items::Items;
 pub use json::{AnySolution, JsonError, SCHEMA};
 pub use solution::{Answer, PassBounds, Solution, Stop, Trace};

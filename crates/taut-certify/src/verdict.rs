@@ -188,6 +188,14 @@ pub enum Violation {
         /// norm − 1.
         excess: f64,
     },
+    /// An inscribed ellipsoid reaches out of a half-space.
+    #[error("the ellipsoid reaches beyond half-space {row}, by {excess:e} in units of its normal")]
+    OutsideHalfSpace {
+        /// The first such row, from 0.
+        row: u64,
+        /// max aᵀx − b over the ellipsoid; at 0 and a little below, rounding leaves it open.
+        excess: f64,
+    },
     /// A row that is said to be left out lies inside.
     #[error("point {row} is said to be left out, but reaches only to |F(x − c)| = {norm:?}")]
     NotOutside {

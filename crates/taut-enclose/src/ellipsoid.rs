@@ -32,7 +32,9 @@ use self::sample::Sample;
 use self::survey::Survey;
 use self::whitener::Whitener;
 use crate::Error;
+pub(crate) use dense::cholesky;
 pub use options::{EllipsoidMethod, EllipsoidOptions};
+pub(crate) use outcome::log_unit_ball;
 
 /// Gap that rounding leaves, for each dimension.
 const ROUNDING: f64 = 5e-15;

@@ -17,6 +17,7 @@
 mod ball;
 mod ellipsoid;
 mod error;
+mod inscribed;
 mod kernel;
 mod scan;
 mod shapes;
@@ -28,3 +29,4 @@ pub use ellipsoid::{
     ellipsoid_of_items, ellipsoid_of_source,
 };
 pub use error::Error;
+pub use inscribed::{InscribedOptions, inscribed_ellipsoid, inscribed_ellipsoid_of_source};

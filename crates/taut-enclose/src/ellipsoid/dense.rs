@@ -3,7 +3,7 @@
 use crate::kernel::vector::{add_scaled, dot};
 
 /// A ← L with A = LL′, of the lower triangle by rows, n × n; false when A is not positive definite to rounding.
-pub(super) fn cholesky(a: &mut [f64], n: usize) -> bool {
+pub(crate) fn cholesky(a: &mut [f64], n: usize) -> bool {
     for i in 0..n {
         let (above, row) = a.split_at_mut(i * n);
         for j in 0..i {

@@ -87,7 +87,7 @@ pub(super) fn trial_log_volume(dim: usize, matrix: &[f64]) -> f64 {
 }
 
 /// The natural logarithm of the volume of the unit ball in ℝᵈ: κ₀ = 1, κ₁ = 2, κ_d = κ_{d−2}·2π/d.
-pub(super) fn log_unit_ball(dim: usize) -> f64 {
+pub(crate) fn log_unit_ball(dim: usize) -> f64 {
     let start = if dim.is_multiple_of(2) { 0.0 } else { 2f64.ln() };
     let first = if dim.is_multiple_of(2) { 2 } else { 3 };
     (first..=dim).step_by(2).map(|d| (2.0 * std::f64::consts::PI / d as f64).ln()).sum::<f64>()
