@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use taut_enclose::{EllipsoidOptions, ellipsoid_of_ellipsoids};
+use taut_enclose::{BallOptions, EllipsoidOptions, ball_of_ellipsoids, ellipsoid_of_ellipsoids};
 use taut_points::{Distribution, Points, generate};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -36,6 +36,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             found.trace.iterations,
             found.certificate.support.len(),
             found.trace.counters,
+        );
+        let options = BallOptions { epsilon, ..Default::default() };
+        let start = Instant::now();
+        let found = ball_of_ellipsoids(&rows, &options)?;
+        let time = start.elapsed();
+        let gap = found.check(&rows)?.gap;
+        println!(
+            "ball: {time:.1?}, gap {gap:.1e}, {} passes, {} steps, support {}",
+            found.trace.passes,
+            found.trace.iterations,
+            found.certificate.support.len(),
         );
     }
     Ok(())

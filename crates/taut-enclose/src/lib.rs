@@ -4,7 +4,11 @@
 //! |---|---|---|---|
 //! | smallest ball around points | [`ball()`] | R ≤ (1 + ε)·R*, proved | few passes of O(nd) |
 //! | smallest ball around balls | [`ball_of_balls()`] | the same | the same |
-//! | either, larger than memory | [`ball_of_source()`] | the same | the same, one block per thread in memory |
+//! | smallest ball around ellipsoids | [`ball_of_ellipsoids()`] | the same | O(nd³), then a dozen passes of O(nd²) |
+//! | ellipsoid of least volume around points | [`ellipsoid()`] | log-volume ≤ optimum + ε, proved | few passes of O(nd²) |
+//! | ellipsoid of least volume around balls, ellipsoids | [`ellipsoid_of_balls()`], [`ellipsoid_of_ellipsoids()`] | the same | a dozen passes of O(nd³) |
+//! | ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | some fifty steps of O(nd⁴ + d⁶) |
+//! | balls and ellipsoids, larger than memory | [`ball_of_source()`] | the same | the same, one block per thread in memory |
 //! ```
 //! let points = taut_points::Points::new(&[0.0, 0.0, 2.0, 0.0, 1.0, 1.0], 2)?;   // n × d, row-major
 //! let found = taut_enclose::ball(&points, &Default::default())?;

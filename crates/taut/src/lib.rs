@@ -4,7 +4,10 @@
 //! |---|---|---|---|
 //! | the smallest ball around points | [`ball()`] | R ≤ (1 + ε)·R*, proved | [`enclose`] |
 //! | the smallest ball around balls | [`ball_of_balls()`] | the same | [`enclose`] |
-//! | either, of more points than memory holds | [`ball_of_source()`] | the same | [`enclose`] |
+//! | the smallest ball around ellipsoids | [`ball_of_ellipsoids()`] | the same | [`enclose`] |
+//! | any of these, of more points than memory holds | [`ball_of_source()`] | the same | [`enclose`] |
+//! | the ellipsoid of least volume around balls or ellipsoids | [`ellipsoid_of_balls()`], [`ellipsoid_of_ellipsoids()`] | log-volume ≤ optimum + ε, proved | [`enclose`] |
+//! | the ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | [`enclose`] |
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`Plane`], [`Space`] | the same | [mod@delaunay] |
 //! | edges that must be there | [`Plane::constrained`] | exact, Delaunay as far as they let it be | [mod@delaunay] |
@@ -54,14 +57,19 @@
 pub use taut_certify as certify;
 pub use taut_certify::{
     Answer, AnySolution, Ball, BallCertificate, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict,
-    Items, Solution, Trace, Triangulation, TriangulationCertificate, Verdict, Violation,
+    InscribedCertificate, InscribedEllipsoid, InscribedVerdict, Items, Solution, Trace,
+    Triangulation, TriangulationCertificate, Verdict, Violation,
 };
 pub use taut_delaunay as delaunay;
 pub use taut_delaunay::{
     DelaunayOptions, InsertionOrder, Plane, Space, delaunay, delaunay_of_source,
 };
 pub use taut_enclose as enclose;
-pub use taut_enclose::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_source};
+pub use taut_enclose::{
+    BallMethod, BallOptions, EllipsoidMethod, EllipsoidOptions, InscribedOptions, ball,
+    ball_of_balls, ball_of_ellipsoids, ball_of_source, ellipsoid_of_balls, ellipsoid_of_ellipsoids,
+    ellipsoid_of_items, inscribed_ellipsoid, inscribed_ellipsoid_of_source,
+};
 pub use taut_points as points;
 pub use taut_points::{Distribution, Monitor, PointSource, Points, generate};
 
