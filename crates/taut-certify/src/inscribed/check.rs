@@ -249,7 +249,8 @@ fn gap(
         error += lambda * (4.0 * side.normal_error + side.slack_error);
     }
     let trace = (0..dim).fold(zero, |sum, a| sum.plus(&matrix[a * (a + 3) / 2]));
-    if !(trace.rounded() > 0.0) {
+    let has_matrix = trace.rounded() > 0.0;
+    if !has_matrix {
         return Ok(f64::INFINITY);
     }
     // λ is scaled so that tr W = d; what is off is off by this much then.
@@ -273,7 +274,8 @@ fn gap(
     let rest = square.sqrt() / unit * (1.0 + (dim + 16) as f64 * U) + off;
     let beta = beta.over(&tau);
     let least = 1.0 - norm - rest;
-    if !(least > 0.0) {
+    let is_near_optimal = least > 0.0;
+    if !is_near_optimal {
         return Ok(f64::INFINITY);
     }
     let far =

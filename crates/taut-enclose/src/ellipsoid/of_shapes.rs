@@ -323,7 +323,7 @@ impl Base {
             .into_iter()
             .map(|(touch, u)| (touch.item, self.direction(&touch.direction), u))
             .collect();
-        support.sort_by(|a, b| a.0.cmp(&b.0));
+        support.sort_by_key(|entry| entry.0);
         let images: Vec<f64> =
             support.iter().flat_map(|(i, a, _)| map.touching(shapes, *i, a)).collect();
         let multipliers: Vec<f64> = support.iter().map(|entry| entry.2).collect();

@@ -282,7 +282,8 @@ pub(super) fn gap(views: &[View], lambda: &[f64]) -> f64 {
     let norm = (0..dim * dim).map(|at| off(at) * off(at)).sum::<f64>().sqrt();
     let rest = dot(&rest, &rest).sqrt();
     let far = (d + room + rest + delta) / (1.0 - norm - rest);
-    if !(far > 0.0) || !cholesky(&mut matrix, dim) {
+    let is_near_optimal = far > 0.0;
+    if !is_near_optimal || !cholesky(&mut matrix, dim) {
         return f64::INFINITY;
     }
     let logs: f64 = (0..dim).map(|k| 2.0 * matrix[k * dim + k].ln()).sum();
