@@ -35,6 +35,7 @@ fn measure<T: Scalar>(name: &str, values: &[T], d: usize, radius: f64, center: f
             items: Items::Points,
             support: vec![0],
             multipliers: vec![1.0],
+            directions: vec![],
             gap: 0.0,
             points_hash: hash,
         },

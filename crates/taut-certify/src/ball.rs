@@ -1,4 +1,4 @@
-//! The minimum enclosing ball of points or of balls, and its certificate.
+//! The minimum enclosing ball of points, of balls or of ellipsoids, and its certificate.
 
 mod check;
 
@@ -27,22 +27,31 @@ pub struct Ball {
 /// Convex multipliers λ over few items: the proof that no much smaller ball exists.
 ///
 /// For points, c = Σ λᵢpᵢ and r² = Σ λᵢ|pᵢ − c|² ≤ R*², for any λ ≥ 0 with Σ λᵢ = 1. For balls with radii rᵢ and
-/// r̄ = Σ λᵢrᵢ, c = Σ λᵢcᵢ and r = r̄ + √(Σ λᵢ(|cᵢ − c|² − (rᵢ − r̄)²)) ≤ R*.
+/// r̄ = Σ λᵢrᵢ, c = Σ λᵢcᵢ and r = r̄ + √(Σ λᵢ(|cᵢ − c|² − (rᵢ − r̄)²)) ≤ R*. For ellipsoids the pᵢ are points of theirs,
+/// known by their `directions`.
 ///
 /// With u = 2⁻⁵³, the checker grants |Σ λᵢ − 1| ≤ 2(k + 2)u for k multipliers, and takes λᵢ/Σ λᵢ in their place. The
-/// centre of the ball is Σ λᵢpᵢ/Σ λᵢ, each coordinate to 4u(|cⱼ| + R), with a tail to 4uR + 8u²|cⱼ|.
+/// centre of the ball is Σ λᵢpᵢ/Σ λᵢ, each coordinate to 4u(|cⱼ| + R), with a tail to 4uR + 8u²|cⱼ|; of a ball around
+/// ellipsoids this is not asked, as their points are rounded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,
     expecting = "the certificate of a ball: an object with items, support and multipliers"
 )]
 pub struct BallCertificate {
-    /// Points or balls; a ball around ellipsoids has no certificate of this form.
+    /// Points, balls or ellipsoids.
     pub items: Items,
-    /// Row numbers of the items with λᵢ > 0, from 0, ascending.
+    /// Row numbers of the items with λᵢ > 0, from 0, ascending. Ellipsoids may occur several times in a row, as they can
+    /// touch at several points.
     pub support: Vec<u64>,
     /// λᵢ, in the order of `support`.
     pub multipliers: Vec<f64>,
+    /// For ellipsoids, in the order of `support`: d numbers a that say at which point the ellipsoid touches.
+    ///
+    /// It is the point that lies farthest in the direction a, p = m + Sa/√(aᵀSa), or m where Sa = 0: so it belongs to the
+    /// ellipsoid whatever a is. Empty for points and balls.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub directions: Vec<Vec<f64>>,
     /// The gap claimed: radius ≤ (1 + gap)·r. Accepted when the gap found is at most gap·(1 + 1e-9) + 4e-16.
     pub gap: f64,
     /// The hash of the rows this was made for.

@@ -5,6 +5,7 @@
 //! | [`Ball`] | [`BallCertificate`] | every point is inside; no smaller ball than r/(1 + gap) holds them all |
 //! | [`Ellipsoid`] | [`EllipsoidCertificate`] | every point is inside; no ellipsoid of a log-volume less by more than the gap holds them all |
 //! | [`RobustEllipsoid`] | [`RobustCertificate`] | centre, scatter, factors and flags are those of the points kept; no C-step leads on from them; by `mve` and `trim`, no smaller ellipsoid holds them |
+//! | [`InscribedEllipsoid`] | [`InscribedCertificate`] | it lies in every half-space; no ellipsoid in the polytope has a log-volume larger by more than the gap |
 //! | [`Triangulation`] | [`TriangulationCertificate`] | the simplices are *the* Delaunay triangulation of the points |
 //!
 //! A [`Solution`] is an answer, its certificate and a trace of counters. [`Solution::check`] reads the points again
@@ -21,6 +22,7 @@
 //!         items: Items::Points,
 //!         support: vec![0, 1],
 //!         multipliers: vec![0.5, 0.5],
+//!         directions: vec![],
 //!         gap: 0.0,
 //!         points_hash: hash_points(&points, &Monitor::silent())?,
 //!     },
@@ -36,6 +38,7 @@
 mod arithmetic;
 mod ball;
 mod ellipsoid;
+mod inscribed;
 mod items;
 mod json;
 mod robust;
@@ -45,6 +48,7 @@ mod verdict;
 
 pub use ball::{Ball, BallCertificate};
 pub use ellipsoid::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull};
+pub use inscribed::{InscribedCertificate, InscribedEllipsoid, InscribedVerdict};
 pub use items::Items;
 pub use json::{AnySolution, JsonError, SCHEMA};
 pub use robust::{

@@ -93,14 +93,6 @@ pub enum Violation {
         /// Columns there are.
         columns: usize,
     },
-    /// Certificates of this kind do not speak of such items.
-    #[error("the certificate of {article} speaks of {items}: there is no proof of that form", article = article(kind))]
-    Items {
-        /// Kind of the answer.
-        kind: &'static str,
-        /// What the rows are said to be.
-        items: &'static str,
-    },
     /// The certificate speaks of ellipsoids, but no dimension has rows of that many numbers.
     #[error(
         "ellipsoids in dimension d have rows of d(d + 3)/2 numbers, 2, 5, 9, 14, …, but rows have {columns}"
@@ -196,6 +188,14 @@ pub enum Violation {
         /// How far it reaches: 1 is the border.
         norm: f64,
         /// norm − 1.
+        excess: f64,
+    },
+    /// An inscribed ellipsoid reaches out of a half-space.
+    #[error("the ellipsoid reaches beyond half-space {row}, by {excess:e} in units of its normal")]
+    OutsideHalfSpace {
+        /// The first such row, from 0.
+        row: u64,
+        /// max aᵀx − b over the ellipsoid; at 0 and a little below, rounding leaves it open.
         excess: f64,
     },
     /// A row that is said to be left out lies inside.
@@ -311,11 +311,6 @@ pub enum Violation {
     /// Something is wrong with a triangulation.
     #[error(transparent)]
     Mesh(#[from] MeshViolation),
-}
-
-fn article(kind: &str) -> String {
-    let article = if kind.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
-    format!("{article} {kind}")
 }
 
 /// A count with its noun.

@@ -17,6 +17,7 @@ fn first_outside(values: &[f64], columns: usize, items: Items, ball: Ball) -> Op
         items,
         support: vec![0],
         multipliers: vec![1.0],
+        directions: vec![],
         gap: 0.0,
         points_hash: hash_points(&points, &Monitor::silent()).unwrap(),
     };
@@ -36,6 +37,7 @@ fn first_outside_truly(values: &[f64], columns: usize, items: Items, ball: &Ball
         items,
         support: vec![0],
         multipliers: vec![1.0],
+        directions: vec![],
         gap: 0.0,
         points_hash: taut_points::PointsHash(0),
     };

@@ -21,6 +21,7 @@ fn solution(
             items,
             support: support.iter().map(|s| s.0).collect(),
             multipliers: support.iter().map(|s| s.1).collect(),
+            directions: vec![],
             gap: 1e-3,
             points_hash: hash_points(points, &Monitor::silent()).unwrap(),
         },

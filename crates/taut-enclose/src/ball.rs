@@ -1,4 +1,4 @@
-//! The minimum enclosing ball of points or of balls: one problem, one certificate, four methods.
+//! The minimum enclosing ball of points, of balls or of ellipsoids: one problem, one certificate, four methods.
 //!
 //! A method ([`core_set`], [`thesis`], [`badoiu_clarkson`]) ends with convex multipliers and the pass made from the
 //! centre they mean ([`outcome`]); [`proof`] turns that into an answer and its certificate, whatever the method was.
@@ -8,6 +8,7 @@ mod badoiu_clarkson;
 mod conic;
 mod core_set;
 mod factor;
+mod of_shapes;
 mod options;
 mod outcome;
 mod proof;
@@ -67,13 +68,43 @@ pub fn ball_of_balls<T: Scalar>(
     ball_of_source(balls, Items::Balls, options, &Monitor::silent())
 }
 
+/// The smallest ball that encloses ellipsoids, n × d(d + 3)/2: in each row a centre m and the lower triangle of a shape
+/// matrix S, row by row, for the set {m + v : vv′ ⪯ S} ([`Items::Ellipsoids`]).
+///
+/// S must be positive semidefinite; it may be singular, and 0 for a point. The certificate names the points in which
+/// ellipsoids touch; the radius is larger than needed by some units of the last place, so that nothing is outside. The only
+/// method is [`BallMethod::CoreSet`].
+///
+/// *Cost.* O(nd³) once, and a dozen passes of O(nd²); n·d² numbers in memory.
+///
+/// ```
+/// use taut_enclose::{BallOptions, ball_of_ellipsoids};
+///
+/// // A disc of radius 1 at the origin, and a segment from (0, 3) to (2, 3).
+/// let rows = [0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 3.0, 1.0, 0.0, 0.0];
+/// let rows = taut_points::Points::new(&rows, 5)?;
+/// let found = ball_of_ellipsoids(&rows, &BallOptions::default())?;
+/// assert!((found.answer.radius - (1.0 + 13f64.sqrt()) / 2.0).abs() < 1e-8);
+/// assert!(found.check(&rows)?.gap <= 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// As [`ball()`], and [`Error::NoShape`], [`Error::NegativeShape`].
+pub fn ball_of_ellipsoids<T: Scalar>(
+    ellipsoids: &Points<'_, T>,
+    options: &BallOptions,
+) -> Result<Solution<Ball>, Error> {
+    ball_of_source(ellipsoids, Items::Ellipsoids, options, &Monitor::silent())
+}
+
 /// The smallest ball that encloses the items of a source of any size, in memory or not.
 ///
-/// One block for each thread is held at a time, beside the core-set; the answer is the same, bit by bit, for every
+/// One block for each thread is held at a time, beside the core-set, and ellipsoids all at once; the answer is the same, bit by bit, for every
 /// medium the rows come from. `monitor` hears of each pass and can stop the work between two blocks or two steps.
 ///
 /// # Errors
-/// As [`ball_of_balls()`], and [`Error::Read`] when the source fails or `monitor` stops the work.
+/// As [`ball_of_balls()`] and [`ball_of_ellipsoids()`], and [`Error::Read`] when the source fails or `monitor` stops the work.
 pub fn ball_of_source(
     source: &dyn PointSource,
     items: Items,
@@ -98,6 +129,9 @@ fn solve(
     options: &BallOptions,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Ball>, Error> {
+    if items == Items::Ellipsoids {
+        return of_shapes::solve(source, options, monitor);
+    }
     let mut scan = Scan::new(source, items, monitor)?;
     let outcome = match options.method {
         BallMethod::CoreSet => core_set::solve(&mut scan, options)?,

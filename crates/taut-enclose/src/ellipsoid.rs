@@ -12,6 +12,7 @@ mod initial;
 mod interior;
 mod newton;
 mod nnls;
+mod of_shapes;
 mod options;
 pub(crate) mod outcome;
 mod pool;
@@ -21,7 +22,7 @@ mod sample;
 pub(crate) mod survey;
 mod whitener;
 
-use taut_certify::{Ellipsoid, Solution};
+use taut_certify::{Ellipsoid, Items, Solution};
 use taut_points::{Monitor, PointSource, Points, Scalar};
 
 use self::flat::Look;
@@ -30,7 +31,9 @@ use self::sample::Sample;
 use self::survey::Survey;
 use self::whitener::Whitener;
 use crate::Error;
+pub(crate) use dense::cholesky;
 pub use options::{EllipsoidMethod, EllipsoidOptions};
+pub(crate) use outcome::log_unit_ball;
 
 /// Gap that rounding leaves, for each dimension.
 const ROUNDING: f64 = 5e-15;
@@ -66,6 +69,70 @@ pub fn ellipsoid<T: Scalar>(
     ellipsoid_of_source(points, options, &Monitor::silent())
 }
 
+/// The ellipsoid of least volume that encloses `balls`, n × (d + 1): in each row a centre and a radius ≥ 0.
+///
+/// As [`ellipsoid_of_ellipsoids`] for Sᵢ = rᵢ²I.
+///
+/// # Errors
+/// As [`ellipsoid_of_items`].
+pub fn ellipsoid_of_balls<T: Scalar>(
+    balls: &Points<'_, T>,
+    options: &EllipsoidOptions,
+) -> Result<Solution<Ellipsoid>, Error> {
+    ellipsoid_of_items(balls, Items::Balls, options, &Monitor::silent())
+}
+
+/// The ellipsoid of least volume that encloses `ellipsoids`, n × d(d + 3)/2: in each row a centre m and the lower
+/// triangle of a shape matrix S, row by row, for the set {m + v : vv′ ⪯ S} ([`Items::Ellipsoids`]).
+///
+/// S must be positive semidefinite; it may be singular, and 0 for a point. The certificate names the points in which
+/// items touch. The only method is [`EllipsoidMethod::Newton`].
+///
+/// *Cost.* A dozen passes or two over the items, each of O(d³) for items near the border and O(d²) for others; n·d²
+/// numbers in memory.
+///
+/// ```
+/// use taut_enclose::{EllipsoidOptions, ellipsoid_of_ellipsoids};
+///
+/// // Two unit discs, the centres 2 apart.
+/// let discs = [-1.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0];
+/// let discs = taut_points::Points::new(&discs, 5)?;
+/// let found = ellipsoid_of_ellipsoids(&discs, &EllipsoidOptions::default())?;
+/// assert!(found.answer.norm(&[2.0, 0.0]) < 1.0 && found.answer.norm(&[1.0, 1.0]) < 1.0);
+/// assert!(found.check(&discs)?.gap <= 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// As [`ellipsoid_of_items`].
+pub fn ellipsoid_of_ellipsoids<T: Scalar>(
+    ellipsoids: &Points<'_, T>,
+    options: &EllipsoidOptions,
+) -> Result<Solution<Ellipsoid>, Error> {
+    ellipsoid_of_items(ellipsoids, Items::Ellipsoids, options, &Monitor::silent())
+}
+
+/// The ellipsoid of least volume that encloses the items of a source.
+///
+/// Points are read as [`ellipsoid_of_source`] does; balls and ellipsoids are held in memory. `monitor` hears of each
+/// pass and can stop the work.
+///
+/// # Errors
+/// As [`ellipsoid_of_source`], and [`Error::NoRadius`], [`Error::NegativeRadius`], [`Error::NoShape`],
+/// [`Error::NegativeShape`].
+pub fn ellipsoid_of_items(
+    source: &dyn PointSource,
+    items: Items,
+    options: &EllipsoidOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Ellipsoid>, Error> {
+    options.check()?;
+    on_threads(options, || match items {
+        Items::Points => solve(source, options, monitor),
+        Items::Balls | Items::Ellipsoids => of_shapes::solve(source, items, options, monitor),
+    })
+}
+
 /// The ellipsoid of least volume that encloses the points of a source of any size, in memory or not.
 ///
 /// One block for each thread is held at a time, beside the pool; the answer is the same, bit by bit, for every medium
@@ -78,8 +145,15 @@ pub fn ellipsoid_of_source(
     options: &EllipsoidOptions,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Ellipsoid>, Error> {
-    options.check()?;
-    let Some(threads) = options.threads else { return solve(source, options, monitor) };
+    ellipsoid_of_items(source, Items::Points, options, monitor)
+}
+
+/// Works on the threads that the options ask for.
+fn on_threads<R: Send>(
+    options: &EllipsoidOptions,
+    work: impl FnOnce() -> Result<R, Error> + Send,
+) -> Result<R, Error> {
+    let Some(threads) = options.threads else { return work() };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|_| {
         Error::Option {
             name: "threads",
@@ -87,7 +161,7 @@ pub fn ellipsoid_of_source(
             expected: "as many threads as the system grants",
         }
     })?;
-    pool.install(|| solve(source, options, monitor))
+    pool.install(work)
 }
 
 fn solve(

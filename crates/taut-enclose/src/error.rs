@@ -33,6 +33,44 @@ pub enum Error {
         /// Columns there are.
         columns: usize,
     },
+    /// Ellipsoids were announced, but no dimension has rows of that many numbers.
+    #[error(
+        "ellipsoids in dimension d have rows of d(d + 3)/2 numbers, 2, 5, 9, 14, …, but rows have {columns}"
+    )]
+    NoShape {
+        /// Columns there are.
+        columns: usize,
+    },
+    /// An ellipsoid of the input has a shape matrix with a negative eigenvalue.
+    #[error("the shape matrix of ellipsoid {row} is not positive semidefinite")]
+    NegativeShape {
+        /// Ellipsoid, from 0.
+        row: u64,
+    },
+    /// A half-space of the input has no normal.
+    #[error(
+        "half-space {row} has no normal: rows are the coordinates of a normal other than 0, then an offset"
+    )]
+    NoNormal {
+        /// Half-space, from 0.
+        row: u64,
+    },
+    /// Half-spaces that go on for ever.
+    #[error(
+        "the polytope is unbounded in the direction {direction:?}: an inscribed ellipsoid needs an end"
+    )]
+    Unbounded {
+        /// aᵢ′v ≤ 0 for every normal, but for rounding; of length 1.
+        direction: Vec<f64>,
+    },
+    /// Half-spaces that have no point in common, or no ball.
+    #[error("the polytope has no interior point: half-spaces {rows:?} leave none")]
+    NoInterior {
+        /// Half-spaces, from 0.
+        rows: Vec<u64>,
+        /// λ for these, with normals of length 1: Σλᵢaᵢ = 0 and Σλᵢbᵢ ≤ 0, but for rounding.
+        multipliers: Vec<f64>,
+    },
     /// The points reach so far that the radius exceeds the largest `f64`.
     #[error("the points reach too far for numbers of double precision: scale them down")]
     Overflow,

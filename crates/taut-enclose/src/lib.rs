@@ -4,10 +4,13 @@
 //! |---|---|---|---|
 //! | smallest ball around points | [`ball()`] | R ≤ (1 + ε)·R*, proved | few passes of O(nd) |
 //! | smallest ball around balls | [`ball_of_balls()`] | the same | the same |
-//! | centre, scatter and outliers | [`robust_ellipsoid()`] | all proved but that no other points kept would do better | some ten to thirty passes of O(nd²) |
-//! | either, larger than memory | [`ball_of_source()`] | the same | the same, one block per thread in memory |
-//! | smallest ellipsoid around points | [`ellipsoid()`] | log-volume ≤ optimum + ε, proved | few passes of O(nd²) |
+//! | smallest ball around ellipsoids | [`ball_of_ellipsoids()`] | the same | O(nd³), then a dozen passes of O(nd²) |
+//! | balls and ellipsoids, larger than memory | [`ball_of_source()`] | the same | the same, one block per thread in memory |
+//! | ellipsoid of least volume around points | [`ellipsoid()`] | log-volume ≤ optimum + ε, proved | few passes of O(nd²) |
 //! | the same, larger than memory | [`ellipsoid_of_source()`] | the same | the same, one block per thread in memory |
+//! | ellipsoid of least volume around balls, ellipsoids | [`ellipsoid_of_balls()`], [`ellipsoid_of_ellipsoids()`] | the same | a dozen passes of O(nd³) |
+//! | ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | some fifty steps of O(nd⁴ + d⁶) |
+//! | centre, scatter and outliers | [`robust_ellipsoid()`] | all proved but that no other points kept would do better | some ten to thirty passes of O(nd²) |
 //! ```
 //! let points = taut_points::Points::new(&[0.0, 0.0, 2.0, 0.0, 1.0, 1.0], 2)?;   // n × d, row-major
 //! let found = taut_enclose::ball(&points, &Default::default())?;
@@ -20,12 +23,18 @@
 mod ball;
 mod ellipsoid;
 mod error;
+mod inscribed;
 mod kernel;
 mod robust;
 mod scan;
+mod shapes;
 mod top;
 
-pub use ball::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_source};
-pub use ellipsoid::{EllipsoidMethod, EllipsoidOptions, ellipsoid, ellipsoid_of_source};
+pub use ball::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_ellipsoids, ball_of_source};
+pub use ellipsoid::{
+    EllipsoidMethod, EllipsoidOptions, ellipsoid, ellipsoid_of_balls, ellipsoid_of_ellipsoids,
+    ellipsoid_of_items, ellipsoid_of_source,
+};
 pub use error::Error;
+pub use inscribed::{InscribedOptions, inscribed_ellipsoid, inscribed_ellipsoid_of_source};
 pub use robust::{RobustOptions, robust_ellipsoid, robust_ellipsoid_of_source};

@@ -4,9 +4,12 @@
 //! |---|---|---|---|
 //! | the smallest ball around points | [`ball()`] | R ≤ (1 + ε)·R*, proved | [`enclose`] |
 //! | the smallest ball around balls | [`ball_of_balls()`] | the same | [`enclose`] |
-//! | either ball, of more points than memory holds | [`ball_of_source()`] | the same | [`enclose`] |
+//! | the smallest ball around ellipsoids | [`ball_of_ellipsoids()`] | the same | [`enclose`] |
+//! | any of these balls, of more points than memory holds | [`ball_of_source()`] | the same | [`enclose`] |
 //! | the ellipsoid of least volume around points | [`ellipsoid()`] | log-volume ≤ least + ε, proved | [`enclose`] |
 //! | the same, of more points than memory holds | [`ellipsoid_of_source()`] | the same | [`enclose`] |
+//! | the ellipsoid of least volume around balls or ellipsoids | [`ellipsoid_of_balls()`], [`ellipsoid_of_ellipsoids()`] | log-volume ≤ optimum + ε, proved | [`enclose`] |
+//! | the ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | [`enclose`] |
 //! | centre and scatter of most points, and the outliers | [`robust_ellipsoid()`] | all but the choice of points proved; that choice a local optimum | [`enclose`] |
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`Plane`], [`Space`] | the same | [mod@delaunay] |
@@ -73,8 +76,9 @@
 pub use taut_certify as certify;
 pub use taut_certify::{
     Answer, AnySolution, Ball, BallCertificate, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict,
-    Items, RobustCertificate, RobustEllipsoid, RobustMethod, RobustVerdict, Solution, Trace,
-    Triangulation, TriangulationCertificate, Verdict, Violation,
+    InscribedCertificate, InscribedEllipsoid, InscribedVerdict, Items, RobustCertificate,
+    RobustEllipsoid, RobustMethod, RobustVerdict, Solution, Trace, Triangulation,
+    TriangulationCertificate, Verdict, Violation,
 };
 pub use taut_delaunay as delaunay;
 pub use taut_delaunay::{
@@ -82,8 +86,10 @@ pub use taut_delaunay::{
 };
 pub use taut_enclose as enclose;
 pub use taut_enclose::{
-    BallMethod, BallOptions, EllipsoidMethod, EllipsoidOptions, RobustOptions, ball, ball_of_balls,
-    ball_of_source, ellipsoid, ellipsoid_of_source, robust_ellipsoid, robust_ellipsoid_of_source,
+    BallMethod, BallOptions, EllipsoidMethod, EllipsoidOptions, InscribedOptions, RobustOptions,
+    ball, ball_of_balls, ball_of_ellipsoids, ball_of_source, ellipsoid, ellipsoid_of_balls,
+    ellipsoid_of_ellipsoids, ellipsoid_of_items, ellipsoid_of_source, inscribed_ellipsoid,
+    inscribed_ellipsoid_of_source, robust_ellipsoid, robust_ellipsoid_of_source,
 };
 pub use taut_points as points;
 pub use taut_points::{Distribution, Monitor, PointSource, Points, generate};

@@ -15,6 +15,7 @@
 //! For a good answer tᵢ is nearly 0 on the support and p̄ nearly c, so x, by which R can be too large, is computed
 //! from small numbers and without cancellation, for balls that touch from inside just as for points: [`lower_bound`].
 //! Where the root does not exist, x = g. And x ≤ R − rᵢ, as no enclosing ball is smaller than what it encloses.
+//! *Ellipsoids.* Both bounds in [`ellipsoids`].
 //! *Order.* Structure, then one pass (finite rows, hash, enclosure), then the support rows (centre, gap).
 //! *Scale.* Where squares could leave the range of `f64`, differences pᵢ − c are multiplied by the power of two that
 //! brings R to [1, 2): exactly, but for what underflows beside R.
@@ -23,6 +24,7 @@
 //! *Reference.* For points, the dual of Yıldırım, SIAM J. Optim. 19(3), 2008.
 
 mod difference;
+mod ellipsoids;
 mod enclosure;
 mod lower_bound;
 mod scale;
@@ -32,7 +34,7 @@ use taut_points::{Monitor, PointSource};
 
 use self::enclosure::Enclosure;
 use super::{Ball, BallCertificate};
-use crate::{CheckError, Verdict, Violation};
+use crate::{CheckError, Items, Verdict, Violation};
 
 /// How much the gap claimed may fall short of the gap proved, relatively and in units of 1.
 ///
@@ -48,10 +50,14 @@ pub(super) fn check(
     monitor: &Monitor<'_>,
 ) -> Result<Verdict, CheckError> {
     structure::check(ball, certificate, source)?;
-    let enclosure = Enclosure::of(ball, certificate.items);
     monitor.pass(1, source.len());
-    enclosure.check(source, certificate.points_hash, monitor)?;
-    let bound = lower_bound::prove(ball, certificate, source, monitor)?;
+    let bound = if certificate.items == Items::Ellipsoids {
+        ellipsoids::prove(ball, certificate, source, monitor)?
+    } else {
+        let enclosure = Enclosure::of(ball, certificate.items);
+        enclosure.check(source, certificate.points_hash, monitor)?;
+        lower_bound::prove(ball, certificate, source, monitor)?
+    };
     let (relative, absolute) = GAP_SLACK;
     if bound.gap > certificate.gap * (1.0 + relative) + absolute {
         return Err(Violation::Gap { claimed: certificate.gap, proved: bound.gap }.into());

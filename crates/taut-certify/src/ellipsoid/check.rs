@@ -24,10 +24,10 @@ pub(crate) mod agreement;
 mod enclosure;
 pub(crate) mod frame;
 pub(crate) mod hull;
-mod item;
-mod lower_bound;
+pub(crate) mod item;
+pub(crate) mod lower_bound;
 mod panel;
-mod reach;
+pub(crate) mod reach;
 mod structure;
 
 use taut_points::{Monitor, PointSource};

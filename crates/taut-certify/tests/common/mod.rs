@@ -140,6 +140,7 @@ pub(crate) fn certify(
         items,
         support: support.to_vec(),
         multipliers: multipliers.to_vec(),
+        directions: vec![],
         gap: 0.0,
         points_hash: hash_points(&points, &Monitor::silent()).unwrap(),
     };

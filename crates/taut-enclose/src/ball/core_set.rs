@@ -139,7 +139,7 @@ fn add(
 }
 
 /// The exact ball of the working set; returns its radius. `radius` is a lower bound on it, from before the last batch.
-fn solve_working_set(
+pub(super) fn solve_working_set(
     active: &mut ActiveSet,
     set: &WorkingSet,
     radius: f64,

@@ -68,6 +68,7 @@ pub(super) fn prove(
         items: scan.items(),
         support: best.support,
         multipliers: best.lambda,
+        directions: vec![],
         gap,
         points_hash: scan.hash(),
     };

@@ -293,7 +293,7 @@ fn flat(
 }
 
 /// The centre in the space of the points.
-fn lifted(origin: &[f64], directions: &[f64], center: &Center) -> Center {
+pub(super) fn lifted(origin: &[f64], directions: &[f64], center: &Center) -> Center {
     let dim = origin.len();
     let mut terms: Vec<DoubleDouble> = origin.iter().map(|&o| o.into()).collect();
     for (k, direction) in directions.chunks_exact(dim).enumerate() {

@@ -81,7 +81,7 @@ impl Progress {
 }
 
 /// The log-volume of |M(x − c)|² ≤ d.
-fn trial_log_volume(dim: usize, matrix: &[f64]) -> f64 {
+pub(super) fn trial_log_volume(dim: usize, matrix: &[f64]) -> f64 {
     let logs: f64 = (0..dim).map(|a| matrix[a * dim + a].ln()).sum();
     log_unit_ball(dim) + 0.5 * dim as f64 * (dim as f64).ln() - logs
 }

@@ -24,7 +24,7 @@ use crate::top::{Far, Top};
 /// u of the rounding of `f64`.
 const UNIT: f64 = f64::EPSILON / 2.0;
 /// What the claimed gap may lack of the proved one, for each dimension: the logarithms.
-const LOGARITHMS: f64 = 2e-15;
+pub(super) const LOGARITHMS: f64 = 2e-15;
 /// Scales tried before a bound on the rounding of F takes the place of measuring.
 const ATTEMPTS: u32 = 8;
 /// Points near the border that are measured for each of them.
@@ -229,7 +229,7 @@ fn measure(
 }
 
 /// −½ ln det(r·Σ) for the covariance Σ of weighted images, n × r.
-fn lower_gap(images: &[f64], weights: &[f64], rank: usize) -> f64 {
+pub(super) fn lower_gap(images: &[f64], weights: &[f64], rank: usize) -> f64 {
     let total: f64 = weights.iter().sum();
     let mut mean = vec![0.0; rank];
     for (y, u) in images.chunks_exact(rank).zip(weights) {

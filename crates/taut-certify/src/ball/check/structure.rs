@@ -11,17 +11,34 @@ pub(super) fn check(
     certificate: &BallCertificate,
     source: &dyn PointSource,
 ) -> Result<(), Violation> {
-    if certificate.items == Items::Ellipsoids {
-        return Err(Violation::Items { kind: "ball", items: "ellipsoids" });
-    }
     let dim = certificate.items.dim(source.dim());
-    if certificate.items == Items::Balls && dim == 0 {
-        return Err(Violation::NoRadius { columns: source.dim() });
+    match certificate.items {
+        Items::Balls if dim == 0 => return Err(Violation::NoRadius { columns: source.dim() }),
+        Items::Ellipsoids if dim == 0 => return Err(Violation::NoShape { columns: source.dim() }),
+        _ => {}
     }
     answer(ball, dim)?;
     number("the claimed gap", certificate.gap)?;
     support(certificate, source.len())?;
-    multipliers(&certificate.multipliers)
+    multipliers(&certificate.multipliers)?;
+    directions(certificate, dim)
+}
+
+fn directions(certificate: &BallCertificate, dim: usize) -> Result<(), Violation> {
+    let expected = match certificate.items {
+        Items::Points | Items::Balls => 0,
+        Items::Ellipsoids => certificate.support.len(),
+    };
+    length("the list of directions", certificate.directions.len(), expected)?;
+    for (position, direction) in certificate.directions.iter().enumerate() {
+        length("a direction", direction.len(), dim)?;
+        if let Some(column) = direction.iter().position(|value| !value.is_finite()) {
+            let what = format!("coordinate {column} of direction {position}");
+            let value = direction[column];
+            return Err(Violation::Number { what, value, expected: "a finite number" });
+        }
+    }
+    Ok(())
 }
 
 fn answer(ball: &Ball, dim: usize) -> Result<(), Violation> {
@@ -56,11 +73,12 @@ fn support(certificate: &BallCertificate, n: u64) -> Result<(), Violation> {
         return Err(Violation::EmptySupport);
     }
     length("the list of multipliers", certificate.multipliers.len(), support.len())?;
+    let may_repeat = certificate.items == Items::Ellipsoids;
     for (position, &point) in support.iter().enumerate() {
         let before = position.checked_sub(1).map(|before| support[before]);
         let problem = match before {
             _ if point >= n => "but there are not so many",
-            Some(before) if before == point => "as does the entry before it",
+            Some(before) if before == point && !may_repeat => "as does the entry before it",
             Some(before) if before > point => "which is less than the entry before it",
             _ => continue,
         };

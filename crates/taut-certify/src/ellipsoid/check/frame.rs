@@ -47,7 +47,7 @@ impl<'a> Frame<'a> {
 
     /// The row of F/s between its outermost entries other than 0, and where that is.
     #[inline(always)]
-    pub(super) fn row(&self, a: usize) -> (&[f64], Range<usize>) {
+    pub(crate) fn row(&self, a: usize) -> (&[f64], Range<usize>) {
         let span = self.spans[a].clone();
         let start = a * self.dim;
         (&self.factor[start + span.start..start + span.end], span)
@@ -59,7 +59,7 @@ impl<'a> Frame<'a> {
     }
 
     #[inline(always)]
-    pub(super) fn tail(&self, column: usize) -> f64 {
+    pub(crate) fn tail(&self, column: usize) -> f64 {
         self.center_tail.get(column).copied().unwrap_or(0.0)
     }
 
@@ -87,7 +87,7 @@ impl<'a> Frame<'a> {
 
     /// What [`Frame::image`] may be off by, in length: for a point whose offset has the sizes `sizes`, when offsets are
     /// off by a few roundings and by `errors` beyond that. Rounded up.
-    pub(super) fn image_error<N: Field>(&self, sizes: &[f64], errors: Option<&[f64]>) -> f64 {
+    pub(crate) fn image_error<N: Field>(&self, sizes: &[f64], errors: Option<&[f64]>) -> f64 {
         let rounding = (self.dim + 8) as f64 * N::ROUNDOFF;
         let weight = |b: usize| {
             let tail = 4.0 * N::ROUNDOFF * (self.tail(b) * self.scale).abs();

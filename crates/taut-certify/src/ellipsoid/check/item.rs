@@ -5,7 +5,7 @@ use crate::arithmetic::{Field, U, factorise};
 use crate::{Items, Violation};
 
 /// One row.
-pub(super) enum Item<'a> {
+pub(crate) enum Item<'a> {
     Point(&'a [f64]),
     /// Centre and radius: S = r²I.
     Ball(&'a [f64], f64),
@@ -14,7 +14,7 @@ pub(super) enum Item<'a> {
 }
 
 impl<'a> Item<'a> {
-    pub(super) fn of(items: Items, dim: usize, row: &'a [f64]) -> Self {
+    pub(crate) fn of(items: Items, dim: usize, row: &'a [f64]) -> Self {
         let (center, shape) = row.split_at(dim);
         match items {
             Items::Points => Item::Point(center),
@@ -23,14 +23,14 @@ impl<'a> Item<'a> {
         }
     }
 
-    pub(super) fn center(&self) -> &'a [f64] {
+    pub(crate) fn center(&self) -> &'a [f64] {
         match self {
             Item::Point(center) | Item::Ball(center, _) | Item::Ellipsoid(center, _) => center,
         }
     }
 
     /// Whether S = 0.
-    pub(super) fn is_point(&self) -> bool {
+    pub(crate) fn is_point(&self) -> bool {
         match self {
             Item::Point(_) => true,
             Item::Ball(_, radius) => *radius == 0.0,
@@ -40,7 +40,7 @@ impl<'a> Item<'a> {
 
     /// Entry (j, k) of S·s², for j ≥ k.
     #[inline(always)]
-    pub(super) fn shape<N: Field>(&self, j: usize, k: usize, scale: f64) -> N {
+    pub(crate) fn shape<N: Field>(&self, j: usize, k: usize, scale: f64) -> N {
         match self {
             Item::Ball(_, radius) if j == k => {
                 let radius = N::of(radius * scale);
@@ -54,7 +54,7 @@ impl<'a> Item<'a> {
     }
 
     /// √Sⱼⱼ·s: how far the item reaches from its own centre along axis j. Rounded up.
-    pub(super) fn width(&self, j: usize, scale: f64) -> f64 {
+    pub(crate) fn width(&self, j: usize, scale: f64) -> f64 {
         let width = match self {
             Item::Point(_) => 0.0,
             Item::Ball(_, radius) => *radius,
@@ -64,7 +64,7 @@ impl<'a> Item<'a> {
     }
 
     /// How far the item reaches from the centre of the frame, by coordinate, times s; rounded up.
-    pub(super) fn extents(&self, frame: &Frame<'_>) -> Vec<f64> {
+    pub(crate) fn extents(&self, frame: &Frame<'_>) -> Vec<f64> {
         let offset = frame.offset::<f64>(self.center());
         let reach =
             |(j, x): (usize, &f64)| (x.abs() + self.width(j, frame.scale)) * (1.0 + 8.0 * U);
@@ -72,7 +72,7 @@ impl<'a> Item<'a> {
     }
 
     /// Refuses negative radii, and shapes with negative eigenvalues beyond what rounding explains.
-    pub(super) fn is_valid(&self, row: u64) -> Result<(), Violation> {
+    pub(crate) fn is_valid(&self, row: u64) -> Result<(), Violation> {
         match self {
             Item::Ball(_, value) if *value < 0.0 => {
                 Err(Violation::NegativeRadius { row, value: *value })

@@ -54,7 +54,7 @@ pub(super) fn gap(
 ///
 /// With v = Sa and q = aᵀv the point is m + v/√q. Where q is not known to be positive, it is m, which belongs to the
 /// item as well.
-fn touching(
+pub(crate) fn touching(
     frame: &Frame<'_>,
     item: &Item<'_>,
     direction: &[f64],
@@ -192,7 +192,7 @@ impl Sums {
 }
 
 /// log x, relatively to a few units in the last place: near 1 from x − 1, which doubled precision knows as well.
-fn logarithm(x: &DoubleDouble) -> f64 {
+pub(crate) fn logarithm(x: &DoubleDouble) -> f64 {
     let beside_one = x.minus(&DoubleDouble::of(1.0)).rounded();
     if beside_one.abs() < 0.5 { beside_one.ln_1p() } else { x.rounded().ln() }
 }

@@ -24,7 +24,7 @@ use super::item::Item;
 use crate::arithmetic::{DoubleDouble, Field, U, factorise};
 
 /// The largest |F(x − c)| − 1 over the item, or a little more.
-pub(super) fn excess(frame: &Frame<'_>, item: &Item<'_>) -> f64 {
+pub(crate) fn excess(frame: &Frame<'_>, item: &Item<'_>) -> f64 {
     let plain = bound::<f64>(frame, item);
     if plain <= 0.0 { plain } else { bound::<DoubleDouble>(frame, item) }
 }

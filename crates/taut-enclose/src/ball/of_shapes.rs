@@ -1,0 +1,328 @@
+//! The minimum enclosing ball of ellipsoids: exact balls of touching points.
+//!
+//! *Problem.* Items {m + v : vv′ ⪯ S}: the ball of least radius that encloses them all.
+//! *Idea.* It is the ball of the points of all items. The working set holds some of these points, each known by its item
+//! and a direction; its exact ball is that of the default method for points ([`active_set`](super::active_set)); a pass
+//! asks every item for its farthest point from the centre ([`reach`]), and those outside join the set.
+//! *Guarantee.* Lower bounds never fall; it stops at R ≤ (1 + ε)·r. The axes of an item do not change from pass to pass:
+//! they are found once, in O(d³), and a pass costs O(d²) for each item and a few steps of O(d).
+//! *Trap.* Where an item touches in a circle, any point of it is farthest: so an item names several points at once.
+//! *Reference.* The oracle is the trust-region problem; Moré and Sorensen, SIAM J. Sci. Stat. Comput. 4(3), 1983.
+
+use rayon::prelude::*;
+use taut_certify::{Ball, BallCertificate, Items, PassBounds, Solution, Stop, Trace};
+use taut_points::{Monitor, PointSource, ReadError};
+
+use super::active_set::{ActiveSet, TOLERANCE};
+use super::core_set::{ROUNDING, solve_working_set};
+use super::working_set::WorkingSet;
+use super::{BallMethod, BallOptions};
+use crate::Error;
+use crate::kernel::vector::{add_scaled, dot};
+use crate::kernel::{Center, DoubleDouble};
+use crate::shapes::Shapes;
+use crate::shapes::eigen::eigen;
+use crate::shapes::frame::{Framed, Map};
+use crate::shapes::reach::{alternatives, farthest};
+
+/// Points that join after a pass, at most, for each dimension.
+const BATCH: usize = 4;
+/// A point of an item is named beside its farthest if it lies outside by this part of what that does.
+const WORTH: f64 = 0.1;
+/// Passes without a better gap that show that rounding is in the way.
+const STALE: u32 = 4;
+/// Items that reach this near the border, relatively, are measured again from the centre as it is returned.
+const NEAR: f64 = 1e-8;
+/// A centre beyond this many radii is kept in two terms.
+const FAR_OFF: f64 = 8.0;
+
+/// A point of an item by its direction.
+#[derive(Clone)]
+struct Touch {
+    item: usize,
+    direction: Vec<f64>,
+}
+
+/// Squares of half axes, and their directions as rows.
+struct Axes {
+    squares: Vec<f64>,
+    directions: Vec<f64>,
+}
+
+/// What a pass found: squared reaches, and the points outside, the farthest first.
+struct Found {
+    squares: Vec<f64>,
+    farthest: f64,
+    outside: Vec<(f64, Touch)>,
+}
+
+/// The best multipliers so far.
+struct Best {
+    gap: f64,
+    squares: Vec<f64>,
+    center: Vec<f64>,
+    support: Vec<(Touch, f64)>,
+}
+
+pub(super) fn solve(
+    source: &dyn PointSource,
+    options: &BallOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Ball>, Error> {
+    if options.method != BallMethod::CoreSet {
+        return Err(Error::Option {
+            name: "method",
+            value: options.method.name().to_owned(),
+            expected: "core-set, the one method for ellipsoids",
+        });
+    }
+    let shapes = Shapes::read(source, Items::Ellipsoids, monitor)?;
+    let (origin, scale) = units(&shapes)?;
+    let dim = shapes.dim();
+    let unit: Vec<f64> = diagonal(dim, 1.0 / scale);
+    let framed = Framed::of(&shapes, Map { matrix: &unit, center: &origin });
+    if !framed.is_finite() {
+        return Err(Error::Overflow);
+    }
+    let axes: Vec<Axes> = (0..framed.len())
+        .into_par_iter()
+        .with_min_len(32)
+        .map(|i| {
+            let (squares, directions) = eigen(&mut framed.shape(i).to_vec(), dim);
+            Axes { squares, directions }
+        })
+        .collect();
+    let start = pass(&framed, &axes, &vec![0.0; dim], 0.0, &vec![vec![]; shapes.len()]);
+    let mut trace =
+        Trace { method: options.method.name().to_owned(), passes: 2, ..Trace::default() };
+    let mut touches: Vec<Touch> = vec![];
+    let mut set = WorkingSet::new(vec![0.0; dim], 0.0);
+    let batch = options.batch.unwrap_or(BATCH * dim).max(2);
+    add(&framed, &mut set, &mut touches, start.outside, batch);
+    if set.len() == 0 {
+        // Everything is the origin, which is a row.
+        let support = vec![(Touch { item: 0, direction: vec![0.0; dim] }, 1.0)];
+        let best = Best { gap: 0.0, squares: start.squares, center: vec![0.0; dim], support };
+        trace.core_set = 1;
+        return prove(&shapes, &origin, scale, best, trace, options);
+    }
+    let mut active = ActiveSet::new(&set, start.farthest);
+    let mut best: Option<Best> = None;
+    let wanted = if options.epsilon > 0.0 { options.epsilon } else { ROUNDING };
+    let (mut radius, mut stale) = (0.0, 0);
+    trace.stop = loop {
+        radius = solve_working_set(&mut active, &set, radius, monitor).map_err(ReadError::from)?;
+        active.refine(&set);
+        let center = set.combination(active.support(), active.lambda());
+        trace.passes += 1;
+        monitor.pass(trace.passes, shapes.len() as u64);
+        monitor.check().map_err(ReadError::from)?;
+        let mut seeds = vec![vec![]; shapes.len()];
+        for touch in active.support().iter().map(|&i| &touches[set.id(i) as usize]) {
+            seeds[touch.item].push(&touch.direction[..]);
+        }
+        let found = pass(&framed, &axes, &center, radius * radius, &seeds);
+        monitor.points(shapes.len() as u64);
+        let upper = found.farthest.sqrt();
+        trace.history.push(PassBounds {
+            lower: radius * scale,
+            upper: (upper * scale).min(f64::MAX),
+            working_set: set.len() as u64,
+        });
+        let gap = if upper <= radius { 0.0 } else { upper / radius - 1.0 };
+        let is_better = best.as_ref().is_none_or(|best| gap < best.gap);
+        stale = if is_better { 0 } else { stale + 1 };
+        let outside = found.outside;
+        if is_better {
+            let support = active.support().iter().zip(active.lambda());
+            let named = |(&i, &l): (&usize, &f64)| (touches[set.id(i) as usize].clone(), l);
+            best = Some(Best {
+                gap,
+                squares: found.squares,
+                center,
+                support: support.map(named).collect(),
+            });
+        }
+        let reached = best.as_ref().map_or(f64::INFINITY, |best| best.gap);
+        if reached <= wanted {
+            break Stop::Converged;
+        }
+        if outside.is_empty() || stale >= STALE && reached < 1e-6 {
+            break Stop::Rounding;
+        }
+        if trace.passes >= options.max_passes && radius > 0.0 {
+            break Stop::PassBudget;
+        }
+        add(&framed, &mut set, &mut touches, outside, batch);
+        active.widen(&set);
+    };
+    trace.iterations = active.pivots;
+    trace.core_set = set.len() as u64;
+    let best = best.expect("the loop ends after a pass");
+    prove(&shapes, &origin, scale, best, trace, options)
+}
+
+fn diagonal(dim: usize, value: f64) -> Vec<f64> {
+    (0..dim * dim).map(|at| if at / dim == at % dim { value } else { 0.0 }).collect()
+}
+
+/// An origin among the items, and a power of two of about how far they reach.
+fn units(shapes: &Shapes) -> Result<(Center, f64), Error> {
+    let origin = shapes.center(0).to_vec();
+    let mut reach = 0.0f64;
+    for i in 0..shapes.len() {
+        for (j, (m, o)) in shapes.center(i).iter().zip(&origin).enumerate() {
+            reach = reach.max((m - o).abs()).max(shapes.width(i, j));
+        }
+    }
+    if !(reach * (shapes.dim() as f64)).is_finite() {
+        return Err(Error::Overflow);
+    }
+    let scale = if reach == 0.0 {
+        1.0
+    } else {
+        2f64.powi(reach.log2().floor().clamp(-1000.0, 1000.0) as i32)
+    };
+    Ok((Center { high: origin, low: vec![] }, scale))
+}
+
+/// Takes the first of the points found to the working set.
+fn add(
+    framed: &Framed,
+    set: &mut WorkingSet,
+    touches: &mut Vec<Touch>,
+    found: Vec<(f64, Touch)>,
+    most: usize,
+) {
+    let first = touches.len();
+    touches.extend(found.into_iter().take(most).map(|found| found.1));
+    let ids: Vec<u64> = (first as u64..touches.len() as u64).collect();
+    let rows: Vec<f64> =
+        touches[first..].iter().flat_map(|t| framed.touching(t.item, &t.direction)).collect();
+    set.add(&ids, &rows, false);
+}
+
+/// Asks every item for its farthest point from a centre.
+fn pass(
+    framed: &Framed,
+    axes: &[Axes],
+    center: &[f64],
+    square: f64,
+    seeds: &[Vec<&[f64]>],
+) -> Found {
+    let beyond = square * (1.0 + TOLERANCE);
+    let each: Vec<(f64, Vec<(f64, Touch)>)> = (0..framed.len())
+        .into_par_iter()
+        .with_min_len(32)
+        .map(|i| {
+            let dim = framed.rank;
+            let offset: Vec<f64> =
+                framed.center(i).iter().zip(center).map(|(m, c)| m - c).collect();
+            let axes = &axes[i];
+            let h: Vec<f64> = axes.directions.chunks_exact(dim).map(|v| dot(v, &offset)).collect();
+            let best = farthest(&axes.squares, &h);
+            let mut touches = vec![];
+            if best.square > beyond {
+                let worth = square + WORTH * (best.square - square);
+                let seeds: Vec<Vec<f64>> = seeds[i].iter().map(|a| seed(axes, a)).collect();
+                alternatives(&axes.squares, &h, &best, &seeds, |square, beta| {
+                    if square >= worth {
+                        let mut direction = vec![0.0; dim];
+                        for (&beta, v) in beta.iter().zip(axes.directions.chunks_exact(dim)) {
+                            add_scaled(&mut direction, beta, v);
+                        }
+                        touches.push((square, Touch { item: i, direction }));
+                    }
+                });
+            }
+            (best.square, touches)
+        })
+        .collect();
+    let mut found = Found { squares: vec![], farthest: 0.0, outside: vec![] };
+    for (square, touches) in each {
+        found.farthest = found.farthest.max(square);
+        found.squares.push(square);
+        found.outside.extend(touches);
+    }
+    found.outside.sort_by(|a, b| b.0.total_cmp(&a.0));
+    found
+}
+
+/// A point of an item by z along its axes, up to length: Λ^½ times the direction.
+fn seed(axes: &Axes, direction: &[f64]) -> Vec<f64> {
+    let rows = axes.directions.chunks_exact(direction.len());
+    rows.zip(&axes.squares).map(|(v, l)| l.max(0.0).sqrt() * dot(v, direction)).collect()
+}
+
+/// Both bounds again, from the centre as it is returned.
+fn prove(
+    shapes: &Shapes,
+    origin: &Center,
+    scale: f64,
+    best: Best,
+    mut trace: Trace,
+    options: &BallOptions,
+) -> Result<Solution<Ball>, Error> {
+    let dim = shapes.dim();
+    let farthest_of = best.squares.iter().copied().fold(0.0, f64::max);
+    let center = settled(origin, scale, &best.center, scale * farthest_of.sqrt());
+    let unit = diagonal(dim, 1.0 / scale);
+    let map = Map { matrix: &unit, center: &center };
+    let near = (0..shapes.len()).filter(|&i| best.squares[i] >= farthest_of * (1.0 - NEAR));
+    let near: Vec<usize> = near.collect();
+    let squares: Vec<f64> = near
+        .par_iter()
+        .with_min_len(16)
+        .map(|&i| {
+            let (lambda, vectors) = eigen(&mut map.shape_of(shapes, i), dim);
+            let offset = map.center_of(shapes, i);
+            let h: Vec<f64> = vectors.chunks_exact(dim).map(|v| dot(v, &offset)).collect();
+            farthest(&lambda, &h).square
+        })
+        .collect();
+    let largest = squares.into_iter().fold(0.0, f64::max);
+    // Eigenvalues, roots and sums; and what the checker rounds up.
+    let rounding = 16.0 * (dim + 4) as f64 * f64::EPSILON;
+    let radius = scale * largest.sqrt() * (1.0 + rounding);
+    if !radius.is_finite() {
+        return Err(Error::Overflow);
+    }
+    let mut support: Vec<(Touch, f64)> =
+        best.support.into_iter().filter(|entry| entry.1 > 0.0).collect();
+    support.sort_by_key(|entry| entry.0.item);
+    let total: f64 = support.iter().map(|entry| entry.1).sum();
+    let (mut mean, mut square) = (vec![0.0; dim], 0.0);
+    for (touch, lambda) in &support {
+        let y = map.touching(shapes, touch.item, &touch.direction);
+        square += lambda / total * dot(&y, &y);
+        add_scaled(&mut mean, lambda / total, &y);
+    }
+    let lower = (square - dot(&mean, &mean)).max(0.0).sqrt();
+    let gap = match radius {
+        0.0 => 0.0,
+        _ => (radius / scale / lower - 1.0).max(0.0) + rounding,
+    };
+    if trace.stop == Stop::Converged && gap > options.epsilon.max(ROUNDING) {
+        trace.stop = Stop::Rounding;
+    }
+    let certificate = BallCertificate {
+        items: Items::Ellipsoids,
+        support: support.iter().map(|entry| entry.0.item as u64).collect(),
+        multipliers: support.iter().map(|entry| entry.1 / total).collect(),
+        directions: support.into_iter().map(|entry| entry.0.direction).collect(),
+        gap: gap.min(f64::MAX),
+        points_hash: shapes.hash(),
+    };
+    let answer = Ball { center: center.high, center_tail: center.low, radius };
+    Ok(Solution { answer, certificate, trace })
+}
+
+/// The centre in the space of the items; in two terms where rounding it to one could be seen.
+fn settled(origin: &Center, scale: f64, center: &[f64], radius: f64) -> Center {
+    let terms: Vec<DoubleDouble> =
+        origin.high.iter().zip(center).map(|(&o, &c)| DoubleDouble::sum(o, c * scale)).collect();
+    let high: Vec<f64> = terms.iter().map(|term| term.high).collect();
+    let is_far = high.iter().any(|c| c.abs() > FAR_OFF * radius);
+    let low = if is_far { terms.iter().map(|term| term.low).collect() } else { vec![] };
+    Center { high, low }
+}

@@ -1,0 +1,182 @@
+//! An interior point of a polytope, or the proof that there is none, or that it has no end.
+//!
+//! *Bounded.* With unit normals âᵢ, minimise |Σλᵢâᵢ|² over λ ≥ 1. If the sum is 0 and the normals span the space, no ray fits
+//! (Stiemke's theorem). Else v = −Σλᵢâᵢ has âᵢ′v ≤ 0 for all i by the conditions of the minimum: a ray. Where the normals do not
+//! span, what is orthogonal to all of them is one.
+//! *Interior.* The largest ball inside, a linear programme; if its radius is not positive, its multipliers are those of
+//! Farkas: Σλᵢâᵢ = 0 and Σλᵢbᵢ ≤ 0.
+
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{
+    DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus,
+    SupportedConeT, ZeroConeT,
+};
+
+use super::HalfSpaces;
+use crate::Error;
+use crate::kernel::vector::{add_scaled, dot};
+use crate::shapes::eigen::eigen;
+
+/// What a conic solver leaves of a sum that is 0, for unit normals.
+const ZERO: f64 = 1e-6;
+/// Turns in which rows and columns are brought to the same size.
+const TURNS: usize = 5;
+/// A ball of less than this part of the extent of the polytope is none.
+const LEAST: f64 = 1e-9;
+
+/// A centre, and the half axes of an ellipsoid around it inside, along the axes of coordinates.
+pub(super) struct Interior {
+    pub(super) center: Vec<f64>,
+    pub(super) half_axes: Vec<f64>,
+}
+
+/// The largest ball inside, in units in which no axis stands out.
+pub(super) fn interior(sides: &HalfSpaces) -> Result<Interior, Error> {
+    let dim = sides.dim;
+    let (normals, offsets, units) = equilibrated(sides);
+    if offsets.iter().chain(&units).any(|b| !b.is_finite()) {
+        return Err(Error::Overflow);
+    }
+    is_bounded(&normals, &units)?;
+    // Units in which offsets are at most 1.
+    let unit = offsets.iter().fold(0.0f64, |m, b| m.max(b.abs()));
+    let unit = if unit > 0.0 { unit } else { 1.0 };
+    let n = offsets.len();
+    let mut values: Vec<f64> =
+        (0..dim).flat_map(|j| normals[j..].iter().step_by(dim).copied()).collect();
+    values.extend(std::iter::repeat_n(1.0, n));
+    let a = dense(n, dim + 1, values);
+    let b: Vec<f64> = offsets.iter().map(|b| b / unit).collect();
+    let mut objective = vec![0.0; dim + 1];
+    objective[dim] = -1.0;
+    let (x, z) =
+        conic(&CscMatrix::zeros((dim + 1, dim + 1)), &objective, &a, &b, &[NonnegativeConeT(n)])?;
+    // As the point is, not as the solver says.
+    let room = |i: usize| b[i] - dot(&normals[i * dim..(i + 1) * dim], &x[..dim]);
+    let radius = (0..n).map(room).fold(f64::INFINITY, f64::min);
+    let extent = (0..n).map(room).fold(0.0, f64::max);
+    let is_open = radius > LEAST * extent;
+    if !is_open {
+        let rows: Vec<u64> = (0..n).filter(|&i| z[i] > 1e-7).map(|i| i as u64).collect();
+        let multipliers = rows.iter().map(|&i| z[i as usize]).collect();
+        return Err(Error::NoInterior { rows, multipliers });
+    }
+    Ok(Interior {
+        center: x.iter().zip(&units).map(|(v, u)| v * unit * u).collect(),
+        half_axes: units.iter().map(|u| radius * unit * u).collect(),
+    })
+}
+
+/// Unit normals and offsets in coordinates x/u in which no axis stands out, and u.
+fn equilibrated(sides: &HalfSpaces) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
+    let dim = sides.dim;
+    let mut units = vec![1.0; dim];
+    let mut normals = vec![];
+    let mut offsets = vec![];
+    for turn in 0..TURNS {
+        normals.clear();
+        offsets.clear();
+        for row in sides.rows() {
+            let mut normal: Vec<f64> = row.iter().zip(&units).map(|(a, u)| a * u).collect();
+            let largest = normal.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+            normal.iter_mut().for_each(|v| *v /= largest);
+            let norm = dot(&normal, &normal).sqrt();
+            normals.extend(normal.iter().map(|v| v / norm));
+            offsets.push(row[dim] / largest / norm);
+        }
+        if turn + 1 == TURNS {
+            break;
+        }
+        for (j, unit) in units.iter_mut().enumerate() {
+            let most = normals[j..].iter().step_by(dim).fold(0.0f64, |m, v| m.max(v.abs()));
+            if most > 0.0 {
+                // A power of two, so that coordinates keep their digits.
+                *unit *= 2f64.powi(-(most.log2().round().clamp(-500.0, 500.0) as i32));
+            }
+        }
+    }
+    (normals, offsets, units)
+}
+
+fn unbounded(direction: &[f64], units: &[f64]) -> Error {
+    let scaled: Vec<f64> = direction.iter().zip(units).map(|(v, u)| v * u).collect();
+    let largest = scaled.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    let scaled: Vec<f64> = scaled.iter().map(|v| v / largest).collect();
+    let norm = dot(&scaled, &scaled).sqrt();
+    Error::Unbounded { direction: scaled.iter().map(|v| v / norm).collect() }
+}
+
+fn is_bounded(normals: &[f64], units: &[f64]) -> Result<(), Error> {
+    let dim = units.len();
+    let n = normals.len() / dim;
+    let mut gram = vec![0.0; dim * dim];
+    for row in normals.chunks_exact(dim) {
+        for (a, &v) in row.iter().enumerate() {
+            add_scaled(&mut gram[a * dim..(a + 1) * dim], v, row);
+        }
+    }
+    let (values, vectors) = eigen(&mut gram, dim);
+    if let Some(k) = (0..dim).find(|&k| values[k] <= 1e-14 * n as f64) {
+        return Err(unbounded(&vectors[k * dim..(k + 1) * dim], units));
+    }
+    // Variables λ, r: r − Σλᵢâᵢ = 0 and −λ + s = −1.
+    let (mut starts, mut rows, mut values) = (vec![0], vec![], vec![]);
+    for (i, row) in normals.chunks_exact(dim).enumerate() {
+        rows.extend(0..dim);
+        values.extend(row.iter().map(|v| -v));
+        rows.push(dim + i);
+        values.push(-1.0);
+        starts.push(rows.len());
+    }
+    for j in 0..dim {
+        rows.push(j);
+        values.push(1.0);
+        starts.push(rows.len());
+    }
+    let a = CscMatrix::new(dim + n, n + dim, starts, rows, values);
+    let mut b = vec![0.0; dim + n];
+    b[dim..].fill(-1.0);
+    let mut starts = vec![0; n];
+    starts.extend(0..=dim);
+    let quadratic =
+        CscMatrix::new(n + dim, n + dim, starts, (n..n + dim).collect(), vec![1.0; dim]);
+    let objective = vec![0.0; n + dim];
+    let (x, _) = conic(&quadratic, &objective, &a, &b, &[ZeroConeT(dim), NonnegativeConeT(n)])?;
+    let norm = dot(&x[n..], &x[n..]).sqrt();
+    let direction: Vec<f64> = x[n..].iter().map(|r| -r / norm).collect();
+    let is_ray = norm > ZERO
+        && normals.chunks_exact(dim).all(|a| dot(a, &direction) <= ZERO / norm.min(1.0));
+    if is_ray { Err(unbounded(&direction, units)) } else { Ok(()) }
+}
+
+fn dense(rows: usize, columns: usize, values: Vec<f64>) -> CscMatrix<f64> {
+    let starts = (0..=columns).map(|column| column * rows).collect();
+    let places = (0..columns).flat_map(|_| 0..rows).collect();
+    CscMatrix::new(rows, columns, starts, places, values)
+}
+
+/// The solution and the multipliers of a conic programme.
+fn conic(
+    quadratic: &CscMatrix<f64>,
+    objective: &[f64],
+    a: &CscMatrix<f64>,
+    b: &[f64],
+    cones: &[SupportedConeT<f64>],
+) -> Result<(Vec<f64>, Vec<f64>), Error> {
+    let failed = |status: String| Error::Conic { status, points: b.len() };
+    let settings = DefaultSettingsBuilder::default()
+        .verbose(false)
+        .max_threads(1)
+        .build()
+        .expect("the settings are in range");
+    let mut solver = DefaultSolver::new(quadratic, objective, a, b, cones, settings)
+        .map_err(|error| failed(error.to_string()))?;
+    solver.solve();
+    let solution = solver.solution;
+    match solution.status {
+        SolverStatus::Solved | SolverStatus::AlmostSolved | SolverStatus::InsufficientProgress => {
+            Ok((solution.x, solution.z))
+        }
+        status => Err(failed(format!("{status:?}"))),
+    }
+}

@@ -1,0 +1,171 @@
+//! Items in the coordinates y = P(x − c), with twice the digits on the way there.
+//!
+//! *Why.* Where P brings axes of very different lengths to one, PSP′ is a small difference of large numbers. Formed in
+//! doubled precision and rounded once, it is right to the last digits beside 1.
+
+use rayon::prelude::*;
+
+use super::Shapes;
+use crate::kernel::{Center, DoubleDouble};
+
+/// A linear map by rows, r × d, and the centre it is taken from.
+#[derive(Clone, Copy)]
+pub(crate) struct Map<'a> {
+    pub(crate) matrix: &'a [f64],
+    pub(crate) center: &'a Center,
+}
+
+impl Map<'_> {
+    pub(crate) fn rank(&self) -> usize {
+        self.matrix.len() / self.center.dim()
+    }
+
+    fn row(&self, a: usize) -> &[f64] {
+        let dim = self.center.dim();
+        &self.matrix[a * dim..(a + 1) * dim]
+    }
+
+    /// Px for a vector x.
+    fn image(&self, x: &[DoubleDouble]) -> Vec<f64> {
+        let coordinate = |a: usize| {
+            let terms = self.row(a).iter().zip(x).filter(|(p, _)| **p != 0.0);
+            terms.fold(DoubleDouble::ZERO, |sum, (&p, &x)| sum.add(x.mul(p.into()))).high
+        };
+        (0..self.rank()).map(coordinate).collect()
+    }
+
+    /// x − c.
+    fn offset(&self, x: &[f64]) -> Vec<DoubleDouble> {
+        let tail = |j: usize| self.center.low.get(j).copied().unwrap_or(0.0);
+        let parts = x.iter().zip(&self.center.high).enumerate();
+        parts.map(|(j, (x, c))| DoubleDouble::sum(*x, -c).add((-tail(j)).into())).collect()
+    }
+
+    /// P(x − c).
+    pub(crate) fn point(&self, x: &[f64]) -> Vec<f64> {
+        self.image(&self.offset(x))
+    }
+
+    /// P(m − c) of an item.
+    pub(crate) fn center_of(&self, shapes: &Shapes, i: usize) -> Vec<f64> {
+        self.point(shapes.center(i))
+    }
+
+    /// PSP′ of an item, r × r.
+    pub(crate) fn shape_of(&self, shapes: &Shapes, i: usize) -> Vec<f64> {
+        #[cfg(target_arch = "x86_64")]
+        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+            // SAFETY: the processor has just been asked for both features.
+            #[allow(unsafe_code)]
+            return unsafe { congruence_with_fma(*self, shapes, i) };
+        }
+        congruence(*self, shapes, i)
+    }
+
+    /// P(p − c) for the point of an item that lies farthest in the direction a; the centre where Sa = 0.
+    pub(crate) fn touching(&self, shapes: &Shapes, i: usize, a: &[f64]) -> Vec<f64> {
+        let mut offset = self.offset(shapes.center(i));
+        for (x, v) in offset.iter_mut().zip(step(shapes, i, a)) {
+            *x = x.add(v);
+        }
+        self.image(&offset)
+    }
+}
+
+/// Sa/√(a′Sa), or 0 where Sa = 0.
+pub(crate) fn step(shapes: &Shapes, i: usize, a: &[f64]) -> Vec<DoubleDouble> {
+    let dim = shapes.dim();
+    let mut v = vec![DoubleDouble::ZERO; dim];
+    for (j, v) in v.iter_mut().enumerate() {
+        for (k, &ak) in a.iter().enumerate() {
+            *v = v.add(shapes.entry(i, j, k).mul(ak.into()));
+        }
+    }
+    let q = v.iter().zip(a).fold(DoubleDouble::ZERO, |sum, (v, &a)| sum.add(v.mul(a.into())));
+    if q.high <= 0.0 {
+        return vec![DoubleDouble::ZERO; dim];
+    }
+    let root = q.sqrt();
+    v.iter().map(|v| v.div(root)).collect()
+}
+
+/// The same with the multiply-add as an instruction rather than a function call.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn congruence_with_fma(map: Map<'_>, shapes: &Shapes, i: usize) -> Vec<f64> {
+    congruence(map, shapes, i)
+}
+
+#[inline(always)]
+fn congruence(map: Map<'_>, shapes: &Shapes, i: usize) -> Vec<f64> {
+    let (dim, rank) = (shapes.dim(), map.rank());
+    let mut shape = vec![0.0; rank * rank];
+    if shapes.is_point(i) {
+        return shape;
+    }
+    let mut product = vec![DoubleDouble::ZERO; dim];
+    for a in 0..rank {
+        product.fill(DoubleDouble::ZERO);
+        for (j, &p) in map.row(a).iter().enumerate().filter(|(_, p)| **p != 0.0) {
+            for (k, sum) in product.iter_mut().enumerate() {
+                *sum = sum.add(shapes.entry(i, j, k).mul(p.into()));
+            }
+        }
+        for b in 0..=a {
+            let mut sum = DoubleDouble::ZERO;
+            for (&p, &v) in map.row(b).iter().zip(&product).filter(|(p, _)| **p != 0.0) {
+                sum = sum.add(v.mul(p.into()));
+            }
+            shape[a * rank + b] = sum.high;
+            shape[b * rank + a] = sum.high;
+        }
+    }
+    shape
+}
+
+/// All items in the coordinates of a map.
+pub(crate) struct Framed {
+    pub(crate) rank: usize,
+    /// P(m − c), n × r.
+    pub(crate) centers: Vec<f64>,
+    /// PSP′, n × r × r.
+    pub(crate) shapes: Vec<f64>,
+}
+
+impl Framed {
+    pub(crate) fn of(shapes: &Shapes, map: Map<'_>) -> Self {
+        let each: Vec<(Vec<f64>, Vec<f64>)> = (0..shapes.len())
+            .into_par_iter()
+            .with_min_len(64)
+            .map(|i| (map.center_of(shapes, i), map.shape_of(shapes, i)))
+            .collect();
+        let (centers, matrices): (Vec<_>, Vec<_>) = each.into_iter().unzip();
+        Framed { rank: map.rank(), centers: centers.concat(), shapes: matrices.concat() }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.centers.len() / self.rank
+    }
+
+    pub(crate) fn center(&self, i: usize) -> &[f64] {
+        &self.centers[i * self.rank..(i + 1) * self.rank]
+    }
+
+    pub(crate) fn shape(&self, i: usize) -> &[f64] {
+        let size = self.rank * self.rank;
+        &self.shapes[i * size..(i + 1) * size]
+    }
+
+    pub(crate) fn is_finite(&self) -> bool {
+        self.centers.iter().chain(&self.shapes).all(|v| v.is_finite())
+    }
+
+    /// The point of item i that lies farthest in the direction a, both in these coordinates.
+    pub(crate) fn touching(&self, i: usize, a: &[f64]) -> Vec<f64> {
+        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+        let v: Vec<f64> = self.shape(i).chunks_exact(self.rank).map(|row| dot(row, a)).collect();
+        let q = dot(&v, a);
+        let scale = if q > 0.0 { 1.0 / q.sqrt() } else { 0.0 };
+        self.center(i).iter().zip(&v).map(|(m, v)| m + scale * v).collect()
+    }
+}
