@@ -7,8 +7,8 @@ use serde_json::ser::{Formatter, PrettyFormatter};
 use taut_points::{Monitor, PointSource, PointsHash};
 
 use crate::{
-    Answer, AnyVerdict, Ball, CheckError, Ellipsoid, RobustEllipsoid, Solution, Trace,
-    Triangulation,
+    Answer, AnyVerdict, Ball, CheckError, Ellipsoid, InscribedEllipsoid, RobustEllipsoid, Solution,
+    Trace, Triangulation,
 };
 
 /// Version of the document; it grows by one when a reader of the old one would misread the new.
@@ -188,6 +188,8 @@ pub enum AnySolution {
     Ball(Solution<Ball>),
     /// A minimum volume enclosing ellipsoid.
     Ellipsoid(Solution<Ellipsoid>),
+    /// A maximum volume inscribed ellipsoid.
+    Inscribed(Solution<InscribedEllipsoid>),
     /// A robust ellipsoid.
     Robust(Box<Solution<RobustEllipsoid>>),
     /// A Delaunay triangulation.
@@ -219,6 +221,7 @@ impl AnySolution {
         match head.kind.as_str() {
             Ball::KIND => Ok(AnySolution::Ball(parse(text)?)),
             Ellipsoid::KIND => Ok(AnySolution::Ellipsoid(parse(text)?)),
+            InscribedEllipsoid::KIND => Ok(AnySolution::Inscribed(parse(text)?)),
             RobustEllipsoid::KIND => Ok(AnySolution::Robust(Box::new(parse(text)?))),
             Triangulation::KIND => Ok(AnySolution::Triangulation(parse(text)?)),
             _ => Err(JsonError::Kind { found: head.kind }),
@@ -230,6 +233,7 @@ impl AnySolution {
         match self {
             AnySolution::Ball(found) => found.to_json(),
             AnySolution::Ellipsoid(found) => found.to_json(),
+            AnySolution::Inscribed(found) => found.to_json(),
             AnySolution::Robust(found) => found.to_json(),
             AnySolution::Triangulation(found) => found.to_json(),
         }
@@ -250,6 +254,9 @@ impl AnySolution {
             }
             AnySolution::Ellipsoid(found) => {
                 found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Ellipsoid)
+            }
+            AnySolution::Inscribed(found) => {
+                found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Inscribed)
             }
             AnySolution::Robust(found) => {
                 found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Robust)

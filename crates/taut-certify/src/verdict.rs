@@ -2,7 +2,9 @@
 
 use taut_points::ReadError;
 
-use crate::{EllipsoidVerdict, MeshViolation, RobustVerdict, TriangulationVerdict};
+use crate::{
+    EllipsoidVerdict, InscribedVerdict, MeshViolation, RobustVerdict, TriangulationVerdict,
+};
 
 /// What was proved of an answer of any kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,6 +13,8 @@ pub enum AnyVerdict {
     Ball(Verdict),
     /// Of a minimum volume enclosing ellipsoid.
     Ellipsoid(EllipsoidVerdict),
+    /// Of a maximum volume inscribed ellipsoid.
+    Inscribed(InscribedVerdict),
     /// Of a robust ellipsoid.
     Robust(RobustVerdict),
     /// Of a Delaunay triangulation.

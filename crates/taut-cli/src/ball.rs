@@ -28,6 +28,10 @@ pub(crate) struct Args {
     /// Rows are balls: the coordinates of a centre, then the radius
     #[arg(long)]
     balls: bool,
+    /// Rows are ellipsoids {m + v : vvᵀ ⪯ S}: the coordinates of the centre m, then the lower triangle of the shape
+    /// matrix S, row by row; all are held in memory
+    #[arg(long, conflicts_with_all = ["balls", "draw"])]
+    ellipsoids: bool,
     /// Proved relative gap to reach, in [0, 1): radius ≤ (1 + ε) · smallest; 0 is exact to rounding
     #[arg(long, value_name = "REAL", default_value = "1e-9", allow_negative_numbers = true)]
     epsilon: f64,
@@ -94,7 +98,7 @@ impl Args {
         let points = self.reading.open(&self.points.path)?;
         clock.lap("reading");
 
-        let items = if self.balls { Items::Balls } else { Items::Points };
+        let items = items(self.balls, self.ellipsoids);
         let options = self.options();
         let found = watch
             .during("solving", |monitor| ball_of_source(points.source(), items, &options, monitor))
@@ -150,6 +154,15 @@ impl Args {
             threads: None, // those of the pool, which reading and checking use as well
             seed: self.seed,
         }
+    }
+}
+
+/// What the rows are, by the options of that name.
+pub(crate) fn items(balls: bool, ellipsoids: bool) -> Items {
+    match (balls, ellipsoids) {
+        (_, true) => Items::Ellipsoids,
+        (true, false) => Items::Balls,
+        (false, false) => Items::Points,
     }
 }
 

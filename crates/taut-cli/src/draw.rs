@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use taut::{Answer, AnySolution, Solution, Violation};
+use taut::{Answer, AnySolution, Items, Solution, Violation};
 
 use crate::effort::Effort;
 use crate::ellipsoid_report::EllipsoidReport;
@@ -47,15 +47,24 @@ impl Args {
         let answer = read_answer(&self.answer, &self.points.path)?;
         let points = self.reading.open(&self.points.path)?;
         let drawing = match &answer {
+            AnySolution::Ball(found) if found.certificate.items == Items::Ellipsoids => {
+                anyhow::bail!("{}: {}", shown(&self.answer), Report::NO_PICTURE)
+            }
             AnySolution::Ball(found) => self
                 .judged(found, &points, &watch)?
                 .map(|verdict| Report { found, points: &points, verdict }.drawing(&self.look)),
             AnySolution::Ellipsoid(found) => self.judged(found, &points, &watch)?.map(|verdict| {
                 EllipsoidReport { found, points: &points, verdict }.drawing(&self.look)
             }),
+            AnySolution::Inscribed(_) => {
+                anyhow::bail!(
+                    "{} is an inscribed ellipsoid, and there are no pictures of these",
+                    shown(&self.answer)
+                )
+            }
             AnySolution::Robust(_) => {
                 anyhow::bail!(
-                    "{} is a robust ellipsoid: only balls, ellipsoids and triangulations are drawn",
+                    "{} is a robust ellipsoid, and there are no pictures of these",
                     shown(&self.answer)
                 )
             }

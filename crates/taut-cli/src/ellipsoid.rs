@@ -1,11 +1,12 @@
-//! `taut ellipsoid`: the ellipsoid of least volume around points.
+//! `taut ellipsoid`: the ellipsoid of least volume around points, balls or ellipsoids, or around most points.
 
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::{EllipsoidMethod, EllipsoidOptions, ellipsoid_of_source};
+use taut::{EllipsoidMethod, EllipsoidOptions, RobustOptions, ellipsoid_of_items};
 
+use crate::ball::items;
 use crate::clock::Clock;
 use crate::effort::Effort;
 use crate::ellipsoid_report::EllipsoidReport;
@@ -13,6 +14,7 @@ use crate::exit::Outcome;
 use crate::picture::{Look, Picture};
 use crate::reading::{Points, Reading};
 use crate::report;
+use crate::robust::{self, Robust, Run};
 use crate::verify::judge;
 use crate::writing::{self, Outputs};
 
@@ -24,10 +26,18 @@ Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written �
       3 stopped early by a budget, or where rounding hides the gap that was asked for;
         the gap reached is reported
 Example: taut ellipsoid points.csv -o ellipsoid.json --draw ellipsoid.html &&
-         taut verify ellipsoid.json points.csv")]
+         taut verify ellipsoid.json points.csv
+         taut ellipsoid points.csv --robust mcd")]
 pub(crate) struct Args {
     #[command(flatten)]
     points: Points,
+    /// Rows are balls: the coordinates of a centre, then the radius; all are held in memory, and newton is the one method
+    #[arg(long)]
+    balls: bool,
+    /// Rows are ellipsoids {m + v : vvᵀ ⪯ S}: the coordinates of the centre m, then the lower triangle of the shape
+    /// matrix S, row by row; all are held in memory, and newton is the one method
+    #[arg(long, conflicts_with = "balls")]
+    ellipsoids: bool,
     /// Proved gap to reach, in [0, 1): log-volume ≤ least + ε; 0 is exact to rounding
     #[arg(long, value_name = "REAL", default_value = "1e-9", allow_negative_numbers = true)]
     epsilon: f64,
@@ -57,6 +67,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "FILE", help_heading = "Writing")]
     draw: Option<PathBuf>,
 
+    #[command(flatten)]
+    robust: Robust,
     #[command(flatten)]
     reading: Reading,
     #[command(flatten)]
@@ -93,14 +105,23 @@ impl Args {
         let outputs: Vec<&Path> =
             [&self.out, &self.draw].into_iter().flatten().map(|path| &**path).collect();
         writing::look_at(&outputs, &[&self.points.path])?;
+        let robust = self.robust()?;
         let watch = self.effort.start()?;
         let mut clock = Clock::start();
         let points = self.reading.open(&self.points.path)?;
         clock.lap("reading");
 
-        let options = self.options();
+        if let Some(options) = robust {
+            let (points, watch, out) = (&points, &watch, self.out.as_ref());
+            let (json, quiet, verify) = (self.json, self.effort.quiet, !self.no_verify);
+            return robust::run(&options, Run { points, watch, clock, out, json, quiet, verify });
+        }
+
+        let (options, items) = (self.options(), items(self.balls, self.ellipsoids));
         let found = watch
-            .during("solving", |monitor| ellipsoid_of_source(points.source(), &options, monitor))
+            .during("solving", |monitor| {
+                ellipsoid_of_items(points.source(), items, &options, monitor)
+            })
             .map_err(|error| points.explain(error))?;
         clock.lap("solving");
 
@@ -142,6 +163,10 @@ impl Args {
         }
         outputs.finish()?;
         Ok(report::outcome(found.trace.stop, found.certificate.gap, self.epsilon))
+    }
+
+    pub(crate) fn robust(&self) -> anyhow::Result<Option<RobustOptions>> {
+        self.robust.options(self.epsilon)
     }
 
     fn options(&self) -> EllipsoidOptions {

@@ -23,6 +23,8 @@ mod picture;
 mod radii;
 mod reading;
 mod report;
+mod robust;
+mod robust_report;
 mod size;
 mod tour;
 mod triangulation;

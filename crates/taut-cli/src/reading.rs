@@ -133,6 +133,19 @@ impl Opened {
                  or choose more with --columns",
                 self.name()
             ),
+            SolveError::NoShape { columns } => anyhow!(
+                "{}: ellipsoids in dimension d have d(d + 3)/2 columns, 2, 5, 9, 14, …, the centre and the lower \
+                 triangle of the shape matrix, but there are {columns}: leave out --ellipsoids or choose others with \
+                 --columns",
+                self.name()
+            ),
+            SolveError::NegativeShape { row } => anyhow!(
+                "{}, row {}: the shape matrix of ellipsoid {row} is not positive semidefinite: its eigenvalues, the \
+                 squared half axes, must be at least 0; repair or remove that row, or choose the columns with \
+                 --columns",
+                self.name(),
+                self.input.describe_cell(row, 0).row
+            ),
             SolveError::Option { name, value, expected } => wrong_option(name, &value, expected),
             SolveError::Empty | SolveError::Overflow => anyhow!("{}: {error}", self.name()),
             other => other.into(),
@@ -177,6 +190,13 @@ impl Opened {
                 let (point, place) = (format!("point {row}"), self.input.describe_cell(row, 0).row);
                 let said =
                     violation.to_string().replacen(&point, &format!("{point} (row {place})"), 1);
+                format!("{points}: {said}")
+            }
+            Violation::OutsideHalfSpace { row, .. } => {
+                let (side, place) =
+                    (format!("half-space {row}"), self.input.describe_cell(row, 0).row);
+                let said =
+                    violation.to_string().replacen(&side, &format!("{side} (row {place})"), 1);
                 format!("{points}: {said}")
             }
             Violation::Hash { .. }

@@ -35,6 +35,9 @@ impl Fact {
 }
 
 impl Report<'_> {
+    /// Why some balls are not drawn.
+    pub(crate) const NO_PICTURE: &'static str = "there are no pictures of balls around ellipsoids";
+
     /// What this is, in one line.
     pub(crate) fn title(&self) -> String {
         let source = self.points.source();

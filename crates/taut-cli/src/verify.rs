@@ -7,7 +7,7 @@ use anyhow::{anyhow, bail};
 use taut::certify::{CheckError, JsonError, check_simplices};
 use taut::enclose::Error as SolveError;
 use taut::points::{Blocks, Scratch};
-use taut::{Answer, AnySolution, RobustEllipsoid, RobustVerdict, Solution, Verdict, Violation};
+use taut::{Answer, AnySolution, InscribedVerdict, Solution, Verdict, Violation};
 use taut_io::{Mesh, MeshFormat, open_mesh};
 
 use crate::effort::Effort;
@@ -16,6 +16,7 @@ use crate::exit::Outcome;
 use crate::numbers::{exact, gap};
 use crate::reading::{Opened, Points, Reading};
 use crate::report::{self, Fact};
+use crate::robust_report::proved_of_robust;
 use crate::triangulation::proved;
 use crate::watch::Watch;
 use crate::writing;
@@ -79,7 +80,21 @@ impl Args {
                 );
                 (Outcome::Done, report::text(&title, &proved_of_ellipsoid(&verdict)))
             }),
+            AnySolution::Inscribed(found) => judge(found, &points, &watch)?.map(|verdict| {
+                if verdict.gap > most {
+                    return rejected(too_loose(&name, verdict.gap, most));
+                }
+                let title = format!(
+                    "Verified within a gap of {}: inscribed ellipsoid of log-volume {}",
+                    gap(verdict.gap),
+                    exact(found.answer.log_volume)
+                );
+                (Outcome::Done, report::text(&title, &proved_of_inscribed(&verdict)))
+            }),
             AnySolution::Robust(found) => judge(found, &points, &watch)?.map(|verdict| {
+                if let Some(enclosure) = verdict.enclosure.filter(|proved| proved.gap > most) {
+                    return rejected(too_loose(&name, enclosure.gap, most));
+                }
                 let title = format!(
                     "Verified: robust ellipsoid by {} of {} of {} points",
                     found.certificate.method,
@@ -169,24 +184,6 @@ pub(crate) fn judge<A: Answer>(
     verdict(watch.during("checking", check), points)
 }
 
-/// What was proved of a robust ellipsoid, and what was not.
-fn proved_of_robust(found: &Solution<RobustEllipsoid>, verdict: &RobustVerdict) -> Vec<Fact> {
-    let mut facts = vec![
-        Fact::new("objective", exact(verdict.objective))
-            .remark("a local optimum: no C-step leads on; other points kept might do better"),
-        Fact::new("outliers", found.answer.flagged.len().to_string())
-            .remark("exactly the points outside the ellipsoid"),
-        Fact::new("dimension", verdict.rank.to_string()),
-    ];
-    if let Some(enclosure) = &verdict.enclosure {
-        facts.push(
-            Fact::new("gap", gap(enclosure.gap))
-                .remark("in log-volume, of the ellipsoid around the points kept"),
-        );
-    }
-    facts
-}
-
 /// Tells a rejected answer from points that no answer can be judged by.
 fn verdict<V>(
     judged: Result<V, CheckError>,
@@ -200,6 +197,9 @@ fn verdict<V>(
         }
         Err(CheckError::Rejected(Violation::NegativeRadius { row, value })) => {
             Err(points.explain(SolveError::NegativeRadius { row, value }))
+        }
+        Err(CheckError::Rejected(Violation::NegativeShape { row })) => {
+            Err(points.explain(SolveError::NegativeShape { row }))
         }
         Err(CheckError::Rejected(violation)) => Ok(Err(violation)),
         Err(CheckError::Read(error)) => Err(points.reading_failed(error)),
@@ -258,5 +258,14 @@ fn facts(verdict: &Verdict) -> Vec<Fact> {
     vec![
         Fact::new("bracket", bracket),
         Fact::new("gap", gap(verdict.gap)).remark("relative, proved from the points alone"),
+    ]
+}
+
+fn proved_of_inscribed(verdict: &InscribedVerdict) -> Vec<Fact> {
+    let (lower, upper) = (exact(verdict.lower), exact(verdict.upper));
+    vec![
+        Fact::new("bracket", format!("{lower} ≤ largest log-volume ≤ {upper}")),
+        Fact::new("gap", gap(verdict.gap))
+            .remark("in log-volume, proved from the half-spaces alone"),
     ]
 }

@@ -105,4 +105,6 @@ mod pages {
     struct Delaunay;
     #[doc = include_str!("../../../docs/ellipsoid.md")]
     struct Ellipsoid;
+    #[doc = include_str!("../../../docs/robust.md")]
+    struct Robust;
 }

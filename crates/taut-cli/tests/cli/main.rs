@@ -10,6 +10,8 @@ mod generate;
 mod interrupt;
 mod pictures;
 mod places;
+mod robust;
+mod shapes;
 mod threads;
 mod usps;
 mod verify;

@@ -1,0 +1,120 @@
+//! What is said about a robust ellipsoid.
+
+use taut::{RobustEllipsoid, RobustMethod, RobustVerdict, Solution};
+
+use crate::numbers::{abridged, coordinates, count, counted, exact, gap};
+use crate::reading::Opened;
+use crate::report::Fact;
+
+/// Outliers whose rows are named.
+const NAMED: usize = 8;
+
+/// A robust ellipsoid, the points it belongs to, and what the checker proved (`None` where it was not asked).
+pub(crate) struct RobustReport<'a> {
+    pub(crate) found: &'a Solution<RobustEllipsoid>,
+    pub(crate) points: &'a Opened,
+    pub(crate) verdict: Option<RobustVerdict>,
+}
+
+impl RobustReport<'_> {
+    /// What this is, in one line.
+    pub(crate) fn title(&self) -> String {
+        let source = self.points.source();
+        let dim = self.found.answer.center.len() as u64;
+        format!(
+            "Robust ellipsoid of {} in {}",
+            counted(source.len(), "point"),
+            counted(dim, "dimension")
+        )
+    }
+
+    /// The numbers, each with its name.
+    pub(crate) fn facts(&self) -> Vec<Fact> {
+        let (answer, certificate) = (&self.found.answer, &self.found.certificate);
+        let trace = &self.found.trace;
+        let (n, dim, rank) = (self.points.source().len(), answer.center.len(), answer.factor.len());
+        let widest = (0..dim).map(|a| answer.scatter[a][a].sqrt()).fold(0.0, f64::max);
+        let size = if widest > 0.0 { widest } else { 1.0 };
+        let mut centre = Fact::new("centre", coordinates(&answer.center, size));
+        if abridged(&answer.center) {
+            centre.value += &format!(" {} in all", count(dim as u64));
+            centre = centre.remark("the JSON holds them (-o FILE)");
+        }
+        let border = match certificate.method {
+            RobustMethod::Trim => "of the ellipsoid around the points kept".to_owned(),
+            _ => format!("of the ellipsoid that holds {} of normal points", certificate.level),
+        };
+        let mut facts = vec![
+            centre,
+            Fact::new("log-det", exact(answer.log_det)).remark("of the scatter"),
+            Fact::new("log-volume", exact(answer.log_volume)).remark(border),
+            Fact::new("kept", format!("{} of {}", count(certificate.kept), counted(n, "point"))),
+            self.outliers(),
+        ];
+        if answer.hull.is_some() {
+            let on = self.verdict.map_or_else(
+                || "most points".to_owned(),
+                |proved| format!("{} of {}", count(proved.on_hull), counted(n, "point")),
+            );
+            facts.push(
+                Fact::new("exact fit", format!("{on} in a flat of dimension {rank}"))
+                    .remark("centre and scatter are theirs, and all others are outliers"),
+            );
+        }
+        facts.push(match &self.verdict {
+            Some(_) => Fact::new("verified", "yes").remark(
+                "all is calculated again, and no C-step leads on; other points kept might do better",
+            ),
+            None => Fact::new("verified", "not checked"),
+        });
+        if let Some(enclosure) = &certificate.enclosure {
+            let proved = self.verdict.and_then(|verdict| verdict.enclosure);
+            let value = proved.map_or(enclosure.certificate.gap, |proved| proved.gap);
+            facts.push(
+                Fact::new("gap", gap(value))
+                    .remark("in log-volume, of the ellipsoid around the points kept"),
+            );
+        }
+        facts.extend([
+            Fact::new("method", certificate.method.name())
+                .remark(counted(trace.iterations, "C-step")),
+            Fact::new("passes", count(trace.passes)),
+        ]);
+        facts
+    }
+
+    /// How many, and the rows of the first, counted from 1 as in the file.
+    fn outliers(&self) -> Fact {
+        let flagged = &self.found.answer.flagged;
+        let fact = Fact::new("outliers", count(flagged.len() as u64));
+        let row = |&row: &u64| row.saturating_add(1).to_string();
+        let rows: Vec<String> = flagged.iter().take(NAMED).map(row).collect();
+        let more = if flagged.len() > NAMED { ", …; the JSON holds them (-o FILE)" } else { "" };
+        match rows.len() {
+            0 => fact,
+            1 => fact.remark(format!("row {}", rows[0])),
+            _ => fact.remark(format!("rows {}{more}", rows.join(", "))),
+        }
+    }
+}
+
+/// What was proved of a robust ellipsoid, and what was not.
+pub(crate) fn proved_of_robust(
+    found: &Solution<RobustEllipsoid>,
+    verdict: &RobustVerdict,
+) -> Vec<Fact> {
+    let mut facts = vec![
+        Fact::new("objective", exact(verdict.objective))
+            .remark("a local optimum: no C-step leads on; other points kept might do better"),
+        Fact::new("outliers", found.answer.flagged.len().to_string())
+            .remark("exactly the points outside the ellipsoid"),
+        Fact::new("dimension", verdict.rank.to_string()),
+    ];
+    if let Some(enclosure) = &verdict.enclosure {
+        facts.push(
+            Fact::new("gap", gap(enclosure.gap))
+                .remark("in log-volume, of the ellipsoid around the points kept"),
+        );
+    }
+    facts
+}

@@ -1,0 +1,130 @@
+//! `taut ellipsoid --robust`: centre, scatter and outliers, and their proof.
+
+use crate::desk::Desk;
+
+/// A grid of 5 × 5 around (2, 2), and six rows where somebody's hand slipped: rows 26 to 31.
+fn grid() -> String {
+    let inside = (0..25).map(|i| format!("{},{}\n", i % 5, i / 5));
+    let outside = (0..6).map(|i| format!("1000,{i}\n"));
+    std::iter::once("x,y\n".to_owned()).chain(inside).chain(outside).collect()
+}
+
+fn desk() -> Desk {
+    let desk = Desk::new();
+    desk.put("points.csv", grid());
+    desk
+}
+
+#[test]
+fn outliers_are_named_and_all_is_verified() {
+    let desk = desk();
+    let rows = "\n  outliers   6; rows 26, 27, 28, 29, 30, 31\n";
+    for (line, parts) in [
+        ("mcd", ["\n  kept       17 of 31 points\n", rows, "C-step", "of normal points"]),
+        (
+            "mve",
+            ["\n  kept       17 of 31 points\n", rows, "\n  gap        ", "0.975 of normal points"],
+        ),
+        (
+            "trim --coverage 0.8",
+            ["\n  kept       25 of 31 points\n", rows, "\n  gap        ", "around the points kept"],
+        ),
+    ] {
+        let line = format!("ellipsoid points.csv --robust {line} -o robust.json");
+        desk.taut(&line).ends(0).says(&[
+            "Robust ellipsoid of 31 points in 2 dimensions\n",
+            "\n  centre     (2, 2)\n",
+            "\n  log-det    ",
+            "\n  verified   yes; ",
+            "checking ",
+        ]);
+        desk.taut(&line).ends(0).says(&parts);
+        let found: serde_json::Value = serde_json::from_str(&desk.text("robust.json")).unwrap();
+        assert_eq!(found["kind"], "robust-ellipsoid");
+        assert_eq!(found["answer"]["flagged"], serde_json::json!([25, 26, 27, 28, 29, 30]));
+        desk.taut("verify robust.json points.csv").ends(0).says(&[
+            "Verified: robust ellipsoid by ",
+            "of 31 points",
+            "\n  outliers  6;",
+        ]);
+        desk.put("other.csv", grid().replacen("0,0\n", "0,0.5\n", 1));
+        desk.taut("verify robust.json other.csv").ends(1).says(&["Rejected: other.csv"]);
+    }
+}
+
+#[test]
+fn the_json_is_one_document_wherever_it_goes() {
+    let desk = desk();
+    let all = desk.taut("ellipsoid points.csv --robust mcd --json").ends(0).out;
+    assert_eq!(desk.taut("ellipsoid points.csv --robust mcd -o -").ends(0).out, all);
+    assert_eq!(desk.taut("ellipsoid points.csv --robust mcd --json --threads 1").ends(0).out, all);
+    let run = desk.taut("ellipsoid points.csv --robust mcd --quiet -o robust.json").ends(0);
+    assert_eq!((run.out.as_str(), run.err.as_str()), ("", ""));
+    assert_eq!(desk.text("robust.json"), all);
+    let run = desk.taut("ellipsoid points.csv --robust mcd --no-verify").ends(0);
+    assert!(run.out.contains("not checked") && !run.out.contains("yes"), "{}", run.out);
+    desk.taut("draw robust.json points.csv -o robust.svg")
+        .ends(2)
+        .complains(&["robust.json is a robust ellipsoid"]);
+}
+
+#[test]
+fn a_lie_about_the_outliers_is_found() {
+    let desk = desk();
+    desk.taut("ellipsoid points.csv --robust mcd -o robust.json").ends(0);
+    let mut lie: serde_json::Value = serde_json::from_str(&desk.text("robust.json")).unwrap();
+    lie["answer"]["flagged"] = serde_json::json!([25, 26, 27, 28, 29]);
+    desk.put("lie.json", lie.to_string());
+    desk.taut("verify lie.json points.csv")
+        .ends(1)
+        .says(&["Rejected: points.csv: ", "point 30 (row 31)"]);
+}
+
+#[test]
+fn the_level_moves_the_border_and_the_coverage_the_count() {
+    let desk = desk();
+    let volume = |line: &str| {
+        let run = desk.taut(&format!("ellipsoid points.csv --robust mcd --json {line}")).ends(0);
+        run.json()["answer"]["log_volume"].as_f64().unwrap()
+    };
+    assert!(volume("--level 0.5") < volume("") && volume("") < volume("--level 0.9999"));
+    desk.taut("ellipsoid points.csv --robust mcd --coverage 1")
+        .ends(0)
+        .says(&["\n  kept       31 of 31 points\n"]);
+}
+
+#[test]
+fn exact_fits_are_reported() {
+    let desk = Desk::new();
+    let line: String = (0..20).map(|i| format!("{i},{i}\n")).collect();
+    desk.put("line.csv", line + "0,7\n3,100\n");
+    desk.taut("ellipsoid line.csv --robust mcd -o robust.json").ends(0).says(&[
+        "\n  exact fit  20 of 22 points in a flat of dimension 1; ",
+        "\n  outliers   2; rows 21, 22\n",
+    ]);
+    desk.taut("verify robust.json line.csv").ends(0).says(&["\n  dimension 1\n"]);
+}
+
+#[test]
+fn wrong_input_and_options_are_named() {
+    let desk = desk();
+    desk.put("nan.csv", grid().replacen("0,0\n", "0,NaN\n", 1));
+    for (line, parts) in [
+        ("nan.csv --robust mcd", &["nan.csv", "row 1", "column 1", "`y`", "NaN"][..]),
+        ("points.csv --robust mcd --coverage 0.4", &["--coverage` is 0.4", "[0.5, 1]"]),
+        ("points.csv --robust trim --coverage 0", &["--coverage` is 0", "(0, 1]"]),
+        ("points.csv --robust mve --level 1", &["--level` is 1", "[0.5, 1)"]),
+        ("points.csv --robust mve --epsilon 0", &["--epsilon` is 0", "(0, 1)"]),
+        ("points.csv --robust trim --level 0.9", &["--level", "trim"]),
+        ("points.csv --coverage 0.9", &["--robust"]),
+        ("points.csv --robust mad", &["mad", "mcd, mve, trim"]),
+        ("points.csv --robust mcd --balls", &["--balls"]),
+        ("points.csv --robust mcd --method newton", &["--method"]),
+        ("points.csv --robust mcd --draw e.svg", &["--draw"]),
+    ] {
+        let run = desk.taut(&format!("ellipsoid {line} -o found.json")).ends(2);
+        assert!(parts.iter().all(|part| run.err.contains(part)), "{parts:?} in {run:?}");
+        assert_eq!(run.out, "", "{line}");
+    }
+    assert_eq!(desk.files(), ["nan.csv", "points.csv"]);
+}
