@@ -6,29 +6,32 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use taut::certify::{self, AnySolution};
-use taut::enclose::Error;
 use taut::points::{Blocks, Scratch};
-use taut::{EllipsoidMethod, EllipsoidOptions, ellipsoid_of_source};
+use taut::{EllipsoidMethod, EllipsoidOptions, ellipsoid_of_items};
 
+use crate::items::{items_of_name, name_of_items, raise};
 use crate::numbers::{float, whole};
 use crate::rows::{Rows, numbers, table};
-use crate::solution::{Solution, name_of_items, row_numbers};
+use crate::solution::{Solution, row_numbers};
 use crate::work::interruptible;
 
-/// The ellipsoid of least volume around the rows of an array.
+/// The ellipsoid of least volume around the rows of an array; `items` says what they are.
 #[pyfunction]
 pub(crate) fn ellipsoid(
     py: Python<'_>,
     rows: &Bound<'_, PyAny>,
+    items: &str,
     epsilon: f64,
     method: &str,
     max_passes: &Bound<'_, PyAny>,
     threads: &Bound<'_, PyAny>,
     seed: &Bound<'_, PyAny>,
 ) -> PyResult<Solution> {
+    let items = items_of_name(items)?;
+    let method = EllipsoidMethod::from_str(method).map_err(|error| raise(error, items, 0))?;
     let options = EllipsoidOptions {
         epsilon,
-        method: EllipsoidMethod::from_str(method).map_err(raise)?,
+        method,
         max_passes: whole("max_passes", max_passes, "at least 2")?,
         threads: whole("threads", threads, "at least 1, or None")?,
         seed: whole("seed", seed, "0 to 2**64 - 1")?,
@@ -36,17 +39,9 @@ pub(crate) fn ellipsoid(
     let rows = Rows::borrow(rows)?;
     let source = rows.source()?;
     let found =
-        interruptible(py, |monitor| ellipsoid_of_source(source.as_ref(), &options, monitor))?
-            .map_err(raise)?;
+        interruptible(py, |monitor| ellipsoid_of_items(source.as_ref(), items, &options, monitor))?
+            .map_err(|error| raise(error, items, source.dim()))?;
     Solution::new(py, AnySolution::Ellipsoid(found))
-}
-
-/// A wrong input is a `ValueError` with the library's sentence.
-fn raise(error: Error) -> PyErr {
-    match error {
-        Error::Read(_) => PyRuntimeError::new_err(error.to_string()),
-        _ => PyValueError::new_err(error.to_string()),
-    }
 }
 
 /// An ellipsoid {x : |F(x - c)| <= 1} in d dimensions, or in an affine subspace of dimension r < d.
@@ -113,8 +108,17 @@ impl Ellipsoid {
     }
 }
 
+/// The directions in which items touch; a document may hold any numbers of them, an array may not.
+pub(crate) fn directions(
+    py: Python<'_>,
+    rows: &[Vec<f64>],
+    dim: usize,
+) -> PyResult<Py<PyArray2<f64>>> {
+    table(py, rectangular("the directions", rows, dim)?, dim)
+}
+
 /// The rows one after the other; a document may hold rows of any length, an array may not.
-fn rectangular(name: &str, rows: &[Vec<f64>], width: usize) -> PyResult<Vec<f64>> {
+pub(crate) fn rectangular(name: &str, rows: &[Vec<f64>], width: usize) -> PyResult<Vec<f64>> {
     match rows.iter().position(|row| row.len() != width) {
         None => Ok(rows.concat()),
         Some(at) => Err(PyValueError::new_err(format!(
@@ -209,9 +213,13 @@ impl Hull {
 /// items : str
 ///     ``"points"``, ``"balls"`` or ``"ellipsoids"``.
 /// support : ndarray of int64, shape (s,)
-///     Row numbers with a positive multiplier, ascending. Read-only.
+///     Row numbers with a positive multiplier, ascending; a ball or an ellipsoid that touches in several points occurs
+///     several times. Read-only.
 /// multipliers : ndarray of float64, shape (s,)
 ///     The multipliers, in the order of `support`; they sum to 1. Read-only.
+/// directions : ndarray of float64, shape (s, d) or (0, d)
+///     For balls and ellipsoids {m + v : v v.T <= S}, directions a in which they touch: at m + S a / sqrt(a S a).
+///     Read-only.
 /// left_out : ndarray of int64, shape (l,)
 ///     Row numbers that the ellipsoid leaves out, ascending; the rest is enclosed. Read-only.
 /// gap : float
@@ -223,17 +231,23 @@ pub(crate) struct EllipsoidCertificate {
     items: &'static str,
     support: Py<PyArray1<i64>>,
     multipliers: Py<PyArray1<f64>>,
+    directions: Py<PyArray2<f64>>,
     left_out: Py<PyArray1<i64>>,
     gap: f64,
     points_hash: String,
 }
 
 impl EllipsoidCertificate {
-    pub(crate) fn new(py: Python<'_>, proof: &certify::EllipsoidCertificate) -> PyResult<Self> {
+    pub(crate) fn new(
+        py: Python<'_>,
+        proof: &certify::EllipsoidCertificate,
+        dim: usize,
+    ) -> PyResult<Self> {
         Ok(EllipsoidCertificate {
             items: name_of_items(proof.items),
             support: row_numbers(py, &proof.support)?,
             multipliers: numbers(py, proof.multipliers.clone())?,
+            directions: directions(py, &proof.directions, dim)?,
             left_out: row_numbers(py, &proof.left_out)?,
             gap: proof.gap,
             points_hash: proof.points_hash.to_string(),

@@ -9,7 +9,10 @@ mod ball;
 mod delaunay;
 mod ellipsoid;
 mod generate;
+mod inscribed;
+mod items;
 mod numbers;
+mod robust;
 mod rows;
 mod solution;
 mod triangulation;
@@ -28,6 +31,12 @@ mod _native {
     use crate::ellipsoid::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipsoid};
     #[pymodule_export]
     use crate::generate::generate;
+    #[pymodule_export]
+    use crate::inscribed::{
+        InscribedCertificate, InscribedEllipsoid, InscribedVerdict, inscribed_ellipsoid,
+    };
+    #[pymodule_export]
+    use crate::robust::{RobustCertificate, RobustEllipsoid, RobustVerdict, robust_ellipsoid};
     #[pymodule_export]
     use crate::solution::{Ball, BallCertificate, PassBounds, Solution, Trace, Verdict, Violation};
     #[pymodule_export]

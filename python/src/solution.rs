@@ -1,6 +1,6 @@
 //! Solutions as Python sees them: attributes that mirror the Rust fields, arrays that cannot be written to.
 
-use numpy::PyArray1;
+use numpy::{PyArray1, PyArray2};
 use pyo3::create_exception;
 use pyo3::exceptions::{PyAttributeError, PyException, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -8,9 +8,11 @@ use pyo3::types::{PyDict, PyTuple};
 use taut::Items;
 use taut::certify::{self, AnySolution, AnyVerdict, CheckError, Stop};
 
-use crate::ball::{negative_radius, not_finite_of_ball};
-use crate::ellipsoid::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict};
+use crate::ellipsoid::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, directions};
+use crate::inscribed::{InscribedCertificate, InscribedEllipsoid, InscribedVerdict};
+use crate::items::{name_of_items, words};
 use crate::numbers::float;
+use crate::robust::{RobustCertificate, RobustEllipsoid, RobustVerdict};
 use crate::rows::{Rows, numbers};
 use crate::triangulation::{Triangulation, TriangulationCertificate, TriangulationVerdict};
 use crate::work::interruptible;
@@ -53,11 +55,14 @@ impl Ball {
 /// Attributes
 /// ----------
 /// items : str
-///     ``"points"`` or ``"balls"``.
+///     ``"points"``, ``"balls"`` or ``"ellipsoids"``.
 /// support : ndarray of int64, shape (s,)
-///     Row numbers with a positive multiplier, ascending. Read-only.
+///     Row numbers with a positive multiplier, ascending; an ellipsoid that touches in several points occurs several
+///     times. Read-only.
 /// multipliers : ndarray of float64, shape (s,)
 ///     The multipliers, in the order of `support`; they sum to 1. Read-only.
+/// directions : ndarray of float64, shape (s, d) or (0, d)
+///     For ellipsoids {m + v : v v.T <= S}, directions a in which they touch: at m + S a / sqrt(a S a). Read-only.
 /// gap : float
 ///     The gap claimed: radius <= (1 + gap) R*.
 /// points_hash : str
@@ -67,6 +72,7 @@ pub(crate) struct BallCertificate {
     items: &'static str,
     support: Py<PyArray1<i64>>,
     multipliers: Py<PyArray1<f64>>,
+    directions: Py<PyArray2<f64>>,
     gap: f64,
     points_hash: String,
 }
@@ -216,10 +222,10 @@ impl Verdict {
 /// Attributes
 /// ----------
 /// kind : str
-///     ``"ball"``, ``"ellipsoid"`` or ``"delaunay"``.
-/// answer : Ball, Ellipsoid or Triangulation
+///     ``"ball"``, ``"ellipsoid"``, ``"inscribed-ellipsoid"``, ``"robust-ellipsoid"`` or ``"delaunay"``.
+/// answer : Ball, Ellipsoid, InscribedEllipsoid, RobustEllipsoid or Triangulation
 ///     The shape.
-/// certificate : BallCertificate, EllipsoidCertificate or TriangulationCertificate
+/// certificate : BallCertificate, EllipsoidCertificate, InscribedCertificate, RobustCertificate or TriangulationCertificate
 ///     Its proof.
 /// trace : Trace
 ///     Counters of the run.
@@ -246,7 +252,18 @@ impl Solution {
             }
             AnySolution::Ellipsoid(found) => {
                 let answer = Py::new(py, Ellipsoid::new(py, &found.answer)?)?.into_any();
-                let certificate = EllipsoidCertificate::new(py, &found.certificate)?;
+                let certificate =
+                    EllipsoidCertificate::new(py, &found.certificate, found.answer.dim())?;
+                (answer, Py::new(py, certificate)?.into_any(), found.trace.clone())
+            }
+            AnySolution::Inscribed(found) => {
+                let answer = Py::new(py, InscribedEllipsoid::new(py, &found.answer)?)?.into_any();
+                let certificate = InscribedCertificate::new(py, &found.certificate)?;
+                (answer, Py::new(py, certificate)?.into_any(), found.trace.clone())
+            }
+            AnySolution::Robust(found) => {
+                let answer = Py::new(py, RobustEllipsoid::new(py, &found.answer)?)?.into_any();
+                let certificate = RobustCertificate::new(py, &found.certificate)?;
                 (answer, Py::new(py, certificate)?.into_any(), found.trace.clone())
             }
             AnySolution::Triangulation(found) => {
@@ -268,26 +285,36 @@ impl Solution {
     ) -> PyResult<Py<PyAny>> {
         match self.solution {
             AnySolution::Triangulation(_) => part.getattr(py, name),
-            AnySolution::Ball(_) | AnySolution::Ellipsoid(_) => {
-                let article = if self.kind().starts_with('e') { "an" } else { "a" };
+            AnySolution::Ball(_)
+            | AnySolution::Ellipsoid(_)
+            | AnySolution::Inscribed(_)
+            | AnySolution::Robust(_) => {
+                let article = if self.kind().starts_with(['e', 'i']) { "an" } else { "a" };
                 let problem = format!("{article} {} has no {name}: triangulations do", self.kind());
                 Err(PyAttributeError::new_err(problem))
             }
         }
     }
 
-    /// Refuses radii where the answer encloses points or none where it encloses balls.
-    fn match_radii(&self, given: bool) -> PyResult<()> {
-        let problem = match (self.items(), given) {
-            (Some(Items::Balls), false) => "the answer encloses balls: give their radii",
-            (Some(Items::Points), true) => "the answer encloses points, which have no radii",
-            (Some(Items::Ellipsoids), true) => {
-                "the answer encloses ellipsoids, which have no radii"
-            }
-            (None, true) => "the answer joins points, which have no radii",
-            _ => return Ok(()),
+    /// Refuses arrays that do not belong to what the answer encloses, and asks for those that do.
+    fn match_arrays(&self, radii: bool, shapes: bool, offsets: bool) -> PyResult<()> {
+        let (what, wanted) = match (&self.solution, self.items()) {
+            (AnySolution::Inscribed(_), _) => ("lies in half-spaces", "offsets"),
+            (_, Some(Items::Balls)) => ("encloses balls", "radii"),
+            (_, Some(Items::Ellipsoids)) => ("encloses ellipsoids", "shapes"),
+            (AnySolution::Robust(_), _) => ("speaks of points", ""),
+            (_, Some(Items::Points)) => ("encloses points", ""),
+            (_, None) => ("joins points", ""),
         };
-        Err(PyValueError::new_err(problem))
+        for (name, given) in [("radii", radii), ("shapes", shapes), ("offsets", offsets)] {
+            let problem = match (given, name == wanted) {
+                (false, true) => format!("the answer {what}: give their {name}"),
+                (true, false) => format!("the answer {what}, which have no {name}"),
+                _ => continue,
+            };
+            return Err(PyValueError::new_err(problem));
+        }
+        Ok(())
     }
 
     /// What the answer encloses, if it encloses anything.
@@ -295,17 +322,9 @@ impl Solution {
         match &self.solution {
             AnySolution::Ball(found) => Some(found.certificate.items),
             AnySolution::Ellipsoid(found) => Some(found.certificate.items),
-            AnySolution::Triangulation(_) => None,
+            AnySolution::Robust(_) => Some(Items::Points),
+            AnySolution::Inscribed(_) | AnySolution::Triangulation(_) => None,
         }
-    }
-}
-
-/// What the rows are, in a word.
-pub(crate) fn name_of_items(items: Items) -> &'static str {
-    match items {
-        Items::Points => "points",
-        Items::Balls => "balls",
-        Items::Ellipsoids => "ellipsoids",
     }
 }
 
@@ -336,6 +355,7 @@ fn ball(py: Python<'_>, found: &taut::Solution<taut::Ball>) -> PyResult<(Ball, B
         items: name_of_items(proof.items),
         support: row_numbers(py, &proof.support)?,
         multipliers: numbers(py, proof.multipliers.clone())?,
+        directions: directions(py, &proof.directions, ball.center.len())?,
         gap: proof.gap,
         points_hash: proof.points_hash.to_string(),
     };
@@ -349,6 +369,8 @@ impl Solution {
         match self.solution {
             AnySolution::Ball(_) => "ball",
             AnySolution::Ellipsoid(_) => "ellipsoid",
+            AnySolution::Inscribed(_) => "inscribed-ellipsoid",
+            AnySolution::Robust(_) => "robust-ellipsoid",
             AnySolution::Triangulation(_) => "delaunay",
         }
     }
@@ -388,14 +410,20 @@ impl Solution {
     /// Parameters
     /// ----------
     /// points : array_like of shape (n, d)
-    ///     The points, or the centres of the balls, that the answer was found for.
+    ///     The points, or the centres of the balls or ellipsoids, that the answer was found for; of an inscribed
+    ///     ellipsoid the normals.
     /// radii : array_like of shape (n,), optional
     ///     The radii, when the answer encloses balls.
+    /// shapes : array_like of shape (n, d, d), optional
+    ///     The shape matrices, when the answer encloses ellipsoids.
+    /// offsets : array_like of shape (n,), optional
+    ///     The offsets of the half-spaces, when the answer is inscribed.
     ///
     /// Returns
     /// -------
-    /// Verdict, EllipsoidVerdict or TriangulationVerdict
-    ///     Proved bounds ``lower`` and ``upper``, and their ``gap``; of a triangulation the counts that were proved.
+    /// Verdict, EllipsoidVerdict, InscribedVerdict, RobustVerdict or TriangulationVerdict
+    ///     Proved bounds ``lower`` and ``upper``, and their ``gap``; of a robust ellipsoid and a triangulation what was
+    ///     proved instead.
     ///
     /// Raises
     /// ------
@@ -411,16 +439,21 @@ impl Solution {
     /// >>> found.check([[0, 0], [2, 0], [1, 2]])
     /// Traceback (most recent call last):
     /// taut.Violation: ...
-    #[pyo3(signature = (points, radii=None))]
+    #[pyo3(signature = (points, radii=None, *, shapes=None, offsets=None))]
     fn check(
         &self,
         py: Python<'_>,
         points: &Bound<'_, PyAny>,
         radii: Option<&Bound<'_, PyAny>>,
+        shapes: Option<&Bound<'_, PyAny>>,
+        offsets: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Py<PyAny>> {
-        self.match_radii(radii.is_some())?;
+        self.match_arrays(radii.is_some(), shapes.is_some(), offsets.is_some())?;
         // Arrays are put in order in one place, and that is written in Python.
-        let rows = py.import("taut._arrays")?.getattr("as_rows")?.call1((points, radii))?;
+        let rows = py
+            .import("taut._arrays")?
+            .getattr("as_rows")?
+            .call1((points, radii, shapes, offsets))?;
         let rows = Rows::borrow(&rows)?;
         let source = rows.source()?;
         let verdict = interruptible(py, |monitor| self.solution.check(source.as_ref(), monitor))?;
@@ -431,20 +464,17 @@ impl Solution {
             Ok(AnyVerdict::Ellipsoid(proved)) => {
                 Ok(Py::new(py, EllipsoidVerdict::new(proved))?.into_any())
             }
+            Ok(AnyVerdict::Inscribed(proved)) => {
+                Ok(Py::new(py, InscribedVerdict::new(proved))?.into_any())
+            }
+            Ok(AnyVerdict::Robust(proved)) => {
+                Ok(Py::new(py, RobustVerdict::new(py, proved)?)?.into_any())
+            }
             Ok(AnyVerdict::Triangulation(proved)) => {
                 Ok(Py::new(py, TriangulationVerdict::new(&proved))?.into_any())
             }
             Err(CheckError::Rejected(violation)) => {
-                let balls = self.items() == Some(Items::Balls);
-                Err(Violation::new_err(match violation {
-                    certify::Violation::NonFinite { row, column, value } if balls => {
-                        not_finite_of_ball(row, column, value, source.dim() - 1)
-                    }
-                    certify::Violation::NegativeRadius { row, value } => {
-                        negative_radius(row, value)
-                    }
-                    other => other.to_string(),
-                }))
+                Err(Violation::new_err(words(violation, self.items(), source.dim())))
             }
             Err(error) => Err(PyRuntimeError::new_err(error.to_string())),
         }
@@ -501,6 +531,16 @@ impl Solution {
                 let volume = float(py, found.answer.log_volume)?;
                 let gap = float(py, found.certificate.gap)?;
                 format!("Solution(kind='{kind}', log_volume={volume}, gap={gap})")
+            }
+            AnySolution::Inscribed(found) => {
+                let volume = float(py, found.answer.log_volume)?;
+                let gap = float(py, found.certificate.gap)?;
+                format!("Solution(kind='{kind}', log_volume={volume}, gap={gap})")
+            }
+            AnySolution::Robust(found) => {
+                let log_det = float(py, found.answer.log_det)?;
+                let outliers = found.answer.flagged.len();
+                format!("Solution(kind='{kind}', log_det={log_det}, outliers={outliers})")
             }
             AnySolution::Triangulation(found) => {
                 let certify::TriangulationCounts { sites, simplices, hull } =

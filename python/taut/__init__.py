@@ -13,7 +13,7 @@ The names, options and defaults are those of the Rust library and of the command
 
 from ._ball import ball, ball_of_balls
 from ._delaunay import delaunay
-from ._ellipsoid import ellipsoid
+from ._ellipsoid import ellipsoid, inscribed_ellipsoid
 from ._generate import generate
 from ._native import (
     Ball,
@@ -22,7 +22,13 @@ from ._native import (
     EllipsoidCertificate,
     EllipsoidVerdict,
     Hull,
+    InscribedCertificate,
+    InscribedEllipsoid,
+    InscribedVerdict,
     PassBounds,
+    RobustCertificate,
+    RobustEllipsoid,
+    RobustVerdict,
     Solution,
     Trace,
     Triangulation,
@@ -32,6 +38,7 @@ from ._native import (
     Violation,
     __version__,
 )
+from ._robust import robust_ellipsoid
 from ._verify import verify
 
 __all__ = [
@@ -41,7 +48,13 @@ __all__ = [
     "EllipsoidCertificate",
     "EllipsoidVerdict",
     "Hull",
+    "InscribedCertificate",
+    "InscribedEllipsoid",
+    "InscribedVerdict",
     "PassBounds",
+    "RobustCertificate",
+    "RobustEllipsoid",
+    "RobustVerdict",
     "Solution",
     "Trace",
     "Triangulation",
@@ -55,5 +68,7 @@ __all__ = [
     "delaunay",
     "ellipsoid",
     "generate",
+    "inscribed_ellipsoid",
+    "robust_ellipsoid",
     "verify",
 ]

@@ -9,31 +9,76 @@ from numpy.typing import ArrayLike, NDArray
 
 Rows = NDArray[np.float32] | NDArray[np.float64]
 
+# What entries of a shape matrix may differ by from those across the diagonal, in units of the largest: rounding.
+SYMMETRY = 1e-8
 
-def as_rows(points: ArrayLike, radii: ArrayLike | None = None) -> Rows:
+
+def as_rows(
+    points: ArrayLike,
+    radii: ArrayLike | None = None,
+    shapes: ArrayLike | None = None,
+    offsets: ArrayLike | None = None,
+) -> Rows:
     """Rows of float32 or float64 in C order; a fitting array is returned as it is.
 
     Parameters
     ----------
     points : array_like of shape (n, d)
-        Points, or centres of balls.
+        Points, centres of balls or ellipsoids, or normals of half-spaces.
     radii : array_like of shape (n,), optional
         Radii of balls: they become the last column, in a new array.
+    shapes : array_like of shape (n, d, d), optional
+        Shape matrices of ellipsoids: their lower triangles become the last columns, row by row, in a new array.
+    offsets : array_like of shape (n,), optional
+        Offsets of half-spaces: they become the last column, in a new array.
 
     Returns
     -------
-    ndarray of shape (n, d) or (n, d + 1)
-        float32 where `points` (and `radii`) are, else float64.
+    ndarray of shape (n, d), (n, d + 1) or (n, d (d + 3) / 2)
+        float32 where all that is given is, else float64.
     """
-    if radii is None:
-        return _real("points", points, 2)
-    rows = _real("centers", points, 2)
-    if rows.shape[1] == 0:
-        raise ValueError(f"centers have shape {rows.shape}: the dimension must be at least 1")
-    column = _real("radii", radii, 1)
+    given = [values is not None for values in (radii, shapes, offsets)]
+    if sum(given) > 1:
+        raise ValueError("only one of radii, shapes and offsets can be given")
+    if radii is not None:
+        return _with_column("centers", points, "radii", radii)
+    if offsets is not None:
+        return _with_column("normals", points, "offsets", offsets)
+    if shapes is not None:
+        return _with_shapes(points, shapes)
+    return _real("points", points, 2)
+
+
+def _with_column(name: str, points: ArrayLike, other: str, values: ArrayLike) -> Rows:
+    rows = _rows_of_some_dimension(name, points)
+    column = _real(other, values, 1)
     if len(column) != len(rows):
-        raise ValueError(f"there are {len(rows)} centers, but {len(column)} radii")
-    return _real("balls", np.column_stack([rows, column]), 2)
+        raise ValueError(f"there are {len(rows)} {name}, but {len(column)} {other}")
+    return _real("rows", np.column_stack([rows, column]), 2)
+
+
+def _with_shapes(points: ArrayLike, values: ArrayLike) -> Rows:
+    rows = _rows_of_some_dimension("centers of ellipsoids", points)
+    shapes = _real("shapes", values, 3)
+    n, d = rows.shape
+    if shapes.shape != (n, d, d):
+        raise ValueError(f"shapes have shape {shapes.shape}: expected {(n, d, d)}, as the centers are {(n, d)}")
+    # What is not finite is left to the library, which names its place: comparisons with NaN are false.
+    with np.errstate(invalid="ignore"):
+        off = np.abs(shapes - shapes.transpose(0, 2, 1)).max(axis=(1, 2), initial=0)
+        size = np.abs(shapes).max(axis=(1, 2), initial=0)
+        skew = np.flatnonzero(off > SYMMETRY * size)
+    if skew.size:
+        raise ValueError(f"shape {skew[0]} is not symmetric: entries differ by {off[skew[0]]:.3g}")
+    lower = np.tril_indices(d)
+    return _real("rows", np.concatenate([rows, shapes[:, lower[0], lower[1]]], axis=1), 2)
+
+
+def _rows_of_some_dimension(name: str, points: ArrayLike) -> Rows:
+    rows = _real(name, points, 2)
+    if rows.shape[1] == 0:
+        raise ValueError(f"{name} have shape {rows.shape}: the dimension must be at least 1")
+    return rows
 
 
 def _real(name: str, values: ArrayLike, ndim: int) -> Rows:
@@ -43,7 +88,7 @@ def _real(name: str, values: ArrayLike, ndim: int) -> Rows:
     if array.dtype.kind not in "fiubO":
         raise TypeError(f"{name} have dtype {array.dtype}: expected real numbers")
     if array.ndim != ndim:
-        shape = "(n, d)" if ndim == 2 else "(n,)"
+        shape = {1: "(n,)", 2: "(n, d)", 3: "(n, d, d)"}[ndim]
         raise ValueError(f"{name} have shape {array.shape}: expected {shape}")
     if array.dtype.kind == "O":
         return _converted(name, array)
@@ -89,7 +134,19 @@ def _inexact(name: str, index: tuple[int, ...], value: object) -> ValueError:
 
 def _place(name: str, index: tuple[int, ...]) -> str:
     """The words of the errors for NaN, with numbers from 0."""
-    if name == "radii":
-        return f"the radius of ball {index[0]}"
-    item = "point" if name == "points" else "the center of ball"
+    match name:
+        case "radii":
+            return f"the radius of ball {index[0]}"
+        case "offsets":
+            return f"offset {index[0]}"
+        case "shapes":
+            return f"entry {index[1:]} of shape {index[0]}"
+        case "normals":
+            return f"coordinate {index[1]} of normal {index[0]}"
+        case "points":
+            item = "point"
+        case "centers of ellipsoids":
+            item = "the center of ellipsoid"
+        case _:
+            item = "the center of ball"
     return f"coordinate {index[1]} of {item} {index[0]}"

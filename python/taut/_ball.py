@@ -16,6 +16,7 @@ BallMethod = Literal["core-set", "thesis-pure", "thesis-fast", "badoiu-clarkson"
 def ball(
     points: ArrayLike,
     *,
+    shapes: ArrayLike | None = None,
     epsilon: float = 1e-9,
     method: BallMethod = "core-set",
     batch: int | None = None,
@@ -23,7 +24,7 @@ def ball(
     threads: int | None = None,
     seed: int = 0,
 ) -> Solution:
-    """Smallest ball enclosing a point set, with a certificate.
+    """Smallest ball enclosing points or ellipsoids, with a certificate.
 
     Parameters
     ----------
@@ -31,6 +32,11 @@ def ball(
         Finite real numbers. An array of float32 or float64 in C order is read where it lies, without a copy,
         also when it is read-only; anything else is first converted by NumPy (integers and other precisions to
         float64, in which integers must be exact). Other threads must not write to it meanwhile.
+    shapes : array_like of shape (n, d, d), optional
+        Given these, `points` are the centres m of ellipsoids {m + v : v v.T <= S}, with S symmetric, to 1e-8 of its
+        largest entry, and positive semidefinite; of the two halves the lower one counts. S has the units of a
+        covariance: the half axes are the square roots of its eigenvalues. The one method is "core-set" then, and
+        ``check`` takes the shapes as well.
     epsilon : float in [0, 1), default 1e-9
         Relative gap to prove, R <= (1 + epsilon) R*; 0 asks for the exact ball, to rounding.
     method : {"core-set", "thesis-pure", "thesis-fast", "badoiu-clarkson"}, default "core-set"
@@ -55,7 +61,8 @@ def ball(
     ------
     ValueError
         When there is no point, a coordinate is NaN, infinite or an integer that float64 cannot hold (the message
-        names its row and column), the radius exceeds float64, or an option is out of range.
+        names its row and column), a shape is not symmetric or not positive semidefinite, the radius exceeds float64,
+        or an option is out of range.
     KeyboardInterrupt
         Ctrl-C stops the work within a block of points.
 
@@ -74,8 +81,18 @@ def ball(
     (array([0, 1]), array([0.5, 0.5]))
     >>> found.check([[0, 1], [2, 1], [1, 2]]).gap <= 1e-9
     True
+
+    Around the ellipse with half axes 3 and 1:
+
+    >>> found = taut.ball([[0, 0]], shapes=[[[9, 0], [0, 1]]])
+    >>> round(found.answer.radius, 8)
+    3.0
+    >>> found.check([[0, 0]], shapes=[[[9, 0], [0, 1]]]).gap <= 1e-9
+    True
     """
-    return _native.ball(as_rows(points), False, epsilon, method, batch, max_passes, threads, seed)
+    items = "points" if shapes is None else "ellipsoids"
+    rows = as_rows(points, shapes=shapes)
+    return _native.ball(rows, items, epsilon, method, batch, max_passes, threads, seed)
 
 
 def ball_of_balls(
@@ -124,4 +141,4 @@ def ball_of_balls(
     if radii is None:
         raise TypeError("radii are None: expected one for each center; points have `taut.ball`")
     rows = as_rows(centers, radii)
-    return _native.ball(rows, True, epsilon, method, batch, max_passes, threads, seed)
+    return _native.ball(rows, "balls", epsilon, method, batch, max_passes, threads, seed)

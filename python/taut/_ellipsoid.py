@@ -1,4 +1,4 @@
-"""Ellipsoids of least volume."""
+"""Ellipsoids of least volume around, and of largest volume inside."""
 
 from __future__ import annotations
 
@@ -16,19 +16,29 @@ EllipsoidMethod = Literal["newton", "thesis-initial", "thesis-khachiyan", "thesi
 def ellipsoid(
     points: ArrayLike,
     *,
+    radii: ArrayLike | None = None,
+    shapes: ArrayLike | None = None,
     epsilon: float = 1e-9,
     method: EllipsoidMethod = "newton",
     max_passes: int = 1_000_000,
     threads: int | None = None,
     seed: int = 0,
 ) -> Solution:
-    """Ellipsoid of least volume enclosing a point set, with a certificate.
+    """Ellipsoid of least volume enclosing points, balls or ellipsoids, with a certificate.
 
     Parameters
     ----------
     points : array_like of shape (n, d)
         Finite real numbers. An array of float32 or float64 in C order is read where it lies; anything else is first
         converted by NumPy, as by `ball`. Other threads must not write to it meanwhile.
+    radii : array_like of shape (n,), optional
+        Given these, at least 0, `points` are the centres of balls. The one method is "newton" then, and ``check`` takes
+        the radii as well.
+    shapes : array_like of shape (n, d, d), optional
+        Given these, `points` are the centres m of ellipsoids {m + v : v v.T <= S}, with S symmetric, to 1e-8 of its
+        largest entry, and positive semidefinite; of the two halves the lower one counts. S has the units of a
+        covariance: the half axes are the square roots of its eigenvalues. The one method is "newton" then, and
+        ``check`` takes the shapes as well.
     epsilon : float in [0, 1), default 1e-9
         Gap to prove, log-volume <= least log-volume + epsilon; 0 asks for as little as rounding allows. The volume is
         then at most exp(epsilon) times the least.
@@ -53,7 +63,8 @@ def ellipsoid(
     ------
     ValueError
         When there is no point, a coordinate is NaN, infinite or an integer that float64 cannot hold (the message
-        names its row and column), the points reach too far for float64, or an option is out of range.
+        names its row and column), a radius is negative, a shape is not symmetric or not positive semidefinite, the
+        points reach too far for float64, or an option is out of range.
     KeyboardInterrupt
         Ctrl-C stops the work within a block of points.
 
@@ -65,6 +76,7 @@ def ellipsoid(
     See Also
     --------
     ball : the smallest ball.
+    robust_ellipsoid : an ellipsoid that outliers do not move.
     verify : checks an answer that was stored.
 
     Examples
@@ -79,5 +91,73 @@ def ellipsoid(
     array([1.        , 1.        , 1.        , 1.        , 0.35355339])
     >>> found.check(points).gap <= 1e-9
     True
+
+    Around two unit discs:
+
+    >>> found = taut.ellipsoid([[0, 0], [2, 0]], radii=[1, 1])
+    >>> found.answer.center.round(8)
+    array([1., 0.])
+    >>> found.check([[0, 0], [2, 0]], radii=[1, 1]).gap <= 1e-9
+    True
     """
-    return _native.ellipsoid(as_rows(points), epsilon, method, max_passes, threads, seed)
+    if radii is not None and shapes is not None:
+        raise TypeError("radii and shapes are given: expected one of them, for balls or for ellipsoids")
+    items = "balls" if radii is not None else "points" if shapes is None else "ellipsoids"
+    return _native.ellipsoid(as_rows(points, radii, shapes), items, epsilon, method, max_passes, threads, seed)
+
+
+def inscribed_ellipsoid(
+    normals: ArrayLike,
+    offsets: ArrayLike,
+    *,
+    epsilon: float = 1e-9,
+    max_steps: int = 1000,
+) -> Solution:
+    """Ellipsoid of largest volume in a polytope {x : A x <= b}, with a certificate.
+
+    Parameters
+    ----------
+    normals : array_like of shape (n, d)
+        A, finite real numbers, no row all zeros. Normals and offsets are copied to one array, float32 if both are, else
+        float64.
+    offsets : array_like of shape (n,)
+        b, finite real numbers.
+    epsilon : float in (0, 1), default 1e-9
+        Gap to prove, largest log-volume <= log-volume + epsilon.
+    max_steps : int >= 1, default 1000
+        Steps of Newton's method before the ellipsoid so far is returned with its gap.
+
+    Returns
+    -------
+    Solution
+        ``answer`` is an `InscribedEllipsoid` with ``center`` c of shape (d,), ``axes`` G of shape (d, d), for
+        {c + G z : |z| <= 1}, and ``log_volume``; then ``certificate`` and ``trace``. ``check`` takes A, and b as
+        ``offsets``.
+
+    Raises
+    ------
+    ValueError
+        When the polytope is unbounded or has no interior point, with the reason; when a number is NaN or infinite, a
+        normal is 0, or an option is out of range.
+    KeyboardInterrupt
+        Ctrl-C stops the work between two steps.
+
+    See Also
+    --------
+    ellipsoid : the ellipsoid of least volume around points.
+
+    Examples
+    --------
+    The rectangle of sides 4 and 2:
+
+    >>> import taut
+    >>> A, b = [[1, 0], [-1, 0], [0, 1], [0, -1]], [4, 0, 2, 0]
+    >>> found = taut.inscribed_ellipsoid(A, b)
+    >>> found.answer.center.round(8)
+    array([2., 1.])
+    >>> found.check(A, offsets=b).gap <= 1e-9
+    True
+    """
+    if offsets is None:
+        raise TypeError("offsets are None: expected one for each normal")
+    return _native.inscribed_ellipsoid(as_rows(normals, offsets=offsets), epsilon, max_steps)

@@ -4,12 +4,26 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from ._native import EllipsoidVerdict, Solution, TriangulationVerdict, Verdict
+from ._native import (
+    EllipsoidVerdict,
+    InscribedVerdict,
+    RobustVerdict,
+    Solution,
+    TriangulationVerdict,
+    Verdict,
+)
+
+AnyVerdict = Verdict | EllipsoidVerdict | InscribedVerdict | RobustVerdict | TriangulationVerdict
 
 
 def verify(
-    solution: Solution | str, points: ArrayLike, radii: ArrayLike | None = None
-) -> Verdict | EllipsoidVerdict | TriangulationVerdict:
+    solution: Solution | str,
+    points: ArrayLike,
+    radii: ArrayLike | None = None,
+    *,
+    shapes: ArrayLike | None = None,
+    offsets: ArrayLike | None = None,
+) -> AnyVerdict:
     """Check an answer over the points it was found for.
 
     Parameters
@@ -17,14 +31,19 @@ def verify(
     solution : Solution or str
         The answer with its certificate, or their JSON as `Solution.to_json` and the command line write it.
     points : array_like of shape (n, d)
-        The points, or the centres of the balls.
+        The points, or the centres of the balls or ellipsoids; of an inscribed ellipsoid the normals.
     radii : array_like of shape (n,), optional
         The radii, when the answer encloses balls.
+    shapes : array_like of shape (n, d, d), optional
+        The shape matrices, when the answer encloses ellipsoids.
+    offsets : array_like of shape (n,), optional
+        The offsets of the half-spaces, when the answer is inscribed.
 
     Returns
     -------
-    Verdict, EllipsoidVerdict or TriangulationVerdict
-        Proved bounds ``lower`` and ``upper``, and their ``gap``; of a triangulation the counts that were proved.
+    Verdict, EllipsoidVerdict, InscribedVerdict, RobustVerdict or TriangulationVerdict
+        Proved bounds ``lower`` and ``upper``, and their ``gap``; of a robust ellipsoid and a triangulation what was
+        proved instead.
 
     Raises
     ------
@@ -48,5 +67,5 @@ def verify(
         solution = Solution.from_json(solution)
     elif not isinstance(solution, Solution):
         raise TypeError(f"expected a Solution or its JSON text as str, not {type(solution).__name__}")
-    verdict: Verdict | EllipsoidVerdict | TriangulationVerdict = solution.check(points, radii)
+    verdict: AnyVerdict = solution.check(points, radii, shapes=shapes, offsets=offsets)
     return verdict

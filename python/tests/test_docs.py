@@ -8,13 +8,16 @@ from pathlib import Path
 import pytest
 
 import taut
-from taut import _ball, _delaunay, _ellipsoid, _generate, _verify
+from taut import _ball, _delaunay, _ellipsoid, _generate, _robust, _verify
 
 
 FLAGS = doctest.ELLIPSIS | doctest.IGNORE_EXCEPTION_DETAIL
 
 
-@pytest.mark.parametrize("module", [taut, _ball, _delaunay, _ellipsoid, _generate, _verify], ids=lambda m: m.__name__)
+MODULES = [taut, _ball, _delaunay, _ellipsoid, _generate, _robust, _verify]
+
+
+@pytest.mark.parametrize("module", MODULES, ids=lambda m: m.__name__)
 def test_examples_run(module):
     # The classes of the compiled part are found as members of `taut`, which they say they are.
     failed, attempted = doctest.testmod(module, optionflags=FLAGS)
@@ -34,7 +37,10 @@ def test_everything_public_is_documented(name):
                 assert inspect.getdoc(member), attribute
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/ball.md", "docs/delaunay.md", "docs/ellipsoid.md"])
+PAGES = ["README.md", "docs/ball.md", "docs/delaunay.md", "docs/ellipsoid.md", "docs/robust.md"]
+
+
+@pytest.mark.parametrize("page", PAGES)
 def test_examples_of_the_pages_run(page):
     text = (Path(__file__).parents[2] / page).read_text(encoding="utf-8")
     blocks = re.findall(r"```pycon\n(.*?)```", text, re.DOTALL)

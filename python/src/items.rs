@@ -1,0 +1,73 @@
+//! What the rows of an array are, and what is wrong with one of them, in the words of somebody who gave centres, radii
+//! and shapes in arrays of their own.
+
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use taut::Items;
+use taut::certify::Violation;
+use taut::enclose::Error;
+
+/// What the rows are, in a word.
+pub(crate) fn name_of_items(items: Items) -> &'static str {
+    match items {
+        Items::Points => "points",
+        Items::Balls => "balls",
+        Items::Ellipsoids => "ellipsoids",
+    }
+}
+
+/// The same read back.
+pub(crate) fn items_of_name(name: &str) -> PyResult<Items> {
+    let all = [Items::Points, Items::Balls, Items::Ellipsoids];
+    all.into_iter().find(|&items| name_of_items(items) == name).ok_or_else(|| {
+        PyValueError::new_err(format!(
+            "items {name:?} are not known: expected points, balls or ellipsoids"
+        ))
+    })
+}
+
+/// What a solver refused: a wrong input is a `ValueError`. `columns` is the length of a row.
+pub(crate) fn raise(error: Error, items: Items, columns: usize) -> PyErr {
+    let dim = items.dim(columns);
+    match error {
+        Error::Read(_) | Error::Conic { .. } => PyRuntimeError::new_err(error.to_string()),
+        Error::NonFinite { row, column, value } if items != Items::Points => {
+            PyValueError::new_err(not_finite(items, row, column, value, dim))
+        }
+        Error::NegativeRadius { row, value } => PyValueError::new_err(negative_radius(row, value)),
+        _ => PyValueError::new_err(error.to_string()),
+    }
+}
+
+/// What a checker found.
+pub(crate) fn words(violation: Violation, items: Option<Items>, columns: usize) -> String {
+    match (violation, items) {
+        (
+            Violation::NonFinite { row, column, value },
+            Some(items @ (Items::Balls | Items::Ellipsoids)),
+        ) => not_finite(items, row, column, value, items.dim(columns)),
+        (Violation::NegativeRadius { row, value }, _) => negative_radius(row, value),
+        (other, _) => other.to_string(),
+    }
+}
+
+fn not_finite(items: Items, row: u64, column: usize, value: f64, dim: usize) -> String {
+    let item = if items == Items::Balls { "ball" } else { "ellipsoid" };
+    if column < dim {
+        return format!(
+            "coordinate {column} of the center of {item} {row} is {value}: all coordinates must be finite"
+        );
+    }
+    if items == Items::Balls {
+        return format!("the radius of ball {row} is {value}: all radii must be finite");
+    }
+    // Entries of the lower triangle, row by row.
+    let at = column - dim;
+    let j = (0..dim).take_while(|j| j * (j + 1) / 2 <= at).count().saturating_sub(1);
+    let k = at - j * (j + 1) / 2;
+    format!("entry ({j}, {k}) of shape {row} is {value}: all entries must be finite")
+}
+
+fn negative_radius(row: u64, value: f64) -> String {
+    format!("the radius of ball {row} is {value}: all radii must be at least 0")
+}
