@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     /// Inputs of a tenth of their size and at most two rounds: to try the bench, not to quote.
     #[arg(long)]
     quick: bool,
-    /// Numbers of threads taut is run with; times and ratios are those of the last.
+    /// Numbers of threads taut is run with: goals are about one, the clock shown is that of the last.
     #[arg(long, value_delimiter = ',', default_values_t = [1, 2])]
     threads: Vec<usize>,
     /// Seconds after which one run of a peer is stopped.

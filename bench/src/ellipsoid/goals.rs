@@ -11,9 +11,9 @@ pub(super) enum Goal {
     Gap(f64),
     /// The log-volume lies at most so far outside the bracket that is known.
     Bracket(f64),
-    /// The least time by the clock is at most this, in seconds.
+    /// The least processor time with one thread is at most this, in seconds.
     Seconds(f64),
-    /// At least so many times faster than the peer.
+    /// At least so many times less processor time than the peer, with one thread each.
     Faster(f64),
     /// What is minimised is at most that of the peer, to rounding.
     Objective,
@@ -34,11 +34,11 @@ pub(super) struct Measured {
     pub(super) gap: Option<f64>,
     /// How far the log-volume lies outside the known bracket.
     pub(super) outside: Option<f64>,
-    /// Least time by the clock, with the most threads.
-    pub(super) seconds: Option<f64>,
     /// Least processor time with one thread.
     pub(super) one_thread: Option<f64>,
-    /// The peer's time over ours, least over least.
+    /// Least time by the clock, with the last number of threads.
+    pub(super) clock: Option<f64>,
+    /// The peer's processor time over ours with one thread, least over least.
     pub(super) faster: Option<f64>,
     /// What we minimised less what the peer reached.
     pub(super) objective: Option<f64>,
@@ -63,8 +63,8 @@ impl Measured {
             rejected: a.rejected.or(b.rejected),
             gap: worse(a.gap, b.gap),
             outside: worse(a.outside, b.outside),
-            seconds: worse(a.seconds, b.seconds),
             one_thread: worse(a.one_thread, b.one_thread),
+            clock: worse(a.clock, b.clock),
             faster: a.faster.zip(b.faster).map(|(a, b)| a.min(b)),
             objective: worse(a.objective, b.objective),
             other_flags: a.other_flags.zip(b.other_flags).map(|(a, b)| [a, b].concat()),
@@ -87,12 +87,11 @@ impl Goal {
                 found.outside.map(|off| (format!("{off:.1e} outside"), off <= bound)),
             ),
             Goal::Seconds(bound) => (
-                format!("at most {}", seconds(bound)),
-                found.seconds.map(|least| {
-                    let one = found.one_thread.map(seconds);
-                    let one = one.map(|one| format!(" ({one} of one processor)"));
-                    let said = format!("{}{}", seconds(least), one.unwrap_or_default());
-                    (said, least <= bound)
+                format!("at most {} of one processor", seconds(bound)),
+                found.one_thread.map(|least| {
+                    let clock =
+                        found.clock.map(|clock| format!(" ({} by the clock)", seconds(clock)));
+                    (format!("{}{}", seconds(least), clock.unwrap_or_default()), least <= bound)
                 }),
             ),
             Goal::Faster(factor) => (
@@ -151,16 +150,20 @@ mod tests {
 
     #[test]
     fn the_worst_of_several_counts() {
-        let of = |gap, seconds| Measured { gap, seconds, faster: seconds, ..Measured::default() };
+        let of =
+            |gap, time| Measured { gap, one_thread: time, faster: time, ..Measured::default() };
         let worst = Measured::worst([of(Some(1e-13), Some(2.0)), of(Some(1e-11), Some(1.0))]);
         let worst = worst.unwrap();
-        assert_eq!((worst.gap, worst.seconds, worst.faster), (Some(1e-11), Some(2.0), Some(1.0)));
+        assert_eq!(
+            (worst.gap, worst.one_thread, worst.faster),
+            (Some(1e-11), Some(2.0), Some(1.0))
+        );
         assert_eq!(Goal::Gap(1e-12).judge(&worst).2, Some(false));
         assert_eq!(Goal::Seconds(2.0).judge(&worst).2, Some(true));
         assert_eq!(Goal::Faster(2.0).judge(&worst).2, Some(false));
         assert_eq!(Goal::Passes(3).judge(&worst).2, None);
         let unknown = Measured::worst([of(None, Some(1.0)), of(Some(1e-13), None)]).unwrap();
-        assert_eq!((unknown.gap, unknown.seconds), (None, None));
+        assert_eq!((unknown.gap, unknown.one_thread), (None, None));
         for pair in [[Some(f64::NAN), Some(1.0)], [Some(1.0), Some(f64::NAN)]] {
             let odd = Measured::worst(pair.map(|gap| of(gap, None))).unwrap();
             assert_eq!(Goal::Gap(1.0).judge(&odd).2, Some(false));
@@ -170,7 +173,7 @@ mod tests {
     #[test]
     fn a_rejected_answer_meets_nothing() {
         let rejected = Some("outside".to_owned());
-        let found = Measured { rejected, seconds: Some(1e-6), ..Measured::default() };
+        let found = Measured { rejected, one_thread: Some(1e-6), ..Measured::default() };
         assert_eq!(Goal::Seconds(1.0).judge(&found).2, Some(false));
     }
 }

@@ -104,7 +104,7 @@ pub(super) fn run(context: &mut Context, case: &Case, laws: &[Law]) -> Result<()
         }
         table.push(row);
         println!("{what}\n\n{table}");
-        let (ours, least) = (solved.rounds.seconds(), solved.rounds.peer_seconds());
+        let (ours, least) = (solved.rounds.one_thread(), solved.rounds.peer_seconds());
         if let (Some(ours), Some(median)) = (ours, solved.rounds.peer_median()) {
             // It shuffles the points anew in each round, and the least is that of its luckiest shuffle.
             println!("- the middle of CGAL's rounds is {} times our time", times(median / ours));

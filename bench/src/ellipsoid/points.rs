@@ -45,19 +45,19 @@ impl Solved {
         Measured {
             rejected: self.verdict.as_ref().err().cloned(),
             gap: self.verdict.as_ref().ok().map(|verdict| verdict.gap),
-            seconds: self.rounds.seconds(),
             one_thread: self.rounds.one_thread(),
+            clock: self.rounds.clock(),
             passes: Some(self.rounds.found.trace.passes),
             ..Measured::default()
         }
     }
 
-    /// Cells: clock, one processor, gap, stop, passes, steps, support.
+    /// Cells: one processor, clock, gap, stop, passes, steps, support.
     pub(super) fn cells(&self) -> Vec<String> {
         let trace = &self.rounds.found.trace;
         vec![
-            self.rounds.seconds().map(seconds).unwrap_or_default(),
             self.rounds.one_thread().map(seconds).unwrap_or_default(),
+            self.rounds.clock().map(seconds).unwrap_or_default(),
             match &self.verdict {
                 Ok(verdict) => format!("{:.1e}", verdict.gap),
                 Err(why) => format!("REJECTED: {why}"),
@@ -90,7 +90,7 @@ impl Solved {
 
 /// The names of the columns of [`Solved::cells`].
 pub(super) const COLUMNS: [&str; 7] =
-    ["time", "one processor", "verified gap", "stop", "passes", "steps", "support"];
+    ["one processor", "clock", "verified gap", "stop", "passes", "steps", "support"];
 
 /// Runs all inputs of a case, each under all of its seeds.
 pub(super) fn run(context: &mut Context, case: &Case, inputs: &[Input]) -> Result<()> {

@@ -38,7 +38,7 @@ fn least(values: &[f64]) -> f64 {
 
 impl<T> Rounds<T> {
     /// Least seconds by the clock with the last number of threads.
-    pub(super) fn seconds(&self) -> Option<f64> {
+    pub(super) fn clock(&self) -> Option<f64> {
         self.taut.last().map(|timed| least(&timed.wall))
     }
 

@@ -38,7 +38,7 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
     let n = if context.quick { N / 10 } else { N };
     let values = draw(n, D)?;
     let items = Points::new(&values, D * (D + 3) / 2)?;
-    let mut table = Table::new(&["answer", "time", "one processor", "verified gap", "passes"]);
+    let mut table = Table::new(&["answer", "one processor", "clock", "verified gap", "passes"]);
     let mut all = Vec::new();
 
     let options = EllipsoidOptions { epsilon: EPSILON, ..EllipsoidOptions::default() };
@@ -64,8 +64,8 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
     for (what, gap, found, passes, times) in all {
         table.push(vec![
             what.to_owned(),
-            found.seconds.map(seconds).unwrap_or_default(),
             found.one_thread.map(seconds).unwrap_or_default(),
+            found.clock.map(seconds).unwrap_or_default(),
             gap.as_ref().map_or_else(|e| format!("REJECTED: {e}"), |gap| format!("{gap:.1e}")),
             passes.to_string(),
         ]);
@@ -85,5 +85,5 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
 }
 
 fn measured<T>(rounds: &rounds::Rounds<T>) -> Measured {
-    Measured { seconds: rounds.seconds(), one_thread: rounds.one_thread(), ..Measured::default() }
+    Measured { one_thread: rounds.one_thread(), clock: rounds.clock(), ..Measured::default() }
 }
