@@ -91,14 +91,6 @@ impl Input {
         Ok(Some(Input { what, values: Values::F64(values), columns: 256, items: Items::Points }))
     }
 
-    /// Number of rows.
-    pub(crate) fn rows(&self) -> usize {
-        match &self.values {
-            Values::F32(values) => values.len() / self.columns,
-            Values::F64(values) => values.len() / self.columns,
-        }
-    }
-
     /// All rows as bytes of memory.
     pub(crate) fn bytes(&self) -> &[u8] {
         match &self.values {
@@ -115,17 +107,22 @@ impl Input {
         })
     }
 
-    /// Writes the rows as peers read them: two little-endian 64-bit counts, then doubles.
+    /// Writes the rows as peers read them.
     pub(crate) fn write(&self, path: &Path) -> Result<()> {
         let Values::F64(values) = &self.values else {
             bail!("{}: peers are given double precision only", self.what);
         };
-        let mut file = BufWriter::new(std::fs::File::create(path)?);
-        file.write_all(&(self.rows() as u64).to_le_bytes())?;
-        file.write_all(&(self.columns as u64).to_le_bytes())?;
-        file.write_all(bytemuck::cast_slice(values))?;
-        Ok(file.flush()?)
+        write_rows(path, values, self.columns)
     }
+}
+
+/// Writes rows of so many `columns` as peers read them: two little-endian 64-bit counts, then doubles.
+pub(crate) fn write_rows(path: &Path, values: &[f64], columns: usize) -> Result<()> {
+    let mut file = BufWriter::new(std::fs::File::create(path)?);
+    file.write_all(&((values.len() / columns) as u64).to_le_bytes())?;
+    file.write_all(&(columns as u64).to_le_bytes())?;
+    file.write_all(bytemuck::cast_slice(values))?;
+    Ok(file.flush()?)
 }
 
 /// The radii of a case of balls.

@@ -32,6 +32,7 @@ pub(crate) fn describe() -> Value {
         "cyminiball": "2.1.2",
         "miniball (PyPI)": "1.2.0",
         "miniball (crate)": "0.5.0",
+        "scikit-learn": "1.8.0",
     })
 }
 

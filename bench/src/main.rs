@@ -1,12 +1,13 @@
 //! taut beside its peers: the same inputs, one run, every answer checked.
 //!
-//! `ball` runs the named cases of the minimum enclosing ball, `delaunay` those of Delaunay triangulations;
-//! `thesis-ball` reruns figures 5 to 15 of the thesis.
+//! `ball` runs the named cases of the minimum enclosing ball, `delaunay` those of Delaunay triangulations, `ellipsoid`
+//! those of ellipsoids; `thesis-ball` reruns figures 5 to 15 of the thesis.
 //! The peers are installed by `bench/setup`; one that is missing is named, never skipped in silence.
 #![forbid(unsafe_code)]
 
 mod ball;
 mod delaunay;
+mod ellipsoid;
 mod input;
 mod judge;
 mod machine;
@@ -36,6 +37,8 @@ enum Area {
     Ball(ball::Arguments),
     /// Delaunay triangulations: processor time, memory and the number of simplices, program by program.
     Delaunay(delaunay::Arguments),
+    /// Ellipsoids of points and of ellipsoids, and robust ones: times, ratios, and a proof of every answer.
+    Ellipsoid(ellipsoid::Arguments),
     /// Figures 5 to 15 of the thesis, rerun as CSV and SVG.
     ThesisBall(thesis::Arguments),
     /// Solves one raw file and prints seconds per pass and the peak memory of this process.
@@ -44,6 +47,9 @@ enum Area {
     /// Triangulates one raw file and prints what the build cost.
     #[command(hide = true)]
     OneDelaunay(delaunay::one::OneArguments),
+    /// Encloses one raw file in an ellipsoid and prints passes and the peak memory of this process.
+    #[command(hide = true)]
+    SolveEllipsoid(ellipsoid::file::SolveArguments),
     /// Serves the crate miniball as a peer.
     #[command(hide = true)]
     PeerCrate {
@@ -58,8 +64,10 @@ fn main() -> anyhow::Result<()> {
     match Arguments::parse().area {
         Area::Ball(arguments) => ball::run(&arguments),
         Area::Delaunay(arguments) => delaunay::run(&arguments),
+        Area::Ellipsoid(arguments) => ellipsoid::run(&arguments),
         Area::ThesisBall(arguments) => thesis::run(&arguments),
         Area::SolveFile(arguments) => ball::file::solve(&arguments),
+        Area::SolveEllipsoid(arguments) => ellipsoid::file::solve(&arguments),
         Area::OneDelaunay(arguments) => delaunay::one::run(&arguments),
         Area::PeerCrate { input, center } => peer::serve_crate(&input, &center),
     }

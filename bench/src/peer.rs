@@ -25,8 +25,10 @@ pub(crate) struct Answer {
     pub(crate) seconds: f64,
     /// The radius it claims.
     pub(crate) radius: f64,
-    /// The centre it claims.
+    /// The centre it claims, or what its answer is made of instead.
     pub(crate) center: Vec<f64>,
+    /// Points it says determine the answer; 0 where it does not tell.
+    pub(crate) support: u64,
 }
 
 /// A peer that has its input in memory.
@@ -66,7 +68,7 @@ pub(crate) fn folder() -> PathBuf {
 /// How a peer is called; `None` when it is not installed.
 ///
 /// Names: a program of `peers/build` with its build (`fgk-native`, `cgal-spheres-3-o2`), or `cyminiball`,
-/// `miniball-pypi`, `miniball-crate`.
+/// `miniball-pypi`, `miniball-crate`, `sklearn-mcd`.
 fn command(name: &str) -> Result<Option<Command>> {
     let python = |package: &str| {
         let interpreter = folder().join(".venv/bin/python");
@@ -77,13 +79,24 @@ fn command(name: &str) -> Result<Option<Command>> {
             .is_ok_and(|status| status.success());
         installed.then(|| {
             let mut command = Command::new(interpreter);
+            // Libraries below Python start threads of their own.
+            command.env("OMP_NUM_THREADS", "1").env("OPENBLAS_NUM_THREADS", "1");
+            command
+        })
+    };
+    let pypi = |package: &str| {
+        python(package).map(|mut command| {
             command.arg(folder().join("peers/pypi.py")).arg(package);
             command
         })
     };
     Ok(match name {
-        "cyminiball" => python("cyminiball"),
-        "miniball-pypi" => python("miniball"),
+        "cyminiball" => pypi("cyminiball"),
+        "miniball-pypi" => pypi("miniball"),
+        "sklearn-mcd" => python("sklearn").map(|mut command| {
+            command.arg(folder().join("peers/mcd.py"));
+            command
+        }),
         "miniball-crate" => {
             let mut command = Command::new(std::env::current_exe()?);
             command.arg("peer-crate");
@@ -130,6 +143,8 @@ impl Peer {
         struct Line {
             seconds: f64,
             radius: Option<f64>,
+            #[serde(default)]
+            support: u64,
         }
         if self.stdin.write_all(b"run\n").and_then(|()| self.stdin.flush()).is_err() {
             return Ok(Err(Silence::Ended));
@@ -143,7 +158,8 @@ impl Peer {
         let line: Line = serde_json::from_str(&text).with_context(|| text.clone())?;
         let bytes = std::fs::read(&self.center)?;
         let center = doubles(&bytes);
-        Ok(Ok(Answer { seconds: line.seconds, radius: line.radius.unwrap_or(f64::NAN), center }))
+        let radius = line.radius.unwrap_or(f64::NAN);
+        Ok(Ok(Answer { seconds: line.seconds, radius, center, support: line.support }))
     }
 
     fn line(&mut self, limit: Duration) -> Result<String, Silence> {

@@ -98,7 +98,7 @@ pub(crate) fn solve(arguments: &SolveArguments) -> Result<()> {
 }
 
 /// The high-water mark of the resident memory of this process, in bytes.
-fn peak_memory() -> Option<u64> {
+pub(crate) fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     Some(line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()? << 10)
@@ -205,7 +205,7 @@ fn cat(path: &Path) -> Result<f64> {
 }
 
 /// Writes the points, block by block, unless a file of that size is there.
-fn make(path: &Path, n: u64, dim: usize) -> Result<()> {
+pub(crate) fn make(path: &Path, n: u64, dim: usize) -> Result<()> {
     let bytes = n * dim as u64 * 4;
     if path.metadata().is_ok_and(|found| found.len() == bytes) {
         return Ok(());

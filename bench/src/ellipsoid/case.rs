@@ -1,0 +1,175 @@
+//! The list of cases: which inputs, and what has to be reached.
+
+use super::goals::Goal;
+use super::laws::Law;
+
+/// A case by name.
+pub(super) struct Case {
+    /// Its name on the command line.
+    pub(super) name: &'static str,
+    /// What it shows.
+    pub(super) about: &'static str,
+    /// What is done.
+    pub(super) kind: Kind,
+    /// What has to be reached by all of its inputs.
+    pub(super) must: &'static [Goal],
+    /// What is hoped for.
+    pub(super) aim: &'static [Goal],
+}
+
+/// What is done in a case.
+pub(super) enum Kind {
+    /// Smallest ellipsoids of generated points.
+    Points(&'static [Input]),
+    /// A million points of the plane after each law, beside CGAL.
+    Plane(&'static [Law]),
+    /// Small sets of real data, of which the optima are known.
+    Real,
+    /// Smallest ellipsoid and smallest ball of ellipsoids.
+    Shapes,
+    /// MCD of points of which some are outliers, beside scikit-learn.
+    Contaminated,
+    /// The outliers of classical sets.
+    Flags,
+    /// A file of 1.2 GB.
+    File,
+}
+
+/// Points drawn after one law, once for each seed.
+pub(super) struct Input {
+    /// From what they are drawn.
+    pub(super) law: Law,
+    /// How many.
+    pub(super) n: usize,
+    /// Their dimension.
+    pub(super) d: usize,
+    /// How many seeds.
+    pub(super) seeds: u64,
+    /// What has to be reached, beside the goals of the case, by the slowest of the seeds.
+    pub(super) must: &'static [Goal],
+    /// What is hoped for.
+    pub(super) aim: &'static [Goal],
+}
+
+const fn input(law: Law, n: usize, d: usize) -> Input {
+    Input { law, n, d, seeds: 1, must: &[], aim: &[] }
+}
+
+impl Input {
+    const fn seeds(self, seeds: u64) -> Self {
+        Input { seeds, ..self }
+    }
+
+    const fn goals(self, must: &'static [Goal], aim: &'static [Goal]) -> Self {
+        Input { must, aim, ..self }
+    }
+}
+
+const SHELLS: [Law; 3] = [Law::Shell(1e-2), Law::Shell(1e-4), Law::Shell(1e-8)];
+const SHELL_5_10: &[Goal] = &[Goal::Seconds(0.09)];
+const SHELL_5_10_AIM: &[Goal] = &[Goal::Seconds(0.03)];
+const SHELL_6_10: &[Goal] = &[Goal::Seconds(0.5)];
+const SHELL_4_30: &[Goal] = &[Goal::Seconds(1.5)];
+const SHELL_4_30_AIM: &[Goal] = &[Goal::Seconds(0.4)];
+
+/// All cases, in the order in which they run.
+pub(super) const CASES: &[Case] = &[
+    Case {
+        name: "real",
+        about: "Thirty sets of real data at ε = 1e-12, beside the brackets in which their optima lie.",
+        kind: Kind::Real,
+        must: &[Goal::Gap(1e-12), Goal::Bracket(1e-11), Goal::Seconds(1.5e-3)],
+        aim: &[Goal::Bracket(1e-12), Goal::Seconds(0.6e-3)],
+    },
+    Case {
+        name: "normal",
+        about: "Normal points at ε = 1e-12.",
+        kind: Kind::Points(&[
+            input(Law::Normal, 100_000, 10).goals(&[Goal::Seconds(0.01)], &[Goal::Seconds(0.003)]),
+            input(Law::Normal, 1_000_000, 10)
+                .goals(&[Goal::Seconds(0.05)], &[Goal::Seconds(0.015)]),
+            input(Law::Normal, 100_000, 30).goals(&[Goal::Seconds(0.09)], &[Goal::Seconds(0.025)]),
+            input(Law::Normal, 100_000, 50).goals(&[Goal::Seconds(0.5)], &[Goal::Seconds(0.12)]),
+            input(Law::Normal, 10_000, 100).goals(&[Goal::Seconds(1.5)], &[Goal::Seconds(0.3)]),
+        ]),
+        must: &[Goal::Gap(1e-12)],
+        aim: &[],
+    },
+    Case {
+        name: "shells",
+        about: "Points near an ellipsoid with axes from 1 to 1000, at ε = 1e-12, five seeds each.",
+        kind: Kind::Points(&[
+            input(SHELLS[0], 100_000, 10).seeds(5).goals(SHELL_5_10, SHELL_5_10_AIM),
+            input(SHELLS[1], 100_000, 10).seeds(5).goals(SHELL_5_10, SHELL_5_10_AIM),
+            input(SHELLS[2], 100_000, 10).seeds(5).goals(SHELL_5_10, SHELL_5_10_AIM),
+            input(SHELLS[0], 1_000_000, 10).seeds(5).goals(SHELL_6_10, &[]),
+            input(SHELLS[1], 1_000_000, 10).seeds(5).goals(SHELL_6_10, &[]),
+            input(SHELLS[2], 1_000_000, 10).seeds(5).goals(SHELL_6_10, &[]),
+            input(SHELLS[0], 10_000, 30).seeds(5).goals(SHELL_4_30, SHELL_4_30_AIM),
+            input(SHELLS[1], 10_000, 30).seeds(5).goals(SHELL_4_30, SHELL_4_30_AIM),
+            input(SHELLS[2], 10_000, 30).seeds(5).goals(SHELL_4_30, SHELL_4_30_AIM),
+        ]),
+        must: &[Goal::Gap(1e-12)],
+        aim: &[],
+    },
+    Case {
+        name: "tails",
+        about: "Cauchy points, and shells of space, at ε = 1e-12, five seeds each.",
+        kind: Kind::Points(&[
+            input(Law::Cauchy, 100_000, 10).seeds(5).goals(&[Goal::Seconds(0.01)], &[]),
+            input(SHELLS[0], 1_000_000, 3).seeds(5).goals(&[Goal::Seconds(0.06)], &[]),
+            input(SHELLS[1], 1_000_000, 3).seeds(5).goals(&[Goal::Seconds(0.06)], &[]),
+            input(SHELLS[2], 1_000_000, 3).seeds(5).goals(&[Goal::Seconds(0.06)], &[]),
+        ]),
+        must: &[Goal::Gap(1e-12)],
+        aim: &[],
+    },
+    Case {
+        name: "plane",
+        about: "A million points of the plane at ε = 1e-12, beside CGAL's Min_ellipse_2.",
+        kind: Kind::Plane(&[Law::Normal, Law::Uniform, Law::Shell(1e-2), Law::Mix]),
+        must: &[Goal::Gap(1e-12), Goal::Faster(8.0)],
+        aim: &[Goal::Faster(20.0)],
+    },
+    Case {
+        name: "ellipsoids",
+        about: "A thousand ellipsoids in ten dimensions at ε = 1e-6: the smallest ellipsoid, the smallest ball.",
+        kind: Kind::Shapes,
+        must: &[Goal::Gap(1e-6), Goal::Seconds(0.5)],
+        aim: &[Goal::Seconds(0.1)],
+    },
+    Case {
+        name: "mcd",
+        about: "10⁵ points in ten dimensions, 30 % of them in one cloud far off: MCD beside scikit-learn, one thread.",
+        kind: Kind::Contaminated,
+        must: &[Goal::Objective, Goal::Faster(5.0)],
+        aim: &[],
+    },
+    Case {
+        name: "flags",
+        about: "The outliers of hbk, stackloss and starsCYG, beside those published with robustbase.",
+        kind: Kind::Flags,
+        must: &[Goal::Flags],
+        aim: &[],
+    },
+    Case {
+        name: "file",
+        about: "A file of 1.2 GB, 10⁸ normal points of space in single precision.",
+        kind: Kind::File,
+        must: &[Goal::Gap(1e-9), Goal::Passes(3), Goal::Memory(256 << 20)],
+        aim: &[],
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_unique_and_every_case_has_a_goal() {
+        for (at, case) in CASES.iter().enumerate() {
+            assert!(CASES[..at].iter().all(|other| other.name != case.name), "{}", case.name);
+            assert!(!case.must.is_empty(), "{}", case.name);
+        }
+    }
+}

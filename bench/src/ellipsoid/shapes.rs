@@ -1,0 +1,89 @@
+//! Ellipsoids as items: the smallest ellipsoid around them, the smallest ball.
+
+use anyhow::Result;
+use serde_json::json;
+use taut_enclose::{BallOptions, EllipsoidOptions, ball_of_ellipsoids, ellipsoid_of_ellipsoids};
+use taut_points::{Distribution, Points, generate};
+
+use super::case::Case;
+use super::goals::{self, Measured};
+use super::{Context, rounds};
+use crate::input::SEED;
+use crate::stats::seconds;
+use crate::table::Table;
+
+const N: usize = 1000;
+const D: usize = 10;
+const EPSILON: f64 = 1e-6;
+
+/// n ellipsoids with normal centres and shapes S = AAᵀ, A normal: each a centre and the lower triangle of S.
+fn draw(n: usize, d: usize) -> Result<Vec<f64>> {
+    let centers: Vec<f64> = generate(Distribution::Normal, n, d, SEED)?;
+    let shapes: Vec<f64> = generate(Distribution::Normal, n, d * d, SEED + 1)?;
+    let mut values = Vec::with_capacity(n * d * (d + 3) / 2);
+    for (center, shape) in centers.chunks_exact(d).zip(shapes.chunks_exact(d * d)) {
+        values.extend(center);
+        for j in 0..d {
+            for k in 0..=j {
+                let (a, b) = (&shape[j * d..(j + 1) * d], &shape[k * d..(k + 1) * d]);
+                values.push(a.iter().zip(b).map(|(a, b)| a * b).sum());
+            }
+        }
+    }
+    Ok(values)
+}
+
+/// Runs both problems.
+pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
+    let n = if context.quick { N / 10 } else { N };
+    let values = draw(n, D)?;
+    let items = Points::new(&values, D * (D + 3) / 2)?;
+    let mut table = Table::new(&["answer", "one processor", "clock", "verified gap", "passes"]);
+    let mut all = Vec::new();
+
+    let options = EllipsoidOptions { epsilon: EPSILON, ..EllipsoidOptions::default() };
+    let rounds = rounds::run(context, &context.threads, None, || {
+        Ok(ellipsoid_of_ellipsoids(&items, &options)?)
+    })?;
+    let gap = rounds.found.check(&items).map(|verdict| verdict.gap).map_err(|e| e.to_string());
+    all.push((
+        "smallest ellipsoid",
+        gap,
+        measured(&rounds),
+        rounds.found.trace.passes,
+        rounds.json(),
+    ));
+
+    let options = BallOptions { epsilon: EPSILON, ..BallOptions::default() };
+    let rounds =
+        rounds::run(context, &context.threads, None, || Ok(ball_of_ellipsoids(&items, &options)?))?;
+    let gap = rounds.found.check(&items).map(|verdict| verdict.gap).map_err(|e| e.to_string());
+    all.push(("smallest ball", gap, measured(&rounds), rounds.found.trace.passes, rounds.json()));
+
+    let mut answers = Vec::new();
+    for (what, gap, found, passes, times) in all {
+        table.push(vec![
+            what.to_owned(),
+            found.one_thread.map(seconds).unwrap_or_default(),
+            found.clock.map(seconds).unwrap_or_default(),
+            gap.as_ref().map_or_else(|e| format!("REJECTED: {e}"), |gap| format!("{gap:.1e}")),
+            passes.to_string(),
+        ]);
+        let found = Measured { gap: gap.as_ref().ok().copied(), rejected: gap.err(), ..found };
+        answers.push((what, found, times));
+    }
+    println!("{n} ellipsoids, d = {D}, ε = {EPSILON:e}\n\n{table}");
+    let mut lines = Vec::new();
+    for (what, found, times) in &answers {
+        println!("{what}");
+        let goals = goals::print(&[case.must], &[case.aim], found);
+        println!();
+        lines.push(json!({ "answer": what, "gap": found.gap, "times": times, "goals": goals }));
+    }
+    context.report.add(json!({ "name": case.name, "answers": lines }));
+    Ok(())
+}
+
+fn measured<T>(rounds: &rounds::Rounds<T>) -> Measured {
+    Measured { one_thread: rounds.one_thread(), clock: rounds.clock(), ..Measured::default() }
+}
