@@ -41,12 +41,10 @@ fn compare<const V: usize>(a: &Simplex<V>, b: &Simplex<V>) -> Ordering {
     ascending(a).cmp(&ascending(b))
 }
 
-/// The finite simplices and the ghosts, each in canonical order.
+/// The finite simplices in canonical order.
 pub(crate) struct CanonicalOrder {
     /// Slots of the finite simplices.
     pub(crate) finite: Vec<u32>,
-    /// Slots of the ghosts.
-    pub(crate) ghosts: Vec<u32>,
     /// For each slot its place in `finite`; `u32::MAX` for the others.
     pub(crate) places: Vec<u32>,
 }
@@ -56,13 +54,8 @@ impl CanonicalOrder {
     pub(crate) fn of<const V: usize>(simplices: &Slots<V>, sites: usize) -> Self {
         let smallest = |s: &Simplex<V>| s.vertices.iter().copied().min().unwrap_or(GHOST) as usize;
         let mut starts = vec![0u32; sites + 1];
-        let mut ghosts = Vec::new();
-        for (t, s) in simplices.iter().enumerate().filter(|(_, s)| s.is_live()) {
-            if s.is_ghost() {
-                ghosts.push(t as u32);
-            } else {
-                starts[smallest(s) + 1] += 1;
-            }
+        for s in simplices.iter().filter(|s| s.is_live() && !s.is_ghost()) {
+            starts[smallest(s) + 1] += 1;
         }
         for i in 0..sites {
             starts[i + 1] += starts[i];
@@ -92,12 +85,11 @@ impl CanonicalOrder {
                 run[begin as usize..end as usize].sort_unstable_by(by_vertices);
             }
         });
-        ghosts.par_sort_unstable_by(by_vertices);
         let mut places = vec![u32::MAX; simplices.len()];
         for (place, &slot) in finite.iter().enumerate() {
             places[slot as usize] = place as u32;
         }
-        Self { finite, ghosts, places }
+        Self { finite, places }
     }
 }
 

@@ -225,7 +225,11 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
                 all
             },
         );
-        for &ghost in &order.ghosts {
+        let open = tables.neighbors.iter().enumerate().filter(|&(_, &n)| n == NO_NEIGHBOR);
+        for (at, _) in open {
+            let simplex = &simplices[order.finite[at / W] as usize];
+            let behind = usize::from(arrangement(&simplex.vertices)[at % W]);
+            let ghost = decode(simplex.neighbors[behind]).0;
             let mut facet = hull_facet::<K, W>(simplices[ghost as usize].vertices);
             let first = (0..K).min_by_key(|&i| facet[i]).unwrap_or(0);
             // Turning keeps the orientation of three, and an edge stays as it is.

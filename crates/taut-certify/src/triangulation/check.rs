@@ -40,10 +40,11 @@
 //! space the same proof runs on two coordinates in which the plane is not upright, with |p|² of all three. On a line the
 //! edges must be a chain in lexicographic order.
 //!
-//! *Cost.* O(n + simplices), beside a sort of the facets of the hull in space. Simplices that follow space name a row
-//! while it is at hand, so each row is fetched about once. Beside the input and what is checked, a bit for each row is
-//! kept; the step of the hull takes 4 bytes for each row and 40 for each of its edges in the plane, 8 and about 130 for
-//! each of its triangles in space.
+//! *Cost.* O(n + simplices), beside a sort of the facets of the hull in space, and of those listed if they come in another
+//! order than the simplices. Simplices that follow space name a row while it is at hand, so each row is fetched about
+//! once. Beside the input and what is checked, a bit for each row is kept; the step of the hull takes 4 bytes for each row
+//! and 16 for each of its edges in the plane, 8 and 44 for each of its triangles in space. Few bytes, as a first touch of
+//! memory costs more here than the arithmetic on what is put there.
 //! *Reference.* Delaunay's lemma for regular triangulations: Edelsbrunner, Geometry and Topology for Mesh Generation,
 //! 2001, section 1.3. Coverings by facet crossings: Mehlhorn et al., Comput. Geom. 12, 1999.
 
@@ -51,6 +52,7 @@ mod facets;
 mod geometry;
 mod input;
 mod line;
+mod listed;
 mod near_ties;
 mod pairing;
 mod plain;

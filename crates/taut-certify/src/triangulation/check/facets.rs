@@ -27,6 +27,9 @@ const BLOCK: usize = 1 << 13;
 /// vertices beyond them have not been met yet.
 const BATCH: usize = 1024;
 
+/// Facets that are settled together: what is gathered for them stays in the first cache.
+const SETTLED: usize = 64;
+
 /// Facet i of a simplex as seen from outside: its vertices in positive order.
 pub(super) trait Facets<const F: usize> {
     /// The vertices of facet `i`, in positive order.
@@ -38,6 +41,9 @@ pub(super) trait Facets<const F: usize> {
 
     /// Whether two facets are one, seen from its two sides: whether an odd permutation takes one to the other.
     fn are_opposite(f: &[u32; F], g: &[u32; F]) -> bool;
+
+    /// The same facet, from the same side, from a vertex on that only the facet tells.
+    fn turned(facet: [u32; F]) -> [u32; F];
 }
 
 impl Facets<2> for [u32; 3] {
@@ -60,6 +66,11 @@ impl Facets<2> for [u32; 3] {
     #[inline(always)]
     fn are_opposite(&[a, b]: &[u32; 2], g: &[u32; 2]) -> bool {
         *g == [b, a]
+    }
+
+    #[inline(always)]
+    fn turned(edge: [u32; 2]) -> [u32; 2] {
+        edge
     }
 }
 
@@ -87,13 +98,22 @@ impl Facets<3> for [u32; 4] {
         let is = |x, y, z| (g[0] == x) & (g[1] == y) & (g[2] == z);
         is(a, c, b) | is(c, b, a) | is(b, a, c)
     }
+
+    #[inline(always)]
+    fn turned([a, b, c]: [u32; 3]) -> [u32; 3] {
+        match () {
+            () if a < b && a < c => [a, b, c],
+            () if b < c => [b, c, a],
+            () => [c, a, b],
+        }
+    }
 }
 
 /// What the facets of all simplices have to say.
 #[derive(Default)]
-pub(super) struct Paired {
-    /// (simplex, facet) of the facets without a neighbour.
-    pub(super) open: Vec<(u32, u8)>,
+pub(super) struct Paired<const F: usize> {
+    /// The facets without a neighbour, in the order of the simplices.
+    pub(super) open: Vec<[u32; F]>,
     pub(super) fingerprint: Fingerprint,
     pub(super) ties: u64,
     pub(super) refined: u64,
@@ -113,7 +133,9 @@ pub(super) struct Complex<'a, const D: usize, const V: usize> {
 impl<const D: usize, const V: usize> Complex<'_, D, V> {
     /// Every simplex is positively oriented, every facet has another side or is open, and no apex of a neighbour is in
     /// conflict.
-    pub(super) fn check<G: Geometry<D, V>, const F: usize>(&self) -> Result<Paired, MeshViolation>
+    pub(super) fn check<G: Geometry<D, V>, const F: usize>(
+        &self,
+    ) -> Result<Paired<F>, MeshViolation>
     where
         [u32; V]: Facets<F>,
     {
@@ -125,9 +147,10 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
                 self.block::<G, F>(batch, block * BLOCK, simplices)
             })
             .collect();
+        let blocks = blocks.into_iter().collect::<Result<Vec<Paired<F>>, MeshViolation>>()?;
         let mut all = Paired::default();
+        all.open.reserve_exact(blocks.iter().map(|block| block.open.len()).sum());
         for block in blocks {
-            let block = block?;
             all.open.extend(block.open);
             all.fingerprint.merge(block.fingerprint);
             all.ties += block.ties;
@@ -150,7 +173,7 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
         batch: &mut Batch<D, V>,
         first: usize,
         simplices: &[[u32; V]],
-    ) -> Result<Paired, MeshViolation>
+    ) -> Result<Paired<F>, MeshViolation>
     where
         [u32; V]: Facets<F>,
     {
@@ -159,18 +182,20 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
         batch.near_ties.forget();
         let starts = (first..first + simplices.len()).step_by(BATCH);
         for (first, simplices) in starts.zip(simplices.chunks(BATCH)) {
-            let ahead = batch.prepare::<G>(self, first, simplices, &mut paired)?;
+            let ahead = batch.prepare::<G, F>(self, first, simplices, &mut paired)?;
             paired.ahead += ahead as u64;
             paired.behind += (V * simplices.len() - ahead) as u64;
             batch.cross(self, first, ahead);
             let open = batch.test::<G>(self, ahead);
             let Batch { open: listed, near_ties, .. } = &mut *batch;
-            for facet in &listed[..open] {
-                self.settle::<G, F>(first, facet, near_ties, &mut paired)?;
+            for some in listed[..open].chunks(SETTLED) {
+                for facet in some {
+                    self.settle::<G, F>(first, facet, near_ties, &mut paired)?;
+                }
+                near_ties.settle::<G>(&self.signs, |facet, conflict| {
+                    self.conclude(first, facet, conflict, &mut paired)
+                })?;
             }
-            near_ties.settle::<G>(&self.signs, |facet, conflict| {
-                self.conclude(first, facet, conflict, &mut paired)
-            })?;
         }
         Ok(paired)
     }
@@ -190,7 +215,7 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
         first: usize,
         facet: &Facet,
         near_ties: &mut NearTies<D, V>,
-        paired: &mut Paired,
+        paired: &mut Paired<F>,
     ) -> Result<(), MeshViolation>
     where
         [u32; V]: Facets<F>,
@@ -198,7 +223,7 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
         let number = first + facet.ahead.place as usize / 4;
         if facet.ahead.neighbor == NO_NEIGHBOR {
             paired.ahead -= 1;
-            paired.open.push((number as u32, (facet.ahead.place % 4) as u8));
+            paired.open.push(self.simplices[number].facet(facet.ahead.place as usize % 4));
             return Ok(());
         }
         let (mut facet, is_tested) = (*facet, facet.apex != NO_SITE);
@@ -222,12 +247,12 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
         self.conclude(first, &facet, conflict, paired)
     }
 
-    fn conclude(
+    fn conclude<const F: usize>(
         &self,
         first: usize,
         facet: &Facet,
         conflict: Conflict,
-        paired: &mut Paired,
+        paired: &mut Paired<F>,
     ) -> Result<(), MeshViolation> {
         paired.ties += u64::from(conflict.is_tie);
         if !conflict.is_inside {
@@ -274,6 +299,14 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
             }
         };
         Err(MeshViolation::Neighbor { simplex: number, facet, neighbor, problem })
+    }
+
+    /// The simplex and the facet of an open facet, by its place among them.
+    pub(super) fn open_facet(&self, place: usize) -> (usize, usize) {
+        let facets = self.neighbors.as_flattened().iter().enumerate();
+        let mut open = facets.filter(|&(_, &neighbor)| neighbor == NO_NEIGHBOR);
+        let at = open.nth(place).map_or(0, |(at, _)| at);
+        (at / V, at % V)
     }
 
     /// The first facet that names an earlier simplex by which it is not named.
@@ -335,12 +368,12 @@ impl<const D: usize, const V: usize> Batch<D, V> {
 
     /// Round 1: how many facets are listed in `ahead`. Checks the orientation on the way.
     #[inline(always)]
-    fn prepare<G: Geometry<D, V>>(
+    fn prepare<G: Geometry<D, V>, const F: usize>(
         &mut self,
         complex: &Complex<'_, D, V>,
         first: usize,
         simplices: &[[u32; V]],
-        paired: &mut Paired,
+        paired: &mut Paired<F>,
     ) -> Result<usize, MeshViolation> {
         let Complex { sites, signs, neighbors, .. } = complex;
         self.prepared.clear();

@@ -1,7 +1,9 @@
 //! Neighbours found by sorting the facets, for simplices that come without.
 //!
 //! *Idea.* Facets go to buckets by their smallest vertex, with one counting sort, and each bucket, a handful, is sorted
-//! by the other vertices. O(n + simplices·log(largest bucket)).
+//! by the other vertices. The smallest vertex of a simplex is the smallest of all its facets but the one opposite, whose
+//! smallest is the second of the simplex: a simplex is put into two buckets, whatever its dimension.
+//! O(n + simplices·log(largest bucket)); for each simplex 8 bytes, beside the answer, and 8 for each site.
 
 use super::super::{MeshViolation, NO_NEIGHBOR};
 use super::facets::Facets;
@@ -14,21 +16,20 @@ pub(super) fn pair<const V: usize, const F: usize>(
 where
     [u32; V]: Facets<F>,
 {
-    let smallest = |facet: &[u32; F]| facet.iter().fold(u32::MAX, |least, &v| least.min(v));
     let mut ends = vec![0usize; sites + 1];
     for simplex in simplices {
-        for i in 0..V {
-            ends[smallest(&simplex.facet(i)) as usize + 1] += 1;
+        for vertex in two_smallest(simplex) {
+            ends[vertex as usize + 1] += 1;
         }
     }
     for site in 0..sites {
         ends[site + 1] += ends[site];
     }
-    let mut facets = vec![(0u32, 0u8); simplices.len() * V];
+    let mut numbers = vec![0u32; 2 * simplices.len()];
     for (number, simplex) in (0u32..).zip(simplices) {
-        for i in 0..V {
-            let at = &mut ends[smallest(&simplex.facet(i)) as usize];
-            facets[*at] = (number, i as u8);
+        for vertex in two_smallest(simplex) {
+            let at = &mut ends[vertex as usize];
+            numbers[*at] = number;
             *at += 1;
         }
     }
@@ -38,11 +39,16 @@ where
     for site in 0..sites {
         let start = if site == 0 { 0 } else { ends[site - 1] };
         bucket.clear();
-        bucket.extend(facets[start..ends[site]].iter().map(|&(number, i)| {
-            let mut key = simplices[number as usize].facet(usize::from(i));
-            key.sort_unstable();
-            (key, number, i)
-        }));
+        for &number in &numbers[start..ends[site]] {
+            let simplex = &simplices[number as usize];
+            let [smallest, _] = two_smallest(simplex);
+            let is_smallest = smallest as usize == site;
+            for i in (0..V).filter(|&i| (simplex[i] == smallest) != is_smallest) {
+                let mut key = simplex.facet(i);
+                key.sort_unstable();
+                bucket.push((key, number, i as u8));
+            }
+        }
         bucket.sort_unstable();
         for equal in bucket.chunk_by(|f, g| f.0 == g.0) {
             match *equal {
@@ -61,6 +67,17 @@ where
         }
     }
     Ok(neighbors)
+}
+
+/// The two smallest of at least two vertices, no two of them equal.
+#[inline(always)]
+fn two_smallest<const V: usize>(simplex: &[u32; V]) -> [u32; 2] {
+    let [mut first, mut second] = [u32::MAX; 2];
+    for &vertex in simplex {
+        second = second.min(first.max(vertex));
+        first = first.min(vertex);
+    }
+    [first, second]
 }
 
 fn shared(simplex: u32, facet: u8) -> MeshViolation {

@@ -7,7 +7,6 @@
 use std::cmp::Ordering;
 
 use super::super::MeshViolation;
-use super::facets::Facets;
 use super::geometry::{Geometry, Triangles};
 use super::signs::{Signs, lexicographic};
 use super::sites::Sites;
@@ -15,98 +14,111 @@ use super::sites::Sites;
 /// Stands for no edge.
 const NO_EDGE: u32 = u32::MAX;
 
-/// Checks the polygon of the open edges, and that `listed` has just these, if it is given.
+/// Vertices that are fetched together: their rows are in no order that memory likes, but do not wait for each other.
+const AT_ONCE: usize = 1 << 10;
+
+/// Checks the polygon of these edges.
 pub(super) fn check<const D: usize>(
     sites: &Sites<'_, D>,
     signs: &Signs,
-    triangles: &[[u32; 3]],
-    open: &[(u32, u8)],
-    listed: Option<&[u32]>,
+    edges: Vec<[u32; 2]>,
 ) -> Result<(), MeshViolation>
 where
     Triangles: Geometry<D, 3>,
 {
-    let broken = |row: u32| MeshViolation::HullOpen { dimension: 2, row };
-    let edges: Vec<[u32; 2]> =
-        open.iter().map(|&(t, e)| triangles[t as usize].facet(usize::from(e))).collect();
+    let steps = linked(edges, sites.rows())?;
+    let count = steps.len();
+    let (mut ids, mut points) = (Vec::with_capacity(AT_ONCE + 2), Vec::with_capacity(AT_ONCE + 2));
+    let (mut edge, mut walked, mut minima) = (0, 0, 0);
+    // Each vertex is the middle one of three once, so the first two come again.
+    let end = count + 2;
+    while walked < end {
+        let seen = ids.len();
+        for _ in walked..end.min(walked + AT_ONCE) {
+            let is_start = walked == 0 || walked == count;
+            if (edge == 0) != is_start {
+                return Err(broken(elsewhere(&steps)));
+            }
+            let [id, next] = steps[edge];
+            ids.push(id);
+            edge = next as usize;
+            walked += 1;
+        }
+        points.extend(ids[seen..].iter().map(|&id| sites.point(id)));
+        minima += minima_of(signs, &ids, &points)?;
+        ids.drain(..ids.len() - 2);
+        points.drain(..points.len() - 2);
+    }
+    match minima {
+        1 => Ok(()),
+        _ => Err(MeshViolation::HullWinding { row: steps[0][0] }),
+    }
+}
+
+fn broken(row: u32) -> MeshViolation {
+    MeshViolation::HullOpen { dimension: 2, row }
+}
+
+/// For each edge the vertex it leaves and the number of the edge after it. The walk goes by numbers of edges, which come
+/// in an order that follows space as rows need not.
+fn linked(mut edges: Vec<[u32; 2]>, rows: usize) -> Result<Vec<[u32; 2]>, MeshViolation> {
+    if edges.is_empty() {
+        return Err(broken(0));
+    }
     // The edge that leaves each vertex.
-    let mut leaving = vec![NO_EDGE; sites.rows()];
+    let mut leaving = vec![NO_EDGE; rows];
     for (number, &[a, _]) in (0u32..).zip(&edges) {
         if std::mem::replace(&mut leaving[a as usize], number) != NO_EDGE {
             return Err(broken(a));
         }
     }
-    if let Some(listed) = listed {
-        is_listed(&edges, open, listed, &leaving)?;
+    for [_, b] in &mut edges {
+        let next = leaving[*b as usize];
+        if next == NO_EDGE {
+            return Err(broken(*b));
+        }
+        *b = next;
     }
-    // The walk goes by numbers of edges, which come in an order that follows space as rows need not.
-    let next: Vec<u32> = edges.iter().map(|&[_, b]| leaving[b as usize]).collect();
-    if let Some(last) = next.iter().position(|&next| next == NO_EDGE) {
-        return Err(broken(edges[last][1]));
+    Ok(edges)
+}
+
+/// A vertex that is not on a cycle with the first one.
+fn elsewhere(steps: &[[u32; 2]]) -> u32 {
+    let mut is_reached = vec![false; steps.len()];
+    let mut edge = 0;
+    while !std::mem::replace(&mut is_reached[edge], true) {
+        edge = steps[edge][1] as usize;
     }
-    let points: Vec<[f64; D]> = edges.iter().map(|&[a, _]| sites.point(a)).collect();
-    if edges.is_empty() {
-        return Err(broken(0));
-    }
-    let (mut reached, mut edge, mut minima) = (vec![false; edges.len()], 0, 0);
-    let mut corner = [points[0]; 3];
-    corner[1] = points[next[0] as usize];
-    loop {
-        let second = next[edge] as usize;
-        let third = next[second] as usize;
-        corner[2] = points[third];
-        let (before, after) =
-            (lexicographic(&corner[0], &corner[1]), lexicographic(&corner[1], &corner[2]));
-        let is_dent = match signs.orientation::<Triangles, D, 3>(&corner) {
+    // All are reached where the walk runs into itself beside the first one.
+    let apart = is_reached.iter().position(|&is_reached| !is_reached);
+    steps[apart.unwrap_or(edge)][0]
+}
+
+/// The local minima among the vertices but the first and the last, if none of them is a dent.
+fn minima_of<const D: usize>(
+    signs: &Signs,
+    ids: &[u32],
+    points: &[[f64; D]],
+) -> Result<usize, MeshViolation>
+where
+    Triangles: Geometry<D, 3>,
+{
+    let (mut minima, mut before) = (0, lexicographic(&points[0], &points[1]));
+    for (corner, ids) in points.array_windows::<3>().zip(ids.windows(3)) {
+        let after = lexicographic(&corner[1], &corner[2]);
+        let is_dent = match signs.orientation::<Triangles, D, 3>(corner) {
             Ordering::Greater => false,
             // Straight on, not back.
             Ordering::Equal => before != after,
             Ordering::Less => true,
         };
         if is_dent {
-            let [ridge, row] = [second, third].map(|edge| edges[edge][0]);
-            return Err(MeshViolation::HullDent { ridge: vec![ridge], row });
+            return Err(MeshViolation::HullDent { ridge: vec![ids[1]], row: ids[2] });
         }
         minima += usize::from(before == Ordering::Greater && after == Ordering::Less);
-        reached[edge] = true;
-        edge = second;
-        corner = [corner[1], corner[2], corner[2]];
-        if reached[edge] {
-            break;
-        }
+        before = after;
     }
-    if edge != 0 {
-        return Err(broken(edges[edge][0]));
-    }
-    if let Some(elsewhere) = reached.iter().position(|&reached| !reached) {
-        return Err(broken(edges[elsewhere][0]));
-    }
-    match minima {
-        1 => Ok(()),
-        _ => Err(MeshViolation::HullWinding { row: edges[0][0] }),
-    }
-}
-
-fn is_listed(
-    edges: &[[u32; 2]],
-    open: &[(u32, u8)],
-    listed: &[u32],
-    leaving: &[u32],
-) -> Result<(), MeshViolation> {
-    let mut seen = vec![false; edges.len()];
-    for (position, &edge) in listed.as_chunks().0.iter().enumerate() {
-        let found = leaving.get(edge[0] as usize).map_or(NO_EDGE, |&number| number) as usize;
-        if edges.get(found) != Some(&edge) || std::mem::replace(&mut seen[found], true) {
-            return Err(MeshViolation::HullFacet { position });
-        }
-    }
-    match seen.iter().position(|&seen| !seen) {
-        Some(place) => {
-            let (simplex, facet) = (open[place].0 as usize, usize::from(open[place].1));
-            Err(MeshViolation::Open { simplex, facet })
-        }
-        None => Ok(()),
-    }
+    Ok(minima)
 }
 
 #[cfg(test)]
@@ -121,10 +133,8 @@ mod tests {
         let points = Points::new(&values, 2).unwrap();
         let mut scratch = Scratch::new();
         let input = Input::<2>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
-        let simplices: Vec<u32> = edges.iter().flat_map(|&[a, b]| [0, a, b]).collect();
-        let sites = Sites::of(&input, &simplices, 3).unwrap();
-        let open: Vec<(u32, u8)> = (0..edges.len() as u32).map(|triangle| (triangle, 0)).collect();
-        check(&sites, &input.signs(), simplices.as_chunks().0, &open, None)
+        let sites = Sites::of(&input, edges.as_flattened(), 2).unwrap();
+        check(&sites, &input.signs(), edges.to_vec())
     }
 
     #[test]

@@ -10,7 +10,7 @@ use super::geometry::{Geometry, Tetrahedra, Triangles};
 use super::input::Input;
 use super::signs::Signs;
 use super::sites::Sites;
-use super::{line, pairing, polygon, polyhedron};
+use super::{line, listed, pairing, polygon, polyhedron};
 
 /// What is to be proved.
 pub(super) struct Claim<'a> {
@@ -105,8 +105,12 @@ fn triangles<const D: usize>(
     let complex = Complex { sites, signs, simplices: &simplices, neighbors: &neighbors };
     let paired = complex.check::<Triangles, 2>()?;
     claim.covers(sites)?;
-    polygon::check(sites, &signs, &simplices, &paired.open, claim.hull())?;
-    let counts = counted(sites, simplices.len(), paired.open.len());
+    let hull = paired.open.len();
+    if let Some(list) = claim.hull() {
+        listed::check::<3, 2>(&paired.open, list, sites.rows(), |place| complex.open_facet(place))?;
+    }
+    polygon::check(sites, &signs, paired.open)?;
+    let counts = counted(sites, simplices.len(), hull);
     debug_assert_eq!(counts.simplices + 2 + counts.hull, 2 * counts.sites);
     let Paired { fingerprint, ties, refined, .. } = paired;
     Ok(TriangulationVerdict { counts, fingerprint, ties, refined })
@@ -123,8 +127,12 @@ fn tetrahedra(
     let complex = Complex { sites, signs, simplices: &simplices, neighbors: &neighbors };
     let paired = complex.check::<Tetrahedra, 3>()?;
     claim.covers(sites)?;
-    polyhedron::check(sites, &signs, &simplices, &paired.open, claim.hull())?;
-    let counts = counted(sites, simplices.len(), paired.open.len());
+    let hull = paired.open.len();
+    if let Some(list) = claim.hull() {
+        listed::check::<4, 3>(&paired.open, list, sites.rows(), |place| complex.open_facet(place))?;
+    }
+    polyhedron::check(sites, &signs, &simplices[0], paired.open)?;
+    let counts = counted(sites, simplices.len(), hull);
     let Paired { fingerprint, ties, refined, .. } = paired;
     Ok(TriangulationVerdict { counts, fingerprint, ties, refined })
 }
