@@ -3,7 +3,9 @@
 use clap::{Parser, Subcommand};
 
 use crate::exit::Outcome;
-use crate::{ball, completions, delaunay, draw, ellipsoid, formats, generate, man, tour, verify};
+use crate::{
+    ball, completions, delaunay, draw, ellipsoid, formats, generate, inscribe, man, tour, verify,
+};
 
 /// Tight shapes around, through and inside point sets, with proof.
 #[derive(Debug, Parser)]
@@ -23,6 +25,7 @@ enum Command {
     Ball(ball::Args),
     Ellipsoid(ellipsoid::Args),
     Delaunay(delaunay::Args),
+    Inscribe(inscribe::Args),
     Verify(verify::Args),
     Draw(draw::Args),
     Generate(generate::Args),
@@ -38,6 +41,7 @@ impl Cli {
             Command::Ball(args) => args.run(),
             Command::Ellipsoid(args) => args.run(),
             Command::Delaunay(args) => args.run(),
+            Command::Inscribe(args) => args.run(),
             Command::Verify(args) => args.run(),
             Command::Draw(args) => args.run(),
             Command::Generate(args) => args.run(),

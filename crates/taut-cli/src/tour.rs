@@ -16,13 +16,11 @@ use taut::{
 use taut_draw::{Fact, Page, Section, to_html};
 
 use crate::effort::Effort;
-use crate::ellipsoid_report::EllipsoidReport;
 use crate::exit::Outcome;
 use crate::numbers::{count, exact, gap, seconds, short};
 use crate::picture::{Drawing, Look, telling};
 use crate::reading::Opened;
 use crate::report::Report;
-use crate::triangulation::TriangulationReport;
 use crate::verify::judge;
 use crate::watch::Watch;
 use crate::writing::{self, Outputs};
@@ -176,7 +174,7 @@ fn ellipsoid(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Resul
         Some(proved) => format!("log-volume {volume:<12} gap {}", gap(proved.gap)),
         None => format!("log-volume {volume}"),
     };
-    let report = EllipsoidReport { found: &found, points, verdict: judged.verdict };
+    let report = Report { found: &found, points, verdict: judged.verdict };
     Ok(judged.stop(station, said, report.drawing(&Look::default())?))
 }
 
@@ -211,7 +209,7 @@ fn triangulation(station: &Station, points: &Opened, watch: &Watch) -> anyhow::R
     }
     let counts = found.certificate.counts;
     let said = format!("{} simplices, {} hull facets", count(counts.simplices), count(counts.hull));
-    let report = TriangulationReport { found: &found, points, verdict: judged.verdict };
+    let report = Report { found: &found, points, verdict: judged.verdict };
     Ok(judged.stop(station, said, report.drawing(&Look::default())?))
 }
 

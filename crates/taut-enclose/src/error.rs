@@ -70,8 +70,10 @@ pub enum Error {
         rows: Vec<u64>,
         /// λ for these, with normals of length 1: Σλᵢaᵢ = 0 and Σλᵢbᵢ ≤ 0, but for rounding.
         multipliers: Vec<f64>,
+        /// Whether no point at all is in these half-spaces; else there may be some, but no ball of them.
+        is_empty: bool,
     },
-    /// The points reach so far that the radius exceeds the largest `f64`.
+    /// A number of the answer, or a square on the way to it, exceeds the largest `f64` or vanishes.
     #[error("the points reach too far for numbers of double precision: scale them down")]
     Overflow,
     /// An option is outside its range.
@@ -91,6 +93,14 @@ pub enum Error {
         status: String,
         /// Points it was given.
         points: usize,
+    },
+    /// One of many point sets cannot be solved.
+    #[error("point set {set}: {error}")]
+    Set {
+        /// Which, from 0.
+        set: u64,
+        /// Why.
+        error: Box<Error>,
     },
     /// The points could not be read.
     #[error(transparent)]

@@ -113,7 +113,8 @@ fn polytopes_without_an_ellipsoid_are_named_with_the_reason() {
         let mut rows = sides_of_box(&[0.0, 0.0], &[5.0, 5.0]);
         rows.extend([1.0, 0.0, 0.0, -1.0, 0.0, -gap]);
         match solve(&rows, 3) {
-            Error::NoInterior { rows, multipliers } => {
+            Error::NoInterior { rows, multipliers, is_empty } => {
+                assert_eq!(is_empty, gap > 0.0);
                 assert!(rows.contains(&4) && rows.contains(&5), "{rows:?}");
                 assert!(multipliers.iter().all(|&l| l > 0.0));
             }

@@ -2,10 +2,11 @@
 
 use crate::desk::Desk;
 
-const COMMANDS: [&str; 10] = [
+const COMMANDS: [&str; 11] = [
     "ball",
     "ellipsoid",
     "delaunay",
+    "inscribe",
     "verify",
     "draw",
     "generate",

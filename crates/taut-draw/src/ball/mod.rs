@@ -14,7 +14,7 @@ use taut_certify::{Ball, BallCertificate, Items, Solution};
 use taut_points::{PointSource, gather};
 
 use crate::number::{count, counted, short};
-use crate::passes::{Gap, Words, passes};
+use crate::passes::{Words, passes};
 use crate::survey::{Question, Scaled, Survey, noun, survey};
 use crate::{DrawOptions, Error, Figure};
 
@@ -50,8 +50,7 @@ pub fn ball_figures(
             figures
         }
     };
-    let words = Words { quantity: "radius", answer: "the smallest radius", gap: Gap::Relative };
-    let passes = passes(&solution.trace.history, &words, options);
+    let passes = passes(&solution.trace.history, &Words::ENCLOSING, options);
     figures.extend(passes.into_iter().map(Figure::Plot));
     Ok(figures)
 }

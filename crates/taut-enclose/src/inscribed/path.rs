@@ -10,7 +10,7 @@ use taut_certify::{PassBounds, Stop};
 use taut_points::{Monitor, ReadError};
 
 use super::start::Interior;
-use super::{Found, HalfSpaces, InscribedOptions, seen};
+use super::{Found, HalfSpaces, InscribedOptions, ROUNDING, seen};
 use crate::Error;
 use crate::ellipsoid::{cholesky, log_unit_ball};
 use crate::kernel::vector::{add_scaled, dot};
@@ -41,7 +41,8 @@ pub(super) fn follow(
     let mut center = start.center;
     let mut axes = vec![0.0; dim * dim];
     start.half_axes.iter().enumerate().for_each(|(j, half)| axes[j * dim + j] = 0.5 * half);
-    let last_mu = 0.1 * options.epsilon / (2 * n) as f64;
+    // Beyond what rounding allows, half-spaces that hardly touch lose what proves their part.
+    let last_mu = 0.1 * options.epsilon.max(ROUNDING * dim as f64) / (2 * n) as f64;
     let mut mu = 1.0f64.max(last_mu);
     let (mut steps, mut at_last, mut history) = (0, 0, vec![]);
     let view = |center: &[f64], axes: &[f64]| -> Vec<View> {
