@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -47,6 +48,31 @@ def as_rows(
     if shapes is not None:
         return _with_shapes(points, shapes)
     return _real("points", points, 2)
+
+
+def as_sets(sets: ArrayLike | Iterable[ArrayLike]) -> list[Rows]:
+    """Many arrays of points, each as by `as_rows`.
+
+    Parameters
+    ----------
+    sets : array_like of shape (m, n, d), or iterable of array_like of shape (n_i, d_i)
+        Point sets of one size as one array, which is put in order as a whole, or of any sizes one by one.
+
+    Returns
+    -------
+    list of m ndarray
+    """
+    if isinstance(sets, np.ndarray) and sets.ndim == 3:
+        return list(_real("sets", sets, 3))
+    if isinstance(sets, np.ndarray) and sets.dtype != object:
+        raise ValueError(f"sets have shape {sets.shape}: expected (m, n, d), or a list of arrays of shape (n, d)")
+    rows = []
+    for number, points in enumerate(sets):  # type: ignore[arg-type]
+        try:
+            rows.append(as_rows(points))
+        except (TypeError, ValueError) as error:
+            raise type(error)(f"point set {number}: {error}") from None
+    return rows
 
 
 def _with_column(name: str, points: ArrayLike, other: str, values: ArrayLike) -> Rows:
@@ -143,6 +169,8 @@ def _place(name: str, index: tuple[int, ...]) -> str:
             return f"entry {index[1:]} of shape {index[0]}"
         case "normals":
             return f"coordinate {index[1]} of normal {index[0]}"
+        case "sets":
+            return f"coordinate {index[2]} of point {index[1]} of point set {index[0]}"
         case "points":
             item = "point"
         case "centers of ellipsoids":

@@ -12,7 +12,7 @@ impl Tell for Report<'_, Ellipsoid> {
 
     fn title(&self) -> String {
         let (source, left_out) = (self.points.source(), &self.found.certificate.left_out);
-        let inside = counted(source.len() - left_out.len() as u64, self.noun());
+        let inside = counted(source.len().saturating_sub(left_out.len() as u64), self.noun());
         let of = match left_out.len() {
             0 => String::new(),
             _ => format!(" of {}", count(source.len())),

@@ -139,8 +139,8 @@ fn read(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<HalfSpaces, E
     }
 }
 
-/// The multipliers without those of half-spaces that do not touch: the path gives one to every half-space, and those of the others tend to 0 with
-/// it.
+/// The multipliers without those of half-spaces that do not touch: the path gives some to every half-space, and they
+/// tend to 0 with it.
 fn few(views: &[(Vec<f64>, f64)], lambda: &[f64]) -> Option<Vec<f64>> {
     let weight = |i: usize| lambda[i] * dot(&views[i].0, &views[i].0).sqrt();
     let most = (0..lambda.len()).map(weight).fold(0.0, f64::max);

@@ -196,7 +196,7 @@ impl<'a> Picture<'a> {
         if let Some(robust) = &self.robust {
             return robust.title(self.source.len(), self.dim());
         }
-        let inside = self.source.len() - self.certificate().left_out.len() as u64;
+        let inside = self.source.len().saturating_sub(self.certificate().left_out.len() as u64);
         let of = match self.certificate().left_out.len() {
             0 => String::new(),
             _ => format!(" of {}", count(self.source.len())),

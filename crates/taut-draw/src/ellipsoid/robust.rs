@@ -136,7 +136,7 @@ impl<'a> Picture<'a> {
         let mut closer = self;
         closer.survey.ids = ids;
         if let Some(robust) = &mut closer.robust {
-            robust.beyond = (out.len() - drawn) as u64;
+            robust.beyond = out.len().saturating_sub(drawn) as u64;
         }
         Ok(Some(closer))
     }
