@@ -110,7 +110,10 @@ def _rows_of_some_dimension(name: str, points: ArrayLike) -> Rows:
 def _real(name: str, values: ArrayLike, ndim: int) -> Rows:
     if np.ma.isMaskedArray(values):
         raise TypeError(f"{name} are a masked array: fill the masked values or leave their rows out")
-    array = np.asarray(values)
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise ValueError(f"{name} form no array: {error}") from None
     if array.dtype.kind not in "fiubO":
         raise TypeError(f"{name} have dtype {array.dtype}: expected real numbers")
     if array.ndim != ndim:

@@ -65,7 +65,7 @@ def ellipsoid(
     ValueError
         When there is no point, a coordinate is NaN, infinite or an integer that float64 cannot hold (the message
         names its row and column), a radius is negative, a shape is not symmetric or not positive semidefinite, the
-        points reach too far for float64, or an option is out of range.
+        sizes are beyond what float64 can hold, or an option is out of range.
     KeyboardInterrupt
         Ctrl-C stops the work within a block of points.
 

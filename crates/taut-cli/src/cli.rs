@@ -64,13 +64,16 @@ mod tests {
 
     #[test]
     fn every_subcommand_and_option_is_explained() {
-        for command in super::Cli::command().get_subcommands() {
+        let top = super::Cli::command();
+        let mut commands: Vec<_> = top.get_subcommands().collect();
+        while let Some(command) = commands.pop() {
             let name = command.get_name();
             assert!(command.get_about().is_some(), "{name} has no description");
             assert!(command.get_after_help().is_some(), "{name} has no example");
             for argument in command.get_arguments() {
                 assert!(argument.get_help().is_some(), "{name}: {} has no help", argument.get_id());
             }
+            commands.extend(command.get_subcommands());
         }
     }
 }

@@ -11,7 +11,8 @@ use crate::report;
 /// Find the largest shape inside another, with proof.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Example: taut inscribe ellipsoid sides.csv -o inside.json --draw inside.svg")]
+Example: taut inscribe ellipsoid sides.csv -o inside.json --draw inside.svg
+See: taut inscribe ellipsoid --help")]
 pub(crate) struct Args {
     #[command(subcommand)]
     body: Body,

@@ -37,6 +37,7 @@ mod error;
 mod figure;
 mod html;
 mod inscribed;
+mod marks;
 mod number;
 mod options;
 mod passes;

@@ -64,7 +64,12 @@ pub enum Error {
         direction: Vec<f64>,
     },
     /// Half-spaces that have no point in common, or no ball.
-    #[error("the polytope has no interior point: half-spaces {rows:?} leave none")]
+    #[error(
+        "{}", match is_empty {
+            true => format!("the polytope is empty: half-spaces {rows:?} have no point in common"),
+            false => format!("the polytope has no interior point: half-spaces {rows:?} leave none"),
+        }
+    )]
     NoInterior {
         /// Half-spaces, from 0.
         rows: Vec<u64>,
@@ -74,7 +79,9 @@ pub enum Error {
         is_empty: bool,
     },
     /// A number of the answer, or a square on the way to it, exceeds the largest `f64` or vanishes.
-    #[error("the points reach too far for numbers of double precision: scale them down")]
+    #[error(
+        "the sizes of the input, or their squares, are beyond what double precision can hold: scale the coordinates towards 1"
+    )]
     Overflow,
     /// An option is outside its range.
     #[error("option `{name}` is {value}: expected {expected}")]

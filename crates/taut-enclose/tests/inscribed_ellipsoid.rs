@@ -202,3 +202,20 @@ fn what_cannot_be_reached_is_not_called_reached() {
         assert!(found.trace.stop != Stop::Converged || found.certificate.gap <= epsilon);
     }
 }
+
+/// Boxes of 1 by 1 by some length, turned: their axes are nearly parallel, and no digit of the volume may get lost.
+#[test]
+fn long_boxes_that_stand_askew() {
+    let u = [[2.0, 1.0, 2.0], [-2.0, 2.0, 1.0], [1.0, 2.0, -2.0]].map(|u| u.map(|v| v / 3.0));
+    for length in [1e2, 1e3, 1e4] {
+        let mut rows = vec![];
+        for (normal, width) in u.iter().zip([1.0, 1.0, length]) {
+            for sign in [1.0, -1.0] {
+                rows.extend(normal.iter().map(|v| sign * v).chain([width]));
+            }
+        }
+        let found = solved(&rows, 3);
+        let wanted = log_ball(3) + f64::ln(length);
+        assert!((found.answer.log_volume - wanted).abs() < 1e-9, "{length}");
+    }
+}

@@ -18,6 +18,9 @@ use taut_points::{PointSource, gather};
 
 use self::body::Body;
 use self::robust::Robust;
+use crate::marks::{
+    agree, all_finite, all_there, dot_size, drawn_of, misfit, others_name, support_size,
+};
 use crate::number::{count, counted, short};
 use crate::passes::{Gap, Words, passes};
 use crate::survey::{Measure, Question, Survey, noun, survey};
@@ -81,10 +84,6 @@ fn check(
     certificate: &EllipsoidCertificate,
     source: &dyn PointSource,
 ) -> Result<(), Error> {
-    let agree = |what, expected: usize, found: usize| match expected == found {
-        true => Ok(()),
-        false => Err(Error::Mismatch { what, expected: expected as u64, found: found as u64 }),
-    };
     let dim = certificate.items.dim(source.dim());
     agree("number of coordinates", ellipsoid.dim(), dim)?;
     agree("number of coordinates", dim.max(1), dim)?;
@@ -102,23 +101,14 @@ fn check(
         agree("length of a direction", dim, direction.len())?;
     }
     let named = certificate.support.iter().chain(&certificate.left_out);
-    if let Some(&beyond) = named.into_iter().find(|&&id| id >= source.len()) {
-        let found = source.len();
-        return Err(Error::Mismatch { what: "number of points", expected: beyond + 1, found });
-    }
+    all_there("number of points", named, source.len())?;
     let center = ellipsoid.center.iter().chain(&ellipsoid.center_tail);
-    let numbers = center
-        .map(|&v| ("a coordinate of the centre", v))
-        .chain(ellipsoid.factor.iter().flatten().map(|&v| ("an entry of the factor", v)))
-        .chain(basis.iter().flatten().map(|&v| ("an entry of the hull", v)))
-        .chain(certificate.directions.iter().flatten().map(|&v| ("a direction", v)))
-        .chain(certificate.multipliers.iter().map(|&v| ("a multiplier", v)));
-    for (what, value) in numbers {
-        if !value.is_finite() {
-            return Err(Error::NonFinite { what: what.into(), value });
-        }
-    }
-    Ok(())
+    let numbers = (center.map(|v| ("a coordinate of the centre", v)))
+        .chain(ellipsoid.factor.iter().flatten().map(|v| ("an entry of the factor", v)))
+        .chain(basis.iter().flatten().map(|v| ("an entry of the hull", v)))
+        .chain(certificate.directions.iter().flatten().map(|v| ("a direction", v)))
+        .chain(certificate.multipliers.iter().map(|v| ("a multiplier", v)));
+    all_finite(numbers)
 }
 
 /// What all pictures of one ellipsoid share.
@@ -269,41 +259,22 @@ impl<'a> Picture<'a> {
         if let Some(beyond @ 1..) = self.robust.as_ref().map(|robust| robust.beyond) {
             let lie = if beyond == 1 { "outlier lies" } else { "outliers lie" };
             words += &format!(" {} {lie} beyond the picture.", count(beyond));
-        } else if drawn == n {
-            words += &match n {
-                1 => format!(" The one {thing} is drawn."),
-                n => format!(" All {} are drawn.", counted(n, thing)),
-            };
         } else {
             let far = match self.survey.far {
                 0 => String::new(),
                 far => format!("{} more that reach far, ", count(far)),
             };
             let support = if self.certificate().support.is_empty() { "" } else { "the support, " };
-            words += &format!(
-                " {} of {} are drawn: {support}{far}and an even sample of the others.",
-                count(drawn),
-                counted(n, thing),
-            );
+            let which = format!("{support}{far}and an even sample of the others");
+            words += &drawn_of(drawn, n, thing, &which);
         }
-        if self.survey.outside > 0 {
-            words += &format!(
-                " {} {} outside the ellipsoid: the answer does not fit these {thing}s.",
-                counted(self.survey.outside, thing),
-                if self.survey.outside == 1 { "reaches" } else { "reach" },
-            );
-        }
+        words += &misfit(self.survey.outside, thing, "ellipsoid");
         words
     }
 
     /// Radius of the disc of a point that is not of the support, pixels.
     fn dot_size(&self) -> f64 {
-        match self.survey.ids.len() {
-            0..=100 => 3.6,
-            101..=1000 => 2.8,
-            1001..=5000 => 2.0,
-            _ => 1.4,
-        }
+        dot_size(self.survey.ids.len())
     }
 
     /// The items to draw: those enclosed that are not of the support, and those left out.
@@ -326,7 +297,6 @@ impl<'a> Picture<'a> {
         pairs
             .map(|(k, (&id, &multiplier))| {
                 let row = self.row(id)?;
-                let part = if largest > 0.0 { (multiplier.max(0.0) / largest).sqrt() } else { 0.0 };
                 let at = match certificate.directions.get(k) {
                     None => row[..self.dim()].to_vec(),
                     Some(direction) => {
@@ -334,16 +304,13 @@ impl<'a> Picture<'a> {
                     }
                 };
                 let label = format!("support, multiplier {}", short(multiplier, 4));
-                Ok(Mark { id, at, size: 4.0 + 4.5 * part, label })
+                Ok(Mark { id, at, size: support_size(multiplier, largest), label })
             })
             .collect()
     }
 
     fn others_name(&self) -> String {
-        match self.thing() {
-            "point" => "points".into(),
-            thing => format!("{thing}s of the input"),
-        }
+        others_name(self.certificate().items)
     }
 
     fn support_name(&self) -> String {

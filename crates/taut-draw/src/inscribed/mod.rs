@@ -16,6 +16,7 @@ use taut_points::PointSource;
 
 use self::sides::{CLOSE, Side, Sides};
 use crate::ellipsoid::body::Body;
+use crate::marks::{agree, all_finite, all_there, support_size};
 use crate::number::{count, counted, short};
 use crate::passes::{Gap, Words, passes};
 use crate::{DrawOptions, Error, Figure, Tone};
@@ -65,10 +66,6 @@ pub fn inscribed_figures(
 /// What the answer and its half-spaces must agree in before anything is drawn.
 fn check(solution: &Solution<InscribedEllipsoid>, source: &dyn PointSource) -> Result<(), Error> {
     let (ellipsoid, certificate) = (&solution.answer, &solution.certificate);
-    let agree = |what, expected: usize, found: usize| match expected == found {
-        true => Ok(()),
-        false => Err(Error::Mismatch { what, expected: expected as u64, found: found as u64 }),
-    };
     let dim = ellipsoid.center.len();
     agree("number of columns", dim + 1, source.dim())?;
     agree("number of coordinates", dim.max(1), dim)?;
@@ -77,19 +74,11 @@ fn check(solution: &Solution<InscribedEllipsoid>, source: &dyn PointSource) -> R
         agree("length of a row of the axes", dim, row.len())?;
     }
     agree("number of multipliers", certificate.support.len(), certificate.multipliers.len())?;
-    if let Some(&beyond) = certificate.support.iter().find(|&&id| id >= source.len()) {
-        let (what, found) = ("number of half-spaces", source.len());
-        return Err(Error::Mismatch { what, expected: beyond + 1, found });
-    }
-    let numbers = (ellipsoid.center.iter().map(|&v| ("a coordinate of the centre", v)))
-        .chain(ellipsoid.axes.iter().flatten().map(|&v| ("an entry of the axes", v)))
-        .chain(certificate.multipliers.iter().map(|&v| ("a multiplier", v)));
-    for (what, value) in numbers {
-        if !value.is_finite() {
-            return Err(Error::NonFinite { what: what.into(), value });
-        }
-    }
-    Ok(())
+    all_there("number of half-spaces", &certificate.support, source.len())?;
+    let numbers = (ellipsoid.center.iter().map(|v| ("a coordinate of the centre", v)))
+        .chain(ellipsoid.axes.iter().flatten().map(|v| ("an entry of the axes", v)))
+        .chain(certificate.multipliers.iter().map(|v| ("a multiplier", v)));
+    all_finite(numbers)
 }
 
 /// What all pictures of one ellipsoid share.
@@ -134,10 +123,8 @@ impl Picture<'_> {
         self.place(&side.seen)
     }
 
-    /// Radius of the disc of a support mark, pixels: its area grows with the multiplier.
     fn size(&self, side: &Side) -> f64 {
-        let largest = self.sides.support().fold(0.0f64, |m, side| m.max(side.weight));
-        4.0 + 4.5 * (side.weight / largest).sqrt()
+        support_size(side.weight, self.sides.largest)
     }
 
     fn label(side: &Side) -> String {

@@ -29,6 +29,8 @@ pub(super) struct Side {
 /// The half-spaces that are drawn, the nearest first.
 pub(super) struct Sides {
     pub(super) near: Vec<Side>,
+    /// The largest weight.
+    pub(super) largest: f64,
     /// How many come within a thousandth of touching.
     pub(super) close: u64,
     /// How many reach into the ellipsoid by more than rounding.
@@ -84,13 +86,13 @@ impl Sides {
                 side.weight = 0.0;
             }
         }
-        Ok(Sides { near, close, cutting })
+        let largest = near.iter().fold(0.0f64, |m, side| m.max(side.weight));
+        Ok(Sides { near, largest, close, cutting })
     }
 
     /// Those with a multiplier that counts: a proof may give some little weight to others, which do not touch.
     pub(super) fn support(&self) -> impl Iterator<Item = &Side> {
-        let largest = self.near.iter().fold(0.0f64, |m, side| m.max(side.weight));
-        self.near.iter().filter(move |side| side.weight > 1e-6 * largest)
+        self.near.iter().filter(|side| side.weight > 1e-6 * self.largest)
     }
 }
 

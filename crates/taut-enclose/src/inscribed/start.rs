@@ -119,7 +119,8 @@ fn unbounded(direction: &[f64], units: &[f64]) -> Error {
     let largest = scaled.iter().fold(0.0f64, |m, v| m.max(v.abs()));
     let scaled: Vec<f64> = scaled.iter().map(|v| v / largest).collect();
     let norm = dot(&scaled, &scaled).sqrt();
-    Error::Unbounded { direction: scaled.iter().map(|v| v / norm).collect() }
+    // Adding 0 turns −0 into 0.
+    Error::Unbounded { direction: scaled.iter().map(|v| v / norm + 0.0).collect() }
 }
 
 fn is_bounded(normals: &[f64], units: &[f64]) -> Result<(), Error> {
