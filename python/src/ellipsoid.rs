@@ -7,7 +7,10 @@ use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use taut::certify::{self, AnySolution};
 use taut::points::{Blocks, Scratch};
-use taut::{EllipsoidMethod, EllipsoidOptions, ellipsoid_of_items};
+use taut::{
+    EllipsoidMethod, EllipsoidOptions, Items, PointSource, ellipsoid_of_items,
+    ellipsoids_of_sources,
+};
 
 use crate::items::{items_of_name, name_of_items, raise};
 use crate::numbers::{float, whole};
@@ -28,20 +31,51 @@ pub(crate) fn ellipsoid(
     seed: &Bound<'_, PyAny>,
 ) -> PyResult<Solution> {
     let items = items_of_name(items)?;
-    let method = EllipsoidMethod::from_str(method).map_err(|error| raise(error, items, 0))?;
-    let options = EllipsoidOptions {
-        epsilon,
-        method,
-        max_passes: whole("max_passes", max_passes, "at least 2")?,
-        threads: whole("threads", threads, "at least 1, or None")?,
-        seed: whole("seed", seed, "0 to 2**64 - 1")?,
-    };
+    let options = options(epsilon, method, max_passes, threads, seed)?;
     let rows = Rows::borrow(rows)?;
     let source = rows.source()?;
     let found =
         interruptible(py, |monitor| ellipsoid_of_items(source.as_ref(), items, &options, monitor))?
             .map_err(|error| raise(error, items, source.dim()))?;
     Solution::new(py, AnySolution::Ellipsoid(found))
+}
+
+/// One ellipsoid for each of many arrays.
+#[pyfunction]
+pub(crate) fn ellipsoids(
+    py: Python<'_>,
+    sets: Vec<Bound<'_, PyAny>>,
+    epsilon: f64,
+    method: &str,
+    max_passes: &Bound<'_, PyAny>,
+    threads: &Bound<'_, PyAny>,
+    seed: &Bound<'_, PyAny>,
+) -> PyResult<Vec<Solution>> {
+    let options = options(epsilon, method, max_passes, threads, seed)?;
+    let sets: Vec<Rows<'_>> = sets.iter().map(Rows::borrow).collect::<PyResult<_>>()?;
+    let sources = sets.iter().map(Rows::source).collect::<PyResult<Vec<_>>>()?;
+    let sources: Vec<&dyn PointSource> = sources.iter().map(AsRef::as_ref).collect();
+    let found = interruptible(py, |monitor| ellipsoids_of_sources(&sources, &options, monitor))?
+        .map_err(|error| raise(error, Items::Points, 0))?;
+    found.into_iter().map(|found| Solution::new(py, AnySolution::Ellipsoid(found))).collect()
+}
+
+fn options(
+    epsilon: f64,
+    method: &str,
+    max_passes: &Bound<'_, PyAny>,
+    threads: &Bound<'_, PyAny>,
+    seed: &Bound<'_, PyAny>,
+) -> PyResult<EllipsoidOptions> {
+    let method =
+        EllipsoidMethod::from_str(method).map_err(|error| raise(error, Items::Points, 0))?;
+    Ok(EllipsoidOptions {
+        epsilon,
+        method,
+        max_passes: whole("max_passes", max_passes, "at least 2")?,
+        threads: whole("threads", threads, "at least 1, or None")?,
+        seed: whole("seed", seed, "0 to 2**64 - 1")?,
+    })
 }
 
 /// An ellipsoid {x : |F(x - c)| <= 1} in d dimensions, or in an affine subspace of dimension r < d.

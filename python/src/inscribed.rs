@@ -37,6 +37,9 @@ pub(crate) fn inscribed_ellipsoid(
                 "{place} is {value}: all numbers must be finite"
             ))
         }
+        taut::enclose::Error::Empty => pyo3::exceptions::PyValueError::new_err(
+            "there are no half-spaces: a polytope is made of at least two",
+        ),
         other => raise(other, Items::Points, source.dim()),
     })?;
     Solution::new(py, AnySolution::Inscribed(found))

@@ -28,7 +28,9 @@ mod _native {
     #[pymodule_export]
     use crate::delaunay::delaunay;
     #[pymodule_export]
-    use crate::ellipsoid::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipsoid};
+    use crate::ellipsoid::{
+        Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipsoid, ellipsoids,
+    };
     #[pymodule_export]
     use crate::generate::generate;
     #[pymodule_export]

@@ -13,7 +13,7 @@ The names, options and defaults are those of the Rust library and of the command
 
 from ._ball import ball, ball_of_balls
 from ._delaunay import delaunay
-from ._ellipsoid import ellipsoid, inscribed_ellipsoid
+from ._ellipsoid import ellipsoid, ellipsoids, inscribed_ellipsoid
 from ._generate import generate
 from ._native import (
     Ball,
@@ -67,6 +67,7 @@ __all__ = [
     "ball_of_balls",
     "delaunay",
     "ellipsoid",
+    "ellipsoids",
     "generate",
     "inscribed_ellipsoid",
     "robust_ellipsoid",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -49,6 +50,31 @@ def as_rows(
     return _real("points", points, 2)
 
 
+def as_sets(sets: ArrayLike | Iterable[ArrayLike]) -> list[Rows]:
+    """Many arrays of points, each as by `as_rows`.
+
+    Parameters
+    ----------
+    sets : array_like of shape (m, n, d), or iterable of array_like of shape (n_i, d_i)
+        Point sets of one size as one array, which is put in order as a whole, or of any sizes one by one.
+
+    Returns
+    -------
+    list of m ndarray
+    """
+    if isinstance(sets, np.ndarray) and sets.ndim == 3:
+        return list(_real("sets", sets, 3))
+    if isinstance(sets, np.ndarray) and sets.dtype != object:
+        raise ValueError(f"sets have shape {sets.shape}: expected (m, n, d), or a list of arrays of shape (n, d)")
+    rows = []
+    for number, points in enumerate(sets):  # type: ignore[arg-type]
+        try:
+            rows.append(as_rows(points))
+        except (TypeError, ValueError) as error:
+            raise type(error)(f"point set {number}: {error}") from None
+    return rows
+
+
 def _with_column(name: str, points: ArrayLike, other: str, values: ArrayLike) -> Rows:
     rows = _rows_of_some_dimension(name, points)
     column = _real(other, values, 1)
@@ -84,7 +110,10 @@ def _rows_of_some_dimension(name: str, points: ArrayLike) -> Rows:
 def _real(name: str, values: ArrayLike, ndim: int) -> Rows:
     if np.ma.isMaskedArray(values):
         raise TypeError(f"{name} are a masked array: fill the masked values or leave their rows out")
-    array = np.asarray(values)
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise ValueError(f"{name} form no array: {error}") from None
     if array.dtype.kind not in "fiubO":
         raise TypeError(f"{name} have dtype {array.dtype}: expected real numbers")
     if array.ndim != ndim:
@@ -143,6 +172,8 @@ def _place(name: str, index: tuple[int, ...]) -> str:
             return f"entry {index[1:]} of shape {index[0]}"
         case "normals":
             return f"coordinate {index[1]} of normal {index[0]}"
+        case "sets":
+            return f"coordinate {index[2]} of point {index[1]} of point set {index[0]}"
         case "points":
             item = "point"
         case "centers of ellipsoids":

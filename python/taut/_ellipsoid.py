@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Literal
 
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._arrays import as_rows
+from ._arrays import as_rows, as_sets
 from ._native import Solution
 
 EllipsoidMethod = Literal["newton", "thesis-initial", "thesis-khachiyan", "thesis-core-set", "away-steps"]
@@ -64,7 +65,7 @@ def ellipsoid(
     ValueError
         When there is no point, a coordinate is NaN, infinite or an integer that float64 cannot hold (the message
         names its row and column), a radius is negative, a shape is not symmetric or not positive semidefinite, the
-        points reach too far for float64, or an option is out of range.
+        sizes are beyond what float64 can hold, or an option is out of range.
     KeyboardInterrupt
         Ctrl-C stops the work within a block of points.
 
@@ -75,6 +76,7 @@ def ellipsoid(
 
     See Also
     --------
+    ellipsoids : the same for many point sets at once.
     ball : the smallest ball.
     robust_ellipsoid : an ellipsoid that outliers do not move.
     verify : checks an answer that was stored.
@@ -104,6 +106,73 @@ def ellipsoid(
         raise TypeError("radii and shapes are given: expected one of them, for balls or for ellipsoids")
     items = "balls" if radii is not None else "points" if shapes is None else "ellipsoids"
     return _native.ellipsoid(as_rows(points, radii, shapes), items, epsilon, method, max_passes, threads, seed)
+
+
+def ellipsoids(
+    sets: ArrayLike | Iterable[ArrayLike],
+    *,
+    epsilon: float = 1e-9,
+    method: EllipsoidMethod = "newton",
+    max_passes: int = 1_000_000,
+    threads: int | None = None,
+    seed: int = 0,
+) -> list[Solution]:
+    """Ellipsoid of least volume of each of many point sets, with a certificate each.
+
+    Each is the answer of `ellipsoid` for that set, byte by byte. Threads share the sets, so that many small ones are
+    solved much faster than one call after the other.
+
+    Parameters
+    ----------
+    sets : array_like of shape (m, n, d), or iterable of m array_like of shape (n_i, d_i)
+        m point sets: one array of three dimensions where all are of one size, else a list, such as `numpy.split` makes
+        of a table. float32 or float64 in C order is read where it lies; anything else is first converted by NumPy, as by
+        `ellipsoid`.
+    epsilon : float in [0, 1), default 1e-9
+        Gap to prove for each, log-volume <= least log-volume + epsilon.
+    method : {"newton", "thesis-initial", "thesis-khachiyan", "thesis-core-set", "away-steps"}, default "newton"
+        The way to find them, as of `ellipsoid`.
+    max_passes : int >= 2, default 1,000,000
+        Reads of all points of a set before its best ellipsoid so far is returned with its gap.
+    threads : int >= 1, optional
+        Threads to use, by default all cores. No answer depends on it.
+    seed : int >= 0, default 0
+        As of `ellipsoid`, for each of them.
+
+    Returns
+    -------
+    list of m Solution
+        In the order of the sets; ``found[i].check(sets[i])`` judges one.
+
+    Raises
+    ------
+    ValueError
+        What `ellipsoid` raises for a set, with the number of the first that it is about.
+    KeyboardInterrupt
+        Ctrl-C stops the work.
+
+    See Also
+    --------
+    ellipsoid : the same for one point set.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import taut
+    >>> sets = np.random.default_rng(0).normal(size=(1000, 50, 3))
+    >>> found = taut.ellipsoids(sets)
+    >>> len(found), found[7].check(sets[7]).gap <= 1e-9
+    (1000, True)
+
+    Groups of a table, sorted by their label:
+
+    >>> labels, table = np.array([1, 0, 1, 0, 0]), np.array([[0, 0], [9, 9], [2, 0], [9, 7], [7, 9]])
+    >>> order = np.argsort(labels, kind="stable")
+    >>> groups = np.split(table[order], np.flatnonzero(np.diff(labels[order])) + 1)
+    >>> [found.answer.rank for found in taut.ellipsoids(groups)]
+    [2, 1]
+    """
+    return _native.ellipsoids(as_sets(sets), epsilon, method, max_passes, threads, seed)
 
 
 def inscribed_ellipsoid(

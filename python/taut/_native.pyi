@@ -28,6 +28,7 @@ __all__ = [
     "ball",
     "delaunay",
     "ellipsoid",
+    "ellipsoids",
     "generate",
     "inscribed_ellipsoid",
     "robust_ellipsoid",
@@ -60,6 +61,14 @@ def ellipsoid(
     threads: int | None,
     seed: int,
 ) -> Solution: ...
+def ellipsoids(
+    sets: list[NDArray[np.float32] | NDArray[np.float64]],
+    epsilon: float,
+    method: str,
+    max_passes: int,
+    threads: int | None,
+    seed: int,
+) -> list[Solution]: ...
 def generate(
     out: NDArray[np.float32] | NDArray[np.float64],
     distribution: str,

@@ -50,7 +50,7 @@ def robust_ellipsoid(
     Raises
     ------
     ValueError
-        When there is no point, a coordinate is NaN or infinite, the points reach too far for float64, or an option is
+        When there is no point, a coordinate is NaN or infinite, sizes are beyond what float64 can hold, or an option is
         out of range.
     KeyboardInterrupt
         Ctrl-C stops the work within a block of points.

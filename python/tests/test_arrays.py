@@ -84,7 +84,7 @@ def test_small_whole_numbers_are_exact(dtype):
         ([1.0, 2.0], ValueError, r"points have shape \(2,\): expected \(n, d\)"),
         (3.0, ValueError, "shape"),
         (np.zeros((2, 2, 2)), ValueError, "shape"),
-        ([[1.0, 2.0], [3.0]], ValueError, "inhomogeneous"),
+        ([[1.0, 2.0], [3.0]], ValueError, "points form no array: .*inhomogeneous"),
         (np.zeros((0, 3)), ValueError, "the point set is empty"),
         (np.zeros((3, 0)), ValueError, "the dimension is 0"),
         (np.zeros((2, 2), complex), TypeError, "complex128"),

@@ -160,7 +160,7 @@ def test_budget_of_passes_is_reported_not_hidden():
         (np.empty((0, 2)), {}, "at least one point"),
         ([[0.0, 1.0], [2.0, np.nan]], {}, "coordinate 1 of point 1 is NaN"),
         ([[np.inf, 1.0]], {}, "coordinate 0 of point 0 is inf"),
-        ([[1e308, 0.0], [-1e308, 0.0], [0.0, 1e308], [0.0, -1e308]], {}, "scale them down"),
+        ([[1e308, 0.0], [-1e308, 0.0], [0.0, 1e308], [0.0, -1e308]], {}, "scale the coordinates"),
         (RECTANGLE, {"epsilon": 1.0}, "option `epsilon` is 1"),
         (RECTANGLE, {"epsilon": 0, "method": "away-steps"}, "option `epsilon` is 0"),
         (RECTANGLE, {"method": "simplex"}, "option `method` is simplex"),

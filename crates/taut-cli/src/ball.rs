@@ -1,19 +1,13 @@
 //! `taut ball`: the smallest ball around points or balls.
 
-use std::path::{Path, PathBuf};
-
-use anyhow::bail;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::{BallMethod, BallOptions, Items, ball_of_source};
+use taut::{Ball, BallMethod, BallOptions, Items, Solution, ball_of_source};
 
-use crate::clock::Clock;
+use crate::delivery::{Delivery, Desk};
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::picture::{Look, Picture};
 use crate::reading::{Points, Reading};
-use crate::report::{self, Report};
-use crate::verify::judge;
-use crate::writing::{self, Outputs};
+use crate::report;
 
 /// Find the smallest ball around a point set, with proof.
 #[derive(Debug, clap::Args)]
@@ -48,20 +42,8 @@ pub(crate) struct Args {
     /// Chooses the point from which the thesis' methods start
     #[arg(long, value_name = "N", default_value_t = BallOptions::default().seed)]
     seed: u64,
-    /// Do without the independent check, which is one more read of all points
-    #[arg(long)]
-    no_verify: bool,
-
-    /// Write ball and certificate as JSON; - is standard output
-    #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
-    out: Option<PathBuf>,
-    /// Print the JSON instead of the summary
-    #[arg(long, help_heading = "Writing")]
-    json: bool,
-    /// Draw ball and points; .svg and .png show one picture, .html all
-    #[arg(long, value_name = "FILE", help_heading = "Writing")]
-    draw: Option<PathBuf>,
-
+    #[command(flatten)]
+    delivery: Delivery,
     #[command(flatten)]
     reading: Reading,
     #[command(flatten)]
@@ -84,65 +66,16 @@ fn methods() -> impl TypedValueParser<Value = BallMethod> {
 
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
-        let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
-        if let Some(out) = &self.out
-            && Picture::of_path(out).is_ok()
-        {
-            bail!("{}: -o writes JSON; draw with --draw {0}", out.display());
-        }
-        let outputs: Vec<&Path> =
-            [&self.out, &self.draw].into_iter().flatten().map(|path| &**path).collect();
-        writing::look_at(&outputs, &[&self.points.path])?;
-        let watch = self.effort.start()?;
-        let mut clock = Clock::start();
-        let points = self.reading.open(&self.points.path)?;
-        clock.lap("reading");
-
-        let items = items(self.balls, self.ellipsoids);
-        let options = self.options();
-        let found = watch
-            .during("solving", |monitor| ball_of_source(points.source(), items, &options, monitor))
-            .map_err(|error| points.explain(error))?;
-        clock.lap("solving");
-
-        let mut verdict = None;
-        if !self.no_verify {
-            match judge(&found, &points, &watch)? {
-                Ok(proved) => verdict = Some(proved),
-                Err(violation) => {
-                    let violation = points.explain_violation(&violation, "the ball found");
-                    writing::complain(&format!("the check failed: {violation}"));
-                    return Ok(Outcome::CheckFailed);
-                }
-            }
-            clock.lap("checking");
-        }
-        let found = &found;
-
-        let report = Report { found, points: &points, verdict };
-        let drawn = picture
-            .map(|picture| picture.draw(report.drawing(&Look::default())?, &Look::default()))
-            .transpose()?;
-
-        let mut outputs = Outputs::default();
-        if let Some(out) = &self.out {
-            outputs.add(out, json(found).as_bytes())?;
-        }
-        if let (Some(path), Some(drawn)) = (&self.draw, drawn) {
-            outputs.add(path, &drawn)?;
-        }
-        // Where the answer goes to standard output, nothing else does.
-        if self.out.as_deref().is_none_or(|out| !writing::is_stream(out)) {
-            if self.json {
-                outputs.say(&json(found));
-            } else if !self.effort.quiet {
-                let mut facts = report.facts();
-                facts.push(clock.fact());
-                outputs.say(&report::text(&report.title(), &facts));
-            }
-        }
-        outputs.finish()?;
-        Ok(report::outcome(found.trace.stop, found.certificate.gap, self.epsilon))
+        let (options, items) = (self.options(), items(self.balls, self.ellipsoids));
+        let (reading, effort) = (&self.reading, &self.effort);
+        let desk = Desk { path: &self.points.path, reading, effort };
+        let found = self.delivery.deliver(&desk, |points, monitor| {
+            ball_of_source(points.source(), items, &options, monitor)
+        })?;
+        let ended = |found: Solution<Ball>| {
+            report::outcome(found.trace.stop, found.certificate.gap, self.epsilon)
+        };
+        Ok(found.map_or(Outcome::CheckFailed, ended))
     }
 
     fn options(&self) -> BallOptions {
@@ -164,10 +97,6 @@ pub(crate) fn items(balls: bool, ellipsoids: bool) -> Items {
         (true, false) => Items::Balls,
         (false, false) => Items::Points,
     }
-}
-
-fn json(found: &taut::Solution<taut::Ball>) -> String {
-    found.to_json() + "\n"
 }
 
 #[cfg(test)]

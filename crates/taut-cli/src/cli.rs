@@ -3,7 +3,9 @@
 use clap::{Parser, Subcommand};
 
 use crate::exit::Outcome;
-use crate::{ball, completions, delaunay, draw, ellipsoid, formats, generate, man, tour, verify};
+use crate::{
+    ball, completions, delaunay, draw, ellipsoid, formats, generate, inscribe, man, tour, verify,
+};
 
 /// Tight shapes around, through and inside point sets, with proof.
 #[derive(Debug, Parser)]
@@ -23,6 +25,7 @@ enum Command {
     Ball(ball::Args),
     Ellipsoid(ellipsoid::Args),
     Delaunay(delaunay::Args),
+    Inscribe(inscribe::Args),
     Verify(verify::Args),
     Draw(draw::Args),
     Generate(generate::Args),
@@ -38,6 +41,7 @@ impl Cli {
             Command::Ball(args) => args.run(),
             Command::Ellipsoid(args) => args.run(),
             Command::Delaunay(args) => args.run(),
+            Command::Inscribe(args) => args.run(),
             Command::Verify(args) => args.run(),
             Command::Draw(args) => args.run(),
             Command::Generate(args) => args.run(),
@@ -60,13 +64,16 @@ mod tests {
 
     #[test]
     fn every_subcommand_and_option_is_explained() {
-        for command in super::Cli::command().get_subcommands() {
+        let top = super::Cli::command();
+        let mut commands: Vec<_> = top.get_subcommands().collect();
+        while let Some(command) = commands.pop() {
             let name = command.get_name();
             assert!(command.get_about().is_some(), "{name} has no description");
             assert!(command.get_after_help().is_some(), "{name} has no example");
             for argument in command.get_arguments() {
                 assert!(argument.get_help().is_some(), "{name}: {} has no help", argument.get_id());
             }
+            commands.extend(command.get_subcommands());
         }
     }
 }

@@ -18,8 +18,7 @@ use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::picture::{Look, Picture};
 use crate::reading::{Opened, Points, Reading};
-use crate::report;
-use crate::triangulation::TriangulationReport;
+use crate::report::{self, Report, Tell};
 use crate::verify::judge;
 use crate::writing::{self, Outputs};
 
@@ -143,7 +142,7 @@ impl Args {
             clock.lap("checking");
         }
         let complex = self.alpha.complex(&built);
-        let report = TriangulationReport { found: &found, points: &points, verdict };
+        let report = Report { found: &found, points: &points, verdict };
         let mut facts = report.facts();
         facts.extend(complex.as_ref().map(alpha::Complex::fact));
         facts.push(built.signs());

@@ -4,13 +4,12 @@ use std::path::PathBuf;
 
 use taut::{Answer, AnySolution, Items, Solution, Violation};
 
+use crate::ball_report::NO_PICTURE;
 use crate::effort::Effort;
-use crate::ellipsoid_report::EllipsoidReport;
 use crate::exit::Outcome;
-use crate::picture::{Look, Picture};
+use crate::picture::{Drawing, Look, Picture};
 use crate::reading::{Opened, Points, Reading};
-use crate::report::Report;
-use crate::triangulation::TriangulationReport;
+use crate::report::{Report, Tell};
 use crate::verify::{judge, read_answer, shown};
 use crate::watch::Watch;
 use crate::writing;
@@ -21,7 +20,7 @@ use crate::writing;
 The answer is checked first; one that does not fit the points is not drawn, and the exit code is 1.
 Example: taut draw ball.json points.csv -o ball.html")]
 pub(crate) struct Args {
-    /// The answer, as `taut ball -o` and `taut delaunay -o` write it; - is standard input
+    /// The answer, as `taut ball -o`, `taut ellipsoid -o` and their like write it; - is standard input
     answer: PathBuf,
     #[command(flatten)]
     points: Points,
@@ -48,35 +47,17 @@ impl Args {
         let points = self.reading.open(&self.points.path)?;
         let drawing = match &answer {
             AnySolution::Ball(found) if found.certificate.items == Items::Ellipsoids => {
-                anyhow::bail!("{}: {}", shown(&self.answer), Report::NO_PICTURE)
+                anyhow::bail!("{}: {NO_PICTURE}", shown(&self.answer))
             }
-            AnySolution::Ball(found) => self
-                .judged(found, &points, &watch)?
-                .map(|verdict| Report { found, points: &points, verdict }.drawing(&self.look)),
-            AnySolution::Ellipsoid(found) => self.judged(found, &points, &watch)?.map(|verdict| {
-                EllipsoidReport { found, points: &points, verdict }.drawing(&self.look)
-            }),
-            AnySolution::Inscribed(_) => {
-                anyhow::bail!(
-                    "{} is an inscribed ellipsoid, and there are no pictures of these",
-                    shown(&self.answer)
-                )
-            }
-            AnySolution::Robust(_) => {
-                anyhow::bail!(
-                    "{} is a robust ellipsoid, and there are no pictures of these",
-                    shown(&self.answer)
-                )
-            }
-            AnySolution::Triangulation(found) => {
-                self.judged(found, &points, &watch)?.map(|verdict| {
-                    TriangulationReport { found, points: &points, verdict }.drawing(&self.look)
-                })
-            }
+            AnySolution::Ball(found) => self.drawing(found, &points, &watch)?,
+            AnySolution::Ellipsoid(found) => self.drawing(found, &points, &watch)?,
+            AnySolution::Inscribed(found) => self.drawing(found, &points, &watch)?,
+            AnySolution::Robust(found) => self.drawing(found, &points, &watch)?,
+            AnySolution::Triangulation(found) => self.drawing(found, &points, &watch)?,
         };
         match drawing {
             Ok(drawing) => {
-                writing::replace(&self.out, &picture.draw(drawing?, &self.look)?)?;
+                writing::replace(&self.out, &picture.draw(drawing, &self.look)?)?;
                 Ok(Outcome::Done)
             }
             Err(violation) => {
@@ -87,16 +68,23 @@ impl Args {
         }
     }
 
-    /// The verdict, `None` where none is wanted, or the first violation.
-    fn judged<A: Answer>(
+    /// The pictures of an answer that fits the points, or what is wrong with it.
+    fn drawing<A: Answer>(
         &self,
         found: &Solution<A>,
         points: &Opened,
         watch: &Watch,
-    ) -> anyhow::Result<Result<Option<A::Verdict>, Violation>> {
-        match self.no_verify {
-            true => Ok(Ok(None)),
-            false => Ok(judge(found, points, watch)?.map(Some)),
-        }
+    ) -> anyhow::Result<Result<Drawing, Violation>>
+    where
+        for<'a> Report<'a, A>: Tell,
+    {
+        let verdict = match self.no_verify {
+            true => None,
+            false => match judge(found, points, watch)? {
+                Ok(verdict) => Some(verdict),
+                Err(violation) => return Ok(Err(violation)),
+            },
+        };
+        Ok(Ok(Report { found, points, verdict }.drawing(&self.look)?))
     }
 }

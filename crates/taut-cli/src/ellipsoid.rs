@@ -1,22 +1,18 @@
 //! `taut ellipsoid`: the ellipsoid of least volume around points, balls or ellipsoids, or around most points.
 
-use std::path::{Path, PathBuf};
-
-use anyhow::bail;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::{EllipsoidMethod, EllipsoidOptions, RobustOptions, ellipsoid_of_items};
+use taut::{
+    Ellipsoid, EllipsoidMethod, EllipsoidOptions, RobustOptions, Solution, ellipsoid_of_items,
+    robust_ellipsoid_of_source,
+};
 
 use crate::ball::items;
-use crate::clock::Clock;
+use crate::delivery::{Delivery, Desk};
 use crate::effort::Effort;
-use crate::ellipsoid_report::EllipsoidReport;
 use crate::exit::Outcome;
-use crate::picture::{Look, Picture};
 use crate::reading::{Points, Reading};
 use crate::report;
-use crate::robust::{self, Robust, Run};
-use crate::verify::judge;
-use crate::writing::{self, Outputs};
+use crate::robust::Robust;
 
 /// Find the ellipsoid of least volume around a point set, with proof.
 #[derive(Debug, clap::Args)]
@@ -53,20 +49,8 @@ pub(crate) struct Args {
     /// Chooses the directions of Algorithm 3, from which all methods but newton and thesis-khachiyan start
     #[arg(long, value_name = "N", default_value_t = EllipsoidOptions::default().seed)]
     seed: u64,
-    /// Do without the independent check, which is one more read of all points
-    #[arg(long)]
-    no_verify: bool,
-
-    /// Write ellipsoid and certificate as JSON; - is standard output
-    #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
-    out: Option<PathBuf>,
-    /// Print the JSON instead of the summary
-    #[arg(long, help_heading = "Writing")]
-    json: bool,
-    /// Draw ellipsoid and points; .svg and .png show one picture, .html all
-    #[arg(long, value_name = "FILE", help_heading = "Writing")]
-    draw: Option<PathBuf>,
-
+    #[command(flatten)]
+    delivery: Delivery,
     #[command(flatten)]
     robust: Robust,
     #[command(flatten)]
@@ -96,73 +80,22 @@ fn methods() -> impl TypedValueParser<Value = EllipsoidMethod> {
 
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
-        let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
-        if let Some(out) = &self.out
-            && Picture::of_path(out).is_ok()
-        {
-            bail!("{}: -o writes JSON; draw with --draw {0}", out.display());
+        let (reading, effort) = (&self.reading, &self.effort);
+        let desk = Desk { path: &self.points.path, reading, effort };
+        if let Some(options) = self.robust()? {
+            let found = self.delivery.deliver(&desk, |points, monitor| {
+                robust_ellipsoid_of_source(points.source(), &options, monitor)
+            })?;
+            return Ok(found.map_or(Outcome::CheckFailed, |_| Outcome::Done));
         }
-        let outputs: Vec<&Path> =
-            [&self.out, &self.draw].into_iter().flatten().map(|path| &**path).collect();
-        writing::look_at(&outputs, &[&self.points.path])?;
-        let robust = self.robust()?;
-        let watch = self.effort.start()?;
-        let mut clock = Clock::start();
-        let points = self.reading.open(&self.points.path)?;
-        clock.lap("reading");
-
-        if let Some(options) = robust {
-            let (points, watch, out) = (&points, &watch, self.out.as_ref());
-            let (json, quiet, verify) = (self.json, self.effort.quiet, !self.no_verify);
-            return robust::run(&options, Run { points, watch, clock, out, json, quiet, verify });
-        }
-
         let (options, items) = (self.options(), items(self.balls, self.ellipsoids));
-        let found = watch
-            .during("solving", |monitor| {
-                ellipsoid_of_items(points.source(), items, &options, monitor)
-            })
-            .map_err(|error| points.explain(error))?;
-        clock.lap("solving");
-
-        let mut verdict = None;
-        if !self.no_verify {
-            match judge(&found, &points, &watch)? {
-                Ok(proved) => verdict = Some(proved),
-                Err(violation) => {
-                    let violation = points.explain_violation(&violation, "the ellipsoid found");
-                    writing::complain(&format!("the check failed: {violation}"));
-                    return Ok(Outcome::CheckFailed);
-                }
-            }
-            clock.lap("checking");
-        }
-
-        let report = EllipsoidReport { found: &found, points: &points, verdict };
-        let drawn = picture
-            .map(|picture| picture.draw(report.drawing(&Look::default())?, &Look::default()))
-            .transpose()?;
-
-        let mut outputs = Outputs::default();
-        let json = || found.to_json() + "\n";
-        if let Some(out) = &self.out {
-            outputs.add(out, json().as_bytes())?;
-        }
-        if let (Some(path), Some(drawn)) = (&self.draw, drawn) {
-            outputs.add(path, &drawn)?;
-        }
-        // Where the answer goes to standard output, nothing else does.
-        if self.out.as_deref().is_none_or(|out| !writing::is_stream(out)) {
-            if self.json {
-                outputs.say(&json());
-            } else if !self.effort.quiet {
-                let mut facts = report.facts();
-                facts.push(clock.fact());
-                outputs.say(&report::text(&report.title(), &facts));
-            }
-        }
-        outputs.finish()?;
-        Ok(report::outcome(found.trace.stop, found.certificate.gap, self.epsilon))
+        let found = self.delivery.deliver(&desk, |points, monitor| {
+            ellipsoid_of_items(points.source(), items, &options, monitor)
+        })?;
+        let ended = |found: Solution<Ellipsoid>| {
+            report::outcome(found.trace.stop, found.certificate.gap, self.epsilon)
+        };
+        Ok(found.map_or(Outcome::CheckFailed, ended))
     }
 
     pub(crate) fn robust(&self) -> anyhow::Result<Option<RobustOptions>> {

@@ -1,71 +1,48 @@
-//! What is said about an ellipsoid: the same facts on the terminal, beside pictures and in the tour.
+//! What is said about an ellipsoid.
 
 use taut::certify::Stop;
-use taut::{Ellipsoid, EllipsoidMethod, EllipsoidVerdict, Items, Solution};
-use taut_draw::ellipsoid_figures;
+use taut::{Ellipsoid, EllipsoidMethod, EllipsoidVerdict};
+use taut_draw::{DrawOptions, Error as DrawError, Figure, ellipsoid_figures};
 
-use crate::numbers::{abridged, coordinates, count, counted, exact, gap};
-use crate::picture::{self, Drawing, Look};
-use crate::reading::Opened;
-use crate::report::{Fact, stopped};
+use crate::numbers::{count, counted, exact, gap};
+use crate::report::{Fact, Report, Tell, centre, gap_and_verified, noun, stopped};
 
-/// An ellipsoid, the points it belongs to, and what the checker proved (`None` where it was not asked).
-pub(crate) struct EllipsoidReport<'a> {
-    pub(crate) found: &'a Solution<Ellipsoid>,
-    pub(crate) points: &'a Opened,
-    pub(crate) verdict: Option<EllipsoidVerdict>,
-}
+impl Tell for Report<'_, Ellipsoid> {
+    const FOUND: &'static str = "the ellipsoid found";
 
-impl EllipsoidReport<'_> {
-    /// What this is, in one line.
-    pub(crate) fn title(&self) -> String {
+    fn title(&self) -> String {
         let (source, left_out) = (self.points.source(), &self.found.certificate.left_out);
-        let inside = counted(source.len() - left_out.len() as u64, self.noun());
+        let inside = counted(source.len().saturating_sub(left_out.len() as u64), self.noun());
         let of = match left_out.len() {
             0 => String::new(),
             _ => format!(" of {}", count(source.len())),
         };
-        let dim = self.found.answer.dim() as u64;
-        format!("Smallest ellipsoid around {inside}{of} in {}", counted(dim, "dimension"))
+        let dim = counted(self.dim() as u64, "dimension");
+        format!("Smallest ellipsoid around {inside}{of} in {dim}")
     }
 
-    /// The numbers, each with its name.
-    pub(crate) fn facts(&self) -> Vec<Fact> {
+    fn facts(&self) -> Vec<Fact> {
         let (answer, certificate) = (&self.found.answer, &self.found.certificate);
         let trace = &self.found.trace;
-        let (dim, rank) = (answer.dim(), answer.rank());
         // The points may lie far from the origin: digits of the centre count beside the extent of the ellipsoid.
         let longest = answer.factor.iter().flatten().fold(0.0f64, |m, f| m.max(f.abs()));
         let size = if longest > 0.0 { 1.0 / longest } else { 1.0 };
-        let mut centre = Fact::new("centre", coordinates(&answer.center, size));
-        if abridged(&answer.center) {
-            centre.value += &format!(" {} in all", count(answer.center.len() as u64));
-            centre = centre.remark("the JSON holds them (-o FILE)");
-        }
         let volume = Fact::new("log-volume", exact(answer.log_volume));
-        let volume = match (rank, dim) {
+        let volume = match (answer.rank(), answer.dim()) {
             (0, _) => volume.remark("all are one point"),
             (r, d) if r < d => {
                 volume.remark(format!("of dimension {r}: all lie in a flat of {d} dimensions"))
             }
             _ => volume,
         };
-        let (gap, verified) = match &self.verdict {
-            Some(proved) => (
-                Fact::new("gap", gap(proved.gap)).remark(format!(
-                    "no enclosing ellipsoid has a log-volume below {}",
-                    exact(proved.lower)
-                )),
-                Fact::new("verified", "yes")
-                    .remark(format!("every {} is inside, and the gap is proved", self.noun())),
-            ),
-            None => (
-                Fact::new("gap", gap(certificate.gap)).remark("as the solver says"),
-                Fact::new("verified", "not checked"),
-            ),
-        };
+        let proved = self.verdict.as_ref().map(|proved| {
+            let lower = exact(proved.lower);
+            (proved.gap, format!("no enclosing ellipsoid has a log-volume below {lower}"))
+        });
+        let verified = format!("every {} is inside, and the gap is proved", self.noun());
+        let [gap, verified] = gap_and_verified(proved, certificate.gap, verified);
         let support = count(certificate.support.len() as u64);
-        let mut facts = vec![volume, centre, gap, verified];
+        let mut facts = vec![volume, centre(&answer.center, size), gap, verified];
         if !certificate.left_out.is_empty() {
             facts.push(Fact::new(
                 "left out",
@@ -81,19 +58,16 @@ impl EllipsoidReport<'_> {
         facts
     }
 
-    /// Pictures and what stands beside them.
-    pub(crate) fn drawing(&self, look: &Look) -> anyhow::Result<Drawing> {
-        let options = look.options(self.points.names(self.found.answer.dim()));
-        let figures = ellipsoid_figures(self.found, self.points.source(), &options)
-            .map_err(|error| picture::refused(error, self.points))?;
-        Ok(Drawing {
-            title: self.title(),
-            heading: self.points.name().to_owned(),
-            facts: self.facts().into_iter().map(picture::fact).collect(),
-            figures,
-        })
+    fn dim(&self) -> usize {
+        self.found.answer.dim()
     }
 
+    fn figures(&self, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
+        ellipsoid_figures(self.found, self.points.source(), options)
+    }
+}
+
+impl Report<'_, Ellipsoid> {
     fn ended(&self) -> &'static str {
         let trace = &self.found.trace;
         match trace.stop {
@@ -105,11 +79,7 @@ impl EllipsoidReport<'_> {
     }
 
     fn noun(&self) -> &'static str {
-        match self.found.certificate.items {
-            Items::Points => "point",
-            Items::Balls => "ball",
-            Items::Ellipsoids => "ellipsoid",
-        }
+        noun(self.found.certificate.items)
     }
 }
 

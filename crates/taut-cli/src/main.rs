@@ -6,10 +6,12 @@
 #![forbid(unsafe_code)]
 
 mod ball;
+mod ball_report;
 mod cli;
 mod clock;
 mod completions;
 mod delaunay;
+mod delivery;
 mod draw;
 mod effort;
 mod ellipsoid;
@@ -17,6 +19,8 @@ mod ellipsoid_report;
 mod exit;
 mod formats;
 mod generate;
+mod inscribe;
+mod inscribed_report;
 mod man;
 mod numbers;
 mod picture;

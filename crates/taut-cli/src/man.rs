@@ -1,4 +1,4 @@
-//! `taut man`: the manual, one page per subcommand, from the same words as `--help`.
+//! `taut man`: the manual, one page per subcommand and theirs, from the same words as `--help`.
 
 use std::path::PathBuf;
 
@@ -21,8 +21,8 @@ impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         let mut top = Cli::command().disable_help_subcommand(true);
         top.build();
-        let pages: Vec<clap::Command> =
-            std::iter::once(top.clone()).chain(top.get_subcommands().cloned()).collect();
+        let mut pages = Vec::new();
+        collect(&top, &mut pages);
         std::fs::create_dir_all(&self.dir)
             .map_err(|source| anyhow!("{}: could not be made: {source}", self.dir.display()))?;
         let mut outputs = Outputs::default();
@@ -35,4 +35,11 @@ impl Args {
         outputs.finish()?;
         Ok(Outcome::Done)
     }
+}
+
+/// A command and all below it; of the help that a command offers on those below, there is no page.
+fn collect(command: &clap::Command, pages: &mut Vec<clap::Command>) {
+    pages.push(command.clone());
+    let below = command.get_subcommands().filter(|below| below.get_name() != "help");
+    below.for_each(|below| collect(below, pages));
 }

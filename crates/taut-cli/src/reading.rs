@@ -12,6 +12,7 @@ use taut::points::{ReadError, ScalarKind};
 use taut::{PointSource, Violation};
 use taut_io::{Columns, Format, Header, Input, RawLayout, ReadOptions};
 
+use crate::numbers::coordinates;
 use crate::{size, writing};
 
 #[derive(Clone, Debug, clap::Args)]
@@ -144,11 +145,56 @@ impl Opened {
                  squared half axes, must be at least 0; repair or remove that row, or choose the columns with \
                  --columns",
                 self.name(),
-                self.input.describe_cell(row, 0).row
+                self.row(row)
+            ),
+            SolveError::NoNormal { .. } if last == 0 => anyhow!(
+                "{}: a half-space needs a normal and an offset, at least two columns, but there is one: choose more \
+                 with --columns",
+                self.name()
+            ),
+            SolveError::NoNormal { row } => anyhow!(
+                "{}, row {}: the half-space has no normal, as all numbers but the last, the offset, are 0: repair or \
+                 remove that row, or choose the columns with --columns",
+                self.name(),
+                self.row(row)
+            ),
+            SolveError::Unbounded { direction } => anyhow!(
+                "{}: the polytope goes on for ever in the direction {}, so no ellipsoid in it is the largest: add \
+                 half-spaces that end it",
+                self.name(),
+                coordinates(&direction, 1.0)
+            ),
+            SolveError::NoInterior { rows, is_empty, .. } => anyhow!(
+                "{}: {}, so there is no ellipsoid in it: the half-spaces of {} say so",
+                self.name(),
+                match is_empty {
+                    true => "no point lies in all half-spaces, and the polytope is empty",
+                    false =>
+                        "the polytope has no interior point, or it is thinner than a billionth of its length",
+                },
+                self.rows(&rows)
             ),
             SolveError::Option { name, value, expected } => wrong_option(name, &value, expected),
             SolveError::Empty | SolveError::Overflow => anyhow!("{}: {error}", self.name()),
             other => other.into(),
+        }
+    }
+
+    /// The number of a row in the file.
+    fn row(&self, row: u64) -> u64 {
+        self.input.describe_cell(row, 0).row
+    }
+
+    /// Numbers of rows in the file; of many, the first few.
+    fn rows(&self, rows: &[u64]) -> String {
+        const SHOWN: usize = 8;
+        let places: Vec<String> =
+            rows.iter().take(SHOWN).map(|&row| self.row(row).to_string()).collect();
+        let more = rows.len().saturating_sub(SHOWN);
+        match (places.len(), more) {
+            (1, _) => format!("row {}", places[0]),
+            (_, 0) => format!("rows {}", places.join(", ")),
+            (_, more) => format!("rows {} and {more} others", places.join(", ")),
         }
     }
 
@@ -235,5 +281,13 @@ pub(crate) fn wrong_option(name: &str, value: &str, expected: &str) -> anyhow::E
 pub(crate) struct Points {
     /// Points, in any format of `taut formats`; - is standard input
     #[arg(value_name = "POINTS")]
+    pub(crate) path: PathBuf,
+}
+
+/// The file of half-spaces.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct HalfSpaces {
+    /// Half-spaces a·x ≤ b, in each row the d numbers of a, then b, in any format of `taut formats`; - is standard input
+    #[arg(value_name = "HALF-SPACES")]
     pub(crate) path: PathBuf,
 }

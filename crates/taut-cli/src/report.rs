@@ -1,19 +1,55 @@
-//! What is said about a ball: the same facts on the terminal, beside pictures and in the tour.
+//! What is said about an answer: the same facts on the terminal, beside pictures and in the tour.
 
 use taut::certify::Stop;
-use taut::{Ball, Items, Solution, Verdict};
-use taut_draw::ball_figures;
+use taut::{Answer, Items, Solution};
+use taut_draw::{DrawOptions, Error as DrawError, Figure};
 
 use crate::exit::Outcome;
-use crate::numbers::{abridged, coordinates, count, counted, exact, gap};
+use crate::numbers::{abridged, coordinates, count, gap};
 use crate::picture::{self, Drawing, Look};
 use crate::reading::Opened;
 
-/// A ball, the points it belongs to, and what the checker proved (`None` where it was not asked).
-pub(crate) struct Report<'a> {
-    pub(crate) found: &'a Solution<Ball>,
+/// An answer, the points it belongs to, and what the checker proved (`None` where it was not asked).
+pub(crate) struct Report<'a, A: Answer> {
+    pub(crate) found: &'a Solution<A>,
     pub(crate) points: &'a Opened,
-    pub(crate) verdict: Option<Verdict>,
+    pub(crate) verdict: Option<A::Verdict>,
+}
+
+/// What there is to say and to show of one kind of answer.
+pub(crate) trait Tell {
+    /// What messages call an answer that no file holds yet.
+    const FOUND: &'static str;
+
+    /// What this is, in one line.
+    fn title(&self) -> String;
+
+    /// The numbers, each with its name.
+    fn facts(&self) -> Vec<Fact>;
+
+    /// Coordinates of a place.
+    fn dim(&self) -> usize;
+
+    /// The pictures.
+    fn figures(&self, options: &DrawOptions) -> Result<Vec<Figure>, DrawError>;
+}
+
+impl<A: Answer> Report<'_, A>
+where
+    Self: Tell,
+{
+    /// Pictures and what stands beside them.
+    pub(crate) fn drawing(&self, look: &Look) -> anyhow::Result<Drawing> {
+        let options = look.options(self.points.names(self.dim()));
+        let figures =
+            self.figures(&options).map_err(|error| picture::refused(error, self.points))?;
+        Ok(Drawing {
+            title: self.title(),
+            heading: self.points.name().to_owned(),
+            facts: self.facts().into_iter().map(picture::fact).collect(),
+            figures,
+        })
+    }
 }
 
 /// A number with its name, and what there is to say about it where there is room for words.
@@ -34,80 +70,40 @@ impl Fact {
     }
 }
 
-impl Report<'_> {
-    /// Why some balls are not drawn.
-    pub(crate) const NO_PICTURE: &'static str = "there are no pictures of balls around ellipsoids";
-
-    /// What this is, in one line.
-    pub(crate) fn title(&self) -> String {
-        let source = self.points.source();
-        let dim = self.items().dim(source.dim()) as u64;
-        format!(
-            "Smallest ball around {} in {}",
-            counted(source.len(), self.noun()),
-            counted(dim, "dimension")
-        )
+/// What one item is called.
+pub(crate) fn noun(items: Items) -> &'static str {
+    match items {
+        Items::Points => "point",
+        Items::Balls => "ball",
+        Items::Ellipsoids => "ellipsoid",
     }
+}
 
-    /// The numbers, each with its name.
-    pub(crate) fn facts(&self) -> Vec<Fact> {
-        let (answer, trace) = (&self.found.answer, &self.found.trace);
-        let support = count(self.found.certificate.support.len() as u64);
-        let mut centre = Fact::new("centre", coordinates(&answer.center, answer.radius));
-        if abridged(&answer.center) {
-            centre.value += &format!(" {} in all", count(answer.center.len() as u64));
-            centre = centre.remark("the JSON holds them (-o FILE)");
-        }
-        let (gap, verified) = match &self.verdict {
-            Some(proved) => (
-                Fact::new("gap", gap(proved.gap)).remark(format!(
-                    "no enclosing ball has a radius below {}",
-                    exact(proved.lower)
-                )),
-                Fact::new("verified", "yes")
-                    .remark(format!("every {} is inside, and the gap is proved", self.noun())),
-            ),
-            None => (
-                Fact::new("gap", gap(self.found.certificate.gap)).remark("as the solver says"),
-                Fact::new("verified", "not checked"),
-            ),
-        };
-        vec![
-            Fact::new("radius", exact(answer.radius)),
-            centre,
-            gap,
-            verified,
-            Fact::new("method", &*trace.method).remark(stopped(trace.stop)),
-            Fact::new("core-set", counted(trace.core_set, self.noun()))
-                .remark(format!("{support} of them in the support")),
-            Fact::new("passes", count(trace.passes)).remark(counted(trace.iterations, "iteration")),
-        ]
+/// The centre beside a size, with a word on what is left out of many coordinates.
+pub(crate) fn centre(center: &[f64], size: f64) -> Fact {
+    let mut fact = Fact::new("centre", coordinates(center, size));
+    if abridged(center) {
+        fact.value += &format!(" {} in all", count(center.len() as u64));
+        fact = fact.remark("the JSON holds them (-o FILE)");
     }
+    fact
+}
 
-    /// Pictures and what stands beside them.
-    pub(crate) fn drawing(&self, look: &Look) -> anyhow::Result<Drawing> {
-        let dim = self.items().dim(self.points.source().dim());
-        let options = look.options(self.points.names(dim));
-        let figures = ball_figures(self.found, self.points.source(), &options)
-            .map_err(|error| picture::refused(error, self.points))?;
-        Ok(Drawing {
-            title: self.title(),
-            heading: self.points.name().to_owned(),
-            facts: self.facts().into_iter().map(picture::fact).collect(),
-            figures,
-        })
-    }
-
-    fn items(&self) -> Items {
-        self.found.certificate.items
-    }
-
-    fn noun(&self) -> &'static str {
-        match self.items() {
-            Items::Points => "point",
-            Items::Balls => "ball",
-            Items::Ellipsoids => "ellipsoid",
-        }
+/// The gap, as proved (then with what that means) or as the solver says; and which of the two it is.
+pub(crate) fn gap_and_verified(
+    proved: Option<(f64, String)>,
+    claimed: f64,
+    verified: String,
+) -> [Fact; 2] {
+    match proved {
+        Some((proved, meaning)) => [
+            Fact::new("gap", gap(proved)).remark(meaning),
+            Fact::new("verified", "yes").remark(verified),
+        ],
+        None => [
+            Fact::new("gap", gap(claimed)).remark("as the solver says"),
+            Fact::new("verified", "not checked"),
+        ],
     }
 }
 

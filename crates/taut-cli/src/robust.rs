@@ -1,19 +1,8 @@
-//! `taut ellipsoid --robust`: centre, scatter and outliers of most of the points.
-
-use std::path::PathBuf;
+//! The options of `taut ellipsoid --robust`: centre, scatter and outliers of most of the points.
 
 use anyhow::bail;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::{RobustMethod, RobustOptions, robust_ellipsoid_of_source};
-
-use crate::clock::Clock;
-use crate::exit::Outcome;
-use crate::reading::Opened;
-use crate::report;
-use crate::robust_report::RobustReport;
-use crate::verify::judge;
-use crate::watch::Watch;
-use crate::writing::{self, Outputs};
+use taut::{RobustMethod, RobustOptions};
 
 /// Options that only robust ellipsoids have.
 #[derive(Clone, Debug, clap::Args)]
@@ -22,7 +11,7 @@ pub(crate) struct Robust {
     /// Let most of the points decide, whatever the others are, and name the outliers
     #[arg(
         long, value_name = "NAME", value_parser = methods(),
-        conflicts_with_all = ["balls", "ellipsoids", "method", "max_passes", "seed", "draw"]
+        conflicts_with_all = ["balls", "ellipsoids", "method", "max_passes", "seed"]
     )]
     robust: Option<RobustMethod>,
     /// About which part of the points is kept: mcd and mve take 0.5, where most outliers are borne, to 1; trim takes
@@ -45,18 +34,6 @@ fn methods() -> impl TypedValueParser<Value = RobustMethod> {
     PossibleValuesParser::new(explained).try_map(|name| name.parse::<RobustMethod>())
 }
 
-/// What a run needs beside its own options.
-pub(crate) struct Run<'a> {
-    pub(crate) points: &'a Opened,
-    pub(crate) watch: &'a Watch,
-    pub(crate) clock: Clock,
-    /// Where the JSON goes.
-    pub(crate) out: Option<&'a PathBuf>,
-    pub(crate) json: bool,
-    pub(crate) quiet: bool,
-    pub(crate) verify: bool,
-}
-
 impl Robust {
     /// The options of the library, where something robust is asked for.
     pub(crate) fn options(&self, epsilon: f64) -> anyhow::Result<Option<RobustOptions>> {
@@ -73,47 +50,6 @@ impl Robust {
             threads: None, // those of the pool, which reading and checking use as well
         }))
     }
-}
-
-/// Finds, checks, writes and tells.
-pub(crate) fn run(options: &RobustOptions, run: Run<'_>) -> anyhow::Result<Outcome> {
-    let Run { points, watch, mut clock, out, json, quiet, verify } = run;
-    let found = watch
-        .during("solving", |monitor| robust_ellipsoid_of_source(points.source(), options, monitor))
-        .map_err(|error| points.explain(error))?;
-    clock.lap("solving");
-
-    let mut verdict = None;
-    if verify {
-        match judge(&found, points, watch)? {
-            Ok(proved) => verdict = Some(proved),
-            Err(violation) => {
-                let violation = points.explain_violation(&violation, "the ellipsoid found");
-                writing::complain(&format!("the check failed: {violation}"));
-                return Ok(Outcome::CheckFailed);
-            }
-        }
-        clock.lap("checking");
-    }
-
-    let mut outputs = Outputs::default();
-    let text = || found.to_json() + "\n";
-    if let Some(out) = out {
-        outputs.add(out, text().as_bytes())?;
-    }
-    // Where the answer goes to standard output, nothing else does.
-    if out.is_none_or(|out| !writing::is_stream(out)) {
-        if json {
-            outputs.say(&text());
-        } else if !quiet {
-            let report = RobustReport { found: &found, points, verdict };
-            let mut facts = report.facts();
-            facts.push(clock.fact());
-            outputs.say(&report::text(&report.title(), &facts));
-        }
-    }
-    outputs.finish()?;
-    Ok(Outcome::Done)
 }
 
 #[cfg(test)]

@@ -1,51 +1,35 @@
 //! What is said about a robust ellipsoid.
 
 use taut::{RobustEllipsoid, RobustMethod, RobustVerdict, Solution};
+use taut_draw::{DrawOptions, Error as DrawError, Figure, robust_figures};
 
-use crate::numbers::{abridged, coordinates, count, counted, exact, gap};
-use crate::reading::Opened;
-use crate::report::Fact;
+use crate::numbers::{count, counted, exact, gap};
+use crate::report::{Fact, Report, Tell, centre};
 
 /// Outliers whose rows are named.
 const NAMED: usize = 8;
 
-/// A robust ellipsoid, the points it belongs to, and what the checker proved (`None` where it was not asked).
-pub(crate) struct RobustReport<'a> {
-    pub(crate) found: &'a Solution<RobustEllipsoid>,
-    pub(crate) points: &'a Opened,
-    pub(crate) verdict: Option<RobustVerdict>,
-}
+impl Tell for Report<'_, RobustEllipsoid> {
+    const FOUND: &'static str = "the ellipsoid found";
 
-impl RobustReport<'_> {
-    /// What this is, in one line.
-    pub(crate) fn title(&self) -> String {
+    fn title(&self) -> String {
         let source = self.points.source();
-        let dim = self.found.answer.center.len() as u64;
-        format!(
-            "Robust ellipsoid of {} in {}",
-            counted(source.len(), "point"),
-            counted(dim, "dimension")
-        )
+        let dim = counted(self.dim() as u64, "dimension");
+        format!("Robust ellipsoid of {} in {dim}", counted(source.len(), "point"))
     }
 
-    /// The numbers, each with its name.
-    pub(crate) fn facts(&self) -> Vec<Fact> {
+    fn facts(&self) -> Vec<Fact> {
         let (answer, certificate) = (&self.found.answer, &self.found.certificate);
         let trace = &self.found.trace;
         let (n, dim, rank) = (self.points.source().len(), answer.center.len(), answer.factor.len());
         let widest = (0..dim).map(|a| answer.scatter[a][a].sqrt()).fold(0.0, f64::max);
         let size = if widest > 0.0 { widest } else { 1.0 };
-        let mut centre = Fact::new("centre", coordinates(&answer.center, size));
-        if abridged(&answer.center) {
-            centre.value += &format!(" {} in all", count(dim as u64));
-            centre = centre.remark("the JSON holds them (-o FILE)");
-        }
         let border = match certificate.method {
             RobustMethod::Trim => "of the ellipsoid around the points kept".to_owned(),
             _ => format!("of the ellipsoid that holds {} of normal points", certificate.level),
         };
         let mut facts = vec![
-            centre,
+            centre(&answer.center, size),
             Fact::new("log-det", exact(answer.log_det)).remark("of the scatter"),
             Fact::new("log-volume", exact(answer.log_volume)).remark(border),
             Fact::new("kept", format!("{} of {}", count(certificate.kept), counted(n, "point"))),
@@ -83,6 +67,16 @@ impl RobustReport<'_> {
         facts
     }
 
+    fn dim(&self) -> usize {
+        self.found.answer.center.len()
+    }
+
+    fn figures(&self, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
+        robust_figures(self.found, self.points.source(), options)
+    }
+}
+
+impl Report<'_, RobustEllipsoid> {
     /// How many, and the rows of the first, counted from 1 as in the file.
     fn outliers(&self) -> Fact {
         let flagged = &self.found.answer.flagged;

@@ -10,19 +10,18 @@ use std::time::Instant;
 use anyhow::{anyhow, bail};
 use taut::certify::NO_NEIGHBOR;
 use taut::{
-    Answer, BallOptions, DelaunayOptions, Ellipsoid, EllipsoidOptions, Items, Solution,
-    Triangulation, Violation, ball_of_source, delaunay_of_source, ellipsoid_of_source,
+    Answer, BallOptions, DelaunayOptions, Ellipsoid, EllipsoidOptions, InscribedOptions, Items,
+    RobustOptions, Solution, Triangulation, Violation, ball_of_source, delaunay_of_source,
+    ellipsoid_of_source, inscribed_ellipsoid_of_source, robust_ellipsoid_of_source,
 };
 use taut_draw::{Fact, Page, Section, to_html};
 
 use crate::effort::Effort;
-use crate::ellipsoid_report::EllipsoidReport;
 use crate::exit::Outcome;
 use crate::numbers::{count, exact, gap, seconds, short};
-use crate::picture::{Drawing, Look, telling};
+use crate::picture::{Look, telling};
 use crate::reading::Opened;
-use crate::report::Report;
-use crate::triangulation::TriangulationReport;
+use crate::report::{Report, Tell};
 use crate::verify::judge;
 use crate::watch::Watch;
 use crate::writing::{self, Outputs};
@@ -122,6 +121,8 @@ fn visit(station: &Station, watch: &Watch) -> anyhow::Result<Stop> {
     match station.tool {
         Tool::Ball(items) => ball(station, items, &points, watch),
         Tool::Ellipsoid => ellipsoid(station, &points, watch),
+        Tool::Robust => robust(station, &points, watch),
+        Tool::Inscribed => inscribed(station, &points, watch),
         Tool::Delaunay => triangulation(station, &points, watch),
     }
 }
@@ -131,27 +132,24 @@ fn ball(station: &Station, items: Items, points: &Opened, watch: &Watch) -> anyh
     let found = watch
         .during("solving", |monitor| ball_of_source(points.source(), items, &options, monitor))
         .map_err(|error| points.explain(error))?;
-    let mut judged = Judged::of(&found, points, watch, "the ball found")?;
-    if station.doctored {
+    let doctor = || {
         let mut doctored = found.clone();
         doctored.answer.radius *= 1.0 - 1e-6;
-        judged.must_reject("a millionth smaller", judge(&doctored, points, watch)?, |violation| {
-            match violation {
-                Violation::Outside { row, excess, .. } => {
-                    Some(format!("point {row} is outside by {}", gap(*excess)))
-                }
-                _ => None,
-            }
-        });
-    }
-    let said = match judged.verdict {
-        Some(proved) => {
-            format!("radius {:<12} gap {}", short(found.answer.radius), gap(proved.gap))
-        }
-        None => format!("radius {}", exact(found.answer.radius)),
+        doctored
     };
-    let report = Report { found: &found, points, verdict: judged.verdict };
-    Ok(judged.stop(station, said, report.drawing(&Look::default())?))
+    told(
+        station,
+        &found,
+        points,
+        watch,
+        ("a millionth smaller", &doctor),
+        |verdict| match verdict {
+            Some(proved) => {
+                format!("radius {:<12} gap {}", short(found.answer.radius), gap(proved.gap))
+            }
+            None => format!("radius {}", exact(found.answer.radius)),
+        },
+    )
 }
 
 fn ellipsoid(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result<Stop> {
@@ -159,25 +157,52 @@ fn ellipsoid(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Resul
     let found = watch
         .during("solving", |monitor| ellipsoid_of_source(points.source(), &options, monitor))
         .map_err(|error| points.explain(error))?;
-    let mut judged = Judged::of(&found, points, watch, "the ellipsoid found")?;
-    if station.doctored {
-        let doctored = a_millionth_flatter(&found);
-        judged.must_reject("a millionth flatter", judge(&doctored, points, watch)?, |violation| {
-            match violation {
-                Violation::OutsideEllipsoid { row, excess, .. } => {
-                    Some(format!("point {row} is outside by {}", gap(*excess)))
-                }
-                _ => None,
-            }
-        });
-    }
-    let volume = short(found.answer.log_volume);
-    let said = match judged.verdict {
-        Some(proved) => format!("log-volume {volume:<12} gap {}", gap(proved.gap)),
-        None => format!("log-volume {volume}"),
+    let doctor = || a_millionth_flatter(&found);
+    told(station, &found, points, watch, ("a millionth flatter", &doctor), |verdict| {
+        volume_and_gap(found.answer.log_volume, verdict.map(|proved| proved.gap))
+    })
+}
+
+fn inscribed(station: &Station, sides: &Opened, watch: &Watch) -> anyhow::Result<Stop> {
+    let options = InscribedOptions::default();
+    let found = watch
+        .during("solving", |monitor| {
+            inscribed_ellipsoid_of_source(sides.source(), &options, monitor)
+        })
+        .map_err(|error| sides.explain(error))?;
+    let doctor = || {
+        let mut doctored = found.clone();
+        doctored.answer.axes.iter_mut().for_each(|row| row[0] *= 1.0 + 1e-6);
+        doctored.answer.log_volume += f64::ln_1p(1e-6);
+        doctored
     };
-    let report = EllipsoidReport { found: &found, points, verdict: judged.verdict };
-    Ok(judged.stop(station, said, report.drawing(&Look::default())?))
+    told(station, &found, sides, watch, ("a millionth longer", &doctor), |verdict| {
+        volume_and_gap(found.answer.log_volume, verdict.map(|proved| proved.gap))
+    })
+}
+
+fn robust(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result<Stop> {
+    let options = RobustOptions::default();
+    let found = watch
+        .during("solving", |monitor| robust_ellipsoid_of_source(points.source(), &options, monitor))
+        .map_err(|error| points.explain(error))?;
+    let doctor = || {
+        let mut doctored = found.clone();
+        doctored.answer.flagged.pop();
+        doctored
+    };
+    told(station, &found, points, watch, ("an outlier less", &doctor), |_| {
+        let outliers = count(found.answer.flagged.len() as u64);
+        format!("{outliers} outliers of {} points", count(points.source().len()))
+    })
+}
+
+fn volume_and_gap(volume: f64, proved: Option<f64>) -> String {
+    let volume = short(volume);
+    match proved {
+        Some(proved) => format!("log-volume {volume:<12} gap {}", gap(proved)),
+        None => format!("log-volume {volume}"),
+    }
 }
 
 /// The ellipsoid with one row of F longer by a millionth, so flatter, and all else to match.
@@ -202,17 +227,11 @@ fn triangulation(station: &Station, points: &Opened, watch: &Watch) -> anyhow::R
             delaunay_of_source(points.source(), &DelaunayOptions::default(), monitor)
         })
         .map_err(|error| points.explain_delaunay(error))?;
-    let mut judged = Judged::of(&found, points, watch, "the triangulation found")?;
-    if station.doctored {
-        let doctored = with_an_edge_turned(&found);
-        judged.must_reject("an edge turned", judge(&doctored, points, watch)?, |violation| {
-            Some(violation.to_string())
-        });
-    }
+    let doctor = || with_an_edge_turned(&found);
     let counts = found.certificate.counts;
-    let said = format!("{} simplices, {} hull facets", count(counts.simplices), count(counts.hull));
-    let report = TriangulationReport { found: &found, points, verdict: judged.verdict };
-    Ok(judged.stop(station, said, report.drawing(&Look::default())?))
+    told(station, &found, points, watch, ("an edge turned", &doctor), |_| {
+        format!("{} simplices, {} hull facets", count(counts.simplices), count(counts.hull))
+    })
 }
 
 /// The triangulation with the other diagonal in the first two triangles that share an edge.
@@ -234,52 +253,59 @@ fn with_an_edge_turned(found: &Solution<Triangulation>) -> Solution<Triangulatio
     doctored
 }
 
-/// What the checker said of an answer.
-struct Judged<V> {
-    verdict: Option<V>,
-    verified: bool,
-    further: Vec<Fact>,
-}
-
-impl<V> Judged<V> {
-    fn of<A: Answer<Verdict = V>>(
-        found: &Solution<A>,
-        points: &Opened,
-        watch: &Watch,
-        name: &str,
-    ) -> anyhow::Result<Self> {
-        Ok(match judge(found, points, watch)? {
-            Ok(verdict) => Judged { verdict: Some(verdict), verified: true, further: Vec::new() },
+/// Checks an answer, and where the station says so a doctored one, which must be rejected; then tells and draws.
+fn told<A: Answer>(
+    station: &Station,
+    found: &Solution<A>,
+    points: &Opened,
+    watch: &Watch,
+    (name, doctored): (&str, &dyn Fn() -> Solution<A>),
+    said: impl FnOnce(Option<&A::Verdict>) -> String,
+) -> anyhow::Result<Stop>
+where
+    for<'a> Report<'a, A>: Tell,
+{
+    let (mut verified, mut further) = (true, Vec::new());
+    let verdict = match judge(found, points, watch)? {
+        Ok(verdict) => Some(verdict),
+        Err(violation) => {
+            let why = points.explain_violation(&violation, Report::<A>::FOUND);
+            further.push(Fact::new("rejected", why));
+            verified = false;
+            None
+        }
+    };
+    if station.doctored {
+        match judge(&doctored(), points, watch)? {
             Err(violation) => {
-                let why = points.explain_violation(&violation, name);
-                let further = vec![Fact::new("rejected", why)];
-                Judged { verdict: None, verified: false, further }
+                further.push(Fact::new(name, format!("rejected: {}", in_short(&violation))));
             }
-        })
-    }
-
-    /// A wrong answer must be rejected, for a reason that `why` knows.
-    fn must_reject<W>(
-        &mut self,
-        name: &str,
-        judged: Result<W, Violation>,
-        why: impl Fn(&Violation) -> Option<String>,
-    ) {
-        match judged.err().and_then(|violation| why(&violation)) {
-            Some(why) => self.further.push(Fact::new(name, format!("rejected: {why}"))),
-            None => self.verified = false,
+            Ok(_) => verified = false,
         }
     }
+    let said = said(verdict.as_ref());
+    let drawing = Report { found, points, verdict }.drawing(&Look::default())?;
+    let section = Section {
+        heading: station.heading.to_owned(),
+        text: station.text.to_owned(),
+        command: station.command.to_owned(),
+        facts: drawing.facts.into_iter().chain(further).collect(),
+        figures: telling(drawing.figures),
+    };
+    Ok(Stop { section, said, verified })
+}
 
-    fn stop(self, station: &Station, said: String, drawing: Drawing) -> Stop {
-        let section = Section {
-            heading: station.heading.to_owned(),
-            text: station.text.to_owned(),
-            command: station.command.to_owned(),
-            facts: drawing.facts.into_iter().chain(self.further).collect(),
-            figures: telling(drawing.figures),
-        };
-        Stop { section, said, verified: self.verified }
+/// Why a doctored answer was rejected, with as many digits as a page needs.
+fn in_short(violation: &Violation) -> String {
+    match violation {
+        Violation::Outside { row, excess, .. }
+        | Violation::OutsideEllipsoid { row, excess, .. } => {
+            format!("point {row} is outside by {}", gap(*excess))
+        }
+        Violation::OutsideHalfSpace { row, excess } => {
+            format!("half-space {row} is crossed by {}", gap(*excess))
+        }
+        other => other.to_string(),
     }
 }
 
@@ -290,7 +316,8 @@ fn page(sections: Vec<Section>) -> String {
                 sample, the command that does the same, and what was found.\n\n\
                 Verified means: a checker that shares no code with the solver read the points again and proved the \
                 answer from its certificate: every point is inside and no smaller shape of its kind could hold them \
-                all, or the triangles are those of Delaunay and there are no others."
+                all, or none larger could fit; the triangles are those of Delaunay and there are no others. Of \
+                outliers it proves all but that no other half of the points lies closer together."
             .to_owned(),
         sections,
         footer: format!("Made by taut {}: taut tour. The samples: taut tour --samples DIR.", env!("CARGO_PKG_VERSION")),

@@ -1,32 +1,23 @@
-//! What is said about a triangulation: the same facts on the terminal, beside pictures and in the tour.
+//! What is said about a triangulation.
 
+use taut::Triangulation;
 use taut::certify::TriangulationVerdict;
-use taut::{Solution, Triangulation};
-use taut_draw::delaunay_figures;
+use taut_draw::{DrawOptions, Error as DrawError, Figure, delaunay_figures};
 
 use crate::numbers::{count, counted};
-use crate::picture::{self, Drawing, Look};
-use crate::reading::Opened;
-use crate::report::Fact;
+use crate::report::{Fact, Report, Tell};
 
-/// A triangulation, the points it belongs to, and what the checker proved (`None` where it was not asked).
-pub(crate) struct TriangulationReport<'a> {
-    pub(crate) found: &'a Solution<Triangulation>,
-    pub(crate) points: &'a Opened,
-    pub(crate) verdict: Option<TriangulationVerdict>,
-}
+impl Tell for Report<'_, Triangulation> {
+    const FOUND: &'static str = "the triangulation found";
 
-impl TriangulationReport<'_> {
-    /// What this is, in one line.
-    pub(crate) fn title(&self) -> String {
+    fn title(&self) -> String {
         let answer = &self.found.answer;
         let place = if answer.dimension == 2 { "the plane" } else { "space" };
         let points = counted(self.points.source().len(), "point");
         format!("Delaunay triangulation of {points} in {place}")
     }
 
-    /// The numbers, each with its name.
-    pub(crate) fn facts(&self) -> Vec<Fact> {
+    fn facts(&self) -> Vec<Fact> {
         let (answer, certificate) = (&self.found.answer, &self.found.certificate);
         let counts = certificate.counts;
         let sites = Fact::new("sites", count(counts.sites)).remark(match answer.duplicates.len() {
@@ -71,17 +62,12 @@ impl TriangulationReport<'_> {
         ]
     }
 
-    /// Pictures and what stands beside them.
-    pub(crate) fn drawing(&self, look: &Look) -> anyhow::Result<Drawing> {
-        let options = look.options(self.points.names(self.points.source().dim()));
-        let figures = delaunay_figures(self.found, self.points.source(), &options)
-            .map_err(|error| picture::refused(error, self.points))?;
-        Ok(Drawing {
-            title: self.title(),
-            heading: self.points.name().to_owned(),
-            facts: self.facts().into_iter().map(picture::fact).collect(),
-            figures,
-        })
+    fn dim(&self) -> usize {
+        self.points.source().dim()
+    }
+
+    fn figures(&self, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
+        delaunay_figures(self.found, self.points.source(), options)
     }
 }
 

@@ -7,12 +7,13 @@ use anyhow::{anyhow, bail};
 use taut::certify::{CheckError, JsonError, check_simplices};
 use taut::enclose::Error as SolveError;
 use taut::points::{Blocks, Scratch};
-use taut::{Answer, AnySolution, InscribedVerdict, Solution, Verdict, Violation};
+use taut::{Answer, AnySolution, Solution, Verdict, Violation};
 use taut_io::{Mesh, MeshFormat, open_mesh};
 
 use crate::effort::Effort;
 use crate::ellipsoid_report::proved_of_ellipsoid;
 use crate::exit::Outcome;
+use crate::inscribed_report::proved_of_inscribed;
 use crate::numbers::{exact, gap};
 use crate::reading::{Opened, Points, Reading};
 use crate::report::{self, Fact};
@@ -30,7 +31,7 @@ Exit: 0 proved · 1 rejected, with the first violation, or a larger gap than --e
 A mesh of simplices (.ply, .obj, .off, .vtu, .parquet) is judged as a Delaunay triangulation, without certificate.
 Example: taut verify ball.json points.csv --epsilon 1e-6")]
 pub(crate) struct Args {
-    /// The answer, as `taut ball -o` and `taut delaunay -o` write it; - is standard input
+    /// The answer, as `taut ball -o`, `taut ellipsoid -o` and their like write it; - is standard input
     answer: PathBuf,
     #[command(flatten)]
     points: Points,
@@ -56,40 +57,27 @@ impl Args {
         };
         let name = shown(&self.answer);
         let most = self.epsilon.unwrap_or(f64::INFINITY);
+        // A loose certificate is as true as a tight one: how tight it is belongs to what is said.
+        let within = |proved: f64, what: String, facts: Vec<Fact>| match proved > most {
+            true => rejected(too_loose(&name, proved, most)),
+            false => {
+                let title = format!("Verified within a gap of {}: {what}", gap(proved));
+                (Outcome::Done, report::text(&title, &facts))
+            }
+        };
         let judged = match &answer {
             AnySolution::Ball(found) => judge(found, &points, &watch)?.map(|verdict| {
-                if verdict.gap > most {
-                    return rejected(too_loose(&name, verdict.gap, most));
-                }
-                // A loose certificate is as true as a tight one: how tight it is belongs to what is said.
-                let title = format!(
-                    "Verified within a gap of {}: ball of radius {}",
-                    gap(verdict.gap),
-                    exact(found.answer.radius)
-                );
-                (Outcome::Done, report::text(&title, &facts(&verdict)))
+                let what = format!("ball of radius {}", exact(found.answer.radius));
+                within(verdict.gap, what, facts(&verdict))
             }),
             AnySolution::Ellipsoid(found) => judge(found, &points, &watch)?.map(|verdict| {
-                if verdict.gap > most {
-                    return rejected(too_loose(&name, verdict.gap, most));
-                }
-                let title = format!(
-                    "Verified within a gap of {}: ellipsoid of log-volume {}",
-                    gap(verdict.gap),
-                    exact(found.answer.log_volume)
-                );
-                (Outcome::Done, report::text(&title, &proved_of_ellipsoid(&verdict)))
+                let what = format!("ellipsoid of log-volume {}", exact(found.answer.log_volume));
+                within(verdict.gap, what, proved_of_ellipsoid(&verdict))
             }),
             AnySolution::Inscribed(found) => judge(found, &points, &watch)?.map(|verdict| {
-                if verdict.gap > most {
-                    return rejected(too_loose(&name, verdict.gap, most));
-                }
-                let title = format!(
-                    "Verified within a gap of {}: inscribed ellipsoid of log-volume {}",
-                    gap(verdict.gap),
-                    exact(found.answer.log_volume)
-                );
-                (Outcome::Done, report::text(&title, &proved_of_inscribed(&verdict)))
+                let volume = exact(found.answer.log_volume);
+                let what = format!("inscribed ellipsoid of log-volume {volume}");
+                within(verdict.gap, what, proved_of_inscribed(&verdict))
             }),
             AnySolution::Robust(found) => judge(found, &points, &watch)?.map(|verdict| {
                 if let Some(enclosure) = verdict.enclosure.filter(|proved| proved.gap > most) {
@@ -258,14 +246,5 @@ fn facts(verdict: &Verdict) -> Vec<Fact> {
     vec![
         Fact::new("bracket", bracket),
         Fact::new("gap", gap(verdict.gap)).remark("relative, proved from the points alone"),
-    ]
-}
-
-fn proved_of_inscribed(verdict: &InscribedVerdict) -> Vec<Fact> {
-    let (lower, upper) = (exact(verdict.lower), exact(verdict.upper));
-    vec![
-        Fact::new("bracket", format!("{lower} ≤ largest log-volume ≤ {upper}")),
-        Fact::new("gap", gap(verdict.gap))
-            .remark("in log-volume, proved from the half-spaces alone"),
     ]
 }

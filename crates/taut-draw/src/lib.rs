@@ -4,6 +4,8 @@
 //! |---|---|---|
 //! | a ball and its points | [`ball_figures`] | scenes of the plane or of space, and plots |
 //! | an ellipsoid and its points | [`ellipsoid_figures`] | scenes of the plane or of space, shadows on pairs of coordinates, and plots |
+//! | a robust ellipsoid and its points | [`robust_figures`] | the same with outliers apart, and the distance of each point |
+//! | an ellipsoid in a polytope, and its half-spaces | [`inscribed_figures`] | scenes of the plane or of space, cuts through the centre, and plots |
 //! | a triangulation and its points | [`delaunay_figures`] | scenes of the plane or of space, and the Voronoi diagram |
 //! | a [`Figure`] | [`to_svg`] | SVG text, with a title and a description for screen readers |
 //! | a [`Figure`] | `to_png` (feature `png`) | PNG bytes, the same on every machine: the font is bundled |
@@ -34,6 +36,8 @@ mod ellipsoid;
 mod error;
 mod figure;
 mod html;
+mod inscribed;
+mod marks;
 mod number;
 mod options;
 mod passes;
@@ -50,10 +54,11 @@ mod text;
 
 pub use ball::ball_figures;
 pub use delaunay::delaunay_figures;
-pub use ellipsoid::ellipsoid_figures;
+pub use ellipsoid::{ellipsoid_figures, robust_figures};
 pub use error::Error;
 pub use figure::Figure;
 pub use html::{Fact, Page, Section, to_html};
+pub use inscribed::inscribed_figures;
 pub use options::DrawOptions;
 pub use plot::{Bar, Level, Plot, Scale, Series, SeriesLook};
 #[cfg(feature = "png")]

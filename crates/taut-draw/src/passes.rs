@@ -1,8 +1,8 @@
-//! Bounds and gap by pass, from the trace.
+//! Bounds and gap by pass, or by whatever steps a solver takes, from the trace.
 
 use taut_certify::PassBounds;
 
-use crate::number::{count, counted};
+use crate::number::count;
 use crate::{Axis, DrawOptions, Plot, Scale, Series, SeriesLook, Tone};
 
 /// What the bounds are bounds of.
@@ -12,6 +12,23 @@ pub(crate) struct Words {
     /// "the smallest radius"
     pub(crate) answer: &'static str,
     pub(crate) gap: Gap,
+    /// What there is a pair of bounds after, in singular and plural, and as the name of an axis.
+    pub(crate) step: [&'static str; 3],
+    /// What the upper bound is, and what it stands for; the same of the lower.
+    pub(crate) upper: (&'static str, Tone),
+    pub(crate) lower: (&'static str, Tone),
+}
+
+impl Words {
+    /// What all shapes around points have in common; the rest is that of a ball.
+    pub(crate) const ENCLOSING: Words = Words {
+        quantity: "radius",
+        answer: "the smallest radius",
+        gap: Gap::Relative,
+        step: ["pass", "passes", "pass over all points"],
+        upper: ("upper bound: encloses all", Tone::Answer),
+        lower: ("lower bound: proved", Tone::Bound),
+    };
 }
 
 /// How the two bounds are compared.
@@ -40,12 +57,10 @@ pub(crate) fn passes(history: &[PassBounds], words: &Words, options: &DrawOption
             .filter(|p| p[1].is_finite())
             .collect(),
     };
+    let [step, plural, axis] = words.step;
+    let steps = |n: u64| format!("{} {}", count(n), if n == 1 { step } else { plural });
     let shown = if drawn.len() < history.len() {
-        format!(
-            " {} of {} are drawn.",
-            count(drawn.len() as u64),
-            counted(history.len() as u64, "pass").replace("passs", "passes")
-        )
+        format!(" {} of {} are drawn.", count(drawn.len() as u64), steps(history.len() as u64))
     } else {
         String::new()
     };
@@ -53,7 +68,7 @@ pub(crate) fn passes(history: &[PassBounds], words: &Words, options: &DrawOption
     let plot = |title: &str, caption: String, y: Axis, y_scale, series| Plot {
         title: title.to_owned(),
         caption,
-        x: Axis::named("pass over all points"),
+        x: Axis::named(axis),
         y,
         x_scale: if long { Scale::Log } else { Scale::Linear },
         y_scale,
@@ -62,6 +77,10 @@ pub(crate) fn passes(history: &[PassBounds], words: &Words, options: &DrawOption
         levels: Vec::new(),
         width: options.width,
         height: (options.height * 0.62).max(180.0),
+    };
+    let drawn_as = |tone: Tone| match tone {
+        Tone::Bound if long => SeriesLook::Dashed,
+        _ => look,
     };
     let gap = |i: usize| match (words.gap, &history[i]) {
         (Gap::Relative, PassBounds { upper: 0.0, .. }) => 0.0,
@@ -82,11 +101,7 @@ pub(crate) fn passes(history: &[PassBounds], words: &Words, options: &DrawOption
     if unbounded > 0 {
         gap_words += &format!(
             " The first {} had no lower bound yet.",
-            if unbounded == 1 {
-                "pass".to_owned()
-            } else {
-                format!("{} passes", count(unbounded as u64))
-            }
+            if unbounded == 1 { step.to_owned() } else { steps(unbounded as u64) }
         );
     }
     if exact {
@@ -94,22 +109,21 @@ pub(crate) fn passes(history: &[PassBounds], words: &Words, options: &DrawOption
     }
     vec![
         plot(
-            &format!("Bounds on the {} by pass", words.quantity),
-            format!("After each pass {} lies between the two curves.{shown}", words.answer),
+            &format!("Bounds on the {} by {step}", words.quantity),
+            format!("After each {step} {} lies between the two curves.{shown}", words.answer),
             Axis::named(words.quantity),
             Scale::Linear,
             vec![
-                series("upper bound: encloses all", Tone::Answer, look, &|i| history[i].upper),
-                series(
-                    "lower bound: proved",
-                    Tone::Bound,
-                    if long { SeriesLook::Dashed } else { look },
-                    &|i| history[i].lower,
-                ),
+                series(words.upper.0, words.upper.1, drawn_as(words.upper.1), &|i| {
+                    history[i].upper
+                }),
+                series(words.lower.0, words.lower.1, drawn_as(words.lower.1), &|i| {
+                    history[i].lower
+                }),
             ],
         ),
         plot(
-            "Gap by pass",
+            &format!("Gap by {step}"),
             gap_words,
             Axis::named(gap_name),
             Scale::Log,

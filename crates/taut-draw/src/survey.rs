@@ -24,6 +24,7 @@ pub(crate) const CLOSE: f64 = 1e-3;
 const OUTSIDE: f64 = 1e-9;
 
 /// What a read of all items found.
+#[derive(Clone)]
 pub(crate) struct Survey {
     /// Items to draw, ascending.
     pub(crate) ids: Vec<u64>,

@@ -3,6 +3,7 @@
 //! A method ([`rounds`], [`first_order`]) ends with convex multipliers and the pass made with the ellipsoid they mean ([`outcome`]);
 //! [`proof`] turns that into an answer and its certificate, whatever the method was.
 
+mod batch;
 mod counters;
 pub(crate) mod dense;
 mod factor;
@@ -31,6 +32,7 @@ use self::sample::Sample;
 use self::survey::Survey;
 use self::whitener::Whitener;
 use crate::Error;
+pub use batch::{ellipsoids, ellipsoids_of_sources};
 pub(crate) use dense::cholesky;
 pub use options::{EllipsoidMethod, EllipsoidOptions};
 pub(crate) use outcome::log_unit_ball;

@@ -64,15 +64,24 @@ pub enum Error {
         direction: Vec<f64>,
     },
     /// Half-spaces that have no point in common, or no ball.
-    #[error("the polytope has no interior point: half-spaces {rows:?} leave none")]
+    #[error(
+        "{}", match is_empty {
+            true => format!("the polytope is empty: half-spaces {rows:?} have no point in common"),
+            false => format!("the polytope has no interior point: half-spaces {rows:?} leave none"),
+        }
+    )]
     NoInterior {
         /// Half-spaces, from 0.
         rows: Vec<u64>,
         /// λ for these, with normals of length 1: Σλᵢaᵢ = 0 and Σλᵢbᵢ ≤ 0, but for rounding.
         multipliers: Vec<f64>,
+        /// Whether no point at all is in these half-spaces; else there may be some, but no ball of them.
+        is_empty: bool,
     },
-    /// The points reach so far that the radius exceeds the largest `f64`.
-    #[error("the points reach too far for numbers of double precision: scale them down")]
+    /// A number of the answer, or a square on the way to it, exceeds the largest `f64` or vanishes.
+    #[error(
+        "the sizes of the input, or their squares, are beyond what double precision can hold: scale the coordinates towards 1"
+    )]
     Overflow,
     /// An option is outside its range.
     #[error("option `{name}` is {value}: expected {expected}")]
@@ -91,6 +100,14 @@ pub enum Error {
         status: String,
         /// Points it was given.
         points: usize,
+    },
+    /// One of many point sets cannot be solved.
+    #[error("point set {set}: {error}")]
+    Set {
+        /// Which, from 0.
+        set: u64,
+        /// Why.
+        error: Box<Error>,
     },
     /// The points could not be read.
     #[error(transparent)]

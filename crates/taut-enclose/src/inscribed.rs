@@ -19,7 +19,10 @@ use crate::kernel::DoubleDouble;
 use crate::kernel::vector::dot;
 
 /// Gap that rounding leaves, for each dimension.
-const ROUNDING: f64 = 1e-12;
+const ROUNDING: f64 = 1e-13;
+
+/// A multiplier below this part of the largest is taken for that of a half-space that does not touch.
+const SMALL: f64 = 1e-6;
 
 /// How to look for the inscribed ellipsoid. Write `InscribedOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq)]
@@ -136,6 +139,16 @@ fn read(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<HalfSpaces, E
     }
 }
 
+/// The multipliers without those of half-spaces that do not touch: the path gives some to every half-space, and they
+/// tend to 0 with it.
+fn few(views: &[(Vec<f64>, f64)], lambda: &[f64]) -> Option<Vec<f64>> {
+    let weight = |i: usize| lambda[i] * dot(&views[i].0, &views[i].0).sqrt();
+    let most = (0..lambda.len()).map(weight).fold(0.0, f64::max);
+    let few: Vec<f64> =
+        (0..lambda.len()).map(|i| if weight(i) > SMALL * most { lambda[i] } else { 0.0 }).collect();
+    (few != lambda).then_some(few)
+}
+
 /// c, G by rows, multipliers of all half-spaces, and how it came about.
 struct Found {
     center: Vec<f64>,
@@ -182,14 +195,22 @@ fn prove(
         axes.iter_mut().for_each(|g| *g *= room);
     }
     let views: Vec<(Vec<f64>, f64)> = sides.rows().map(|row| seen(row, &center, &axes)).collect();
-    let lambda = path::corrected(&views, lambda);
+    let few = few(&views, &lambda);
+    let mut lambda = path::corrected(&views, lambda);
+    let mut gap = path::gap(&views, &lambda);
+    if let Some(few) = few.map(|few| path::corrected(&views, few)) {
+        let by_few = path::gap(&views, &few);
+        if by_few <= gap.max(0.5 * options.epsilon) {
+            (lambda, gap) = (few, by_few);
+        }
+    }
     let log_det = path::log_determinant(&axes, dim);
     let log_volume = log_det + crate::ellipsoid::log_unit_ball(dim);
     if !log_volume.is_finite() || center.iter().chain(&axes).any(|v| !v.is_finite()) {
         return Err(Error::Overflow);
     }
-    let gap = (path::gap(&views, &lambda) + margin * dim as f64).min(f64::MAX);
-    if stop == Stop::Converged && gap > options.epsilon.max(2.0 * ROUNDING * dim as f64) {
+    let gap = (gap + margin * dim as f64).min(f64::MAX);
+    if stop == Stop::Converged && gap > options.epsilon {
         stop = Stop::Rounding;
     }
     let support: Vec<usize> = (0..lambda.len()).filter(|&i| lambda[i] > 0.0).collect();

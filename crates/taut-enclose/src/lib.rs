@@ -8,6 +8,7 @@
 //! | balls and ellipsoids, larger than memory | [`ball_of_source()`] | the same | the same, one block per thread in memory |
 //! | ellipsoid of least volume around points | [`ellipsoid()`] | log-volume ≤ optimum + ε, proved | few passes of O(nd²) |
 //! | the same, larger than memory | [`ellipsoid_of_source()`] | the same | the same, one block per thread in memory |
+//! | one for each of many point sets | [`ellipsoids()`] | the same | that of the sets, shared by all threads |
 //! | ellipsoid of least volume around balls, ellipsoids | [`ellipsoid_of_balls()`], [`ellipsoid_of_ellipsoids()`] | the same | a dozen passes of O(nd³) |
 //! | ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | some fifty steps of O(nd⁴ + d⁶) |
 //! | centre, scatter and outliers | [`robust_ellipsoid()`] | all proved but that no other points kept would do better | some ten to thirty passes of O(nd²) |
@@ -33,7 +34,7 @@ mod top;
 pub use ball::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_ellipsoids, ball_of_source};
 pub use ellipsoid::{
     EllipsoidMethod, EllipsoidOptions, ellipsoid, ellipsoid_of_balls, ellipsoid_of_ellipsoids,
-    ellipsoid_of_items, ellipsoid_of_source,
+    ellipsoid_of_items, ellipsoid_of_source, ellipsoids, ellipsoids_of_sources,
 };
 pub use error::Error;
 pub use inscribed::{InscribedOptions, inscribed_ellipsoid, inscribed_ellipsoid_of_source};

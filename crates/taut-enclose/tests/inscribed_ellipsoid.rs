@@ -1,6 +1,6 @@
 //! The inscribed ellipsoid: closed forms, laws, polytopes without one, doctored answers.
 
-use taut_certify::{InscribedEllipsoid, Solution};
+use taut_certify::{InscribedEllipsoid, Solution, Stop};
 use taut_enclose::{Error, InscribedOptions, inscribed_ellipsoid};
 use taut_points::{Distribution, Points, generate};
 
@@ -113,7 +113,8 @@ fn polytopes_without_an_ellipsoid_are_named_with_the_reason() {
         let mut rows = sides_of_box(&[0.0, 0.0], &[5.0, 5.0]);
         rows.extend([1.0, 0.0, 0.0, -1.0, 0.0, -gap]);
         match solve(&rows, 3) {
-            Error::NoInterior { rows, multipliers } => {
+            Error::NoInterior { rows, multipliers, is_empty } => {
+                assert_eq!(is_empty, gap > 0.0);
                 assert!(rows.contains(&4) && rows.contains(&5), "{rows:?}");
                 assert!(multipliers.iter().all(|&l| l > 0.0));
             }
@@ -165,5 +166,56 @@ fn doctored_answers_are_refused() {
         }
         refused("a negative multiplier", &|s| s.certificate.multipliers[k] *= -1.0);
         refused("a row that is not", &|s| s.certificate.support[k] += 1000);
+    }
+}
+
+#[test]
+fn only_half_spaces_that_touch_have_multipliers() {
+    for (n, dim) in [(40, 3), (60, 5)] {
+        let rows = random_sides(n, dim, 9);
+        let found = solved(&rows, dim);
+        let most = dim * (dim + 3) / 2;
+        assert!(found.certificate.support.len() <= most, "{:?}", found.certificate.support);
+        // And so the others can be left out.
+        let few: Vec<f64> = found
+            .certificate
+            .support
+            .iter()
+            .flat_map(|&i| rows[i as usize * (dim + 1)..][..dim + 1].to_vec())
+            .collect();
+        let again = solved(&few, dim);
+        assert!((again.answer.log_volume - found.answer.log_volume).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn what_cannot_be_reached_is_not_called_reached() {
+    // The fifth half-space touches the ellipse of the others, but has no part in it.
+    let mut sides = sides_of_box(&[2.0, 1.0], &[2.0, 1.0]);
+    sides.extend([1.0, 1.0, 3.0 + 5f64.sqrt()]);
+    let sides = Points::new(&sides, 3).unwrap();
+    for epsilon in [1e-13, 1e-16, 1e-300] {
+        let options = InscribedOptions { epsilon, ..Default::default() };
+        let found = inscribed_ellipsoid(&sides, &options).unwrap();
+        let gap = found.check(&sides).unwrap().gap;
+        assert!(gap < 1e-12, "{epsilon}: {gap:e}");
+        assert!(found.trace.stop != Stop::Converged || found.certificate.gap <= epsilon);
+    }
+}
+
+/// Boxes of 1 by 1 by some length, turned: their axes are nearly parallel, and no digit of the volume may get lost.
+#[test]
+fn long_boxes_that_stand_askew() {
+    let u = [[2.0, 1.0, 2.0], [-2.0, 2.0, 1.0], [1.0, 2.0, -2.0]].map(|u| u.map(|v| v / 3.0));
+    for length in [1e2, 1e3, 1e4] {
+        let mut rows = vec![];
+        for (normal, width) in u.iter().zip([1.0, 1.0, length]) {
+            for sign in [1.0, -1.0] {
+                rows.extend(normal.iter().map(|v| sign * v).chain([width]));
+            }
+        }
+        let found = solved(&rows, 3);
+        let wanted = log_ball(3) + f64::ln(length);
+        assert!((found.answer.log_volume - wanted).abs() < 1e-9, "{length}");
     }
 }

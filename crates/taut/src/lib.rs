@@ -8,6 +8,7 @@
 //! | any of these balls, of more points than memory holds | [`ball_of_source()`] | the same | [`enclose`] |
 //! | the ellipsoid of least volume around points | [`ellipsoid()`] | log-volume ≤ least + ε, proved | [`enclose`] |
 //! | the same, of more points than memory holds | [`ellipsoid_of_source()`] | the same | [`enclose`] |
+//! | one for each of many point sets | [`ellipsoids()`] | the same | [`enclose`] |
 //! | the ellipsoid of least volume around balls or ellipsoids | [`ellipsoid_of_balls()`], [`ellipsoid_of_ellipsoids()`] | log-volume ≤ optimum + ε, proved | [`enclose`] |
 //! | the ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | [`enclose`] |
 //! | centre and scatter of most points, and the outliers | [`robust_ellipsoid()`] | all but the choice of points proved; that choice a local optimum | [`enclose`] |
@@ -88,8 +89,9 @@ pub use taut_enclose as enclose;
 pub use taut_enclose::{
     BallMethod, BallOptions, EllipsoidMethod, EllipsoidOptions, InscribedOptions, RobustOptions,
     ball, ball_of_balls, ball_of_ellipsoids, ball_of_source, ellipsoid, ellipsoid_of_balls,
-    ellipsoid_of_ellipsoids, ellipsoid_of_items, ellipsoid_of_source, inscribed_ellipsoid,
-    inscribed_ellipsoid_of_source, robust_ellipsoid, robust_ellipsoid_of_source,
+    ellipsoid_of_ellipsoids, ellipsoid_of_items, ellipsoid_of_source, ellipsoids,
+    ellipsoids_of_sources, inscribed_ellipsoid, inscribed_ellipsoid_of_source, robust_ellipsoid,
+    robust_ellipsoid_of_source,
 };
 pub use taut_points as points;
 pub use taut_points::{Distribution, Monitor, PointSource, Points, generate};

@@ -9,6 +9,10 @@ pub(super) enum Tool {
     Ball(Items),
     /// The ellipsoid of least volume.
     Ellipsoid,
+    /// Centre, scatter and outliers.
+    Robust,
+    /// The ellipsoid of largest volume in a polytope.
+    Inscribed,
     /// The Delaunay triangulation.
     Delaunay,
 }
@@ -101,6 +105,31 @@ pub(super) const STATIONS: &[Station] = &[
         tool: Tool::Ellipsoid,
         command: "taut ellipsoid knot.xyz --epsilon 0 --draw knot-ellipsoid.html",
         doctored: false,
+    },
+    Station {
+        heading: "Most of the points: outliers",
+        text: "Heights and weights of 160 people, made up for this page; in every thirteenth row somebody wrote the two \
+               the wrong way round. The mean and the smallest ellipsoid would be drawn towards these rows. Here the \
+               half of the points that lie closest together decides where the others should be, and what is not \
+               there is an outlier.\n\n\
+               The checker calculates all of it again from the rows that were kept. Shown a list of outliers in which \
+               the last is missing, it names the row.",
+        file: "people.csv",
+        bytes: include_bytes!("../../samples/people.csv"),
+        tool: Tool::Robust,
+        command: "taut ellipsoid people.csv --robust mcd --draw people.html",
+        doctored: true,
+    },
+    Station {
+        heading: "From within: a polytope",
+        text: "A cut stone: 25 half-spaces, a row each. No ellipsoid inside has a larger volume; the marks are where it \
+               touches, and their weights are the proof.\n\n\
+               Shown an ellipsoid that is a millionth longer, the checker names a half-space that it crosses.",
+        file: "gem.csv",
+        bytes: include_bytes!("../../samples/gem.csv"),
+        tool: Tool::Inscribed,
+        command: "taut inscribe ellipsoid gem.csv --draw gem.html",
+        doctored: true,
     },
     Station {
         heading: "Through the points: a triangulation",

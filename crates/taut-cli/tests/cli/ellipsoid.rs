@@ -298,7 +298,7 @@ fn wrong_input_is_named_and_earlier_outputs_stay() {
     desk.put("none.f64", "");
     refused(&desk, "none.f64 --raw-dim 2 --raw-type f64", &["none.f64 is empty"]);
     desk.put("far.csv", "1e308,0\n-1e308,0\n0,1e308\n0,-1e308\n");
-    refused(&desk, "far.csv", &["far.csv", "scale them down"]);
+    refused(&desk, "far.csv", &["far.csv", "scale the coordinates"]);
     refused(&desk, "missing.csv", &["missing.csv", "no such file"]);
 }
 

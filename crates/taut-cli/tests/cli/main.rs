@@ -6,6 +6,7 @@ mod delaunay;
 mod desk;
 mod ellipsoid;
 mod generate;
+mod inscribe;
 #[cfg(unix)]
 mod interrupt;
 mod pictures;

@@ -63,9 +63,37 @@ fn the_json_is_one_document_wherever_it_goes() {
     assert_eq!(desk.text("robust.json"), all);
     let run = desk.taut("ellipsoid points.csv --robust mcd --no-verify").ends(0);
     assert!(run.out.contains("not checked") && !run.out.contains("yes"), "{}", run.out);
-    desk.taut("draw robust.json points.csv -o robust.svg")
-        .ends(2)
-        .complains(&["robust.json is a robust ellipsoid"]);
+}
+
+#[test]
+fn outliers_are_drawn_apart_beside_the_ellipsoid() {
+    let desk = desk();
+    for (method, parts) in [
+        ("mcd", &["tolerance ellipsoid, 97.5 %", "outliers (6 points)", "17 points kept"][..]),
+        ("mve", &["tolerance ellipsoid, 97.5 %", "smallest around the points kept"]),
+        ("trim --coverage 0.8", &["smallest ellipsoid around the points kept", "support ("]),
+    ] {
+        let line =
+            format!("ellipsoid points.csv --robust {method} -o robust.json --draw robust.svg");
+        desk.taut(&line).ends(0);
+        let picture = desk.text("robust.svg");
+        for part in parts {
+            assert!(picture.contains(part), "{method}: {part}");
+        }
+        assert!(!picture.contains("NaN"), "{method}");
+        desk.taut("draw robust.json points.csv -o again.svg").ends(0);
+        assert_eq!(desk.text("again.svg"), picture, "{method}");
+        // Rows far out ask for a look from near by; then come the distances.
+        desk.taut("draw robust.json points.csv -o close.svg --figure 2").ends(0);
+        assert!(desk.text("close.svg").contains("from near by"), "{method}");
+        assert!(desk.text("close.svg").contains("6 outliers lie beyond the picture"), "{method}");
+        desk.taut("draw robust.json points.csv -o far.svg --figure 3").ends(0);
+        assert!(desk.text("far.svg").contains("Distances in the metric"), "{method}");
+        desk.taut("draw robust.json points.csv -o far.svg --figure 4").ends(2);
+    }
+    desk.put("other.csv", grid().replacen("0,0\n", "0,0.5\n", 1));
+    desk.taut("draw robust.json other.csv -o other.svg").ends(1).complains(&["other.csv"]);
+    assert!(!desk.files().contains(&"other.svg".to_owned()));
 }
 
 #[test]
@@ -120,7 +148,6 @@ fn wrong_input_and_options_are_named() {
         ("points.csv --robust mad", &["mad", "mcd, mve, trim"]),
         ("points.csv --robust mcd --balls", &["--balls"]),
         ("points.csv --robust mcd --method newton", &["--method"]),
-        ("points.csv --robust mcd --draw e.svg", &["--draw"]),
     ] {
         let run = desk.taut(&format!("ellipsoid {line} -o found.json")).ends(2);
         assert!(parts.iter().all(|part| run.err.contains(part)), "{parts:?} in {run:?}");

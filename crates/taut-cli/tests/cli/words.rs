@@ -2,10 +2,11 @@
 
 use crate::desk::Desk;
 
-const COMMANDS: [&str; 10] = [
+const COMMANDS: [&str; 11] = [
     "ball",
     "ellipsoid",
     "delaunay",
+    "inscribe",
     "verify",
     "draw",
     "generate",
@@ -63,4 +64,6 @@ fn shells_complete_and_the_manual_has_a_page_for_each_command() {
         let page = desk.text(&format!("pages/man1/taut-{command}.1"));
         assert!(page.contains(&format!("taut\\-{command}")) && page.contains("Example"), "{page}");
     }
+    let page = desk.text("pages/man1/taut-inscribe-ellipsoid.1");
+    assert!(page.contains("max\\-steps") && page.contains("Example"), "{page}");
 }

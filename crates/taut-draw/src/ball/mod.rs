@@ -10,11 +10,14 @@ mod plane;
 mod shadow;
 mod space;
 
-use taut_certify::{Ball, BallCertificate, Items, Solution};
+use taut_certify::{Ball, BallCertificate, Solution};
 use taut_points::{PointSource, gather};
 
+use crate::marks::{
+    agree, all_finite, all_there, dot_size, drawn_of, misfit, others_name, support_size,
+};
 use crate::number::{count, counted, short};
-use crate::passes::{Gap, Words, passes};
+use crate::passes::{Words, passes};
 use crate::survey::{Question, Scaled, Survey, noun, survey};
 use crate::{DrawOptions, Error, Figure};
 
@@ -50,8 +53,7 @@ pub fn ball_figures(
             figures
         }
     };
-    let words = Words { quantity: "radius", answer: "the smallest radius", gap: Gap::Relative };
-    let passes = passes(&solution.trace.history, &words, options);
+    let passes = passes(&solution.trace.history, &Words::ENCLOSING, options);
     figures.extend(passes.into_iter().map(Figure::Plot));
     Ok(figures)
 }
@@ -59,33 +61,16 @@ pub fn ball_figures(
 /// What the answer and its points must agree in before anything is drawn.
 fn check(solution: &Solution<Ball>, source: &dyn PointSource) -> Result<(), Error> {
     let (ball, certificate) = (&solution.answer, &solution.certificate);
-    let agree = |what, expected: usize, found: u64| match expected as u64 == found {
-        true => Ok(()),
-        false => Err(Error::Mismatch { what, expected: expected as u64, found }),
-    };
     let dim = certificate.items.dim(source.dim());
-    agree("number of coordinates", ball.center.len(), dim as u64)?;
-    if dim == 0 {
-        return Err(Error::Mismatch { what: "number of coordinates", expected: 1, found: 0 });
-    }
-    agree(
-        "number of multipliers",
-        certificate.support.len(),
-        certificate.multipliers.len() as u64,
-    )?;
-    if let Some(&beyond) = certificate.support.iter().find(|&&id| id >= source.len()) {
-        let found = source.len();
-        return Err(Error::Mismatch { what: "number of points", expected: beyond + 1, found });
-    }
-    let numbers =
-        (ball.center.iter().chain(&ball.center_tail).map(|&v| ("a coordinate of the centre", v)))
-            .chain([("the radius", ball.radius)])
-            .chain(certificate.multipliers.iter().map(|&v| ("a multiplier", v)));
-    for (what, value) in numbers {
-        if !value.is_finite() {
-            return Err(Error::NonFinite { what: what.into(), value });
-        }
-    }
+    agree("number of coordinates", ball.center.len(), dim)?;
+    agree("number of coordinates", dim.max(1), dim)?;
+    agree("number of multipliers", certificate.support.len(), certificate.multipliers.len())?;
+    all_there("number of points", &certificate.support, source.len())?;
+    let center = ball.center.iter().chain(&ball.center_tail);
+    let numbers = (center.map(|v| ("a coordinate of the centre", v)))
+        .chain([("the radius", &ball.radius)])
+        .chain(certificate.multipliers.iter().map(|v| ("a multiplier", v)));
+    all_finite(numbers)?;
     if ball.radius < 0.0 {
         return Err(Error::NegativeRadius { what: "the radius".into(), value: ball.radius });
     }
@@ -169,43 +154,18 @@ impl Picture<'_> {
                 count(k)
             ),
         };
-        if drawn == n {
-            words += &match n {
-                1 => format!(" The one {thing} is drawn."),
-                n => format!(" All {} are drawn.", counted(n, thing)),
-            };
-        } else {
-            words += &format!(
-                " {} of {} are drawn: the support, {} more that reach far, and an even sample of the others.",
-                count(drawn),
-                counted(n, thing),
-                count(self.survey.far),
-            );
-        }
-        if self.survey.outside > 0 {
-            words += &format!(
-                " {} {} outside the ball: the answer does not fit these {thing}s.",
-                counted(self.survey.outside, thing),
-                if self.survey.outside == 1 { "reaches" } else { "reach" },
-            );
-        }
+        let which = format!(
+            "the support, {} more that reach far, and an even sample of the others",
+            count(self.survey.far)
+        );
+        words += &drawn_of(drawn, n, thing, &which);
+        words += &misfit(self.survey.outside, thing, "ball");
         words
     }
 
     /// Radius of the disc of a point that is not of the support, pixels.
     fn dot_size(&self) -> f64 {
-        match self.survey.ids.len() {
-            0..=100 => 3.6,
-            101..=1000 => 2.8,
-            1001..=5000 => 2.0,
-            _ => 1.4,
-        }
-    }
-
-    /// Radius of the disc of a support point, pixels: its area grows with the multiplier.
-    fn support_size(&self, multiplier: f64) -> f64 {
-        let largest = self.certificate().multipliers.iter().fold(0.0_f64, |a, &m| a.max(m));
-        if largest > 0.0 { 4.0 + 4.5 * (multiplier.max(0.0) / largest).sqrt() } else { 4.0 }
+        dot_size(self.survey.ids.len())
     }
 
     /// The items to draw that are not of the support.
@@ -218,20 +178,16 @@ impl Picture<'_> {
     /// The marks of the support: number, size, and the multiplier in words.
     fn support(&self) -> impl Iterator<Item = (u64, f64, String)> + '_ {
         let certificate = self.certificate();
-        certificate.support.iter().zip(&certificate.multipliers).map(|(&id, &multiplier)| {
-            (
-                id,
-                self.support_size(multiplier),
-                format!("support, multiplier {}", short(multiplier, 4)),
-            )
+        let largest = certificate.multipliers.iter().fold(0.0_f64, |a, &m| a.max(m));
+        let pairs = certificate.support.iter().zip(&certificate.multipliers);
+        pairs.map(move |(&id, &multiplier)| {
+            let label = format!("support, multiplier {}", short(multiplier, 4));
+            (id, support_size(multiplier, largest), label)
         })
     }
 
     fn others_name(&self) -> String {
-        match self.certificate().items {
-            Items::Points => "points".into(),
-            items @ (Items::Balls | Items::Ellipsoids) => format!("{}s of the input", noun(items)),
-        }
+        others_name(self.certificate().items)
     }
 
     fn support_name(&self) -> String {

@@ -10,8 +10,8 @@ use crate::project::dot;
 use crate::survey::Measure;
 
 /// An ellipsoid, ready to be drawn.
-pub(super) struct Body {
-    pub(super) center: Vec<f64>,
+pub(crate) struct Body {
+    pub(crate) center: Vec<f64>,
     tail: Vec<f64>,
     /// F/s, by rows.
     factor: Vec<Vec<f64>>,
@@ -44,6 +44,15 @@ impl Body {
         Body { center, tail: ellipsoid.center_tail.clone(), factor, axes, scale }
     }
 
+    /// {c + Xy : |y| ≤ 1} for a square X, by rows.
+    pub(crate) fn of_axes(center: &[f64], axes: &[Vec<f64>]) -> Self {
+        let largest = axes.iter().flatten().fold(0.0f64, |m, v| m.max(v.abs()));
+        let scale = if largest > 0.0 { 1.0 / largest } else { 1.0 };
+        let axes: Vec<Vec<f64>> =
+            axes.iter().map(|row| row.iter().map(|v| v * scale).collect()).collect();
+        Body { center: center.to_vec(), tail: vec![], factor: inverse(&axes), axes, scale }
+    }
+
     pub(super) fn rank(&self) -> usize {
         self.factor.len()
     }
@@ -54,19 +63,19 @@ impl Body {
     }
 
     /// How far the ellipsoid reaches from its centre along a coordinate.
-    pub(super) fn half_width(&self, j: usize) -> f64 {
+    pub(crate) fn half_width(&self, j: usize) -> f64 {
         length(&self.row(j))
     }
 
     /// The cosine of the angle between two rows of X: the correlation of two coordinates; 0 where one is constant.
-    pub(super) fn correlation(&self, j: usize, k: usize) -> f64 {
+    pub(crate) fn correlation(&self, j: usize, k: usize) -> f64 {
         let (a, b) = (&self.axes[j], &self.axes[k]);
         let product = length(a) * length(b);
         if product > 0.0 { dot(a, b) / product } else { 0.0 }
     }
 
     /// The shadow on two coordinates.
-    pub(super) fn shadow(&self, j: usize, k: usize) -> Shadow {
+    pub(crate) fn shadow(&self, j: usize, k: usize) -> Shadow {
         let (a, b) = (self.row(j), self.row(k));
         let wide = length(&a);
         let slope = if wide > 0.0 { self.correlation(j, k) * length(&b) } else { 0.0 };
@@ -78,8 +87,20 @@ impl Body {
         Shadow([[wide, 0.0], [slope, length(&rest)]])
     }
 
+    /// The cut through the centre along two coordinates: {v : |F(vⱼeⱼ + vₖeₖ)| ≤ 1}.
+    pub(crate) fn cut(&self, j: usize, k: usize) -> Shadow {
+        let column = |j: usize| -> Vec<f64> { self.factor.iter().map(|row| row[j]).collect() };
+        let (a, b) = (column(j), column(k));
+        let (tall, part) = (length(&b), dot(&a, &b));
+        let tilt = if tall > 0.0 { part / tall / tall } else { 0.0 };
+        let rest: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a - tilt * b).collect();
+        let wide = 1.0 / length(&rest);
+        let size = |v: f64| v / self.scale;
+        Shadow([[size(wide), 0.0], [size(-tilt * wide), size(1.0 / tall)]])
+    }
+
     /// X as columns along the axes of the ellipsoid, the longest first; for three dimensions at most.
-    pub(super) fn principal(&self) -> Vec<Vec<f64>> {
+    pub(crate) fn principal(&self) -> Vec<Vec<f64>> {
         let rank = self.rank();
         let mut columns: Vec<Vec<f64>> =
             (0..rank).map(|k| self.axes.iter().map(|row| row[k] / self.scale).collect()).collect();
@@ -173,7 +194,7 @@ pub(super) fn touching(items: Items, dim: usize, row: &[f64], direction: &[f64])
 
 /// An ellipse {L·(cos t, sin t)} about some place, L lower triangular.
 #[derive(Clone, Copy)]
-pub(super) struct Shadow(pub(super) [[f64; 2]; 2]);
+pub(crate) struct Shadow(pub(crate) [[f64; 2]; 2]);
 
 impl Shadow {
     /// The shadow of an item on two coordinates; `None` for points.
@@ -199,7 +220,7 @@ impl Shadow {
     }
 
     /// The ellipse as a chain of `steps` corners about a centre, each axis in its own scale.
-    pub(super) fn chain(&self, center: [f64; 2], part: f64, steps: usize) -> Vec<[f64; 2]> {
+    pub(crate) fn chain(&self, center: [f64; 2], part: f64, steps: usize) -> Vec<[f64; 2]> {
         let [[a, _], [b, c]] = self.0;
         let corner = |i: usize| {
             let (sin, cos) = (std::f64::consts::TAU * i as f64 / steps as f64).sin_cos();
@@ -210,7 +231,7 @@ impl Shadow {
 }
 
 /// The length of a vector, whatever its size.
-pub(super) fn length(x: &[f64]) -> f64 {
+pub(crate) fn length(x: &[f64]) -> f64 {
     let largest = x.iter().fold(0.0f64, |m, v| m.max(v.abs()));
     if largest == 0.0 || largest.is_infinite() {
         return largest;

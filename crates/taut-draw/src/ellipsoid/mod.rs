@@ -1,4 +1,4 @@
-//! Figures of a minimum volume enclosing ellipsoid.
+//! Figures of a minimum volume enclosing ellipsoid, and of a robust one.
 //!
 //! *Idea.* In the plane and in space the ellipsoid is drawn as it is. Beyond, its shadows are: the projection of
 //! {c + Xy : |y| ≤ 1} to two coordinates is the ellipse of the two rows of X, and all items fall inside it. Beside them
@@ -6,16 +6,21 @@
 //! *Guarantee.* The items are read twice at most (once for all, once more for those drawn); what is left out is counted
 //! in the caption.
 
-mod body;
-mod pairs;
-mod plane;
+pub(crate) mod body;
+pub(crate) mod pairs;
+pub(crate) mod plane;
 mod reach;
-mod space;
+mod robust;
+pub(crate) mod space;
 
-use taut_certify::{Ellipsoid, EllipsoidCertificate, Solution};
+use taut_certify::{Ellipsoid, EllipsoidCertificate, RobustEllipsoid, Solution};
 use taut_points::{PointSource, gather};
 
 use self::body::Body;
+use self::robust::Robust;
+use crate::marks::{
+    agree, all_finite, all_there, dot_size, drawn_of, misfit, others_name, support_size,
+};
 use crate::number::{count, counted, short};
 use crate::passes::{Gap, Words, passes};
 use crate::survey::{Measure, Question, Survey, noun, survey};
@@ -33,39 +38,52 @@ pub fn ellipsoid_figures(
     options: &DrawOptions,
 ) -> Result<Vec<Figure>, Error> {
     options.check()?;
-    check(solution, source)?;
-    let body = Body::of(&solution.answer);
-    let dim = body.dim();
-    let certificate = &solution.certificate;
-    let question = Question {
-        items: certificate.items,
-        support: &certificate.support,
-        left_out: &certificate.left_out,
-        // Where there are many panels, each mark is drawn once in each.
-        most: if dim > 3 { pairs::most(options.max_points, dim) } else { options.max_points },
+    let picture = Picture::of(&solution.answer, &solution.certificate, None, source, options)?;
+    let mut figures = vec![picture.scene()?];
+    if picture.dim() > 3 {
+        figures.push(Figure::Plot(picture.reach()?));
+    }
+    let words = Words {
+        quantity: "log-volume",
+        answer: "the least log-volume",
+        gap: Gap::Difference,
+        ..Words::ENCLOSING
     };
-    let survey = survey(&body, &question, source)?;
-    let picture = Picture { solution, source, options, body, survey };
-    let mut figures = match dim {
-        1 => vec![Figure::Plane(picture.line()?)],
-        2 => vec![Figure::Plane(picture.plane()?)],
-        3 => vec![Figure::Space(picture.space()?)],
-        _ => vec![Figure::Plane(picture.pairs()?), Figure::Plot(picture.reach()?)],
-    };
-    let words =
-        Words { quantity: "log-volume", answer: "the least log-volume", gap: Gap::Difference };
     let passes = passes(&solution.trace.history, &words, options);
     figures.extend(passes.into_iter().map(Figure::Plot));
     Ok(figures)
 }
 
+/// Pictures of a robust ellipsoid and its points: the plane for d ≤ 2, space for d = 3, shadows on pairs of coordinates
+/// beyond, with outliers in a tone and a size of their own; a close-up where some of them lie far out; then the
+/// distance of each point in the metric of the ellipsoid.
+///
+/// # Errors
+/// As [`ellipsoid_figures`].
+pub fn robust_figures(
+    solution: &Solution<RobustEllipsoid>,
+    source: &dyn PointSource,
+    options: &DrawOptions,
+) -> Result<Vec<Figure>, Error> {
+    options.check()?;
+    let (ellipsoid, certificate) = robust::as_left_out(solution);
+    let robust = Robust::of(solution, source)?;
+    let picture = Picture::of(&ellipsoid, &certificate, Some(robust), source, options)?;
+    let mut figures = vec![picture.scene()?];
+    let distances = picture.distances()?;
+    if let Some(picture) = picture.closer()? {
+        figures.push(picture.scene()?);
+    }
+    figures.extend(distances.map(Figure::Plot));
+    Ok(figures)
+}
+
 /// What the answer and its points must agree in before anything is drawn.
-fn check(solution: &Solution<Ellipsoid>, source: &dyn PointSource) -> Result<(), Error> {
-    let (ellipsoid, certificate) = (&solution.answer, &solution.certificate);
-    let agree = |what, expected: usize, found: usize| match expected == found {
-        true => Ok(()),
-        false => Err(Error::Mismatch { what, expected: expected as u64, found: found as u64 }),
-    };
+fn check(
+    ellipsoid: &Ellipsoid,
+    certificate: &EllipsoidCertificate,
+    source: &dyn PointSource,
+) -> Result<(), Error> {
     let dim = certificate.items.dim(source.dim());
     agree("number of coordinates", ellipsoid.dim(), dim)?;
     agree("number of coordinates", dim.max(1), dim)?;
@@ -83,28 +101,22 @@ fn check(solution: &Solution<Ellipsoid>, source: &dyn PointSource) -> Result<(),
         agree("length of a direction", dim, direction.len())?;
     }
     let named = certificate.support.iter().chain(&certificate.left_out);
-    if let Some(&beyond) = named.into_iter().find(|&&id| id >= source.len()) {
-        let found = source.len();
-        return Err(Error::Mismatch { what: "number of points", expected: beyond + 1, found });
-    }
+    all_there("number of points", named, source.len())?;
     let center = ellipsoid.center.iter().chain(&ellipsoid.center_tail);
-    let numbers = center
-        .map(|&v| ("a coordinate of the centre", v))
-        .chain(ellipsoid.factor.iter().flatten().map(|&v| ("an entry of the factor", v)))
-        .chain(basis.iter().flatten().map(|&v| ("an entry of the hull", v)))
-        .chain(certificate.directions.iter().flatten().map(|&v| ("a direction", v)))
-        .chain(certificate.multipliers.iter().map(|&v| ("a multiplier", v)));
-    for (what, value) in numbers {
-        if !value.is_finite() {
-            return Err(Error::NonFinite { what: what.into(), value });
-        }
-    }
-    Ok(())
+    let numbers = (center.map(|v| ("a coordinate of the centre", v)))
+        .chain(ellipsoid.factor.iter().flatten().map(|v| ("an entry of the factor", v)))
+        .chain(basis.iter().flatten().map(|v| ("an entry of the hull", v)))
+        .chain(certificate.directions.iter().flatten().map(|v| ("a direction", v)))
+        .chain(certificate.multipliers.iter().map(|v| ("a multiplier", v)));
+    all_finite(numbers)
 }
 
 /// What all pictures of one ellipsoid share.
 struct Picture<'a> {
-    solution: &'a Solution<Ellipsoid>,
+    ellipsoid: &'a Ellipsoid,
+    certificate: &'a EllipsoidCertificate,
+    /// What there is to say where the ellipsoid is no smallest one.
+    robust: Option<Robust<'a>>,
     source: &'a dyn PointSource,
     options: &'a DrawOptions,
     body: Body,
@@ -120,9 +132,41 @@ struct Mark {
     label: String,
 }
 
-impl Picture<'_> {
-    fn certificate(&self) -> &EllipsoidCertificate {
-        &self.solution.certificate
+impl<'a> Picture<'a> {
+    /// Reads all items once.
+    fn of(
+        ellipsoid: &'a Ellipsoid,
+        certificate: &'a EllipsoidCertificate,
+        robust: Option<Robust<'a>>,
+        source: &'a dyn PointSource,
+        options: &'a DrawOptions,
+    ) -> Result<Self, Error> {
+        check(ellipsoid, certificate, source)?;
+        let body = Body::of(ellipsoid);
+        let dim = body.dim();
+        let question = Question {
+            items: certificate.items,
+            support: &certificate.support,
+            left_out: &certificate.left_out,
+            // Where there are many panels, each mark is drawn once in each.
+            most: if dim > 3 { pairs::most(options.max_points, dim) } else { options.max_points },
+        };
+        let survey = survey(&body, &question, source)?;
+        Ok(Picture { ellipsoid, certificate, robust, source, options, body, survey })
+    }
+
+    /// The ellipsoid and its items, in the picture that their dimension asks for.
+    fn scene(&self) -> Result<Figure, Error> {
+        Ok(match self.dim() {
+            1 => Figure::Plane(self.line()?),
+            2 => Figure::Plane(self.plane()?),
+            3 => Figure::Space(self.space()?),
+            _ => Figure::Plane(self.pairs()?),
+        })
+    }
+
+    fn certificate(&self) -> &'a EllipsoidCertificate {
+        self.certificate
     }
 
     fn dim(&self) -> usize {
@@ -139,7 +183,10 @@ impl Picture<'_> {
     }
 
     fn title(&self) -> String {
-        let inside = self.source.len() - self.certificate().left_out.len() as u64;
+        if let Some(robust) = &self.robust {
+            return robust.title(self.source.len(), self.dim());
+        }
+        let inside = self.source.len().saturating_sub(self.certificate().left_out.len() as u64);
         let of = match self.certificate().left_out.len() {
             0 => String::new(),
             _ => format!(" of {}", count(self.source.len())),
@@ -159,11 +206,14 @@ impl Picture<'_> {
 
     /// Whether the lower bound can be told from the ellipsoid by eye.
     fn lower_is_visible(&self) -> bool {
-        self.lower() > 0.0 && self.lower() < 0.996
+        self.robust.is_none() && self.lower() > 0.0 && self.lower() < 0.996
     }
 
     /// Volume and gap in words.
     fn facts(&self) -> String {
+        if let Some(robust) = &self.robust {
+            return robust.facts();
+        }
         let gap = match self.certificate().gap {
             gap if !gap.is_finite() => "no gap is certified".to_owned(),
             gap => format!("certified gap {} in log-volume", short(gap, 3)),
@@ -181,7 +231,7 @@ impl Picture<'_> {
             }
             _ => "",
         };
-        format!("Log-volume {}; {gap}.{flat}{bound}", short(self.solution.answer.log_volume, 8))
+        format!("Log-volume {}; {gap}.{flat}{bound}", short(self.ellipsoid.log_volume, 8))
     }
 
     /// What is drawn of how many, and what the support is.
@@ -189,6 +239,7 @@ impl Picture<'_> {
         let (n, drawn) = (self.source.len(), self.survey.ids.len() as u64);
         let thing = self.thing();
         let mut words = match self.certificate().support.len() as u64 {
+            0 => String::new(),
             1 => format!(" One support {thing} decides the ellipsoid."),
             k => format!(
                 " {} support {} decide the ellipsoid: the larger the mark, the larger the multiplier.",
@@ -200,44 +251,30 @@ impl Picture<'_> {
             ),
         };
         match self.certificate().left_out.len() as u64 {
+            _ if self.robust.is_some() => {}
             0 => {}
             1 => words += &format!(" One {thing} is left out."),
             k => words += &format!(" {} {thing}s are left out.", count(k)),
         }
-        if drawn == n {
-            words += &match n {
-                1 => format!(" The one {thing} is drawn."),
-                n => format!(" All {} are drawn.", counted(n, thing)),
-            };
+        if let Some(beyond @ 1..) = self.robust.as_ref().map(|robust| robust.beyond) {
+            let lie = if beyond == 1 { "outlier lies" } else { "outliers lie" };
+            words += &format!(" {} {lie} beyond the picture.", count(beyond));
         } else {
             let far = match self.survey.far {
                 0 => String::new(),
                 far => format!("{} more that reach far, ", count(far)),
             };
-            words += &format!(
-                " {} of {} are drawn: the support, {far}and an even sample of the others.",
-                count(drawn),
-                counted(n, thing),
-            );
+            let support = if self.certificate().support.is_empty() { "" } else { "the support, " };
+            let which = format!("{support}{far}and an even sample of the others");
+            words += &drawn_of(drawn, n, thing, &which);
         }
-        if self.survey.outside > 0 {
-            words += &format!(
-                " {} {} outside the ellipsoid: the answer does not fit these {thing}s.",
-                counted(self.survey.outside, thing),
-                if self.survey.outside == 1 { "reaches" } else { "reach" },
-            );
-        }
+        words += &misfit(self.survey.outside, thing, "ellipsoid");
         words
     }
 
     /// Radius of the disc of a point that is not of the support, pixels.
     fn dot_size(&self) -> f64 {
-        match self.survey.ids.len() {
-            0..=100 => 3.6,
-            101..=1000 => 2.8,
-            1001..=5000 => 2.0,
-            _ => 1.4,
-        }
+        dot_size(self.survey.ids.len())
     }
 
     /// The items to draw: those enclosed that are not of the support, and those left out.
@@ -260,7 +297,6 @@ impl Picture<'_> {
         pairs
             .map(|(k, (&id, &multiplier))| {
                 let row = self.row(id)?;
-                let part = if largest > 0.0 { (multiplier.max(0.0) / largest).sqrt() } else { 0.0 };
                 let at = match certificate.directions.get(k) {
                     None => row[..self.dim()].to_vec(),
                     Some(direction) => {
@@ -268,16 +304,13 @@ impl Picture<'_> {
                     }
                 };
                 let label = format!("support, multiplier {}", short(multiplier, 4));
-                Ok(Mark { id, at, size: 4.0 + 4.5 * part, label })
+                Ok(Mark { id, at, size: support_size(multiplier, largest), label })
             })
             .collect()
     }
 
     fn others_name(&self) -> String {
-        match self.thing() {
-            "point" => "points".into(),
-            thing => format!("{thing}s of the input"),
-        }
+        others_name(self.certificate().items)
     }
 
     fn support_name(&self) -> String {
@@ -285,7 +318,18 @@ impl Picture<'_> {
     }
 
     fn left_out_name(&self) -> String {
-        format!("left out ({})", counted(self.certificate().left_out.len() as u64, self.thing()))
+        let name = if self.robust.is_some() { "outliers" } else { "left out" };
+        format!("{name} ({})", counted(self.certificate().left_out.len() as u64, self.thing()))
+    }
+
+    /// The name of the ellipsoid in legends.
+    fn name(&self) -> String {
+        self.robust.as_ref().map_or_else(|| "smallest ellipsoid".into(), Robust::name)
+    }
+
+    /// A second ellipsoid to compare with.
+    fn second(&self) -> Option<&Body> {
+        self.robust.as_ref()?.kept.as_ref()
     }
 
     /// The row of an item.

@@ -8,10 +8,11 @@
 use taut_certify::Items;
 
 use super::Picture;
-use super::body::Shadow;
-use super::plane::{COARSE, FINE, Place};
+use super::body::{Body, Shadow};
+use super::plane::{COARSE, FINE, OUT, Place, compared};
 use crate::number::{count, short};
-use crate::{Aspect, Axis, Error, Layer2, Look, Point2, Scene2, Shape2, Text2, Tone};
+use crate::survey::Measure;
+use crate::{Aspect, Axis, DrawOptions, Error, Layer2, Look, Point2, Scene2, Shape2, Text2, Tone};
 
 /// Up to this many coordinates are all drawn; of more, one less.
 const ALL: usize = 7;
@@ -19,11 +20,14 @@ const ALL: usize = 7;
 /// How far a panel reaches, in half-widths of the ellipsoid.
 const REACH: f64 = 1.12;
 
+/// Where items are left out, how far panels reach at most to hold them as well.
+const FARTHEST: f64 = 3.0;
+
 /// Half the width of a panel, where panels stand one unit apart.
-const HALF: f64 = 0.46;
+pub(crate) const HALF: f64 = 0.46;
 
 /// Coordinates that are drawn of `dim`.
-fn drawn(dim: usize) -> usize {
+pub(crate) fn drawn(dim: usize) -> usize {
     if dim <= ALL { dim } else { ALL - 1 }
 }
 
@@ -34,49 +38,90 @@ pub(super) fn most(max_points: usize, dim: usize) -> usize {
 }
 
 /// One panel: two coordinates and where it stands.
-struct Panel {
-    j: usize,
-    k: usize,
-    middle: Place,
+pub(crate) struct Panel {
+    pub(crate) j: usize,
+    pub(crate) k: usize,
+    pub(crate) middle: Place,
+}
+
+/// A panel for each pair of coordinates, below the diagonal.
+pub(crate) fn panels(chosen: &[usize]) -> Vec<Panel> {
+    let pairs = (0..chosen.len()).flat_map(|row| (0..row).map(move |column| (row, column)));
+    pairs
+        .map(|(row, column)| Panel {
+            j: chosen[column],
+            k: chosen[row],
+            middle: [column as f64, -(row as f64)],
+        })
+        .collect()
+}
+
+/// The coordinates that are drawn, ascending: of many, those with the largest correlations.
+pub(crate) fn coordinates(body: &Body) -> Vec<usize> {
+    let dim = body.dim();
+    let mut tilted: Vec<(f64, usize)> = (0..dim)
+        .map(|j| {
+            let others = (0..dim).filter(|&k| k != j);
+            (others.map(|k| body.correlation(j, k).abs()).fold(0.0, f64::max), j)
+        })
+        .collect();
+    tilted.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let mut chosen: Vec<usize> = tilted.into_iter().take(drawn(dim)).map(|(_, j)| j).collect();
+    chosen.sort_unstable();
+    chosen
+}
+
+/// What the diagonal says: the names of coordinates and their ranges over the ellipsoid.
+pub(crate) fn diagonal(body: &Body, chosen: &[usize], options: &DrawOptions) -> Vec<Text2> {
+    let words = |(i, &j): (usize, &usize)| {
+        let (c, w) = (body.center[j], body.half_width(j));
+        let at = [i as f64, -(i as f64)];
+        let text = format!("{} to {}", short(c - w, 3), short(c + w, 3));
+        [
+            Text2 { at: [at[0], at[1] + 0.08], text: options.axis(j, body.dim()).name },
+            Text2 { at: [at[0], at[1] - 0.12], text },
+        ]
+    };
+    chosen.iter().enumerate().flat_map(words).collect()
 }
 
 impl Picture<'_> {
     /// d > 3.
     pub(super) fn pairs(&self) -> Result<Scene2, Error> {
-        let dim = self.dim();
-        let chosen = self.coordinates();
-        let panels: Vec<Panel> = (0..chosen.len())
-            .flat_map(|row| (0..row).map(move |column| (row, column)))
-            .map(|(row, column)| Panel {
-                j: chosen[column],
-                k: chosen[row],
-                middle: [column as f64, -(row as f64)],
-            })
-            .collect();
-        let scales: Vec<f64> = (0..dim).map(|j| self.scale(j)).collect();
+        let chosen = coordinates(&self.body);
+        let panels = panels(&chosen);
+        let (inside, out) = self.others();
+        let scales = self.scales(&out)?;
         let frames = panels.iter().map(|panel| square(panel.middle)).collect();
-        let chains = panels.iter().map(|panel| {
-            let part = |j: usize| HALF / scales[j];
-            let Shadow([[a, _], [b, c]]) = self.body.shadow(panel.j, panel.k);
-            let scaled = Shadow([[a * part(panel.j), 0.0], [b * part(panel.k), c * part(panel.k)]]);
-            scaled.chain(panel.middle, 1.0, FINE)
-        });
+        let chains = |body: &Body| {
+            let chain = |panel: &Panel| {
+                let part = |j: usize| HALF / scales[j];
+                let Shadow([[a, _], [b, c]]) = body.shadow(panel.j, panel.k);
+                let scaled =
+                    Shadow([[a * part(panel.j), 0.0], [b * part(panel.k), c * part(panel.k)]]);
+                scaled.chain(self.place(&body.center, panel, &scales), 1.0, FINE)
+            };
+            Shape2::Polygons(panels.iter().map(chain).collect())
+        };
         let line = |name: String, tone, look, shape| Layer2 { name, tone, look, shape };
         let mut layers = vec![
             line(String::new(), Tone::Muted, Look::Thin, Shape2::Polygons(frames)),
             line(
-                "shadow of the smallest ellipsoid".into(),
+                format!("shadow of the {}", self.name()),
                 Tone::Answer,
                 Look::Filled,
-                Shape2::Polygons(chains.collect()),
+                chains(&self.body),
             ),
         ];
-        let (inside, out) = self.others();
+        layers.extend(self.second().map(|second| compared(chains(second))));
         let mut beyond = 0;
-        for (ids, name, tone) in
-            [(inside, self.others_name(), Tone::Point), (out, self.left_out_name(), Tone::Third)]
-        {
-            layers.extend(self.spread(&ids, name, tone, &panels, &scales, &mut beyond)?);
+        let size = (0.6 * self.dot_size()).max(1.0);
+        for (ids, name, tone, size) in [
+            (inside, self.others_name(), Tone::Point, size),
+            (out, self.left_out_name(), Tone::Third, OUT * size),
+        ] {
+            let layer = Layer2 { name, tone, look: Look::Filled, shape: Shape2::Points(vec![]) };
+            layers.extend(self.spread(&ids, layer, size, &panels, &scales, &mut beyond)?);
         }
         let support = self.support()?;
         // A panel is small: many marks of full size would hide it.
@@ -89,26 +134,40 @@ impl Picture<'_> {
                 marks.push(Point2 { id: Some(mark.id), at, size, label });
             }
         }
-        layers.push(line(self.support_name(), Tone::Support, Look::Solid, Shape2::Points(marks)));
+        layers.extend(
+            (!marks.is_empty()).then(|| {
+                line(self.support_name(), Tone::Support, Look::Solid, Shape2::Points(marks))
+            }),
+        );
         layers.push(line(
             String::new(),
             Tone::Ink,
             Look::Solid,
-            Shape2::Texts(self.words(&chosen)),
+            Shape2::Texts(diagonal(&self.body, &chosen, self.options)),
         ));
         let side = self.options.width.max(self.options.height);
         Ok(Scene2 {
             title: self.title(),
             caption: format!(
-                "{} Shadows on pairs of coordinates, each scaled to fill its panel; on the diagonal, the range of the \
+                "{} Shadows on pairs of coordinates, each scaled {}; on the diagonal, the range of the \
                  coordinate over the ellipsoid.{}{}{}",
                 self.facts(),
+                match self.certificate().left_out.is_empty() {
+                    true => "to fill its panel",
+                    false => "to show what is outside as far as three half-widths out",
+                },
                 self.choice(&chosen),
                 self.counts(),
                 match beyond {
                     0 => String::new(),
-                    k =>
-                        format!(" {} marks fall outside their panels and are not drawn.", count(k)),
+                    k => format!(
+                        " {} marks fall outside their panels and {}.",
+                        count(k),
+                        match self.certificate().items {
+                            Items::Points => "stand on the border",
+                            Items::Balls | Items::Ellipsoids => "are not drawn",
+                        }
+                    ),
                 },
             ),
             x: Axis::default(),
@@ -118,21 +177,6 @@ impl Picture<'_> {
             width: side,
             height: side,
         })
-    }
-
-    /// The coordinates that are drawn, ascending: of many, those with the largest correlations.
-    fn coordinates(&self) -> Vec<usize> {
-        let dim = self.dim();
-        let mut tilted: Vec<(f64, usize)> = (0..dim)
-            .map(|j| {
-                let others = (0..dim).filter(|&k| k != j);
-                (others.map(|k| self.body.correlation(j, k).abs()).fold(0.0, f64::max), j)
-            })
-            .collect();
-        tilted.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        let mut chosen: Vec<usize> = tilted.into_iter().take(drawn(dim)).map(|(_, j)| j).collect();
-        chosen.sort_unstable();
-        chosen
     }
 
     fn choice(&self, chosen: &[usize]) -> String {
@@ -146,12 +190,23 @@ impl Picture<'_> {
         )
     }
 
-    /// How far the panels of a coordinate reach; a coordinate that is constant has panels of its rounding.
-    fn scale(&self, j: usize) -> f64 {
-        let width = self.body.half_width(j);
-        let least = f64::EPSILON * self.body.center[j].abs();
-        let width = width.max(least);
-        REACH * if width > 0.0 { width } else { 1.0 }
+    /// How far the panels of each coordinate reach: as far as the ellipsoid, and so far as they can as what is left out. A
+    /// coordinate that is constant has panels of its rounding.
+    fn scales(&self, out: &[u64]) -> Result<Vec<f64>, Error> {
+        let width = |j: usize| {
+            let least = f64::EPSILON * self.body.center[j].abs();
+            let width = self.body.half_width(j).max(least);
+            if width > 0.0 { width } else { 1.0 }
+        };
+        let widths: Vec<f64> = (0..self.dim()).map(width).collect();
+        let mut reach = vec![1.0f64; widths.len()];
+        for &id in out {
+            let row = self.row(id)?;
+            for (j, reach) in reach.iter_mut().enumerate() {
+                *reach = reach.max((row[j] - self.body.center[j]).abs() / widths[j]).min(FARTHEST);
+            }
+        }
+        Ok(widths.iter().zip(reach).map(|(width, reach)| REACH * width * reach).collect())
     }
 
     fn place(&self, point: &[f64], panel: &Panel, scales: &[f64]) -> Place {
@@ -159,30 +214,31 @@ impl Picture<'_> {
         [panel.middle[0] + along(panel.j), panel.middle[1] + along(panel.k)]
     }
 
-    /// Items in all panels; counts what falls outside.
+    /// Items in all panels, as a layer like the one given; counts what falls outside.
     fn spread(
         &self,
         ids: &[u64],
-        name: String,
-        tone: Tone,
+        layer: Layer2,
+        size: f64,
         panels: &[Panel],
         scales: &[f64],
         beyond: &mut u64,
     ) -> Result<Option<Layer2>, Error> {
         let (dim, items) = (self.dim(), self.certificate().items);
-        let size = (0.6 * self.dot_size()).max(1.0);
         let (mut points, mut chains) = (Vec::new(), Vec::new());
         for &id in ids {
             let row = self.row(id)?;
             for panel in panels {
                 let at = self.place(&row, panel, scales);
                 let is_inside = (0..2).all(|i| (at[i] - panel.middle[i]).abs() <= HALF);
-                if !is_inside {
-                    *beyond += 1;
-                    continue;
-                }
+                *beyond += u64::from(!is_inside);
                 match Shadow::of_item(items, dim, &row, panel.j, panel.k) {
-                    None => points.push(Point2 { id: Some(id), at, size, label: String::new() }),
+                    None => {
+                        let at = [0, 1]
+                            .map(|i| at[i].clamp(panel.middle[i] - HALF, panel.middle[i] + HALF));
+                        points.push(Point2 { id: Some(id), at, size, label: String::new() });
+                    }
+                    Some(_) if !is_inside => {}
                     Some(Shadow([[a, _], [b, c]])) => {
                         let part = |j: usize| HALF / scales[j];
                         let (x, y) = (part(panel.j), part(panel.k));
@@ -198,26 +254,10 @@ impl Picture<'_> {
             Items::Points => (Look::Filled, Shape2::Points(points)),
             Items::Balls | Items::Ellipsoids => (Look::Thin, Shape2::Polygons(chains)),
         };
-        Ok(Some(Layer2 { name, tone, look, shape }))
-    }
-
-    /// Names and ranges, on the diagonal.
-    fn words(&self, chosen: &[usize]) -> Vec<Text2> {
-        let words = |(i, &j): (usize, &usize)| {
-            let (c, w) = (self.body.center[j], self.body.half_width(j));
-            let at = [i as f64, -(i as f64)];
-            [
-                Text2 { at: [at[0], at[1] + 0.08], text: self.options.axis(j, self.dim()).name },
-                Text2 {
-                    at: [at[0], at[1] - 0.12],
-                    text: format!("{} to {}", short(c - w, 3), short(c + w, 3)),
-                },
-            ]
-        };
-        chosen.iter().enumerate().flat_map(words).collect()
+        Ok(Some(Layer2 { look, shape, ..layer }))
     }
 }
 
-fn square([x, y]: Place) -> Vec<Place> {
+pub(crate) fn square([x, y]: Place) -> Vec<Place> {
     vec![[x - HALF, y - HALF], [x + HALF, y - HALF], [x + HALF, y + HALF], [x - HALF, y + HALF]]
 }

@@ -5,11 +5,19 @@ use super::body::Shadow;
 use crate::{Aspect, Axis, Error, Layer2, Look, Point2, Scene2, Shape2, Tone};
 
 /// Corners of an ellipse drawn large, and of one among many.
-pub(super) const FINE: usize = 240;
+pub(crate) const FINE: usize = 240;
 pub(super) const COARSE: usize = 48;
 
+/// By how much marks of items left out are larger: their tone is not all that tells them.
+pub(crate) const OUT: f64 = 1.6;
+
+/// A layer of the ellipsoid to compare with.
+pub(super) fn compared(shape: Shape2) -> Layer2 {
+    Layer2 { name: super::robust::KEPT.into(), tone: Tone::Second, look: Look::Dashed, shape }
+}
+
 /// One place of a plane picture.
-pub(super) type Place = [f64; 2];
+pub(crate) type Place = [f64; 2];
 
 impl Picture<'_> {
     /// Items as discs, or as ellipses where they have an extent.
@@ -18,9 +26,9 @@ impl Picture<'_> {
         ids: &[u64],
         name: String,
         tone: Tone,
+        size: f64,
         place: impl Fn(&[f64]) -> (Place, Option<Shadow>),
     ) -> Result<Option<Layer2>, Error> {
-        let size = self.dot_size();
         let (mut points, mut chains) = (Vec::new(), Vec::new());
         for &id in ids {
             match place(&self.row(id)?) {
@@ -58,7 +66,12 @@ impl Picture<'_> {
                     .collect(),
             ),
         };
-        let layers = self.layers(outline, place, center, |mark| [mark[0], mark[1]])?;
+        let mut layers = self.layers(outline, place, center, |mark| [mark[0], mark[1]])?;
+        if let Some(second) = self.second() {
+            let center = [second.center[0], second.center[1]];
+            let chain = second.shadow(0, 1).chain(center, 1.0, FINE);
+            layers.insert(1, compared(Shape2::Polygons(vec![chain])));
+        }
         Ok(Scene2 {
             title: self.title(),
             caption: self.facts() + &self.counts(),
@@ -106,13 +119,15 @@ impl Picture<'_> {
     ) -> Result<Vec<Layer2>, Error> {
         let (inside, out) = self.others();
         let mut layers = vec![Layer2 {
-            name: "smallest ellipsoid".into(),
+            name: self.name(),
             tone: Tone::Answer,
             look: Look::Filled,
             shape: outline(1.0),
         }];
-        layers.extend(self.items(&inside, self.others_name(), Tone::Point, &place)?);
-        layers.extend(self.items(&out, self.left_out_name(), Tone::Third, &place)?);
+        let size = self.dot_size();
+        layers.extend(self.items(&inside, self.others_name(), Tone::Point, size, &place)?);
+        let (name, larger) = (self.left_out_name(), OUT * size);
+        layers.extend(self.items(&out, name, Tone::Third, larger, &place)?);
         if self.lower_is_visible() {
             layers.push(Layer2 {
                 name: "lower bound".into(),
@@ -127,12 +142,13 @@ impl Picture<'_> {
             size: mark.size,
             label: mark.label,
         };
-        layers.push(Layer2 {
+        let marks: Vec<Point2> = self.support()?.into_iter().map(mark).collect();
+        layers.extend((!marks.is_empty()).then(|| Layer2 {
             name: self.support_name(),
             tone: Tone::Support,
             look: Look::Solid,
-            shape: Shape2::Points(self.support()?.into_iter().map(mark).collect()),
-        });
+            shape: Shape2::Points(marks),
+        }));
         layers.push(Layer2 {
             name: "centre".into(),
             tone: Tone::Ink,

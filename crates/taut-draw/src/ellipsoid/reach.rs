@@ -39,7 +39,7 @@ impl Picture<'_> {
             caption: format!(
                 "{} of {} come within {} % of the border. Each bar counts the {thing}s of one range{}{}.",
                 count(self.survey.close),
-                counted(n - out, thing),
+                counted(n.saturating_sub(out), thing),
                 short(100.0 * CLOSE, 2),
                 if y_scale == Scale::Log {
                     "; the count is logarithmic, so that few are seen beside many"

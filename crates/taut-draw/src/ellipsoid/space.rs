@@ -4,17 +4,24 @@ use taut_certify::Items;
 use taut_points::gather;
 
 use super::Picture;
-use super::plane::{COARSE, FINE};
+use super::plane::{COARSE, FINE, OUT};
+use super::robust::KEPT;
 use crate::{Error, Layer3, Look, Point3, Projection, Scene3, Shape3, Sphere3, Tone};
 
-type Place = [f64; 3];
+pub(crate) type Place = [f64; 3];
 
 /// Half-planes through the longest axis, and circles around it on each side of the equator.
 const MERIDIANS: usize = 6;
 const PARALLELS: usize = 2;
 
 /// A net on {c + Σ yₖaₖ : |y| ≤ 1} for up to three half-axes aₖ; an ellipse, a segment or nothing for fewer.
-fn net(center: Place, axes: &[Vec<f64>], part: f64, steps: usize, fine: bool) -> Vec<Vec<Place>> {
+pub(crate) fn net(
+    center: Place,
+    axes: &[Vec<f64>],
+    part: f64,
+    steps: usize,
+    fine: bool,
+) -> Vec<Vec<Place>> {
     let at = |y: [f64; 3]| {
         let sum = |k: usize| -> f64 { axes.iter().zip(y).map(|(axis, y)| axis[k] * y).sum() };
         [0, 1, 2].map(|k| center[k] + part * sum(k))
@@ -76,13 +83,13 @@ fn root(items: Items, row: &[f64]) -> Vec<Vec<f64>> {
 }
 
 /// A turn of the view, in whole degrees, that shows the longest axis from its side; 35 where it stands upright.
-fn azimuth(axes: &[Vec<f64>]) -> f64 {
+pub(crate) fn azimuth(axes: &[Vec<f64>]) -> f64 {
     let Some([x, y, z]) = axes.first().map(|axis| at(axis)) else { return 35.0 };
     let level = super::body::length(&[x, y]);
     if level > 0.25 * z.abs() { (y.atan2(x).to_degrees() + 70.0).round() } else { 35.0 }
 }
 
-fn at(row: &[f64]) -> Place {
+pub(crate) fn at(row: &[f64]) -> Place {
     [row[0], row[1], row[2]]
 }
 
@@ -97,10 +104,16 @@ impl Picture<'_> {
             look,
             shape: Shape3::Polylines(net(center, &axes, part, FINE / 2, true)),
         };
-        let mut layers = vec![surface("smallest ellipsoid", Tone::Answer, Look::Thin, 1.0)];
+        let mut layers = vec![surface(&self.name(), Tone::Answer, Look::Thin, 1.0)];
+        if let Some(second) = self.second() {
+            let net = net(at(&second.center), &second.principal(), 1.0, COARSE, false);
+            let (name, shape) = (KEPT.into(), Shape3::Polylines(net));
+            layers.push(Layer3 { name, tone: Tone::Second, look: Look::Dashed, shape });
+        }
         let (inside, out) = self.others();
-        layers.extend(self.bodies(&inside, self.others_name(), Tone::Point)?);
-        layers.extend(self.bodies(&out, self.left_out_name(), Tone::Third)?);
+        let size = self.dot_size();
+        layers.extend(self.bodies(&inside, self.others_name(), Tone::Point, size)?);
+        layers.extend(self.bodies(&out, self.left_out_name(), Tone::Third, OUT * size)?);
         if self.lower_is_visible() {
             layers.push(surface("lower bound", Tone::Bound, Look::Dashed, self.lower()));
         }
@@ -110,12 +123,13 @@ impl Picture<'_> {
             size: mark.size,
             label: mark.label,
         };
-        layers.push(Layer3 {
+        let marks: Vec<Point3> = self.support()?.into_iter().map(mark).collect();
+        layers.extend((!marks.is_empty()).then(|| Layer3 {
             name: self.support_name(),
             tone: Tone::Support,
             look: Look::Solid,
-            shape: Shape3::Points(self.support()?.into_iter().map(mark).collect()),
-        });
+            shape: Shape3::Points(marks),
+        }));
         layers.push(Layer3 {
             name: "centre".into(),
             tone: Tone::Ink,
@@ -128,21 +142,39 @@ impl Picture<'_> {
             axes: [0, 1, 2].map(|k| self.options.axis(k, 3)),
             layers,
             projection: Projection::Perspective,
-            azimuth: azimuth(&axes),
+            azimuth: azimuth(&self.aside(&out)?.map_or(axes, |aside| vec![aside])),
             elevation: 22.0,
             width: self.options.width,
             height: self.options.height,
         })
     }
 
+    /// Where the outliers lie on average, as seen from the centre: the view is to show that from its side.
+    fn aside(&self, out: &[u64]) -> Result<Option<Vec<f64>>, Error> {
+        if self.robust.is_none() || out.is_empty() {
+            return Ok(None);
+        }
+        let rows = gather(self.source, out)?;
+        let mean = |k: usize| {
+            let offsets = rows[k..].iter().step_by(3).map(|x| x - self.body.center[k]);
+            offsets.sum::<f64>() / out.len() as f64
+        };
+        Ok(Some([0, 1, 2].map(mean).to_vec()))
+    }
+
     /// Items as discs, spheres or nets.
-    fn bodies(&self, ids: &[u64], name: String, tone: Tone) -> Result<Option<Layer3>, Error> {
+    fn bodies(
+        &self,
+        ids: &[u64],
+        name: String,
+        tone: Tone,
+        size: f64,
+    ) -> Result<Option<Layer3>, Error> {
         if ids.is_empty() {
             return Ok(None);
         }
         let rows = gather(self.source, ids)?;
         let rows = ids.iter().zip(rows.chunks_exact(self.source.dim()));
-        let size = self.dot_size();
         let items = self.certificate().items;
         let (look, shape) = match items {
             Items::Points => {

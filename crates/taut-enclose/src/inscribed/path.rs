@@ -10,9 +10,10 @@ use taut_certify::{PassBounds, Stop};
 use taut_points::{Monitor, ReadError};
 
 use super::start::Interior;
-use super::{Found, HalfSpaces, InscribedOptions, seen};
+use super::{Found, HalfSpaces, InscribedOptions, ROUNDING, seen};
 use crate::Error;
 use crate::ellipsoid::{cholesky, log_unit_ball};
+use crate::kernel::DoubleDouble;
 use crate::kernel::vector::{add_scaled, dot};
 
 /// By what μ falls once its minimum is nearly reached.
@@ -41,7 +42,8 @@ pub(super) fn follow(
     let mut center = start.center;
     let mut axes = vec![0.0; dim * dim];
     start.half_axes.iter().enumerate().for_each(|(j, half)| axes[j * dim + j] = 0.5 * half);
-    let last_mu = 0.1 * options.epsilon / (2 * n) as f64;
+    // Beyond what rounding allows, half-spaces that hardly touch lose what proves their part.
+    let last_mu = 0.1 * options.epsilon.max(ROUNDING * dim as f64) / (2 * n) as f64;
     let mut mu = 1.0f64.max(last_mu);
     let (mut steps, mut at_last, mut history) = (0, 0, vec![]);
     let view = |center: &[f64], axes: &[f64]| -> Vec<View> {
@@ -204,18 +206,23 @@ fn take(
     false
 }
 
-/// ln |det G| by elimination.
+/// ln |det G| by elimination, with twice the digits: the axes of a long polytope that stands askew are nearly parallel.
 pub(super) fn log_determinant(axes: &[f64], dim: usize) -> f64 {
-    let mut rows: Vec<Vec<f64>> = axes.chunks_exact(dim).map(<[f64]>::to_vec).collect();
+    let row = |row: &[f64]| row.iter().map(|&g| DoubleDouble::from(g)).collect();
+    let mut rows: Vec<Vec<DoubleDouble>> = axes.chunks_exact(dim).map(row).collect();
     let mut sum = 0.0;
     for k in 0..dim {
-        let pivot = (k..dim).max_by(|&a, &b| rows[a][k].abs().total_cmp(&rows[b][k].abs()));
+        let size = |i: usize| rows[i][k].high.abs();
+        let pivot = (k..dim).max_by(|&a, &b| size(a).total_cmp(&size(b)));
         rows.swap(k, pivot.unwrap_or(k));
         let (above, below) = rows.split_at_mut(k + 1);
-        sum += above[k][k].abs().ln();
+        let top = &above[k];
+        sum += top[k].high.abs().ln();
         for row in below {
-            let factor = row[k] / above[k][k];
-            add_scaled(&mut row[k..], -factor, &above[k][k..]);
+            let factor = row[k].div(top[k]);
+            for (entry, &top) in row[k..].iter_mut().zip(&top[k..]) {
+                *entry = entry.sub(factor.mul(top));
+            }
         }
     }
     sum

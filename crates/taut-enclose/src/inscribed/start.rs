@@ -24,6 +24,10 @@ const TURNS: usize = 5;
 /// A ball of less than this part of the extent of the polytope is none.
 const LEAST: f64 = 1e-9;
 
+/// A point this far outside of some half-space, where offsets are at most 1 and normals have length 1, is so beyond the
+/// roundings of the conic solver.
+const EMPTY: f64 = 1e-7;
+
 /// A centre, and the half axes of an ellipsoid around it inside, along the axes of coordinates.
 pub(super) struct Interior {
     pub(super) center: Vec<f64>,
@@ -58,8 +62,9 @@ pub(super) fn interior(sides: &HalfSpaces) -> Result<Interior, Error> {
     let is_open = radius > LEAST * extent;
     if !is_open {
         let rows: Vec<u64> = (0..n).filter(|&i| z[i] > 1e-7).map(|i| i as u64).collect();
-        let multipliers = rows.iter().map(|&i| z[i as usize]).collect();
-        return Err(Error::NoInterior { rows, multipliers });
+        let multipliers = rows.iter().map(|&i| z[i as usize] * stretch(sides, &units, i as usize));
+        let multipliers = multipliers.collect();
+        return Err(Error::NoInterior { rows, multipliers, is_empty: radius < -EMPTY });
     }
     Ok(Interior {
         center: x.iter().zip(&units).map(|(v, u)| v * unit * u).collect(),
@@ -98,12 +103,24 @@ fn equilibrated(sides: &HalfSpaces) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
     (normals, offsets, units)
 }
 
+/// By how much longer the normal of a row is in the coordinates given than in those with units.
+fn stretch(sides: &HalfSpaces, units: &[f64], i: usize) -> f64 {
+    let row = &sides.values[i * (sides.dim + 1)..][..sides.dim];
+    let length = |numbers: &[f64]| {
+        let largest = numbers.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        largest * numbers.iter().map(|v| (v / largest).powi(2)).sum::<f64>().sqrt()
+    };
+    let seen: Vec<f64> = row.iter().zip(units).map(|(a, u)| a * u).collect();
+    length(row) / length(&seen)
+}
+
 fn unbounded(direction: &[f64], units: &[f64]) -> Error {
     let scaled: Vec<f64> = direction.iter().zip(units).map(|(v, u)| v * u).collect();
     let largest = scaled.iter().fold(0.0f64, |m, v| m.max(v.abs()));
     let scaled: Vec<f64> = scaled.iter().map(|v| v / largest).collect();
     let norm = dot(&scaled, &scaled).sqrt();
-    Error::Unbounded { direction: scaled.iter().map(|v| v / norm).collect() }
+    // Adding 0 turns −0 into 0.
+    Error::Unbounded { direction: scaled.iter().map(|v| v / norm + 0.0).collect() }
 }
 
 fn is_bounded(normals: &[f64], units: &[f64]) -> Result<(), Error> {

@@ -1,0 +1,187 @@
+//! What is particular to robust ellipsoids: outliers, the ellipsoid around the points kept, distances, a close-up.
+
+use taut_certify::{
+    Ellipsoid, EllipsoidCertificate, Items, RobustCertificate, RobustEllipsoid, RobustMethod,
+    Solution,
+};
+use taut_points::PointSource;
+
+use super::{Picture, body::Body, check};
+use crate::number::{count, counted, short};
+use crate::survey::Measure;
+use crate::{Axis, Error, Level, Plot, Scale, Series, SeriesLook, Tone};
+
+/// The name of the ellipsoid around the points kept, where it is not the answer.
+pub(super) const KEPT: &str = "smallest around the points kept";
+
+/// In half-widths of the ellipsoid: how far out an outlier makes a close-up worth while, and how far that reaches.
+const FAR: f64 = 4.0;
+const NEAR: f64 = 2.5;
+
+/// The answer as an ellipsoid around the points that are not flagged. Only by `trim` some of them decide it.
+pub(super) fn as_left_out(
+    solution: &Solution<RobustEllipsoid>,
+) -> (Ellipsoid, EllipsoidCertificate) {
+    let certificate = &solution.certificate;
+    let (support, multipliers) = match (&certificate.enclosure, certificate.method) {
+        (Some(enclosure), RobustMethod::Trim) => {
+            let EllipsoidCertificate { support, multipliers, .. } = enclosure.certificate.clone();
+            (support, multipliers)
+        }
+        _ => (vec![], vec![]),
+    };
+    let certificate = EllipsoidCertificate {
+        items: Items::Points,
+        support,
+        multipliers,
+        directions: vec![],
+        left_out: solution.answer.flagged.clone(),
+        gap: 0.0,
+        points_hash: certificate.points_hash,
+    };
+    (solution.answer.ellipsoid(), certificate)
+}
+
+/// What there is to say of a robust ellipsoid.
+pub(super) struct Robust<'a> {
+    answer: &'a RobustEllipsoid,
+    certificate: &'a RobustCertificate,
+    /// By `mve`, the smallest ellipsoid around the points kept.
+    pub(super) kept: Option<Body>,
+    /// Outliers that a close-up does not show.
+    pub(super) beyond: u64,
+}
+
+impl<'a> Robust<'a> {
+    pub(super) fn of(
+        solution: &'a Solution<RobustEllipsoid>,
+        source: &dyn PointSource,
+    ) -> Result<Self, Error> {
+        let (answer, certificate) = (&solution.answer, &solution.certificate);
+        let enclosure = certificate.enclosure.as_ref();
+        let kept = match enclosure.filter(|_| certificate.method != RobustMethod::Trim) {
+            None => None,
+            Some(enclosure) => {
+                check(&enclosure.ellipsoid, &enclosure.certificate, source)?;
+                // Within a flat, two ellipses in one another's place would tell nothing.
+                (enclosure.ellipsoid.hull.is_none()).then(|| Body::of(&enclosure.ellipsoid))
+            }
+        };
+        Ok(Robust { answer, certificate, kept, beyond: 0 })
+    }
+
+    pub(super) fn title(&self, points: u64, dim: usize) -> String {
+        let close = if self.beyond > 0 { ", from near by" } else { "" };
+        format!("Robust ellipsoid of {}, d = {dim}{close}", counted(points, "point"))
+    }
+
+    pub(super) fn name(&self) -> String {
+        match self.certificate.method {
+            RobustMethod::Trim => "smallest ellipsoid around the points kept".into(),
+            _ => format!("tolerance ellipsoid, {} %", short(100.0 * self.certificate.level, 4)),
+        }
+    }
+
+    pub(super) fn facts(&self) -> String {
+        let RobustCertificate { method, kept, level, .. } = self.certificate;
+        let meaning = match method {
+            RobustMethod::Trim => "Its border is that of the points kept.".to_owned(),
+            _ => format!(
+                "Of normal points it would hold {} %, wherever the others are.",
+                short(100.0 * level, 4)
+            ),
+        };
+        let flat = match self.answer.hull {
+            None => String::new(),
+            Some(_) => format!(
+                " Most points lie in a flat of dimension {}, and every point off it is an outlier.",
+                self.answer.factor.len()
+            ),
+        };
+        format!(
+            "By {method}, {} kept; {}. {meaning}{flat}",
+            counted(*kept, "point"),
+            counted(self.answer.flagged.len() as u64, "outlier"),
+        )
+    }
+}
+
+impl<'a> Picture<'a> {
+    /// The same without the outliers far out, where there are some in a picture that shows coordinates.
+    pub(super) fn closer(self) -> Result<Option<Self>, Error> {
+        if self.dim() > 3 {
+            return Ok(None);
+        }
+        let widths: Vec<f64> = (0..self.dim()).map(|j| self.body.half_width(j)).collect();
+        let lies_within = |row: &[f64], reach: f64| {
+            let offsets = row.iter().zip(&self.body.center).map(|(x, c)| (x - c).abs());
+            offsets.zip(&widths).all(|(offset, width)| offset <= reach * width)
+        };
+        let out = &self.certificate.left_out;
+        let (mut ids, mut is_far) = (Vec::new(), false);
+        for &id in &self.survey.ids {
+            if out.binary_search(&id).is_ok() {
+                let row = self.row(id)?;
+                is_far |= !lies_within(&row, FAR);
+                if !lies_within(&row, NEAR) {
+                    continue;
+                }
+            }
+            ids.push(id);
+        }
+        if !is_far {
+            return Ok(None);
+        }
+        let drawn = ids.iter().filter(|id| out.binary_search(id).is_ok()).count();
+        let mut closer = self;
+        closer.survey.ids = ids;
+        if let Some(robust) = &mut closer.robust {
+            robust.beyond = out.len().saturating_sub(drawn) as u64;
+        }
+        Ok(Some(closer))
+    }
+
+    /// |F(x − c)| of the points that are drawn, by row; nothing for a single place, which has no metric.
+    pub(super) fn distances(&self) -> Result<Option<Plot>, Error> {
+        if self.rank() == 0 {
+            return Ok(None);
+        }
+        let out = &self.certificate.left_out;
+        let (mut inside, mut outside) = (Vec::new(), Vec::new());
+        for &id in &self.survey.ids {
+            let part = self.body.part(&self.row(id)?, Items::Points);
+            let is_out = out.binary_search(&id).is_ok();
+            let list = if is_out { &mut outside } else { &mut inside };
+            list.push([(id + 1) as f64, part]);
+        }
+        let (n, drawn) = (self.source.len(), self.survey.ids.len() as u64);
+        let series = |name: String, tone, points| {
+            let look = SeriesLook::Dots;
+            Series { name, tone, look, points }
+        };
+        let flat = match self.ellipsoid.hull {
+            Some(_) => " Points off the flat are outliers at any distance within it.",
+            None => "",
+        };
+        let shown = match drawn == n {
+            true => String::new(),
+            false => format!(" {} of {} are drawn.", count(drawn), counted(n, "point")),
+        };
+        Ok(Some(Plot {
+            title: "Distances in the metric of the ellipsoid".into(),
+            caption: format!("Outliers lie beyond the border, at 1.{flat}{shown}"),
+            x: Axis::named("row"),
+            y: Axis::named("|F(x − c)|"),
+            x_scale: Scale::Linear,
+            y_scale: Scale::Log,
+            series: vec![
+                series("points".into(), Tone::Point, inside),
+                series(self.left_out_name(), Tone::Third, outside),
+            ],
+            bars: Vec::new(),
+            levels: vec![Level::AtY { y: 1.0, tone: Tone::Answer, label: "border".into() }],
+            width: self.options.width,
+            height: (self.options.height * 0.62).max(180.0),
+        }))
+    }
+}

@@ -1,0 +1,96 @@
+//! Many small problems at once: an ellipsoid for each of many point sets.
+//!
+//! *Idea.* Sets are independent, so threads share out sets instead of blocks of one set; a set of one block is solved by
+//! one thread without any other hearing of it.
+//! *Guarantee.* Each answer is that of its set alone, byte by byte, for any number of threads; of several sets that cannot
+//! be solved the first is named.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+use taut_certify::{Ellipsoid, Solution};
+use taut_points::{Monitor, PointSource, Points, ReadError, Scalar};
+
+use super::{EllipsoidOptions, on_threads, solve};
+use crate::Error;
+
+/// The ellipsoid of least volume of each of `sets`, in their order; sets may differ in size and dimension.
+///
+/// Each is the answer of [`ellipsoid()`](super::ellipsoid) for that set, with a certificate of its own. Cut a table of
+/// points into sets by views of its rows.
+///
+/// *Cost.* That of the sets, shared by all threads.
+///
+/// ```
+/// use taut_enclose::{EllipsoidOptions, ellipsoids};
+/// use taut_points::Points;
+///
+/// // A triangle, a segment and a single point, one after the other in one table of six rows.
+/// let table = [0.0, 0.0, 2.0, 0.0, 0.0, 2.0, 5.0, 5.0, 7.0, 5.0, 9.0, 9.0];
+/// let starts = [0, 3, 5, 6];
+/// let cut = |ends: &[usize]| Points::new(&table[2 * ends[0]..2 * ends[1]], 2);
+/// let sets = starts.windows(2).map(cut).collect::<Result<Vec<_>, _>>()?;
+///
+/// let found = ellipsoids(&sets, &EllipsoidOptions::default())?;
+/// let ranks: Vec<usize> = found.iter().map(|found| found.answer.rank()).collect();
+/// assert_eq!(ranks, [2, 1, 0]);
+/// for (found, set) in found.iter().zip(&sets) {
+///     assert!(found.check(set)?.gap <= 1e-9);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Set`] with the number of the first set that cannot be solved, and why; [`Error::Option`].
+pub fn ellipsoids<T: Scalar>(
+    sets: &[Points<'_, T>],
+    options: &EllipsoidOptions,
+) -> Result<Vec<Solution<Ellipsoid>>, Error> {
+    let sources: Vec<&dyn PointSource> = sets.iter().map(|set| set as &dyn PointSource).collect();
+    ellipsoids_of_sources(&sources, options, &Monitor::silent())
+}
+
+/// The same for the points of sources; `monitor` hears of one pass over all points, and can stop the work at any time.
+///
+/// # Errors
+/// As [`ellipsoids()`], and [`Error::Read`] when `monitor` stops the work.
+pub fn ellipsoids_of_sources(
+    sources: &[&dyn PointSource],
+    options: &EllipsoidOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Vec<Solution<Ellipsoid>>, Error> {
+    options.check()?;
+    monitor.pass(1, sources.iter().map(|source| source.len()).sum());
+    let within = Monitor { cancel: monitor.cancel, ..Monitor::silent() };
+    // Sets beyond one that failed are not begun; all before it are, so that the first is known.
+    let failed = AtomicUsize::new(usize::MAX);
+    let one = |set: usize| {
+        if set > failed.load(Ordering::Relaxed) {
+            return None;
+        }
+        let found = monitor
+            .check()
+            .map_err(|cancelled| ReadError::from(cancelled).into())
+            .and_then(|()| solve(sources[set], options, &within));
+        match &found {
+            Ok(_) => monitor.points(sources[set].len()),
+            Err(_) => {
+                failed.fetch_min(set, Ordering::Relaxed);
+            }
+        }
+        Some(found)
+    };
+    let found: Vec<Option<Result<Solution<Ellipsoid>, Error>>> =
+        on_threads(options, || Ok((0..sources.len()).into_par_iter().map(one).collect()))?;
+    let sets = found.into_iter().enumerate();
+    sets.filter_map(|(set, found)| found.map(|found| found.map_err(|error| named(set, error))))
+        .collect()
+}
+
+/// The error of one set, with its number, unless it is about all of them.
+fn named(set: usize, error: Error) -> Error {
+    match error {
+        Error::Read(ReadError::Cancelled(_)) => error,
+        error => Error::Set { set: set as u64, error: Box::new(error) },
+    }
+}
