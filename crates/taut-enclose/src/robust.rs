@@ -3,6 +3,7 @@
 //! [`search`] finds the rows to keep; [`fit`] goes down to a subspace where many rows lie in one, and weighs outliers
 //! out; what it ends in becomes an answer here.
 
+mod border;
 mod chi_square;
 mod concentrate;
 mod eigen;
