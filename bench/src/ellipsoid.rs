@@ -1,9 +1,13 @@
 //! Ellipsoids: of points, of ellipsoids, and robust ones, each answer proved before its time is believed.
 
+mod approximate;
 mod case;
+mod conic;
 pub(crate) mod file;
 mod goals;
+mod judgement;
 mod laws;
+mod linear;
 mod plane;
 mod points;
 mod real;
@@ -35,7 +39,7 @@ pub(crate) struct Arguments {
     /// Inputs of a tenth of their size and at most two rounds: to try the bench, not to quote.
     #[arg(long)]
     quick: bool,
-    /// Numbers of threads taut is run with: goals are about one, the clock shown is that of the last.
+    /// Numbers of threads taut is run with: goals are about the clock with the last of them.
     #[arg(long, value_delimiter = ',', default_values_t = [1, 2])]
     threads: Vec<usize>,
     /// Seconds after which one run of a peer is stopped.
@@ -97,7 +101,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
             Kind::Plane(laws) => plane::run(&mut context, case, laws)?,
             Kind::Real => real::run(&mut context, case)?,
             Kind::Shapes => shapes::run(&mut context, case)?,
-            Kind::Contaminated => robust::run(&mut context, case)?,
+            Kind::Conic => conic::run(&mut context, case)?,
+            Kind::Approximate => approximate::run(&mut context, case)?,
+            Kind::Contaminated(cloud) => robust::run(&mut context, case, *cloud)?,
             Kind::Flags => robust::run_flags(&mut context, case)?,
             Kind::File => file::run(&mut context, case)?,
         }

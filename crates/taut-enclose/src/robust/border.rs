@@ -264,21 +264,25 @@ struct Edge {
 
 /// The pair whose exchange lowers the determinant most, if one does; of equal ones the first.
 fn best_pair(inside: &[Edge], outside: &[Edge], h: usize) -> Option<(usize, usize)> {
-    let h = h as f64;
     let squares: Vec<f64> = outside.iter().map(|edge| dot(&edge.image, &edge.image)).collect();
     let (mut best, mut pair) = (0.0, None);
     for (i, one) in inside.iter().enumerate() {
         let a = dot(&one.image, &one.image);
         for (j, (other, &b)) in outside.iter().zip(&squares).enumerate() {
-            let product = dot(&one.image, &other.image);
-            let apart = a + b - 2.0 * product;
-            let change = b - a - apart / h - (a * b - product * product) / (h - 1.0);
+            let change = change(a, b, dot(&one.image, &other.image), h);
             if change < best && change < -ROUNDING * (a + b) {
                 (best, pair) = (change, Some((i, j)));
             }
         }
     }
     pair
+}
+
+/// g for squared distances a and b, and their inner product: an exchange multiplies the determinant by 1 + g/(h − 1).
+fn change(a: f64, b: f64, product: f64, h: usize) -> f64 {
+    let h = h as f64;
+    let apart = a + b - 2.0 * product;
+    b - a - apart / h - (a * b - product * product) / (h - 1.0)
 }
 
 /// The metric after the row at y gave its place to that at z, of h rows, as seen from the one before; nothing where
@@ -291,4 +295,24 @@ fn after(y: &[f64], z: &[f64], h: usize) -> Option<Metric> {
     state.add(y, -1.0);
     state.add(z, 1.0);
     state.metric(h)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_exchange_multiplies_the_determinant_as_said() {
+        let rows = [[1.2, -0.3, 0.7], [0.1, 1.9, -0.4], [-0.8, 0.2, 0.3], [0.0, 0.0, 2.5]];
+        for h in [5, 30, 5000] {
+            for y in &rows {
+                for z in &rows {
+                    let g = change(dot(y, y), dot(z, z), dot(y, z), h);
+                    let wanted = (g / (h as f64 - 1.0)).ln_1p();
+                    let found = after(y, z, h).expect("not flat").log_det();
+                    assert!((found - wanted).abs() < 1e-14, "{h}: {found} of {wanted}");
+                }
+            }
+        }
+    }
 }
