@@ -16,14 +16,12 @@ mod rounds;
 mod shapes;
 
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use anyhow::{Result, ensure};
-use tempfile::TempDir;
 
-use crate::report::Report;
+use crate::context::Context;
 use crate::select::select;
-use case::{CASES, Kind};
+use case::{CASES, Case, Kind};
 
 /// Cases and how often.
 #[derive(clap::Args)]
@@ -56,18 +54,6 @@ pub(crate) struct Arguments {
     json: Option<PathBuf>,
 }
 
-/// What all cases share.
-struct Context {
-    runs: usize,
-    quick: bool,
-    threads: Vec<usize>,
-    limit: Duration,
-    peer_budget: Duration,
-    scratch: Option<PathBuf>,
-    temp: TempDir,
-    report: Report,
-}
-
 /// Runs the cases that were asked for.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     if arguments.list {
@@ -77,42 +63,22 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         return Ok(());
     }
     let cases = select(CASES, |case| case.name, &arguments.cases, "ellipsoid")?;
-    ensure!(
-        arguments.runs > 0 && !arguments.threads.is_empty() && !arguments.threads.contains(&0),
-        "at least one round and one thread"
-    );
-    let mut context = Context {
-        runs: if arguments.quick { arguments.runs.min(2) } else { arguments.runs },
-        quick: arguments.quick,
-        threads: arguments.threads.clone(),
-        limit: Duration::from_secs(arguments.limit),
-        peer_budget: Duration::from_secs(arguments.peer_budget),
-        scratch: arguments.scratch.clone(),
-        temp: TempDir::new()?,
-        report: Report::begin(),
-    };
-    if context.quick {
-        println!("Quick: inputs are smaller than the cases say. Not to be quoted.\n");
-    }
-    for case in cases {
-        println!("## {}\n{}\n", case.name, case.about);
-        match &case.kind {
-            Kind::Points(inputs) => points::run(&mut context, case, inputs)?,
-            Kind::Plane(laws) => plane::run(&mut context, case, laws)?,
-            Kind::Real => real::run(&mut context, case)?,
-            Kind::Shapes => shapes::run(&mut context, case)?,
-            Kind::Conic => conic::run(&mut context, case)?,
-            Kind::Approximate => approximate::run(&mut context, case)?,
-            Kind::Contaminated(cloud) => robust::run(&mut context, case, *cloud)?,
-            Kind::Flags => robust::run_flags(&mut context, case)?,
-            Kind::File => file::run(&mut context, case)?,
-        }
-        println!();
-        if let Some(path) = &arguments.json {
-            context.report.write(path)?;
-        }
-    }
-    Ok(())
+    let runs = if arguments.quick { arguments.runs.min(2) } else { arguments.runs };
+    let seconds = [arguments.limit, arguments.peer_budget];
+    let scratch = arguments.scratch.as_ref();
+    let mut context = Context::begin(runs, arguments.quick, &arguments.threads, seconds, scratch)?;
+    let head = |case: &'static Case| [case.name, case.about];
+    context.run_all(cases, arguments.json.as_ref(), head, |context, case| match &case.kind {
+        Kind::Points(inputs) => points::run(context, case, inputs),
+        Kind::Plane(laws) => plane::run(context, case, laws),
+        Kind::Real => real::run(context, case),
+        Kind::Shapes => shapes::run(context, case),
+        Kind::Conic => conic::run(context, case),
+        Kind::Approximate => approximate::run(context, case),
+        Kind::Contaminated(cloud) => robust::run(context, case, *cloud),
+        Kind::Flags => robust::run_flags(context, case),
+        Kind::File => file::run(context, case),
+    })
 }
 
 /// The folder `ellipsoid` of `TAUT_DATA`; `None`, after saying so, where there is none.

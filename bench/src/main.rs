@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 mod ball;
+mod context;
 mod delaunay;
 mod ellipsoid;
 mod input;
@@ -13,6 +14,7 @@ mod judge;
 mod machine;
 mod meter;
 mod peer;
+mod raw;
 mod read;
 mod report;
 mod select;
