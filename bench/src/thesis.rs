@@ -72,7 +72,7 @@ impl Plan {
 /// How far figure 18 goes.
 #[derive(clap::Args)]
 pub(crate) struct EllipsoidArguments {
-    /// Go to larger dimensions and smaller ε; without it, under about five minutes.
+    /// Go to larger dimensions and smaller ε; without it, under about a minute.
     #[arg(long)]
     full: bool,
     /// Smallest sizes only: to try the program, not to look at.

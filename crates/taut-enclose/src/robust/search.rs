@@ -2,10 +2,10 @@
 //!
 //! *Problem.* Of n points find the h whose covariance has the least determinant, or that fit the smallest ellipsoid.
 //! *Idea.* Two kinds of starts, as they fail on different data: six rankings ([`starts`](super::starts)), and
-//! [`ELEMENTS`] simplices of d + 1 points where d ≤ [`ELEMENTS_DIM_MAX`]. Simplices are tried by two C-steps on few points, and the best of them go
-//! on with the rankings, to the end, on at most [`SAMPLE`] points (twice that if these are all). The best of those are
-//! tried on all points, and the best of them go on to the end. For the determinant the [`border`](super::border) of the
-//! rows kept is then searched for a better choice.
+//! [`ELEMENTS`] simplices of d + 1 points where d ≤ [`ELEMENTS_DIM_MAX`]. Simplices are tried by two C-steps on few
+//! points, and the best of them go on with the rankings, to the end, on at most [`SAMPLE`] points (twice that if these
+//! are all). The best of those are tried on all points, and the best of them go on to the end. For the determinant the
+//! [`border`](super::border) of the rows kept is then searched for a better choice.
 //! *Guarantee.* The rows found are the h nearest in their own metric: no C-step leads on from them. That no other h
 //! rows do better is not proved. Everything is drawn by the hash of a point's bits, so that what is found depends on the
 //! points and not on their order, but where distances are equal.
