@@ -12,6 +12,7 @@
 //!    either side, of which all pairs are tried.
 //! 3. Kicks. Distances are bent a little along a row of the border, and 1 and 2 lead down from there; what is lower is
 //!    gone on from. Bent by inner products in the metric itself, they do not depend on the coordinates.
+//!
 //! *Guarantee.* The determinant falls with all that is accepted. Where no exchange is left no C-step leads on: a row kept
 //! that is farther than one left out has g < 0 with it.
 //! *Trap.* Rows beyond the border are not looked at while it moves: C-steps on all rows follow, and then the border
