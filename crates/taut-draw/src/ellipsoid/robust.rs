@@ -87,7 +87,7 @@ impl<'a> Robust<'a> {
         let meaning = match method {
             RobustMethod::Trim => "Its border is that of the points kept.".to_owned(),
             _ => format!(
-                "Of normal points it would hold {} %, wherever the others are.",
+                "Were all points normal, it would hold {} % of them.",
                 short(100.0 * level, 4)
             ),
         };
