@@ -28,7 +28,7 @@ pub(crate) mod item;
 pub(crate) mod lower_bound;
 mod panel;
 pub(crate) mod reach;
-mod structure;
+pub(crate) mod structure;
 
 use taut_points::{Monitor, PointSource};
 
