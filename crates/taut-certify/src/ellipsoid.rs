@@ -185,6 +185,6 @@ impl Answer for Ellipsoid {
             let problem = "but only the ellipsoid of a robust fit may leave points out";
             return Err(Violation::LeftOut { position: 0, row, problem }.into());
         }
-        check::check(self, certificate, source, monitor)
+        check::check(self, certificate, source, monitor, 1)
     }
 }

@@ -7,10 +7,10 @@
 //! 1. Doubled precision: moments of the rows kept and of those not weighed out. From these: centre, scatter, objective;
 //!    factors by series of their own ([`factors`]). A hull must be as thin as that of an ellipsoid by itself.
 //! 2. Flags: exactly the rows outside, but for what evaluating |F(x − c)| in `f64` may be off by.
-//! 3. Distances in the metric of the rows kept, but where r = 0. No row kept may be farther than a row left out, and the
-//!    rows weighed out must be those beyond the quantile.
-//! 4. By `mve` and `trim`, the checker of ellipsoids judges that around the rows kept. It takes the place of the metric in
-//!    pass 3, where fewer than h rows may lie strictly inside, as a C-step would lead on otherwise.
+//! 3. By `mve` and `trim`, the checker of ellipsoids judges that around the rows kept.
+//! 4. Distances in the metric of the rows kept, or of the ellipsoid around them, but where r = 0. No row kept may be
+//!    farther than a row left out, and the rows weighed out must be those beyond the quantile. Fewer than h rows may lie
+//!    strictly inside that ellipsoid, as a C-step would lead on otherwise.
 //!
 //! *Not judged.* Whether other rows would do better than those kept: no polynomial proof of that is known.
 //! *Tolerances.* [`slack`]: numbers may be off by what `f64` leaves of them.
@@ -36,6 +36,8 @@ use crate::ellipsoid::check::frame::Frame;
 use crate::ellipsoid::check::hull::HullTest;
 use crate::{CheckError, Enclosure, Violation};
 
+/// Rows nearer than this to the border of the ellipsoid around the rows kept may be on it.
+const ON_BORDER: f64 = 1e-6;
 /// A hull that was laid through some rows may be stated wider by this, so that it holds others as near to it.
 const WIDER: f64 = 4.0;
 /// What 1 − level may be off by beside its last digits: `level` and the probability of a quantile are numbers near 1.
@@ -100,23 +102,27 @@ pub(super) fn check(
         }
         _ => sums.weighed.is_standard(factor, rank, &slack)?,
     }
-    if rank > 0 {
-        let frame = certificate.enclosure.as_ref().map(|e| Frame::of(&e.ellipsoid));
-        let around = match (&frame, &raw) {
-            (Some(frame), _) => Some(Around::Ellipsoid(frame)),
-            (None, raw) => raw.as_ref().map(Around::Moments),
-        };
-        if let Some(around) = around {
-            monitor.pass(3, n);
-            scan.distances(source, monitor, &around, &slack)?;
-        }
-    }
     let enclosure = match &certificate.enclosure {
         Some(Enclosure { ellipsoid, certificate }) => {
-            Some(enclosing::check(ellipsoid, certificate, source, monitor)?)
+            Some(enclosing::check(ellipsoid, certificate, source, monitor, 3)?)
         }
         None => None,
     };
+    if rank > 0 {
+        let frame = certificate.enclosure.as_ref().map(|e| Frame::of(&e.ellipsoid));
+        let around = match (&frame, &raw) {
+            (Some(frame), _) => {
+                // What is proved of its volume does not tell ellipsoids within the gap apart.
+                let gap = enclosure.map_or(0.0, |proved| proved.gap);
+                Some(Around::Ellipsoid { frame, inside: 1.0 - ON_BORDER - gap })
+            }
+            (None, raw) => raw.as_ref().map(Around::Moments),
+        };
+        if let Some(around) = around {
+            monitor.pass(if enclosure.is_some() { 4 } else { 3 }, n);
+            scan.distances(source, monitor, &around, &slack)?;
+        }
+    }
     Ok(RobustVerdict {
         objective,
         enclosure,

@@ -15,8 +15,6 @@ use crate::{CheckError, Violation};
 
 /// What the checker of ellipsoids grants at a border, from both sides.
 const ENCLOSED: f64 = 2e-12;
-/// Rows nearer than this to the border of the ellipsoid around the rows kept may be on it.
-const ON_BORDER: f64 = 1e-6;
 
 /// What is to be read.
 pub(super) struct Scan<'a> {
@@ -38,8 +36,8 @@ pub(super) struct Moments {
 
 /// The metric of the rows kept.
 pub(super) enum Around<'a> {
-    /// That of the ellipsoid around them.
-    Ellipsoid(&'a Frame<'a>),
+    /// That of the ellipsoid around them, and up to which distance rows lie strictly inside.
+    Ellipsoid { frame: &'a Frame<'a>, inside: f64 },
     /// That of their mean and covariance.
     Moments(&'a Metric),
 }
@@ -218,6 +216,10 @@ impl Scan<'_> {
         let is_trimmed = self.certificate.method == RobustMethod::Trim;
         let reweighted = self.certificate.unweighted.is_none();
         let rank = self.frame.rank;
+        let inside = match around {
+            Around::Ellipsoid { inside, .. } => *inside,
+            Around::Moments(_) => f64::NEG_INFINITY,
+        };
         let blocks = self.pass(source, monitor, |first, rows| {
             let mut left_out = Cursor::from(&self.certificate.left_out, first);
             let mut weighed_out = Cursor::from(&self.certificate.weighed_out, first);
@@ -232,12 +234,15 @@ impl Scan<'_> {
                 }
                 let y = || self.frame.image(&self.frame.offset::<DoubleDouble>(&row));
                 let square = match around {
-                    Around::Ellipsoid(frame) => {
+                    Around::Ellipsoid { frame, .. } => {
                         length(&frame.image(&frame.offset::<f64>(&row))).powi(2)
                     }
                     Around::Moments(metric) => metric.square(&y()),
                 };
                 found.take(id, is_out, square);
+                if !is_out && square.sqrt() < inside {
+                    found.inside += 1;
+                }
                 if is_trimmed {
                     continue;
                 }
@@ -252,7 +257,7 @@ impl Scan<'_> {
         })?;
         let mut all = Distances::nothing(rank);
         blocks.iter().for_each(|block| all.merge(block));
-        all.judge(self.certificate, matches!(around, Around::Ellipsoid(_)), slack, rank)?;
+        all.judge(self.certificate, slack, rank)?;
         Ok(())
     }
 }
@@ -274,9 +279,6 @@ impl Distances {
         if !is_out && (square > self.far.0 || square.is_nan()) {
             self.far = (square, row);
         }
-        if !is_out && square.sqrt() < 1.0 - ON_BORDER {
-            self.inside += 1;
-        }
     }
 
     fn merge(&mut self, other: &Distances) {
@@ -293,7 +295,6 @@ impl Distances {
     fn judge(
         &self,
         certificate: &RobustCertificate,
-        is_enclosed: bool,
         slack: f64,
         rank: usize,
     ) -> Result<(), Violation> {
@@ -302,7 +303,7 @@ impl Distances {
             let ((distance, kept), (nearer, other)) = (self.far, self.near);
             return Err(Violation::NotNearest { kept, distance, other, nearer });
         }
-        if is_enclosed && self.inside >= certificate.kept {
+        if self.inside >= certificate.kept {
             return Err(Violation::Spare { inside: self.inside, kept: certificate.kept });
         }
         match certificate.unweighted {
