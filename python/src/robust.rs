@@ -207,7 +207,7 @@ pub(crate) struct RobustVerdict {
 
 impl RobustVerdict {
     pub(crate) fn new(py: Python<'_>, proved: certify::RobustVerdict) -> PyResult<Self> {
-        let certify::RobustVerdict { objective, enclosure, on_hull, reweighted, rank } = proved;
+        let certify::RobustVerdict { objective, enclosure, on_hull, reweighted, rank, .. } = proved;
         let enclosure = enclosure.map(|proved| Py::new(py, EllipsoidVerdict::new(proved)));
         let enclosure = enclosure.transpose()?;
         Ok(RobustVerdict { objective, enclosure, on_hull, reweighted, rank })

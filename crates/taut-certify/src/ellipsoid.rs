@@ -8,7 +8,7 @@ use taut_points::{Monitor, PointSource, PointsHash};
 
 pub use self::plane::{EllipseSupport, ellipse_support};
 use crate::json::{hash_from_hex, hash_to_hex};
-use crate::{Answer, CheckError, Items};
+use crate::{Answer, CheckError, Items, Violation};
 
 /// An ellipsoid {x : |F(x − c)| ≤ 1} in ℝᵈ, or in an affine subspace of dimension r < d.
 ///
@@ -147,7 +147,7 @@ pub struct EllipsoidCertificate {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub directions: Vec<Vec<f64>>,
     /// Row numbers of the items that the ellipsoid leaves out, ascending: the rest is claimed to be enclosed tightly.
-    /// Each of them reaches outside. Empty but for robust fits.
+    /// Each of them reaches outside. Empty but within robust fits: an ellipsoid by itself that leaves rows out is refused.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub left_out: Vec<u64>,
     /// The gap claimed: `log_volume` ≤ optimum + gap, the optimum being that of the items not left out. Accepted when
@@ -186,6 +186,10 @@ impl Answer for Ellipsoid {
         source: &dyn PointSource,
         monitor: &Monitor<'_>,
     ) -> Result<EllipsoidVerdict, CheckError> {
-        check::check(self, certificate, source, monitor)
+        if let Some(&row) = certificate.left_out.first() {
+            let problem = "but only the ellipsoid of a robust fit may leave points out";
+            return Err(Violation::LeftOut { position: 0, row, problem }.into());
+        }
+        check::check(self, certificate, source, monitor, 1)
     }
 }

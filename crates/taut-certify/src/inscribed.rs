@@ -29,6 +29,9 @@ pub struct InscribedEllipsoid {
 ///
 /// With ãᵢ = Gᵀaᵢ and sᵢ = bᵢ − aᵢᵀc: where Σ λᵢãᵢ = 0 and W = Σ λᵢãᵢãᵢᵀ/|ãᵢ|, every ellipsoid in the polytope has at most
 /// the volume of the answer times (Σ λᵢsᵢ/d)ᵈ/det W. Any λ will do; good ones make it nearly 1.
+///
+/// A half-space is the same whatever its row is multiplied by. So that neither rows nor multipliers over- or underflow, λᵢ
+/// is meant for row i divided by the power of two that brings the largest entry of aᵢ to [1, 2).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,
@@ -51,9 +54,10 @@ pub struct InscribedCertificate {
 pub struct InscribedVerdict {
     /// The log-volume of the answer, which was found to lie in every half-space.
     pub lower: f64,
-    /// No ellipsoid in the polytope has a log-volume above this.
+    /// No ellipsoid in the polytope has a log-volume above this: that of the answer as found here, what rounding may take
+    /// of it, and the gap.
     pub upper: f64,
-    /// `upper` − `lower`, rounded up, as it was before both were rounded.
+    /// By how much the log-volume of an ellipsoid in the polytope can exceed that of the answer.
     pub gap: f64,
 }
 

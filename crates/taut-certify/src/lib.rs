@@ -55,6 +55,7 @@ pub use items::Items;
 pub use json::{AnySolution, JsonError, SCHEMA};
 pub use robust::{
     Enclosure, RobustCertificate, RobustEllipsoid, RobustMethod, RobustMethodError, RobustVerdict,
+    Unweighted,
 };
 pub use solution::{Answer, PassBounds, Solution, Stop, Trace};
 pub use triangulation::{

@@ -130,12 +130,39 @@ pub struct RobustCertificate {
     pub scale: f64,
     /// Rows weighed out, ascending: those beyond `cutoff` in the metric of the points kept.
     pub weighed_out: Vec<u64>,
+    /// Why centre and scatter are those of the points kept, if they are: then no others are weighed, and `weighed_out`
+    /// repeats `left_out`. Absent where points are weighed anew.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unweighted: Option<Unweighted>,
     /// By `mve` and `trim`, the ellipsoid around the points kept, and the proof that it is the smallest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub enclosure: Option<Enclosure>,
     /// The hash of the rows this was made for.
     #[serde(serialize_with = "hash_to_hex", deserialize_with = "hash_from_hex")]
     pub points_hash: PointsHash,
+}
+
+/// Why points are not weighed anew.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Unweighted {
+    /// By `trim`, the ellipsoid around the points kept is the answer.
+    Trimmed,
+    /// Every point is kept, or every one on the hull.
+    AllKept,
+    /// The points within the quantile are too few for a scatter, or lie in a flat of lower dimension.
+    Flat,
+}
+
+impl Unweighted {
+    /// The reason, in words that follow "because".
+    pub const fn reason(self) -> &'static str {
+        match self {
+            Unweighted::Trimmed => "points are trimmed",
+            Unweighted::AllKept => "all points are kept",
+            Unweighted::Flat => "the points within the quantile have no scatter",
+        }
+    }
 }
 
 /// The smallest ellipsoid around the points kept.
@@ -156,8 +183,18 @@ pub struct RobustVerdict {
     pub objective: f64,
     /// By `mve` and `trim`, what was proved of the ellipsoid around the points kept.
     pub enclosure: Option<EllipsoidVerdict>,
+    /// h, how many points were asked for. By `mcd` and `mve` at least ⌊(n + d + 1)/2⌋, or n.
+    pub wanted: u64,
+    /// How many points are kept: h, and by `mve` and `trim` those that lie on the border besides.
+    pub kept: u64,
     /// Points on the hull; all of them where there is none.
     pub on_hull: u64,
+    /// By how much a point that is not flagged lies beyond the border, or one that is flagged within, in units of the
+    /// border: what evaluating |F(x − c)| in `f64` may be off by. 0 where the flags are exactly the points outside.
+    pub flag_excess: f64,
+    /// What centre, scatter, and the border of the points weighed out may be off by, in units of the border: 1e-9, more
+    /// where rounding the coordinates leaves the points few digits.
+    pub slack: f64,
     /// Whether centre and scatter are those of the points not weighed out, rather than of the points kept.
     pub reweighted: bool,
     /// r, the dimension of the ellipsoid.

@@ -296,6 +296,27 @@ pub enum Violation {
         /// What the checker finds.
         proved: f64,
     },
+    /// The ellipsoid around the points that a robust fit keeps is said to be around something else.
+    #[error(
+        "the ellipsoid around the points kept is said to enclose balls or ellipsoids: expected points"
+    )]
+    NoPoints,
+    /// More points than were asked for lie strictly inside the ellipsoid around the points kept: a C-step leads on.
+    #[error(
+        "{inside} points lie strictly inside the ellipsoid around the points kept, but it is to be the smallest around {kept}"
+    )]
+    Spare {
+        /// Points that lie strictly inside.
+        inside: u64,
+        /// h, how many points were asked for.
+        kept: u64,
+    },
+    /// A robust estimate says that nothing was weighed out for a reason that does not hold.
+    #[error("points are said not to be weighed anew because {reason}, which is not so")]
+    Reweighting {
+        /// The reason given.
+        reason: &'static str,
+    },
     /// A number of a robust estimate is not what the points give.
     #[error("{what} is {claimed:?}, but the points give {found:?}")]
     Estimate {

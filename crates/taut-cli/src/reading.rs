@@ -164,16 +164,13 @@ impl Opened {
                 self.name(),
                 coordinates(&direction, 1.0)
             ),
-            SolveError::NoInterior { rows, is_empty, .. } => anyhow!(
-                "{}: {}, so there is no ellipsoid in it: the half-spaces of {} say so",
+            SolveError::NoInterior { rows, radius, .. } => anyhow!(
+                "{}: the polytope has no interior point, or hardly any: a ball in it has at most {radius:.0e} times its \
+                 extent as radius, so there is no ellipsoid; the half-spaces of {} say so",
                 self.name(),
-                match is_empty {
-                    true => "no point lies in all half-spaces, and the polytope is empty",
-                    false =>
-                        "the polytope has no interior point, or it is thinner than a billionth of its length",
-                },
                 self.rows(&rows)
             ),
+            SolveError::Undecided => anyhow!("{}: {error}", self.name()),
             SolveError::Option { name, value, expected } => wrong_option(name, &value, expected),
             SolveError::Empty | SolveError::Overflow => anyhow!("{}: {error}", self.name()),
             other => other.into(),

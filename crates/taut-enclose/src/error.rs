@@ -55,28 +55,32 @@ pub enum Error {
         /// Half-space, from 0.
         row: u64,
     },
+    /// Half-spaces of which rounding tells neither that they hold an ellipsoid nor that they do not.
+    #[error(
+        "rounding leaves open whether the polytope has an interior: its sides are nearly parallel, or of very different lengths"
+    )]
+    Undecided,
     /// Half-spaces that go on for ever.
     #[error(
         "the polytope is unbounded in the direction {direction:?}: an inscribed ellipsoid needs an end"
     )]
     Unbounded {
-        /// aᵢ′v ≤ 0 for every normal, but for rounding; of length 1.
+        /// Of length 1, with aᵢ′v at most d·2⁻⁴⁷ for every normal of length 1, in coordinates in which none stands out: as
+        /// near to 0 or below as rounding the direction allows.
         direction: Vec<f64>,
     },
     /// Half-spaces that have no point in common, or no ball.
     #[error(
-        "{}", match is_empty {
-            true => format!("the polytope is empty: half-spaces {rows:?} have no point in common"),
-            false => format!("the polytope has no interior point: half-spaces {rows:?} leave none"),
-        }
+        "the polytope has no interior point: half-spaces {rows:?} leave no room for a ball of radius {radius:e} of its extent"
     )]
     NoInterior {
         /// Half-spaces, from 0.
         rows: Vec<u64>,
         /// λ for these, with normals of length 1: Σλᵢaᵢ = 0 and Σλᵢbᵢ ≤ 0, but for rounding.
         multipliers: Vec<f64>,
-        /// Whether no point at all is in these half-spaces; else there may be some, but no ball of them.
-        is_empty: bool,
+        /// What they prove, with all roundings on the safe side: no ball in the polytope has a larger radius, in coordinates
+        /// in which no axis stands out and the largest offset of a half-space is 1. 0 where there is no point in common.
+        radius: f64,
     },
     /// A number of the answer, or a square on the way to it, exceeds the largest `f64` or vanishes.
     #[error(

@@ -18,6 +18,9 @@ use crate::Error;
 use crate::kernel::DoubleDouble;
 use crate::kernel::vector::dot;
 
+/// By how much an ellipsoid is drawn in at most so that rounding does not take it beyond a half-space.
+const WIDEST: f64 = 1e-3;
+
 /// Gap that rounding leaves, for each dimension.
 const ROUNDING: f64 = 1e-13;
 
@@ -42,7 +45,7 @@ impl Default for InscribedOptions {
 /// Half-spaces in memory.
 struct HalfSpaces {
     dim: usize,
-    /// n × (d + 1): a, then b.
+    /// n × (d + 1): a, then b, divided by the power of two that brings the largest entry of a to [1, 2).
     values: Vec<f64>,
     hash: PointsHash,
 }
@@ -76,7 +79,7 @@ impl HalfSpaces {
 /// # Errors
 /// [`Error::Empty`], [`Error::NonFinite`], [`Error::Overflow`], [`Error::Option`]; [`Error::NoNormal`];
 /// [`Error::Unbounded`] with a direction in which the polytope does not end; [`Error::NoInterior`] with multipliers that
-/// show why.
+/// show why; [`Error::Undecided`] where rounding leaves neither proved.
 pub fn inscribed_ellipsoid<T: Scalar>(
     half_spaces: &Points<'_, T>,
     options: &InscribedOptions,
@@ -127,29 +130,37 @@ fn read(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<HalfSpaces, E
         Ok((hash, values))
     })?;
     let hash = PointsHash::of_blocks(source.len(), columns, blocks.iter().map(|block| block.0));
-    let sides = HalfSpaces {
-        dim: columns - 1,
-        values: blocks.into_iter().flat_map(|b| b.1).collect(),
-        hash,
-    };
-    let is_zero = |row: &[f64]| row[..columns - 1].iter().all(|&a| a == 0.0);
-    match sides.rows().position(is_zero) {
-        Some(row) => Err(Error::NoNormal { row: row as u64 }),
-        None => Ok(sides),
+    let mut values: Vec<f64> = blocks.into_iter().flat_map(|b| b.1).collect();
+    for (row, side) in values.chunks_exact_mut(columns).enumerate() {
+        let largest = side[..columns - 1].iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        if largest == 0.0 {
+            return Err(Error::NoNormal { row: row as u64 });
+        }
+        // In two steps: the power that takes the largest number to 1 is none itself.
+        let exponent = binary_exponent(largest);
+        let half = exponent / 2;
+        side.iter_mut().for_each(|v| *v *= 2f64.powi(-half));
+        side.iter_mut().for_each(|v| *v *= 2f64.powi(half - exponent));
     }
+    Ok(HalfSpaces { dim: columns - 1, values, hash })
 }
 
 /// The multipliers without those of half-spaces that do not touch: the path gives some to every half-space, and they
 /// tend to 0 with it.
-fn few(views: &[(Vec<f64>, f64)], lambda: &[f64]) -> Option<Vec<f64>> {
-    let weight = |i: usize| lambda[i] * dot(&views[i].0, &views[i].0).sqrt();
+fn few(views: &[View], lambda: &[f64]) -> Option<Vec<f64>> {
+    let weight = |i: usize| lambda[i] * dot(&views[i].normal, &views[i].normal).sqrt();
     let most = (0..lambda.len()).map(weight).fold(0.0, f64::max);
     let few: Vec<f64> =
         (0..lambda.len()).map(|i| if weight(i) > SMALL * most { lambda[i] } else { 0.0 }).collect();
     (few != lambda).then_some(few)
 }
 
-/// c, G by rows, multipliers of all half-spaces, and how it came about.
+/// The e of a number in [2ᵉ, 2ᵉ⁺¹); of subnormal ones, the least there is.
+fn binary_exponent(value: f64) -> i32 {
+    ((value.to_bits() >> 52) & 0x7ff) as i32 - 1023
+}
+
+/// c, G by rows, multipliers of all rows, and how it came about.
 struct Found {
     center: Vec<f64>,
     axes: Vec<f64>,
@@ -159,8 +170,17 @@ struct Found {
     history: Vec<PassBounds>,
 }
 
-/// ã = G′a and s = b − a′c, with twice the digits where they cancel.
-fn seen(row: &[f64], center: &[f64], axes: &[f64]) -> (Vec<f64>, f64) {
+/// A half-space in the frame of an ellipsoid.
+struct View {
+    /// ã = G′a and s = b − a′c, divided by `unit`, so that they have squares however thin the polytope is.
+    normal: Vec<f64>,
+    slack: f64,
+    /// A power of two. A multiplier of the row is one of what is seen, divided by it.
+    unit: f64,
+}
+
+/// What a half-space looks like, with twice the digits where numbers cancel.
+fn seen(row: &[f64], center: &[f64], axes: &[f64]) -> View {
     let dim = center.len();
     let mut slack = DoubleDouble::from(row[dim]);
     let mut normal = vec![DoubleDouble::ZERO; dim];
@@ -170,7 +190,9 @@ fn seen(row: &[f64], center: &[f64], axes: &[f64]) -> (Vec<f64>, f64) {
             *sum = sum.add(DoubleDouble::product(row[j], g));
         }
     }
-    (normal.iter().map(|v| v.high).collect(), slack.high)
+    let largest = normal.iter().fold(slack.high.abs(), |m, v| m.max(v.high.abs()));
+    let unit = 2f64.powi(binary_exponent(largest).clamp(-1000, 1000));
+    View { normal: normal.iter().map(|v| v.high / unit).collect(), slack: slack.high / unit, unit }
 }
 
 /// From the end of the path to an answer: grown until it touches, multipliers corrected for what it is then.
@@ -185,16 +207,28 @@ fn prove(
         sides
             .rows()
             .map(|row| seen(row, &center, axes))
-            .map(|(a, s)| s / dot(&a, &a).sqrt())
+            .map(|view| view.slack / dot(&view.normal, &view.normal).sqrt())
             .fold(f64::INFINITY, f64::min)
     };
-    // Norms and roundings of G; the checker asks for a little more than nothing.
+    // Norms and roundings of G; the checker asks for a little more than nothing. Where G is so thin that rounding its
+    // entries moves it by more, a wider margin is found.
     let margin = 8.0 * (dim + 8) as f64 * f64::EPSILON;
-    for _ in 0..2 {
-        let room = measure(&axes) * (1.0 - margin);
+    let mut wider = margin;
+    path::orthogonalise(&mut axes, dim);
+    loop {
+        let room = measure(&axes) * (1.0 - wider);
+        if !(room > 0.0 && room.is_finite()) || wider > WIDEST {
+            return Err(Error::Undecided);
+        }
         axes.iter_mut().for_each(|g| *g *= room);
+        let is_inside = measure(&axes) >= 1.0 + 0.5 * margin;
+        if is_inside {
+            break;
+        }
+        wider *= 4.0;
     }
-    let views: Vec<(Vec<f64>, f64)> = sides.rows().map(|row| seen(row, &center, &axes)).collect();
+    let views: Vec<View> = sides.rows().map(|row| seen(row, &center, &axes)).collect();
+    let lambda: Vec<f64> = views.iter().zip(lambda).map(|(view, l)| l * view.unit).collect();
     let few = few(&views, &lambda);
     let mut lambda = path::corrected(&views, lambda);
     let mut gap = path::gap(&views, &lambda);
@@ -213,7 +247,9 @@ fn prove(
     if stop == Stop::Converged && gap > options.epsilon {
         stop = Stop::Rounding;
     }
-    let support: Vec<usize> = (0..lambda.len()).filter(|&i| lambda[i] > 0.0).collect();
+    let lambda: Vec<f64> = views.iter().zip(lambda).map(|(view, l)| l / view.unit).collect();
+    let is_used = |l: f64| l > 0.0 && l.is_finite();
+    let support: Vec<usize> = (0..lambda.len()).filter(|&i| is_used(lambda[i])).collect();
     let certificate = InscribedCertificate {
         support: support.iter().map(|&i| i as u64).collect(),
         multipliers: support.iter().map(|&i| lambda[i]).collect(),

@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 
 use taut_certify::{
     Ellipsoid, Enclosure, Hull, RobustCertificate, RobustEllipsoid, RobustMethod, Solution, Stop,
-    Trace,
+    Trace, Unweighted,
 };
 use taut_points::{Monitor, PointSource, Points, Scalar};
 
@@ -114,7 +114,7 @@ fn solve(
     let mut steps = 0;
     let placed = fit::place(&mut data, h, options, &mut steps)?;
     let answer = answer(&mut data, &placed, options.method)?;
-    let reweighted = placed.fit.scale != placed.fit.raw_scale;
+    let reweighted = placed.fit.unweighted.is_none() && !placed.fit.estimate.center.is_empty();
     let certificate = certificate(&data, placed, h, options);
     let trace = Trace {
         method: options.method.name().to_owned(),
@@ -265,6 +265,7 @@ fn certificate(
         raw_scale: fit.raw_scale,
         scale: if is_trimmed { 0.0 } else { fit.scale },
         weighed_out,
+        unweighted: if is_trimmed { Some(Unweighted::Trimmed) } else { fit.unweighted },
         enclosure: fit.enclosure,
         points_hash: data.hash(),
     }

@@ -1,6 +1,6 @@
 //! The inscribed ellipsoid: closed forms, laws, polytopes without one, doctored answers.
 
-use taut_certify::{InscribedEllipsoid, Solution, Stop};
+use taut_certify::{CheckError, InscribedEllipsoid, Solution, Stop, Violation};
 use taut_enclose::{Error, InscribedOptions, inscribed_ellipsoid};
 use taut_points::{Distribution, Points, generate};
 
@@ -113,8 +113,11 @@ fn polytopes_without_an_ellipsoid_are_named_with_the_reason() {
         let mut rows = sides_of_box(&[0.0, 0.0], &[5.0, 5.0]);
         rows.extend([1.0, 0.0, 0.0, -1.0, 0.0, -gap]);
         match solve(&rows, 3) {
-            Error::NoInterior { rows, multipliers, is_empty } => {
-                assert_eq!(is_empty, gap > 0.0);
+            Error::NoInterior { rows, multipliers, radius } => {
+                assert!(
+                    (0.0..1e-7).contains(&radius) && (gap == 0.0 || radius == 0.0),
+                    "{radius:e}"
+                );
                 assert!(rows.contains(&4) && rows.contains(&5), "{rows:?}");
                 assert!(multipliers.iter().all(|&l| l > 0.0));
             }
@@ -217,5 +220,174 @@ fn long_boxes_that_stand_askew() {
         let found = solved(&rows, 3);
         let wanted = log_ball(3) + f64::ln(length);
         assert!((found.answer.log_volume - wanted).abs() < 1e-9, "{length}");
+    }
+}
+
+/// The box of these half widths around a centre, turned by 30 degrees in the plane of the first two axes.
+fn sides_of_turned_box(center: &[f64], widths: &[f64]) -> Vec<f64> {
+    let dim = widths.len();
+    let (cos, sin) = (0.75f64.sqrt(), 0.5);
+    let mut rows = sides_of_box(&vec![0.0; dim], widths);
+    for row in rows.chunks_mut(dim + 1) {
+        (row[0], row[1]) = (cos * row[0] - sin * row[1], sin * row[0] + cos * row[1]);
+        row[dim] += row[..dim].iter().zip(center).map(|(a, c)| a * c).sum::<f64>();
+    }
+    rows
+}
+
+/// Where pivots cancel, the determinant is known to the last digits all the same.
+#[test]
+fn thin_boxes_that_are_turned_have_their_volume() {
+    for thin in [1e-4, 1e-5, 1e-6, 1e-7, 1e-8] {
+        for widths in [vec![1.0, thin], vec![1.0, thin, 0.5], vec![thin, 1.0, thin * 3.0, 2.0]] {
+            let dim = widths.len();
+            let found = solved(&sides_of_turned_box(&vec![0.0; dim], &widths), dim);
+            let wanted = log_ball(dim) + widths.iter().map(|w| w.ln()).sum::<f64>();
+            assert!((found.answer.log_volume - wanted).abs() < 1e-8, "{widths:?}");
+        }
+    }
+}
+
+/// A half-space is the same whatever its row is multiplied by, as long as squares are not taken of it.
+#[test]
+fn rows_of_any_length_are_the_same_half_spaces() {
+    let plain = random_sides(20, 3, 5);
+    let wanted = solved(&plain, 3);
+    for (least, most) in [(-560, 560), (-1000, -900), (900, 1000)] {
+        let scaled: Vec<f64> = plain
+            .chunks(4)
+            .enumerate()
+            .flat_map(|(i, row)| {
+                let power = 2f64.powi(least + (i as i32 * 97) % (most - least + 1));
+                row.iter().map(|v| v * power).collect::<Vec<_>>()
+            })
+            .collect();
+        let found = solved(&scaled, 3);
+        assert_eq!(found.answer, wanted.answer);
+        assert_eq!(found.certificate.multipliers, wanted.certificate.multipliers);
+    }
+    // A box that is small beyond all squares.
+    let found = solved(&sides_of_box(&[0.0, 0.0], &[1e-170, 2e-170]), 2);
+    assert!(
+        (found.answer.log_volume - log_ball(2) - 2.0 * 1e-170f64.ln() - 2f64.ln()).abs() < 1e-9
+    );
+}
+
+/// A row so short that its square is 0 cuts as any other does.
+#[test]
+fn a_tiny_row_cuts_the_disc() {
+    let mut values = sides_of_box(&[0.0, 0.0], &[1.0, 1.0]);
+    let square = solved(&values, 2);
+    values.extend([1e-170, 0.0, 0.5e-170]);
+    let found = solved(&values, 2);
+    assert!((found.answer.log_volume - log_ball(2) - 0.75f64.ln()).abs() < 1e-9);
+    let mut forged = square;
+    forged.certificate.points_hash = found.certificate.points_hash;
+    let refusal = forged.check(&Points::new(&values, 3).unwrap());
+    assert!(
+        matches!(refusal, Err(CheckError::Rejected(Violation::OutsideHalfSpace { row: 4, .. }))),
+        "{refusal:?}"
+    );
+}
+
+/// Forgeries that are consistent in themselves, on turned and on tiny rows.
+#[test]
+fn forged_ellipsoids_are_refused() {
+    let tiny = |values: Vec<f64>| -> Vec<f64> { values.iter().map(|v| v * 1e-165).collect() };
+    let turned = sides_of_turned_box(&[0.3, -0.2], &[1.0, 1e-3]);
+    for values in
+        [turned.clone(), tiny(turned), random_sides(12, 2, 3), tiny(random_sides(12, 2, 4))]
+    {
+        let rows = Points::new(&values, 3).unwrap();
+        let found = solved(&values, 2);
+        let refused = |what: &str, forge: &dyn Fn(&mut Solution<InscribedEllipsoid>)| {
+            let mut forged = found.clone();
+            forge(&mut forged);
+            let refusal = forged.check(&rows);
+            assert!(matches!(refusal, Err(CheckError::Rejected(_))), "{what}: {refusal:?}");
+        };
+        for times in [1.0 + 1e-9, 1.5, 1e100] {
+            refused("grown", &|s| {
+                s.answer.axes.iter_mut().flatten().for_each(|g| *g *= times);
+                s.answer.log_volume += 2.0 * f64::ln(times);
+            });
+        }
+        // Shrunk, with a gap that would do for the larger one.
+        refused("shrunk", &|s| {
+            s.answer.axes.iter_mut().flatten().for_each(|g| *g *= 0.5);
+            s.answer.log_volume += 2.0 * 0.5f64.ln();
+        });
+        // Flat: no volume at all, whatever is claimed.
+        for log_volume in [0.0, -1e300, 700.0, found.answer.log_volume] {
+            for flat in [[[1e-9, 1e-9], [1e-9, 1e-9]], [[0.0; 2]; 2], [[0.1, 0.3], [0.3, 0.9]]] {
+                refused("flat", &|s| {
+                    s.answer.axes = flat.iter().map(|row| row.to_vec()).collect();
+                    s.answer.log_volume = log_volume;
+                });
+            }
+        }
+        // Multipliers of other rows, and all of one row.
+        refused("turned multipliers", &|s| s.certificate.multipliers.rotate_left(1));
+        refused("one row", &|s| {
+            s.certificate.support.truncate(1);
+            s.certificate.multipliers.truncate(1);
+        });
+    }
+}
+
+/// What is not reached is not called so.
+#[test]
+fn a_gap_below_rounding_is_not_said_to_be_reached() {
+    for epsilon in [1e-12, 1e-13, 1e-14, 1e-15] {
+        let turned = sides_of_turned_box(&[0.0; 4], &[1.0, 0.3, 2.0, 0.1]);
+        for (values, dim) in [(random_sides(40, 3, 9), 3), (turned, 4)] {
+            let rows = Points::new(&values, dim + 1).unwrap();
+            let options = InscribedOptions { epsilon, ..Default::default() };
+            let found = inscribed_ellipsoid(&rows, &options).unwrap();
+            found.check(&rows).unwrap();
+            let is_reached = found.certificate.gap <= epsilon;
+            assert_eq!(
+                found.trace.stop == Stop::Converged,
+                is_reached,
+                "{epsilon:e} {:?}",
+                found.trace
+            );
+        }
+    }
+}
+
+/// Half-spaces as thin as rounding, at any angle: a ball, a proof that none is large, or nothing is claimed.
+#[test]
+fn what_is_said_of_thin_and_open_polytopes_is_proved() {
+    for angle in [0.0, 0.3, 1.1, 2.5] {
+        let (sin, cos) = f64::sin_cos(angle);
+        for width in [1e-6, 1e-8, 1e-10, 1e-13, 0.0, -1e-13, -1e-9, -1e-3] {
+            let mut rows = sides_of_box(&[0.0, 0.0], &[5.0, 5.0]);
+            rows.extend([cos, sin, 0.25, -cos, -sin, width - 0.25]);
+            let points = Points::new(&rows, 3).unwrap();
+            match inscribed_ellipsoid(&points, &InscribedOptions::default()) {
+                Ok(found) => {
+                    assert!(width > 0.0);
+                    found.check(&points).unwrap_or_else(|e| panic!("{angle} {width:e}: {e}"));
+                }
+                // Offsets are divided by the largest, 5.
+                Err(Error::NoInterior { radius, .. }) => {
+                    assert!(
+                        radius >= width / 10.0 && radius < 1e-6,
+                        "{angle} {width:e}: {radius:e}"
+                    );
+                }
+                Err(Error::Undecided) => assert!(width.abs() < 1e-5, "{angle} {width:e}"),
+                Err(other) => panic!("{angle} {width:e}: {other}"),
+            }
+        }
+        // A strip, closed on one side: the only ray runs along both.
+        let half = [cos, sin, 1.0, -cos, -sin, 1.0, sin, -cos, 2.0];
+        match inscribed_ellipsoid(&Points::new(&half, 3).unwrap(), &InscribedOptions::default()) {
+            Err(Error::Unbounded { direction }) => {
+                assert!((direction[0] + sin).abs() + (direction[1] - cos).abs() < 1e-14);
+            }
+            other => panic!("{angle}: {other:?}"),
+        }
     }
 }

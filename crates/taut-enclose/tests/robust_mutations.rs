@@ -3,7 +3,7 @@
 mod robust;
 
 use robust::{by, classical, contaminated, normal, solve};
-use taut_certify::{CheckError, RobustEllipsoid, RobustMethod, Solution, Violation};
+use taut_certify::{CheckError, RobustEllipsoid, RobustMethod, Solution, Unweighted, Violation};
 use taut_enclose::RobustOptions;
 use taut_points::Points;
 
@@ -64,9 +64,6 @@ fn numbers(found: &Found) -> Vec<Mutation> {
     ];
     for (name, number) in single {
         for part in [1e-5, -1e-5, 0.3, -2.0, f64::NAN, f64::NEG_INFINITY] {
-            if name == "distance of the hull" && part > 0.0 && part < 1.0 {
-                continue; // a hull that is stated wider holds the same rows
-            }
             all.push(mutation(format!("{name} by {part}"), move |found| {
                 let number = number(found, 0);
                 *number += part * number.abs().max(1.0);
@@ -239,12 +236,13 @@ fn by_hand(found: &Found, values: &[f64], kept: &[u64]) -> Found {
     made.certificate.left_out = (0..n).filter(|row| !kept.contains(row)).collect();
     made.certificate.weighed_out = made.certificate.left_out.clone();
     made.certificate.scale = scale;
+    made.certificate.unweighted = Some(Unweighted::Flat);
     made.certificate.objective =
         (covariance[0][0] * covariance[1][1] - covariance[1][0] * covariance[0][1]).ln();
     made
 }
 
-/// The one thing that only distances tell.
+/// The one thing that only distances tell: of rows exchanged, all numbers are right.
 #[test]
 fn rows_that_a_c_step_improves_are_rejected() {
     let values = contaminated(80, 2, 20, 6.0, 12);
@@ -252,8 +250,9 @@ fn rows_that_a_c_step_improves_are_rejected() {
     let found = solve("mcd", &values, 2, &by(RobustMethod::Mcd));
     let out = &found.certificate.left_out;
     let kept: Vec<u64> = (0..80).filter(|row| !out.contains(row)).collect();
-    let verdict = by_hand(&found, &values, &kept).check(&points).unwrap();
-    assert!(!verdict.reweighted && (verdict.objective - found.certificate.objective).abs() < 1e-9);
+    // Right in all but that points could be weighed anew: the distances are judged before that.
+    let right = by_hand(&found, &values, &kept).check(&points).unwrap_err();
+    assert!(matches!(right, CheckError::Rejected(Violation::Reweighting { .. })), "{right}");
     for at in 0..kept.len() {
         let mut worse = kept.clone();
         worse[at] = out[at % out.len()];
@@ -264,4 +263,220 @@ fn rows_that_a_c_step_improves_are_rejected() {
             "{at}: {refused}"
         );
     }
+}
+
+/// What refuses a forgery: something consistent in itself that claims too much.
+fn refused(what: &str, forged: &Found, values: &[f64], dim: usize) -> Violation {
+    match forged.check(&Points::new(values, dim).unwrap()) {
+        Err(CheckError::Rejected(violation)) => violation,
+        other => panic!("{what}: {other:?}"),
+    }
+}
+
+/// The certificate within a trimmed fit is one of an ellipsoid, but not one around all points.
+#[test]
+fn the_ellipsoid_of_a_trimmed_fit_does_not_pass_for_one_around_all() {
+    let values = contaminated(80, 2, 20, 6.0, 3);
+    let found = solve("trim", &values, 2, &by(RobustMethod::Trim));
+    let taut_certify::Enclosure { ellipsoid, certificate } = found.certificate.enclosure.unwrap();
+    let alone = Solution { answer: ellipsoid, certificate, trace: found.trace };
+    let refusal = alone.check(&Points::new(&values, 2).unwrap());
+    assert!(matches!(refusal, Err(CheckError::Rejected(Violation::LeftOut { .. }))), "{refusal:?}");
+}
+
+/// All lists agree that a row is out that is not, or in that is not.
+#[test]
+fn rows_moved_in_and_out_of_all_lists_are_found() {
+    let values = contaminated(80, 2, 20, 6.0, 3);
+    let found = solve("trim", &values, 2, &by(RobustMethod::Trim));
+    let support = found.certificate.enclosure.as_ref().unwrap().certificate.support.clone();
+    for row in (0..80).filter(|row| !support.contains(row)) {
+        let mut forged = found.clone();
+        let is_out = found.answer.flagged.contains(&row);
+        for list in [
+            &mut forged.answer.flagged,
+            &mut forged.certificate.left_out,
+            &mut forged.certificate.enclosure.as_mut().unwrap().certificate.left_out,
+        ] {
+            match list.binary_search(&row) {
+                Ok(at) => _ = list.remove(at),
+                Err(at) => list.insert(at, row),
+            }
+        }
+        // One row more is kept; of one less there are too few.
+        let refusal = refused("moved", &forged, &values, 2);
+        match refusal {
+            Violation::Listed { row: found, .. } if is_out => assert_eq!(found, row),
+            Violation::Estimate { .. } if !is_out => {}
+            other => panic!("{row}: {other}"),
+        }
+        forged.certificate.kept -= u64::from(!is_out);
+        refused("moved, and one less asked for", &forged, &values, 2);
+    }
+}
+
+/// Points on a line, and others beside it: the fit on the line, with the line as wide as the plane.
+#[test]
+fn a_hull_as_wide_as_the_points_is_no_exact_fit() {
+    let line = normal(100, 1, 7);
+    let plane: Vec<f64> = line
+        .iter()
+        .enumerate()
+        .flat_map(|(i, &x)| [x, if i < 80 { 0.001 * (i % 9) as f64 } else { 50.0 }])
+        .collect();
+    let on_line = solve("line", &line, 1, &by(RobustMethod::Mcd));
+    let in_plane = solve("plane", &plane, 2, &by(RobustMethod::Mcd));
+    for distance in [100.0, 1.0] {
+        let mut forged = on_line.clone();
+        let answer = &mut forged.answer;
+        let embedded = |v: f64| vec![vec![v, 0.0], vec![0.0, 0.0]];
+        answer.center.push(0.0);
+        answer.factor[0].push(0.0);
+        answer.matrix = embedded(answer.matrix[0][0]);
+        answer.scatter = embedded(answer.scatter[0][0]);
+        answer.hull = Some(taut_certify::Hull { basis: vec![vec![1.0, 0.0]], distance });
+        forged.certificate.points_hash = in_plane.certificate.points_hash;
+        let list = |rows: &mut Vec<u64>| {
+            rows.extend(80..100);
+            rows.sort_unstable();
+            rows.dedup();
+        };
+        if distance < 50.0 {
+            list(&mut answer.flagged);
+            list(&mut forged.certificate.left_out);
+            list(&mut forged.certificate.weighed_out);
+            forged.certificate.kept = 100 - forged.certificate.left_out.len() as u64;
+        }
+        let refusal = refused("a wide hull", &forged, &plane, 2);
+        let is_for_that = matches!(refusal, Violation::NotFlat { .. })
+            || distance < 50.0 && matches!(refusal, Violation::Number { .. });
+        assert!(is_for_that, "{refusal}");
+    }
+}
+
+/// Sizes at which products of entries of the matrix leave the range of numbers.
+#[test]
+fn an_ellipsoid_grown_or_shrunk_is_refused_at_any_size() {
+    for (scale, times) in [(1e-80, 8.0), (1e-80, 0.125), (1e90, 8.0), (1.0, 8.0), (1.0, 1.001)] {
+        let values: Vec<f64> = normal(40, 2, 2).iter().map(|v| v * scale).collect();
+        let options = RobustOptions { coverage: Some(1.0), ..by(RobustMethod::Mve) };
+        let found = solve("all", &values, 2, &options);
+        let mut forged = found.clone();
+        let answer = &mut forged.answer;
+        answer.factor.iter_mut().flatten().for_each(|v| *v *= times);
+        answer.matrix.iter_mut().flatten().for_each(|v| *v *= times * times);
+        answer.scatter.iter_mut().flatten().for_each(|v| *v /= times * times);
+        answer.log_volume -= 2.0 * times.ln();
+        answer.log_det -= 4.0 * times.ln();
+        let ellipsoid = answer.ellipsoid();
+        answer.flagged =
+            (0..40).filter(|&row| ellipsoid.norm(&values[2 * row as usize..][..2]) > 1.0).collect();
+        refused(&format!("{times} times at {scale}"), &forged, &values, 2);
+    }
+}
+
+#[test]
+fn tails_of_centres_are_small() {
+    let values = contaminated(80, 2, 20, 6.0, 12);
+    for method in RobustMethod::ALL {
+        let found = solve("tail", &values, 2, &by(method));
+        let mut forged = found.clone();
+        let center = forged.answer.center.clone();
+        forged.answer.center = vec![1e6, -1e6];
+        forged.answer.center_tail = vec![center[0] - 1e6, center[1] + 1e6];
+        let refusal = refused("a centre in its tail", &forged, &values, 2);
+        assert!(matches!(refusal, Violation::Number { .. }), "{method}: {refusal}");
+    }
+}
+
+/// A fit of four points that are the nearest in their own metric, with every factor as it is for h = 4.
+#[test]
+fn a_fit_of_too_few_points_is_refused() {
+    let values = contaminated(80, 2, 20, 6.0, 12);
+    let found = solve("mcd", &values, 2, &by(RobustMethod::Mcd));
+    for kept in [1, 4, 40] {
+        let mut forged = found.clone();
+        forged.certificate.kept = kept;
+        forged.certificate.left_out = (kept..80).collect();
+        let refusal = refused("few", &forged, &values, 2);
+        assert!(matches!(refusal, Violation::Number { .. }), "{refusal}");
+    }
+    assert_eq!(found.certificate.kept, 41);
+    let verdict = found.check(&Points::new(&values, 2).unwrap()).unwrap();
+    assert_eq!((verdict.wanted, verdict.kept), (41, 41));
+    assert!(verdict.flag_excess < 1e-14 && verdict.slack < 1.1e-9, "{verdict:?}");
+}
+
+/// The ellipsoid around all points does not pass for the smallest around half of them.
+#[test]
+fn fewer_points_than_are_kept_were_not_asked_for() {
+    let values = normal(100, 2, 1);
+    let options = RobustOptions { coverage: Some(1.0), ..by(RobustMethod::Trim) };
+    let mut forged = solve("all", &values, 2, &options);
+    let quantile = |p: f64| -2.0 * (1.0 - p).ln();
+    let small = 1.0 + 15.0 / 98.0;
+    let scale = small * small / quantile(50.0 / 101.0);
+    let times = scale / forged.certificate.raw_scale;
+    forged.certificate.kept = 50;
+    forged.certificate.raw_scale = scale;
+    forged.answer.scatter.iter_mut().flatten().for_each(|v| *v *= times);
+    forged.answer.log_det += 2.0 * times.ln();
+    let refusal = refused("half", &forged, &values, 2);
+    assert!(matches!(refusal, Violation::Spare { kept: 50, .. }), "{refusal}");
+}
+
+/// Near a level of 1 all quantiles have nearly the same probability.
+#[test]
+fn a_quantile_too_far_out_is_refused() {
+    let values = normal(200, 2, 8);
+    for level in [0.975, 1.0 - 1e-9, 1.0 - 1e-13] {
+        let options = RobustOptions { level, ..by(RobustMethod::Mcd) };
+        let found = solve("level", &values, 2, &options);
+        for times in [0.9, 1.1, 10.0, 1e3] {
+            let mut forged = found.clone();
+            let (certificate, answer) = (&mut forged.certificate, &mut forged.answer);
+            certificate.cutoff *= times;
+            certificate.weighed_out.clear();
+            let root = f64::sqrt(times);
+            answer.factor.iter_mut().flatten().for_each(|v| *v /= root);
+            answer.matrix.iter_mut().flatten().for_each(|v| *v /= times);
+            answer.log_volume += times.ln();
+            let refusal = refused("a quantile", &forged, &values, 2);
+            assert!(
+                matches!(
+                    refusal,
+                    Violation::Matrix { .. }
+                        | Violation::Estimate { .. }
+                        | Violation::Listed { .. }
+                ),
+                "{refusal}"
+            );
+        }
+        let mut forged = found.clone();
+        forged.certificate.level = 1.0;
+        refused("a level of 1", &forged, &values, 2);
+    }
+}
+
+/// Nothing is left unweighted without a reason, and no reason is given that does not hold.
+#[test]
+fn why_nothing_is_weighed_anew_must_be_true() {
+    let values = contaminated(80, 2, 20, 6.0, 12);
+    let found = solve("mcd", &values, 2, &by(RobustMethod::Mcd));
+    assert_eq!(found.certificate.unweighted, None);
+    let out = &found.certificate.left_out;
+    let kept: Vec<u64> = (0..80).filter(|row| !out.contains(row)).collect();
+    let by_hand = by_hand(&found, &values, &kept);
+    for why in [Unweighted::AllKept, Unweighted::Flat, Unweighted::Trimmed] {
+        let mut forged = by_hand.clone();
+        forged.certificate.unweighted = Some(why);
+        let refusal = refused("a reason", &forged, &values, 2);
+        assert!(matches!(refusal, Violation::Reweighting { .. }), "{refusal}");
+    }
+    let mut forged = by_hand;
+    forged.certificate.unweighted = None;
+    refused("no reason", &forged, &values, 2);
+    let all = RobustOptions { coverage: Some(1.0), ..by(RobustMethod::Mcd) };
+    let found = solve("all", &values, 2, &all);
+    assert_eq!(found.certificate.unweighted, Some(Unweighted::AllKept));
 }

@@ -28,7 +28,7 @@ pub(crate) mod item;
 pub(crate) mod lower_bound;
 mod panel;
 pub(crate) mod reach;
-mod structure;
+pub(crate) mod structure;
 
 use taut_points::{Monitor, PointSource};
 
@@ -45,11 +45,13 @@ use crate::{CheckError, Violation};
 /// last place.
 const GAP_SLACK: (f64, f64) = (1e-9, 2e-15);
 
+/// `pass` is the number of the pass over the points that it makes, for the monitor.
 pub(crate) fn check(
     ellipsoid: &Ellipsoid,
     certificate: &EllipsoidCertificate,
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
+    pass: u64,
 ) -> Result<EllipsoidVerdict, CheckError> {
     structure::check(ellipsoid, certificate, source)?;
     let frame = Frame::of(ellipsoid);
@@ -59,7 +61,7 @@ pub(crate) fn check(
         hull.check(&frame)?;
     }
     let log_volume = agreement::log_volume(ellipsoid, &frame)?;
-    monitor.pass(1, source.len());
+    monitor.pass(pass, source.len());
     let enclosure = Enclosure::of(&frame, hull.as_ref(), certificate);
     let enclosed = enclosure.check(source, certificate.points_hash, monitor)?;
     if let Some(hull) = &hull {

@@ -110,7 +110,7 @@ fn polytopes_without_a_largest_ellipsoid_are_named_with_the_rows() {
     desk.put("earlier.json", "earlier");
     for (name, contents, parts) in [
         ("strip", "0,1,1\n0,-1,1\n", &["strip.csv", "goes on for ever", "(1, 0)"][..]),
-        ("empty", &format!("{around}1,0,-2\n"), &["empty.csv", "is empty", "rows 2, 5"]),
+        ("empty", &format!("{around}1,0,-2\n"), &["empty.csv", "no interior point", "rows 2, 5"]),
         (
             "flat",
             &format!("{around}1,0,0\n-1,0,0\n"),

@@ -3,6 +3,8 @@
 //! *Formula.* Minimise −ln det(1 + S) − μΣ ln Dᵢ, Dᵢ = (sᵢ − ãᵢ′w)² − |(1 + S)ãᵢ|², over symmetric S and w, in the frame of
 //! the current ellipsoid: its Hessian at S = 0, w = 0 is the metric of steps. After each step the frame moves along.
 //! At the minimum λᵢ = 2μsᵢ/Dᵢ satisfy Σλᵢãᵢ = 0 and Σλᵢãᵢãᵢ′/sᵢ = 1, so the gap is about Σλᵢ(sᵢ − |ãᵢ|) ≤ 2nμ.
+//! *Trap.* Where the ellipsoid is thin, rounding G moves its short axes by what is left of the long ones across them. So the
+//! columns of G are kept orthogonal, and it does so with the second power only.
 //! *Trap.* Σλᵢãᵢ is only as near 0 as the last step was good, and enters the bound with its first power. So the λ are moved
 //! by the least relative change that satisfies both equations.
 
@@ -10,7 +12,7 @@ use taut_certify::{PassBounds, Stop};
 use taut_points::{Monitor, ReadError};
 
 use super::start::Interior;
-use super::{Found, HalfSpaces, InscribedOptions, ROUNDING, seen};
+use super::{Found, HalfSpaces, InscribedOptions, ROUNDING, View, seen};
 use crate::Error;
 use crate::ellipsoid::{cholesky, log_unit_ball};
 use crate::kernel::DoubleDouble;
@@ -24,11 +26,12 @@ const NEAR: f64 = 0.1;
 const END: f64 = 1e-6;
 /// A step as short as that is taken whole: the function falls, though rounding may not show it.
 const SHORT: f64 = 0.05;
+/// Shifts of a Hessian, over its largest entry; all but the first for one that rounding made indefinite.
+const SHIFTS: [f64; 5] = [0.0, 1e-15, 1e-14, 1e-13, 1e-12];
+/// Rounds of rotations that make columns orthogonal; five are usual.
+const SWEEPS: usize = 12;
 /// Steps at the last μ, after which rounding is in the way.
 const LAST: u32 = 20;
-
-/// What a side looks like from the ellipsoid: ã and s.
-type View = (Vec<f64>, f64);
 
 /// Follows the path until 2nμ is below what is wanted.
 pub(super) fn follow(
@@ -55,6 +58,7 @@ pub(super) fn follow(
         let Some((step, length)) = newton(&views, dim, mu) else { break Stop::Rounding };
         steps += 1;
         let moved = take(&mut center, &mut axes, &views, &step, length, mu, dim);
+        orthogonalise(&mut axes, dim);
         views = view(&center, &axes);
         if mu <= last_mu {
             at_last += 1;
@@ -71,7 +75,9 @@ pub(super) fn follow(
             break Stop::PassBudget;
         }
     };
-    let lambda = views.iter().map(|(a, s)| 2.0 * mu * s / (s * s - dot(a, a))).collect();
+    let multiplier =
+        |View { normal: a, slack: s, unit }: &View| 2.0 * mu * s / (s * s - dot(a, a)) / unit;
+    let lambda = views.iter().map(multiplier).collect();
     Ok(Found { center, axes, lambda, steps, stop, history })
 }
 
@@ -90,7 +96,7 @@ fn newton(views: &[View], dim: usize, mu: f64) -> Option<(Vec<f64>, f64)> {
     // Σ 2μ/D·ãã′, which stands in both blocks of the second derivatives.
     let mut c = vec![0.0; dim * dim];
     let mut q = vec![0.0; size];
-    for (a, s) in views {
+    for View { normal: a, slack: s, .. } in views {
         let room = s * s - dot(a, a);
         for ((k, l, weight), q) in entries(dim).zip(&mut q) {
             *q = 2.0 * weight * a[k] * a[l] / room;
@@ -128,7 +134,19 @@ fn newton(views: &[View], dim: usize, mu: f64) -> Option<(Vec<f64>, f64)> {
             hessian[(p + k) * size + p + l] -= c[k * dim + l];
         }
     }
-    if !cholesky(&mut hessian, size) {
+    // A ball in a polytope that is much longer than wide leaves the Hessian singular but for rounding. A shift by what
+    // rounding is shortens the step along the polytope, where the ellipsoid soon grows all the same.
+    if !hessian.iter().all(|h| h.is_finite()) {
+        return None;
+    }
+    let largest = (0..size).map(|i| hessian[i * size + i]).fold(f64::MIN_POSITIVE, f64::max);
+    let plain = hessian.clone();
+    let is_shifted = |hessian: &mut [f64], shift: f64| {
+        hessian.copy_from_slice(&plain);
+        (0..size).for_each(|i| hessian[i * size + i] += shift * largest);
+        cholesky(hessian, size)
+    };
+    if !SHIFTS.iter().any(|&shift| is_shifted(&mut hessian, shift)) {
         return None;
     }
     let mut step: Vec<f64> = gradient.iter().map(|g| -g).collect();
@@ -176,7 +194,7 @@ fn take(
             return None;
         }
         let mut sum: f64 = -2.0 * (0..dim).map(|k| lower[k * dim + k].ln()).sum::<f64>();
-        for (a, slack) in views {
+        for View { normal: a, slack, .. } in views {
             let image: Vec<f64> = turned.chunks_exact(dim).map(|row| dot(row, a)).collect();
             let slack_then = slack - t * dot(a, w);
             let room = (slack_then - dot(&image, &image).sqrt())
@@ -206,13 +224,43 @@ fn take(
     false
 }
 
-/// ln |det G| by elimination, with twice the digits: the axes of a long polytope that stands askew are nearly parallel.
+/// Turns the frame so that the columns of G are orthogonal: rotations of two columns at a time, after Jacobi.
+pub(super) fn orthogonalise(axes: &mut [f64], dim: usize) {
+    let largest = axes.iter().fold(0.0f64, |m, g| m.max(g.abs()));
+    for _ in 0..SWEEPS {
+        let mut is_orthogonal = true;
+        for (p, q) in (0..dim).flat_map(|q| (0..q).map(move |p| (p, q))) {
+            let (mut pp, mut qq, mut pq) = (0.0, 0.0, 0.0);
+            for row in axes.chunks_exact(dim) {
+                let (x, y) = (row[p] / largest, row[q] / largest);
+                (pp, qq, pq) = (pp + x * x, qq + y * y, pq + x * y);
+            }
+            let is_small = pq.abs() <= f64::EPSILON * pp.sqrt() * qq.sqrt();
+            if is_small {
+                continue;
+            }
+            is_orthogonal = false;
+            let zeta = (qq - pp) / (2.0 * pq);
+            let tangent = zeta.signum() / (zeta.abs() + zeta.hypot(1.0));
+            let cos = 1.0 / tangent.hypot(1.0);
+            let sin = cos * tangent;
+            for row in axes.chunks_exact_mut(dim) {
+                (row[p], row[q]) = (cos * row[p] - sin * row[q], sin * row[p] + cos * row[q]);
+            }
+        }
+        if is_orthogonal {
+            break;
+        }
+    }
+}
+
+/// ln |det G| by elimination, to twice the digits: where the axes are thin and turned, pivots cancel.
 pub(super) fn log_determinant(axes: &[f64], dim: usize) -> f64 {
-    let row = |row: &[f64]| row.iter().map(|&g| DoubleDouble::from(g)).collect();
-    let mut rows: Vec<Vec<DoubleDouble>> = axes.chunks_exact(dim).map(row).collect();
+    let mut rows: Vec<Vec<DoubleDouble>> =
+        axes.chunks_exact(dim).map(|row| row.iter().map(|&g| g.into()).collect()).collect();
     let mut sum = 0.0;
     for k in 0..dim {
-        let size = |i: usize| rows[i][k].high.abs();
+        let size = |row: usize| rows[row][k].high.abs();
         let pivot = (k..dim).max_by(|&a, &b| size(a).total_cmp(&size(b)));
         rows.swap(k, pivot.unwrap_or(k));
         let (above, below) = rows.split_at_mut(k + 1);
@@ -220,8 +268,8 @@ pub(super) fn log_determinant(axes: &[f64], dim: usize) -> f64 {
         sum += top[k].high.abs().ln();
         for row in below {
             let factor = row[k].div(top[k]);
-            for (entry, &top) in row[k..].iter_mut().zip(&top[k..]) {
-                *entry = entry.sub(factor.mul(top));
+            for (value, other) in row[k..].iter_mut().zip(&top[k..]) {
+                *value = value.sub(factor.mul(*other));
             }
         }
     }
@@ -230,12 +278,12 @@ pub(super) fn log_determinant(axes: &[f64], dim: usize) -> f64 {
 
 /// Multipliers moved by the least relative change so that Σλᵢãᵢ = 0 and Σλᵢãᵢãᵢ′/|ãᵢ| = 1.
 pub(super) fn corrected(views: &[View], mut lambda: Vec<f64>) -> Vec<f64> {
-    let dim = views[0].0.len();
+    let dim = views[0].normal.len();
     let p = dim * (dim + 1) / 2;
     let size = p + dim;
     let rows: Vec<Vec<f64>> = views
         .iter()
-        .map(|(a, _)| {
+        .map(|View { normal: a, .. }| {
             let length = dot(a, a).sqrt();
             entries(dim)
                 .map(|(k, l, weight)| weight * a[k] * a[l] / length)
@@ -270,13 +318,14 @@ pub(super) fn corrected(views: &[View], mut lambda: Vec<f64>) -> Vec<f64> {
 
 /// What multipliers prove: the bound of the certificate.
 pub(super) fn gap(views: &[View], lambda: &[f64]) -> f64 {
-    let dim = views[0].0.len();
+    let dim = views[0].normal.len();
     let d = dim as f64;
-    let trace: f64 = views.iter().zip(lambda).map(|((a, _), l)| l * dot(a, a).sqrt()).sum();
+    let trace: f64 =
+        views.iter().zip(lambda).map(|(view, l)| l * dot(&view.normal, &view.normal).sqrt()).sum();
     let tau = trace / d;
     let (mut rest, mut matrix) = (vec![0.0; dim], vec![0.0; dim * dim]);
     let (mut room, mut delta) = (0.0, 0.0);
-    for ((a, s), l) in views.iter().zip(lambda) {
+    for (View { normal: a, slack: s, .. }, l) in views.iter().zip(lambda) {
         let (l, length) = (l / tau, dot(a, a).sqrt());
         add_scaled(&mut rest, l, a);
         for k in 0..dim {

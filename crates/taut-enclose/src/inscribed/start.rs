@@ -1,5 +1,8 @@
 //! An interior point of a polytope, or the proof that there is none, or that it has no end.
 //!
+//! *Trap.* The programmes are solved in `f64` to some 1e-8, so that what the solver says proves nothing. A point is measured
+//! again, a ray is brought to the faces it runs along and measured again, and multipliers of Farkas are moved by
+//! [`no_room`] to where their sum is 0 exactly, with a bound on what moving them costs. What remains is undecided.
 //! *Bounded.* With unit normals âᵢ, minimise |Σλᵢâᵢ|² over λ ≥ 1. If the sum is 0 and the normals span the space, no ray fits
 //! (Stiemke's theorem). Else v = −Σλᵢâᵢ has âᵢ′v ≤ 0 for all i by the conditions of the minimum: a ray. Where the normals do not
 //! span, what is orthogonal to all of them is one.
@@ -19,14 +22,17 @@ use crate::shapes::eigen::eigen;
 
 /// What a conic solver leaves of a sum that is 0, for unit normals.
 const ZERO: f64 = 1e-6;
+/// A ray may rise beyond a face by this for each dimension, as it is rounded.
+const RISE: f64 = 64.0 * f64::EPSILON;
+/// A face whose normal is within this of a right angle to a ray is one it runs along.
+const ALONG: f64 = 1e-5;
 /// Turns in which rows and columns are brought to the same size.
 const TURNS: usize = 5;
 /// A ball of less than this part of the extent of the polytope is none.
 const LEAST: f64 = 1e-9;
 
-/// A point this far outside of some half-space, where offsets are at most 1 and normals have length 1, is so beyond the
-/// roundings of the conic solver.
-const EMPTY: f64 = 1e-7;
+/// A ball of which it is proved that it has no larger radius than this, offsets being 1 at most, counts as none.
+const ROOM: f64 = 1e-6;
 
 /// A centre, and the half axes of an ellipsoid around it inside, along the axes of coordinates.
 pub(super) struct Interior {
@@ -41,7 +47,7 @@ pub(super) fn interior(sides: &HalfSpaces) -> Result<Interior, Error> {
     if offsets.iter().chain(&units).any(|b| !b.is_finite()) {
         return Err(Error::Overflow);
     }
-    is_bounded(&normals, &units)?;
+    let spread = is_bounded(&normals, &units)?;
     // Units in which offsets are at most 1.
     let unit = offsets.iter().fold(0.0f64, |m, b| m.max(b.abs()));
     let unit = if unit > 0.0 { unit } else { 1.0 };
@@ -61,10 +67,15 @@ pub(super) fn interior(sides: &HalfSpaces) -> Result<Interior, Error> {
     let extent = (0..n).map(room).fold(0.0, f64::max);
     let is_open = radius > LEAST * extent;
     if !is_open {
+        let radius = no_room(&normals, &b, &z, &spread);
+        let is_proved = radius <= ROOM;
+        if !is_proved {
+            return Err(Error::Undecided);
+        }
         let rows: Vec<u64> = (0..n).filter(|&i| z[i] > 1e-7).map(|i| i as u64).collect();
         let multipliers = rows.iter().map(|&i| z[i as usize] * stretch(sides, &units, i as usize));
         let multipliers = multipliers.collect();
-        return Err(Error::NoInterior { rows, multipliers, is_empty: radius < -EMPTY });
+        return Err(Error::NoInterior { rows, multipliers, radius });
     }
     Ok(Interior {
         center: x.iter().zip(&units).map(|(v, u)| v * unit * u).collect(),
@@ -123,7 +134,47 @@ fn unbounded(direction: &[f64], units: &[f64]) -> Error {
     Error::Unbounded { direction: scaled.iter().map(|v| v / norm + 0.0).collect() }
 }
 
-fn is_bounded(normals: &[f64], units: &[f64]) -> Result<(), Error> {
+/// λ with Σλᵢâᵢ nearly 0 and all λᵢ ≥ 1, and a lower bound on the least singular value of the normals.
+struct Spread {
+    lambda: Vec<f64>,
+    least: f64,
+}
+
+/// What the radius of a ball in the polytope is at most: from λ ≥ 0 with Σλᵢâᵢ = 0, Σλᵢbᵢ/Σλᵢ.
+///
+/// *Idea.* The sum of the multipliers found is some r ≠ 0. With A the matrix of normals, of least singular value σ, there is
+/// w with A′w = −r and |w| ≤ |r|/σ, and likewise w₀ for the λ₀ ≥ 1 of a spread and its r₀. Then λ + w + t(λ₀ + w₀) has sum 0
+/// exactly, and no negative entry for t = |w|/(1 − |w₀|). It costs |w||b| + t(λ₀′b + |w₀||b|).
+fn no_room(normals: &[f64], offsets: &[f64], multipliers: &[f64], spread: &Spread) -> f64 {
+    let n = offsets.len();
+    let dim = normals.len() / n;
+    let rounding = (n + dim + 16) as f64 * f64::EPSILON;
+    let lambda: Vec<f64> = multipliers.iter().map(|z| z.max(0.0)).collect();
+    let total: f64 = lambda.iter().sum();
+    // |Σλᵢâᵢ| and Σλᵢbᵢ, at most.
+    let rest = |lambda: &[f64]| {
+        let mut sum = vec![0.0; dim];
+        normals.chunks_exact(dim).zip(lambda).for_each(|(a, l)| add_scaled(&mut sum, *l, a));
+        dot(&sum, &sum).sqrt() + rounding * lambda.iter().sum::<f64>() * (dim as f64).sqrt()
+    };
+    let value = |lambda: &[f64]| {
+        let size: f64 = lambda.iter().zip(offsets).map(|(l, b)| l * b.abs()).sum();
+        dot(lambda, offsets) + rounding * size
+    };
+    let length = dot(offsets, offsets).sqrt() * (1.0 + rounding);
+    let (w, w0) = (rest(&lambda) / spread.least, rest(&spread.lambda) / spread.least);
+    let t = w / (1.0 - w0);
+    let is_moved = spread.least > 0.0 && w0 < 0.5 && w * (n as f64).sqrt() < 0.5 * total;
+    if !is_moved {
+        return f64::INFINITY;
+    }
+    let cost = w * length + t * (value(&spread.lambda).max(0.0) + w0 * length);
+    // Unit normals are so but for rounding; the multipliers moved sum to half of what they were at least.
+    let beta = value(&lambda) + cost;
+    (beta / if beta > 0.0 { 0.5 * total } else { 2.0 * total }).max(0.0) * (1.0 + rounding)
+}
+
+fn is_bounded(normals: &[f64], units: &[f64]) -> Result<Spread, Error> {
     let dim = units.len();
     let n = normals.len() / dim;
     let mut gram = vec![0.0; dim * dim];
@@ -134,8 +185,12 @@ fn is_bounded(normals: &[f64], units: &[f64]) -> Result<(), Error> {
     }
     let (values, vectors) = eigen(&mut gram, dim);
     if let Some(k) = (0..dim).find(|&k| values[k] <= 1e-14 * n as f64) {
-        return Err(unbounded(&vectors[k * dim..(k + 1) * dim], units));
+        return Err(match ray(normals, vectors[k * dim..(k + 1) * dim].to_vec()) {
+            Some(direction) => unbounded(&direction, units),
+            None => Error::Undecided,
+        });
     }
+    let spectrum = values.iter().copied().fold(f64::INFINITY, f64::min);
     // Variables λ, r: r − Σλᵢâᵢ = 0 and −λ + s = −1.
     let (mut starts, mut rows, mut values) = (vec![0], vec![], vec![]);
     for (i, row) in normals.chunks_exact(dim).enumerate() {
@@ -160,10 +215,36 @@ fn is_bounded(normals: &[f64], units: &[f64]) -> Result<(), Error> {
     let objective = vec![0.0; n + dim];
     let (x, _) = conic(&quadratic, &objective, &a, &b, &[ZeroConeT(dim), NonnegativeConeT(n)])?;
     let norm = dot(&x[n..], &x[n..]).sqrt();
-    let direction: Vec<f64> = x[n..].iter().map(|r| -r / norm).collect();
-    let is_ray = norm > ZERO
-        && normals.chunks_exact(dim).all(|a| dot(a, &direction) <= ZERO / norm.min(1.0));
-    if is_ray { Err(unbounded(&direction, units)) } else { Ok(()) }
+    if norm > ZERO
+        && let Some(direction) = ray(normals, x[n..].iter().map(|r| -r / norm).collect())
+    {
+        return Err(unbounded(&direction, units));
+    }
+    let least = (spectrum - 1e-13 * n as f64).max(0.0).sqrt();
+    Ok(Spread { lambda: x[..n].to_vec(), least })
+}
+
+/// The direction, moved into the faces it runs along; none where it leaves the polytope all the same.
+fn ray(normals: &[f64], mut direction: Vec<f64>) -> Option<Vec<f64>> {
+    let dim = direction.len();
+    let mut gram = vec![0.0; dim * dim];
+    for row in normals.chunks_exact(dim).filter(|a| dot(a, &direction).abs() <= ALONG) {
+        for (a, &v) in row.iter().enumerate() {
+            add_scaled(&mut gram[a * dim..(a + 1) * dim], v, row);
+        }
+    }
+    let (values, vectors) = eigen(&mut gram, dim);
+    for _ in 0..2 {
+        for (_, vector) in values.iter().zip(vectors.chunks_exact(dim)).filter(|(v, _)| **v > ALONG)
+        {
+            let along = dot(vector, &direction);
+            add_scaled(&mut direction, -along, vector);
+        }
+    }
+    let norm = dot(&direction, &direction).sqrt();
+    direction.iter_mut().for_each(|v| *v /= norm);
+    let falls = |a: &[f64]| dot(a, &direction) <= RISE * dim as f64;
+    (norm > 0.5 && normals.chunks_exact(dim).all(falls)).then_some(direction)
 }
 
 fn dense(rows: usize, columns: usize, values: Vec<f64>) -> CscMatrix<f64> {
@@ -172,7 +253,7 @@ fn dense(rows: usize, columns: usize, values: Vec<f64>) -> CscMatrix<f64> {
     CscMatrix::new(rows, columns, starts, places, values)
 }
 
-/// The solution and the multipliers of a conic programme.
+/// The solution and the multipliers of a conic programme, as good as they are: callers prove what they take from them.
 fn conic(
     quadratic: &CscMatrix<f64>,
     objective: &[f64],

@@ -1,6 +1,6 @@
 //! From the rows kept to the final estimate, in the subspace where most rows lie.
 
-use taut_certify::{Enclosure, RobustMethod};
+use taut_certify::{Enclosure, RobustMethod, Unweighted};
 use taut_points::{Monitor, Points};
 
 use super::chi_square::{
@@ -26,6 +26,8 @@ pub(super) struct Fit {
     pub(super) estimate: Estimate,
     pub(super) scale: f64,
     pub(super) cutoff: f64,
+    /// Why the estimate is that of the rows kept, if it is.
+    pub(super) unweighted: Option<Unweighted>,
     pub(super) enclosure: Option<Enclosure>,
 }
 
@@ -160,6 +162,7 @@ fn point(rows: usize, h: usize) -> Fit {
         estimate: Estimate { center: vec![], matrix: vec![] },
         scale: 1.0,
         cutoff: 0.0,
+        unweighted: None,
         enclosure: None,
     }
 }
@@ -181,18 +184,27 @@ fn reweighted(
     let distances = raw.estimate.distances(data)?;
     let weighed: Vec<bool> = distances.iter().map(|d| *d <= cutoff * raw_scale).collect();
     let left = weighed.iter().filter(|weighed| **weighed).count();
-    let is_final = h == n || options.method == RobustMethod::Trim;
-    let look = if is_final { Look::Singular } else { raw.estimate.of_rows(data, &weighed)? };
-    let (estimate, weighed, scale) = match look {
+    let settled = match options.method {
+        RobustMethod::Trim => Some(Unweighted::Trimmed),
+        _ => (h == n).then_some(Unweighted::AllKept),
+    };
+    let look = match settled {
+        Some(_) => Look::Singular,
+        None => raw.estimate.of_rows(data, &weighed)?,
+    };
+    let (estimate, weighed, scale, unweighted) = match look {
         Look::Full(estimate) | Look::Noise(estimate) => {
             let scale = match options.method {
                 RobustMethod::Mcd => mcd_reweighted_scale(left, h, n, dim),
                 _ => mve_reweighted_scale(left, n, dim),
             };
-            (estimate, weighed, scale)
+            (estimate, weighed, scale, None)
         }
         // Of all rows nothing is weighed out, trimming is done; and what is left must not be flat.
-        Look::Singular => (raw.estimate, kept.clone(), raw_scale),
+        Look::Singular => {
+            (raw.estimate, kept.clone(), raw_scale, settled.or(Some(Unweighted::Flat)))
+        }
     };
-    Ok(Fit { kept, objective, raw_scale, weighed, estimate, scale, cutoff, enclosure: None })
+    let enclosure = None;
+    Ok(Fit { kept, objective, raw_scale, weighed, estimate, scale, cutoff, unweighted, enclosure })
 }

@@ -113,7 +113,7 @@ pub(crate) fn log_unit_ball(rank: usize) -> Vec<f64> {
 }
 
 /// log|det F/s| or log|det (F/s)Bᵀ| as a sum of logarithms; `None` for a matrix that is singular but for rounding.
-fn log_determinant(hull: Option<&Hull>, frame: &Frame<'_>) -> Option<Vec<f64>> {
+pub(crate) fn log_determinant(hull: Option<&Hull>, frame: &Frame<'_>) -> Option<Vec<f64>> {
     let n = frame.rank;
     let square: Vec<DoubleDouble> = match hull {
         None => (0..n).flat_map(|a| frame.full_row(a)).map(|&v| DoubleDouble::of(v)).collect(),

@@ -115,15 +115,35 @@ impl<'a> HullTest<'a> {
         enclosed: &Enclosed,
         frame: &Frame<'_>,
     ) -> Result<(), Violation> {
-        let largest = enclosed.coordinates.iter().fold(0.0f64, |m, &x| m.max(x));
         let part = if items == Items::Ellipsoids { 1e-6 } else { 1e-10 };
-        let extent = length(&enclosed.extents) / frame.scale;
-        let allowed = part * extent + 8.0 * frame.dim as f64 * U * largest;
+        let allowed =
+            part * length(&enclosed.extents) / frame.scale + rounding_of(&enclosed.coordinates);
+        self.is_thin(allowed)
+    }
+
+    /// As [`HullTest::is_flat`] for points that were picked because they lie near a hull of others: these reach up to
+    /// `wider` times as far off it.
+    pub(crate) fn is_flat_for(
+        &self,
+        extents: &[f64],
+        coordinates: &[f64],
+        wider: f64,
+    ) -> Result<(), Violation> {
+        self.is_thin(wider * (1e-10 * length(extents) + rounding_of(coordinates)))
+    }
+
+    fn is_thin(&self, allowed: f64) -> Result<(), Violation> {
         match self.hull.distance <= allowed {
             true => Ok(()),
             false => Err(Violation::NotFlat { distance: self.hull.distance, allowed }),
         }
     }
+}
+
+/// What rounding explains for points of these coordinates.
+fn rounding_of(coordinates: &[f64]) -> f64 {
+    let largest = coordinates.iter().fold(0.0f64, |m, &x| m.max(x));
+    8.0 * coordinates.len() as f64 * U * largest
 }
 
 /// The length of a vector, whatever its size.

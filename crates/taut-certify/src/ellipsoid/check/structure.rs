@@ -6,7 +6,7 @@ use super::super::{Ellipsoid, EllipsoidCertificate, Hull};
 use crate::arithmetic::{Compensated, U, two_sum};
 use crate::{Items, Violation};
 
-pub(super) fn check(
+pub(crate) fn check(
     ellipsoid: &Ellipsoid,
     certificate: &EllipsoidCertificate,
     source: &dyn PointSource,
@@ -48,7 +48,8 @@ fn answer(ellipsoid: &Ellipsoid, dim: usize) -> Result<(), Violation> {
     finite(&[ellipsoid.log_volume], |_| "the log-volume".into())
 }
 
-fn tail(ellipsoid: &Ellipsoid) -> Result<(), Violation> {
+/// Whether the tail of the centre, if there is one, is what rounding the centre leaves over.
+pub(crate) fn tail(ellipsoid: &Ellipsoid) -> Result<(), Violation> {
     let Ellipsoid { center, center_tail, .. } = ellipsoid;
     if center_tail.is_empty() {
         return Ok(());

@@ -1,25 +1,63 @@
 //! The factors of robust estimates, calculated in a way of their own: χ² by its series of positive terms alone.
 
-/// P(χ² ≤ x) with d degrees of freedom: e^(−y)·yᵃ/Γ(a + 1)·(1 + y/(a + 1) + y²/((a + 1)(a + 2)) + …), y = x/2, a = d/2.
-pub(super) fn probability(x: f64, d: usize) -> f64 {
-    if x <= 0.0 {
-        return 0.0;
-    }
-    let (y, a) = (x / 2.0, d as f64 / 2.0);
-    let (mut sum, mut term, mut k) = (1.0, 1.0, 1.0);
-    while term > 1e-18 * sum {
-        term *= y / (a + k);
-        sum += term;
-        k += 1.0;
-    }
-    // Γ(a + 1) = a(a − 1)…, down to Γ(1) = 1 or Γ(1/2) = √π.
+/// ln Γ(a + 1) for a = d/2: a(a − 1)…, down to Γ(1) = 1 or Γ(1/2) = √π.
+fn log_gamma(a: f64, d: usize) -> f64 {
     let mut log_gamma = if d.is_multiple_of(2) { 0.0 } else { 0.5 * std::f64::consts::PI.ln() };
     let mut factor = a;
     while factor > 0.25 {
         log_gamma += factor.ln();
         factor -= 1.0;
     }
-    (a * y.ln() - y - log_gamma + sum.ln()).exp()
+    log_gamma
+}
+
+/// P(χ² ≤ x) with d degrees of freedom: e^(−y)·yᵃ/Γ(a + 1)·(1 + y/(a + 1) + y²/((a + 1)(a + 2)) + …), y = x/2, a = d/2.
+/// To the right of the bulk the terms would grow without bound, and what is beyond is taken from 1.
+pub(super) fn probability(x: f64, d: usize) -> f64 {
+    if x <= 0.0 {
+        return 0.0;
+    }
+    let (y, a) = (x / 2.0, d as f64 / 2.0);
+    if y > a + 1.0 {
+        return 1.0 - beyond(x, d);
+    }
+    let (mut sum, mut term, mut k) = (1.0, 1.0, 1.0);
+    while term > 1e-18 * sum {
+        term *= y / (a + k);
+        sum += term;
+        k += 1.0;
+    }
+    (a * y.ln() - y - log_gamma(a, d) + sum.ln()).exp()
+}
+
+/// P(χ² > x) with d degrees of freedom, relatively as sharp for the smallest as for the largest: e^(−y)·Σ yᵏ/Γ(k + 1) for
+/// k = a − 1, a − 2, …, and for odd d what the normal distribution leaves beyond √x on both sides.
+pub(super) fn beyond(x: f64, d: usize) -> f64 {
+    if x <= 0.0 {
+        return 1.0;
+    }
+    let y = x / 2.0;
+    let (mut sum, mut k) = (0.0, d as f64 / 2.0 - 1.0);
+    let mut term = (k * y.ln() - y - log_gamma(k, d)).exp();
+    while k > -0.25 {
+        sum += term;
+        term *= k / y;
+        k -= 1.0;
+    }
+    if !d.is_multiple_of(2) {
+        sum += two_sided_normal(y);
+    }
+    sum
+}
+
+/// erfc √y: near 0 from the series of P, beyond by the continued fraction e^(−y)/√π/(z + ½/(z + 1/(z + 3/2/(z + …)))).
+fn two_sided_normal(y: f64) -> f64 {
+    if y <= 1.5 {
+        return 1.0 - probability(2.0 * y, 1);
+    }
+    let z = y.sqrt();
+    let fraction = (1..=400).rev().fold(z, |below, k| z + 0.5 * f64::from(k) / below);
+    (-y).exp() / (fraction * std::f64::consts::PI.sqrt())
 }
 
 /// The x with P(χ² ≤ x) = p, for 0 < p < 1, by halving.
@@ -104,6 +142,20 @@ mod tests {
         // In the plane: 1 − e^(−q/2)(1 + q/2) for the inner half, q = 2 ln 2.
         let wanted = 0.5 / (1.0 - 0.5 * (1.0 + 2f64.ln()));
         assert!((consistency(0.5, 2) - wanted).abs() < 1e-12);
+        // Far out, by fractions of 50 digits.
+        for (x, d, wanted) in [
+            (100.0, 2, 1.928_749_847_963_917_8e-22),
+            (60.0, 1, 9.485_737_571_073_848e-15),
+            (1300.0, 4, 651.0 * (-650f64).exp()),
+            (3.0, 3, 0.391_625_176_271_089_06),
+        ] {
+            assert!((beyond(x, d) - wanted).abs() <= 1e-12 * wanted, "{x} {d}: {:e}", beyond(x, d));
+        }
+        for d in 1..60 {
+            let x = d as f64 + 1.9;
+            assert!((beyond(x, d) + probability(x, d) - 1.0).abs() < 1e-13, "{d}");
+        }
+        assert!(probability(1e300, 3) == 1.0 && beyond(1e300, 3) == 0.0);
         assert_eq!(small_sample(false, 30, 30, 4), 1.0);
     }
 }

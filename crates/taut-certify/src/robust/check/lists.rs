@@ -3,7 +3,8 @@
 use taut_points::PointSource;
 
 use super::super::{RobustCertificate, RobustEllipsoid, RobustMethod};
-use crate::Violation;
+use crate::ellipsoid::check::structure;
+use crate::{Items, Violation};
 
 pub(super) fn check(
     answer: &RobustEllipsoid,
@@ -11,12 +12,9 @@ pub(super) fn check(
     source: &dyn PointSource,
 ) -> Result<(), Violation> {
     let (n, dim) = (source.len(), source.dim());
-    let RobustEllipsoid { center, center_tail, matrix, factor, hull, scatter, .. } = answer;
+    let RobustEllipsoid { center, matrix, factor, hull, scatter, .. } = answer;
     if center.len() != dim {
         return Err(Violation::Dimension { found: center.len(), expected: dim });
-    }
-    if !center_tail.is_empty() {
-        length("the tail of the centre", center_tail.len(), dim)?;
     }
     table("the matrix", matrix, dim, dim)?;
     table("the scatter", scatter, dim, dim)?;
@@ -31,13 +29,14 @@ pub(super) fn check(
             number("the distance from the hull", hull.distance, hull.distance >= 0.0)?;
         }
     }
-    for (what, values) in [("the centre", center), ("the tail of the centre", center_tail)] {
-        values.iter().try_for_each(|&value| number(what, value, true))?;
-    }
+    center.iter().try_for_each(|&value| number("the centre", value, true))?;
+    structure::tail(&answer.ellipsoid())?;
     number("the log-volume", answer.log_volume, true)?;
     number("the log-determinant", answer.log_det, true)?;
     number("the objective", certificate.objective, true)?;
-    number("the level", certificate.level, certificate.level > 0.0 && certificate.level <= 1.0)?;
+    let is_trimmed = certificate.method == RobustMethod::Trim;
+    let most = if is_trimmed { 1.0 } else { 1f64.next_down() };
+    number("the level", certificate.level, certificate.level > 0.0 && certificate.level <= most)?;
     number("the quantile", certificate.cutoff, certificate.cutoff >= 0.0)?;
     number("the first factor", certificate.raw_scale, certificate.raw_scale > 0.0)?;
     number("the factor of the scatter", certificate.scale, certificate.scale >= 0.0)?;
@@ -49,7 +48,28 @@ pub(super) fn check(
         ascending(list, rows, n)?;
     }
     flagged(answer, certificate)?;
-    kept(certificate, n)
+    enough(certificate, n, dim)?;
+    kept(certificate, n)?;
+    match &certificate.enclosure {
+        None => Ok(()),
+        Some(enclosure) if enclosure.certificate.items == Items::Points => {
+            structure::check(&enclosure.ellipsoid, &enclosure.certificate, source)
+        }
+        Some(_) => Err(Violation::NoPoints),
+    }
+}
+
+/// By `mcd` and `mve`, h is at least ⌊(n + d + 1)/2⌋, or n: below, the points left out could be the majority, and any
+/// cluster would do for an estimate.
+fn enough(certificate: &RobustCertificate, n: u64, dim: usize) -> Result<(), Violation> {
+    let least = (n + dim as u64).div_ceil(2).min(n);
+    if certificate.method == RobustMethod::Trim || certificate.kept >= least {
+        return Ok(());
+    }
+    let value = certificate.kept as f64;
+    let expected =
+        "at least half of the points and dimensions, ⌊(n + d + 1)/2⌋, but no more than n";
+    Err(Violation::Number { what: "the number of points kept".into(), value, expected })
 }
 
 /// By `trim`, the rows flagged are those left out, as on the border nothing else would tell, and none is weighed out.

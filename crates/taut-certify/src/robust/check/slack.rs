@@ -1,0 +1,47 @@
+//! What numbers of a robust answer may be off by.
+//!
+//! A solver works in `f64` from a centre that is itself one: x − c is then right to one rounding, whatever c is, and
+//! shapes lose a part κ·2⁻⁵³ of their digits, κ being how thin the points are. Places are off by the rounding of the centre
+//! besides, which far from the origin is much more. Both are found from the points kept.
+
+use crate::arithmetic::U;
+use crate::ellipsoid::check::frame::Frame;
+
+/// What `f64` arithmetic of a solver may be off by, relatively.
+const LEAST: f64 = 1e-9;
+/// What is granted at most where coordinates have few digits left.
+const MOST: f64 = 0.1;
+
+/// Tolerances in the frame, where the border is at 1.
+pub(super) struct Slack {
+    /// Of scatters, determinants and what is made of them.
+    pub(super) of_shapes: f64,
+    /// Of the centre, and of distances from centres.
+    pub(super) of_places: f64,
+}
+
+impl Slack {
+    /// For points that lie within these extents of the centre along the axes.
+    pub(super) fn of(frame: &Frame<'_>, extents: &[f64]) -> Self {
+        let most = |size: &dyn Fn(usize) -> f64| -> f64 {
+            let along = |a: usize| -> f64 {
+                let row = frame.full_row(a).iter().enumerate();
+                row.map(|(b, f)| f.abs() * (size(b) * frame.scale)).sum()
+            };
+            (0..frame.rank).map(along).fold(0.0, f64::max)
+        };
+        let thin = 16.0 * (frame.dim + 4) as f64 * U * most(&|b| extents[b]);
+        let far = 8.0 * U * most(&|b| frame.center[b].abs());
+        Slack { of_shapes: (LEAST + thin).min(MOST), of_places: (LEAST + thin + far).min(MOST) }
+    }
+
+    /// For a logarithm, or a sum of `terms` of them.
+    pub(super) fn of_logarithms(&self, value: f64, terms: usize) -> f64 {
+        LEAST * (1.0 + value.abs()) + terms as f64 * self.of_shapes
+    }
+
+    /// For numbers that do not depend on the points.
+    pub(super) fn of_factor(value: f64) -> f64 {
+        LEAST * value
+    }
+}

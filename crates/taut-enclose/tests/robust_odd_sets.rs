@@ -1,0 +1,83 @@
+//! Sets that lie at the limits of `f64` or of what a scatter is: whatever is answered passes the checker.
+
+mod robust;
+
+use robust::{by, contaminated, normal};
+use taut_certify::RobustMethod;
+use taut_enclose::{RobustOptions, robust_ellipsoid};
+use taut_points::Points;
+
+/// Each row made of the row of normal numbers and its number.
+fn rows(n: usize, dim: usize, seed: u64, row: impl Fn(usize, &[f64]) -> Vec<f64>) -> Vec<f64> {
+    normal(n, dim, seed).chunks(dim).enumerate().flat_map(|(i, x)| row(i, x)).collect()
+}
+
+fn sets() -> Vec<(&'static str, usize, Vec<f64>)> {
+    let scaled = |by: [f64; 2]| rows(40, 2, 1, move |_, x| vec![x[0] * by[0], x[1] * by[1]]);
+    let far = |by: f64| rows(60, 2, 2, move |_, x| vec![by + x[0], by + x[1]]);
+    let thin = |by: f64| rows(60, 2, 3, move |_, x| vec![x[0], x[0] + by * x[1]]);
+    vec![
+        ("one", 2, vec![1.0, 2.0]),
+        ("two", 2, vec![1.0, 2.0, 3.0, 4.0]),
+        ("copies", 2, [1.0, 2.0].repeat(20)),
+        ("copies and others", 2, [[1.0, 2.0].repeat(20), normal(15, 2, 4)].concat()),
+        ("a line and others", 2, {
+            let line = (0..30).flat_map(|i| [f64::from(i) * 0.1, f64::from(i) * 0.3 + 0.7]);
+            line.chain(normal(20, 2, 5).iter().map(|v| 10.0 * v)).collect()
+        }),
+        ("grid", 2, (0..25).flat_map(|i| [f64::from(i % 5), f64::from(i / 5)]).collect()),
+        ("large", 2, scaled([1e140, 1e140])),
+        ("small", 2, scaled([1e-140, 1e-140])),
+        ("large and small", 2, scaled([1e-70, 1e70])),
+        ("at 1e8", 2, far(1e8)),
+        ("at 1e12", 2, far(1e12)),
+        ("at 1e13", 2, far(1e13)),
+        ("thin", 2, thin(1e-6)),
+        ("thinner", 2, thin(1e-9)),
+        ("as thin as may be", 2, thin(1e-11)),
+        ("as thin as rounding", 2, thin(1e-13)),
+        ("numbers", 1, normal(50, 1, 6)),
+        ("few numbers, many times", 1, rows(50, 1, 7, |i, _| vec![(i % 4) as f64])),
+        ("ties", 3, normal(60 * 3, 1, 8).iter().map(|v| v.round()).collect()),
+        ("more columns than rows", 10, normal(6, 10, 9)),
+        ("heavy tails", 4, {
+            let below = normal(200, 4, 11);
+            normal(200, 4, 10).iter().zip(below).map(|(a, b)| a / b.abs().max(1e-300)).collect()
+        }),
+        ("a constant column", 3, rows(40, 2, 12, |_, x| vec![x[0], 7.0, x[1]])),
+        ("a plane and others", 3, {
+            let plane = rows(40, 2, 13, |_, x| vec![x[0], x[1], x[0] + x[1]]);
+            [plane, normal(12, 3, 14)].concat()
+        }),
+        ("as many as dimensions", 3, normal(4, 3, 15)),
+        ("contaminated", 3, contaminated(90, 3, 40, 9.0, 16)),
+    ]
+}
+
+#[test]
+fn whatever_is_answered_is_proved() {
+    let mut refused = vec![];
+    for (name, dim, values) in sets() {
+        let points = Points::new(&values, dim).unwrap();
+        for method in RobustMethod::ALL {
+            let base = by(method);
+            for options in [
+                base.clone(),
+                RobustOptions { coverage: Some(1.0), ..base.clone() },
+                RobustOptions { coverage: Some(0.75), level: 1.0 - 1e-10, ..base.clone() },
+                RobustOptions { level: 0.5, epsilon: 0.2, ..base.clone() },
+                RobustOptions { coverage: Some(0.6), epsilon: 1e-4, ..base },
+            ] {
+                match robust_ellipsoid(&points, &options) {
+                    Ok(found) => {
+                        if let Err(error) = found.check(&points) {
+                            refused.push(format!("{name} by {method}, {options:?}: {error}"));
+                        }
+                    }
+                    Err(other) => panic!("{name}: {other}"),
+                }
+            }
+        }
+    }
+    assert!(refused.is_empty(), "{refused:#?}");
+}

@@ -1,0 +1,7 @@
+//! Certificates of robust and inscribed ellipsoids edited by any bytes: no check panics.
+#![no_main]
+
+#[path = "../../crates/taut-enclose/tests/certificates/edits.rs"]
+mod edits;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| edits::edit_and_check(bytes));
