@@ -190,8 +190,17 @@ impl RobustCertificate {
 ///     What the method minimises, of the points kept, as found here.
 /// enclosure : EllipsoidVerdict or None
 ///     By "mve" and "trim", what was proved of the ellipsoid around the points kept.
+/// wanted : int
+///     h, how many points were to be kept. By "mcd" and "mve" at least half of the points.
+/// kept : int
+///     How many are kept: h, and by "mve" and "trim" those that lie on the border besides.
 /// on_hull : int
 ///     Points on the hull; all of them where there is none.
+/// flag_excess : float
+///     By how much a point that is no outlier lies beyond the border, or an outlier within, in units of the border; 0 where
+///     the outliers are exactly the points outside.
+/// slack : float
+///     What centre, scatter and border may be off by in that unit, where coordinates have few digits for the points.
 /// reweighted : bool
 ///     Whether centre and scatter are those of the points not weighed out.
 /// rank : int
@@ -200,17 +209,29 @@ impl RobustCertificate {
 pub(crate) struct RobustVerdict {
     objective: f64,
     enclosure: Option<Py<EllipsoidVerdict>>,
+    wanted: u64,
+    kept: u64,
     on_hull: u64,
+    flag_excess: f64,
+    slack: f64,
     reweighted: bool,
     rank: usize,
 }
 
 impl RobustVerdict {
     pub(crate) fn new(py: Python<'_>, proved: certify::RobustVerdict) -> PyResult<Self> {
-        let certify::RobustVerdict { objective, enclosure, on_hull, reweighted, rank, .. } = proved;
-        let enclosure = enclosure.map(|proved| Py::new(py, EllipsoidVerdict::new(proved)));
-        let enclosure = enclosure.transpose()?;
-        Ok(RobustVerdict { objective, enclosure, on_hull, reweighted, rank })
+        let enclosure = proved.enclosure.map(|proved| Py::new(py, EllipsoidVerdict::new(proved)));
+        Ok(RobustVerdict {
+            objective: proved.objective,
+            enclosure: enclosure.transpose()?,
+            wanted: proved.wanted,
+            kept: proved.kept,
+            on_hull: proved.on_hull,
+            flag_excess: proved.flag_excess,
+            slack: proved.slack,
+            reweighted: proved.reweighted,
+            rank: proved.rank,
+        })
     }
 }
 

@@ -97,11 +97,18 @@ pub(crate) fn proved_of_robust(
     found: &Solution<RobustEllipsoid>,
     verdict: &RobustVerdict,
 ) -> Vec<Fact> {
+    let off = verdict.flag_excess;
+    let flags = if off > 0.0 {
+        format!("the points outside the ellipsoid, but for rounding by {off:.0e} of its size")
+    } else {
+        "exactly the points outside the ellipsoid".to_owned()
+    };
     let mut facts = vec![
         Fact::new("objective", exact(verdict.objective))
             .remark("a local optimum: no C-step leads on; other points kept might do better"),
-        Fact::new("outliers", found.answer.flagged.len().to_string())
-            .remark("exactly the points outside the ellipsoid"),
+        Fact::new("points kept", verdict.kept.to_string())
+            .remark(format!("at least {} were to be kept", verdict.wanted)),
+        Fact::new("outliers", found.answer.flagged.len().to_string()).remark(flags),
         Fact::new("dimension", verdict.rank.to_string()),
     ];
     if let Some(enclosure) = &verdict.enclosure {
