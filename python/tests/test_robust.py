@@ -30,7 +30,7 @@ def test_a_quarter_of_outliers_is_found(points, method, coverage):
     verdict = found.check(points)
     assert verdict.rank == 3
     assert verdict.on_hull == 200
-    assert verdict.kept == verdict.wanted == found.certificate.kept
+    assert verdict.kept >= verdict.wanted == found.certificate.kept
     assert verdict.flag_excess == 0.0 and 0 < verdict.slack < 1e-6
     assert verdict.objective == pytest.approx(certificate.objective, abs=1e-8)
     assert (verdict.enclosure is None) == (certificate.gap is None) == (method == "mcd")
