@@ -1,10 +1,12 @@
 //! The minimum volume enclosing ellipsoid of points, of balls or of ellipsoids, and its certificate.
 
 pub(crate) mod check;
+mod plane;
 
 use serde::{Deserialize, Serialize};
 use taut_points::{Monitor, PointSource, PointsHash};
 
+pub use self::plane::{EllipseSupport, ellipse_support};
 use crate::json::{hash_from_hex, hash_to_hex};
 use crate::{Answer, CheckError, Items};
 
@@ -58,7 +60,10 @@ pub struct Ellipsoid {
     /// Q = FᵀF, d rows of d numbers, symmetric to the bit: (x − c)ᵀQ(x − c) ≤ 1. Its rank is r.
     ///
     /// It is `factor` multiplied out and rounded: where the axes differ by many orders of magnitude, `factor` tells
-    /// inside from outside more sharply.
+    /// inside from outside more sharply. A point on the border may evaluate to more than 1 with Q, by up to
+    /// [`EllipsoidVerdict::matrix_excess`]: rounding entries that differ by the square of the ratio of the axes costs
+    /// about that square times 2⁻⁵³ at worst, more than a gap of 1e-12 leaves room to scale away from a ratio of 100 on.
+    /// Who tests points with Q allows for it; who needs all of them inside takes F.
     pub matrix: Vec<Vec<f64>>,
     /// F, r rows of d numbers: x is inside if and only if |F(x − c)| ≤ 1, where x − c is formed first.
     ///

@@ -47,7 +47,9 @@ mod triangulation;
 mod verdict;
 
 pub use ball::{Ball, BallCertificate};
-pub use ellipsoid::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull};
+pub use ellipsoid::{
+    EllipseSupport, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipse_support,
+};
 pub use inscribed::{InscribedCertificate, InscribedEllipsoid, InscribedVerdict};
 pub use items::Items;
 pub use json::{AnySolution, JsonError, SCHEMA};

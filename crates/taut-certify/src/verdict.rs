@@ -124,6 +124,26 @@ pub enum Violation {
         /// What is wrong with that.
         problem: &'static str,
     },
+    /// A support was to be proved exactly, which is done in the plane alone.
+    #[error("the support is proved exactly in the plane, but the points have dimension {dim}")]
+    NoPlane {
+        /// Dimension of the points.
+        dim: usize,
+    },
+    /// No three to five of the support rows are the border of the smallest ellipse of all of them.
+    #[error(
+        "of the {rows} rows of the support no three to five determine an ellipse around all of them"
+    )]
+    NoBasis {
+        /// Rows of the support.
+        rows: usize,
+    },
+    /// A point lies outside the smallest ellipse of the support, by exact arithmetic.
+    #[error("point {row} lies outside the smallest ellipse of the support")]
+    OutsideSupport {
+        /// Point, from 0.
+        row: u64,
+    },
     /// The list of rows left out names a row that does not exist, or one that it must not name.
     #[error("entry {position} of the list of points left out names point {row}, {problem}")]
     LeftOut {

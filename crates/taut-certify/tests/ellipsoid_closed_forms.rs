@@ -154,3 +154,53 @@ fn any_multipliers_prove_what_the_formula_says() {
     let verdict = case.verdict();
     assert!((verdict.lower - lower).abs() <= 1e-14, "{verdict:?} {lower}");
 }
+
+/// Axes in a ratio of 2⁵⁰⁰ to 2⁹⁰⁰, the second tied to the first: squares of the entries of F do not share a range.
+#[test]
+fn axes_of_any_ratio_have_their_matrix() {
+    use taut_certify::{Ellipsoid, EllipsoidCertificate, Items, Solution, Trace};
+    use taut_points::{Monitor, Points, hash_points};
+
+    for power in [250, 300, 400, 450] {
+        let (long, short) = (2f64.powi(power), 2f64.powi(-power));
+        let mut values = vec![];
+        for (y, z) in [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)] {
+            values.extend([long * y, short * (z - 0.5 * y)]);
+        }
+        let points = Points::new(&values, 2).unwrap();
+        let root = 0.5f64.sqrt();
+        let factor = vec![vec![root * short, 0.0], vec![0.5 * root * short, root * long]];
+        let square = root * root;
+        let mut by_hand = Solution {
+            answer: Ellipsoid {
+                center: vec![0.0, 0.0],
+                center_tail: vec![],
+                matrix: vec![
+                    vec![1.25 * square * short * short, 0.5 * square],
+                    vec![0.5 * square, square * long * long],
+                ],
+                factor,
+                hull: None,
+                log_volume: std::f64::consts::TAU.ln(),
+            },
+            certificate: EllipsoidCertificate {
+                items: Items::Points,
+                support: vec![0, 1, 2, 3],
+                multipliers: vec![0.25; 4],
+                directions: vec![],
+                left_out: vec![],
+                gap: 1e-12,
+                points_hash: hash_points(&points, &Monitor::silent()).unwrap(),
+            },
+            trace: Trace::default(),
+        };
+        let verdict = by_hand.check(&points).unwrap();
+        assert!(verdict.gap < 1e-13 && verdict.matrix_excess < 1e-13, "{power}: {verdict:?}");
+        for (row, column) in [(0, 0), (1, 1)] {
+            let right = by_hand.answer.matrix[row][column];
+            by_hand.answer.matrix[row][column] *= 1.0 + 1e-13;
+            assert!(by_hand.check(&points).is_err(), "{power}: entry {row}, {column}");
+            by_hand.answer.matrix[row][column] = right;
+        }
+    }
+}

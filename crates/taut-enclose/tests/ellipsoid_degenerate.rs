@@ -222,3 +222,20 @@ fn options_out_of_range_are_named() {
     assert_eq!(refused(EllipsoidOptions { max_passes: 1, ..Default::default() }), "max_passes");
     assert_eq!(refused(EllipsoidOptions { threads: Some(0), ..Default::default() }), "threads");
 }
+
+/// Each corner of a cube ten thousand times and more: no list of the farthest points is short.
+#[test]
+fn many_copies_of_few_points_are_solved() {
+    for dim in [2, 3] {
+        let corners = 1usize << dim;
+        let values: Vec<f64> = (0..100_000 * dim)
+            .map(|at| if (at / dim % corners) >> (at % dim) & 1 == 1 { 2.0 } else { -1.0 })
+            .collect();
+        let points = taut_points::Points::new(&values, dim).unwrap();
+        let found = taut_enclose::ellipsoid(&points, &Default::default()).unwrap();
+        let verdict = found.check(&points).unwrap();
+        assert!(verdict.gap <= 1e-9, "{verdict:?}");
+        // A ball of radius 1.5·√d.
+        assert!((found.answer.matrix[0][0] - 1.0 / (2.25 * dim as f64)).abs() < 1e-9);
+    }
+}

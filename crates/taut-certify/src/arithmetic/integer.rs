@@ -52,6 +52,14 @@ impl Integer {
         }
     }
 
+    /// (m, e) with |value − m·2ᵉ| ≤ 2u·|value| and m an `f64` below 2¹²⁸; m = 0 for 0 alone.
+    pub(crate) fn approximately(&self) -> (f64, i64) {
+        let limb = |back: usize| self.limbs.len().checked_sub(back).map_or(0, |at| self.limbs[at]);
+        let size = (u128::from(limb(1)) << 64 | u128::from(limb(2))) as f64;
+        let exponent = 64 * (self.limbs.len() as i64 - 2);
+        (if self.negative { -size } else { size }, exponent)
+    }
+
     fn trimmed(mut self) -> Self {
         while self.limbs.last() == Some(&0) {
             self.limbs.pop();

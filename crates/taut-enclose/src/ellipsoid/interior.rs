@@ -8,7 +8,7 @@
 //! Mehrotra, g = 0 and then g = σμ − Δs·Δz.
 //! *Guarantee.* The best multipliers met are handed back, the p − 1 largest of them: a basis, from which the active set
 //! needs no exchange and a step or two.
-//! *Trap.* Accuracy ends at a gap of 1e-9 to 1e-13, so this method does not finish by itself.
+//! *Trap.* Accuracy ends at a gap of 1e-11 to 1e-13, so this method does not finish by itself.
 //! *Reference.* Mehrotra, SIAM J. Optim. 2(4), 1992; for this problem Sun and Freund, Operations Research 52(5), 2004.
 
 use faer::linalg::matmul::matmul;
@@ -25,11 +25,11 @@ use super::whitener::{Rebased, Whitener};
 use crate::Error;
 use crate::kernel::vector::dot;
 
-/// Where the active set takes over.
-const ENOUGH: f64 = 1e-9;
+/// Where the active set takes over at the latest: what points differ by may be far less than a gap of 1e-9.
+const ENOUGH: f64 = 1e-13;
 /// Steps at most, and steps without a better gap.
 const STEPS: usize = 60;
-const PATIENCE: usize = 6;
+const PATIENCE: usize = 3;
 /// Part of the way to the border of the cone that a step goes.
 const FRACTION: f64 = 0.98;
 /// Columns of the normal matrix that one task multiplies: fixed, so that the result does not depend on threads.

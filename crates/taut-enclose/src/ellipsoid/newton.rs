@@ -38,13 +38,27 @@ pub(super) fn gap(dim: usize, largest: f64) -> f64 {
     (0.5 * dim * (largest / dim).ln()).max(0.0)
 }
 
-/// Improves the multipliers of a pool until its gap is at most `tolerance`, or rounding is in the way.
+/// What gap of a pool is small enough.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Tolerance {
+    /// As long as every model is solved by pivots.
+    pub(super) easy: f64,
+    /// Once it takes the interior-point method, which comes nearer by a digit in three steps rather than by all.
+    pub(super) hard: f64,
+}
+
+impl Tolerance {
+    /// As small as rounding lets it be.
+    pub(super) const NONE: Self = Tolerance { easy: 0.0, hard: 0.0 };
+}
+
+/// Improves the multipliers of a pool until its gap is at most the tolerance, or rounding is in the way.
 ///
 /// Ends with the whitener of the multipliers, and says by what factor each |y|² may exceed d in the pool.
 pub(super) fn solve(
     pool: &mut Pool,
     whitener: &mut Whitener,
-    tolerance: f64,
+    tolerance: Tolerance,
     counters: &mut Counters,
     monitor: &Monitor<'_>,
 ) -> Result<f64, Error> {
@@ -66,12 +80,13 @@ pub(super) fn solve(
         } else if gap(dim, largest) < SMALL {
             patience -= 1;
         }
-        if gap(dim, largest) <= tolerance || patience == 0 {
+        let tried = counters.interior > interior_steps;
+        let enough = if tried { tolerance.hard } else { tolerance.easy };
+        if gap(dim, largest) <= enough || patience == 0 {
             break;
         }
         counters.steps += 1;
         let excess = largest - dim as f64;
-        let tried = counters.interior > interior_steps;
         let patience = nnls::patience(pool.len(), dim, interior_steps > 0, tried);
         let u = pool.weights();
         let model = nnls::solve(dim, &whitened, u, MODEL * excess, patience, counters);
@@ -79,7 +94,7 @@ pub(super) fn solve(
             Outcome::Solved(step) => step,
             // Once: what it hands back is a basis, and models made there are short.
             Outcome::Stuck if !tried => {
-                interior::solve(pool, whitener, 0.3 * tolerance, counters, monitor)?;
+                interior::solve(pool, whitener, 0.3 * tolerance.hard, counters, monitor)?;
                 continue;
             }
             Outcome::Stuck => break,
@@ -132,7 +147,8 @@ mod tests {
         pool.normalise();
         let mut whitener = Whitener::of_scales(&vec![1.0; dim]);
         let (mut counters, monitor) = (Counters::default(), Monitor::silent());
-        let largest = solve(&mut pool, &mut whitener, 1e-13, &mut counters, &monitor).unwrap();
+        let tolerance = Tolerance { easy: 1e-13, hard: 1e-13 };
+        let largest = solve(&mut pool, &mut whitener, tolerance, &mut counters, &monitor).unwrap();
         (pool, largest)
     }
 

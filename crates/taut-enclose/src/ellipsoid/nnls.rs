@@ -114,8 +114,12 @@ pub(super) fn patience(k: usize, dim: usize, before: bool, tried: bool) -> (u64,
         (true, true) => k / 40,
         (false, _) => k / 3,
     };
-    let pivots = if tried { 10 * k } else { k };
-    (64 + exchanges as u64, 640 + pivots as u64)
+    let pivots = match (tried, before && many) {
+        (true, _) => 640 + 10 * k,
+        (false, false) => 640 + k,
+        (false, true) => 64 + k / 4,
+    };
+    (64 + exchanges as u64, pivots as u64)
 }
 
 struct ActiveSet<'a> {

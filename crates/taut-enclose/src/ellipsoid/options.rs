@@ -12,6 +12,9 @@ pub enum EllipsoidMethod {
     #[default]
     Newton,
     /// Algorithm 3 of the thesis: at most 2d points of which the ellipsoid is no more than d²ᵈ times too small.
+    ///
+    /// It ends with its last pass, whatever ε is, so its trace says [`Stop::PassBudget`](taut_certify::Stop::PassBudget)
+    /// unless the gap happens to be as small as wanted.
     ThesisInitial,
     /// Algorithm 4 of the thesis, Khachiyan's: weight moves to the farthest point, from equal weights on all points.
     ThesisKhachiyan,

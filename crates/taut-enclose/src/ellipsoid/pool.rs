@@ -22,6 +22,16 @@ impl Pool {
         Pool { dim, ids: vec![], positions: HashMap::default(), blocks: vec![], weights: vec![] }
     }
 
+    /// The same with room for a number of points.
+    pub(super) fn with_room(dim: usize, points: usize) -> Self {
+        let mut pool = Pool::new(dim);
+        pool.positions.reserve(points);
+        pool.ids.reserve(points);
+        pool.blocks.reserve(points.next_multiple_of(POINTS) * dim);
+        pool.weights.reserve(points.next_multiple_of(POINTS));
+        pool
+    }
+
     pub(super) fn dim(&self) -> usize {
         self.dim
     }

@@ -3,8 +3,10 @@
 //! *Idea.* A sample gives a whitener, a pass with it the points of largest leverage: the first pool. Its ellipsoid is
 //! found ([`newton`]), a pass lists the points outside, some of them join the pool, and so on until none is outside by
 //! more than the wanted gap. The pool's multipliers prove a lower bound for all points at any moment.
-//! *Guarantee.* Lower bounds never fall. Three to five passes on ordinary data, about a dozen where all points lie near
-//! one ellipsoid; the points in memory are those of the pool.
+//! Of many points in few dimensions the rounds are over the sample first, and then over the few points that a pass with
+//! its ellipsoid lists, as long as that list is known to hold every point outside ([`shortlist`]).
+//! *Guarantee.* Lower bounds never fall. One pass or two with a list; without, three to five on ordinary data and about a
+//! dozen where all points lie near one ellipsoid. The points in memory are those of the pool and of the list.
 //! *Trap.* The points farthest outside are often near-copies of each other, so each sector around the centre may only
 //! give a few: a sector is a coordinate of the image and its sign.
 //! *Trap.* A point that lies very far outside gets weight at once: models are made at multipliers, and one of leverage
@@ -13,11 +15,12 @@
 use taut_certify::Stop;
 
 use super::counters::Counters;
-use super::newton::{self, gap};
+use super::newton::{self, Tolerance, gap};
 use super::outcome::{Candidate, Outcome, Progress};
 use super::pool::{Pool, copy_row};
 use super::proof::{pass_error, triangular_spread};
 use super::sample::Sample;
+use super::shortlist::{self, Shortlist};
 use super::survey::{Found, Query, Survey};
 use super::whitener::Whitener;
 use super::{EllipsoidOptions, ROUNDING};
@@ -31,6 +34,10 @@ pub(super) const LISTED: f64 = 1e-6;
 const JUMP: f64 = 100.0;
 /// A point of the pool with no multiplier whose |y|² is below this part of d is of no use any more.
 const USEFUL: f64 = 0.9;
+
+/// Where points lie on an ellipsoid up to rounding, none is useless by that measure, and each step of the interior-point
+/// method costs as many products as there are points: so many times m(m + 1)/2 without a multiplier stay, the nearest.
+const HARD_SPARE: usize = 2;
 
 /// Passes without a better gap that show that rounding is in the way, of gaps below [`SMALL`].
 const STALE: u32 = 3;
@@ -63,48 +70,88 @@ pub(super) fn solve(
     let (first, later) = sizes(dim, survey.len());
     let mut counters = Counters::default();
     let mut progress = Progress::new(dim);
-    let mut pool = first_pool(survey, sample, &mut whitener, first)?;
+    let share = shortlist::share(dim, &sample.pool, survey.len());
+    let mut list = share.map(|_| Shortlist::of_sample(sample));
+    let share = share.unwrap_or(0.0);
+    let mut pool = match list {
+        Some(_) => pool_of_sample(sample, &whitener, first.min(4 * (dim + 1) * (dim + 2))),
+        None => first_pool(survey, sample, &mut whitener, first)?,
+    };
     let mut later = later;
     // With all points in the pool there is nothing to come.
-    let mut tolerance = if pool.len() as u64 == survey.len() { 0.6 * wanted } else { 1e-2 };
+    let first = if pool.len() as u64 == survey.len() { 0.6 * wanted } else { 1e-2 };
+    let mut tolerance = Tolerance { easy: first, hard: first };
     let mut last = f64::INFINITY;
     let (mut best, mut stale) = (f64::INFINITY, 0);
+    // Of the rounds over a list.
+    let (mut least, mut idle) = (f64::INFINITY, 0);
     let stop = loop {
         newton::solve(&mut pool, &mut whitener, tolerance, &mut counters, survey.monitor())?;
         let center = center_of(&sample.origin, &whitener);
         let matrix = whitener.matrix();
         let doubt = 3.0 * pass_error(dim, triangular_spread(matrix, dim));
         let above = dim as f64 * (1.0 - doubt.min(LISTED));
-        let found = survey.pass(Query { matrix, center: &center, above, keep: 4 * later })?;
+        let query = Query { matrix, center: &center, above, keep: 4 * later };
+        let (found, all) = match &mut list {
+            None => (survey.pass(query)?, true),
+            Some(list) => {
+                let mut found = list.pass(query)?;
+                let mut others = list.others(&whitener, doubt);
+                idle = if found.largest < least { 0 } else { idle + 1 };
+                least = least.min(found.largest);
+                // While points of the list are outside, nobody asks for the others, unless rounding is in the way.
+                let reached = gap(dim, found.largest);
+                let open = reached > wanted
+                    && !(idle >= STALE && reached < SMALL)
+                    && !outside(&found, dim, &pool).is_empty();
+                let mut all = others < dim as f64;
+                if !all && !open {
+                    if survey.passes() >= options.max_passes && progress.best_gap() < f64::INFINITY
+                    {
+                        break Stop::PassBudget;
+                    }
+                    *list = Shortlist::of_pass(survey, query, &whitener, sample, share)?;
+                    found = list.pass(query)?;
+                    others = list.others(&whitener, doubt);
+                    all = true;
+                    (least, idle) = (f64::INFINITY, 0);
+                }
+                found.listed_above = found.listed_above.max(others);
+                (found, all)
+            }
+        };
         let largest = found.largest;
         if !largest.is_finite() {
             return Err(Error::Overflow);
         }
-        let far = outside(&found, dim, &pool);
+        let mut far = outside(&found, dim, &pool);
+        far.truncate(4 * later);
         let size = pool.len();
-        progress.note(&whitener, size, largest, || candidate(&pool, &whitener, center, found));
+        if all {
+            progress.note(&whitener, size, largest, || candidate(&pool, &whitener, center, found));
+        }
         let reached = gap(dim, largest);
         if progress.best_gap() <= wanted {
             break Stop::Converged;
         }
-        if survey.passes() >= options.max_passes {
+        if all && list.is_none() && survey.passes() >= options.max_passes {
             break Stop::PassBudget;
         }
-        let added = add(&mut pool, survey, &sample.origin, &whitener, &far, later)?;
-        stale = if progress.best_gap() < best { 0 } else { stale + 1 };
-        best = progress.best_gap();
+        let added =
+            add(&mut pool, survey, &sample.origin, &whitener, &far, later, counters.interior > 0)?;
+        if all {
+            stale = if progress.best_gap() < best { 0 } else { stale + 1 };
+            best = progress.best_gap();
+        }
         // Rounds of a pool may pass without a better gap as long as that is large.
-        if added == 0 && tolerance == 0.0 || stale == STALE && best < SMALL {
+        if added == 0 && tolerance == Tolerance::NONE || stale == STALE && best < SMALL {
             break Stop::Rounding;
         }
         // What is outside is in the pool already: only a sharper solution of the pool can help.
-        let hard = counters.interior > 0;
-        let sharper = if 1e-2 * reached < 1e-3 && !hard {
-            0.6 * wanted
-        } else {
-            (1e-2 * reached).max(0.6 * wanted)
-        };
-        tolerance = if added == 0 { 0.0 } else { sharper };
+        let hard = (1e-2 * reached).max(0.6 * wanted);
+        let easy =
+            if 1e-2 * reached < 1e-3 && counters.interior == 0 { 0.6 * wanted } else { hard };
+        tolerance = if added == 0 { Tolerance::NONE } else { Tolerance { easy, hard } };
         if reached > last / 3.0 {
             later *= 2;
         }
@@ -115,6 +162,27 @@ pub(super) fn solve(
     };
     let core_set = pool.len();
     Ok(progress.into_outcome(stop, counters, core_set))
+}
+
+/// Equal weights on points of a sample: those of large leverage, an affine basis, and what is extreme.
+fn pool_of_sample(sample: &Sample, whitener: &Whitener, size: usize) -> Pool {
+    let images = whitener.apply(&sample.pool);
+    let mut order: Vec<usize> = (0..sample.pool.len()).collect();
+    let farther = |&a: &usize, &b: &usize| images.leverages[b].total_cmp(&images.leverages[a]);
+    let size = size.min(order.len());
+    if size < order.len() {
+        order.select_nth_unstable_by(size, farther);
+        order.truncate(size);
+        order.sort_unstable();
+    }
+    let mut pool = Pool::new(sample.pool.dim());
+    let mut row = vec![0.0; sample.pool.dim()];
+    for i in order.into_iter().chain(sample.spread(&images.blocks)) {
+        sample.pool.copy_row(i, &mut row);
+        pool.push(sample.pool.ids()[i], &row, 1.0);
+    }
+    pool.normalise();
+    pool
 }
 
 /// Equal weights on points of large leverage, on an affine basis, and on what is extreme in the sample.
@@ -190,7 +258,8 @@ fn outside(found: &Found, dim: usize, pool: &Pool) -> Vec<Far> {
     found.far.iter().filter(beyond).copied().collect()
 }
 
-/// Takes some of the far points to the pool, and useless points out of it; says how many were taken.
+/// Takes some of the far points to the pool, and useless points out of it, more of them if the pool is `hard`; says how
+/// many were taken.
 fn add(
     pool: &mut Pool,
     survey: &Survey<'_>,
@@ -198,12 +267,23 @@ fn add(
     whitener: &Whitener,
     far: &[Far],
     most: usize,
+    hard: bool,
 ) -> Result<usize, Error> {
     let dim = pool.dim();
-    if pool.len() > 4 * most {
+    if pool.len() > 4 * most || hard {
         let leverages = whitener.apply(pool).leverages;
         let weights = pool.weights().to_vec();
-        pool.retain(|i| weights[i] > 0.0 || leverages[i] > USEFUL * dim as f64);
+        let mut least = USEFUL * dim as f64;
+        let spare = HARD_SPARE * (dim + 1) * (dim + 2) / 2;
+        if hard {
+            let free = leverages.iter().zip(&weights).filter(|(_, u)| **u == 0.0);
+            let mut free: Vec<f64> = free.map(|(leverage, _)| *leverage).collect();
+            if free.len() > spare {
+                let (_, bound, _) = free.select_nth_unstable_by(spare, |a, b| b.total_cmp(a));
+                least = least.max(*bound);
+            }
+        }
+        pool.retain(|i| weights[i] > 0.0 || leverages[i] > least);
     }
     let ids: Vec<u64> = far.iter().map(|far| far.id).collect();
     let rows = survey.rows_from(origin, &ids)?;

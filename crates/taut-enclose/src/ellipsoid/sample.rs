@@ -36,7 +36,7 @@ impl Sample {
         let rows = survey.rows(&ids)?;
         let dim = survey.dim();
         let origin = mean(&rows, dim);
-        let mut pool = Pool::new(dim);
+        let mut pool = Pool::with_room(dim, ids.len());
         let mut row = vec![0.0; dim];
         for (&id, values) in ids.iter().zip(rows.chunks_exact(dim)) {
             for ((row, x), o) in row.iter_mut().zip(values).zip(&origin) {

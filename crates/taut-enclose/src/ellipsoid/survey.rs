@@ -14,7 +14,7 @@ use taut_points::{
 use crate::Error;
 use crate::kernel::Center;
 use crate::kernel::extremes::{all_finite, largest};
-use crate::kernel::triangle::leverages;
+use crate::kernel::triangle::{POINTS, above, leverages};
 use crate::top::{Far, Top};
 
 /// Rows whose leverages are worked out before they are compared.
@@ -154,26 +154,141 @@ impl<'a> Survey<'a> {
     pub(super) fn pass(&mut self, query: Query<'_>) -> Result<Found, Error> {
         self.begin_pass();
         let first = self.hash.is_none();
-        let list = Mutex::new(Top::new(query.keep));
-        // It only saves work: what is listed in the end does not depend on when threads see it.
-        let bound = AtomicU64::new(query.above.to_bits());
-        let reports = map_blocks(self.source, self.monitor, |row, rows| match rows {
-            Rows::F32(points) => block(query, &list, &bound, row, &points, first),
-            Rows::F64(points) => block(query, &list, &bound, row, &points, first),
-        })?;
+        let (found, reports) = measure(self.source, self.monitor, query, first)?;
         if first {
             let hashes = reports.iter().filter_map(|report| report.hash);
             self.hash = Some(PointsHash::of_blocks(self.len(), self.dim(), hashes));
         }
-        let far = list.into_inner().unwrap_or_else(PoisonError::into_inner).into_sorted();
-        let listed_above = match far.last() {
-            Some(last) if far.len() == query.keep => last.reach2,
-            _ => query.above,
-        };
-        let finite = reports.iter().all(|report| report.finite);
-        let largest = reports.iter().map(|report| report.largest).fold(0.0, f64::max);
-        Ok(Found { largest: if finite { largest } else { f64::INFINITY }, far, listed_above })
+        Ok(found)
     }
+
+    /// One pass that takes the rows with it whose |M(x − c)|² is above a threshold: of each block at most a share of its
+    /// rows and a few, the farthest. `None` where a square is no `f64`.
+    pub(super) fn take(&mut self, query: Query<'_>, share: f64) -> Result<Option<Taken>, Error> {
+        self.begin_pass();
+        let first = self.hash.is_none();
+        let reports = map_blocks(self.source, self.monitor, |row, rows| match rows {
+            Rows::F32(points) => take_block(query, share, row, &points, first),
+            Rows::F64(points) => take_block(query, share, row, &points, first),
+        })?;
+        if first {
+            let hashes = reports.iter().filter_map(|report| report.1);
+            self.hash = Some(PointsHash::of_blocks(self.len(), self.dim(), hashes));
+        }
+        let mut all = Taken { ids: vec![], rows: vec![], above: query.above };
+        for (taken, _) in reports {
+            let Some(taken) = taken else { return Ok(None) };
+            all.ids.extend(taken.ids);
+            all.rows.extend(taken.rows);
+            all.above = all.above.max(taken.above);
+        }
+        Ok(Some(all))
+    }
+}
+
+/// Rows that a pass took with it.
+pub(super) struct Taken {
+    /// Row numbers, ascending.
+    pub(super) ids: Vec<u64>,
+    /// The coordinates as they are in the source.
+    pub(super) rows: Vec<f64>,
+    /// No other row has an |M(x − c)|² above this.
+    pub(super) above: f64,
+}
+
+/// What a pass over some rows finds.
+pub(super) fn pass_over(points: &Points<'_, f64>, query: Query<'_>) -> Result<Found, Error> {
+    Ok(measure(points, &Monitor::silent(), query, false)?.0)
+}
+
+/// Measures all blocks of a source; if they are met for the first time, they are hashed, too.
+fn measure(
+    source: &dyn PointSource,
+    monitor: &Monitor<'_>,
+    query: Query<'_>,
+    first: bool,
+) -> Result<(Found, Vec<BlockReport>), Error> {
+    let list = Mutex::new(Top::new(query.keep));
+    // It only saves work: what is listed in the end does not depend on when threads see it.
+    let bound = AtomicU64::new(query.above.to_bits());
+    let reports = map_blocks(source, monitor, |row, rows| match rows {
+        Rows::F32(points) => block(query, &list, &bound, row, &points, first),
+        Rows::F64(points) => block(query, &list, &bound, row, &points, first),
+    })?;
+    let far = list.into_inner().unwrap_or_else(PoisonError::into_inner).into_sorted();
+    let listed_above = match far.last() {
+        Some(last) if far.len() == query.keep => last.reach2,
+        _ => query.above,
+    };
+    let finite = reports.iter().all(|report| report.finite);
+    let largest = reports.iter().map(|report| report.largest).fold(0.0, f64::max);
+    let found = Found { largest: if finite { largest } else { f64::INFINITY }, far, listed_above };
+    Ok((found, reports))
+}
+
+/// Rows of a block that are taken beside its share.
+const FEW: usize = 64;
+
+/// Measures a block and takes far rows while they are near at hand.
+fn take_block<T: Scalar>(
+    query: Query<'_>,
+    share: f64,
+    first_row: u64,
+    points: &Points<'_, T>,
+    first: bool,
+) -> Result<(Option<Taken>, Option<BlockHash>), Error> {
+    let (mut scratch, mut values) = (vec![], [0.0; ROWS_AT_ONCE]);
+    let mut bits = [0; ROWS_AT_ONCE / POINTS];
+    let mut finite = true;
+    let mut far: Vec<(u32, f64)> = vec![];
+    for start in (0..points.len()).step_by(ROWS_AT_ONCE) {
+        let part = points.slice(start..points.len().min(start + ROWS_AT_ONCE));
+        let values = &mut values[..part.len()];
+        leverages(part.values(), query.matrix, query.center, &mut scratch, values);
+        finite &= all_finite(values);
+        let bits = &mut bits[..part.len().div_ceil(POINTS)];
+        above(values, query.above, bits);
+        for (group, &bits) in bits.iter().enumerate() {
+            let mut left = bits;
+            while left != 0 {
+                let i = group * POINTS + left.trailing_zeros() as usize;
+                far.push(((start + i) as u32, values[i]));
+                left &= left - 1;
+            }
+        }
+    }
+    let mut hash = None;
+    if first {
+        let rows = T::rows(*points);
+        if !finite && let Some((row, column, value)) = rows.first_non_finite() {
+            return Err(Error::NonFinite { row: first_row + row as u64, column, value });
+        }
+        hash = Some(hash_block(&rows));
+    }
+    if !finite {
+        return Ok((None, hash));
+    }
+    let mut none_above = query.above;
+    let most = (share * points.len() as f64) as usize + FEW;
+    if far.len() > most {
+        // Equal values by row, so that of many copies of one point some are taken.
+        let farther = |a: &(u32, f64), b: &(u32, f64)| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0));
+        let (_, &mut (_, last), _) = far.select_nth_unstable_by(most - 1, farther);
+        none_above = last;
+        far.truncate(most);
+        far.sort_unstable_by_key(|(i, _)| *i);
+    }
+    let dim = points.dim();
+    let mut taken = Taken {
+        ids: Vec::with_capacity(far.len()),
+        rows: Vec::with_capacity(far.len() * dim),
+        above: none_above,
+    };
+    for (i, _) in far {
+        taken.ids.push(first_row + u64::from(i));
+        taken.rows.extend(points.row(i as usize).iter().map(|&x| x.into()));
+    }
+    Ok((Some(taken), hash))
 }
 
 /// Measures a block; its far points are merged with those of the pass.

@@ -62,6 +62,11 @@ pub(super) trait Lanes: Copy {
     /// # Safety
     /// See [`zero`](Self::zero); `at` may point anywhere.
     unsafe fn prefetch(at: *const u8);
+    /// Bit i says whether lane i is above that of `bound`; never where either is not a number.
+    ///
+    /// # Safety
+    /// See [`zero`](Self::zero).
+    unsafe fn bits_above(self, bound: Self) -> u32;
     /// The even lanes of sixteen values in two vectors, and the odd ones.
     ///
     /// # Safety

@@ -74,6 +74,12 @@ impl Lanes for Portable {
     unsafe fn prefetch(_: *const u8) {}
 
     #[inline(always)]
+    unsafe fn bits_above(self, bound: Self) -> u32 {
+        let lanes = self.0.into_iter().zip(bound.0).enumerate();
+        lanes.fold(0, |bits, (i, (value, bound))| bits | u32::from(value > bound) << i)
+    }
+
+    #[inline(always)]
     unsafe fn split(first: Self, second: Self) -> (Self, Self) {
         let all = [first.0, second.0];
         let lane = |i: usize| all[i / 8][i % 8];

@@ -243,6 +243,39 @@ fn images_forms_and_moments_agree_with_plain_loops() {
     }
 }
 
+/// All instruction sets tell alike which values are above a bound, and NaN is above nothing.
+#[test]
+fn bits_say_what_is_above() {
+    let mut values: Vec<f64> = (0..77).map(|i| f64::from(i * 37 % 64)).collect();
+    values[5] = f64::NAN;
+    values[40] = f64::INFINITY;
+    for n in [0, 1, 8, 31, 32, 33, 64, 77] {
+        let mut wanted = vec![0u32; usize::div_ceil(n, 32)];
+        for i in 0..n {
+            wanted[i / 32] |= u32::from(values[i] > 40.0) << (i % 32);
+        }
+        let mut chosen = vec![0; wanted.len()];
+        triangle::above(&values[..n], 40.0, &mut chosen);
+        assert_eq!(chosen, wanted);
+        let mut bits = vec![0; wanted.len()];
+        // SAFETY: the portable lanes need no feature.
+        #[allow(unsafe_code)]
+        unsafe {
+            let work = triangle::Above { values: &values[..n], bound: 40.0, bits: &mut bits };
+            triangle::Work::run::<portable::Portable>(work)
+        };
+        assert_eq!(bits, wanted);
+        #[cfg(target_arch = "x86_64")]
+        for set in [x86::Set::Avx512, x86::Set::Avx2] {
+            let mut bits = vec![0; wanted.len()];
+            let work = triangle::Above { values: &values[..n], bound: 40.0, bits: &mut bits };
+            if x86::run_as(set, work).is_none() {
+                assert_eq!(bits, wanted, "{set:?}");
+            }
+        }
+    }
+}
+
 /// All instruction sets split and transpose alike.
 #[test]
 fn lanes_move_values_alike_everywhere() {

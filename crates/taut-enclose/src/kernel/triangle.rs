@@ -89,6 +89,12 @@ pub(crate) fn leverages<T: Scalar>(
     dispatch(Leverages { values, matrix, center, scratch, out });
 }
 
+/// Bit i of entry k of `bits` says whether value 32k + i is above `bound`.
+pub(crate) fn above(values: &[f64], bound: f64, bits: &mut [u32]) {
+    assert!(bits.len() == values.len().div_ceil(POINTS));
+    dispatch(Above { values, bound, bits });
+}
+
 /// Work that is compiled once for each instruction set.
 pub(super) trait Work {
     /// # Safety
@@ -149,10 +155,7 @@ impl Work for Moments<'_> {
             // SAFETY: features are the caller's promise; a block has d·POINTS values and POINTS weights, and there are
             // eight sums for each of the (d + 1)(d + 2)/2 entries.
             unsafe {
-                let load = |from: *const f64| -> [L; WIDE] {
-                    std::array::from_fn(|i| L::load(from.add(8 * i)))
-                };
-                let weights = load(weights.as_ptr());
+                let weights: [L; WIDE] = wide(weights.as_ptr());
                 let mut sum = self.sums.as_mut_ptr();
                 let mut add = |terms: [L; WIDE], with: [L; WIDE]| {
                     let mut total = L::load(sum.cast_const());
@@ -163,17 +166,46 @@ impl Work for Moments<'_> {
                     sum = sum.add(8);
                 };
                 for a in 0..dim {
-                    let row = load(x.as_ptr().add(a * POINTS));
-                    let row: [L; WIDE] =
-                        std::array::from_fn(|i| row[i].multiply_add(weights[i], L::zero()));
+                    let mut row: [L; WIDE] = wide(x.as_ptr().add(a * POINTS));
+                    for i in 0..WIDE {
+                        row[i] = row[i].multiply_add(weights[i], L::zero());
+                    }
                     for b in 0..=a {
-                        add(row, load(x.as_ptr().add(b * POINTS)));
+                        add(row, wide(x.as_ptr().add(b * POINTS)));
                     }
                 }
                 for b in 0..dim {
-                    add(weights, load(x.as_ptr().add(b * POINTS)));
+                    add(weights, wide(x.as_ptr().add(b * POINTS)));
                 }
                 add(weights, [L::broadcast(1.0); WIDE]);
+            }
+        }
+    }
+}
+
+pub(super) struct Above<'a> {
+    pub(super) values: &'a [f64],
+    pub(super) bound: f64,
+    pub(super) bits: &'a mut [u32],
+}
+
+impl Work for Above<'_> {
+    #[inline(always)]
+    unsafe fn run<L: Lanes>(self) {
+        // SAFETY: features are the caller's promise; eight values are read where there are eight, or what is left.
+        unsafe {
+            let bound = L::broadcast(self.bound);
+            for (values, bits) in self.values.chunks(POINTS).zip(self.bits) {
+                *bits = 0;
+                for (k, eight) in values.chunks(8).enumerate() {
+                    let from = eight.as_ptr();
+                    let (lanes, real) = if eight.len() == 8 {
+                        (L::load(from), 0xff)
+                    } else {
+                        (L::load_first(from, eight.len()), (1 << eight.len()) - 1)
+                    };
+                    *bits |= (lanes.bits_above(bound) & real) << (8 * k);
+                }
             }
         }
     }
@@ -216,6 +248,17 @@ impl<T: Scalar> Work for Leverages<'_, T> {
     }
 }
 
+/// One coordinate of a block. Written out: closures handed to `array::from_fn` are not always inlined, and calls of
+/// single instructions are what is left then.
+///
+/// # Safety
+/// The processor has the features of `L`; [`POINTS`] values can be read at `from`.
+#[inline(always)]
+unsafe fn wide<L: Lanes>(from: *const f64) -> [L; WIDE] {
+    // SAFETY: passed on.
+    unsafe { [L::load(from), L::load(from.add(8)), L::load(from.add(16)), L::load(from.add(24))] }
+}
+
 /// z = Tx − t for a block; |z|² or, if `FORM`, x·z for each point; z itself if `STORE`.
 ///
 /// # Safety
@@ -233,8 +276,7 @@ unsafe fn block<L: Lanes, const STORE: bool, const FORM: bool>(
     let (matrix, shift) = (triangle.matrix.as_ptr(), triangle.shift.as_ptr());
     // SAFETY: rows a < dim of T and of the block; columns b ≤ a.
     unsafe {
-        let row =
-            |b: usize| -> [L; WIDE] { std::array::from_fn(|i| L::load(x.add(b * POINTS + 8 * i))) };
+        let row = |b: usize| -> [L; WIDE] { wide(x.add(b * POINTS)) };
         let start = |a: usize| [L::broadcast(-*shift.add(a)); WIDE];
         let mut sums = [L::zero(); WIDE];
         let mut finish = |a: usize, values: [L; WIDE]| {
@@ -324,17 +366,20 @@ unsafe fn arrange<L: Lanes, T: Scalar>(values: &[T], center: &Center, x: &mut [f
     for group in 0..WIDE {
         // SAFETY: each start is that of a row within `values`; coordinates j .. j + count stay below dim.
         unsafe {
-            let starts: [*const T; 8] =
-                std::array::from_fn(|i| values.as_ptr().add((group * 8 + i).min(rows - 1) * dim));
+            let mut starts = [values.as_ptr(); 8];
+            for (i, start) in starts.iter_mut().enumerate() {
+                *start = start.add((group * 8 + i).min(rows - 1) * dim);
+            }
             for j in (0..dim).step_by(8) {
                 let count = (dim - j).min(8);
-                let eight: [L; 8] = std::array::from_fn(|i| {
-                    if count == 8 {
+                let mut eight = [L::zero(); 8];
+                for i in 0..8 {
+                    eight[i] = if count == 8 {
                         L::load(starts[i].add(j))
                     } else {
                         L::load_first(starts[i].add(j), count)
-                    }
-                });
+                    };
+                }
                 let columns = L::transpose(eight);
                 for k in 0..count {
                     less(columns[k], j + k).store(x.add((j + k) * POINTS + 8 * group));

@@ -2,7 +2,8 @@
 //!
 //! *Matrix.* Each entry of Q must be that of FᵀF up to 4(r + 4)u times the root of the product of the two diagonal
 //! entries, which is more than multiplying out in `f64` costs; and Q must be symmetric to the bit. What the
-//! difference adds to (x − c)ᵀQ(x − c) is bounded from how far the items reach along each axis.
+//! difference adds to (x − c)ᵀQ(x − c) is bounded from how far the items reach along each axis. Columns of F are brought
+//! to about 1 first: squares of entries 1e154 apart have no place in one matrix.
 //! *Log-volume.* log κᵣ − log|det F|, for flat sets log κᵣ − log|det FBᵀ|. A triangular F has the product of its
 //! diagonal as determinant. For any other, with PF = LU in `f64` and X, Y the inverses of L, U as found in `f64`, the
 //! matrix T = XPFY is nearly I, and det F = ± det T/(det X·det Y): T is formed and factorised in doubled precision.
@@ -10,22 +11,23 @@
 //! *Trap.* Rows and columns of F may differ by a hundred orders of magnitude: pivots are compared with their rows.
 
 use super::super::{Ellipsoid, Hull};
-use super::frame::Frame;
+use super::frame::{Frame, power_of_two_below};
 use crate::Violation;
 use crate::arithmetic::{DoubleDouble, Field, Ring, U};
 
-/// What Q and FᵀF differ by, over s².
+/// What Q and FᵀF differ by, over s², when column j of F is multiplied by `powers[j]`.
 pub(crate) struct Difference {
     entries: Vec<f64>,
-    dim: usize,
+    powers: Vec<f64>,
 }
 
 impl Difference {
     /// A bound on (x − c)ᵀ(Q − FᵀF)(x − c) for items of these extents.
     pub(super) fn bound(&self, extents: &[f64]) -> f64 {
-        let rows = self.entries.chunks_exact(self.dim);
-        rows.zip(extents)
-            .map(|(row, x)| x * row.iter().zip(extents).map(|(e, y)| e * y).sum::<f64>())
+        let extents: Vec<f64> = extents.iter().zip(&self.powers).map(|(x, p)| x / p).collect();
+        let rows = self.entries.chunks_exact(extents.len());
+        rows.zip(&extents)
+            .map(|(row, x)| x * row.iter().zip(&extents).map(|(e, y)| e * y).sum::<f64>())
             .sum()
     }
 }
@@ -33,30 +35,33 @@ impl Difference {
 /// Compares the matrix with the factor.
 pub(crate) fn matrix(ellipsoid: &Ellipsoid, frame: &Frame<'_>) -> Result<Difference, Violation> {
     let dim = frame.dim;
+    let powers = column_powers(frame);
     let mut product = vec![DoubleDouble::of(0.0); dim * (dim + 1) / 2];
     for a in 0..frame.rank {
         let (row, span) = frame.row(a);
+        let row: Vec<f64> = row.iter().zip(&powers[span.clone()]).map(|(f, p)| f * p).collect();
         for (&f, j) in row.iter().zip(span.clone()) {
             let entries = &mut product[j * (j + 1) / 2..][span.start..=j];
-            for (entry, &g) in entries.iter_mut().zip(row) {
+            for (entry, &g) in entries.iter_mut().zip(&row) {
                 *entry = entry.plus(&DoubleDouble::of(f).times(&DoubleDouble::of(g)));
             }
         }
     }
     let root = |j: usize| product[j * (j + 3) / 2].rounded().sqrt();
     let rounding = 4.0 * (frame.rank + 4) as f64 * U;
-    // Where FᵀF is so small that its entries have lost digits, only those digits are granted.
-    let subnormal = (f64::from_bits(1) / frame.scale / frame.scale).min(U);
     let mut entries = vec![0.0; dim * dim];
     for j in 0..dim {
         for k in 0..=j {
             let (claimed, mirrored) = (ellipsoid.matrix[j][k], ellipsoid.matrix[k][j]);
             let found = product[j * (j + 1) / 2 + k];
-            let scaled = DoubleDouble::of(claimed / frame.scale / frame.scale);
-            let off = scaled.minus(&found).rounded().abs();
+            // Where one product of powers would leave the range of `f64`, each of them with the entry does not.
+            let scaled = |v: f64| v * (powers[j] / frame.scale) * (powers[k] / frame.scale);
+            let off = DoubleDouble::of(scaled(claimed)).minus(&found).rounded().abs();
+            // Where an entry of FᵀF is so small that it has lost digits, only those digits are granted.
+            let subnormal = (scaled(f64::from_bits(1)) * (frame.rank + 1) as f64).min(rounding);
             let agrees = off <= rounding * (root(j) * root(k)) + subnormal;
             if !agrees || claimed != mirrored {
-                let found = found.rounded() * frame.scale * frame.scale;
+                let found = found.rounded() * (frame.scale / powers[j]) * (frame.scale / powers[k]);
                 let claimed = if agrees { mirrored } else { claimed };
                 return Err(Violation::Matrix { row: j, column: k, claimed, found });
             }
@@ -65,7 +70,19 @@ pub(crate) fn matrix(ellipsoid: &Ellipsoid, frame: &Frame<'_>) -> Result<Differe
             entries[k * dim + j] = bound;
         }
     }
-    Ok(Difference { entries, dim })
+    Ok(Difference { entries, powers })
+}
+
+/// The powers of two that bring the largest entry of each column of F/s to [1, 2); 1 for a column of zeros.
+fn column_powers(frame: &Frame<'_>) -> Vec<f64> {
+    let mut largest = vec![0.0f64; frame.dim];
+    for a in 0..frame.rank {
+        largest.iter_mut().zip(frame.full_row(a)).for_each(|(m, f)| *m = m.max(f.abs()));
+    }
+    // Beyond 2^±1000 a power has no inverse; F/s has entries of 2 at most.
+    let power =
+        |m: f64| if m > 0.0 { 1.0 / power_of_two_below(m.max(2f64.powi(-1000))) } else { 1.0 };
+    largest.into_iter().map(power).collect()
 }
 
 /// Compares the log-volume with the factor; returns it as found here.

@@ -126,6 +126,16 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
+    unsafe fn bits_above(self, bound: Self) -> u32 {
+        // SAFETY: see above.
+        unsafe {
+            let low = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_GT_OQ>(self.0, bound.0));
+            let high = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_GT_OQ>(self.1, bound.1));
+            (low | high << 4) as u32
+        }
+    }
+
+    #[inline(always)]
     unsafe fn split(first: Self, second: Self) -> (Self, Self) {
         // SAFETY: see above.
         unsafe {
@@ -154,10 +164,16 @@ impl Lanes for Avx2 {
             let left = |i: usize| square(rows[i].0, rows[i + 1].0, rows[i + 2].0, rows[i + 3].0);
             let right = |i: usize| square(rows[i].1, rows[i + 1].1, rows[i + 2].1, rows[i + 3].1);
             let (first, last) = ([left(0), left(4)], [right(0), right(4)]);
-            std::array::from_fn(|j| {
-                let half = if j < 4 { &first } else { &last };
-                Avx2(half[0][j % 4], half[1][j % 4])
-            })
+            [
+                Avx2(first[0][0], first[1][0]),
+                Avx2(first[0][1], first[1][1]),
+                Avx2(first[0][2], first[1][2]),
+                Avx2(first[0][3], first[1][3]),
+                Avx2(last[0][0], last[1][0]),
+                Avx2(last[0][1], last[1][1]),
+                Avx2(last[0][2], last[1][2]),
+                Avx2(last[0][3], last[1][3]),
+            ]
         }
     }
 }

@@ -110,6 +110,12 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
+    unsafe fn bits_above(self, bound: Self) -> u32 {
+        // SAFETY: see above.
+        u32::from(unsafe { _mm512_cmp_pd_mask::<_CMP_GT_OQ>(self.0, bound.0) })
+    }
+
+    #[inline(always)]
     unsafe fn split(first: Self, second: Self) -> (Self, Self) {
         // SAFETY: see above.
         unsafe {
@@ -139,7 +145,16 @@ impl Lanes for Avx512 {
             let high = |i: usize| _mm512_unpackhi_pd(rows[2 * i].0, rows[2 * i + 1].0);
             let of_even = four([low(0), low(1), low(2), low(3)]);
             let of_odd = four([high(0), high(1), high(2), high(3)]);
-            std::array::from_fn(|j| Avx512(if j % 2 == 0 { of_even[j / 2] } else { of_odd[j / 2] }))
+            [
+                Avx512(of_even[0]),
+                Avx512(of_odd[0]),
+                Avx512(of_even[1]),
+                Avx512(of_odd[1]),
+                Avx512(of_even[2]),
+                Avx512(of_odd[2]),
+                Avx512(of_even[3]),
+                Avx512(of_odd[3]),
+            ]
         }
     }
 }

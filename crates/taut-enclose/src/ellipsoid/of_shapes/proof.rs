@@ -1,0 +1,99 @@
+//! From multipliers to an answer with a certificate.
+
+use rayon::prelude::*;
+use taut_certify::{Ellipsoid, EllipsoidCertificate, Solution, Stop, Trace};
+
+use super::base::Base;
+use super::rounds::Best;
+use crate::Error;
+use crate::ellipsoid::outcome::log_unit_ball;
+use crate::ellipsoid::proof::{LOGARITHMS, answer, lower_gap};
+use crate::ellipsoid::{EllipsoidOptions, ROUNDING};
+use crate::kernel::vector::dot;
+use crate::shapes::Shapes;
+use crate::shapes::eigen::eigen;
+use crate::shapes::frame::Map;
+use crate::shapes::reach::farthest;
+
+/// Items that reach this near the border, relatively, are measured again with twice the digits.
+const NEAR: f64 = 1e-8;
+
+impl Base {
+    /// From multipliers to an answer: containment is measured with F as it will be returned.
+    pub(super) fn prove(
+        &self,
+        shapes: &Shapes,
+        best: Best,
+        mut trace: Trace,
+        options: &EllipsoidOptions,
+    ) -> Result<Solution<Ellipsoid>, Error> {
+        let rank = self.rank;
+        let center = self.back(&best.center);
+        let near: Vec<usize> =
+            (0..shapes.len()).filter(|&i| best.squares[i] >= best.largest * (1.0 - NEAR)).collect();
+        // What a reach found from exact coordinates may be off by: eigenvalues, roots and sums.
+        let rounding = 16.0 * (rank + 4) as f64 * f64::EPSILON;
+        let mut scale = (1.0 - rounding) / best.largest.sqrt();
+        let mut factor = self.factor(&best.matrix, scale);
+        let mut excess = 0.0;
+        for _ in 0..4 {
+            let map = Map { matrix: &factor, center: &center };
+            let squares: Vec<f64> = near
+                .par_iter()
+                .with_min_len(16)
+                .map(|&i| square(&map.shape_of(shapes, i), &map.center_of(shapes, i)))
+                .collect();
+            let largest = squares.into_iter().fold(0.0, f64::max);
+            excess = (largest.sqrt() - 1.0 + rounding).max(0.0);
+            if excess == 0.0 {
+                break;
+            }
+            scale *= (1.0 - 2.0 * rounding) / largest.sqrt();
+            factor = self.factor(&best.matrix, scale);
+        }
+        let dim = shapes.dim();
+        let map = Map { matrix: &factor, center: &center };
+        let mut support: Vec<(usize, Vec<f64>, f64)> = best
+            .support
+            .into_iter()
+            .map(|(touch, u)| (touch.item, self.direction(&touch.direction), u))
+            .collect();
+        support.sort_by_key(|entry| entry.0);
+        let images: Vec<f64> =
+            support.iter().flat_map(|(i, a, _)| map.touching(shapes, *i, a)).collect();
+        let multipliers: Vec<f64> = support.iter().map(|entry| entry.2).collect();
+        let lower = lower_gap(&images, &multipliers, rank);
+        let gap = (lower + rank as f64 * (excess + LOGARITHMS)).min(f64::MAX);
+        let hull = self.hull(shapes, &center);
+        let log_volume = match self.directions {
+            None => log_unit_ball(rank) - (0..rank).map(|a| factor[a * dim + a].ln()).sum::<f64>(),
+            Some(_) => {
+                let diagonal = |m: &[f64]| (0..rank).map(|a| m[a * rank + a].ln()).sum::<f64>();
+                let logs = diagonal(&best.matrix) + diagonal(&self.lower);
+                log_unit_ball(rank) - logs - rank as f64 * scale.ln()
+            }
+        };
+        if trace.stop == Stop::Converged && gap > options.epsilon.max(4.0 * ROUNDING * rank as f64)
+        {
+            trace.stop = Stop::Rounding;
+        }
+        let certificate = EllipsoidCertificate {
+            items: shapes.items(),
+            support: support.iter().map(|entry| entry.0 as u64).collect(),
+            multipliers,
+            directions: support.into_iter().map(|entry| entry.1).collect(),
+            left_out: vec![],
+            gap,
+            points_hash: shapes.hash(),
+        };
+        Ok(Solution { answer: answer(&factor, center, log_volume, hull)?, certificate, trace })
+    }
+}
+
+/// The largest |y|² of an ellipsoid given by its matrix and centre.
+fn square(shape: &[f64], center: &[f64]) -> f64 {
+    let rank = center.len();
+    let (lambda, vectors) = eigen(&mut shape.to_vec(), rank);
+    let h: Vec<f64> = vectors.chunks_exact(rank.max(1)).map(|v| dot(v, center)).collect();
+    farthest(&lambda, &h).square
+}

@@ -1,0 +1,139 @@
+//! The rounds: a pool's ellipsoid, a pass for what lies outside, and that joins the pool.
+
+use taut_certify::{Ellipsoid, PassBounds, Solution, Stop, Trace};
+use taut_points::{Monitor, ReadError};
+
+use super::base::Base;
+use super::pass::pass;
+use super::touches::{Axes, Touch, axes, first_pool};
+use crate::Error;
+use crate::ellipsoid::counters::Counters;
+use crate::ellipsoid::newton::{self, Tolerance, gap};
+use crate::ellipsoid::outcome::trial_log_volume;
+use crate::ellipsoid::pool::Pool;
+use crate::ellipsoid::whitener::Whitener;
+use crate::ellipsoid::{EllipsoidOptions, ROUNDING};
+use crate::shapes::Shapes;
+use crate::shapes::frame::{Framed, Map};
+
+/// Points that may join after a pass, for each of the d(d + 3)/2 that can be needed.
+const LATER: usize = 2;
+/// A point of the pool with no multiplier whose |y|² is below this part of d is of no use any more.
+const USEFUL: f64 = 0.98;
+/// Passes without a better gap that show that rounding is in the way, of gaps below [`SMALL`].
+const STALE: u32 = 4;
+const SMALL: f64 = 1e-6;
+
+/// The best multipliers so far, and what they mean.
+pub(super) struct Best {
+    pub(super) largest: f64,
+    pub(super) squares: Vec<f64>,
+    pub(super) matrix: Vec<f64>,
+    pub(super) center: Vec<f64>,
+    pub(super) support: Vec<(Touch, f64)>,
+}
+
+impl Base {
+    /// Solves the items, which `shapes` holds, in these coordinates.
+    pub(super) fn solve(
+        &self,
+        shapes: &Shapes,
+        options: &EllipsoidOptions,
+        monitor: &Monitor<'_>,
+    ) -> Result<Solution<Ellipsoid>, Error> {
+        let framed = Framed::of(shapes, Map { matrix: &self.matrix, center: &self.center });
+        if !framed.is_finite() {
+            return Err(Error::Overflow);
+        }
+        let rank = self.rank;
+        let wanted = options.epsilon.max(ROUNDING * rank as f64);
+        let mut counters = Counters::default();
+        let mut whitener = Whitener::of_scales(&vec![1.0; rank]);
+        let axes = axes(&framed);
+        let widths: Vec<f64> = axes.iter().map(Axes::longest).collect();
+        let (mut pool, mut touches) = first_pool(&framed, axes);
+        let later = LATER * (rank + 1) * (rank + 2) / 2;
+        let later = later.max(64);
+        let mut best: Option<Best> = None;
+        let mut history = vec![];
+        let mut tolerance = 1e-2;
+        let (mut passes, mut stale) = (1, 0);
+        let base_logs: f64 = (0..rank).map(|a| self.lower[a * rank + a].ln()).sum();
+        let stop = loop {
+            let sharp = Tolerance { easy: tolerance, hard: tolerance };
+            newton::solve(&mut pool, &mut whitener, sharp, &mut counters, monitor)?;
+            passes += 1;
+            monitor.pass(passes, shapes.len() as u64);
+            monitor.check().map_err(ReadError::from)?;
+            let matrix = whitener.matrix();
+            let center = whitener.center();
+            let seeds = touches.seeds(&pool, shapes.len());
+            let found = pass(&framed, &widths, matrix, &center, &seeds);
+            monitor.points(shapes.len() as u64);
+            if !found.largest.is_finite() {
+                return Err(Error::Overflow);
+            }
+            let lower = trial_log_volume(rank, matrix) - base_logs;
+            let reached = gap(rank, found.largest);
+            history.push(PassBounds {
+                lower,
+                upper: lower + reached,
+                working_set: pool.len() as u64,
+            });
+            let is_better = best.as_ref().is_none_or(|best| found.largest < best.largest);
+            stale = if is_better { 0 } else { stale + 1 };
+            let outside = found.outside;
+            if is_better {
+                best = Some(Best {
+                    largest: found.largest,
+                    squares: found.squares,
+                    matrix: matrix.to_vec(),
+                    center,
+                    support: touches.support(&pool),
+                });
+            }
+            let best_gap = best.as_ref().map_or(f64::INFINITY, |best| gap(rank, best.largest));
+            if best_gap <= wanted {
+                break Stop::Converged;
+            }
+            if passes >= options.max_passes {
+                break Stop::PassBudget;
+            }
+            if stale >= STALE && best_gap < SMALL || outside.is_empty() && tolerance == 0.0 {
+                break Stop::Rounding;
+            }
+            drop_useless(&mut pool, &whitener);
+            let sharper = if 1e-2 * reached < 1e-3 {
+                (1e-2 * reached).max(0.1 * wanted)
+            } else {
+                1e-2 * reached
+            };
+            tolerance = if outside.is_empty() { 0.0 } else { sharper };
+            for (_, touch) in outside.into_iter().take(later) {
+                let point = framed.touching(touch.item, &touch.direction);
+                pool.push(touches.list.len() as u64, &point, 0.0);
+                touches.list.push(touch);
+            }
+        };
+        let best = best.expect("the loop ends after a pass");
+        counters.others.insert("touching-points".into(), touches.list.len() as u64);
+        let trace = Trace {
+            method: options.method.name().to_owned(),
+            stop,
+            passes,
+            iterations: counters.steps,
+            core_set: pool.len() as u64,
+            history,
+            counters: counters.into_named(),
+        };
+        self.prove(shapes, best, trace, options)
+    }
+}
+
+/// Points with no multiplier, well inside, leave the pool.
+fn drop_useless(pool: &mut Pool, whitener: &Whitener) {
+    let dim = pool.dim() as f64;
+    let leverages = whitener.apply(pool).leverages;
+    let weights = pool.weights().to_vec();
+    pool.retain(|i| weights[i] > 0.0 || leverages[i] > USEFUL * dim);
+}

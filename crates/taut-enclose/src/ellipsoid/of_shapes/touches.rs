@@ -1,0 +1,107 @@
+//! Points in which items touch: the pool knows each by its number, its item and a direction.
+
+use rayon::prelude::*;
+
+use crate::ellipsoid::pool::Pool;
+use crate::ellipsoid::sample::Sample;
+use crate::kernel::vector::dot;
+use crate::shapes::eigen::eigen;
+use crate::shapes::frame::Framed;
+
+/// Points of the first pool, for each of the d(d + 3)/2 that can be needed.
+const FIRST: usize = 4;
+/// Items of a sample from which an affine basis is taken.
+const SAMPLE: usize = 200;
+
+/// A point of an item by its direction in the base.
+#[derive(Clone)]
+pub(super) struct Touch {
+    pub(super) item: usize,
+    pub(super) direction: Vec<f64>,
+}
+
+/// The points of a pool by their numbers.
+pub(super) struct Touches {
+    pub(super) list: Vec<Touch>,
+}
+
+impl Touches {
+    /// The directions of the points with a multiplier, by item.
+    pub(super) fn seeds(&self, pool: &Pool, items: usize) -> Vec<Vec<&[f64]>> {
+        let mut seeds = vec![vec![]; items];
+        let weighted = pool.ids().iter().zip(pool.weights()).filter(|(_, u)| **u > 0.0);
+        for touch in weighted.map(|(&id, _)| &self.list[id as usize]) {
+            seeds[touch.item].push(&touch.direction[..]);
+        }
+        seeds
+    }
+
+    /// The points with a multiplier.
+    pub(super) fn support(&self, pool: &Pool) -> Vec<(Touch, f64)> {
+        let weighted = pool.ids().iter().zip(pool.weights()).filter(|(_, u)| **u > 0.0);
+        weighted.map(|(&id, &u)| (self.list[id as usize].clone(), u)).collect()
+    }
+}
+
+/// Squares of half axes, and their directions as rows.
+pub(super) struct Axes {
+    squares: Vec<f64>,
+    directions: Vec<f64>,
+}
+
+impl Axes {
+    /// The longest half axis, rounded up.
+    pub(super) fn longest(&self) -> f64 {
+        self.squares.iter().copied().fold(0.0, f64::max).sqrt() * (1.0 + 1e-12)
+    }
+}
+
+/// The axes of all items.
+pub(super) fn axes(framed: &Framed) -> Vec<Axes> {
+    let axes = |i: usize| {
+        let (squares, directions) = eigen(&mut framed.shape(i).to_vec(), framed.rank);
+        Axes { squares, directions }
+    };
+    (0..framed.len()).into_par_iter().with_min_len(32).map(axes).collect()
+}
+
+/// Equal weights on ends of axes that lie far out, on an affine basis, and on what is extreme in a sample.
+pub(super) fn first_pool(framed: &Framed, axes: Vec<Axes>) -> (Pool, Touches) {
+    let rank = framed.rank;
+    let mut list = vec![];
+    let mut points = vec![];
+    for (i, axes) in axes.into_iter().enumerate() {
+        let before = list.len();
+        for (&square, v) in axes.squares.iter().zip(axes.directions.chunks_exact(rank)) {
+            // An axis that rounding may have made is none.
+            if square > 1e-14 {
+                list.push(Touch { item: i, direction: v.to_vec() });
+                list.push(Touch { item: i, direction: v.iter().map(|v| -v).collect() });
+            }
+        }
+        if list.len() == before {
+            list.push(Touch { item: i, direction: vec![0.0; rank] });
+        }
+        points.extend(list[before..].iter().map(|t| framed.touching(t.item, &t.direction)));
+    }
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    let leverages: Vec<f64> = points.iter().map(|y| dot(y, y)).collect();
+    order.sort_by(|&a, &b| leverages[b].total_cmp(&leverages[a]));
+    let size = FIRST * (rank + 1) * (rank + 2) / 2;
+    let mut chosen: Vec<usize> = order.iter().take(size).copied().collect();
+    let step = framed.len().div_ceil(SAMPLE);
+    let mut sample = Sample { origin: vec![0.0; rank], pool: Pool::new(rank) };
+    for (at, touch) in list.iter().enumerate() {
+        if touch.item.is_multiple_of(step) {
+            sample.pool.push(at as u64, &points[at], 1.0);
+        }
+    }
+    let spread = sample.spread(sample.pool.blocks());
+    chosen.extend(spread.into_iter().map(|i| sample.pool.ids()[i] as usize));
+    let mut pool = Pool::new(rank);
+    for at in chosen {
+        pool.push(at as u64, &points[at], 1.0);
+    }
+    pool.normalise();
+    (pool, Touches { list })
+}

@@ -1,0 +1,170 @@
+//! The few points that can matter, in memory: what one pass over all points leaves to be looked at again and again.
+//!
+//! *Idea.* A pass with the ellipsoid |M₀(x − c₀)|² lists all points beyond some b. For another ellipsoid, and any point
+//! that is not listed, |M(x − c)| ≤ σ√b + |M(c₀ − c)|, σ being the largest singular value of MM₀⁻¹. Where that is less
+//! than √d, a pass over the list tells as much as a pass over all points.
+//! *Guarantee.* The bound holds with the rounding of M₀⁻¹ added to it; what is listed does not depend on threads.
+//! *Trap.* A list is of use only if M₀ is near the end: that of a covariance is for normal points, not for points near
+//! an ellipsoid. So the ellipsoid of a sample comes first.
+
+use taut_points::Points;
+
+use super::dense::divide_rows;
+use super::pool::Pool;
+use super::sample::Sample;
+use super::survey::{Found, Query, Survey, pass_over};
+use super::whitener::Whitener;
+use crate::Error;
+use crate::kernel::vector::dot;
+use crate::shapes::eigen::eigen;
+use crate::top::Far;
+
+/// Most points of a list, on average.
+const MOST_LISTED: f64 = 65536.0;
+/// Points of the sample above the threshold of a list, beside its share: as few as one would say nothing.
+const RANK: usize = 10;
+/// A block gives at most so many times its share to a list, which bounds what the order of the points can do.
+const UNEVEN: f64 = 16.0;
+
+/// Rows of a source, and what is known of those that are not among them.
+pub(super) struct Shortlist {
+    dim: usize,
+    /// Row numbers, ascending.
+    ids: Vec<u64>,
+    /// Their coordinates as they are in the source.
+    rows: Vec<f64>,
+    /// The ellipsoid that listed them, and the |y|² that no other point exceeds; `None` if they are but a sample.
+    others: Option<(Whitener, f64)>,
+}
+
+impl Shortlist {
+    /// A sample, of which nothing follows for other points.
+    pub(super) fn of_sample(sample: &Sample) -> Self {
+        let dim = sample.pool.dim();
+        let mut rows = vec![0.0; sample.pool.len() * dim];
+        for (i, row) in rows.chunks_exact_mut(dim).enumerate() {
+            sample.pool.copy_row(i, row);
+            row.iter_mut().zip(&sample.origin).for_each(|(x, o)| *x += o);
+        }
+        Shortlist { dim, ids: sample.pool.ids().to_vec(), rows, others: None }
+    }
+
+    /// One pass over all points, in which this whitener lists about a share of them.
+    pub(super) fn of_pass(
+        survey: &mut Survey<'_>,
+        query: Query<'_>,
+        whitener: &Whitener,
+        sample: &Sample,
+        share: f64,
+    ) -> Result<Self, Error> {
+        let share = share.min(MOST_LISTED / survey.len() as f64);
+        let mut leverages = whitener.apply(&sample.pool).leverages;
+        let rank = ((share * leverages.len() as f64) as usize + RANK).min(leverages.len() - 1);
+        let (_, &mut above, _) = leverages.select_nth_unstable_by(rank, |a, b| b.total_cmp(a));
+        let query = Query { above: above.min(query.above), ..query };
+        let Some(taken) = survey.take(query, UNEVEN * share)? else { return Err(Error::Overflow) };
+        let others = Some((whitener.clone(), taken.above));
+        Ok(Shortlist { dim: survey.dim(), ids: taken.ids, rows: taken.rows, others })
+    }
+
+    /// A pass over the list.
+    pub(super) fn pass(&self, query: Query<'_>) -> Result<Found, Error> {
+        // A list of a pass holds the points with a multiplier, unless numbers have left their range.
+        let points = Points::new(&self.rows, self.dim).ok().filter(|points| !points.is_empty());
+        let points = points.ok_or(Error::Overflow)?;
+        let mut found = pass_over(&points, query)?;
+        // Positions ascend as row numbers do, so ties were decided alike.
+        for Far { id, .. } in &mut found.far {
+            *id = self.ids[*id as usize];
+        }
+        Ok(found)
+    }
+
+    /// A bound on |y|² under this whitener of the points that are not listed; `doubt` bounds the relative rounding of
+    /// |y|² in a pass with either ellipsoid.
+    pub(super) fn others(&self, whitener: &Whitener, doubt: f64) -> f64 {
+        let Some((old, above)) = &self.others else { return f64::INFINITY };
+        let dim = self.dim;
+        let (new, old_matrix) = (whitener.matrix(), old.matrix());
+        let mut inverse = vec![0.0; dim * dim];
+        (0..dim).for_each(|a| inverse[a * dim + a] = 1.0);
+        divide_rows(old_matrix, dim, &mut inverse);
+        // T = MM₀⁻¹, lower triangular.
+        let mut t = vec![0.0; dim * dim];
+        for a in 0..dim {
+            for b in 0..=a {
+                t[a * dim + b] = (b..=a).map(|k| new[a * dim + k] * inverse[k * dim + b]).sum();
+            }
+        }
+        let mut square = vec![0.0; dim * dim];
+        for a in 0..dim {
+            for b in 0..dim {
+                square[a * dim + b] = dot(&t[a * dim..(a + 1) * dim], &t[b * dim..(b + 1) * dim]);
+            }
+        }
+        if !square.iter().all(|v| v.is_finite()) {
+            return f64::INFINITY;
+        }
+        let (values, _) = eigen(&mut square, dim);
+        let stretch = values.into_iter().fold(0.0, f64::max).sqrt();
+        let moved: Vec<f64> =
+            old.center().iter().zip(whitener.center()).map(|(old, new)| old - new).collect();
+        let shift: Vec<f64> = new.chunks_exact(dim).map(|row| dot(row, &moved)).collect();
+        let reach = stretch * above.sqrt() + dot(&shift, &shift).sqrt();
+        reach * reach * (1.0 + 4.0 * doubt + 1e-12)
+    }
+}
+
+/// What share of n points a first list should hold so that it covers the end; `None` where a list saves nothing.
+///
+/// As many of k random points as determine an ellipsoid, p, lie on the border of theirs, and about p/k of all points
+/// outside. The list has to hold several times as many.
+pub(super) fn share(dim: usize, sample: &Pool, n: u64) -> Option<f64> {
+    /// Measured from 2 to 10 dimensions on shells: with half of it second lists are common.
+    const TIMES: f64 = 12.0;
+    /// Beyond, a pass over the list costs a good part of one over all.
+    const MOST: f64 = 0.25;
+    let determine = (dim * (dim + 3) / 2) as f64;
+    let share = TIMES * determine / sample.len() as f64;
+    (n >= 16 * sample.len() as u64 && share <= MOST).then_some(share)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ellipsoid::rounds::center_of;
+    use taut_points::{Distribution, Monitor, generate};
+
+    /// What is not listed stays within the bound under other ellipsoids, and the bound is not idle.
+    #[test]
+    fn points_that_are_not_listed_are_bounded() {
+        for dim in [2, 3, 7] {
+            let values: Vec<f64> = generate(Distribution::Normal, 20_000, dim, 4).unwrap();
+            let points = Points::new(&values, dim).unwrap();
+            let monitor = Monitor::silent();
+            let mut survey = Survey::new(&points, &monitor).unwrap();
+            let sample = Sample::new(&survey).unwrap();
+            let (whitener, _) = sample.whitener(&sample.extents());
+            let center = center_of(&sample.origin, &whitener);
+            let query = Query { matrix: whitener.matrix(), center: &center, above: 1e9, keep: 10 };
+            let list = Shortlist::of_pass(&mut survey, query, &whitener, &sample, 0.05).unwrap();
+            assert!((600..1700).contains(&list.ids.len()), "{}", list.ids.len());
+            // Steps to single points change shape and centre.
+            let mut other = whitener.clone();
+            for (step, beta) in [(3, 0.02), (500, 0.05), (4000, -0.0001)] {
+                other.step(&values[step * dim..][..dim], beta);
+                let center = center_of(&sample.origin, &other);
+                let query =
+                    Query { matrix: other.matrix(), center: &center, above: 0.0, keep: 20_000 };
+                let found = survey.pass(query).unwrap();
+                let free = |far: &&Far| list.ids.binary_search(&far.id).is_err();
+                let reached = found.far.iter().find(free).unwrap().reach2;
+                let bound = list.others(&other, 1e-12);
+                assert!(reached <= bound && bound <= 2.5 * reached, "{reached} {bound}");
+                let listed = list.pass(query).unwrap().far;
+                let wanted: Vec<Far> = found.far.iter().filter(|far| !free(far)).copied().collect();
+                assert_eq!(listed, wanted);
+            }
+        }
+    }
+}
