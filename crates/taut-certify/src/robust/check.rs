@@ -47,7 +47,7 @@ pub(super) fn check(
     if let Some(hull) = &hull {
         hull.check(&frame)?;
     }
-    let log_volume = agreement::log_volume(&ellipsoid, &frame)?;
+    let log_volume = agreement::log_volume(&ellipsoid, &frame)?.value;
     let scan = Scan { answer, certificate, frame: &frame, hull: hull.as_ref() };
     monitor.pass(1, source.len());
     let sums = scan.first(source, monitor)?;

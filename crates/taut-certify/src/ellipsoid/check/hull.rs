@@ -4,9 +4,11 @@
 //! *Tolerances.* With u = 2⁻⁵³: an orthonormal basis written down as `f64` has products BBᵀ that differ from I by less
 //! than 16(d + 4)u; a point of such a hull then appears to lie off it by up to 32(d + 4)√(r + 1)·u times its distance
 //! from c, and so do the rows of F. The width of a flat ellipsoid is a root, so that of this part it is the root.
-//! *What counts as flat.* A set whose distance from the hull could come from rounding its coordinates, 8du times the
-//! largest, or is less than 1e-10 of its extent; for ellipsoids 1e-6, since a shape matrix knows half as many digits
-//! of a short axis.
+//! *What counts as flat.* A set whose distance from the hull is less than 1e-10 of its extent (for ellipsoids 1e-6, since a
+//! shape matrix knows half as many digits of a short axis), or could come from rounding its coordinates. Rounding moves
+//! coordinate j by u·|xⱼ|, and so a point off the hull by u·|xⱼ|·|(I − BᵀB)eⱼ|, and that of a point of the basis is seen
+//! several times larger at others: 128√d·u·√Σⱼ(max |xⱼ|·|(I − BᵀB)eⱼ|)² is granted. A large coordinate along the hull
+//! excuses nothing.
 
 use super::super::Hull;
 use super::enclosure::Enclosed;
@@ -115,10 +117,18 @@ impl<'a> HullTest<'a> {
         enclosed: &Enclosed,
         frame: &Frame<'_>,
     ) -> Result<(), Violation> {
-        let largest = enclosed.coordinates.iter().fold(0.0f64, |m, &x| m.max(x));
+        let dim = frame.dim;
+        let seen = |j: usize| {
+            let mut unit = vec![0.0; dim];
+            unit[j] = 1.0;
+            let largest = enclosed.lows[j].abs().max(enclosed.highs[j].abs());
+            largest * length(&self.off(&unit))
+        };
+        let rounding = length(&(0..dim).map(seen).collect::<Vec<_>>());
+        let extents: Vec<f64> =
+            enclosed.lows.iter().zip(&enclosed.highs).map(|(l, h)| 0.5 * h - 0.5 * l).collect();
         let part = if items == Items::Ellipsoids { 1e-6 } else { 1e-10 };
-        let extent = length(&enclosed.extents) / frame.scale;
-        let allowed = part * extent + 8.0 * frame.dim as f64 * U * largest;
+        let allowed = part * length(&extents) + 128.0 * (dim as f64).sqrt() * U * rounding;
         match self.hull.distance <= allowed {
             true => Ok(()),
             false => Err(Violation::NotFlat { distance: self.hull.distance, allowed }),

@@ -18,12 +18,13 @@
 use taut_points::{Monitor, PointSource, ReadError, Rows, Scratch};
 
 use super::super::EllipsoidCertificate;
-use super::frame::Frame;
+use super::frame::{Frame, power_of_two_below};
 use super::item::Item;
 use crate::CheckError;
 use crate::arithmetic::{DoubleDouble, Field, Ring, U, factorise};
 
-/// −½ log det W, rounded up; infinite where W is singular. Every row is already known to be valid and inside.
+/// −½ log det W, rounded up; infinite where W is singular. Every row is already known to be valid and inside, so that it
+/// is not negative but for the excess.
 pub(super) fn gap(
     frame: &Frame<'_>,
     certificate: &EllipsoidCertificate,
@@ -50,10 +51,13 @@ pub(super) fn gap(
     Ok(sums.gap())
 }
 
-/// The point of the item that lies farthest in a direction, less the centre, times s; and what that may be off by.
+/// A point of the item, less the centre, times s; and what that may be off by.
 ///
-/// With v = Sa and q = aᵀv the point is m + v/√q. Where q is not known to be positive, it is m, which belongs to the
-/// item as well.
+/// With v = Sa and q = aᵀv it is m + v/√t for a t ≥ q, or m where that t is not known to be positive. Where S is positive
+/// semidefinite, t = q: the point that lies farthest in the direction a, since vᵀS⁺v = q. Where it is not, but N = S + 2τD
+/// is, the item stands for {m + w : wwᵀ ⪯ N}, and vvᵀ/t ⪯ N holds for t ≥ vᵀN⁻¹v. So t is the larger of q and vᵀN⁻¹v: of
+/// a direction in which S has no negative part, q but for rounding; of one in which q is what cancellation left, so much
+/// more that the point stays in the item.
 pub(crate) fn touching(
     frame: &Frame<'_>,
     item: &Item<'_>,
@@ -84,7 +88,16 @@ pub(crate) fn touching(
         errors.push(error);
         v.push(sum);
     }
-    let is_known = q.rounded() > 1e6 * q_error;
+    let deficit = item.deficit();
+    if deficit > 0.0 {
+        let Some((t, t_error)) = square_within(frame, item, deficit, &v, &errors) else {
+            return (offset, None);
+        };
+        if t.minus(&q).rounded() > 0.0 {
+            (q, q_error) = (t, t_error);
+        }
+    }
+    let is_known = q.rounded() > 1e6 * q_error && q.rounded().is_finite();
     if !is_known {
         return (offset, None);
     }
@@ -97,6 +110,52 @@ pub(crate) fn touching(
             + 8.0 * DoubleDouble::ROUNDOFF * x.rounded().abs();
     }
     (offset, Some(errors))
+}
+
+/// vᵀN⁻¹v for N = S + 2τD, and what it may be off by; `None` where that cannot be told.
+///
+/// As N ⪰ τD, entries of v off by εⱼ move the root of it by at most √(Σ εⱼ²/(τDⱼⱼ)); factorising and solving, off by e·D in N
+/// with e far below τ, change it by a part of e/τ. Both are added. As in [`Item::deficit`], sizes are brought to about 1.
+fn square_within(
+    frame: &Frame<'_>,
+    item: &Item<'_>,
+    deficit: f64,
+    v: &[DoubleDouble],
+    errors: &[f64],
+) -> Option<(DoubleDouble, f64)> {
+    let wide: Vec<usize> =
+        (0..frame.dim).filter(|&j| item.width(j, frame.scale) > 0.0).collect();
+    let n = wide.len();
+    let powers: Vec<f64> =
+        wide.iter().map(|&j| power_of_two_below(item.width(j, frame.scale))).collect();
+    let mut factor = Vec::with_capacity(n * (n + 1) / 2);
+    for (a, &j) in wide.iter().enumerate() {
+        for (b, &k) in wide[..=a].iter().enumerate() {
+            let entry: DoubleDouble = item.shape(j.max(k), j.min(k), frame.scale);
+            let entry = entry.scaled(1.0 / powers[a]).scaled(1.0 / powers[b]);
+            let added = if a == b { 2.0 * deficit } else { 0.0 };
+            factor.push(entry.plus(&entry.times(&DoubleDouble::of(added))));
+        }
+    }
+    if !factorise(&mut factor, n) {
+        return None;
+    }
+    let mut square = DoubleDouble::of(0.0);
+    let mut solved: Vec<DoubleDouble> = Vec::with_capacity(n);
+    let mut moved = 0.0;
+    for (i, &j) in wide.iter().enumerate() {
+        let row = &factor[i * (i + 1) / 2..];
+        let start = v[j].scaled(1.0 / powers[i]);
+        let value = solved.iter().zip(row).fold(start, |rest, (t, l)| rest.minus(&t.times(l)));
+        solved.push(value);
+        square = square.plus(&value.times(&value).over(&row[i]));
+        moved += (errors[j] / powers[i]).powi(2);
+    }
+    let e = 128.0 * ((n + 4) * (n + 4)) as f64 * DoubleDouble::ROUNDOFF;
+    let moved = (moved / deficit).sqrt();
+    let error = moved * (2.0 * square.rounded().sqrt() + moved)
+        + square.rounded() * (2.0 * e / deficit);
+    Some((square.plus(&DoubleDouble::of(error)), 2.0 * error))
 }
 
 /// Sums over the support.
@@ -173,8 +232,7 @@ impl Sums {
             size += term.abs();
         }
         // Logarithms are good to a few units in the last place on every platform; so are the numbers given to them.
-        let gap = sum + (self.rank + 16) as f64 * U * size;
-        gap.max(0.0)
+        sum + (self.rank + 16) as f64 * U * size
     }
 
     /// s: what W and its factorisation are off by, in norm.

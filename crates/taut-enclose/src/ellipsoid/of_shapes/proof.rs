@@ -73,8 +73,9 @@ impl Base {
                 log_unit_ball(rank) - logs - rank as f64 * scale.ln()
             }
         };
-        if trace.stop == Stop::Converged && gap > options.epsilon.max(4.0 * ROUNDING * rank as f64)
-        {
+        let exactly = 4.0 * ROUNDING * rank as f64;
+        let wanted = if options.epsilon > 0.0 { options.epsilon } else { exactly };
+        if trace.stop == Stop::Converged && gap > wanted {
             trace.stop = Stop::Rounding;
         }
         let certificate = EllipsoidCertificate {
