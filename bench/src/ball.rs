@@ -10,14 +10,12 @@ mod points;
 mod threads;
 
 use std::path::PathBuf;
-use std::time::Duration;
 
-use anyhow::{Result, ensure};
-use tempfile::TempDir;
+use anyhow::Result;
 
-use crate::report::Report;
+use crate::context::Context;
 use crate::select::select;
-use case::{CASES, Kind};
+use case::{CASES, Case, Kind};
 
 /// Cases and how often.
 #[derive(clap::Args)]
@@ -50,18 +48,6 @@ pub(crate) struct Arguments {
     json: Option<PathBuf>,
 }
 
-/// What all cases share.
-struct Context {
-    runs: usize,
-    quick: bool,
-    threads: Vec<usize>,
-    limit: Duration,
-    peer_budget: Duration,
-    scratch: Option<PathBuf>,
-    temp: TempDir,
-    report: Report,
-}
-
 /// Runs the cases that were asked for.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     if arguments.list {
@@ -71,37 +57,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         return Ok(());
     }
     let cases = select(CASES, |case| case.name, &arguments.cases, "ball")?;
-    ensure!(
-        arguments.runs > 0 && !arguments.threads.is_empty() && !arguments.threads.contains(&0),
-        "at least one run and one thread"
-    );
-    let mut context = Context {
-        runs: if arguments.quick { arguments.runs.min(3) } else { arguments.runs },
-        quick: arguments.quick,
-        threads: arguments.threads.clone(),
-        limit: Duration::from_secs(arguments.limit),
-        peer_budget: Duration::from_secs(arguments.peer_budget),
-        scratch: arguments.scratch.clone(),
-        temp: TempDir::new()?,
-        report: Report::begin(),
-    };
-    if context.quick {
-        println!("Quick: inputs are smaller than the cases say. Not to be quoted.\n");
-    }
-    for case in cases {
-        println!("## {}\n{}\n", case.name, case.about);
-        match &case.kind {
-            Kind::Points(points) => points::run(&mut context, case, points)?,
-            Kind::Usps => points::run_usps(&mut context, case)?,
-            Kind::Balls(balls) => balls::run(&mut context, case, balls)?,
-            Kind::File => file::run(&mut context, case)?,
-            Kind::CoreSets => core_sets::run(&mut context, case)?,
-            Kind::Threads => threads::run(&mut context, case)?,
-        }
-        println!();
-        if let Some(path) = &arguments.json {
-            context.report.write(path)?;
-        }
-    }
-    Ok(())
+    let runs = if arguments.quick { arguments.runs.min(3) } else { arguments.runs };
+    let seconds = [arguments.limit, arguments.peer_budget];
+    let scratch = arguments.scratch.as_ref();
+    let mut context = Context::begin(runs, arguments.quick, &arguments.threads, seconds, scratch)?;
+    let head = |case: &'static Case| [case.name, case.about];
+    context.run_all(cases, arguments.json.as_ref(), head, |context, case| match &case.kind {
+        Kind::Points(points) => points::run(context, case, points),
+        Kind::Usps => points::run_usps(context, case),
+        Kind::Balls(balls) => balls::run(context, case, balls),
+        Kind::File => file::run(context, case),
+        Kind::CoreSets => core_sets::run(context, case),
+        Kind::Threads => threads::run(context, case),
+    })
 }

@@ -1,9 +1,13 @@
 //! Ellipsoids: of points, of ellipsoids, and robust ones, each answer proved before its time is believed.
 
+mod approximate;
 mod case;
+mod conic;
 pub(crate) mod file;
 mod goals;
+mod judgement;
 mod laws;
+mod linear;
 mod plane;
 mod points;
 mod real;
@@ -12,14 +16,12 @@ mod rounds;
 mod shapes;
 
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use anyhow::{Result, ensure};
-use tempfile::TempDir;
 
-use crate::report::Report;
+use crate::context::Context;
 use crate::select::select;
-use case::{CASES, Kind};
+use case::{CASES, Case, Kind};
 
 /// Cases and how often.
 #[derive(clap::Args)]
@@ -35,7 +37,7 @@ pub(crate) struct Arguments {
     /// Inputs of a tenth of their size and at most two rounds: to try the bench, not to quote.
     #[arg(long)]
     quick: bool,
-    /// Numbers of threads taut is run with: goals are about one, the clock shown is that of the last.
+    /// Numbers of threads taut is run with: goals are about the clock with the last of them.
     #[arg(long, value_delimiter = ',', default_values_t = [1, 2])]
     threads: Vec<usize>,
     /// Seconds after which one run of a peer is stopped.
@@ -52,18 +54,6 @@ pub(crate) struct Arguments {
     json: Option<PathBuf>,
 }
 
-/// What all cases share.
-struct Context {
-    runs: usize,
-    quick: bool,
-    threads: Vec<usize>,
-    limit: Duration,
-    peer_budget: Duration,
-    scratch: Option<PathBuf>,
-    temp: TempDir,
-    report: Report,
-}
-
 /// Runs the cases that were asked for.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     if arguments.list {
@@ -73,40 +63,22 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         return Ok(());
     }
     let cases = select(CASES, |case| case.name, &arguments.cases, "ellipsoid")?;
-    ensure!(
-        arguments.runs > 0 && !arguments.threads.is_empty() && !arguments.threads.contains(&0),
-        "at least one round and one thread"
-    );
-    let mut context = Context {
-        runs: if arguments.quick { arguments.runs.min(2) } else { arguments.runs },
-        quick: arguments.quick,
-        threads: arguments.threads.clone(),
-        limit: Duration::from_secs(arguments.limit),
-        peer_budget: Duration::from_secs(arguments.peer_budget),
-        scratch: arguments.scratch.clone(),
-        temp: TempDir::new()?,
-        report: Report::begin(),
-    };
-    if context.quick {
-        println!("Quick: inputs are smaller than the cases say. Not to be quoted.\n");
-    }
-    for case in cases {
-        println!("## {}\n{}\n", case.name, case.about);
-        match &case.kind {
-            Kind::Points(inputs) => points::run(&mut context, case, inputs)?,
-            Kind::Plane(laws) => plane::run(&mut context, case, laws)?,
-            Kind::Real => real::run(&mut context, case)?,
-            Kind::Shapes => shapes::run(&mut context, case)?,
-            Kind::Contaminated => robust::run(&mut context, case)?,
-            Kind::Flags => robust::run_flags(&mut context, case)?,
-            Kind::File => file::run(&mut context, case)?,
-        }
-        println!();
-        if let Some(path) = &arguments.json {
-            context.report.write(path)?;
-        }
-    }
-    Ok(())
+    let runs = if arguments.quick { arguments.runs.min(2) } else { arguments.runs };
+    let seconds = [arguments.limit, arguments.peer_budget];
+    let scratch = arguments.scratch.as_ref();
+    let mut context = Context::begin(runs, arguments.quick, &arguments.threads, seconds, scratch)?;
+    let head = |case: &'static Case| [case.name, case.about];
+    context.run_all(cases, arguments.json.as_ref(), head, |context, case| match &case.kind {
+        Kind::Points(inputs) => points::run(context, case, inputs),
+        Kind::Plane(laws) => plane::run(context, case, laws),
+        Kind::Real => real::run(context, case),
+        Kind::Shapes => shapes::run(context, case),
+        Kind::Conic => conic::run(context, case),
+        Kind::Approximate => approximate::run(context, case),
+        Kind::Contaminated(cloud) => robust::run(context, case, *cloud),
+        Kind::Flags => robust::run_flags(context, case),
+        Kind::File => file::run(context, case),
+    })
 }
 
 /// The folder `ellipsoid` of `TAUT_DATA`; `None`, after saying so, where there is none.

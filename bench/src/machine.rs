@@ -33,6 +33,10 @@ pub(crate) fn describe() -> Value {
         "miniball (PyPI)": "1.2.0",
         "miniball (crate)": "0.5.0",
         "scikit-learn": "1.8.0",
+        "cvxpy": "1.7.5",
+        "clarabel": "0.11.1",
+        "dynesty": "3.1.0",
+        "eigen": output("dpkg-query", &["-W", "-f=${Version}", "libeigen3-dev"]),
     })
 }
 

@@ -1,11 +1,12 @@
 //! taut beside its peers: the same inputs, one run, every answer checked.
 //!
 //! `ball` runs the named cases of the minimum enclosing ball, `delaunay` those of Delaunay triangulations, `ellipsoid`
-//! those of ellipsoids; `thesis-ball` reruns figures 5 to 15 of the thesis.
+//! those of ellipsoids; `thesis-ball` and `thesis-ellipsoid` rerun figures of the thesis.
 //! The peers are installed by `bench/setup`; one that is missing is named, never skipped in silence.
 #![forbid(unsafe_code)]
 
 mod ball;
+mod context;
 mod delaunay;
 mod ellipsoid;
 mod input;
@@ -13,6 +14,7 @@ mod judge;
 mod machine;
 mod meter;
 mod peer;
+mod raw;
 mod read;
 mod report;
 mod select;
@@ -41,6 +43,8 @@ enum Area {
     Ellipsoid(ellipsoid::Arguments),
     /// Figures 5 to 15 of the thesis, rerun as CSV and SVG.
     ThesisBall(thesis::Arguments),
+    /// Figure 18 of the thesis, core-sets of ellipsoids, rerun as CSV and SVG.
+    ThesisEllipsoid(thesis::EllipsoidArguments),
     /// Solves one raw file and prints seconds per pass and the peak memory of this process.
     #[command(hide = true)]
     SolveFile(ball::file::SolveArguments),
@@ -66,6 +70,7 @@ fn main() -> anyhow::Result<()> {
         Area::Delaunay(arguments) => delaunay::run(&arguments),
         Area::Ellipsoid(arguments) => ellipsoid::run(&arguments),
         Area::ThesisBall(arguments) => thesis::run(&arguments),
+        Area::ThesisEllipsoid(arguments) => thesis::run_ellipsoid(&arguments),
         Area::SolveFile(arguments) => ball::file::solve(&arguments),
         Area::SolveEllipsoid(arguments) => ellipsoid::file::solve(&arguments),
         Area::OneDelaunay(arguments) => delaunay::one::run(&arguments),

@@ -40,7 +40,7 @@ impl Meter {
     pub(crate) fn stop(self) -> Cost {
         let cpu = cpu() - self.cpu;
         let wall = self.wall.elapsed().as_secs_f64();
-        let peak = self.held.and_then(|held| Some(status("VmHWM:")?.saturating_sub(held)));
+        let peak = self.held.and_then(|held| Some(peak()?.saturating_sub(held)));
         Cost { cpu, wall, peak }
     }
 }
@@ -49,6 +49,11 @@ impl Meter {
 fn cpu() -> f64 {
     let time = clock_gettime(ClockId::ProcessCPUTime);
     time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
+}
+
+/// The largest resident size of this process so far, in bytes; `None` where /proc does not tell.
+pub(crate) fn peak() -> Option<u64> {
+    status("VmHWM:")
 }
 
 /// A size out of `/proc/self/status`, in bytes.

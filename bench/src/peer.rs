@@ -68,7 +68,7 @@ pub(crate) fn folder() -> PathBuf {
 /// How a peer is called; `None` when it is not installed.
 ///
 /// Names: a program of `peers/build` with its build (`fgk-native`, `cgal-spheres-3-o2`), or `cyminiball`,
-/// `miniball-pypi`, `miniball-crate`, `sklearn-mcd`.
+/// `miniball-pypi`, `miniball-crate`, `sklearn-mcd-H`, `conic-PROBLEM`, `dynesty`, `cgal-approximate-EPSILON`.
 fn command(name: &str) -> Result<Option<Command>> {
     let python = |package: &str| {
         let interpreter = folder().join(".venv/bin/python");
@@ -84,17 +84,23 @@ fn command(name: &str) -> Result<Option<Command>> {
             command
         })
     };
-    let pypi = |package: &str| {
+    let script = |package: &str, file: &str, argument: &str| {
         python(package).map(|mut command| {
-            command.arg(folder().join("peers/pypi.py")).arg(package);
+            command.arg(folder().join("peers").join(file)).arg(argument);
             command
         })
     };
+    let pypi = |package: &str| script(package, "pypi.py", package);
     Ok(match name {
         "cyminiball" => pypi("cyminiball"),
         "miniball-pypi" => pypi("miniball"),
-        "sklearn-mcd" => python("sklearn").map(|mut command| {
-            command.arg(folder().join("peers/mcd.py"));
+        "sklearn-mcd-h" => script("sklearn", "mcd.py", "h"),
+        "sklearn-mcd-own" => script("sklearn", "mcd.py", "own"),
+        "conic-points" => script("cvxpy", "conic.py", "points"),
+        "conic-ellipsoid" => script("cvxpy", "conic.py", "ellipsoid"),
+        "conic-ball" => script("cvxpy", "conic.py", "ball"),
+        "dynesty" => python("dynesty").map(|mut command| {
+            command.arg(folder().join("peers/bounding.py"));
             command
         }),
         "miniball-crate" => {
@@ -102,9 +108,17 @@ fn command(name: &str) -> Result<Option<Command>> {
             command.arg("peer-crate");
             Some(command)
         }
-        program => {
+        name => {
+            let (program, argument) = match name.strip_prefix("cgal-approximate-") {
+                Some(epsilon) => ("cgal-approximate-ellipsoid", Some(epsilon)),
+                None => (name, None),
+            };
             let path = folder().join("peers/build").join(program);
-            path.exists().then(|| Command::new(path))
+            path.exists().then(|| {
+                let mut command = Command::new(path);
+                command.args(argument);
+                command
+            })
         }
     })
 }

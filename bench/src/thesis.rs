@@ -1,4 +1,4 @@
-//! Figures 5 to 15 of the thesis, rerun: CSV for those who compute, SVG for those who look.
+//! Figures 5 to 15 and 18 of the thesis, rerun: CSV for those who compute, SVG for those who look.
 //!
 //! *What is rerun.* The experiments of chapter II: core-set sizes and times of Algorithm 1, pure and fast, by
 //! dimension, number of points, distribution and ε, and its time beside CGAL, Gärtner's code and the simple method
@@ -6,7 +6,9 @@
 //! beside them, with its support and its working set.
 //! *What differs.* The machine (the thesis had a 2.66 GHz Xeon, and for figures 14 and 15 a 1 GHz Pentium III), the
 //! conic solver, and the random points. Sizes can be compared; times only within one figure.
+//! *Figure 18* is about ellipsoids and has a command of its own.
 
+mod ellipsoid;
 mod figure;
 mod series;
 
@@ -67,28 +69,67 @@ impl Plan {
     }
 }
 
-/// Reruns the figures that were asked for.
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    let plan = Plan {
-        size: match (arguments.full, arguments.quick) {
+/// How far figure 18 goes.
+#[derive(clap::Args)]
+pub(crate) struct EllipsoidArguments {
+    /// Go to larger dimensions and smaller ε; without it, under about a minute.
+    #[arg(long)]
+    full: bool,
+    /// Smallest sizes only: to try the program, not to look at.
+    #[arg(long, conflicts_with = "full")]
+    quick: bool,
+    /// Folder for the CSV and SVG files.
+    #[arg(long, default_value = "bench/thesis-ellipsoid")]
+    out: PathBuf,
+    /// Times of each point of a curve; the smallest is drawn.
+    #[arg(long, default_value_t = 1)]
+    runs: usize,
+    /// Seconds after which a curve is not continued to larger instances; it is then said where it stops.
+    #[arg(long, default_value_t = 15)]
+    budget: u64,
+}
+
+fn plan(full: bool, quick: bool, runs: usize, budget: u64) -> Result<Plan> {
+    Ok(Plan {
+        size: match (full, quick) {
             (true, _) => Size::Full,
             (_, true) => Size::Quick,
             _ => Size::Usual,
         },
-        runs: arguments.runs.max(1),
-        budget: Duration::from_secs(arguments.budget),
+        runs: runs.max(1),
+        budget: Duration::from_secs(budget),
         temp: TempDir::new()?,
-    };
+    })
+}
+
+/// Prints figures and writes them.
+fn show(figures: Vec<figure::Figure>, folder: &std::path::Path) -> Result<()> {
+    for figure in figures {
+        figure.print();
+        figure.write(folder)?;
+    }
+    Ok(())
+}
+
+/// Reruns figure 18.
+pub(crate) fn run_ellipsoid(arguments: &EllipsoidArguments) -> Result<()> {
+    let EllipsoidArguments { full, quick, runs, budget, .. } = *arguments;
+    let plan = plan(full, quick, runs, budget)?;
+    std::fs::create_dir_all(&arguments.out)?;
+    println!("Machine and versions: {}\n", machine::describe());
+    show(ellipsoid::figures(&plan)?, &arguments.out)
+}
+
+/// Reruns the figures that were asked for.
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+    let Arguments { full, quick, runs, budget, .. } = *arguments;
+    let plan = plan(full, quick, runs, budget)?;
     std::fs::create_dir_all(&arguments.out)?;
     println!("Machine and versions: {}\n", machine::describe());
     let wanted = |number: &u32| arguments.figures.is_empty() || arguments.figures.contains(number);
     for (numbers, draw) in series::FIGURES {
-        if !numbers.iter().any(wanted) {
-            continue;
-        }
-        for figure in draw(&plan)? {
-            figure.print();
-            figure.write(&arguments.out)?;
+        if numbers.iter().any(wanted) {
+            show(draw(&plan)?, &arguments.out)?;
         }
     }
     Ok(())

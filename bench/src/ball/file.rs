@@ -1,27 +1,23 @@
 //! A file larger than the memory that is allowed: passes beside `cat`, and the peak memory of the process.
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::time::Instant;
 
 use anyhow::{Context as _, Result, ensure};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use taut_certify::{Items, Stop, Verdict};
 use taut_enclose::{BallOptions, ball_of_source};
-use taut_points::{
-    Blocks, Distribution, FileSource, GeneratedSource, Monitor, PointSource, Rows, ScalarKind,
-    Scratch,
-};
+use taut_points::{FileSource, Monitor, ScalarKind};
 
 use super::Context;
 use super::case::Case;
 use super::goals::{self, Measured};
 use crate::input::SEED;
+use crate::meter;
+use crate::raw;
 use crate::stats::{Summary, seconds};
 use crate::table::Table;
 
@@ -79,7 +75,7 @@ pub(crate) fn solve(arguments: &SolveArguments) -> Result<()> {
     let start = Instant::now();
     let found = ball_of_source(&source, Items::Points, &options, &monitor)?;
     let total = start.elapsed().as_secs_f64();
-    let peak = peak_memory();
+    let peak = meter::peak();
     let verdict = found.check(&source);
     let solved = Solved {
         seconds: total,
@@ -97,27 +93,12 @@ pub(crate) fn solve(arguments: &SolveArguments) -> Result<()> {
     Ok(())
 }
 
-/// The high-water mark of the resident memory of this process, in bytes.
-pub(crate) fn peak_memory() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    Some(line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()? << 10)
-}
-
 /// Runs the case: makes the file unless it is there, then solves and reads it by turns.
 pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
     let (n, dim) = if context.quick { (20_000, 2500) } else { (1_000_000, 2500) };
-    let folder = match (&context.scratch, context.quick) {
-        (Some(folder), _) => folder.clone(),
-        (None, true) => context.temp.path().to_owned(),
-        (None, false) => {
-            println!("left out: give --scratch FOLDER, with 10 GB of free disk, for the file");
-            context.report.add(json!({ "name": case.name, "left_out": "no --scratch" }));
-            return Ok(());
-        }
-    };
+    let Some(folder) = context.folder(case.name, "10 GB") else { return Ok(()) };
     let path = folder.join(format!("normal-{n}x{dim}-seed{SEED}.f32"));
-    make(&path, n, dim)?;
+    raw::make(&path, n, dim)?;
     let bytes = n * dim as u64 * 4;
     let threads = context.threads[context.threads.len() - 1];
 
@@ -136,14 +117,10 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
     cat(&path)?; // so that all runs find what memory can hold in memory
     let mut before = cat(&path)?;
     for run in 0..context.runs.min(3) {
-        let output = Command::new(std::env::current_exe()?)
-            .arg("solve-file")
-            .arg(&path)
-            .args([n.to_string(), dim.to_string(), threads.to_string()])
-            .stderr(Stdio::inherit())
-            .output()?;
-        ensure!(output.status.success(), "the solving process failed");
-        let solved: Solved = serde_json::from_slice(&output.stdout)?;
+        let numbers = [n.to_string(), dim.to_string(), threads.to_string()];
+        let arguments = ["solve-file".into(), path.clone().into_os_string()];
+        let arguments = [&arguments[..], &numbers.map(Into::into)].concat();
+        let solved: Solved = raw::alone(&arguments)?;
         let after = cat(&path)?;
         let beside = 0.5 * (before + after);
         of_cat.extend(solved.passes.iter().map(|pass| beside / pass));
@@ -202,36 +179,4 @@ fn cat(path: &Path) -> Result<f64> {
     let status = Command::new("cat").arg(path).stdout(Stdio::null()).status().context("cat")?;
     ensure!(status.success(), "cat failed on {}", path.display());
     Ok(start.elapsed().as_secs_f64())
-}
-
-/// Writes the points, block by block, unless a file of that size is there.
-pub(crate) fn make(path: &Path, n: u64, dim: usize) -> Result<()> {
-    let bytes = n * dim as u64 * 4;
-    if path.metadata().is_ok_and(|found| found.len() == bytes) {
-        return Ok(());
-    }
-    println!("writing {} ({:.2} GB)", path.display(), bytes as f64 / 1e9);
-    let source = GeneratedSource::new(Distribution::Normal, n, dim, SEED, ScalarKind::F32)?;
-    let blocks = Blocks::of(&source);
-    // Under another name first, so that a file of the right name is a whole one.
-    let part = path.with_extension("part");
-    let mut file = BufWriter::with_capacity(1 << 20, File::create(&part)?);
-    let batch = 64 * rayon::current_num_threads() as u64;
-    for first in (0..blocks.count()).step_by(batch as usize) {
-        let drawn: Vec<Vec<f32>> = (first..(first + batch).min(blocks.count()))
-            .into_par_iter()
-            .map(|block| -> Result<Vec<f32>> {
-                let mut scratch = Scratch::new();
-                match source.read(blocks.range(block), &mut scratch)? {
-                    Rows::F32(points) => Ok(points.values().to_vec()),
-                    Rows::F64(_) => anyhow::bail!("single precision was asked for"),
-                }
-            })
-            .collect::<Result<_>>()?;
-        for values in drawn {
-            file.write_all(bytemuck::cast_slice(&values))?;
-        }
-    }
-    file.flush()?;
-    Ok(std::fs::rename(part, path)?)
 }

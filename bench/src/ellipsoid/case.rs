@@ -2,6 +2,7 @@
 
 use super::goals::Goal;
 use super::laws::Law;
+use super::robust::Cloud;
 
 /// A case by name.
 pub(super) struct Case {
@@ -27,8 +28,12 @@ pub(super) enum Kind {
     Real,
     /// Smallest ellipsoid and smallest ball of ellipsoids.
     Shapes,
-    /// MCD of points of which some are outliers, beside scikit-learn.
-    Contaminated,
+    /// Points and ellipsoids beside a conic solver.
+    Conic,
+    /// Points beside programs whose ellipsoid need not be the smallest.
+    Approximate,
+    /// MCD of points of which some are in a second cloud, beside scikit-learn.
+    Contaminated(Cloud),
     /// The outliers of classical sets.
     Flags,
     /// A file of 1.2 GB.
@@ -139,17 +144,38 @@ pub(super) const CASES: &[Case] = &[
         aim: &[Goal::Seconds(0.1)],
     },
     Case {
+        name: "conic",
+        about: "Small sets of points, and twenty ellipsoids, at ε = 1e-10, beside the conic solver Clarabel under cvxpy.",
+        kind: Kind::Conic,
+        must: &[Goal::Gap(1e-9), Goal::Agreement(1e-6)],
+        aim: &[],
+    },
+    Case {
+        name: "approximate",
+        about: "Normal points at ε = 1e-12, beside CGAL's Approximate_min_ellipsoid_d and dynesty's bounding ellipsoid.",
+        kind: Kind::Approximate,
+        must: &[Goal::Gap(1e-12)],
+        aim: &[],
+    },
+    Case {
         name: "mcd",
-        about: "10⁵ points in ten dimensions, 30 % of them in one cloud far off: MCD beside scikit-learn, one thread.",
-        kind: Kind::Contaminated,
+        about: "10⁵ points in ten dimensions, 30 % of them in one cloud far off: MCD beside scikit-learn, five seeds.",
+        kind: Kind::Contaminated(Cloud::Wide),
+        must: &[Goal::Objective, Goal::Faster(5.0)],
+        aim: &[],
+    },
+    Case {
+        name: "mcd-tight",
+        about: "The same with a cloud a tenth as wide, which h points of the least determinant take in.",
+        kind: Kind::Contaminated(Cloud::Tight),
         must: &[Goal::Objective, Goal::Faster(5.0)],
         aim: &[],
     },
     Case {
         name: "flags",
-        about: "The outliers of hbk, stackloss and starsCYG, beside those published with robustbase.",
+        about: "The outliers of hbk, stackloss and starsCYG, beside those published with robustbase, and scikit-learn's.",
         kind: Kind::Flags,
-        must: &[Goal::Flags],
+        must: &[Goal::Flags, Goal::PeerFlags],
         aim: &[],
     },
     Case {

@@ -1,10 +1,9 @@
 //! A file larger than the memory that is allowed: reads of it, and the peak memory of the process that solves it.
 
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use taut_enclose::{EllipsoidOptions, ellipsoid_of_source};
@@ -13,8 +12,9 @@ use taut_points::{FileSource, Monitor, ScalarKind};
 use super::Context;
 use super::case::Case;
 use super::goals::{self, Measured};
-use crate::ball::file::{make, peak_memory};
 use crate::input::SEED;
+use crate::meter;
+use crate::raw;
 use crate::stats::seconds;
 use crate::table::Table;
 
@@ -52,7 +52,7 @@ pub(crate) fn solve(arguments: &SolveArguments) -> Result<()> {
     let start = Instant::now();
     let found = ellipsoid_of_source(&source, &options, &Monitor::silent())?;
     let seconds = start.elapsed().as_secs_f64();
-    let peak = peak_memory();
+    let peak = meter::peak();
     let verdict = found.check(&source);
     let solved = Solved {
         seconds,
@@ -70,29 +70,16 @@ pub(crate) fn solve(arguments: &SolveArguments) -> Result<()> {
 /// Runs the case: makes the file unless it is there, then solves it in a process of its own.
 pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
     let n: u64 = if context.quick { 1_000_000 } else { 100_000_000 };
-    let folder = match (&context.scratch, context.quick) {
-        (Some(folder), _) => folder.clone(),
-        (None, true) => context.temp.path().to_owned(),
-        (None, false) => {
-            println!("left out: give --scratch FOLDER, with 1.2 GB of free disk, for the file");
-            context.report.add(json!({ "name": case.name, "left_out": "no --scratch" }));
-            return Ok(());
-        }
-    };
+    let Some(folder) = context.folder(case.name, "1.2 GB") else { return Ok(()) };
     let path = folder.join(format!("normal-{n}x{D}-seed{SEED}.f32"));
-    make(&path, n, D)?;
+    raw::make(&path, n, D)?;
     let mut table =
         Table::new(&["threads", "time", "passes", "verified gap", "support", "peak memory"]);
     let (mut all, mut measured) = (Vec::new(), Vec::new());
     for &threads in &context.threads {
-        let output = Command::new(std::env::current_exe()?)
-            .arg("solve-ellipsoid")
-            .arg(&path)
-            .args([n.to_string(), threads.to_string()])
-            .stderr(Stdio::inherit())
-            .output()?;
-        ensure!(output.status.success(), "the solving process failed");
-        let solved: Solved = serde_json::from_slice(&output.stdout)?;
+        let arguments = ["solve-ellipsoid".into(), path.clone().into_os_string()];
+        let numbers = [n.to_string().into(), threads.to_string().into()];
+        let solved: Solved = raw::alone(&[&arguments[..], &numbers].concat())?;
         table.push(vec![
             threads.to_string(),
             seconds(solved.seconds),

@@ -11,14 +11,18 @@ pub(super) enum Goal {
     Gap(f64),
     /// The log-volume lies at most so far outside the bracket that is known.
     Bracket(f64),
-    /// The least processor time with one thread is at most this, in seconds.
+    /// The least time by the clock, with the last number of threads, is at most this, in seconds.
     Seconds(f64),
-    /// At least so many times less processor time than the peer, with one thread each.
+    /// At least so many times faster than the peer by the clock, least over least.
     Faster(f64),
     /// What is minimised is at most that of the peer, to rounding.
     Objective,
     /// The rows flagged are those of the literature.
     Flags,
+    /// The rows weighed out are those that the peer weighs out.
+    PeerFlags,
+    /// Radius or volume is that of the peer, relatively to this.
+    Agreement(f64),
     /// So many reads of all points at most.
     Passes(u64),
     /// Peak memory of the process is at most this, in bytes.
@@ -34,16 +38,22 @@ pub(super) struct Measured {
     pub(super) gap: Option<f64>,
     /// How far the log-volume lies outside the known bracket.
     pub(super) outside: Option<f64>,
+    /// Least processor time of all threads, with the last number of them.
+    pub(super) processors: Option<f64>,
     /// Least processor time with one thread.
     pub(super) one_thread: Option<f64>,
     /// Least time by the clock, with the last number of threads.
     pub(super) clock: Option<f64>,
-    /// The peer's processor time over ours with one thread, least over least.
+    /// The peer's time by the clock over ours, least over least.
     pub(super) faster: Option<f64>,
     /// What we minimised less what the peer reached.
     pub(super) objective: Option<f64>,
     /// Sets with flags other than those of the literature.
     pub(super) other_flags: Option<Vec<String>>,
+    /// Sets of which the peer weighs out other rows.
+    pub(super) other_than_peer: Option<Vec<String>>,
+    /// Relative difference to radius or volume of the peer.
+    pub(super) differs: Option<f64>,
     /// Reads of all points.
     pub(super) passes: Option<u64>,
     /// Peak memory, bytes.
@@ -63,11 +73,14 @@ impl Measured {
             rejected: a.rejected.or(b.rejected),
             gap: worse(a.gap, b.gap),
             outside: worse(a.outside, b.outside),
+            processors: worse(a.processors, b.processors),
             one_thread: worse(a.one_thread, b.one_thread),
             clock: worse(a.clock, b.clock),
             faster: a.faster.zip(b.faster).map(|(a, b)| a.min(b)),
             objective: worse(a.objective, b.objective),
             other_flags: a.other_flags.zip(b.other_flags).map(|(a, b)| [a, b].concat()),
+            other_than_peer: a.other_than_peer.zip(b.other_than_peer).map(|(a, b)| [a, b].concat()),
+            differs: worse(a.differs, b.differs),
             passes: a.passes.max(b.passes),
             peak: a.peak.max(b.peak),
         })
@@ -87,11 +100,16 @@ impl Goal {
                 found.outside.map(|off| (format!("{off:.1e} outside"), off <= bound)),
             ),
             Goal::Seconds(bound) => (
-                format!("at most {} of one processor", seconds(bound)),
-                found.one_thread.map(|least| {
-                    let clock =
-                        found.clock.map(|clock| format!(" ({} by the clock)", seconds(clock)));
-                    (format!("{}{}", seconds(least), clock.unwrap_or_default()), least <= bound)
+                format!("at most {} by the clock", seconds(bound)),
+                found.clock.map(|least| {
+                    let shown = |time: Option<f64>| time.map_or("not measured".into(), seconds);
+                    let said = format!(
+                        "{} (processors: {} of all threads, {} with one thread)",
+                        seconds(least),
+                        shown(found.processors),
+                        shown(found.one_thread),
+                    );
+                    (said, least <= bound)
                 }),
             ),
             Goal::Faster(factor) => (
@@ -100,14 +118,19 @@ impl Goal {
             ),
             Goal::Objective => (
                 "what is minimised is no more than the peer's".to_owned(),
-                found.objective.map(|more| (format!("{more:+.1e}"), more <= 1e-9)),
+                found.objective.map(|more| (format!("{more:+.1e}"), more <= 1e-11)),
             ),
             Goal::Flags => (
                 "the rows flagged are those published".to_owned(),
-                found.other_flags.as_ref().map(|sets| match &sets[..] {
-                    [] => ("all".to_owned(), true),
-                    sets => (format!("others for {}", sets.join(", ")), false),
-                }),
+                found.other_flags.as_deref().map(without_others),
+            ),
+            Goal::PeerFlags => (
+                "the rows weighed out are the peer's, for the same h".to_owned(),
+                found.other_than_peer.as_deref().map(without_others),
+            ),
+            Goal::Agreement(bound) => (
+                format!("agrees with the peer to {bound:e}"),
+                found.differs.map(|off| (format!("{off:.1e}"), off <= bound)),
             ),
             Goal::Passes(bound) => (
                 format!("at most {bound} passes"),
@@ -124,6 +147,14 @@ impl Goal {
             (None, Some((said, met))) => (goal, said, Some(met)),
             (None, None) => (goal, "no answer".to_owned(), None),
         }
+    }
+}
+
+/// Whether there are sets with other rows, in words.
+fn without_others(sets: &[String]) -> (String, bool) {
+    match sets {
+        [] => ("all".to_owned(), true),
+        sets => (format!("others for {}", sets.join(", ")), false),
     }
 }
 
@@ -150,20 +181,16 @@ mod tests {
 
     #[test]
     fn the_worst_of_several_counts() {
-        let of =
-            |gap, time| Measured { gap, one_thread: time, faster: time, ..Measured::default() };
+        let of = |gap, time| Measured { gap, clock: time, faster: time, ..Measured::default() };
         let worst = Measured::worst([of(Some(1e-13), Some(2.0)), of(Some(1e-11), Some(1.0))]);
         let worst = worst.unwrap();
-        assert_eq!(
-            (worst.gap, worst.one_thread, worst.faster),
-            (Some(1e-11), Some(2.0), Some(1.0))
-        );
+        assert_eq!((worst.gap, worst.clock, worst.faster), (Some(1e-11), Some(2.0), Some(1.0)));
         assert_eq!(Goal::Gap(1e-12).judge(&worst).2, Some(false));
         assert_eq!(Goal::Seconds(2.0).judge(&worst).2, Some(true));
         assert_eq!(Goal::Faster(2.0).judge(&worst).2, Some(false));
         assert_eq!(Goal::Passes(3).judge(&worst).2, None);
         let unknown = Measured::worst([of(None, Some(1.0)), of(Some(1e-13), None)]).unwrap();
-        assert_eq!((unknown.gap, unknown.one_thread), (None, None));
+        assert_eq!((unknown.gap, unknown.clock), (None, None));
         for pair in [[Some(f64::NAN), Some(1.0)], [Some(1.0), Some(f64::NAN)]] {
             let odd = Measured::worst(pair.map(|gap| of(gap, None))).unwrap();
             assert_eq!(Goal::Gap(1.0).judge(&odd).2, Some(false));
@@ -173,7 +200,7 @@ mod tests {
     #[test]
     fn a_rejected_answer_meets_nothing() {
         let rejected = Some("outside".to_owned());
-        let found = Measured { rejected, one_thread: Some(1e-6), ..Measured::default() };
+        let found = Measured { rejected, clock: Some(1e-6), ..Measured::default() };
         assert_eq!(Goal::Seconds(1.0).judge(&found).2, Some(false));
     }
 }

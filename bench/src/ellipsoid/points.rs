@@ -8,9 +8,9 @@ use taut_points::Points;
 
 use super::case::{Case, Input};
 use super::goals::{self, Measured};
+use super::rounds::TIMES;
 use super::{Context, rounds};
 use crate::input::SEED;
-use crate::stats::seconds;
 use crate::table::Table;
 
 /// The gap that is asked for.
@@ -45,19 +45,16 @@ impl Solved {
         Measured {
             rejected: self.verdict.as_ref().err().cloned(),
             gap: self.verdict.as_ref().ok().map(|verdict| verdict.gap),
-            one_thread: self.rounds.one_thread(),
-            clock: self.rounds.clock(),
             passes: Some(self.rounds.found.trace.passes),
-            ..Measured::default()
+            ..self.rounds.measured()
         }
     }
 
-    /// Cells: one processor, clock, gap, stop, passes, steps, support.
+    /// Cells: clock, processors, one thread, gap, stop, passes, steps, support.
     pub(super) fn cells(&self) -> Vec<String> {
         let trace = &self.rounds.found.trace;
-        vec![
-            self.rounds.one_thread().map(seconds).unwrap_or_default(),
-            self.rounds.clock().map(seconds).unwrap_or_default(),
+        let mut cells = self.rounds.cells();
+        cells.extend([
             match &self.verdict {
                 Ok(verdict) => format!("{:.1e}", verdict.gap),
                 Err(why) => format!("REJECTED: {why}"),
@@ -71,7 +68,8 @@ impl Solved {
             trace.passes.to_string(),
             trace.iterations.to_string(),
             self.rounds.found.certificate.support.len().to_string(),
-        ]
+        ]);
+        cells
     }
 
     /// Everything, for the report.
@@ -89,8 +87,8 @@ impl Solved {
 }
 
 /// The names of the columns of [`Solved::cells`].
-pub(super) const COLUMNS: [&str; 7] =
-    ["one processor", "clock", "verified gap", "stop", "passes", "steps", "support"];
+pub(super) const COLUMNS: [&str; 8] =
+    [TIMES[0], TIMES[1], TIMES[2], "verified gap", "stop", "passes", "steps", "support"];
 
 /// Runs all inputs of a case, each under all of its seeds.
 pub(super) fn run(context: &mut Context, case: &Case, inputs: &[Input]) -> Result<()> {

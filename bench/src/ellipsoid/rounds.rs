@@ -7,9 +7,14 @@ use anyhow::{Context as _, Result};
 use serde_json::{Value, json};
 
 use super::Context;
+use super::goals::Measured;
 use crate::meter::Meter;
 use crate::peer::{Answer, Peer, Silence};
-use crate::stats::Summary;
+use crate::stats::{Summary, seconds};
+
+/// Columns of times: the least by the clock with the last number of threads, the least of the processors for the same,
+/// the least of the processor with one thread.
+pub(super) const TIMES: [&str; 3] = ["clock", "processors", "one thread"];
 
 /// Times of taut with one number of threads.
 pub(super) struct Timed {
@@ -42,9 +47,31 @@ impl<T> Rounds<T> {
         self.taut.last().map(|timed| least(&timed.wall))
     }
 
+    /// Least processor seconds of all threads, with the last number of them.
+    pub(super) fn processors(&self) -> Option<f64> {
+        self.taut.last().map(|timed| least(&timed.cpu))
+    }
+
     /// Least processor seconds with one thread.
     pub(super) fn one_thread(&self) -> Option<f64> {
         self.taut.iter().find(|timed| timed.threads == 1).map(|timed| least(&timed.cpu))
+    }
+
+    /// What goals ask for of the times.
+    pub(super) fn measured(&self) -> Measured {
+        Measured {
+            clock: self.clock(),
+            processors: self.processors(),
+            one_thread: self.one_thread(),
+            faster: self.faster().map(|(ratio, _)| ratio),
+            ..Measured::default()
+        }
+    }
+
+    /// Cells under [`TIMES`].
+    pub(super) fn cells(&self) -> Vec<String> {
+        let times = [self.clock(), self.processors(), self.one_thread()];
+        times.map(|time| time.map(seconds).unwrap_or_default()).into()
     }
 
     /// Least seconds of the peer.
@@ -53,10 +80,11 @@ impl<T> Rounds<T> {
         Some(least(seconds))
     }
 
-    /// The middle of the seconds of the peer: one that shuffles its points anew in each round is lucky in some.
-    pub(super) fn peer_median(&self) -> Option<f64> {
-        let (_, seconds) = self.peer.as_ref()?.as_ref().ok()?;
-        Some(Summary::of(seconds)?.median)
+    /// Least time of the peer over our least time by the clock, and the ratios of the rounds one by one.
+    pub(super) fn faster(&self) -> Option<(f64, Summary)> {
+        let (_, theirs) = self.peer.as_ref()?.as_ref().ok()?;
+        let ours = &self.taut.last()?.wall;
+        Some((least(theirs) / least(ours), Summary::of_ratios(theirs, ours)?))
     }
 
     /// All times, for the report.
@@ -92,7 +120,12 @@ pub(super) fn run<T: Send>(
     };
     let mut told: Option<(Answer, Vec<f64>)> = None;
     let (mut found, mut spent) = (None, Duration::ZERO);
-    for _ in 0..context.runs {
+    for round in 0..context.runs {
+        // A B, then B A: neither is always the one that finds the caches as the other left them.
+        let is_peer_first = round % 2 == 1;
+        if is_peer_first {
+            ask(context, &mut running, &mut told, &mut spent)?;
+        }
         for (pool, timed) in pools.iter().zip(&mut taut) {
             // Only one answer is held, as with a peer.
             drop(found.take());
@@ -103,19 +136,8 @@ pub(super) fn run<T: Send>(
             timed.cpu.push(cost.cpu);
             found = Some(answer);
         }
-        if let Some(Ok(peer)) = &mut running
-            && spent < context.peer_budget
-        {
-            let start = Instant::now();
-            match peer.solve(context.limit)? {
-                Ok(answer) => {
-                    let mut seconds = told.take().map_or(vec![], |(_, seconds)| seconds);
-                    seconds.push(answer.seconds);
-                    told = Some((answer, seconds));
-                }
-                Err(silence) => running = Some(Err(silence)),
-            }
-            spent += start.elapsed();
+        if !is_peer_first {
+            ask(context, &mut running, &mut told, &mut spent)?;
         }
     }
     let peer = running.map(|running| match (running, told) {
@@ -123,4 +145,28 @@ pub(super) fn run<T: Send>(
         (Ok(_), told) => told.ok_or(Silence::Ended),
     });
     Ok(Rounds { found: found.context("no round")?, taut, peer })
+}
+
+/// Lets the peer solve once more, unless it was too slow or is gone.
+fn ask(
+    context: &Context,
+    running: &mut Option<Result<Peer, Silence>>,
+    told: &mut Option<(Answer, Vec<f64>)>,
+    spent: &mut Duration,
+) -> Result<()> {
+    if let Some(Ok(peer)) = running
+        && *spent < context.peer_budget
+    {
+        let start = Instant::now();
+        match peer.solve(context.limit)? {
+            Ok(answer) => {
+                let mut seconds = told.take().map_or(vec![], |(_, seconds)| seconds);
+                seconds.push(answer.seconds);
+                *told = Some((answer, seconds));
+            }
+            Err(silence) => *running = Some(Err(silence)),
+        }
+        *spent += start.elapsed();
+    }
+    Ok(())
 }

@@ -9,7 +9,6 @@ use super::case::Case;
 use super::goals::{self, Measured};
 use super::{Context, rounds};
 use crate::input::SEED;
-use crate::stats::seconds;
 use crate::table::Table;
 
 const N: usize = 1000;
@@ -17,9 +16,10 @@ const D: usize = 10;
 const EPSILON: f64 = 1e-6;
 
 /// n ellipsoids with normal centres and shapes S = AAᵀ, A normal: each a centre and the lower triangle of S.
-fn draw(n: usize, d: usize) -> Result<Vec<f64>> {
-    let centers: Vec<f64> = generate(Distribution::Normal, n, d, SEED)?;
-    let shapes: Vec<f64> = generate(Distribution::Normal, n, d * d, SEED + 1)?;
+pub(super) fn draw(n: usize, d: usize, seed: u64) -> Result<Vec<f64>> {
+    let centers: Vec<f64> = generate(Distribution::Normal, n, d, seed)?;
+    // Far from the seeds of other sets.
+    let shapes: Vec<f64> = generate(Distribution::Normal, n, d * d, seed ^ (1 << 40))?;
     let mut values = Vec::with_capacity(n * d * (d + 3) / 2);
     for (center, shape) in centers.chunks_exact(d).zip(shapes.chunks_exact(d * d)) {
         values.extend(center);
@@ -36,9 +36,10 @@ fn draw(n: usize, d: usize) -> Result<Vec<f64>> {
 /// Runs both problems.
 pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
     let n = if context.quick { N / 10 } else { N };
-    let values = draw(n, D)?;
+    let values = draw(n, D, SEED)?;
     let items = Points::new(&values, D * (D + 3) / 2)?;
-    let mut table = Table::new(&["answer", "one processor", "clock", "verified gap", "passes"]);
+    let mut table =
+        Table::new(&[&["answer"], &rounds::TIMES[..], &["verified gap", "passes"]].concat());
     let mut all = Vec::new();
 
     let options = EllipsoidOptions { epsilon: EPSILON, ..EllipsoidOptions::default() };
@@ -49,7 +50,7 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
     all.push((
         "smallest ellipsoid",
         gap,
-        measured(&rounds),
+        (rounds.measured(), rounds.cells()),
         rounds.found.trace.passes,
         rounds.json(),
     ));
@@ -58,17 +59,23 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
     let rounds =
         rounds::run(context, &context.threads, None, || Ok(ball_of_ellipsoids(&items, &options)?))?;
     let gap = rounds.found.check(&items).map(|verdict| verdict.gap).map_err(|e| e.to_string());
-    all.push(("smallest ball", gap, measured(&rounds), rounds.found.trace.passes, rounds.json()));
+    all.push((
+        "smallest ball",
+        gap,
+        (rounds.measured(), rounds.cells()),
+        rounds.found.trace.passes,
+        rounds.json(),
+    ));
 
     let mut answers = Vec::new();
-    for (what, gap, found, passes, times) in all {
-        table.push(vec![
-            what.to_owned(),
-            found.one_thread.map(seconds).unwrap_or_default(),
-            found.clock.map(seconds).unwrap_or_default(),
+    for (what, gap, (found, cells), passes, times) in all {
+        let mut row = vec![what.to_owned()];
+        row.extend(cells);
+        row.extend([
             gap.as_ref().map_or_else(|e| format!("REJECTED: {e}"), |gap| format!("{gap:.1e}")),
             passes.to_string(),
         ]);
+        table.push(row);
         let found = Measured { gap: gap.as_ref().ok().copied(), rejected: gap.err(), ..found };
         answers.push((what, found, times));
     }
@@ -82,8 +89,4 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
     }
     context.report.add(json!({ "name": case.name, "answers": lines }));
     Ok(())
-}
-
-fn measured<T>(rounds: &rounds::Rounds<T>) -> Measured {
-    Measured { one_thread: rounds.one_thread(), clock: rounds.clock(), ..Measured::default() }
 }

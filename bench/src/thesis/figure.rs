@@ -20,6 +20,8 @@ pub(super) struct Curve {
 pub(super) struct Figure {
     /// Its number in the thesis.
     pub(super) number: u32,
+    /// A letter where one figure of the thesis became several; may be empty.
+    pub(super) part: &'static str,
     /// What is plotted, over what, of what input.
     pub(super) title: String,
     /// Name of the horizontal quantity.
@@ -53,14 +55,17 @@ impl Figure {
             table.push(row);
         }
         let unit = if self.unit.is_empty() { String::new() } else { format!(" [{}]", self.unit) };
-        println!("## Figure {}: {}\n{}{unit}\n\n{table}", self.number, self.title, self.y);
+        println!(
+            "## Figure {}{}: {}\n{}{unit}\n\n{table}",
+            self.number, self.part, self.title, self.y
+        );
         for note in &self.notes {
             println!("- {note}");
         }
         println!();
     }
 
-    /// Writes `figure-NN.csv` and `figure-NN.svg` to `folder`.
+    /// Writes `figure-NN.csv` and `figure-NN.svg`, with the part behind the number, to `folder`.
     pub(super) fn write(&self, folder: &Path) -> Result<()> {
         let mut csv = String::from("series,x,y\n");
         for curve in &self.curves {
@@ -68,7 +73,7 @@ impl Figure {
                 writeln!(csv, "\"{}\",{x},{y}", curve.name)?;
             }
         }
-        let path = folder.join(format!("figure-{:02}", self.number));
+        let path = folder.join(format!("figure-{:02}{}", self.number, self.part));
         std::fs::write(path.with_extension("csv"), csv)?;
         let drawing = Drawing::Plot(self.plot());
         Ok(std::fs::write(path.with_extension("svg"), to_svg(&drawing, &Style::default()))?)
@@ -87,7 +92,7 @@ impl Figure {
             points: curve.points.clone(),
         });
         Plot {
-            title: format!("Figure {}, rerun: {}", self.number, self.title),
+            title: format!("Figure {}{}, rerun: {}", self.number, self.part, self.title),
             caption: self.notes.join(" "),
             x: Axis::named(self.x),
             y: Axis { name: self.y.to_owned(), unit: self.unit.to_owned() },
@@ -120,6 +125,7 @@ mod tests {
     fn a_figure_is_written_as_values_and_as_picture() {
         let figure = Figure {
             number: 8,
+            part: "",
             title: "core-set size".into(),
             x: "dimension",
             y: "points",

@@ -140,6 +140,7 @@ impl Pair {
     fn new(numbers: [u32; 2], of: &str, x: &'static str) -> Self {
         let figure = |number, y, unit, title: &str, scale| Figure {
             number,
+            part: "",
             title: format!("{title}, {of}"),
             x,
             y,
@@ -294,6 +295,7 @@ fn by_epsilon(plan: &Plan) -> Result<Vec<Figure>> {
 fn low_dimensions(plan: &Plan) -> Result<Vec<Figure>> {
     let mut figure = Figure {
         number: 13,
+        part: "",
         title: "running time in low dimension, normal points, fast variant".into(),
         x: "log10 n",
         y: "time",
@@ -333,6 +335,7 @@ fn low_dimensions(plan: &Plan) -> Result<Vec<Figure>> {
 fn beside_exact_codes(plan: &Plan) -> Result<Vec<Figure>> {
     let mut figure = Figure {
         number: 14,
+        part: "",
         title: "running time beside other codes, 1000 normal points, ε = 1e-6".into(),
         x: "dimension",
         y: "time",
@@ -422,6 +425,7 @@ fn ask(
 fn beside_badoiu_clarkson(plan: &Plan) -> Result<Vec<Figure>> {
     let mut figure = Figure {
         number: 15,
+        part: "",
         title: "running time beside the method of Bădoiu and Clarkson, 1000 normal points".into(),
         x: "dimension",
         y: "time",

@@ -97,6 +97,62 @@ fn forty_percent_of_outliers_do_not_move_it() {
     }
 }
 
+/// h points that hold a tight cluster and all the way to it can have a smaller determinant than any h of the others: by
+/// definition these are the answer then. Far enough away the cluster has no part in it, as for any cluster.
+#[test]
+fn a_tight_cluster_is_kept_exactly_where_that_has_the_smaller_determinant() {
+    let (n, dim, outliers) = (1000, 5, 300);
+    let others = n - outliers;
+    for (away, is_kept) in [(10.0, true), (1e6, false)] {
+        let mut values = normal(n, dim, 19);
+        values[others * dim..].iter_mut().for_each(|v| *v = 0.05 * *v + away);
+        let found = solve("tight", &values, dim, &mcd());
+        let h = found.certificate.kept;
+        // The best h of the others alone, of which h is the part α.
+        let half = (others + dim).div_ceil(2) as f64;
+        let alpha = (h as f64 + 0.5 - 2.0 * half + others as f64) / (2.0 * (others as f64 - half));
+        let options = RobustOptions { coverage: Some(alpha), ..mcd() };
+        let alone = solve("others", &values[..others * dim], dim, &options);
+        assert_eq!(alone.certificate.kept, h);
+        let less = alone.certificate.objective - found.certificate.objective;
+        let left_out = &found.certificate.left_out;
+        let kept = (others as u64..n as u64).filter(|row| !left_out.contains(row)).count();
+        if is_kept {
+            assert!(less > 1.0 && kept == outliers, "{away}: {less}, {kept}");
+        } else {
+            assert!(less > -1e-9 && kept == 0, "{away}: {less}, {kept}");
+            assert!((others as u64..n as u64).all(|row| found.answer.flagged.contains(&row)));
+        }
+    }
+}
+
+#[test]
+fn no_exchange_of_two_points_lowers_the_determinant() {
+    let log_det = |rows: &[f64]| {
+        let [[a, b], [_, d]] = [0, 1].map(|i| {
+            let (_, covariance) = classical(rows, 2);
+            [covariance[i][0], covariance[i][1]]
+        });
+        (a * d - b * b).ln()
+    };
+    for seed in 0..8 {
+        let (n, dim) = (40, 2);
+        let values = contaminated(n, dim, 8, 6.0, seed);
+        let found = solve("exchanges", &values, dim, &mcd());
+        let left_out = &found.certificate.left_out;
+        let is_kept = |row: usize| !left_out.contains(&(row as u64));
+        let least = found.certificate.objective;
+        for out in (0..n).filter(|row| is_kept(*row)) {
+            for into in (0..n).filter(|row| !is_kept(*row)) {
+                let rows = (0..n).filter(|&row| row == into || (row != out && is_kept(row)));
+                let rows: Vec<f64> =
+                    rows.flat_map(|row| values[row * dim..][..dim].iter().copied()).collect();
+                assert!(log_det(&rows) > least - 1e-11, "seed {seed}: {out} for {into}");
+            }
+        }
+    }
+}
+
 #[test]
 fn all_points_give_mean_and_covariance() {
     for dim in [1, 2, 6] {

@@ -148,9 +148,14 @@ pub(super) fn solve(
             break Stop::Rounding;
         }
         // What is outside is in the pool already: only a sharper solution of the pool can help.
-        let hard = (1e-2 * reached).max(0.6 * wanted);
-        let easy =
-            if 1e-2 * reached < 1e-3 && counters.interior == 0 { 0.6 * wanted } else { hard };
+        // The first time, nobody knows yet how thin the points lie: an interior point above that tells nothing.
+        let part = if counters.interior == 0 { 1e-4 } else { 1e-2 };
+        let hard = (part * reached).max(0.6 * wanted);
+        let easy = if 1e-2 * reached < 1e-3 && counters.interior == 0 {
+            0.6 * wanted
+        } else {
+            (1e-2 * reached).max(0.6 * wanted)
+        };
         tolerance = if added == 0 { Tolerance::NONE } else { Tolerance { easy, hard } };
         if reached > last / 3.0 {
             later *= 2;

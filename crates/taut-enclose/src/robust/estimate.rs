@@ -77,6 +77,12 @@ impl Estimate {
         -2.0 * (0..dim).map(|a| self.matrix[a * dim + a].ln()).sum::<f64>()
     }
 
+    /// M(x − c).
+    pub(super) fn image(&self, row: &[f64]) -> Vec<f64> {
+        let offset: Vec<f64> = row.iter().zip(&self.center).map(|(x, c)| x - c).collect();
+        self.matrix.chunks_exact(self.dim()).map(|m| dot(m, &offset)).collect()
+    }
+
     /// |M(x − c)|² of all rows.
     pub(super) fn distances(&self, data: &mut Survey<'_>) -> Result<Vec<f64>, Error> {
         let center = Center { high: self.center.clone(), low: vec![] };

@@ -2,9 +2,10 @@
 //!
 //! *Problem.* Of n points find the h whose covariance has the least determinant, or that fit the smallest ellipsoid.
 //! *Idea.* Two kinds of starts, as they fail on different data: six rankings ([`starts`](super::starts)), and
-//! [`ELEMENTS`] simplices of d + 1 points where d ≤ [`ELEMENTS_DIM_MAX`]. Simplices are tried by two C-steps on few points, and the best of them go
-//! on with the rankings, to the end, on at most [`SAMPLE`] points (twice that if these are all). The best of those are
-//! tried on all points, and the best of them go on to the end.
+//! [`ELEMENTS`] simplices of d + 1 points where d ≤ [`ELEMENTS_DIM_MAX`]. Simplices are tried by two C-steps on few
+//! points, and the best of them go on with the rankings, to the end, on at most [`SAMPLE`] points (twice that if these
+//! are all). The best of those are tried on all points, and the best of them go on to the end. For the determinant the
+//! [`border`](super::border) of the rows kept is then searched for a better choice.
 //! *Guarantee.* The rows found are the h nearest in their own metric: no C-step leads on from them. That no other h
 //! rows do better is not proved. Everything is drawn by the hash of a point's bits, so that what is found depends on the
 //! points and not on their order, but where distances are equal.
@@ -14,6 +15,7 @@
 use rayon::prelude::*;
 use taut_points::{Monitor, Points};
 
+use super::border::Border;
 use super::concentrate::{Criterion, Found, Raw, concentrate, estimate, from_ranking};
 use super::estimate::{Estimate, Look};
 use super::flat::Flat;
@@ -32,8 +34,10 @@ const ELEMENTS_DIM_MAX: usize = 20;
 /// Simplices that go on.
 const BEST_ELEMENTS: usize = 10;
 /// Candidates that are tried on all points, and how many of them go on to the end.
-const CANDIDATES: usize = 4;
-const FINALISTS: usize = 2;
+const CANDIDATES: usize = 6;
+const FINALISTS: usize = 4;
+/// Kicks at the border that the best of them is given.
+const KICKS: u64 = 40;
 
 /// Finds the h rows, or a hyperplane that holds so many.
 pub(super) fn solve(
@@ -70,7 +74,7 @@ pub(super) fn solve(
         };
     }
     best(&mut candidates, CANDIDATES);
-    for (limit, left) in [(2, FINALISTS), (usize::MAX, 1)] {
+    for (limit, left) in [(2, FINALISTS), (usize::MAX, FINALISTS)] {
         for candidate in &mut candidates {
             match concentrate(criterion, data, &candidate.estimate, h, limit, steps)? {
                 Found::Full(raw) => *candidate = raw,
@@ -78,8 +82,49 @@ pub(super) fn solve(
             }
         }
         best(&mut candidates, left);
+        // Most starts of one basin end in the same rows.
+        candidates.dedup_by(|a, b| a.kept == b.kept);
+    }
+    if let Criterion::Determinant = criterion {
+        for kicks in [0, KICKS] {
+            for candidate in &mut candidates {
+                if let Some(flat) = polish(data, candidate, h, kicks, steps)? {
+                    return Ok(Found::Flat(flat));
+                }
+            }
+            best(&mut candidates, 1);
+        }
     }
     Ok(Found::Full(candidates.swap_remove(0)))
+}
+
+/// Goes down at the border and by C-steps on all rows, by turns, until neither leads on; a hyperplane, if that ends in
+/// one.
+fn polish(
+    data: &mut Survey<'_>,
+    raw: &mut Raw,
+    h: usize,
+    mut kicks: u64,
+    steps: &mut u64,
+) -> Result<Option<Flat>, Error> {
+    while let Some(border) = Border::of(data, raw)? {
+        let Some(kept) = border.search(raw, kicks) else { break };
+        let start = match estimate(Criterion::Determinant, data, &raw.estimate, &kept)? {
+            Ok(start) => start,
+            Err(flat) => return Ok(Some(flat)),
+        };
+        let next = match concentrate(Criterion::Determinant, data, &start, h, usize::MAX, steps)? {
+            Found::Full(next) => next,
+            Found::Flat(flat) => return Ok(Some(flat)),
+        };
+        // What rounding alone gained could be lost and gained for ever.
+        let leads_on = next.estimate.log_det() < raw.estimate.log_det();
+        if !leads_on {
+            break;
+        }
+        (*raw, kicks) = (next, 0);
+    }
+    Ok(None)
 }
 
 /// Keeps the candidates with the least determinants, in that order; of equal ones, the first.
@@ -195,10 +240,10 @@ fn keep_least(list: &mut Vec<(u64, u64)>, size: usize) {
 }
 
 /// 2⁶⁴ over the golden ratio.
-const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
+pub(super) const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
 /// The finaliser of SplitMix64 (Steele, Lea, Flood 2014).
-fn mix(h: u64) -> u64 {
+pub(super) fn mix(h: u64) -> u64 {
     let h = (h ^ (h >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     let h = (h ^ (h >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
     h ^ (h >> 31)

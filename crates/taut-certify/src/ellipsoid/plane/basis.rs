@@ -24,7 +24,7 @@ pub(super) struct Basis {
 
 enum Shape {
     /// The ellipse has an equation in whole numbers.
-    Known(Ellipse),
+    Known(Box<Ellipse>),
     /// It lies between two that have.
     Between(Box<Pencil>),
 }
@@ -52,7 +52,7 @@ impl Basis {
                 }
                 let grid = Grid::of(points);
                 let ellipse = Ellipse::of(Equation::through(&grid), &grid)?;
-                Some(Basis { grid, shape: Shape::Known(ellipse) })
+                Some(Basis { grid, shape: Shape::Known(Box::new(ellipse)) })
             }
             _ => None,
         }
@@ -72,7 +72,7 @@ impl Basis {
         let [first, second, third] = [grid.line(1, 2), grid.line(2, 0), grid.line(0, 1)];
         let products = first.times(&second).plus(&third.times(&first)).plus(&second.times(&third));
         let ellipse = Ellipse::of(products, &grid)?;
-        Some(Basis { grid, shape: Shape::Known(ellipse) })
+        Some(Basis { grid, shape: Shape::Known(Box::new(ellipse)) })
     }
 
     fn pencil(order: &[Point]) -> Option<Basis> {

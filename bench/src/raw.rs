@@ -1,0 +1,55 @@
+//! Raw files of generated points, larger than the memory that is allowed, and processes that solve them.
+
+use std::ffi::OsString;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use anyhow::{Result, ensure};
+use rayon::prelude::*;
+use serde::de::DeserializeOwned;
+use taut_points::{Blocks, Distribution, GeneratedSource, PointSource, Rows, ScalarKind, Scratch};
+
+use crate::input::SEED;
+
+/// What this program prints as JSON when it is called with `arguments`: in a process of its own, so that its peak memory
+/// is that of the solver.
+pub(crate) fn alone<T: DeserializeOwned>(arguments: &[OsString]) -> Result<T> {
+    let output =
+        Command::new(std::env::current_exe()?).args(arguments).stderr(Stdio::inherit()).output()?;
+    ensure!(output.status.success(), "the solving process failed");
+    Ok(serde_json::from_slice(&output.stdout)?)
+}
+
+/// Writes the points, block by block, unless a file of that size is there.
+pub(crate) fn make(path: &Path, n: u64, dim: usize) -> Result<()> {
+    let bytes = n * dim as u64 * 4;
+    if path.metadata().is_ok_and(|found| found.len() == bytes) {
+        return Ok(());
+    }
+    println!("writing {} ({:.2} GB)", path.display(), bytes as f64 / 1e9);
+    let source = GeneratedSource::new(Distribution::Normal, n, dim, SEED, ScalarKind::F32)?;
+    let blocks = Blocks::of(&source);
+    // Under another name first, so that a file of the right name is a whole one.
+    let part = path.with_extension("part");
+    let mut file = BufWriter::with_capacity(1 << 20, File::create(&part)?);
+    let batch = 64 * rayon::current_num_threads() as u64;
+    for first in (0..blocks.count()).step_by(batch as usize) {
+        let drawn: Vec<Vec<f32>> = (first..(first + batch).min(blocks.count()))
+            .into_par_iter()
+            .map(|block| -> Result<Vec<f32>> {
+                let mut scratch = Scratch::new();
+                match source.read(blocks.range(block), &mut scratch)? {
+                    Rows::F32(points) => Ok(points.values().to_vec()),
+                    Rows::F64(_) => anyhow::bail!("single precision was asked for"),
+                }
+            })
+            .collect::<Result<_>>()?;
+        for values in drawn {
+            file.write_all(bytemuck::cast_slice(&values))?;
+        }
+    }
+    file.flush()?;
+    Ok(std::fs::rename(part, path)?)
+}
