@@ -66,10 +66,8 @@ fn no_direction_makes_an_ellipse_look_necessary() {
     let segment = [across[0] * across[0], across[0] * across[1], across[1] * across[1]];
     let values = [[0.0; 2].as_slice(), &SHAPE, &[0.0; 2], &segment].concat();
     let stretch = 1.0 + 1e-13;
-    let factor = vec![
-        along.map(|v| v / (length * stretch)).to_vec(),
-        across.map(|v| v / stretch).to_vec(),
-    ];
+    let factor =
+        vec![along.map(|v| v / (length * stretch)).to_vec(), across.map(|v| v / stretch).to_vec()];
     let solution = Solution {
         answer: Ellipsoid {
             center: vec![0.0; 2],

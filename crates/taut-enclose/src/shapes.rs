@@ -213,8 +213,7 @@ impl Shapes {
         let known = 4.0 * dim as f64 * f64::EPSILON;
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
         let deficit = (2.0 * known - least).max(0.0);
-        let indefinite =
-            (deficit > 0.0).then_some(Indefinite { deficit, values, vectors });
+        let indefinite = (deficit > 0.0).then_some(Indefinite { deficit, values, vectors });
         Ok((rows, indefinite))
     }
 }

@@ -114,7 +114,11 @@ pub(crate) fn log_volume(ellipsoid: &Ellipsoid, frame: &Frame<'_>) -> Result<Log
         error += of_basis;
     }
     let agrees = (found - claimed).abs() <= tolerance;
-    if agrees { Ok(LogVolume { value: found, error }) } else { Err(Violation::LogVolume { claimed, found }) }
+    if agrees {
+        Ok(LogVolume { value: found, error })
+    } else {
+        Err(Violation::LogVolume { claimed, found })
+    }
 }
 
 /// log κᵣ as a sum of logarithms: κ₀ = 1, κ₁ = 2, κᵣ = κᵣ₋₂·2π/r.

@@ -9,7 +9,9 @@
 //! *Guarantee.* No row is judged by a rounded number: all that is accepted is inside up to the excess reported.
 //! *Trap.* NaN satisfies no comparison, but is skipped by `f64::max`: rows are searched for it first.
 
-use taut_points::{BlockHash, Monitor, PointSource, PointsHash, Rows, ScalarKind, hash_block, map_blocks};
+use taut_points::{
+    BlockHash, Monitor, PointSource, PointsHash, Rows, ScalarKind, hash_block, map_blocks,
+};
 
 use super::super::EllipsoidCertificate;
 use super::frame::Frame;

@@ -91,7 +91,8 @@ impl<'a> Item<'a> {
         let mut lower = Vec::with_capacity(n * (n + 1) / 2);
         for (a, &j) in wide.iter().enumerate() {
             for &k in &wide[..=a] {
-                let (j, k, entry) = (j.max(k), j.min(k), shape[j.max(k) * (j.max(k) + 1) / 2 + j.min(k)]);
+                let (j, k, entry) =
+                    (j.max(k), j.min(k), shape[j.max(k) * (j.max(k) + 1) / 2 + j.min(k)]);
                 lower.push(entry / power_of_two_below(width(j)) / power_of_two_below(width(k)));
             }
         }

@@ -141,8 +141,7 @@ impl<N: Field> Shape<N> {
             square = square.plus(&value.times(&value).over(&row[i]));
         }
         let rounding = 1.0 + 4.0 * (n + 8) as f64 * N::ROUNDOFF;
-        let excess =
-            mu.minus(&N::of(1.0)).plus(&mu.times(&square).times(&N::of(rounding)));
+        let excess = mu.minus(&N::of(1.0)).plus(&mu.times(&square).times(&N::of(rounding)));
         excess_of_square(excess, n)
     }
 }
@@ -189,9 +188,8 @@ fn multiplier<N: Field>(lower: &[N], g: &[N], trace: f64) -> N {
         if !is_wide {
             break;
         }
-        let is_between = |mu: &N| {
-            mu.minus(&below).rounded() > 0.0 && above.minus(mu).rounded() > 0.0
-        };
+        let is_between =
+            |mu: &N| mu.minus(&below).rounded() > 0.0 && above.minus(mu).rounded() > 0.0;
         let middle = below.plus(&width.scaled(0.5));
         mu = next.filter(is_between).unwrap_or(middle);
     }
@@ -209,7 +207,8 @@ fn solve<N: Field>(factor: &[N], x: &[N]) -> Vec<N> {
     let row = |i: usize| &factor[i * (i + 1) / 2..][..=i];
     let mut x = x.to_vec();
     for i in 0..x.len() {
-        let known = row(i).iter().zip(&x[..i]).fold(N::of(0.0), |sum, (l, x)| sum.plus(&l.times(x)));
+        let known =
+            row(i).iter().zip(&x[..i]).fold(N::of(0.0), |sum, (l, x)| sum.plus(&l.times(x)));
         x[i] = x[i].minus(&known);
     }
     for i in (0..x.len()).rev() {
