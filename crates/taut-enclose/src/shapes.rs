@@ -138,6 +138,11 @@ impl Shapes {
         self.factors[i].chunks_exact(self.dim)
     }
 
+    /// Whether S is not known to be positive semidefinite.
+    pub(crate) fn is_indefinite(&self, i: usize) -> bool {
+        self.indefinite[i].is_some()
+    }
+
     /// What to add to q = a′Sa so that m + Sa/√q belongs to the item: with N = S + 2τD it is (Sa)′N⁻¹Sa − q where that is
     /// positive, and 0 where S is positive semidefinite.
     pub(crate) fn missing(&self, i: usize, a: &[f64]) -> f64 {

@@ -337,7 +337,7 @@ fn extents(
         let mut row = vec![0.0; dim];
         for values in rows.chunks_exact(dim) {
             for (j, (row, x)) in row.iter_mut().zip(values).enumerate() {
-                *row = (x - center.high[j]) - center.low[j];
+                *row = (x - center.high[j]) - center.low.get(j).copied().unwrap_or(0.0);
                 extents[j] = extents[j].max(row.abs());
             }
             // Units that no square overflows in.

@@ -81,7 +81,7 @@ impl<'a> Item<'a> {
     ///
     /// Rows and columns are brought to sizes of about 1 by powers of two, S′ = PSP and D′ = PDP. The pivots of
     /// S′ + (τ − e)D′ being positive proves the claim, as factorising is off by less than e·D′. The τ found is at most
-    /// twice the least, or u/8.
+    /// four times the least and 16du more, so that who knows eigenvalues in plain `f64` need not find it exactly.
     pub(crate) fn deficit(&self) -> f64 {
         let Item::Ellipsoid(center, shape) = self else { return 0.0 };
         let dim = center.len();
@@ -96,16 +96,19 @@ impl<'a> Item<'a> {
                 lower.push(entry / power_of_two_below(width(j)) / power_of_two_below(width(k)));
             }
         }
-        is_semidefinite_by::<f64>(&lower, n, 0.0)
-            .then_some(0.0)
-            .or_else(|| {
-                let doubled: Vec<f64> = std::iter::successors(Some(U / 8.0), |tau| Some(2.0 * tau))
-                    .take_while(|tau| *tau < 1.0)
-                    .collect();
-                let mut all = std::iter::once(0.0).chain(doubled);
-                all.find(|&tau| is_semidefinite_by::<DoubleDouble>(&lower, n, tau))
-            })
-            .unwrap_or(f64::INFINITY)
+        if is_semidefinite_by::<f64>(&lower, n, 0.0)
+            || is_semidefinite_by::<DoubleDouble>(&lower, n, 0.0)
+        {
+            return 0.0;
+        }
+        let mut tau = U / 8.0;
+        while !is_semidefinite_by::<DoubleDouble>(&lower, n, tau) {
+            tau *= 2.0;
+            if tau > 1.0 {
+                return f64::INFINITY;
+            }
+        }
+        2.0 * tau + 16.0 * n as f64 * U
     }
 
     /// Refuses negative radii, and shapes with negative eigenvalues beyond what rounding of entries of this kind explains.
@@ -191,7 +194,7 @@ mod tests {
         }
     }
 
-    /// S + τD is semidefinite for the τ found, and S + τD/4 is not, by the sign of a determinant that nothing rounds.
+    /// Of a matrix of two rows and correlation 1 + τ, τ is the least that helps.
     #[test]
     fn the_deficit_is_that_of_the_least_eigenvalue() {
         for (shape, tau) in [
@@ -202,9 +205,9 @@ mod tests {
             ([4e200, 2.0 * (1.0 + 3e-12), 1e-200], 3e-12),
         ] {
             let found = Item::Ellipsoid(&[0.0, 0.0], &shape).deficit();
-            assert!(found >= tau && found <= 2.0 * tau, "{shape:?}: {found}");
+            assert!(found >= tau && found <= 4.1 * tau, "{shape:?}: {found}");
         }
         // Singular to the last bit, which no factorisation in rounded numbers shows.
-        assert!(Item::Ellipsoid(&[0.0, 0.0], &[4.0, 2.0, 1.0]).deficit() <= U / 8.0);
+        assert!(Item::Ellipsoid(&[0.0, 0.0], &[4.0, 2.0, 1.0]).deficit() <= 33.0 * U);
     }
 }

@@ -47,7 +47,7 @@ fn bound<N: Field>(frame: &Frame<'_>, item: &Item<'_>) -> f64 {
     if simply <= -1e-9 {
         return simply;
     }
-    let mu = multiplier(&shape.lower, &image, shape.trace);
+    let mu = multiplier(&shape.lower, &image);
     simply.min(shape.excess(&image, &mu) + error)
 }
 
@@ -147,7 +147,7 @@ impl<N: Field> Shape<N> {
 }
 
 /// μ where φ is least, or a little more; nothing that is proved depends on how good it is.
-fn multiplier<N: Field>(lower: &[N], g: &[N], trace: f64) -> N {
+fn multiplier<N: Field>(lower: &[N], g: &[N]) -> N {
     let n = g.len();
     let zero = N::of(0.0);
     let dot = |a: &[N], b: &[N]| a.iter().zip(b).fold(zero, |sum, (a, b)| sum.plus(&a.times(b)));
@@ -159,8 +159,10 @@ fn multiplier<N: Field>(lower: &[N], g: &[N], trace: f64) -> N {
     let diagonal = (0..n).map(|j| lower[j * (j + 3) / 2]);
     let mut below =
         diagonal.fold(zero, |most, v| if v.minus(&most).rounded() > 0.0 { v } else { most });
-    // The left side of the condition is at most √(gᵀAg)/(μ − λmax).
-    let mut above = N::of(trace + dot(g, &times(g)).rounded().max(0.0).sqrt());
+    // The left side of the condition is at most √λmax·|g|/(μ − λmax). Rounding may have made A indefinite, so that neither
+    // its trace nor gᵀAg bound what they would.
+    let norm = dot(lower, lower).rounded().sqrt() * std::f64::consts::SQRT_2 * (1.0 + 8.0 * U);
+    let mut above = N::of(norm + (norm * dot(g, g).rounded()).sqrt());
     let mut mu = above;
     for _ in 0..STEPS {
         let mut factor: Vec<N> = lower.iter().map(|v| zero.minus(v)).collect();
