@@ -49,7 +49,8 @@ pub struct BallCertificate {
     /// For ellipsoids, in the order of `support`: d numbers a that say at which point the ellipsoid touches.
     ///
     /// It is the point that lies farthest in the direction a, p = m + Sa/√(aᵀSa), or m where Sa = 0: so it belongs to the
-    /// ellipsoid whatever a is. Empty for points and balls.
+    /// ellipsoid whatever a is. What stands for S where rounding has made it indefinite, is said at
+    /// [`EllipsoidCertificate::directions`](crate::EllipsoidCertificate::directions). Empty for points and balls.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub directions: Vec<Vec<f64>>,
     /// The gap claimed: radius ≤ (1 + gap)·r. Accepted when the gap found is at most gap·(1 + 1e-9) + 4e-16.

@@ -80,8 +80,8 @@ pub struct Ellipsoid {
 ///
 /// The claim of the answer is then about the projections of the points to it: no ellipsoid of dimension r that encloses
 /// them has less volume. The checker takes a set for flat when `distance` is at most 1e-10 of its extent (1e-6 for
-/// ellipsoids, whose shape matrices know half as many digits of a short axis), or 8d·2⁻⁵³ times its largest coordinate,
-/// which rounding the coordinates explains.
+/// ellipsoids, whose shape matrices know half as many digits of a short axis), or what rounding the coordinates explains:
+/// 128√d·2⁻⁵³ times the root of the sum of the squares of maxᵢ |xᵢⱼ|·|(I − BᵀB)eⱼ| over the coordinates j.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a hull: an object with basis and distance")]
 pub struct Hull {
@@ -144,6 +144,9 @@ pub struct EllipsoidCertificate {
     /// It is the point of the item that lies farthest in the direction a, p = m + Sa/√(aᵀSa), or m where Sa = 0. So it
     /// belongs to the item whatever a is, and a bound for these points is a bound for the items. The length of a does
     /// not matter. Where an item touches the answer at p, a = Q(p − c) is its direction. Empty for points.
+    ///
+    /// Where rounding of the entries has made S indefinite, with S + τD semidefinite for its diagonal D and some small τ,
+    /// the item is taken to be that of N = S + 2τD here, and v = Sa is divided by √(vᵀN⁻¹v) if that is larger.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub directions: Vec<Vec<f64>>,
     /// Row numbers of the items that the ellipsoid leaves out, ascending: the rest is claimed to be enclosed tightly.
@@ -165,7 +168,7 @@ pub struct EllipsoidVerdict {
     pub lower: f64,
     /// Log-volume of the answer, enlarged about its centre by 1 + `excess` so that it encloses every item.
     pub upper: f64,
-    /// `upper` − `lower`, rounded up, as it was before both were rounded to one `f64` each.
+    /// `upper` − `lower`, rounded up, as it was before what rounding the log-volume itself costs was added to both.
     pub gap: f64,
     /// By how much |F(x − c)| exceeds 1 at worst, rounded up; 0 when every item is inside without any tolerance.
     pub excess: f64,

@@ -317,6 +317,14 @@ pub enum Violation {
         /// The reason given.
         reason: &'static str,
     },
+    /// The multipliers ask for more than the answer has, though it encloses all items as their rows stand.
+    #[error(
+        "the multipliers prove a gap of {gap:e}, and none can be negative: some shape matrix is too far from positive semidefinite for this answer"
+    )]
+    NegativeGap {
+        /// What the checker finds.
+        gap: f64,
+    },
     /// A number of a robust estimate is not what the points give.
     #[error("{what} is {claimed:?}, but the points give {found:?}")]
     Estimate {

@@ -66,6 +66,7 @@ fn case(dim: usize, method: RobustMethod, far: f64) -> (Vec<f64>, Solution<Robus
             raw_scale: 1.0,
             scale: 1.0,
             weighed_out: flagged,
+            unweighted: None,
             enclosure: (method != RobustMethod::Mcd).then_some(enclosure),
             points_hash: hash,
         },

@@ -116,9 +116,14 @@ fn solve(
     let answer = answer(&mut data, &placed, options.method)?;
     let reweighted = placed.fit.unweighted.is_none() && !placed.fit.estimate.center.is_empty();
     let certificate = certificate(&data, placed, h, options);
+    // The search ends where it ends; only the ellipsoid around the points kept can miss the gap that was wanted.
+    let misses = |enclosure: &Enclosure| {
+        options.epsilon > 0.0 && enclosure.certificate.gap > options.epsilon
+    };
+    let is_missed = certificate.enclosure.as_ref().is_some_and(misses);
     let trace = Trace {
         method: options.method.name().to_owned(),
-        stop: Stop::Converged,
+        stop: if is_missed { Stop::Rounding } else { Stop::Converged },
         passes: data.passes(),
         iterations: steps,
         core_set: h as u64,

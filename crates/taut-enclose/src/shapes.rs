@@ -6,6 +6,8 @@
 //! p = m + Sa/√(a′Sa), which belongs to the item whatever a is.
 //! *Trap.* A shape matrix knows half as many digits of a short axis as of a long one, so what lies far apart in size is
 //! brought to a common frame with twice the digits ([`frame`]).
+//! *Trap.* Rounding the entries of a singular S makes some of its eigenvalues negative; across such an item a′Sa is nothing
+//! but rounding. What Sa is divided by then, says [`Indefinite`].
 
 pub(crate) mod eigen;
 pub(crate) mod frame;
@@ -13,7 +15,9 @@ pub(crate) mod reach;
 
 use rayon::prelude::*;
 use taut_certify::Items;
-use taut_points::{BlockHash, Monitor, PointSource, PointsHash, Rows, hash_block, map_blocks};
+use taut_points::{
+    BlockHash, Monitor, PointSource, PointsHash, Rows, ScalarKind, hash_block, map_blocks,
+};
 
 use self::eigen::eigen;
 use crate::Error;
@@ -27,6 +31,15 @@ pub(crate) struct Shapes {
     values: Vec<f64>,
     hash: PointsHash,
     factors: Vec<Vec<f64>>,
+    indefinite: Vec<Option<Indefinite>>,
+}
+
+/// An item with eigenvalues that are not known to be positive: the pairs of D^−½SD^−½, for D the diagonal of S.
+struct Indefinite {
+    /// τ with S + τD positive semidefinite.
+    deficit: f64,
+    values: Vec<f64>,
+    vectors: Vec<f64>,
 }
 
 impl Shapes {
@@ -50,11 +63,14 @@ impl Shapes {
         let blocks = map_blocks(source, monitor, |first, rows| block(first, &rows))?;
         let hash = PointsHash::of_blocks(source.len(), columns, blocks.iter().map(|block| block.0));
         let values: Vec<f64> = blocks.into_iter().flat_map(|block| block.1).collect();
-        let mut shapes = Shapes { dim, items, columns, values, hash, factors: vec![] };
+        let mut shapes =
+            Shapes { dim, items, columns, values, hash, factors: vec![], indefinite: vec![] };
+        let kind = source.scalar();
         let factors = (0..shapes.len()).into_par_iter().with_min_len(32);
-        let factors: Vec<_> = factors.map(|i| shapes.factorise(i)).collect();
+        let factors: Vec<_> = factors.map(|i| shapes.factorise(i, kind)).collect();
         // The first item refused, not the first that a thread met.
-        shapes.factors = factors.into_iter().collect::<Result<_, _>>()?;
+        let factors: Vec<_> = factors.into_iter().collect::<Result<_, _>>()?;
+        (shapes.factors, shapes.indefinite) = factors.into_iter().unzip();
         Ok(shapes)
     }
 
@@ -122,9 +138,31 @@ impl Shapes {
         self.factors[i].chunks_exact(self.dim)
     }
 
+    /// Whether S is not known to be positive semidefinite.
+    pub(crate) fn is_indefinite(&self, i: usize) -> bool {
+        self.indefinite[i].is_some()
+    }
+
+    /// What to add to q = a′Sa so that m + Sa/√q belongs to the item: with N = S + 2τD it is (Sa)′N⁻¹Sa − q where that is
+    /// positive, and 0 where S is positive semidefinite.
+    pub(crate) fn missing(&self, i: usize, a: &[f64]) -> f64 {
+        let Some(Indefinite { deficit, values, vectors }) = &self.indefinite[i] else { return 0.0 };
+        let scaled: Vec<f64> = a.iter().enumerate().map(|(j, a)| a * self.width(i, j)).collect();
+        // With b the parts of D^½a, q = Σ λb² and (Sa)′N⁻¹Sa = Σ λ²b²/(λ + 2τ).
+        let each = values.iter().zip(vectors.chunks_exact(self.dim)).map(|(l, v)| {
+            let b: f64 = v.iter().zip(&scaled).map(|(v, a)| v * a).sum();
+            -2.0 * deficit * l * b * b / (l + 2.0 * deficit)
+        });
+        each.sum::<f64>().max(0.0)
+    }
+
     /// The factor of item i, which comes from the eigenvectors of D^−½SD^−½, D being the diagonal of S, so that units of
     /// coordinates do not matter. Fails where an eigenvalue is negative beyond rounding.
-    fn factorise(&self, i: usize) -> Result<Vec<f64>, Error> {
+    fn factorise(
+        &self,
+        i: usize,
+        kind: ScalarKind,
+    ) -> Result<(Vec<f64>, Option<Indefinite>), Error> {
         let dim = self.dim;
         if self.items == Items::Balls {
             let radius = self.described(i)[0];
@@ -132,11 +170,12 @@ impl Shapes {
                 return Err(Error::NegativeRadius { row: i as u64, value: radius });
             }
             let entry = |at: usize| if at / dim == at % dim { radius } else { 0.0 };
-            return Ok(if radius == 0.0 { vec![] } else { (0..dim * dim).map(entry).collect() });
+            let rows = if radius == 0.0 { vec![] } else { (0..dim * dim).map(entry).collect() };
+            return Ok((rows, None));
         }
         let refused = || Error::NegativeShape { row: i as u64 };
         if self.is_point(i) {
-            return Ok(vec![]);
+            return Ok((vec![], None));
         }
         let widths: Vec<f64> = (0..dim).map(|j| self.width(i, j)).collect();
         if widths.iter().any(|w| w.is_nan()) {
@@ -159,7 +198,11 @@ impl Shapes {
         }
         let (values, vectors) = eigen(&mut correlations, dim);
         // What rounding of the entries can make of an eigenvalue of 0.
-        let rounding = 16.0 * ((dim + 8) * (dim + 8)) as f64 * f64::EPSILON;
+        let of_entries = match kind {
+            ScalarKind::F32 => 4.0 * dim as f64 * f64::from(f32::EPSILON / 2.0),
+            ScalarKind::F64 => 0.0,
+        };
+        let rounding = 16.0 * ((dim + 8) * (dim + 8)) as f64 * f64::EPSILON + of_entries;
         let mut rows = vec![];
         for (value, vector) in values.iter().zip(vectors.chunks_exact(dim)) {
             let refuses = *value < -rounding || value.is_nan();
@@ -171,7 +214,12 @@ impl Shapes {
                 rows.extend(vector.iter().zip(&widths).map(|(v, w)| root * v * w));
             }
         }
-        Ok(rows)
+        // As found here, eigenvalues are off by some units in the last place of the largest.
+        let known = 4.0 * dim as f64 * f64::EPSILON;
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let deficit = (2.0 * known - least).max(0.0);
+        let indefinite = (deficit > 0.0).then_some(Indefinite { deficit, values, vectors });
+        Ok((rows, indefinite))
     }
 }
 

@@ -21,7 +21,7 @@
 //! costs, and weaken neither bound; each is derived where it stands.
 
 pub(crate) mod agreement;
-mod enclosure;
+pub(crate) mod enclosure;
 pub(crate) mod frame;
 pub(crate) mod hull;
 pub(crate) mod item;
@@ -32,6 +32,7 @@ pub(crate) mod structure;
 
 use taut_points::{Monitor, PointSource};
 
+use self::agreement::LogVolume;
 use self::enclosure::Enclosure;
 use self::frame::Frame;
 use self::hull::HullTest;
@@ -44,6 +45,10 @@ use crate::{CheckError, Violation};
 /// A solver finds its gap in arithmetic of its own, from an ellipsoid of which each axis is rounded by a few units in the
 /// last place.
 const GAP_SLACK: (f64, f64) = (1e-9, 2e-15);
+
+/// By how much a gap may be negative, for each dimension: items may reach outside by 1e-12, and what rounding the entries
+/// of a singular shape matrix does to the points it touches at is less.
+const GAP_BELOW: f64 = 1e-12;
 
 /// `pass` is the number of the pass over the points that it makes, for the monitor.
 pub(crate) fn check(
@@ -65,7 +70,7 @@ pub(crate) fn check(
     let enclosure = Enclosure::of(&frame, hull.as_ref(), certificate);
     let enclosed = enclosure.check(source, certificate.points_hash, monitor)?;
     if let Some(hull) = &hull {
-        hull.is_flat(certificate.items, &enclosed, &frame)?;
+        hull.is_flat(certificate.items, &enclosed)?;
     }
     let rank = frame.rank as f64;
     let enlarged = rank * enclosed.excess;
@@ -76,10 +81,24 @@ pub(crate) fn check(
     if !is_proved {
         return Err(Violation::LogGap { claimed: certificate.gap, proved: gap }.into());
     }
-    let upper = log_volume + enlarged;
+    if gap < -GAP_BELOW * rank {
+        return Err(Violation::NegativeGap { gap }.into());
+    }
+    let gap = gap.max(0.0);
+    let LogVolume { value, error } = log_volume;
+    // A single point has log-volume 0, and nothing is rounded.
+    let (lower, upper) = match frame.rank {
+        0 => (0.0, 0.0),
+        _ => {
+            let below = error + (gap - enlarged).max(0.0);
+            let above = error + enlarged;
+            let rounding = 4.0 * U * (value.abs() + below + above);
+            (value - (below + rounding), value + (above + rounding))
+        }
+    };
     let twice = enclosed.excess * (2.0 + enclosed.excess);
     Ok(EllipsoidVerdict {
-        lower: if gap == 0.0 { upper } else { (upper - gap).next_down() },
+        lower,
         upper,
         gap,
         excess: enclosed.excess,

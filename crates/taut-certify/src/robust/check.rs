@@ -57,7 +57,7 @@ pub(super) fn check(
     if let Some(hull) = &hull {
         hull.check(&frame)?;
     }
-    let log_volume = agreement::log_volume(&ellipsoid, &frame)?;
+    let log_volume = agreement::log_volume(&ellipsoid, &frame)?.value;
     let scan = Scan { answer, certificate, frame: &frame, hull: hull.as_ref() };
     let n = source.len();
     monitor.pass(1, n);

@@ -109,8 +109,8 @@ pub enum MeshViolation {
         /// Its place in the list.
         position: usize,
     },
-    /// The facets of the hull do not close up to one surface, or to one cycle in the plane.
-    #[error("the hull does not close up to one {} at point {row}", if *.dimension == 3 { "surface" } else { "cycle" })]
+    /// The facets of the hull do not close up to surfaces, or to one cycle in the plane.
+    #[error("the hull does not close up to {} at point {row}", if *.dimension == 3 { "a surface" } else { "one cycle" })]
     HullOpen {
         /// Dimension of the hull.
         dimension: u8,

@@ -1,12 +1,15 @@
 //! Points in an affine subspace: which one, and the ellipsoid in it.
 //!
-//! *Idea.* Coordinates are brought to extent 1, so that the rank does not depend on their units. An affine basis is
+//! *Idea.* Coordinates are brought to size 1, so that the rank does not depend on their units. An affine basis is
 //! grown by the point farthest from the span, of a sample first, then of all points, until none lies farther out than
 //! rounding of the given coordinates explains. Projected on an orthonormal basis of it the points are a source of
 //! their own, of full rank, and solved as any other.
 //! *Guarantee.* The distance of every point from the subspace is part of the answer.
 //! *Trap.* The zero that rank is measured against: a coordinate of size |x| and extent e is known to 2⁻⁵³·|x|/e of
-//! that extent, so points far from the origin are flat at a larger thickness.
+//! that extent, so points far from the origin are flat at a larger thickness; but no other coordinate is known less well for
+//! it. So coordinates are brought to size 1 rather than to extent 1, and one zero serves them all.
+//! *Trap.* Points thicker than that, by less than what their leverages are found to, have no ellipsoid of full rank in `f64`:
+//! then the zero is raised until they count as flat, up to where the checker would no longer agree.
 
 use std::ops::Range;
 
@@ -27,14 +30,18 @@ use crate::kernel::{Center, DoubleDouble};
 
 /// What residuals may be beyond the rounding of the coordinates, for √d of them, and still count as none.
 const ROUNDINGS: f64 = 16.0;
+/// The zero is raised by this factor, up to the largest, for points that are neither flat nor have leverages.
+const RAISED: f64 = 8.0;
+const RAISED_MOST: f64 = 4096.0;
 /// Part of the radius that no sum shows, whatever is added to it.
 const NOTHING: f64 = 1e-100;
 
-/// An affine subspace through an origin, in coordinates of extent 1.
+/// An affine subspace through an origin, in coordinates of size 1.
 struct Span {
     origin: Vec<f64>,
-    /// By what each coordinate is divided; 0 for one that never changes.
-    extents: Vec<f64>,
+    /// By what each coordinate is divided: its extent, or what it is at the origin if that is more; 0 for one that never
+    /// changes.
+    sizes: Vec<f64>,
     /// Orthonormal rows.
     basis: Vec<Vec<f64>>,
     /// Residuals up to this are rounding.
@@ -42,21 +49,20 @@ struct Span {
 }
 
 impl Span {
-    fn new(origin: &[f64], extents: &[f64]) -> Self {
-        let relative = origin.iter().zip(extents).filter(|(_, e)| **e > 0.0);
-        let noise = relative.map(|(o, e)| (o.abs() / e).max(1.0)).fold(1.0, f64::max);
+    fn new(origin: &[f64], extents: &[f64], raised: f64) -> Self {
+        let size = |(o, e): (&f64, &f64)| if *e > 0.0 { e.max(o.abs()) } else { 0.0 };
         Span {
             origin: origin.to_vec(),
-            extents: extents.to_vec(),
+            sizes: origin.iter().zip(extents).map(size).collect(),
             basis: vec![],
-            zero: ROUNDINGS * (origin.len() as f64).sqrt() * noise * f64::EPSILON,
+            zero: raised * ROUNDINGS * (origin.len() as f64).sqrt() * f64::EPSILON,
         }
     }
 
-    /// The part of a row, relative to the origin, that lies outside the span, in coordinates of extent 1.
+    /// The part of a row, relative to the origin, that lies outside the span, in coordinates of size 1.
     fn residual(&self, row: &mut [f64]) {
-        for (x, &extent) in row.iter_mut().zip(&self.extents) {
-            *x = if extent > 0.0 { *x / extent } else { 0.0 };
+        for (x, &size) in row.iter_mut().zip(&self.sizes) {
+            *x = if size > 0.0 { *x / size } else { 0.0 };
         }
         // Twice, as once leaves what rounding of a long row makes of a short residual.
         for direction in self.basis.iter().chain(&self.basis) {
@@ -105,7 +111,7 @@ impl Span {
                 let mut moved = 0.0;
                 for (j, (row, x)) in row.iter_mut().zip(values).enumerate() {
                     *row = x - self.origin[j];
-                    if self.extents[j] == 0.0 && *row != 0.0 {
+                    if self.sizes[j] == 0.0 && *row != 0.0 {
                         moved = f64::INFINITY;
                     }
                 }
@@ -126,7 +132,7 @@ impl Span {
         let dim = self.origin.len();
         let mut rows: Vec<Vec<f64>> = self.basis.clone();
         for row in &mut rows {
-            row.iter_mut().zip(&self.extents).for_each(|(v, e)| *v *= e);
+            row.iter_mut().zip(&self.sizes).for_each(|(v, e)| *v *= e);
             // Entries of any size: no square may overflow or vanish.
             let largest = row.iter().fold(0.0f64, |m, v| m.max(v.abs()));
             row.iter_mut().for_each(|v| *v /= largest);
@@ -169,23 +175,32 @@ pub(super) fn look(survey: &mut Survey<'_>, options: &EllipsoidOptions) -> Resul
             return Ok(Look::Full(sample, whitener));
         }
     }
-    let span = span(survey, &mut sample)?;
-    if span.basis.len() < survey.dim() {
-        return flat(survey, &span, options).map(|found| Look::Flat(Box::new(found)));
+    let mut raised = 1.0;
+    loop {
+        let span = span(survey, &mut sample, raised)?;
+        if span.basis.len() < survey.dim() {
+            return flat(survey, &span, options).map(|found| Look::Flat(Box::new(found)));
+        }
+        let (whitener, how) = sample.whitener(&sample.extents());
+        if how != Rebased::Never {
+            return Ok(Look::Full(sample, whitener));
+        }
+        if raised >= RAISED_MOST {
+            return Err(Error::Overflow);
+        }
+        raised *= RAISED;
     }
-    let (whitener, how) = sample.whitener(&span.extents);
-    if how == Rebased::Never { Err(Error::Overflow) } else { Ok(Look::Full(sample, whitener)) }
 }
 
 /// The span of all points, beginning with that of the sample, which takes up the points that are outside of it.
-fn span(survey: &mut Survey<'_>, sample: &mut Sample) -> Result<Span, Error> {
+fn span(survey: &mut Survey<'_>, sample: &mut Sample, raised: f64) -> Result<Span, Error> {
     let dim = survey.dim();
     loop {
         let mut rows = vec![0.0; sample.pool.len() * dim];
         for (i, row) in rows.chunks_exact_mut(dim).enumerate() {
             sample.pool.copy_row(i, row);
         }
-        let mut span = Span::new(&sample.origin, &sample.extents());
+        let mut span = Span::new(&sample.origin, &sample.extents(), raised);
         span.grow(rows);
         if span.basis.len() == dim {
             return Ok(span);
@@ -253,7 +268,7 @@ fn flat(
     let directions = span.directions();
     let rank = directions.len() / dim;
     if rank == 0 {
-        return point(survey, span, options);
+        return point(survey, options);
     }
     let source =
         Projected { source: survey.source(), origin: &span.origin, directions: &directions };
@@ -322,7 +337,7 @@ fn extents(
         let mut row = vec![0.0; dim];
         for values in rows.chunks_exact(dim) {
             for (j, (row, x)) in row.iter_mut().zip(values).enumerate() {
-                *row = (x - center.high[j]) - center.low[j];
+                *row = (x - center.high[j]) - center.low.get(j).copied().unwrap_or(0.0);
                 extents[j] = extents[j].max(row.abs());
             }
             // Units that no square overflows in.
@@ -351,10 +366,8 @@ fn extents(
 /// All points are one.
 fn point(
     survey: &mut Survey<'_>,
-    span: &Span,
     options: &EllipsoidOptions,
 ) -> Result<Solution<Ellipsoid>, Error> {
-    let dim = survey.dim();
     let center = Center { high: survey.rows(&[0])?, low: vec![] };
     let best = Candidate {
         support: vec![0],
@@ -371,9 +384,8 @@ fn point(
         history: vec![],
         counters: Counters::default().into_named(),
     };
-    // Points that are equal but for rounding lie this far apart at most.
-    let reach = span.extents.iter().fold(0.0f64, |m, v| m.max(*v));
-    let hull = Hull { basis: vec![], distance: 2.0 * (dim as f64).sqrt() * reach };
+    let (_, distance) = extents(survey, &center, &[])?;
+    let hull = Hull { basis: vec![], distance };
     let answer = answer(&[], center, 0.0, Some(hull))?;
     Ok(solution(survey, answer, outcome, 0.0, options))
 }

@@ -22,11 +22,16 @@ use taut_points::{
 use super::super::{Ball, BallCertificate};
 use super::lower_bound::Bound;
 use crate::arithmetic::{DoubleDouble, Field, Ring, U};
+use crate::ellipsoid::check::enclosure::kind_of;
 use crate::ellipsoid::check::frame::Frame;
 use crate::ellipsoid::check::item::Item;
 use crate::ellipsoid::check::lower_bound::touching;
 use crate::ellipsoid::check::reach;
 use crate::{CheckError, Ellipsoid, Items, Violation};
+
+/// By how much σ may be negative, in units of R²: what rounding the entries of a singular shape matrix does to the points
+/// it touches at is less.
+const SQUARE_BELOW: f64 = 1e-12;
 
 /// Proves both bounds: one pass, then the rows of the support.
 pub(super) fn prove(
@@ -86,7 +91,7 @@ fn block(ball: &Ball, frame: &Frame<'_>, first: u64, rows: &Rows<'_>) -> Result<
         rows.copy_row(i, &mut values);
         let row = first + i as u64;
         let item = Item::of(Items::Ellipsoids, frame.dim, &values);
-        item.is_valid(row)?;
+        item.is_valid(row, kind_of(rows))?;
         if ball.radius == 0.0 {
             let is_center = item.is_point()
                 && ball.center_tail.iter().all(|&t| t == 0.0)
@@ -151,7 +156,7 @@ fn lower_bound(
         let (offset, errors) = touching(frame, &item, direction);
         sums.add(lambda, &offset, errors.as_deref(), &square, frame);
     }
-    Ok(sums.bound(ball.radius, radius.rounded()))
+    Ok(sums.bound(ball.radius, radius.rounded())?)
 }
 
 impl Sums {
@@ -184,7 +189,8 @@ impl Sums {
     }
 
     /// From the sums to x, and from x to the bounds; `scaled` is R in the units of the frame.
-    fn bound(&self, radius: f64, scaled: f64) -> Bound {
+    fn bound(&self, radius: f64, scaled: f64) -> Result<Bound, Violation> {
+        let square = scaled * scaled;
         let zero = DoubleDouble::of(0.0);
         let mut sigma = zero.minus(&self.excess.over(&self.weight));
         for moment in &self.moment {
@@ -198,15 +204,20 @@ impl Sums {
         let moved = self.moment_error / weight;
         let error =
             (roundings * self.size + self.excess_error) / weight + (2.0 * mean + moved) * moved;
-        let sigma = (sigma.rounded() + error * (1.0 + 16.0 * U)).max(0.0) * (1.0 + 8.0 * U);
-        let root = (scaled * scaled - sigma).max(0.0).sqrt();
+        let sigma = (sigma.rounded() + error * (1.0 + 16.0 * U)) * (1.0 + 8.0 * U);
+        // Points that lie within R of c have tᵢ ≤ 0, so σ ≥ 0.
+        if sigma < -SQUARE_BELOW * square {
+            return Err(Violation::NegativeGap { gap: 0.5 * sigma / square });
+        }
+        let sigma = sigma.max(0.0);
+        let root = (square - sigma).max(0.0).sqrt();
         let x = (sigma / (scaled + root) * (1.0 + 16.0 * U)).min(scaled);
         if x == 0.0 {
-            return Bound { lower: radius, gap: 0.0 };
+            return Ok(Bound { lower: radius, gap: 0.0 });
         }
         let least = scaled - x;
         let gap = x / least * (1.0 + 8.0 * U);
         let lower = (radius * (1.0 - x / scaled * (1.0 + 8.0 * U))).next_down().max(0.0);
-        Bound { lower, gap: if least > 0.0 { gap } else { f64::INFINITY } }
+        Ok(Bound { lower, gap: if least > 0.0 { gap } else { f64::INFINITY } })
     }
 }

@@ -85,8 +85,17 @@ fn column_powers(frame: &Frame<'_>) -> Vec<f64> {
     largest.into_iter().map(power).collect()
 }
 
+/// A number, and what it is off by at most.
+pub(crate) struct LogVolume {
+    pub(crate) value: f64,
+    pub(crate) error: f64,
+}
+
 /// Compares the log-volume with the factor; returns it as found here.
-pub(crate) fn log_volume(ellipsoid: &Ellipsoid, frame: &Frame<'_>) -> Result<f64, Violation> {
+///
+/// Each logarithm is off by 2u of itself at most, and that of a rounded number by u more; the sum by u of the sizes for each
+/// of them.
+pub(crate) fn log_volume(ellipsoid: &Ellipsoid, frame: &Frame<'_>) -> Result<LogVolume, Violation> {
     let claimed = ellipsoid.log_volume;
     let singular = Violation::LogVolume { claimed, found: f64::INFINITY };
     let mut logs = log_unit_ball(frame.rank);
@@ -97,12 +106,19 @@ pub(crate) fn log_volume(ellipsoid: &Ellipsoid, frame: &Frame<'_>) -> Result<f64
     let size: f64 = logs.iter().map(|l| l.abs()).sum();
     let found: f64 = logs.iter().sum();
     let mut tolerance = 32.0 * U * (size + frame.rank as f64);
+    // The basis is orthonormal to 16(d + 4)u in each product.
+    let of_basis = 16.0 * (frame.rank * (frame.dim + 4)) as f64 * U;
+    let mut error = (logs.len() + 4) as f64 * U * (size + frame.rank as f64);
     if ellipsoid.hull.is_some() {
-        // The basis is orthonormal to 16(d + 4)u in each product.
-        tolerance += 16.0 * (frame.rank * (frame.dim + 4)) as f64 * U;
+        tolerance += of_basis;
+        error += of_basis;
     }
     let agrees = (found - claimed).abs() <= tolerance;
-    if agrees { Ok(found) } else { Err(Violation::LogVolume { claimed, found }) }
+    if agrees {
+        Ok(LogVolume { value: found, error })
+    } else {
+        Err(Violation::LogVolume { claimed, found })
+    }
 }
 
 /// log κᵣ as a sum of logarithms: κ₀ = 1, κ₁ = 2, κᵣ = κᵣ₋₂·2π/r.

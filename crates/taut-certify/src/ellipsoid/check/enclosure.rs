@@ -9,7 +9,9 @@
 //! *Guarantee.* No row is judged by a rounded number: all that is accepted is inside up to the excess reported.
 //! *Trap.* NaN satisfies no comparison, but is skipped by `f64::max`: rows are searched for it first.
 
-use taut_points::{BlockHash, Monitor, PointSource, PointsHash, Rows, hash_block, map_blocks};
+use taut_points::{
+    BlockHash, Monitor, PointSource, PointsHash, Rows, ScalarKind, hash_block, map_blocks,
+};
 
 use super::super::EllipsoidCertificate;
 use super::frame::Frame;
@@ -31,8 +33,9 @@ pub(super) struct Enclosed {
     pub(super) excess: f64,
     /// How far items reach from c, by coordinate, times the scale of the frame; rounded up.
     pub(super) extents: Vec<f64>,
-    /// The largest |x|, by coordinate, of points and centres as they stand; 0 when there is no hull.
-    pub(super) coordinates: Vec<f64>,
+    /// From where to where the set reaches, by coordinate; −∞ to ∞ backwards when there is no hull.
+    pub(super) lows: Vec<f64>,
+    pub(super) highs: Vec<f64>,
 }
 
 /// One ellipsoid, ready to be compared with rows.
@@ -104,7 +107,9 @@ impl<'a> Enclosure<'a> {
             let first = first + start as u64;
             match self.items {
                 Items::Points => self.points(first, &values, &mut found)?,
-                Items::Balls | Items::Ellipsoids => self.shapes(first, &values, &mut found)?,
+                Items::Balls | Items::Ellipsoids => {
+                    self.shapes(first, &values, kind_of(rows), &mut found)?;
+                }
             }
         }
         Ok(found)
@@ -141,7 +146,7 @@ impl<'a> Enclosure<'a> {
             for (row, point) in values.chunks_exact(dim).enumerate() {
                 if left_out.next_if_eq(&row).is_none() {
                     hull.judge(first + row as u64, &Item::Point(point), self.frame)?;
-                    found.coordinates(point);
+                    found.reach(&Item::Point(point));
                 }
             }
         }
@@ -158,14 +163,20 @@ impl<'a> Enclosure<'a> {
         excess_of_square(square, image.len()) + error
     }
 
-    fn shapes(&self, first: u64, values: &[f64], found: &mut Enclosed) -> Result<(), Violation> {
+    fn shapes(
+        &self,
+        first: u64,
+        values: &[f64],
+        kind: ScalarKind,
+        found: &mut Enclosed,
+    ) -> Result<(), Violation> {
         let columns = self.items.columns(self.frame.dim);
         let count = values.len() / columns;
         let mut left_out = self.left_out_of(first, count).peekable();
         for (row, values) in values.chunks_exact(columns).enumerate() {
             let number = first + row as u64;
             let item = Item::of(self.items, self.frame.dim, values);
-            item.is_valid(number)?;
+            item.is_valid(number, kind)?;
             if left_out.next_if_eq(&row).is_some() {
                 reaches_outside(number, reach::excess(self.frame, &item))?;
                 continue;
@@ -173,7 +184,7 @@ impl<'a> Enclosure<'a> {
             found.widen(&item.extents(self.frame));
             if let Some(hull) = &self.hull {
                 hull.judge(number, &item, self.frame)?;
-                found.coordinates(item.center());
+                found.reach(&item);
             }
             found.take(number, reach::excess(self.frame, &item))?;
         }
@@ -186,7 +197,18 @@ pub(super) fn excess_of_square<N: Field>(t: N, steps: usize) -> f64 {
     let t = t.rounded();
     let rounding = (steps + 8) as f64 * 4.0 * N::ROUNDOFF * (2.0 + t.abs());
     let t = t + 4.0 * U * t.abs() + rounding;
+    if t.is_nan() {
+        return f64::INFINITY;
+    }
     if t > 1.0 { (1.0 + t).sqrt() - 1.0 } else { t / 2.0 }
+}
+
+/// In which numbers rows are given.
+pub(crate) fn kind_of(rows: &Rows<'_>) -> ScalarKind {
+    match rows {
+        Rows::F32(_) => ScalarKind::F32,
+        Rows::F64(_) => ScalarKind::F64,
+    }
 }
 
 /// Whether all coordinates are finite, in a form that compilers turn into vector instructions.
@@ -208,7 +230,12 @@ fn reaches_outside(row: u64, excess: f64) -> Result<(), Violation> {
 
 impl Enclosed {
     fn nothing(dim: usize) -> Self {
-        Enclosed { excess: 0.0, extents: vec![0.0; dim], coordinates: vec![0.0; dim] }
+        Enclosed {
+            excess: 0.0,
+            extents: vec![0.0; dim],
+            lows: vec![f64::INFINITY; dim],
+            highs: vec![f64::NEG_INFINITY; dim],
+        }
     }
 
     /// Takes in by how much one row exceeds the ellipsoid.
@@ -221,23 +248,21 @@ impl Enclosed {
     }
 
     fn widen(&mut self, extents: &[f64]) {
-        largest(&mut self.extents, extents);
+        self.extents.iter_mut().zip(extents).for_each(|(most, v)| *most = most.max(*v));
     }
 
-    fn coordinates(&mut self, row: &[f64]) {
-        largest(&mut self.coordinates, row);
+    fn reach(&mut self, item: &Item<'_>) {
+        for (j, &x) in item.center().iter().enumerate() {
+            let width = item.width(j, 1.0);
+            self.lows[j] = self.lows[j].min(x - width);
+            self.highs[j] = self.highs[j].max(x + width);
+        }
     }
 
     fn merge(&mut self, other: &Enclosed) {
         self.excess = self.excess.max(other.excess);
         self.widen(&other.extents);
-        self.coordinates(&other.coordinates);
-    }
-}
-
-/// The larger of each two sizes.
-fn largest(most: &mut [f64], values: &[f64]) {
-    for (most, value) in most.iter_mut().zip(values) {
-        *most = most.max(value.abs());
+        self.lows.iter_mut().zip(&other.lows).for_each(|(low, v)| *low = low.min(*v));
+        self.highs.iter_mut().zip(&other.highs).for_each(|(high, v)| *high = high.max(*v));
     }
 }

@@ -108,7 +108,7 @@ impl<'a> Frame<'a> {
 }
 
 /// The power of two in (v/2, v], kept away from the ends of the range; 1 for 0.
-pub(super) fn power_of_two_below(value: f64) -> f64 {
+pub(crate) fn power_of_two_below(value: f64) -> f64 {
     if value == 0.0 {
         return 1.0;
     }

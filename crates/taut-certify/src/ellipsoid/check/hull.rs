@@ -4,9 +4,11 @@
 //! *Tolerances.* With u = 2⁻⁵³: an orthonormal basis written down as `f64` has products BBᵀ that differ from I by less
 //! than 16(d + 4)u; a point of such a hull then appears to lie off it by up to 32(d + 4)√(r + 1)·u times its distance
 //! from c, and so do the rows of F. The width of a flat ellipsoid is a root, so that of this part it is the root.
-//! *What counts as flat.* A set whose distance from the hull could come from rounding its coordinates, 8du times the
-//! largest, or is less than 1e-10 of its extent; for ellipsoids 1e-6, since a shape matrix knows half as many digits
-//! of a short axis.
+//! *What counts as flat.* A set whose distance from the hull is less than 1e-10 of its extent (for ellipsoids 1e-6, since a
+//! shape matrix knows half as many digits of a short axis), or could come from rounding its coordinates. Rounding moves
+//! coordinate j by u·|xⱼ|, and so a point off the hull by u·|xⱼ|·|(I − BᵀB)eⱼ|, and that of a point of the basis is seen
+//! several times larger at others: 128√d·u·√Σⱼ(max |xⱼ|·|(I − BᵀB)eⱼ|)² is granted. A large coordinate along the hull
+//! excuses nothing.
 
 use super::super::Hull;
 use super::enclosure::Enclosed;
@@ -113,12 +115,13 @@ impl<'a> HullTest<'a> {
         &self,
         items: Items,
         enclosed: &Enclosed,
-        frame: &Frame<'_>,
     ) -> Result<(), Violation> {
+        let extents: Vec<f64> =
+            enclosed.lows.iter().zip(&enclosed.highs).map(|(l, h)| 0.5 * h - 0.5 * l).collect();
+        let largest: Vec<f64> =
+            enclosed.lows.iter().zip(&enclosed.highs).map(|(l, h)| l.abs().max(h.abs())).collect();
         let part = if items == Items::Ellipsoids { 1e-6 } else { 1e-10 };
-        let allowed =
-            part * length(&enclosed.extents) / frame.scale + rounding_of(&enclosed.coordinates);
-        self.is_thin(allowed)
+        self.is_thin(part * length(&extents) + self.rounding_of(&largest))
     }
 
     /// As [`HullTest::is_flat`] for points that were picked because they lie near a hull of others: these reach up to
@@ -126,10 +129,22 @@ impl<'a> HullTest<'a> {
     pub(crate) fn is_flat_for(
         &self,
         extents: &[f64],
-        coordinates: &[f64],
+        largest: &[f64],
         wider: f64,
     ) -> Result<(), Violation> {
-        self.is_thin(wider * (1e-10 * length(extents) + rounding_of(coordinates)))
+        self.is_thin(wider * (1e-10 * length(extents) + self.rounding_of(largest)))
+    }
+
+    /// What rounding explains for points whose coordinates are at most these: of each column what is seen of it off the
+    /// hull.
+    fn rounding_of(&self, largest: &[f64]) -> f64 {
+        let dim = largest.len();
+        let seen = |j: usize| {
+            let mut unit = vec![0.0; dim];
+            unit[j] = 1.0;
+            largest[j] * length(&self.off(&unit))
+        };
+        128.0 * (dim as f64).sqrt() * U * length(&(0..dim).map(seen).collect::<Vec<_>>())
     }
 
     fn is_thin(&self, allowed: f64) -> Result<(), Violation> {
@@ -138,12 +153,6 @@ impl<'a> HullTest<'a> {
             false => Err(Violation::NotFlat { distance: self.hull.distance, allowed }),
         }
     }
-}
-
-/// What rounding explains for points of these coordinates.
-fn rounding_of(coordinates: &[f64]) -> f64 {
-    let largest = coordinates.iter().fold(0.0f64, |m, &x| m.max(x));
-    8.0 * coordinates.len() as f64 * U * largest
 }
 
 /// The length of a vector, whatever its size.

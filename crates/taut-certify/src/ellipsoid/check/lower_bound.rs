@@ -18,12 +18,13 @@
 use taut_points::{Monitor, PointSource, ReadError, Rows, Scratch};
 
 use super::super::EllipsoidCertificate;
-use super::frame::Frame;
+use super::frame::{Frame, power_of_two_below};
 use super::item::Item;
 use crate::CheckError;
 use crate::arithmetic::{DoubleDouble, Field, Ring, U, factorise};
 
-/// −½ log det W, rounded up; infinite where W is singular. Every row is already known to be valid and inside.
+/// −½ log det W, rounded up; infinite where W is singular. Every row is already known to be valid and inside, so that it
+/// is not negative but for the excess.
 pub(super) fn gap(
     frame: &Frame<'_>,
     certificate: &EllipsoidCertificate,
@@ -50,53 +51,155 @@ pub(super) fn gap(
     Ok(sums.gap())
 }
 
-/// The point of the item that lies farthest in a direction, less the centre, times s; and what that may be off by.
+/// A point of the item, less the centre, times s; and what that may be off by.
 ///
-/// With v = Sa and q = aᵀv the point is m + v/√q. Where q is not known to be positive, it is m, which belongs to the
-/// item as well.
+/// With v = Sa and q = aᵀv it is m + v/√t for a t ≥ q, or m where that t is not known to be positive. Where S is positive
+/// semidefinite, t = q: the point that lies farthest in the direction a, since vᵀS⁺v = q. Where it is not, but N = S + 2τD
+/// is, the item stands for {m + w : wwᵀ ⪯ N}, and vvᵀ/t ⪯ N holds for t ≥ vᵀN⁻¹v. So t is the larger of q and vᵀN⁻¹v: of
+/// a direction in which S has no negative part, q but for rounding; of one in which q is what cancellation left, so much
+/// more that the point stays in the item.
 pub(crate) fn touching(
     frame: &Frame<'_>,
     item: &Item<'_>,
     direction: &[f64],
 ) -> (Vec<DoubleDouble>, Option<Vec<f64>>) {
     let mut offset: Vec<DoubleDouble> = frame.offset(item.center());
-    let longest = direction.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-    if item.is_point() || longest == 0.0 {
+    let Some(scaled) = Scaled::of(item, frame.dim) else { return (offset, None) };
+    let a = scaled.direction(direction);
+    if a.iter().all(|&a| a == 0.0) {
         return (offset, None);
     }
-    let dim = frame.dim;
-    let a: Vec<f64> = direction.iter().map(|v| v / longest).collect();
-    let entry = |j: usize, k: usize| item.shape::<DoubleDouble>(j.max(k), j.min(k), frame.scale);
     let zero = DoubleDouble::of(0.0);
-    let mut errors = Vec::with_capacity(dim);
-    let (mut v, mut q, mut q_error) = (Vec::with_capacity(dim), zero, 0.0);
+    let n = a.len();
+    let rounding = (n + 8) as f64 * DoubleDouble::ROUNDOFF;
+    let mut errors = Vec::with_capacity(n);
+    let (mut v, mut q, mut q_error) = (Vec::with_capacity(n), zero, 0.0);
     for (j, &aj) in a.iter().enumerate() {
         let (mut sum, mut size) = (zero, 0.0);
         for (k, &ak) in a.iter().enumerate() {
-            let term = entry(j, k).times(&DoubleDouble::of(ak));
+            let term = scaled.entry(j, k).times(&DoubleDouble::of(ak));
             sum = sum.plus(&term);
             size += term.rounded().abs();
         }
-        let error = (dim + 8) as f64 * DoubleDouble::ROUNDOFF * size + f64::MIN_POSITIVE;
+        let error = rounding * size + f64::MIN_POSITIVE;
         q = q.plus(&sum.times(&DoubleDouble::of(aj)));
-        q_error +=
-            2.0 * error * aj.abs() + (dim + 8) as f64 * DoubleDouble::ROUNDOFF * size * aj.abs();
+        q_error += (2.0 * error + rounding * size) * aj.abs();
         errors.push(error);
         v.push(sum);
     }
-    let is_known = q.rounded() > 1e6 * q_error;
+    let deficit = item.deficit();
+    if deficit > 0.0 {
+        let Some((t, t_error)) = scaled.square_within(deficit, &v, &errors) else {
+            return (offset, None);
+        };
+        if t.minus(&q).rounded() > 0.0 {
+            (q, q_error) = (t, t_error);
+        }
+    }
+    let is_known = q.rounded() > 1e6 * q_error && q.rounded().is_finite();
     if !is_known {
         return (offset, None);
     }
     let root = q.root();
-    for ((x, v), error) in offset.iter_mut().zip(&v).zip(&mut errors) {
-        let step = v.over(&root);
+    let relative = q_error / q.rounded() + 8.0 * DoubleDouble::ROUNDOFF;
+    let mut all = vec![0.0; frame.dim];
+    for ((&j, &power), (v, error)) in
+        scaled.columns.iter().zip(&scaled.powers).zip(v.iter().zip(&errors))
+    {
+        let step = v.over(&root).scaled(power).scaled(frame.scale);
+        let error = error / root.rounded() * power * frame.scale;
+        let x = &mut offset[j];
         *x = x.plus(&step);
-        let relative = q_error / q.rounded() + 8.0 * DoubleDouble::ROUNDOFF;
-        *error = (*error / root.rounded() + relative * step.rounded().abs()) * (1.0 + 16.0 * U)
+        all[j] = (error + relative * step.rounded().abs()) * (1.0 + 16.0 * U)
             + 8.0 * DoubleDouble::ROUNDOFF * x.rounded().abs();
     }
-    (offset, Some(errors))
+    (offset, Some(all))
+}
+
+/// P⁻¹SP⁻¹ for powers of two P that bring the diagonal to [1, 4], without the rows and columns of zeros.
+struct Scaled {
+    columns: Vec<usize>,
+    powers: Vec<f64>,
+    /// The lower triangle, row by row.
+    lower: Vec<DoubleDouble>,
+}
+
+impl Scaled {
+    /// `None` for a point.
+    fn of(item: &Item<'_>, dim: usize) -> Option<Self> {
+        if item.is_point() {
+            return None;
+        }
+        let columns: Vec<usize> = (0..dim).filter(|&j| item.width(j, 1.0) > 0.0).collect();
+        let powers: Vec<f64> =
+            columns.iter().map(|&j| power_of_two_below(item.width(j, 1.0))).collect();
+        let mut lower = Vec::with_capacity(columns.len() * (columns.len() + 1) / 2);
+        for (a, &j) in columns.iter().enumerate() {
+            for (b, &k) in columns[..=a].iter().enumerate() {
+                let entry: DoubleDouble = item.shape(j, k, 1.0);
+                lower.push(entry.scaled(1.0 / powers[a]).scaled(1.0 / powers[b]));
+            }
+        }
+        Some(Scaled { columns, powers, lower })
+    }
+
+    fn entry(&self, j: usize, k: usize) -> DoubleDouble {
+        let (j, k) = (j.max(k), j.min(k));
+        self.lower[j * (j + 1) / 2 + k]
+    }
+
+    /// Pa, up to its length; nothing but another direction where a part of it underflows.
+    fn direction(&self, direction: &[f64]) -> Vec<f64> {
+        let longest = direction.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        if longest == 0.0 {
+            return vec![0.0; self.columns.len()];
+        }
+        let widest = self.powers.iter().fold(0.0f64, |m, &v| m.max(v));
+        let each = self.columns.iter().zip(&self.powers);
+        let a: Vec<f64> = each.map(|(&j, p)| direction[j] / longest * (p / widest)).collect();
+        let longest = a.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        if longest == 0.0 { a } else { a.iter().map(|v| v / longest).collect() }
+    }
+
+    /// vᵀN⁻¹v for N = S + 2τD, rounded up, and by how much at most; `None` where that cannot be told.
+    ///
+    /// With z = N⁻¹v, entries of v off by ε move it by at most 2zᵀε + εᵀN⁻¹ε, where N ⪰ τD. Factorising and solving are off
+    /// by eD in N with e far below τ, and move it by little more than e·zᵀDz. Sums of squares are as long as D allows.
+    fn square_within(
+        &self,
+        deficit: f64,
+        v: &[DoubleDouble],
+        errors: &[f64],
+    ) -> Option<(DoubleDouble, f64)> {
+        let n = v.len();
+        let mut factor = self.lower.clone();
+        for j in 0..n {
+            let at = j * (j + 3) / 2;
+            factor[at] = factor[at].plus(&factor[at].times(&DoubleDouble::of(2.0 * deficit)));
+        }
+        let e = 128.0 * ((n + 4) * (n + 4)) as f64 * DoubleDouble::ROUNDOFF;
+        if !factorise(&mut factor, n) || 16.0 * e > deficit {
+            return None;
+        }
+        let row = |i: usize| &factor[i * (i + 1) / 2..][..=i];
+        let mut z: Vec<DoubleDouble> = Vec::with_capacity(n);
+        let mut square = DoubleDouble::of(0.0);
+        for (i, v) in v.iter().enumerate() {
+            let value = z.iter().zip(row(i)).fold(*v, |rest, (t, l)| rest.minus(&t.times(l)));
+            z.push(value);
+            square = square.plus(&value.times(&value).over(&row(i)[i]));
+        }
+        for i in (0..n).rev() {
+            let known = (i + 1..n)
+                .fold(z[i].over(&row(i)[i]), |rest, j| rest.minus(&row(j)[i].times(&z[j])));
+            z[i] = known;
+        }
+        let length = 2.0 * z.iter().map(|z| z.rounded().powi(2)).sum::<f64>().sqrt();
+        let moved = errors.iter().map(|e| e * e).sum::<f64>().sqrt();
+        let error = 4.0 * (e * length * length + length * moved + moved * moved / deficit)
+            + 64.0 * n as f64 * DoubleDouble::ROUNDOFF * square.rounded();
+        Some((square.plus(&DoubleDouble::of(error)), 2.0 * error))
+    }
 }
 
 /// Sums over the support.
@@ -173,8 +276,7 @@ impl Sums {
             size += term.abs();
         }
         // Logarithms are good to a few units in the last place on every platform; so are the numbers given to them.
-        let gap = sum + (self.rank + 16) as f64 * U * size;
-        gap.max(0.0)
+        sum + (self.rank + 16) as f64 * U * size
     }
 
     /// s: what W and its factorisation are off by, in norm.

@@ -8,13 +8,13 @@
 //! and the least φ(μ) is the largest |y|² (this is the S-lemma). Proof of the bound: μI − wwᵀ ⪰ μI − A, so
 //! φ(μ) ≥ μ·(1 + gᵀ(μI − wwᵀ)⁻¹g) = μ + |g|² + (gᵀw)²/(μ − |w|²), and that minus |g + w|² is
 //! (μ − |w|² − gᵀw)²/(μ − |w|²) ≥ 0.
-//! *Idea.* μ is found in plain `f64`, by Newton steps on |A^½(μI − A)⁻¹g| = 1, the condition of the minimum; which μ
-//! is found does not matter for the proof. φ(μ) is then bounded in plain `f64`, and, where that is not enough, in
-//! doubled precision.
+//! *Idea.* μ is found by Newton steps on |A^½(μI − A)⁻¹g| = 1, the condition of the minimum; which μ is found does not
+//! matter for the proof. φ(μ) is then bounded. All this in plain `f64`, and, where that is not enough, in doubled precision.
 //! *Rounding.* A is off by at most η in norm, and the factorisation of μI − A by at most σ: so (μ − η − σ)I − A is
 //! factorised instead, which makes φ larger.
-//! *Trap.* Where g has no part along the longest axes of A, the minimum lies at μ = λmax(A), where μI − A is singular:
-//! μ is then raised until the factorisation succeeds.
+//! *Trap.* Where g has little part along the longest axes of A, the minimum lies so near μ = λmax(A) that μ must be known to
+//! more digits than an `f64` has, and where it has none, μI − A is singular there: μ is then raised by more and more,
+//! from what rounding explains, until φ grows.
 //! *Reference.* Pólik and Terlaky, A survey of the S-lemma, SIAM Review 49(3), 2007; Moré and Sorensen, SIAM J. Sci.
 //! Stat. Comput. 4(3), 1983, for the Newton steps.
 
@@ -42,14 +42,13 @@ fn bound<N: Field>(frame: &Frame<'_>, item: &Item<'_>) -> f64 {
     if !shape.trace.is_finite() {
         return f64::INFINITY;
     }
-    let distance = 1.0 + excess_of_square(square, image.len());
-    let simply = (distance + shape.trace.sqrt() - 1.0) * (1.0 + 8.0 * U) + error;
+    let (beyond, width) = (excess_of_square(square, image.len()), shape.trace.sqrt());
+    let simply = beyond + width + 8.0 * U * (beyond.abs() + width) + error;
     if simply <= -1e-9 {
         return simply;
     }
-    let rounded: Vec<f64> = image.iter().map(Field::rounded).collect();
-    let mu = multiplier(&shape.rounded(), &rounded, shape.trace);
-    simply.min(shape.excess(&image, mu) + error)
+    let mu = multiplier(&shape.lower, &image);
+    simply.min(shape.excess(&image, &mu) + error)
 }
 
 /// A = FSFᵀ.
@@ -96,20 +95,21 @@ impl<N: Field> Shape<N> {
         Shape { n, lower, trace, error }
     }
 
-    fn rounded(&self) -> Vec<f64> {
-        self.lower.iter().map(Field::rounded).collect()
-    }
-
     /// √φ(μ) − 1 for a μ near the one given, rounded up.
-    fn excess(&self, g: &[N], mu: f64) -> f64 {
-        let least = self.error + self.rounding(mu);
-        let mut raised = least;
-        let mut best = f64::INFINITY;
-        while best.is_infinite() && raised <= self.trace + least {
-            best = self.excess_at(g, mu + raised);
-            raised = 4.0 * raised.max(U * U * mu);
+    fn excess(&self, g: &[N], mu: &N) -> f64 {
+        let least = self.error + self.rounding(mu.rounded());
+        let mut best = self.excess_at(g, mu);
+        let mut raised = least.max(f64::MIN_POSITIVE);
+        for _ in 0..RAISES {
+            let next = self.excess_at(g, &mu.plus(&N::of(raised)));
+            // φ is convex: once it grows it does not fall again.
+            if next >= best && best.is_finite() || raised > self.trace {
+                return best.min(next);
+            }
+            best = best.min(next);
+            raised *= 2.0;
         }
-        best.min(self.excess_at(g, mu + (4.0 * U * mu).max(2.0 * least)))
+        best
     }
 
     /// σ.
@@ -117,9 +117,10 @@ impl<N: Field> Shape<N> {
         (16 * self.n + 64) as f64 * N::ROUNDOFF * (self.n as f64 * mu)
     }
 
-    fn excess_at(&self, g: &[N], mu: f64) -> f64 {
+    fn excess_at(&self, g: &[N], mu: &N) -> f64 {
         let n = self.n;
-        let lowered = N::of(mu).minus(&N::of(self.error)).minus(&N::of(self.rounding(mu)));
+        let lost = self.error + self.rounding(mu.rounded());
+        let lowered = mu.minus(&N::of(lost * (1.0 + 4.0 * U)));
         let mut factor: Vec<N> = self.lower.iter().map(|v| N::of(0.0).minus(v)).collect();
         for j in 0..n {
             let at = j * (j + 3) / 2;
@@ -140,32 +141,37 @@ impl<N: Field> Shape<N> {
             square = square.plus(&value.times(&value).over(&row[i]));
         }
         let rounding = 1.0 + 4.0 * (n + 8) as f64 * N::ROUNDOFF;
-        let excess =
-            N::of(mu).minus(&N::of(1.0)).plus(&N::of(mu).times(&square).times(&N::of(rounding)));
+        let excess = mu.minus(&N::of(1.0)).plus(&mu.times(&square).times(&N::of(rounding)));
         excess_of_square(excess, n)
     }
 }
 
-/// μ where φ is least, or a little more, in plain `f64`; nothing that is proved depends on how good it is.
-fn multiplier(lower: &[f64], g: &[f64], trace: f64) -> f64 {
+/// μ where φ is least, or a little more; nothing that is proved depends on how good it is.
+fn multiplier<N: Field>(lower: &[N], g: &[N]) -> N {
     let n = g.len();
-    let times = |x: &[f64]| -> Vec<f64> {
+    let zero = N::of(0.0);
+    let dot = |a: &[N], b: &[N]| a.iter().zip(b).fold(zero, |sum, (a, b)| sum.plus(&a.times(b)));
+    let times = |x: &[N]| -> Vec<N> {
         let at = |i: usize, j: usize| lower[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
-        (0..n).map(|i| (0..n).map(|j| at(i, j) * x[j]).sum()).collect()
+        let row = |i: usize| (0..n).fold(zero, |sum, j| sum.plus(&at(i, j).times(&x[j])));
+        (0..n).map(row).collect()
     };
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let mut below = (0..n).map(|j| lower[j * (j + 3) / 2]).fold(0.0, f64::max);
-    // The left side of the condition is at most √(gᵀAg)/(μ − λmax).
-    let mut above = trace + dot(g, &times(g)).max(0.0).sqrt();
+    let diagonal = (0..n).map(|j| lower[j * (j + 3) / 2]);
+    let mut below =
+        diagonal.fold(zero, |most, v| if v.minus(&most).rounded() > 0.0 { v } else { most });
+    // The left side of the condition is at most √λmax·|g|/(μ − λmax). Rounding may have made A indefinite, so that neither
+    // its trace nor gᵀAg bound what they would.
+    let norm = dot(lower, lower).rounded().sqrt() * std::f64::consts::SQRT_2 * (1.0 + 8.0 * U);
+    let mut above = N::of(norm + (norm * dot(g, g).rounded()).sqrt());
     let mut mu = above;
     for _ in 0..STEPS {
-        let mut factor: Vec<f64> = lower.iter().map(|v| -v).collect();
-        (0..n).for_each(|j| factor[j * (j + 3) / 2] += mu);
-        let mut next = f64::NAN;
+        let mut factor: Vec<N> = lower.iter().map(|v| zero.minus(v)).collect();
+        (0..n).for_each(|j| factor[j * (j + 3) / 2] = factor[j * (j + 3) / 2].plus(&mu));
+        let mut next = None;
         if factorise(&mut factor, n) {
             let z = solve(&factor, g);
             let az = times(&z);
-            let square = dot(&z, &az);
+            let square = dot(&z, &az).rounded();
             if square > 1.0 {
                 below = mu
             } else {
@@ -174,37 +180,46 @@ fn multiplier(lower: &[f64], g: &[f64], trace: f64) -> f64 {
             if (square - 1.0).abs() < 1e-9 {
                 return mu;
             }
-            next = mu + (square.sqrt() - 1.0) * square / dot(&az, &solve(&factor, &z));
+            let slope = dot(&az, &solve(&factor, &z)).rounded();
+            next = Some(mu.plus(&N::of((square.sqrt() - 1.0) * square / slope)));
         } else {
             below = mu;
         }
-        if above - below <= 2.0 * U * above {
+        let width = above.minus(&below);
+        let is_wide = width.rounded() > N::ROUNDOFF * above.rounded();
+        if !is_wide {
             break;
         }
-        let is_between = below < next && next < above;
-        mu = if is_between { next } else { 0.5 * (below + above) };
+        let is_between =
+            |mu: &N| mu.minus(&below).rounded() > 0.0 && above.minus(mu).rounded() > 0.0;
+        let middle = below.plus(&width.scaled(0.5));
+        mu = next.filter(is_between).unwrap_or(middle);
     }
     above
 }
 
-/// Halving alone would need as many steps as `f64` has bits.
-const STEPS: usize = 64;
+/// Halving alone would need as many steps as doubled precision has bits.
+const STEPS: usize = 128;
+
+/// Doublings from the last digit of doubled precision up to 1, and some.
+const RAISES: usize = 128;
 
 /// (L·D·Lᵀ)⁻¹x.
-fn solve(factor: &[f64], x: &[f64]) -> Vec<f64> {
+fn solve<N: Field>(factor: &[N], x: &[N]) -> Vec<N> {
     let row = |i: usize| &factor[i * (i + 1) / 2..][..=i];
     let mut x = x.to_vec();
     for i in 0..x.len() {
-        let known: f64 = row(i).iter().zip(&x[..i]).map(|(l, x)| l * x).sum();
-        x[i] -= known;
+        let known =
+            row(i).iter().zip(&x[..i]).fold(N::of(0.0), |sum, (l, x)| sum.plus(&l.times(x)));
+        x[i] = x[i].minus(&known);
     }
     for i in (0..x.len()).rev() {
-        x[i] /= row(i)[i];
+        x[i] = x[i].over(&row(i)[i]);
     }
     for i in (0..x.len()).rev() {
         let value = x[i];
         for (x, l) in x[..i].iter_mut().zip(row(i)) {
-            *x -= l * value;
+            *x = x.minus(&l.times(&value));
         }
     }
     x

@@ -69,7 +69,7 @@ where
     Ok(neighbors)
 }
 
-/// The two smallest of at least two vertices, no two of them equal.
+/// The two smallest of at least two vertices.
 #[inline(always)]
 fn two_smallest<const V: usize>(simplex: &[u32; V]) -> [u32; 2] {
     let [mut first, mut second] = [u32::MAX; 2];

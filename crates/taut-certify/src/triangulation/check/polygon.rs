@@ -34,7 +34,8 @@ where
     let end = count + 2;
     while walked < end {
         let seen = ids.len();
-        for _ in walked..end.min(walked + AT_ONCE) {
+        let stop = end.min(walked + AT_ONCE);
+        while walked < stop {
             let is_start = walked == 0 || walked == count;
             if (edge == 0) != is_start {
                 return Err(broken(elsewhere(&steps)));

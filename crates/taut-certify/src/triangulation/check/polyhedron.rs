@@ -8,13 +8,14 @@
 //!    directions from v to the next vertices of this cycle have one local minimum.
 //!
 //! By 3 the centroid o of the first tetrahedron is strictly inside every triangle, so seen from o every triangle shows
-//! its inner side; by 1 the view from o is a covering of the sphere of directions, unbranched but at vertices, by each of
-//! the parts that hang together. How many sheets are there? Follow the ray from o through v. A triangle met before v would have v on its outer side, against 3; a
-//! triangle that contains v but does not end there, or that is met beyond v, would contain a convex combination of sites
-//! that is not larger than v, against the choice of v. So all sheets over this direction meet in the place of v, hence, by
-//! 4, in the one vertex v, and their number is how often the cycle around v winds. By 2 the cycle, cut by a plane beside
-//! v, is a polygon that only turns left, so it winds once for each local minimum: once. So the surface is one part, seen
-//! once in every direction, and without dents it bounds a convex body.
+//! its inner side; by 1 the view from o is a covering of the sphere of directions, unbranched but at vertices, by each
+//! of the parts that hang together. How many sheets are there? Follow the ray from o through v. A triangle met before v
+//! would have v on its outer side, against 3; a triangle that contains v but does not end there, or that is met beyond
+//! v, would contain a convex combination of sites that is not larger than v, against the choice of v. So all sheets
+//! over this direction meet in the place of v, hence, by 4, in the one vertex v, and their number is how often the
+//! cycle around v winds. By 2 the cycle, cut by a plane beside v, is a polygon that only turns left, so it winds once
+//! for each local minimum: once. So the surface is one part, seen once in every direction, and without dents it bounds
+//! a convex body.
 //!
 //! *Trap.* That no two vertices have one place follows from the tiling, which is what is to be proved here. Two rows of
 //! the same point can carry a sheet each, and each winds once around its own vertex.

@@ -18,6 +18,10 @@ use crate::shapes::reach::farthest;
 /// Items that reach this near the border, relatively, are measured again with twice the digits.
 const NEAR: f64 = 1e-8;
 
+/// What the claimed gap may lack of the proved one, for each dimension, where rounding has made an item indefinite: its
+/// eigenvalues, which say what its touching points are divided by, are those of plain `f64`.
+const INDEFINITE: f64 = 1e-13;
+
 impl Base {
     /// From multipliers to an answer: containment is measured with F as it will be returned.
     pub(super) fn prove(
@@ -63,7 +67,9 @@ impl Base {
             support.iter().flat_map(|(i, a, _)| map.touching(shapes, *i, a)).collect();
         let multipliers: Vec<f64> = support.iter().map(|entry| entry.2).collect();
         let lower = lower_gap(&images, &multipliers, rank);
-        let gap = (lower + rank as f64 * (excess + LOGARITHMS)).min(f64::MAX);
+        let is_indefinite = support.iter().any(|entry| shapes.is_indefinite(entry.0));
+        let doubt = if is_indefinite { INDEFINITE } else { LOGARITHMS };
+        let gap = (lower + rank as f64 * (excess + doubt)).min(f64::MAX);
         let hull = self.hull(shapes, &center);
         let log_volume = match self.directions {
             None => log_unit_ball(rank) - (0..rank).map(|a| factor[a * dim + a].ln()).sum::<f64>(),
@@ -73,8 +79,9 @@ impl Base {
                 log_unit_ball(rank) - logs - rank as f64 * scale.ln()
             }
         };
-        if trace.stop == Stop::Converged && gap > options.epsilon.max(4.0 * ROUNDING * rank as f64)
-        {
+        let exactly = 4.0 * ROUNDING * rank as f64;
+        let wanted = if options.epsilon > 0.0 { options.epsilon } else { exactly };
+        if trace.stop == Stop::Converged && gap > wanted {
             trace.stop = Stop::Rounding;
         }
         let certificate = EllipsoidCertificate {
