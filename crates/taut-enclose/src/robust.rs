@@ -33,8 +33,8 @@ pub use options::RobustOptions;
 
 /// Centre and scatter of most of `points`, n × d, the tolerance ellipsoid, and the points outside of it.
 ///
-/// By default the h = ⌊(n + d + 1)/2⌋ points are sought whose covariance has the least determinant (MCD): nearly half
-/// of the points may be anything, at any distance, and the answer stays where the others are. Points far out in the
+/// By default the h = ⌊(n + d + 1)/2⌋ points are sought whose covariance has the least determinant (MCD): wherever
+/// nearly half of the points are, the answer stays bounded, though a denser cluster may win. Points far out in the
 /// metric of the h are then weighed out, and centre and scatter taken of the rest.
 ///
 /// *What is proved.* The certificate names the h points; the checker takes their mean and covariance anew, all factors,
