@@ -2,8 +2,8 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use taut::{
-    Ellipsoid, EllipsoidMethod, EllipsoidOptions, RobustOptions, Solution, ellipsoid_of_items,
-    robust_ellipsoid_of_source,
+    Ellipsoid, EllipsoidMethod, EllipsoidOptions, RobustEllipsoid, RobustOptions, Solution,
+    ellipsoid_of_items, robust_ellipsoid_of_source,
 };
 
 use crate::ball::items;
@@ -86,7 +86,13 @@ impl Args {
             let found = self.delivery.deliver(&desk, |points, monitor| {
                 robust_ellipsoid_of_source(points.source(), &options, monitor)
             })?;
-            return Ok(found.map_or(Outcome::CheckFailed, |_| Outcome::Done));
+            let ended = |found: Solution<RobustEllipsoid>| {
+                // The minimum covariance determinant has no gap that could be missed.
+                found.certificate.enclosure.map_or(Outcome::Done, |enclosure| {
+                    report::outcome(found.trace.stop, enclosure.certificate.gap, options.epsilon)
+                })
+            };
+            return Ok(found.map_or(Outcome::CheckFailed, ended));
         }
         let (options, items) = (self.options(), items(self.balls, self.ellipsoids));
         let found = self.delivery.deliver(&desk, |points, monitor| {

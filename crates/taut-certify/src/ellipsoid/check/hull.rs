@@ -111,11 +111,7 @@ impl<'a> HullTest<'a> {
     }
 
     /// Whether the set is flat enough to be called so.
-    pub(super) fn is_flat(
-        &self,
-        items: Items,
-        enclosed: &Enclosed,
-    ) -> Result<(), Violation> {
+    pub(super) fn is_flat(&self, items: Items, enclosed: &Enclosed) -> Result<(), Violation> {
         let extents: Vec<f64> =
             enclosed.lows.iter().zip(&enclosed.highs).map(|(l, h)| 0.5 * h - 0.5 * l).collect();
         let largest: Vec<f64> =
