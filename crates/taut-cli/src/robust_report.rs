@@ -106,7 +106,7 @@ pub(crate) fn proved_of_robust(
     let mut facts = vec![
         Fact::new("objective", exact(verdict.objective))
             .remark("a local optimum: no C-step leads on; other points kept might do better"),
-        Fact::new("points kept", verdict.kept.to_string())
+        Fact::new("kept", verdict.kept.to_string())
             .remark(format!("at least {} were to be kept", verdict.wanted)),
         Fact::new("outliers", found.answer.flagged.len().to_string()).remark(flags),
         Fact::new("dimension", verdict.rank.to_string()),

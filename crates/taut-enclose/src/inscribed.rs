@@ -234,7 +234,7 @@ fn prove(
     let mut gap = path::gap(&views, &lambda);
     if let Some(few) = few.map(|few| path::corrected(&views, few)) {
         let by_few = path::gap(&views, &few);
-        if by_few <= gap.max(0.5 * options.epsilon) {
+        if by_few.is_finite() && by_few <= gap.max(0.5 * options.epsilon) {
             (lambda, gap) = (few, by_few);
         }
     }
