@@ -81,3 +81,95 @@ fn whatever_is_answered_is_proved() {
     }
     assert!(refused.is_empty(), "{refused:#?}");
 }
+
+/// What is wrong with an answer to a set that has one, in words; nothing if the checker passes it.
+fn refusal(name: &str, values: &[f64], dim: usize, options: &RobustOptions) -> Option<String> {
+    let points = Points::new(values, dim).unwrap();
+    let verdict = match robust_ellipsoid(&points, options) {
+        Ok(found) => found.check(&points).err()?.to_string(),
+        Err(error) => error.to_string(),
+    };
+    Some(format!("{name} by {}, {:?}: {verdict}", options.method, options.coverage))
+}
+
+fn by_all(name: &str, values: &[f64], dim: usize, coverages: &[f64]) -> Vec<String> {
+    let cases = RobustMethod::ALL.into_iter().flat_map(|method| {
+        coverages.iter().map(move |&part| RobustOptions { coverage: Some(part), ..by(method) })
+    });
+    cases.filter_map(|options| refusal(name, values, dim, &options)).collect()
+}
+
+#[test]
+fn copies_that_leave_few_places_are_an_exact_fit() {
+    // Rows by the number of copies of each place.
+    let copies = |places: &[(&[f64], usize)]| -> Vec<f64> {
+        places.iter().flat_map(|(place, count)| place.repeat(*count)).collect()
+    };
+    let corners = copies(&[
+        (&[0.0, 0.0, 0.0], 4),
+        (&[0.0, 0.0, 1.0], 10),
+        (&[1.0, 0.0, 0.0], 2),
+        (&[0.0, 1.0, 0.0], 1),
+    ]);
+    let tenths = copies(&[
+        (&[0.1, 0.0, 0.0], 1),
+        (&[0.2, 0.0, 0.2], 1),
+        (&[0.1, 0.1, 0.0], 1),
+        (&[0.2, 0.0, 0.1], 1),
+        (&[0.0, 0.0, 0.0], 1),
+        (&[0.0, 0.0, 0.1], 1),
+        (&[0.0, 0.0, 0.0], 5),
+        (&[0.0, 0.2, 0.2], 1),
+        (&[0.0, 0.0, 0.0], 5),
+        (&[0.0, 0.0, 0.2], 1),
+    ]);
+    let line: Vec<f64> = (0..6).flat_map(|i| [f64::from(i), f64::from(3 * i)].repeat(30)).collect();
+    let mut refused = by_all("corners", &corners, 3, &[0.5, 0.75, 0.9, 1.0]);
+    refused.extend(by_all("tenths", &tenths, 3, &[0.5, 0.75, 0.9, 1.0]));
+    refused.extend(by_all("line", &line, 2, &[0.5, 0.75, 0.9, 1.0]));
+    assert!(refused.is_empty(), "{refused:#?}");
+}
+
+#[test]
+fn lattices_are_fitted_or_laid_flat() {
+    let mut refused = vec![];
+    let mut state = 1u64;
+    let mut lot = |below: u64| {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) % below
+    };
+    for which in 0..SETS {
+        let (dim, n) = (2 + lot(3) as usize, 8 + lot(23) as usize);
+        let (levels, unit) = (2 + lot(2), [1.0, 0.1, 1.0 / 3.0, 1e8][lot(4) as usize]);
+        // Rows that are 0 but for the last columns, so that many are copies.
+        let (zeros, part) = (lot(dim as u64 + 1) as usize, lot(4));
+        let values: Vec<f64> = (0..n)
+            .flat_map(|_| {
+                let is_zero = lot(6) < part;
+                let mut row: Vec<f64> = (0..dim).map(|_| unit * lot(levels) as f64).collect();
+                if is_zero {
+                    row[..zeros].fill(0.0);
+                }
+                row
+            })
+            .collect();
+        let coverage = 0.5 + lot(11) as f64 / 20.0;
+        refused.extend(by_all(&format!("lattice {which}"), &values, dim, &[coverage]));
+    }
+    assert!(refused.is_empty(), "{} {refused:#?}", refused.len());
+}
+
+/// Random lattices.
+const SETS: u64 = 300;
+
+#[test]
+fn columns_may_be_of_any_ratio() {
+    let mut refused = vec![];
+    for power in [80, 100, 120, 140] {
+        let by = 10f64.powi(power);
+        let values = rows(50, 2, 20, |_, x| vec![x[0] * by, x[1] / by]);
+        refused.extend(by_all(&format!("1e{power}"), &values, 2, &[0.5, 0.75, 1.0]));
+    }
+    assert!(refused.is_empty(), "{refused:#?}");
+}

@@ -4,7 +4,9 @@
 //! rows kept; their covariance C = LL′ replaces M by L⁻¹M. Near the end C is nearly the identity, so neither units,
 //! offset nor the ratio of the axes costs digits.
 //! *Flat.* Rounding of the coordinates moves row a of y by about Σ |M_ab|·ulp(x_b). When that is no small part of 1,
-//! which is the deviation of y, the rows lie in a hyperplane as far as their digits tell.
+//! which is the deviation of y, the rows lie in a hyperplane as far as their digits tell. The x_b are those of the rows:
+//! where many are copies, neither c nor S tells their size. A coordinate that never changes is found by comparison, as
+//! rounding of moments would give it a deviation.
 //! *Trap.* A covariance may be indefinite after a far outlier was dropped and yet not be flat: it is shifted, and the
 //! moments taken again in the better metric.
 
@@ -37,6 +39,38 @@ pub(super) enum Look {
     Noise(Estimate),
     /// Some direction has no thickness at all.
     Singular,
+}
+
+/// What one pass tells of the rows kept.
+struct Moments {
+    /// Σ yy′, Σ y and Σ 1 for y = M(x − c): (d + 1) × (d + 1), lower triangle.
+    sums: Vec<f64>,
+    /// The least and the largest of each coordinate.
+    lows: Vec<f64>,
+    highs: Vec<f64>,
+}
+
+impl Moments {
+    fn nothing(dim: usize) -> Self {
+        let sums = vec![0.0; (dim + 1) * (dim + 1)];
+        Moments { sums, lows: vec![f64::INFINITY; dim], highs: vec![f64::NEG_INFINITY; dim] }
+    }
+
+    fn merge(&mut self, other: &Moments) {
+        self.sums.iter_mut().zip(&other.sums).for_each(|(sum, term)| *sum += term);
+        self.lows.iter_mut().zip(&other.lows).for_each(|(low, x)| *low = low.min(*x));
+        self.highs.iter_mut().zip(&other.highs).for_each(|(high, x)| *high = high.max(*x));
+    }
+
+    /// Whether some coordinate is the same in all rows.
+    fn is_constant(&self) -> bool {
+        self.lows.iter().zip(&self.highs).any(|(low, high)| low == high)
+    }
+
+    /// The largest |x| of each coordinate.
+    fn sizes(&self) -> Vec<f64> {
+        self.lows.iter().zip(&self.highs).map(|(low, high)| low.abs().max(high.abs())).collect()
+    }
 }
 
 impl Estimate {
@@ -99,14 +133,14 @@ impl Estimate {
         Ok(all)
     }
 
-    /// Σ yy′, Σ y and Σ 1 over the rows kept, for y = M(x − c): (d + 1) × (d + 1), lower triangle.
-    fn moments(&self, data: &mut Survey<'_>, kept: &[bool]) -> Result<Vec<f64>, Error> {
+    fn moments(&self, data: &mut Survey<'_>, kept: &[bool]) -> Result<Moments, Error> {
         let dim = self.dim();
         let shift = vec![0.0; dim];
         let blocks = data.visit(|first, rows| {
             let kept = &kept[first as usize..];
             let chosen: Vec<&[f64]> =
                 rows.chunks_exact(dim).zip(kept).filter(|(_, k)| **k).map(|(row, _)| row).collect();
+            let mut found = Moments::nothing(dim);
             let blocks = chosen.len().div_ceil(POINTS);
             let mut y = vec![0.0; blocks * dim * POINTS];
             let mut weights = vec![0.0; blocks * POINTS];
@@ -115,19 +149,20 @@ impl Estimate {
             let mut squares = [0.0; POINTS];
             for (chosen, y) in chosen.chunks(POINTS).zip(y.chunks_exact_mut(dim * POINTS)) {
                 for (i, row) in chosen.iter().enumerate() {
-                    for (j, (value, c)) in row.iter().zip(&self.center).enumerate() {
+                    for (j, (&value, c)) in row.iter().zip(&self.center).enumerate() {
                         x[j * POINTS + i] = value - c;
+                        found.lows[j] = found.lows[j].min(value);
+                        found.highs[j] = found.highs[j].max(value);
                     }
                 }
                 let triangle = Triangle { matrix: &self.matrix, shift: &shift };
                 images(triangle, &x, y, &mut squares);
             }
-            moments(dim, &y, &weights)
+            found.sums = moments(dim, &y, &weights);
+            found
         })?;
-        let mut all = vec![0.0; (dim + 1) * (dim + 1)];
-        for block in blocks {
-            all.iter_mut().zip(block).for_each(|(sum, term)| *sum += term);
-        }
+        let mut all = Moments::nothing(dim);
+        blocks.iter().for_each(|block| all.merge(block));
         Ok(all)
     }
 
@@ -136,13 +171,14 @@ impl Estimate {
         let dim = self.dim();
         let mut next = self.clone();
         for _ in 0..TURNS {
-            let moments = next.moments(data, kept)?;
+            let found = next.moments(data, kept)?;
+            let moments = &found.sums;
             if moments.iter().any(|v| !v.is_finite()) {
                 return Err(Error::Overflow);
             }
             let last = &moments[dim * (dim + 1)..];
             let count = last[dim];
-            if count < dim as f64 + 1.0 {
+            if count < dim as f64 + 1.0 || found.is_constant() {
                 return Ok(Look::Singular);
             }
             let mut mean: Vec<f64> = last[..dim].iter().map(|s| s / count).collect();
@@ -168,25 +204,18 @@ impl Estimate {
                 return Ok(Look::Singular);
             }
             if is_near {
-                return Ok(if next.is_noise() { Look::Noise(next) } else { Look::Full(next) });
+                let is_noise = next.is_noise(&found.sizes());
+                return Ok(if is_noise { Look::Noise(next) } else { Look::Full(next) });
             }
         }
         Ok(Look::Singular)
     }
 
-    /// Whether rounding of the coordinates could make up what is left of some direction.
-    fn is_noise(&self) -> bool {
+    /// Whether rounding of coordinates of these sizes could make up what is left of some direction.
+    fn is_noise(&self, sizes: &[f64]) -> bool {
         let dim = self.dim();
-        let mut inverse = vec![0.0; dim * dim];
-        (0..dim).for_each(|a| inverse[a * dim + a] = 1.0);
-        divide_rows(&self.matrix, dim, &mut inverse);
-        let sizes: Vec<f64> = inverse
-            .chunks_exact(dim)
-            .zip(&self.center)
-            .map(|(row, c)| c.abs() + dot(row, row).sqrt())
-            .collect();
         let is_clear = |row: &[f64]| {
-            let noise: f64 = row.iter().zip(&sizes).map(|(m, s)| (m * s).powi(2)).sum();
+            let noise: f64 = row.iter().zip(sizes).map(|(m, s)| (m * s).powi(2)).sum();
             noise.sqrt() * f64::EPSILON < NOISE
         };
         !self.matrix.chunks_exact(dim).all(is_clear)

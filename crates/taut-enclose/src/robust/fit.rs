@@ -9,7 +9,7 @@ use super::chi_square::{
 use super::concentrate::{Criterion, Found, Raw};
 use super::enclosing::Around;
 use super::estimate::{Estimate, Look};
-use super::flat::{Flat, Part};
+use super::flat::{Flat, Part, hull};
 use super::{RobustOptions, enclosing, search};
 use crate::Error;
 use crate::ellipsoid::survey::Survey;
@@ -190,7 +190,11 @@ fn reweighted(
     };
     let look = match settled {
         Some(_) => Look::Singular,
-        None => raw.estimate.of_rows(data, &weighed)?,
+        None => match raw.estimate.of_rows(data, &weighed)? {
+            // What rounding alone gave a determinant has none.
+            Look::Noise(_) if hull(data, &weighed)?.is_some() => Look::Singular,
+            look => look,
+        },
     };
     let (estimate, weighed, scale, unweighted) = match look {
         Look::Full(estimate) | Look::Noise(estimate) => {

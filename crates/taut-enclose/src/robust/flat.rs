@@ -14,6 +14,10 @@ use crate::{EllipsoidOptions, Error, ellipsoid};
 
 /// How many times farther off than the rows kept another row may be and still count as on the subspace.
 const SLACK: f64 = 2.0;
+/// Rows count as on a subspace up to this part of how far they reach, and up to what rounding of their coordinates
+/// explains, in units of √d·2⁻⁵². It is what the checker goes by.
+const THIN: f64 = 1e-10;
+const ROUNDINGS: f64 = 64.0;
 
 /// An affine subspace {o + B′z}.
 #[derive(Clone, Debug)]
@@ -74,15 +78,41 @@ impl Flat {
         (image, largest * dot(&rest, &rest).sqrt())
     }
 
-    /// Widened until h rows count as on it, should rounding have put some of those it was made from outside.
+    /// Widened where rounding has put some of the h rows it was made from outside.
+    ///
+    /// Fails where these are farther off than rows of a subspace may be.
     pub(super) fn holding(mut self, data: &mut Survey<'_>, h: usize) -> Result<Part, Error> {
-        loop {
-            let (ids, values) = self.rows_on(data)?;
-            if ids.len() >= h {
-                return Ok(Part { flat: self, ids, values });
-            }
-            self.distance = (2.0 * self.distance).max(f64::MIN_POSITIVE);
+        let (ids, values) = self.rows_on(data)?;
+        if ids.len() >= h {
+            return Ok(Part { flat: self, ids, values });
         }
+        let dim = self.dim();
+        let length = |x: &[f64]| {
+            let largest = x.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+            let part = |v: &f64| if largest > 0.0 { (v / largest).powi(2) } else { 0.0 };
+            largest * x.iter().map(part).sum::<f64>().sqrt()
+        };
+        let blocks = data.visit(|_, rows| {
+            let place = |row: &[f64]| {
+                let (image, off) = self.project(row);
+                (off, length(&image), length(row))
+            };
+            rows.chunks_exact(dim).map(place).collect::<Vec<_>>()
+        })?;
+        let mut places = blocks.concat();
+        places.select_nth_unstable_by(h - 1, |a, b| a.0.total_cmp(&b.0));
+        let (off, ..) = places[h - 1];
+        let most = |size: &dyn Fn(&(f64, f64, f64)) -> f64| {
+            places[..h].iter().map(size).fold(0.0, f64::max)
+        };
+        let rounding = ROUNDINGS * (dim as f64).sqrt() * f64::EPSILON;
+        let is_thin = off <= THIN * most(&|place| place.1) + rounding * most(&|place| place.2);
+        if !is_thin {
+            return Err(Error::Overflow);
+        }
+        self.distance = SLACK * off;
+        let (ids, values) = self.rows_on(data)?;
+        Ok(Part { flat: self, ids, values })
     }
 
     /// The rows on the subspace: their numbers, and their coordinates in it.
@@ -144,5 +174,32 @@ impl Flat {
             basis: self.rotated_rows(&inner.basis),
             distance: self.distance + inner.distance,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taut_points::Monitor;
+
+    use super::*;
+
+    /// Rows (i, i·slope), and how many of them the first axis holds as a line of no thickness.
+    fn on_the_axis(slope: f64) -> Result<usize, Error> {
+        let values: Vec<f64> = (0..9).flat_map(|i| [f64::from(i), f64::from(i) * slope]).collect();
+        let points = Points::new(&values, 2).expect("pairs");
+        let silent = Monitor::silent();
+        let mut data = Survey::new(&points, &silent)?;
+        let axis = Flat { origin: vec![0.0; 2], basis: vec![1.0, 0.0], distance: 0.0 };
+        axis.holding(&mut data, 6).map(|part| part.ids.len())
+    }
+
+    #[test]
+    fn a_subspace_is_widened_by_rounding_and_no_more() {
+        assert_eq!(on_the_axis(0.0).unwrap(), 9);
+        // The sixth row is 5 slopes off, and rows twice as far count as on it, too.
+        assert_eq!(on_the_axis(1e-16).unwrap(), 9);
+        assert_eq!(on_the_axis(1e-11).unwrap(), 9);
+        assert!(matches!(on_the_axis(1e-9), Err(Error::Overflow)));
+        assert!(matches!(on_the_axis(1e-3), Err(Error::Overflow)));
     }
 }

@@ -3,7 +3,7 @@
 use super::super::RobustEllipsoid;
 use crate::Violation;
 use crate::arithmetic::{DoubleDouble, Field, Ring, U};
-use crate::ellipsoid::check::frame::Frame;
+use crate::ellipsoid::check::frame::{Frame, power_of_two_below};
 use crate::ellipsoid::check::hull::{HullTest, length};
 
 pub(super) fn check(
@@ -23,15 +23,20 @@ pub(super) fn check(
             }
         }
     }
-    // S·s², as F is F/s in the frame.
-    let scaled = |j: usize, k: usize| scatter[j][k] * frame.scale * frame.scale;
-    let deviation = |j: usize| scaled(j, j).max(0.0).sqrt();
-    let sizes: Vec<f64> = (0..dim).map(deviation).collect();
+    // Columns are brought to deviations of about 1, by powers of two, as their squares may differ by more than `f64`
+    // bears.
+    let deviation = |j: usize| scatter[j][j].max(0.0).sqrt();
+    let units: Vec<f64> = (0..dim).map(|j| power_of_two_below(deviation(j))).collect();
+    let sizes: Vec<f64> = (0..dim).map(|j| deviation(j) / units[j]).collect();
+    let scaled = |j: usize, k: usize| scatter[j][k] / units[j] / units[k];
+    let factor: Vec<Vec<f64>> = (answer.factor.iter())
+        .map(|row| row.iter().zip(&units).map(|(f, unit)| f * unit).collect())
+        .collect();
     for a in 0..rank {
-        // (S·s²)F′, row a of it.
+        // SF′, row a of it.
         let product: Vec<DoubleDouble> = (0..dim)
             .map(|j| {
-                let terms = frame.full_row(a).iter().enumerate();
+                let terms = factor[a].iter().enumerate();
                 terms.fold(DoubleDouble::of(0.0), |sum, (k, &f)| {
                     sum.plus(&DoubleDouble::of(f).times(&DoubleDouble::of(scaled(j, k))))
                 })
@@ -39,13 +44,13 @@ pub(super) fn check(
             .collect();
         let terms = |row: &[f64]| -> f64 { row.iter().zip(&sizes).map(|(f, s)| f.abs() * s).sum() };
         for b in 0..=a {
-            let row = frame.full_row(b);
+            let row = &factor[b];
             let entry = row.iter().zip(&product).fold(DoubleDouble::of(0.0), |sum, (&f, p)| {
                 sum.plus(&DoubleDouble::of(f).times(p))
             });
             let wanted = if a == b { 1.0 / border } else { 0.0 };
             // Entries of S are rounded, each relative to its deviations.
-            let rounding = 8.0 * (dim + 4) as f64 * U * terms(frame.full_row(a)) * terms(row);
+            let rounding = 8.0 * (dim + 4) as f64 * U * terms(&factor[a]) * terms(row);
             let agrees = (entry.rounded() - wanted).abs() <= slack / border + rounding;
             if !agrees {
                 let what = format!("entry ({a}, {b}) of FSF′");
@@ -53,9 +58,11 @@ pub(super) fn check(
             }
         }
     }
-    let whole = length(&sizes);
+    // Directions off the hull know of no units: all coordinates in that of the largest.
+    let unit = units.iter().copied().fold(0.0, f64::max);
+    let whole = length(&(0..dim).map(|j| deviation(j) / unit).collect::<Vec<_>>());
     for j in 0..dim {
-        let row: Vec<f64> = (0..dim).map(|k| scaled(j, k)).collect();
+        let row: Vec<f64> = (0..dim).map(|k| scatter[j][k] / unit / unit).collect();
         let off = hull.map_or(0.0, |hull| length(&hull.off(&row)));
         // Rounding of S, and of a basis that is orthonormal but for rounding.
         let is_within = off <= 64.0 * (dim + 4) as f64 * U * whole * whole;

@@ -4,7 +4,8 @@ use super::slack::Slack;
 use crate::Violation;
 use crate::arithmetic::{DoubleDouble, Field, Ring, factorise};
 
-/// A variance below this part of all is none: the square of what a solver in `f64` tells from rounding.
+/// A variance below this part of the mean square is none: the square of what a solver in `f64` tells from rounding. Of
+/// copies of one point all variances are rounding, so that they are not compared with each other.
 const FLAT: f64 = 1e-16;
 
 /// Σ 1, Σ y and Σ yy′.
@@ -104,9 +105,9 @@ impl Sums {
         }
         let (_, mut covariance) = self.estimate();
         let diagonal = |a: usize| a * (a + 3) / 2;
-        let trace: f64 = (0..rank).map(|a| covariance[diagonal(a)].rounded()).sum();
+        let squares: f64 = (0..rank).map(|a| self.second[diagonal(a)].rounded()).sum();
+        let shift = DoubleDouble::of(FLAT * squares / self.count as f64);
         for a in 0..rank {
-            let shift = DoubleDouble::of(FLAT * trace);
             covariance[diagonal(a)] = covariance[diagonal(a)].minus(&shift);
         }
         !factorise(&mut covariance, rank)
