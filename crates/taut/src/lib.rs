@@ -76,10 +76,10 @@
 
 pub use taut_certify as certify;
 pub use taut_certify::{
-    Answer, AnySolution, Ball, BallCertificate, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict,
-    InscribedCertificate, InscribedEllipsoid, InscribedVerdict, Items, RobustCertificate,
-    RobustEllipsoid, RobustMethod, RobustVerdict, Solution, Trace, Triangulation,
-    TriangulationCertificate, Verdict, Violation,
+    Answer, AnySolution, Ball, BallCertificate, EllipseSupport, Ellipsoid, EllipsoidCertificate,
+    EllipsoidVerdict, InscribedCertificate, InscribedEllipsoid, InscribedVerdict, Items,
+    RobustCertificate, RobustEllipsoid, RobustMethod, RobustVerdict, Solution, Trace,
+    Triangulation, TriangulationCertificate, Verdict, Violation, ellipse_support,
 };
 pub use taut_delaunay as delaunay;
 pub use taut_delaunay::{
