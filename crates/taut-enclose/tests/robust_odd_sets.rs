@@ -124,9 +124,15 @@ fn copies_that_leave_few_places_are_an_exact_fit() {
         (&[0.0, 0.0, 0.2], 1),
     ]);
     let line: Vec<f64> = (0..6).flat_map(|i| [f64::from(i), f64::from(3 * i)].repeat(30)).collect();
+    // Corners of a cube in six dimensions that lie in a flat, and most of them in one of fewer dimensions.
+    let bits: [u32; 8] =
+        [0b000110, 0b001000, 0b010100, 0b010110, 0b011110, 0b100001, 0b110001, 0b110011];
+    let cube: Vec<f64> =
+        bits.iter().flat_map(|row| (0..6).rev().map(move |j| f64::from(row >> j & 1))).collect();
     let mut refused = by_all("corners", &corners, 3, &[0.5, 0.75, 0.9, 1.0]);
     refused.extend(by_all("tenths", &tenths, 3, &[0.5, 0.75, 0.9, 1.0]));
     refused.extend(by_all("line", &line, 2, &[0.5, 0.75, 0.9, 1.0]));
+    refused.extend(by_all("cube", &cube, 6, &[0.5, 0.65, 0.75, 0.9, 1.0]));
     assert!(refused.is_empty(), "{refused:#?}");
 }
 
@@ -140,7 +146,7 @@ fn lattices_are_fitted_or_laid_flat() {
         (state >> 33) % below
     };
     for which in 0..SETS {
-        let (dim, n) = (2 + lot(3) as usize, 8 + lot(23) as usize);
+        let (dim, n) = (1 + lot(7) as usize, 8 + lot(23) as usize);
         let (levels, unit) = (2 + lot(2), [1.0, 0.1, 1.0 / 3.0, 1e8][lot(4) as usize]);
         // Rows that are 0 but for the last columns, so that many are copies.
         let (zeros, part) = (lot(dim as u64 + 1) as usize, lot(4));
@@ -161,7 +167,7 @@ fn lattices_are_fitted_or_laid_flat() {
 }
 
 /// Random lattices.
-const SETS: u64 = 300;
+const SETS: u64 = 400;
 
 #[test]
 fn columns_may_be_of_any_ratio() {

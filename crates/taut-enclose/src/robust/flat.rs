@@ -19,6 +19,10 @@ const SLACK: f64 = 2.0;
 const THIN: f64 = 1e-10;
 const ROUNDINGS: f64 = 64.0;
 
+/// A coordinate in a subspace of dimension d is 0 up to this part of the sum of sizes it was made of, in units of
+/// (d + 4)·2⁻⁵².
+const VANISHING: f64 = 4.0;
+
 /// An affine subspace {o + B′z}.
 #[derive(Clone, Debug)]
 pub(super) struct Flat {
@@ -69,11 +73,16 @@ impl Flat {
         }
         // Units that no square overflows in.
         rest.iter_mut().for_each(|v| *v /= largest);
+        let offset = rest.clone();
         let mut image = vec![];
         for direction in self.basis.chunks_exact(self.dim()) {
             let product = dot(&rest, direction);
             add_scaled(&mut rest, -product, direction);
-            image.push(product * largest);
+            // What only rounding keeps from 0: left as it is, a column of such numbers would count as one of its own.
+            let size: f64 = offset.iter().zip(direction).map(|(x, b)| (x * b).abs()).sum();
+            let is_zero =
+                product.abs() <= VANISHING * (self.dim() + 4) as f64 * f64::EPSILON * size;
+            image.push(if is_zero { 0.0 } else { product * largest });
         }
         (image, largest * dot(&rest, &rest).sqrt())
     }
