@@ -143,7 +143,7 @@ def test_an_affine_map_of_the_polytope_maps_the_ellipsoid_along():
     ("A", "b", "message"),
     [
         ([[1, 0], [-1, 0], [0, 1]], [1, 1, 1], "unbounded"),
-        ([[1.0], [-1.0]], [0.0, -1.0], "the polytope is empty"),
+        ([[1.0], [-1.0]], [0.0, -1.0], "no interior point"),
         ([[1.0], [-1.0]], [1.0, -1.0], "no interior point"),
         (np.empty((0, 2)), [], "no half-spaces"),
         ([[1, 0], [0, 0]], [1, 1], "half-space 1 has no normal"),
