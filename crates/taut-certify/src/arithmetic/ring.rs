@@ -34,6 +34,13 @@ impl Ring for f64 {
 pub(crate) struct Residue(u128);
 
 impl Residue {
+    pub(crate) const ZERO: Residue = Residue(0);
+
+    #[inline(always)]
+    pub(crate) fn of(value: i64) -> Self {
+        Residue(i128::from(value) as u128)
+    }
+
     /// The residue of value/2^exponent, for a finite value of which no bit lies below 2^exponent.
     pub(crate) fn scaled(value: f64, exponent: i32) -> Self {
         let (mantissa, own) = parts(value);

@@ -42,7 +42,7 @@
 //!
 //! *Cost.* O(n + simplices), beside a sort of the facets of the hull in space, and of those listed if they come in another
 //! order than the simplices. Simplices that follow space name a row while it is at hand, so each row is fetched about
-//! once. Beside the input and what is checked, a bit for each row is kept; the step of the hull takes 4 bytes for each row
+//! once. Beside the input and what is checked, a byte for each row is kept; the step of the hull takes 4 bytes for each row
 //! and 16 for each of its edges in the plane, 8 and 44 for each of its triangles in space; 56 and 60 where the list of the
 //! hull has to be sorted. Few bytes, as a first touch of memory costs more here than the arithmetic on what is put there.
 //! *Reference.* Delaunay's lemma for regular triangulations: Edelsbrunner, Geometry and Topology for Mesh Generation,

@@ -131,7 +131,7 @@ pub(super) struct Complex<'a, const D: usize, const V: usize> {
 }
 
 impl<const D: usize, const V: usize> Complex<'_, D, V> {
-    /// Every simplex is positively oriented, every facet has another side or is open, and no apex of a neighbour is in
+    /// Every id is a row, every simplex is positively oriented, every facet has another side or is open, and no apex of a neighbour is in
     /// conflict.
     pub(super) fn check<G: Geometry<D, V>, const F: usize>(
         &self,
@@ -147,7 +147,12 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
                 self.block::<G, F>(batch, block * BLOCK, simplices)
             })
             .collect();
-        let blocks = blocks.into_iter().collect::<Result<Vec<Paired<F>>, MeshViolation>>()?;
+        let blocks = blocks.into_iter().collect::<Result<Vec<Paired<F>>, MeshViolation>>();
+        if blocks.is_err() {
+            // A wrong id may have been met from another simplex first, and is what is to be told.
+            self.sites.have_all(self.simplices.as_flattened(), V, 0)?;
+        }
+        let blocks = blocks?;
         let mut all = Paired::default();
         all.open.reserve_exact(blocks.iter().map(|block| block.open.len()).sum());
         for block in blocks {
@@ -182,6 +187,8 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
         batch.near_ties.forget();
         let starts = (first..first + simplices.len()).step_by(BATCH);
         for (first, simplices) in starts.zip(simplices.chunks(BATCH)) {
+            // While they are at hand: a pass of its own would bring them all from memory once more.
+            self.sites.have_all(simplices.as_flattened(), V, first)?;
             let ahead = batch.prepare::<G, F>(self, first, simplices, &mut paired)?;
             paired.ahead += ahead as u64;
             paired.behind += (V * simplices.len() - ahead) as u64;
@@ -192,7 +199,7 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
                 for facet in some {
                     self.settle::<G, F>(first, facet, near_ties, &mut paired)?;
                 }
-                near_ties.settle::<G>(&self.signs, |facet, conflict| {
+                near_ties.settle::<G, D, V>(self, first, |facet, conflict| {
                     self.conclude(first, facet, conflict, &mut paired)
                 })?;
             }
@@ -214,7 +221,7 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
         &self,
         first: usize,
         facet: &Facet,
-        near_ties: &mut NearTies<D, V>,
+        near_ties: &mut NearTies,
         paired: &mut Paired<F>,
     ) -> Result<(), MeshViolation>
     where
@@ -231,20 +238,28 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
             // Wrong, unless the neighbour names this simplex twice: once too often, which the counts show.
             facet.apex =
                 self.across(number, facet.ahead.place as usize % 4, facet.ahead.neighbor)?;
+            self.sites.have_all(&[facet.apex], 1, facet.ahead.neighbor as usize)?;
         }
         paired.refined += 1;
-        let apex = self.sites.point(facet.apex);
-        let simplex = self.sites.gather(&self.simplices[number]);
-        let Tested { value, size, largest } = facet.tested;
+        let Tested { value, largest, .. } = facet.tested;
         let conflict = if !(self.signs.is_filtered && is_tested) {
+            let (simplex, apex) = self.points(first, &facet);
             self.signs.conflict::<G, D, V>(&simplex, &apex)
         } else if largest <= G::IN_SPHERE.exact_max * self.signs.quantum {
+            let (simplex, apex) = self.points(first, &facet);
             self.signs.conflict_of::<G, D, V>(&simplex, &apex, sign_of(value))
         } else {
-            near_ties.push(facet, simplex, apex, size);
+            near_ties.push(facet);
             return Ok(());
         };
         self.conclude(first, &facet, conflict, paired)
+    }
+
+    /// The vertices of the simplex of a facet, and the vertex beyond it.
+    #[inline(always)]
+    pub(super) fn points(&self, first: usize, facet: &Facet) -> ([[f64; D]; V], [f64; D]) {
+        let simplex = &self.simplices[first + facet.ahead.place as usize / 4];
+        (self.sites.gather(simplex), self.sites.point(facet.apex))
     }
 
     fn conclude<const F: usize>(
@@ -339,7 +354,16 @@ pub(super) struct Ahead {
 pub(super) struct Facet {
     ahead: Ahead,
     apex: u32,
-    tested: Tested,
+    pub(super) tested: Tested,
+}
+
+#[cfg(test)]
+impl Facet {
+    /// The first facet of a simplex, by its place in the batch, with the vertex beyond it.
+    pub(super) fn beyond(place: usize, apex: u32) -> Self {
+        let ahead = Ahead { place: 4 * place as u32, neighbor: NO_NEIGHBOR };
+        Facet { ahead, apex, tested: Tested::default() }
+    }
 }
 
 /// A few simplices on their way through the rounds. The lists have room for all facets, and stay as long as that.
@@ -351,7 +375,7 @@ struct Batch<const D: usize, const V: usize> {
     apexes: Vec<u32>,
     /// Those facets that plain arithmetic did not settle.
     open: Vec<Facet>,
-    near_ties: NearTies<D, V>,
+    near_ties: NearTies,
 }
 
 impl<const D: usize, const V: usize> Batch<D, V> {
@@ -378,7 +402,7 @@ impl<const D: usize, const V: usize> Batch<D, V> {
         let Complex { sites, signs, neighbors, .. } = complex;
         self.prepared.clear();
         let mut count = 0;
-        simplices.as_flattened().iter().for_each(|&id| self.recent.want(id));
+        self.recent.want(simplices.as_flattened().iter().copied());
         self.recent.bring(sites);
         let rows = simplices.iter().zip(&neighbors[first..first + simplices.len()]);
         for (place, (simplex, neighbors)) in rows.enumerate() {
@@ -411,6 +435,7 @@ impl<const D: usize, const V: usize> Batch<D, V> {
         [u32; V]: Facets<F>,
     {
         let Complex { simplices, neighbors, .. } = *complex;
+        let rows = complex.sites.rows();
         let ahead = &self.ahead[..count];
         // Some of these are far away. Touched in a loop of nothing else, many are on their way at the same time.
         let touch = |all: u32, ahead: &Ahead| {
@@ -418,18 +443,20 @@ impl<const D: usize, const V: usize> Batch<D, V> {
             all ^ simplices.get(at).map_or(0, |s| s[0]) ^ neighbors.get(at).map_or(0, |n| n[0])
         };
         std::hint::black_box(ahead.iter().fold(0, touch));
-        for (apex, &Ahead { place, neighbor }) in self.apexes.iter_mut().zip(ahead) {
+        let facets = self.apexes.iter_mut().zip(ahead);
+        self.recent.want(facets.map(|(apex, &Ahead { place, neighbor })| {
             let (number, facet) = (first + place as usize / 4, place as usize % 4);
             let neighbor = neighbor as usize;
             *apex = NO_SITE;
             if let (Some(other), Some(back)) = (simplices.get(neighbor), neighbors.get(neighbor)) {
                 let face = simplices[number].facet(facet);
                 let (beyond, off) = <[u32; V]>::beyond(&face, other, back, number as u32);
+                let is_right = (off == 0) & (neighbor != number) & ((beyond as usize) < rows);
                 // Without a branch, NO_SITE for whatever is off.
-                *apex = beyond | u32::from((off == 0) & (neighbor != number)).wrapping_sub(1);
+                *apex = beyond | u32::from(is_right).wrapping_sub(1);
             }
-            self.recent.want(*apex);
-        }
+            *apex
+        }));
         self.recent.bring(complex.sites);
     }
 
@@ -496,10 +523,10 @@ impl<const D: usize> Prepared<D> {
 
 /// D in plain arithmetic.
 #[derive(Clone, Copy, Default)]
-struct Tested {
+pub(super) struct Tested {
     value: f64,
     /// The largest monomial there can be.
-    size: f64,
+    pub(super) size: f64,
     /// The largest difference of coordinates.
     largest: f64,
 }
@@ -526,7 +553,7 @@ mod tests {
         let points = Points::new(&values, 2).unwrap();
         let mut scratch = Scratch::new();
         let input = Input::<2>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
-        let sites = Sites::of(&input, &[0, 1, 2, 3], 1).unwrap();
+        let sites = Sites::of(&input);
         let mut batch = Batch::new();
         let mut judge = |simplices: &[[u32; 3]], is_spoilt: bool| {
             let mut neighbors = pairing::pair(simplices, sites.rows()).unwrap();

@@ -8,9 +8,9 @@
 use pulp::{Arch, Simd, WithSimd};
 
 use super::super::MeshViolation;
-use super::facets::Facet;
+use super::facets::{Complex, Facet};
 use super::geometry::Geometry;
-use super::signs::{Conflict, Signs, sign_of};
+use super::signs::Conflict;
 use crate::arithmetic::Ring;
 
 /// Lanes of the widest vectors there are.
@@ -76,70 +76,64 @@ impl<S: Simd> Ring for Lanes<S> {
     }
 }
 
-/// A facet with the points of its determinant.
-struct NearTie<const D: usize, const V: usize> {
-    facet: Facet,
-    simplex: [[f64; D]; V],
-    apex: [f64; D],
-    /// The largest monomial there can be.
-    size: f64,
-}
-
 /// Facets on their way.
-pub(super) struct NearTies<const D: usize, const V: usize> {
-    ties: Vec<NearTie<D, V>>,
+pub(super) struct NearTies {
+    facets: Vec<Facet>,
     values: Vec<f64>,
 }
 
-impl<const D: usize, const V: usize> NearTies<D, V> {
+impl NearTies {
     pub(super) fn new() -> Self {
-        NearTies { ties: Vec::new(), values: Vec::new() }
+        NearTies { facets: Vec::new(), values: Vec::new() }
     }
 
-    /// Adds a facet of `simplex` with `apex` beyond it; no monomial of the determinant is larger than `size`.
-    pub(super) fn push(&mut self, facet: Facet, simplex: [[f64; D]; V], apex: [f64; D], size: f64) {
-        self.ties.push(NearTie { facet, simplex, apex, size });
+    /// Adds a facet, of which vertex and test are known.
+    #[inline(always)]
+    pub(super) fn push(&mut self, facet: Facet) {
+        self.facets.push(facet);
     }
 
     /// Drops what a block that failed has left.
     pub(super) fn forget(&mut self) {
-        self.ties.clear();
+        self.facets.clear();
     }
 
-    /// Tells of each what it is, and forgets them.
-    pub(super) fn settle<G: Geometry<D, V>>(
+    /// Tells of each what it is, and forgets them. The batch begins with simplex `first`.
+    pub(super) fn settle<G: Geometry<D, V>, const D: usize, const V: usize>(
         &mut self,
-        signs: &Signs,
+        complex: &Complex<'_, D, V>,
+        first: usize,
         mut conclude: impl FnMut(&Facet, Conflict) -> Result<(), MeshViolation>,
     ) -> Result<(), MeshViolation> {
-        if self.ties.is_empty() {
+        if self.facets.is_empty() {
             return Ok(());
         }
         self.values.clear();
-        let (ties, values) = (&self.ties, &mut self.values);
-        Arch::new().dispatch(Determinants {
-            ties,
-            values,
-            geometry: std::marker::PhantomData::<G>,
-        });
-        for (tie, &value) in self.ties.iter().zip(&self.values) {
-            let NearTie { facet, simplex, apex, size } = tie;
-            let bound = G::IN_SPHERE.of_double_double(*size);
-            let sign = if value.abs() > bound {
-                sign_of(value)
+        let (facets, values) = (&self.facets, &mut self.values);
+        let geometry = std::marker::PhantomData::<G>;
+        Arch::new().dispatch(Determinants { complex, first, facets, values, geometry });
+        for (facet, &value) in self.facets.iter().zip(&self.values) {
+            let bound = G::IN_SPHERE.of_double_double(facet.tested.size);
+            let conflict = if value.abs() > bound {
+                Conflict { is_inside: value > 0.0, is_tie: false }
             } else {
-                signs.in_sphere_exactly::<G, D, V>(simplex, apex, value.abs() + bound)
+                let (simplex, apex) = complex.points(first, facet);
+                let signs = &complex.signs;
+                let sign = signs.in_sphere_exactly::<G, D, V>(&simplex, &apex, value.abs() + bound);
+                signs.conflict_of::<G, D, V>(&simplex, &apex, sign)
             };
-            conclude(facet, signs.conflict_of::<G, D, V>(simplex, apex, sign))?;
+            conclude(facet, conflict)?;
         }
-        self.ties.clear();
+        self.facets.clear();
         Ok(())
     }
 }
 
-/// The determinants of `ties`, in turn.
+/// The determinants of `facets`, in turn.
 struct Determinants<'a, G, const D: usize, const V: usize> {
-    ties: &'a [NearTie<D, V>],
+    complex: &'a Complex<'a, D, V>,
+    first: usize,
+    facets: &'a [Facet],
     values: &'a mut Vec<f64>,
     geometry: std::marker::PhantomData<G>,
 }
@@ -152,36 +146,48 @@ impl<G: Geometry<D, V>, const D: usize, const V: usize> WithSimd for Determinant
         let width = S::F64_LANES.min(MOST_LANES);
         let zero = simd.splat_f64s(0.0);
         let mut differences = [[Lanes { simd, high: zero, low: zero }; D]; V];
-        let mut lanes = [0.0; MOST_LANES];
-        for ties in self.ties.chunks(width) {
-            for k in 0..D {
-                for (lane, tie) in lanes.iter_mut().zip(ties) {
-                    *lane = tie.simplex[0][k];
-                }
-                let origin = simd.partial_load_f64s(&lanes[..width]);
-                // The edges from the first vertex to the others, then to the apex.
-                for i in 1..=V {
-                    for (lane, tie) in lanes.iter_mut().zip(ties) {
-                        *lane = tie.simplex.get(i).unwrap_or(&tie.apex)[k];
+        let mut vertices = [[[0.0; MOST_LANES]; D]; V];
+        let mut apexes = [[0.0; MOST_LANES]; D];
+        for facets in self.facets.chunks(width) {
+            for (lane, facet) in facets.iter().enumerate() {
+                let (simplex, apex) = self.complex.points(self.first, facet);
+                for k in 0..D {
+                    for i in 0..V {
+                        vertices[i][k][lane] = simplex[i][k];
                     }
-                    let to = simd.partial_load_f64s(&lanes[..width]);
+                    apexes[k][lane] = apex[k];
+                }
+            }
+            for k in 0..D {
+                let origin = simd.partial_load_f64s(&vertices[0][k][..width]);
+                // The edges from the first vertex to the others, then to the apex.
+                for i in 1..V {
+                    let to = simd.partial_load_f64s(&vertices[i][k][..width]);
                     differences[i - 1][k] = Lanes::difference(simd, to, origin);
                 }
+                let to = simd.partial_load_f64s(&apexes[k][..width]);
+                differences[V - 1][k] = Lanes::difference(simd, to, origin);
             }
             let (edges, r) = differences.split_at(V - 1);
             let value = G::in_sphere(&G::lifted(edges), &r[0]).high;
+            let mut lanes = [0.0; MOST_LANES];
             simd.partial_store_f64s(&mut lanes[..width], value);
-            self.values.extend_from_slice(&lanes[..ties.len()]);
+            self.values.extend_from_slice(&lanes[..facets.len()]);
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::marker::PhantomData;
+
     use proptest::collection::vec;
     use proptest::prelude::*;
+    use taut_points::{Monitor, Points, Scratch};
 
     use super::super::geometry::{Tetrahedra, Triangles};
+    use super::super::input::Input;
+    use super::super::sites::Sites;
     use super::*;
     use crate::arithmetic::DoubleDouble;
 
@@ -189,26 +195,40 @@ mod tests {
     fn agree<G: Geometry<D, V>, const D: usize, const V: usize>(
         values: &[f64],
     ) -> Result<(), TestCaseError> {
-        let points: &[[f64; D]] = values.as_chunks().0;
-        let mut ties = NearTies::<D, V>::new();
+        let facets = values.len() / (D * (V + 1));
+        let points = Points::new(&values[..facets * D * (V + 1)], D).unwrap();
+        let mut scratch = Scratch::new();
+        let input = Input::<D>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
+        let (sites, signs) = (Sites::of(&input), input.signs());
+        // Each simplex has V rows of its own, and the row after them beyond it.
+        let first_row = |simplex: usize| (simplex * (V + 1)) as u32;
+        let simplices: Vec<[u32; V]> =
+            (0..facets).map(|s| std::array::from_fn(|i| first_row(s) + i as u32)).collect();
+        let facets: Vec<Facet> =
+            (0..facets).map(|s| Facet::beyond(s, first_row(s) + V as u32)).collect();
+        let complex = Complex { sites: &sites, signs, simplices: &simplices, neighbors: &[] };
         let mut expected = vec![];
-        for points in points.chunks_exact(V + 1) {
-            let simplex: [[f64; D]; V] = std::array::from_fn(|i| points[i]);
-            ties.push(Facet::default(), simplex, points[V], 0.0);
-            let differences: Vec<[DoubleDouble; D]> = points[1..]
-                .iter()
-                .map(|p| std::array::from_fn(|k| DoubleDouble::difference(p[k], points[0][k])))
+        for facet in &facets {
+            let (simplex, apex) = complex.points(0, facet);
+            let others = simplex[1..].iter().chain([&apex]);
+            let differences: Vec<[DoubleDouble; D]> = others
+                .map(|p| std::array::from_fn(|k| DoubleDouble::difference(p[k], simplex[0][k])))
                 .collect();
             let (edges, r) = differences.split_at(V - 1);
             expected.push(G::in_sphere(&G::lifted(edges), &r[0]).high);
         }
-        let NearTies { ties, values } = &mut ties;
-        let geometry = std::marker::PhantomData::<G>;
-        Arch::new().dispatch(Determinants { ties, values, geometry });
-        prop_assert_eq!(values.as_slice(), expected.as_slice());
-        Arch::Scalar.dispatch(Determinants { ties, values, geometry });
-        let twice = [expected.as_slice(), expected.as_slice()].concat();
-        prop_assert_eq!(values.as_slice(), twice.as_slice());
+        for arch in [Arch::new(), Arch::Scalar] {
+            let (mut values, geometry) = (vec![], PhantomData::<G>);
+            let determinants = Determinants {
+                complex: &complex,
+                first: 0,
+                facets: &facets,
+                values: &mut values,
+                geometry,
+            };
+            arch.dispatch(determinants);
+            prop_assert_eq!(&values, &expected);
+        }
         Ok(())
     }
 

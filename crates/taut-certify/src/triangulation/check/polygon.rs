@@ -134,7 +134,7 @@ mod tests {
         let points = Points::new(&values, 2).unwrap();
         let mut scratch = Scratch::new();
         let input = Input::<2>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
-        let sites = Sites::of(&input, edges.as_flattened(), 2).unwrap();
+        let sites = Sites::of(&input);
         check(&sites, &input.signs(), edges.to_vec())
     }
 

@@ -220,9 +220,9 @@ mod tests {
         let mut scratch = Scratch::new();
         let input = Input::<3>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
         let simplices: Vec<u32> = edges.iter().flat_map(|&[a, b]| [a + 2, b + 2, 0, 1]).collect();
-        let sites = Sites::of(&input, &simplices, 4).unwrap();
+        let sites = Sites::of(&input);
         let mut recent = Recent::new(simplices.len());
-        simplices.iter().for_each(|&id| recent.want(id));
+        recent.want(simplices.iter().copied());
         recent.bring(&sites);
         let tetrahedra: &[[u32; 4]] = simplices.as_chunks().0;
         for tetrahedron in tetrahedra {
@@ -270,9 +270,9 @@ mod tests {
         let mut scratch = Scratch::new();
         let input = Input::<3>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
         let simplices: Vec<u32> = star.iter().flat_map(|&[a, b]| [a + 2, b + 2, 0, 1]).collect();
-        let sites = Sites::of(&input, &simplices, 4).unwrap();
+        let sites = Sites::of(&input);
         let mut recent = Recent::new(simplices.len());
-        simplices.iter().for_each(|&id| recent.want(id));
+        recent.want(simplices.iter().copied());
         recent.bring(&sites);
         let tetrahedra: &[[u32; 4]] = simplices.as_chunks().0;
         let triangles: Vec<[u32; 3]> =

@@ -32,7 +32,14 @@ impl Claim<'_> {
         self.lists.map(|(hull, _)| hull)
     }
 
-    /// Steps before any geometry: every id is a row, and there are points if and only if this is said.
+    /// Whether all is given that [`Complex::check`] needs.
+    fn is_whole<const D: usize>(&self) -> bool {
+        let is_full = self.hull_dimension.is_some_and(|dimension| usize::from(dimension) == D);
+        is_full && self.lists.is_some() && !self.neighbors.is_empty()
+    }
+
+    /// Steps before any geometry: every id is a row, unless that is found on the way, and there are points if and only if
+    /// this is said.
     fn begin<'i, const D: usize>(
         &self,
         input: &'i Input<'i, D>,
@@ -47,7 +54,11 @@ impl Claim<'_> {
                 return Err(MeshViolation::HullDimension { claimed: self.hull_dimension, found });
             }
         }
-        Sites::of(input, self.simplices, self.width())
+        let sites = Sites::of(input);
+        if !self.is_whole::<D>() {
+            sites.have_all(self.simplices, self.width(), 0)?;
+        }
+        Ok(sites)
     }
 
     /// Every row is a vertex or stands for one. All vertices were named.

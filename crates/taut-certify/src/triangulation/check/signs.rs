@@ -221,14 +221,26 @@ impl Signs {
         exact: impl Fn(&[[Integer; D]]) -> Integer,
     ) -> Ordering {
         // All powers are exact. One bit less than there is makes up for the rounding of `most`.
-        if most < self.quantum.powi(bounds.degree) * 2f64.powi(126) {
-            let least = parts(self.quantum).1;
-            let residues = |point: &[f64; D]| point.map(|x| Residue::scaled(x, least));
-            let base = residues(origin);
-            let mut differences = [base; MOST];
+        let scale = (0..bounds.degree).fold(1.0, |power, _| power * self.quantum);
+        if most < scale * 2f64.powi(126) {
+            let mut differences = [[Residue::ZERO; D]; MOST];
+            let (per_quantum, mut are_near) = (1.0 / self.quantum, true);
             for (difference, point) in differences.iter_mut().zip(points) {
-                let point = residues(point);
-                *difference = std::array::from_fn(|k| point[k].minus(&base[k]));
+                for k in 0..D {
+                    let DoubleDouble { high, low } = DoubleDouble::difference(point[k], origin[k]);
+                    let in_quanta = high * per_quantum;
+                    are_near &= (low == 0.0) & (in_quanta.abs() < i64::MAX as f64);
+                    difference[k] = Residue::of(in_quanta as i64);
+                }
+            }
+            if !are_near {
+                let least = parts(self.quantum).1;
+                let residues = |point: &[f64; D]| point.map(|x| Residue::scaled(x, least));
+                let base = residues(origin);
+                for (difference, point) in differences.iter_mut().zip(points) {
+                    let point = residues(point);
+                    *difference = std::array::from_fn(|k| point[k].minus(&base[k]));
+                }
             }
             return residue(&differences[..points.len()]).sign();
         }

@@ -2,12 +2,10 @@
 //!
 //! *Idea.* Simplices follow space, rows come in any order. Nothing is renumbered or copied for that: the few
 //! thousand rows that simplices name again and again for a while are kept at hand ([`Recent`]), so that most rows are
-//! fetched from memory once. What grows with the input is one bit for a row.
+//! fetched from memory once. What grows with the input is one byte for a row.
 
 use std::collections::HashSet;
-use std::sync::atomic::{AtomicU64, Ordering};
-
-use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::super::{MeshViolation, SiteHash};
 use super::input::Input;
@@ -21,29 +19,37 @@ pub(super) struct Sites<'a, const D: usize> {
     input: &'a Input<'a, D>,
     /// The order in which determinants take the coordinates, if it is another.
     axes: Option<[usize; D]>,
-    /// A bit for each row that was named.
-    named: Vec<AtomicU64>,
+    /// Whether a row was named. Of single bits, each would have to be set by one locked operation, for which the
+    /// loads that follow wait.
+    named: Vec<AtomicBool>,
 }
 
 impl<'a, const D: usize> Sites<'a, D> {
-    /// The rows for `simplices`, `width` of them in each; all are rows that there are.
-    pub(super) fn of(
-        input: &'a Input<'a, D>,
-        simplices: &[u32],
+    /// All rows, none of them named.
+    pub(super) fn of(input: &'a Input<'a, D>) -> Self {
+        let named = (0..input.len()).map(|_| AtomicBool::new(false)).collect();
+        Sites { input, axes: None, named }
+    }
+
+    /// Whether these ids are rows: `width` of each simplex from number `first` on.
+    #[inline(always)]
+    pub(super) fn have_all(
+        &self,
+        ids: &[u32],
         width: usize,
-    ) -> Result<Self, MeshViolation> {
-        let largest = |ids: &[u32]| ids.iter().fold(0, |largest, &id| largest.max(id));
-        let largest = simplices.par_chunks(1 << 16).map(largest).max();
-        if let Some(largest) = largest
-            && largest as usize >= input.len()
-        {
-            let is_wrong = |&id: &u32| id as usize >= input.len();
-            let place = simplices.iter().position(is_wrong).unwrap_or(0);
-            let (position, id) = (place / width, simplices[place]);
-            return Err(MeshViolation::Id { list: "simplices", position, id });
+        first: usize,
+    ) -> Result<(), MeshViolation> {
+        let is_wrong = |id: u32| id as usize >= self.rows();
+        if !is_wrong(ids.iter().fold(0, |largest, &id| largest.max(id))) {
+            return Ok(());
         }
-        let named = (0..input.len().div_ceil(64)).map(|_| AtomicU64::new(0)).collect();
-        Ok(Sites { input, axes: None, named })
+        match ids.iter().position(|&id| is_wrong(id)) {
+            None => Ok(()),
+            Some(place) => {
+                let (position, id) = (first + place / width, ids[place]);
+                Err(MeshViolation::Id { list: "simplices", position, id })
+            }
+        }
     }
 
     /// The same rows, with their coordinates in this order.
@@ -92,22 +98,17 @@ impl<'a, const D: usize> Sites<'a, D> {
     /// Notes that a row is a vertex.
     #[inline(always)]
     fn name(&self, id: u32) {
-        let (word, bit) = (&self.named[id as usize / 64], 1 << (id % 64));
-        // Most are noted already; looking is cheaper than writing.
-        if word.load(Ordering::Relaxed) & bit == 0 {
-            word.fetch_or(bit, Ordering::Relaxed);
-        }
+        self.named[id as usize].store(true, Ordering::Relaxed);
     }
 
     /// Whether a row was named.
     pub(super) fn is_named(&self, id: u32) -> bool {
-        let word = self.named.get(id as usize / 64);
-        word.is_some_and(|word| word.load(Ordering::Relaxed) >> (id % 64) & 1 == 1)
+        self.named.get(id as usize).is_some_and(|named| named.load(Ordering::Relaxed))
     }
 
     /// How many rows were named.
     pub(super) fn count(&self) -> usize {
-        self.named.iter().map(|word| word.load(Ordering::Relaxed).count_ones() as usize).sum()
+        self.named.iter().map(|named| usize::from(named.load(Ordering::Relaxed))).sum()
     }
 
     /// The rows that were named, ascending.
@@ -223,13 +224,20 @@ impl<const D: usize> Recent<D> {
         (id.wrapping_mul(0x9E37_79B9) >> (u32::BITS - Self::BITS)) as usize
     }
 
-    /// Asks for a row, or for none by [`NO_SITE`], one of at most `room` before the next [`Recent::bring`].
+    /// Asks for the rows that `ids` gives, at most `room` before the next [`Recent::bring`]; for none by [`NO_SITE`].
     #[inline(always)]
-    pub(super) fn want(&mut self, id: u32) {
-        let wanted = &mut self.wanted[Self::place(id)];
-        self.missing[self.count] = id;
-        self.count += usize::from((*wanted != id) & (id != NO_SITE));
-        *wanted = id;
+    pub(super) fn want(&mut self, ids: impl Iterator<Item = u32>) {
+        let Recent { wanted, missing, count, .. } = self;
+        let (wanted, missing) = (wanted.as_mut_slice(), missing.as_mut_slice());
+        // A local number, as one in memory would be stored and loaded again for each id.
+        let mut end = *count;
+        for id in ids {
+            let wanted = &mut wanted[Self::place(id)];
+            missing[end] = id;
+            end += usize::from((*wanted != id) & (id != NO_SITE));
+            *wanted = id;
+        }
+        *count = end;
     }
 
     /// Has all that were asked for at hand.
@@ -268,13 +276,13 @@ mod tests {
         let points = Points::new(&values, 2).unwrap();
         let mut scratch = Scratch::new();
         let input = Input::<2>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
-        let sites = Sites::of(&input, &[0, 1, 2], 3).unwrap();
+        let sites = Sites::of(&input);
         let mut recent = Recent::new(20_000);
         for round in 0..2 {
             for id in (0..20_000).step_by(1 + round) {
-                recent.want(id);
+                recent.want([id].into_iter());
             }
-            recent.want(NO_SITE);
+            recent.want([NO_SITE].into_iter());
             recent.bring(&sites);
             for id in (0..20_000).rev() {
                 let vertex = recent.vertex(&sites, id);
@@ -290,8 +298,8 @@ mod tests {
         let points = Points::new(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0], 2).unwrap();
         let mut scratch = Scratch::new();
         let input = Input::<2>::read(&points, &mut scratch, &Monitor::silent()).unwrap();
-        let found = Sites::of(&input, &[0, 1, 2, 0, 2, 3], 3).err();
-        let expected = MeshViolation::Id { list: "simplices", position: 1, id: 3 };
-        assert_eq!(found, Some(expected));
+        let found = Sites::of(&input).have_all(&[0, 1, 2, 0, 2, 3], 3, 7);
+        let expected = MeshViolation::Id { list: "simplices", position: 8, id: 3 };
+        assert_eq!(found, Err(expected));
     }
 }
