@@ -37,6 +37,7 @@
 
 mod arithmetic;
 mod ball;
+mod centers;
 mod ellipsoid;
 mod inscribed;
 mod items;
@@ -47,6 +48,7 @@ mod triangulation;
 mod verdict;
 
 pub use ball::{Ball, BallCertificate};
+pub use centers::{Centers, CentersCertificate, CentersVerdict, LowerBound, Placement};
 pub use ellipsoid::{
     EllipseSupport, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipse_support,
 };
