@@ -266,6 +266,11 @@ impl Solution {
                 let certificate = RobustCertificate::new(py, &found.certificate)?;
                 (answer, Py::new(py, certificate)?.into_any(), found.trace.clone())
             }
+            AnySolution::Centers(_) => {
+                return Err(PyValueError::new_err(
+                    "answers of kind \"centers\" are not known here yet",
+                ));
+            }
             AnySolution::Triangulation(found) => {
                 let answer = Py::new(py, Triangulation::new(py, found)?)?.into_any();
                 let certificate = TriangulationCertificate::new(&found.certificate);
@@ -288,7 +293,8 @@ impl Solution {
             AnySolution::Ball(_)
             | AnySolution::Ellipsoid(_)
             | AnySolution::Inscribed(_)
-            | AnySolution::Robust(_) => {
+            | AnySolution::Robust(_)
+            | AnySolution::Centers(_) => {
                 let article = if self.kind().starts_with(['e', 'i']) { "an" } else { "a" };
                 let problem = format!("{article} {} has no {name}: triangulations do", self.kind());
                 Err(PyAttributeError::new_err(problem))
@@ -322,6 +328,7 @@ impl Solution {
         match &self.solution {
             AnySolution::Ball(found) => Some(found.certificate.items),
             AnySolution::Ellipsoid(found) => Some(found.certificate.items),
+            AnySolution::Centers(found) => Some(found.certificate.items),
             AnySolution::Robust(_) => Some(Items::Points),
             AnySolution::Inscribed(_) | AnySolution::Triangulation(_) => None,
         }
@@ -371,6 +378,7 @@ impl Solution {
             AnySolution::Ellipsoid(_) => "ellipsoid",
             AnySolution::Inscribed(_) => "inscribed-ellipsoid",
             AnySolution::Robust(_) => "robust-ellipsoid",
+            AnySolution::Centers(_) => "centers",
             AnySolution::Triangulation(_) => "delaunay",
         }
     }
@@ -469,6 +477,9 @@ impl Solution {
             }
             Ok(AnyVerdict::Robust(proved)) => {
                 Ok(Py::new(py, RobustVerdict::new(py, proved)?)?.into_any())
+            }
+            Ok(AnyVerdict::Centers(_)) => {
+                Err(PyValueError::new_err("answers of kind \"centers\" are not known here yet"))
             }
             Ok(AnyVerdict::Triangulation(proved)) => {
                 Ok(Py::new(py, TriangulationVerdict::new(&proved))?.into_any())

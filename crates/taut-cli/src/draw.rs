@@ -53,6 +53,9 @@ impl Args {
             AnySolution::Ellipsoid(found) => self.drawing(found, &points, &watch)?,
             AnySolution::Inscribed(found) => self.drawing(found, &points, &watch)?,
             AnySolution::Robust(found) => self.drawing(found, &points, &watch)?,
+            AnySolution::Centers(_) => {
+                anyhow::bail!("{}: there are no pictures of centres yet", shown(&self.answer))
+            }
             AnySolution::Triangulation(found) => self.drawing(found, &points, &watch)?,
         };
         match drawing {

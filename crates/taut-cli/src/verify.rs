@@ -4,7 +4,7 @@ use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
-use taut::certify::{CheckError, JsonError, check_simplices};
+use taut::certify::{CentersVerdict, CheckError, JsonError, check_simplices};
 use taut::enclose::Error as SolveError;
 use taut::points::{Blocks, Scratch};
 use taut::{Answer, AnySolution, Solution, Verdict, Violation};
@@ -90,6 +90,11 @@ impl Args {
                     points.source().len()
                 );
                 (Outcome::Done, report::text(&title, &proved_of_robust(found, &verdict)))
+            }),
+            AnySolution::Centers(found) => judge(found, &points, &watch)?.map(|verdict| {
+                let count = found.answer.centers.len();
+                let what = format!("{count} centres of radius {}", exact(found.answer.radius));
+                within(verdict.gap, what, proved_of_centers(&verdict))
             }),
             AnySolution::Triangulation(found) => judge(found, &points, &watch)?.map(|verdict| {
                 let title = triangulation(points.source().dim());
@@ -239,6 +244,14 @@ fn triangulation(dimension: usize) -> String {
 /// All digits: rounded to a few, the gap could look like the one allowed.
 fn too_loose(name: &str, proved: f64, most: f64) -> String {
     format!("{name}: a gap of {proved:e} is proved, larger than --epsilon {most:e}")
+}
+
+fn proved_of_centers(verdict: &CentersVerdict) -> Vec<Fact> {
+    let bracket = format!("{} ≤ smallest radius ≤ {}", exact(verdict.lower), exact(verdict.upper));
+    vec![
+        Fact::new("bracket", bracket),
+        Fact::new("gap", gap(verdict.gap)).remark("relative, proved from the points alone"),
+    ]
 }
 
 fn facts(verdict: &Verdict) -> Vec<Fact> {
