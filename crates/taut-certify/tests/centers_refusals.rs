@@ -184,7 +184,7 @@ fn a_search_that_is_cut_short_confirms_nothing() {
             continue;
         }
         let violation = refusal(&found, &points);
-        assert_eq!(violation, CentersViolation::NotConfirmed { nodes: 65_537 });
+        assert_eq!(violation, CentersViolation::NotConfirmed { nodes: 65_536 });
     }
 }
 

@@ -76,10 +76,10 @@ struct Search<'a, R: Room> {
 
 impl<R: Room> Search<'_, R> {
     fn node(&mut self) -> Result<Outcome, Cancelled> {
-        self.nodes += 1;
-        if self.nodes > NODES {
+        if self.nodes == NODES {
             return Ok(Outcome::Undecided);
         }
+        self.nodes += 1;
         if self.nodes.is_multiple_of(64) {
             self.monitor.check()?;
         }
