@@ -22,6 +22,11 @@
 //! Not for: distances other than Euclidean; balls where some points may be left out.
 
 mod ball;
+mod centers {
+    pub(crate) mod options;
+}
+#[cfg(test)]
+mod centers_rows;
 mod ellipsoid;
 mod error;
 mod inscribed;
@@ -32,6 +37,7 @@ mod shapes;
 mod top;
 
 pub use ball::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_ellipsoids, ball_of_source};
+pub use centers::options::{CentersMethod, CentersOptions};
 pub use ellipsoid::{
     EllipsoidMethod, EllipsoidOptions, ellipsoid, ellipsoid_of_balls, ellipsoid_of_ellipsoids,
     ellipsoid_of_items, ellipsoid_of_source, ellipsoids, ellipsoids_of_sources,
