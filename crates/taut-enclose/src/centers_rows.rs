@@ -34,7 +34,7 @@ use self::search::{End, Search};
 use self::sites::Sites;
 use self::start::{Incumbent, start};
 use crate::Error;
-use crate::centers::options::CentersOptions;
+use crate::centers::options::{CentersMethod, CentersOptions};
 
 /// Once the gap is at most this beyond the one wanted, the radius wanted is tried at once.
 const NEAR: f64 = 0.02;
@@ -66,14 +66,32 @@ pub(crate) fn solve(
         let (name, value) = ("k", k.to_string());
         return Err(Error::Option { name, value, expected: "at least 1" });
     }
+    if options.method == CentersMethod::Thesis {
+        let (name, value) = ("method", "thesis".into());
+        return Err(Error::Option {
+            name,
+            value,
+            expected: "tree or farthest-first among the rows",
+        });
+    }
+    if !source.is_empty() && options.outliers >= source.len() {
+        return Err(Error::Option {
+            name: "outliers",
+            value: options.outliers.to_string(),
+            expected: "less than the number of items",
+        });
+    }
     let sites = Sites::read(source, items, options.weights, monitor)?;
-    // More centres than rows, or more to be left out, are of no use.
-    let outliers = options.outliers.min(sites.len() as u64) as usize;
+    let outliers = options.outliers as usize;
+    // More centres than rows are of no use.
     let mut bracket = Bracket::new(&sites, k.min(sites.len()), outliers, options, monitor);
     if !bracket.incumbent.radius.is_finite() {
         return Err(Error::Overflow);
     }
-    bracket.close()?;
+    bracket.record();
+    if options.method == CentersMethod::Tree {
+        bracket.close()?;
+    }
     let (lower, proof) = bracket.proof()?;
     let answer = answer(&sites, &bracket.incumbent, outliers, lower, options)?;
     let gap = match answer.radius {
@@ -81,7 +99,8 @@ pub(crate) fn solve(
         _ if lower == 0.0 => f64::MAX,
         radius => (radius / lower - 1.0).next_up(),
     };
-    let is_reached = gap <= options.epsilon + 4.0 * rounding(&sites);
+    let is_reached = options.method == CentersMethod::FarthestFirst
+        || gap <= options.epsilon.max(4.0 * rounding(&sites));
     let certificate = CentersCertificate {
         items,
         weights: options.weights,
@@ -93,11 +112,14 @@ pub(crate) fn solve(
         proof: proof.by,
         points_hash: sites.hash(),
     };
-    let mut counters = BTreeMap::from([("covers".to_owned(), bracket.scans)]);
-    counters.insert("proof-nodes".to_owned(), proof.nodes);
+    let mut counters = BTreeMap::from([("scans".to_owned(), bracket.scans)]);
+    counters.insert("proof_nodes".to_owned(), proof.nodes);
     let trace = Trace {
-        method: "tree".to_owned(),
-        stop: if is_reached { Stop::Converged } else { Stop::PassBudget },
+        method: match options.method {
+            CentersMethod::FarthestFirst => "farthest-first".to_owned(),
+            _ => "tree".to_owned(),
+        },
+        stop: if is_reached { Stop::Converged } else { Stop::NodeBudget },
         passes: 1,
         iterations: bracket.nodes,
         core_set: bracket.members.len() as u64,
@@ -170,12 +192,13 @@ impl<'a> Bracket<'a> {
         };
         let middle = lower * (upper / lower).sqrt();
         let is_near = upper <= (1.0 + NEAR) * (1.0 + epsilon) * lower;
-        if is_near || !(middle > lower) || middle > wanted { wanted } else { middle }
+        // Without a lower bound there is no middle.
+        let is_between = middle > lower && middle <= wanted;
+        if is_near || !is_between { wanted } else { middle }
     }
 
     /// Halves the bracket until it is as narrow as was asked, or the nodes are used up.
     fn close(&mut self) -> Result<(), Error> {
-        self.record();
         while !self.is_closed() {
             let radius = self.next_radius();
             let mut core = CoreSet::new(self.sites, radius, &self.members);

@@ -33,19 +33,21 @@ pub enum Error {
         /// Columns there are.
         columns: usize,
     },
-    /// A weight of the input is not above 0.
-    #[error("row {row} has weight {value}: weights are the last column and must be above 0")]
-    Weight {
-        /// Row, from 0.
-        row: u64,
-        /// Its weight.
-        value: f64,
-    },
     /// Weights were announced, but the rows have no room for a point and a weight.
-    #[error("a weighted point needs a coordinate and a weight, but rows have {columns} column")]
+    #[error(
+        "a point with a weight needs a coordinate and a weight, but rows have {columns} column"
+    )]
     NoWeight {
         /// Columns there are.
         columns: usize,
+    },
+    /// A weight of the input is not positive.
+    #[error("point {row} has weight {value}: weights are the last column and must be more than 0")]
+    NonPositiveWeight {
+        /// Point, from 0.
+        row: u64,
+        /// Its weight.
+        value: f64,
     },
     /// Ellipsoids were announced, but no dimension has rows of that many numbers.
     #[error(

@@ -70,7 +70,7 @@ impl Sites {
             for (row, values) in (first..).zip(values.chunks_exact(columns)) {
                 let value = values[columns - 1];
                 if weights && value <= 0.0 {
-                    return Err(Error::Weight { row, value });
+                    return Err(Error::NonPositiveWeight { row, value });
                 }
                 if items == Items::Balls && value < 0.0 {
                     return Err(Error::NegativeRadius { row, value });
@@ -292,12 +292,14 @@ impl Sites {
     /// The reach of item `site` from a centre as somebody else may evaluate it, or a little more; itself where nothing
     /// is rounded.
     pub(super) fn reach_up(&self, site: usize, center: usize) -> f64 {
-        let reach = self.reach_from(site, center);
         let center = self.center(center);
+        let mut distance = [0.0];
+        self.distances(site, &center, &mut distance);
+        let reach = self.reach(site, distance[0]);
         let square = Difference::new(self.position(site), &center, 1.0).squared();
         let root = square.high.sqrt();
         let exact = square.low == 0.0 && root.mul_add(root, -square.high) == 0.0;
-        if exact && self.are_plain() && SAFE.contains(&square.high) || reach == self.own_reach(site) {
+        if distance == [0.0] || exact && self.are_plain() && SAFE.contains(&square.high) {
             return reach;
         }
         (reach * (1.0 + relative_error(self.dim))).next_up()
