@@ -28,6 +28,8 @@
 
 mod apart;
 mod ball;
+mod centers;
+mod centers_rows;
 mod cover;
 mod ellipsoid;
 mod error;
