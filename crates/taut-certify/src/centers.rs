@@ -21,10 +21,7 @@ pub enum Placement {
 
 /// k centres, from one of which each item is at most `radius` away.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "centers: an object with centers, radius and lower_bound"
-)]
+#[serde(deny_unknown_fields, expecting = "centers: an object with centers, radius and lower_bound")]
 pub struct Centers {
     /// At most k centres of d coordinates each. Fewer than k where fewer are as good.
     pub centers: Vec<Vec<f64>>,
