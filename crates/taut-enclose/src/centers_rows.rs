@@ -34,7 +34,7 @@ use self::search::{End, Search};
 use self::sites::Sites;
 use self::start::{Incumbent, start};
 use crate::Error;
-use crate::centers::options::{CentersMethod, CentersOptions};
+use crate::centers::{CentersMethod, CentersOptions};
 
 /// Once the gap is at most this beyond the one wanted, the radius wanted is tried at once.
 const NEAR: f64 = 0.02;

@@ -9,7 +9,7 @@ use taut_points::{Distribution, Monitor, Points, generate};
 use self::judge::{Problem, judge};
 use super::solve;
 use crate::Error;
-use crate::centers::options::{CentersMethod, CentersOptions};
+use crate::centers::{CentersMethod, CentersOptions};
 
 fn ask(problem: &Problem<'_>, options: &CentersOptions) -> Result<Solution<Centers>, Error> {
     let points = Points::new(problem.values, problem.columns).unwrap();
