@@ -7,6 +7,7 @@
 mod answer;
 mod cloud;
 mod clusters;
+mod conflict;
 mod items;
 mod options;
 mod proof;

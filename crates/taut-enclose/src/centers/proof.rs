@@ -174,7 +174,7 @@ fn tree<P: Position>(
                 continue;
             };
             frame.next += 1;
-            frame.undo = Some(state.put(frame.item, place));
+            frame.undo = Some(state.put(frame.item, place, 0));
             break;
         }
     }
