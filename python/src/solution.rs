@@ -554,6 +554,11 @@ impl Solution {
                 let outliers = found.answer.flagged.len();
                 format!("Solution(kind='{kind}', log_det={log_det}, outliers={outliers})")
             }
+            AnySolution::Centers(found) => {
+                let radius = float(py, found.answer.radius)?;
+                let gap = float(py, found.certificate.gap)?;
+                format!("Solution(kind='{kind}', radius={radius}, gap={gap})")
+            }
             AnySolution::Triangulation(found) => {
                 let certify::TriangulationCounts { sites, simplices, hull } =
                     found.certificate.counts;
