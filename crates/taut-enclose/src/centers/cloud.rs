@@ -55,7 +55,8 @@ impl<P: Position> Cloud<P> {
     pub(super) fn new(given: ItemSet<P>) -> Self {
         let mut order: Vec<u32> = (0..given.len() as u32).collect();
         let mut ranges = vec![];
-        let mut open = vec![0..order.len()];
+        let mut open: Vec<Range<usize>> = Vec::new();
+        open.push(0..order.len());
         while let Some(range) = open.pop() {
             if range.len() <= LEAF {
                 ranges.push(range);

@@ -319,7 +319,9 @@ impl<P: Position> Workspace<P> {
                 linear -= part * self.linear[l];
             }
             let across = dot(edge.as_ref(), edge.as_ref()).sqrt();
-            if !(across > DEPENDENT * length2.sqrt()) {
+            // Also where numbers are none.
+            let is_independent = across > DEPENDENT * length2.sqrt();
+            if !is_independent {
                 return false;
             }
             edge.as_mut().iter_mut().for_each(|e| *e /= across);
