@@ -3,7 +3,6 @@
 mod centers;
 
 use centers::judge;
-use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use taut_certify::{Centers, Items, LowerBound, Placement, Solution, Stop};

@@ -14,6 +14,8 @@ use super::small_ball::{Ball, Workspace};
 
 /// Cliques are sought from every item that fits nowhere if there are at most so many, else from the first so many.
 const CLIQUE_STARTS: usize = 24;
+/// Comparisons of pairs that a search for a large clique may make, about 0.1 s: beyond, it starts from fewer items.
+const CLIQUE_PAIRS: usize = 20_000_000;
 
 /// Items of the core-set that are together.
 pub(super) struct Cluster<P> {
@@ -397,8 +399,30 @@ impl<P: Position> Cluster<P> {
     }
 }
 
+/// The largest of greedy cliques from all candidates in turn; the search ends with one of more than `enough`.
+pub(super) fn large_clique<P: Position>(
+    items: &ItemSet<P>,
+    candidates: &[u32],
+    threshold: f64,
+    enough: usize,
+) -> Vec<u32> {
+    let pairs = candidates.len().saturating_mul(enough.min(candidates.len()));
+    let starts = (CLIQUE_PAIRS / pairs.max(1)).max(1);
+    let (mut clique, mut trial) = (vec![], vec![]);
+    for &start in candidates.iter().take(starts) {
+        greedy_clique(items, start, candidates, threshold, enough, &mut trial);
+        if trial.len() > clique.len() {
+            std::mem::swap(&mut clique, &mut trial);
+        }
+        if clique.len() > enough {
+            break;
+        }
+    }
+    clique
+}
+
 /// Items no two of which fit in one ball below the threshold, taken in order after `start`; ends with more than `enough`.
-pub(super) fn greedy_clique<P: Position>(
+fn greedy_clique<P: Position>(
     items: &ItemSet<P>,
     start: u32,
     candidates: &[u32],

@@ -19,7 +19,7 @@ use taut_certify::{PassBounds, Stop};
 use taut_points::{Monitor, ReadError};
 
 use super::cloud::Cloud;
-use super::clusters::{Clusters, Place, Survey, Undo, greedy_clique};
+use super::clusters::{Clusters, Place, Survey, Undo, large_clique};
 use super::conflict::Levels;
 use super::items::{ItemSet, Position};
 use super::start::{Incumbent, Start, improve};
@@ -34,8 +34,6 @@ const LAST_BUT_ONE: f64 = 0.03;
 const FIRST_RUN: u64 = 200;
 /// Centres whose radius is this near to the best are worth Lloyd's steps.
 const WORTH_IMPROVING: f64 = 1.01;
-/// Comparisons of pairs that a search for cliques at the root may make: beyond, it starts from fewer items.
-const ROOT_PAIRS: usize = 20_000_000;
 
 /// What a search found.
 pub(super) struct Found<P> {
@@ -123,7 +121,9 @@ pub(super) fn solve<P: Position>(
     let mut thresholds = vec![];
     let mut history = vec![];
     let mut stop = Stop::Converged;
-    search.gap = epsilon.max(FIRST_GAP);
+    // What items apart prove of outliers is poor, and gains most from steps that are quick to end.
+    let open = if z > 0 && lower > 0.0 { search.best.radius / lower - 1.0 } else { 0.0 };
+    search.gap = epsilon.max(FIRST_GAP).max(0.5 * open);
     loop {
         let before = search.best.radius;
         if before <= (1.0 + epsilon) * lower {
@@ -197,7 +197,7 @@ impl<P: Position> Search<'_, P> {
                 return Err(Halt::Budget);
             }
             self.nodes += 1;
-            if self.nodes % 256 == 0 {
+            if self.nodes.is_multiple_of(256) {
                 let go_on = self.monitor.check().map_err(ReadError::from);
                 go_on.map_err(|error| Halt::Error(error.into()))?;
             }
@@ -261,15 +261,7 @@ impl<P: Position> Search<'_, P> {
     fn open_clique(&mut self, frames: &mut Vec<Frame<P>>) -> bool {
         let all: Vec<u32> = (0..self.core_set.len() as u32).collect();
         let room = self.k.saturating_add(self.z);
-        let starts = (ROOT_PAIRS / (all.len() * room.min(all.len())).max(1)).max(1);
-        let (mut clique, mut trial) = (vec![], vec![]);
-        for &start in all.iter().take(starts) {
-            let state = &self.state;
-            greedy_clique(&state.items, start, &all, state.threshold, room, &mut trial);
-            if trial.len() > clique.len() {
-                std::mem::swap(&mut clique, &mut trial);
-            }
-        }
+        let clique = large_clique(&self.state.items, &all, self.state.threshold, room);
         if clique.len() > room {
             return false;
         }
