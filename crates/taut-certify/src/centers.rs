@@ -1,12 +1,15 @@
 //! k equal balls around all items, and the certificate that no k much smaller ones would do.
 
 mod check;
+mod violation;
 
 use serde::{Deserialize, Serialize};
 use taut_points::{Monitor, PointSource, PointsHash};
 
 use crate::json::{hash_from_hex, hash_to_hex};
 use crate::{Answer, CheckError, Items};
+
+pub use violation::CentersViolation;
 
 /// Where centres may be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -21,10 +24,7 @@ pub enum Placement {
 
 /// k centres, from one of which each item is at most `radius` away.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "centers: an object with centers, radius and lower_bound"
-)]
+#[serde(deny_unknown_fields, expecting = "centers: an object with centers, radius and lower_bound")]
 pub struct Centers {
     /// At most k centres of d coordinates each. Fewer than k where fewer are as good.
     pub centers: Vec<Vec<f64>>,
