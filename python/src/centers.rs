@@ -211,6 +211,9 @@ impl CentersVerdict {
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         let [lower, upper, gap] = [self.lower, self.upper, self.gap].map(|value| float(py, value));
         let nodes = self.nodes;
-        Ok(format!("CentersVerdict(lower={}, upper={}, gap={}, nodes={nodes})", lower?, upper?, gap?))
+        Ok(format!(
+            "CentersVerdict(lower={}, upper={}, gap={}, nodes={nodes})",
+            lower?, upper?, gap?
+        ))
     }
 }

@@ -4,7 +4,8 @@ use clap::{Parser, Subcommand};
 
 use crate::exit::Outcome;
 use crate::{
-    ball, centers, completions, delaunay, draw, ellipsoid, formats, generate, inscribe, man, tour, verify,
+    ball, centers, completions, delaunay, draw, ellipsoid, formats, generate, inscribe, man, tour,
+    verify,
 };
 
 /// Tight shapes around, through and inside point sets, with proof.

@@ -53,7 +53,10 @@ pub(crate) fn run(
     if let Some(out) = &delivery.out
         && out.extension().is_some_and(|extension| extension == "json")
     {
-        bail!("{}: -o writes the table of --elbow as CSV; the answer of one k is JSON", out.display());
+        bail!(
+            "{}: -o writes the table of --elbow as CSV; the answer of one k is JSON",
+            out.display()
+        );
     }
     let watch = desk.effort.start()?;
     let mut clock = Clock::start();
@@ -155,12 +158,7 @@ fn csv(rows: &[Row]) -> String {
     text
 }
 
-fn drawing(
-    title: &str,
-    points: &Opened,
-    rows: &[Row],
-    verified: &Fact,
-) -> anyhow::Result<Drawing> {
+fn drawing(title: &str, points: &Opened, rows: &[Row], verified: &Fact) -> anyhow::Result<Drawing> {
     let steps: Vec<ElbowStep> = rows.iter().map(|row| row.step).collect();
     let figure = elbow_figure(&steps, &Look::default().options(vec![]))
         .map_err(|error| picture::refused(error, points))?;

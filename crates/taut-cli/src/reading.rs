@@ -276,8 +276,7 @@ impl Opened {
             | Violation::Centers(
                 CentersViolation::CoreSet { row: point, .. }
                 | CentersViolation::Row { row: point, .. },
-            ) if point >= self.input.source.len() =>
-            {
+            ) if point >= self.input.source.len() => {
                 format!("{points} does not belong to {answer}: {violation}")
             }
             _ => format!("{answer}: {violation}"),

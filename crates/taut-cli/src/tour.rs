@@ -10,9 +10,10 @@ use std::time::Instant;
 use anyhow::{anyhow, bail};
 use taut::certify::{CentersViolation, NO_NEIGHBOR};
 use taut::{
-    Answer, BallOptions, CentersOptions, DelaunayOptions, Ellipsoid, EllipsoidOptions, InscribedOptions, Items,
-    RobustOptions, Solution, Triangulation, Violation, ball_of_source, centers_of_source, delaunay_of_source,
-    ellipsoid_of_source, inscribed_ellipsoid_of_source, robust_ellipsoid_of_source,
+    Answer, BallOptions, CentersOptions, DelaunayOptions, Ellipsoid, EllipsoidOptions,
+    InscribedOptions, Items, RobustOptions, Solution, Triangulation, Violation, ball_of_source,
+    centers_of_source, delaunay_of_source, ellipsoid_of_source, inscribed_ellipsoid_of_source,
+    robust_ellipsoid_of_source,
 };
 use taut_draw::{Fact, Page, Section, to_html};
 

@@ -88,7 +88,8 @@ fn each_centre_has_its_circle_and_each_point_its_part() {
     let crosses = scene.layers.iter().find(|layer| layer.tone == Tone::Ink).unwrap();
     assert_eq!(crosses.shape, Shape2::Crosses(vec![[4.0, 0.0], [-4.0, 0.0]]));
     assert_eq!(scene.title, "Centres of 41 points, k = 2, d = 2");
-    for part in ["certified relative gap 0.25", "One point is left out", "All 41 points are drawn"] {
+    for part in ["certified relative gap 0.25", "One point is left out", "All 41 points are drawn"]
+    {
         assert!(scene.caption.contains(part), "{part} in {}", scene.caption);
     }
     assert!(!scene.caption.contains("does not fit"), "{}", scene.caption);

@@ -38,7 +38,8 @@ proptest! {
 #[test]
 fn the_seeds_pass() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/centers");
-    let seeds: Vec<_> = std::fs::read_dir(folder).unwrap().map(|seed| seed.unwrap().path()).collect();
+    let seeds: Vec<_> =
+        std::fs::read_dir(folder).unwrap().map(|seed| seed.unwrap().path()).collect();
     assert!(seeds.len() >= 6);
     for seed in seeds {
         bytes::solve_and_check(&std::fs::read(seed).unwrap());

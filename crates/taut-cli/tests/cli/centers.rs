@@ -124,9 +124,11 @@ fn centres_among_the_points_are_named_by_their_rows() {
 fn outliers_weights_and_balls_are_asked_for() {
     let desk = desk();
     desk.put("far.csv", format!("{TOWNS}500,0\n"));
-    desk.taut("centers far.csv -k 2 --outliers 1 --epsilon 1e-6 -o out.json")
-        .ends(0)
-        .says(&["\n  left out    1; row 7\n", "no point that counts is farther", "\n  radius      1"]);
+    desk.taut("centers far.csv -k 2 --outliers 1 --epsilon 1e-6 -o out.json").ends(0).says(&[
+        "\n  left out    1; row 7\n",
+        "no point that counts is farther",
+        "\n  radius      1",
+    ]);
     desk.taut("verify out.json far.csv").ends(0);
     desk.put("heavy.csv", "x,w\n0,2\n3,1\n");
     desk.taut("centers heavy.csv -k 1 --weights --epsilon 1e-9 -o heavy.json")
@@ -173,7 +175,12 @@ fn the_elbow_is_a_table_a_file_and_a_plot() {
     let desk = desk();
     desk.taut("centers towns.csv --elbow 1..6 --epsilon 1e-6 -o elbow.csv --draw elbow.svg")
         .ends(0)
-        .says(&["Radius by number of centres of 6 points\n", "\n  k  radius", "\n  2  1 ", "verified"]);
+        .says(&[
+            "Radius by number of centres of 6 points\n",
+            "\n  k  radius",
+            "\n  2  1 ",
+            "verified",
+        ]);
     let table = desk.text("elbow.csv");
     let rows: Vec<Vec<f64>> = table
         .lines()
@@ -200,7 +207,8 @@ fn centres_are_drawn_with_their_circles_and_what_is_left_out() {
     desk.put("far.csv", format!("{TOWNS}500,0\n"));
     desk.taut("centers far.csv -k 2 --outliers 1 -o found.json --draw found.svg").ends(0);
     let picture = desk.text("found.svg");
-    for part in ["Centres of 7 points, k = 2, d = 2", "the 2 circles", "core-set (", "left out (1 point)"]
+    for part in
+        ["Centres of 7 points, k = 2, d = 2", "the 2 circles", "core-set (", "left out (1 point)"]
     {
         assert!(picture.contains(part), "{part}");
     }

@@ -84,7 +84,11 @@ fn check(
     agree("number of coordinates", dim.max(1), dim)?;
     agree("number of centres", answer.centers.len().max(1), answer.centers.len())?;
     answer.centers.iter().try_for_each(|c| agree("number of coordinates", c.len(), dim))?;
-    all_there("number of points", certificate.core_set.iter().chain(&answer.outliers), source.len())?;
+    all_there(
+        "number of points",
+        certificate.core_set.iter().chain(&answer.outliers),
+        source.len(),
+    )?;
     let centers = answer.centers.iter().flatten().map(|v| ("a coordinate of a centre", v));
     all_finite(
         centers.chain([("the radius", &answer.radius), ("the lower bound", &answer.lower_bound)]),
@@ -158,11 +162,15 @@ impl Picture<'_> {
             _ => "circles",
         };
         let bound = match self.lower_is_visible() {
-            true => format!(" The dashed {shape} have the radius of the lower bound: no k are smaller."),
+            true => {
+                format!(" The dashed {shape} have the radius of the lower bound: no k are smaller.")
+            }
             false => String::new(),
         };
         let weights = match self.certificate.weights {
-            true => " Distances count times the weight of the point, so there is no one circle around a centre.",
+            true => {
+                " Distances count times the weight of the point, so there is no one circle around a centre."
+            }
             false => "",
         };
         format!("Radius {}; {gap}.{bound}{weights}", short(radius, 8))
@@ -202,7 +210,8 @@ impl Picture<'_> {
             |id: &u64| core.binary_search(id).is_err() && outliers.binary_search(id).is_err();
         let others: Vec<u64> = self.survey.ids.iter().copied().filter(is_other).collect();
         let dot = dot_size(self.survey.ids.len());
-        let named = |word: &str, ids: usize| format!("{word} ({})", counted(ids as u64, self.thing()));
+        let named =
+            |word: &str, ids: usize| format!("{word} ({})", counted(ids as u64, self.thing()));
         let core_name = named("core-set", core.len());
         let out_name = named("left out", outliers.len());
         Ok([

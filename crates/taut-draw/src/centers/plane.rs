@@ -46,11 +46,7 @@ impl Picture<'_> {
     }
 
     /// A layer of discs, or for balls of their circles.
-    fn group_of_points(
-        &self,
-        group: &Group,
-        place: impl Fn(&[f64]) -> [f64; 2],
-    ) -> Option<Layer2> {
+    fn group_of_points(&self, group: &Group, place: impl Fn(&[f64]) -> [f64; 2]) -> Option<Layer2> {
         let rows = group.rows.chunks_exact(self.source.dim());
         let each = group.ids.iter().zip(rows).map(|(&id, row)| {
             let at = place(&row[..self.dim]);
@@ -83,7 +79,8 @@ impl Picture<'_> {
             layer.shape = match layer.tone {
                 Tone::Answer | Tone::Bound => {
                     let half = if layer.tone == Tone::Answer { half } else { 0.8 * half };
-                    let band = |[a, b]: [f64; 2]| vec![[a, -half], [b, -half], [b, half], [a, half]];
+                    let band =
+                        |[a, b]: [f64; 2]| vec![[a, -half], [b, -half], [b, half], [a, half]];
                     Shape2::Polygons(ends.map(band).collect())
                 }
                 _ => Shape2::Polylines(ends.map(|[a, b]| vec![[a, 0.0], [b, 0.0]]).collect()),

@@ -63,8 +63,10 @@ impl Picture<'_> {
         let each = group.ids.iter().zip(group.rows.chunks_exact(self.source.dim()));
         let shape = match self.certificate.items {
             Items::Balls => Shape3::Spheres(
-                each.map(|(&id, row)| {
-                    Sphere3 { id: Some(id), center: at(row), radius: self.own_radius(row) }
+                each.map(|(&id, row)| Sphere3 {
+                    id: Some(id),
+                    center: at(row),
+                    radius: self.own_radius(row),
                 })
                 .collect(),
             ),

@@ -56,7 +56,9 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
     match centers_of_source(&points, items, k, &options, &Monitor::silent()) {
         Ok(found) => {
             found.check(&points).unwrap_or_else(|error| panic!("{error}\n{values:?}\n{found:?}"));
-            assert!(found.answer.lower_bound <= found.answer.radius && found.answer.centers.len() <= k);
+            assert!(
+                found.answer.lower_bound <= found.answer.radius && found.answer.centers.len() <= k
+            );
             assert_eq!(found.answer.assignment.len(), rows);
         }
         Err(Error::Empty) => assert!(values.is_empty()),
