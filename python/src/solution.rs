@@ -148,6 +148,7 @@ impl Trace {
             Stop::Converged => "converged",
             Stop::Rounding => "rounding",
             Stop::PassBudget => "pass-budget",
+            Stop::NodeBudget => "node-budget",
         }
     }
 

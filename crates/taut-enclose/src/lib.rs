@@ -6,6 +6,8 @@
 //! | smallest ball around balls | [`ball_of_balls()`] | the same | the same |
 //! | smallest ball around ellipsoids | [`ball_of_ellipsoids()`] | the same | O(nd³), then a dozen passes of O(nd²) |
 //! | balls and ellipsoids, larger than memory | [`ball_of_source()`] | the same | the same, one block per thread in memory |
+//! | k smallest equal balls around points, with outliers, weights | [`centers()`] | radius ≤ (1 + ε) times the least, proved | exponential in k; about 0.1 s for k = 10 in the plane |
+//! | the same around balls; of a source | [`centers_of_balls()`], [`centers_of_source()`] | the same | the same |
 //! | ellipsoid of least volume around points | [`ellipsoid()`] | log-volume ≤ optimum + ε, proved | few passes of O(nd²) |
 //! | the same, larger than memory | [`ellipsoid_of_source()`] | the same | the same, one block per thread in memory |
 //! | one for each of many point sets | [`ellipsoids()`] | the same | that of the sets, shared by all threads |
@@ -22,6 +24,7 @@
 //! Not for: distances other than Euclidean; balls where some points may be left out.
 
 mod ball;
+mod centers;
 mod ellipsoid;
 mod error;
 mod inscribed;
@@ -32,6 +35,7 @@ mod shapes;
 mod top;
 
 pub use ball::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_ellipsoids, ball_of_source};
+pub use centers::{CentersMethod, CentersOptions, centers, centers_of_balls, centers_of_source};
 pub use ellipsoid::{
     EllipsoidMethod, EllipsoidOptions, ellipsoid, ellipsoid_of_balls, ellipsoid_of_ellipsoids,
     ellipsoid_of_items, ellipsoid_of_source, ellipsoids, ellipsoids_of_sources,

@@ -1,6 +1,11 @@
 //! What can be asked of centres.
 
+use std::fmt;
+use std::str::FromStr;
+
 use taut_certify::Placement;
+
+use crate::Error;
 
 /// How to look for centres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -13,6 +18,40 @@ pub enum CentersMethod {
     Thesis,
     /// Farthest-first traversal (Gonzalez 1985): at most twice the optimal radius, in O(nkd) for any n and d.
     FarthestFirst,
+}
+
+impl CentersMethod {
+    /// All methods, the default first.
+    pub const ALL: [CentersMethod; 3] =
+        [CentersMethod::Tree, CentersMethod::Thesis, CentersMethod::FarthestFirst];
+
+    /// The name on the command line, in Python and in the trace.
+    pub const fn name(self) -> &'static str {
+        match self {
+            CentersMethod::Tree => "tree",
+            CentersMethod::Thesis => "thesis",
+            CentersMethod::FarthestFirst => "farthest-first",
+        }
+    }
+}
+
+impl fmt::Display for CentersMethod {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for CentersMethod {
+    type Err = Error;
+    fn from_str(name: &str) -> Result<Self, Error> {
+        CentersMethod::ALL.into_iter().find(|method| method.name() == name).ok_or_else(|| {
+            Error::Option {
+                name: "method",
+                value: name.to_owned(),
+                expected: "tree, thesis or farthest-first",
+            }
+        })
+    }
 }
 
 /// How to look for centres. Write `CentersOptions { epsilon: 1e-6, ..Default::default() }`.
@@ -49,5 +88,32 @@ impl Default for CentersOptions {
             assignment: false,
             threads: None,
         }
+    }
+}
+
+impl CentersOptions {
+    pub(super) fn check(&self, k: usize) -> Result<(), Error> {
+        let wrong = |name, value: String, expected| Err(Error::Option { name, value, expected });
+        if k == 0 {
+            return wrong("k", "0".into(), "at least 1");
+        }
+        if !(0.0..1.0).contains(&self.epsilon) {
+            return wrong("epsilon", self.epsilon.to_string(), "a number in [0, 1)");
+        }
+        if self.threads == Some(0) {
+            return wrong("threads", "0".into(), "at least 1");
+        }
+        if self.method == CentersMethod::Thesis {
+            if self.placement == Placement::Rows {
+                return wrong("placement", "rows".into(), "free for the method thesis");
+            }
+            if self.outliers > 0 {
+                return wrong("outliers", self.outliers.to_string(), "0 for the method thesis");
+            }
+            if self.weights {
+                return wrong("weights", "true".into(), "false for the method thesis");
+            }
+        }
+        Ok(())
     }
 }
