@@ -39,20 +39,30 @@ pub struct Centers {
     /// The rows that are left out, ascending; they count for nothing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outliers: Vec<u64>,
-    /// On request, for each row the number of the centre next to it, the first of several.
+    /// On request, for each row the number of the centre next to it, the first of several; also for rows that are left out.
+    ///
+    /// The checker asks that no other centre is nearer by more than what a sum in `f64` may be off by: which of centres that
+    /// are equally near but for rounding is the first, depends on the order of the sum.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assignment: Vec<u32>,
 }
 
-/// How the lower bound is to be confirmed: that no k balls of a radius less than it hold all of a core-set but so many of its items.
+/// How the lower bound is to be confirmed: that no k balls of a radius less than it hold all of a core-set but so many of
+/// its items.
+///
+/// A ball of a radius less than ρ holds items just when its centre is less than ρᵢ from each of them, with ρᵢ = ρ for points,
+/// ρ − r for balls and ρ/w for points of weight w. That no such ball holds some items is shown by λ ≥ 0 with
+/// Σλᵢ = 1 and p̄ = Σλᵢpᵢ, when Σλᵢ(|pᵢ − p̄|² − ρᵢ²) ≥ 0; the checker finds λ itself, and refutes with a bound on all that it
+/// rounds, some 1e-14·d/8 of ρ: claim the radius at which all cases are refuted, less 1e-12 of it. For centres among the
+/// rows, and for two items apart, it decides exactly (two weighted points but for rounding).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "by", deny_unknown_fields)]
 pub enum LowerBound {
-    /// No two items of the core-set fit in one ball, and there are more than k and the outliers together.
+    /// No two items of the core-set fit in one ball, and there are more than k and the outliers together. O(|X|²d).
     Apart,
-    /// By a search of the checker's own.
+    /// By a search of the checker's own, of at most 65536 nodes, over at most 1024 items.
     Search,
-    /// By the branches of a search, in the order in which they were taken (preorder).
+    /// By the branches of a search, in the order in which they were taken (preorder), over at most 16384 items.
     Branches {
         /// At each node that is not refuted at once, which item of the core-set is given to the balls in turn: to each that has
         /// items already, in the order in which they got their first, then to the next empty one, if there is one, and
@@ -81,9 +91,10 @@ pub struct CentersCertificate {
     /// Most rows that may be left out.
     #[serde(default)]
     pub outliers: u64,
-    /// The gap claimed: radius ≤ (1 + gap)·lower_bound. Accepted when the gap found is at most gap·(1 + 1e-9) + 4e-16.
+    /// The gap claimed: radius ≤ (1 + gap)·lower_bound. Accepted when the gap found is at most gap·(1 + 1e-9) + 4e-16; where
+    /// the lower bound is 0 and the radius is not, only [`f64::MAX`] is.
     pub gap: f64,
-    /// Row numbers, in the order that `proof` speaks of.
+    /// Row numbers, none twice, in the order that `proof` speaks of.
     pub core_set: Vec<u64>,
     /// How these rows prove the lower bound. Where that is 0 nothing has to be proved.
     pub proof: LowerBound,
@@ -99,11 +110,14 @@ pub struct CentersVerdict {
     pub lower: f64,
     /// The radius of the answer, within which every item that counts was found.
     pub upper: f64,
-    /// `upper / lower − 1`, rounded up; 0 where both are 0.
+    /// `upper / lower − 1`, rounded up; 0 where both are equal, infinite where `lower` alone is 0.
     pub gap: f64,
-    /// Nodes of the search by which the lower bound was confirmed; 0 where none was needed.
+    /// Nodes of the search, or branches of the log, by which the lower bound was confirmed; 0 where none was needed.
     pub nodes: u64,
-    /// Nodes of the second search, over candidate balls, where one was made.
+    /// Nodes of a second search, over all sets that one ball can hold, where it confirmed the bound, less 4e-9 of it, too.
+    ///
+    /// It is made for core-sets of at most 200 items: of points without weights, in the plane for k ≤ 10 and in space for
+    /// k ≤ 6, and for k ≤ 10 where centres are rows. `None` where it was not made, or has nothing to say after 32768 nodes.
     pub cover_nodes: Option<u64>,
 }
 

@@ -29,7 +29,8 @@ use self::proof::Proof;
 use self::read::Table;
 use self::start::Start;
 use self::tree::Found;
-use crate::Error;
+use crate::threads::on_threads;
+use crate::{Error, FarthestFirstOptions, centers_rows, farthest_first_of_source};
 pub use options::{CentersMethod, CentersOptions};
 
 /// The least relative gap that is sought; proofs take 1e-12 of it.
@@ -100,19 +101,19 @@ pub fn centers_of_source(
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Centers>, Error> {
     options.check(k)?;
-    if options.placement == Placement::Rows {
-        let (name, value) = ("placement", "rows".into());
-        return Err(Error::Option { name, value, expected: "free" });
-    }
-    let Some(threads) = options.threads else { return solve(source, items, k, options, monitor) };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|_| {
-        Error::Option {
-            name: "threads",
-            value: threads.to_string(),
-            expected: "as many threads as the system grants",
+    on_threads(options.threads, || {
+        let is_plain = items == Items::Points && !options.weights && options.outliers == 0;
+        if options.method == CentersMethod::FarthestFirst && is_plain && !options.assignment {
+            let k = k as u64;
+            let traversal = FarthestFirstOptions::default();
+            return farthest_first_of_source(source, k, &traversal, monitor)?
+                .solution(k, options.placement, source);
         }
-    })?;
-    pool.install(|| solve(source, items, k, options, monitor))
+        match options.placement {
+            Placement::Free => solve(source, items, k, options, monitor),
+            Placement::Rows => centers_rows::solve(source, items, k, options, monitor),
+        }
+    })
 }
 
 fn solve(

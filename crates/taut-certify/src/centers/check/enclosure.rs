@@ -2,9 +2,8 @@
 //! speaks of.
 //!
 //! *Problem.* For each of n rows, some centre c with w·|p − c| + r ≤ R; in one pass.
-//! *Idea.* The centre that held the row before is asked first. Then the others in the order of their distance to it: with
-//! s = |p − c|, a centre farther than s + ρ from c is farther than ρ from p, so most rows ask few of them. What plain
-//! arithmetic leaves open is decided in whole numbers, by [`compare`].
+//! *Idea.* The centre that held the row before is asked first, then those that are not too far along some axis
+//! ([`Halves`]). What plain arithmetic leaves open is decided in whole numbers, by [`compare`].
 //! *Assignment.* Where it is given, the centre named for a row must be the nearest but for what a sum in `f64` may be off
 //! by, |p − c| ≤ |p − c'|·(1 + (d + 32)u) + 4ur for every other c': which of centres that are equally near by rounding is
 //! the first, depends on the order of a sum. Rows left out are assigned like others.
@@ -18,8 +17,8 @@ use taut_points::{
 
 use super::super::{Centers, CentersViolation};
 use super::distance::{Scale, compare, is_tame, kappa, square, thresholds};
+use super::halves::Halves;
 use super::item::{Item, Kind};
-use super::order::Neighbours;
 use crate::arithmetic::U;
 use crate::{CheckError, Violation};
 
@@ -29,7 +28,7 @@ pub(super) struct Enclosure<'a> {
     kind: Kind,
     scale: Scale,
     kappa: f64,
-    neighbours: Option<Neighbours>,
+    halves: Halves,
 }
 
 /// What one block of rows has to say.
@@ -41,9 +40,9 @@ struct Block {
 impl<'a> Enclosure<'a> {
     pub(super) fn of(answer: &'a Centers, kind: Kind) -> Self {
         let dim = answer.centers[0].len();
-        let neighbours = Neighbours::of(&answer.centers);
+        let halves = Halves::of(&answer.centers);
         let scale = Scale::of(answer.radius);
-        Enclosure { answer, kind, scale, kappa: kappa(dim), neighbours }
+        Enclosure { answer, kind, scale, kappa: kappa(dim), halves }
     }
 
     /// Reads all rows once.
@@ -120,11 +119,12 @@ impl<'a> Enclosure<'a> {
         let (inside, _) = thresholds(rho, self.kappa, self.scale);
         // What underflows is nothing beside this.
         if inside > 1e-150 && is_tame(item.weight) {
-            let first = self.square(item, *held_by);
-            if first < inside {
+            let plainly = |center: usize| self.square(item, center) < inside;
+            if plainly(*held_by) {
                 return true;
             }
-            if let Some(found) = self.by_neighbours(item, *held_by, first, inside) {
+            let reach = rho / item.weight * (1.0 + 1e-9);
+            if let Some(found) = self.halves.find(item.position, reach, plainly) {
                 *held_by = found;
                 return true;
             }
@@ -137,23 +137,6 @@ impl<'a> Enclosure<'a> {
             }
             None => false,
         }
-    }
-
-    /// A ball that holds the item by plain arithmetic, where one is found.
-    fn by_neighbours<T: Scalar>(
-        &self,
-        item: &Item<'_, T>,
-        from: usize,
-        square: f64,
-        inside: f64,
-    ) -> Option<usize> {
-        let plainly = |&center: &usize| self.square(item, center) < inside;
-        let Some(neighbours) = &self.neighbours else {
-            return (0..self.answer.centers.len()).find(plainly);
-        };
-        // Distances between centres know nothing of weights and scale.
-        let reach = (square.sqrt() + inside.sqrt()) / (item.weight * self.scale.up);
-        neighbours.within(from, reach * (1.0 + 1e-9)).find(plainly)
     }
 
     fn square<T: Scalar>(&self, item: &Item<'_, T>, center: usize) -> f64 {
@@ -179,11 +162,8 @@ impl<'a> Enclosure<'a> {
         let distance = |center: usize| distance(item.position, &self.answer.centers[center]);
         let own = distance(named);
         let slack = 1.0 + (item.position.len() + 32) as f64 * U;
-        let is_nearer = |&other: &usize| distance(other) * slack + 4.0 * U * item.radius < own;
-        let nearer = match &self.neighbours {
-            Some(neighbours) => neighbours.within(named, 2.0 * own * (1.0 + 1e-9)).find(is_nearer),
-            None => (0..self.answer.centers.len()).find(is_nearer),
-        };
+        let is_nearer = |other: usize| distance(other) * slack + 4.0 * U * item.radius < own;
+        let nearer = self.halves.find(item.position, own * (1.0 + 1e-9), is_nearer);
         match nearer {
             Some(nearer) => Err(CentersViolation::Assignment { row, center, nearer }),
             None => Ok(Some(named)),
@@ -207,7 +187,7 @@ impl<'a> Enclosure<'a> {
 }
 
 /// |p − c| to a few units in the last place, whatever its size.
-pub(super) fn distance<T: Scalar>(position: &[T], center: &[f64]) -> f64 {
+fn distance<T: Scalar>(position: &[T], center: &[f64]) -> f64 {
     let differences = || position.iter().zip(center).map(|(&x, &c)| x.into() - c);
     let plain: f64 = differences().map(|d| d * d).sum();
     if (1e-280..1e280).contains(&plain) {

@@ -110,7 +110,10 @@ impl Room for Free<'_> {
     }
 
     fn strain(&mut self, group: &Group, item: usize) -> f64 {
-        if self.extend(group, item) { self.scratch.fit.value } else { f64::INFINITY }
+        match self.extend(group, item) {
+            true => self.scratch.fit.value - group.fit.value,
+            false => f64::INFINITY,
+        }
     }
 
     fn covers(&self, group: &Group, item: usize) -> bool {

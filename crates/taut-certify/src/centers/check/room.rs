@@ -20,7 +20,7 @@ pub(super) trait Room {
     /// The group with one item more; `None` where it is refuted.
     fn with(&mut self, group: &Self::Group, item: usize) -> Option<Self::Group>;
 
-    /// A number that is the larger the less room the group with one item more has; infinite where it is refuted.
+    /// By how much one item more narrows the room of the group, by some measure; infinite where it is refuted.
     fn strain(&mut self, group: &Self::Group, item: usize) -> f64;
 
     /// Whether a ball that holds the group, as far as rounding tells, holds the item too.

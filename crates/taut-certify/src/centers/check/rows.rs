@@ -123,11 +123,12 @@ impl Room for &Places {
     }
 
     fn strain(&mut self, group: &Bits, item: usize) -> f64 {
-        let both = group.iter().zip(&self.near[item]);
-        match both.map(|(a, b)| (a & b).count_ones()).sum::<u32>() {
-            0 => f64::INFINITY,
-            places => -f64::from(places),
+        let mut counts = [0, 0];
+        for (group, near) in group.iter().zip(&self.near[item]) {
+            counts[0] += (group & near).count_ones();
+            counts[1] += (group & !near).count_ones();
         }
+        if counts[0] == 0 { f64::INFINITY } else { counts[1].into() }
     }
 
     fn covers(&self, group: &Bits, item: usize) -> bool {

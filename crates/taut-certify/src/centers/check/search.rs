@@ -5,12 +5,12 @@
 //!    where a ball is left for it and where an item may still be left out. No choice: refuted.
 //! 2. Of the items that fit in no group, a clique of items that are apart two by two needs a ball, or to be left out, for
 //!    each: more than there are refutes. With one ball left and none to be left out, all of them must fit in it.
-//! 3. Otherwise the item with the fewest choices is tried in each; among several, the one whose groups are strained most.
+//! 3. Otherwise the item with the fewest choices is tried in each; among several, the one that narrows its groups most.
 //!
 //! Groups stay as they are when an item is put elsewhere, so what did not fit never fits again below: a column of strains
 //! for each group is computed only when that group grows.
 //! *Guarantee.* [`Outcome::Refuted`] only when all cases were gone through.
-//! *Cost.* Exponential in k: [`NODES`] nodes, each of at most |X| tests for each group.
+//! *Cost.* Exponential in k: at most [`NODES`] nodes, each of at most |X| tests for the group that grew.
 //! *Reference.* The choice of the most constrained item is that of Brélaz, Comm. ACM 22(4), 1979, for colourings.
 
 use taut_points::{Cancelled, Monitor};
@@ -19,7 +19,7 @@ use super::core::{Bits, clear, is_set, items, set};
 use super::room::Room;
 
 /// Most nodes. What needs more is to be proved by its branches.
-pub(super) const NODES: u64 = 1 << 18;
+pub(super) const NODES: u64 = 1 << 16;
 
 /// Most items of a core-set that is searched.
 pub(super) const ITEMS: usize = 1024;
@@ -76,10 +76,10 @@ struct Search<'a, R: Room> {
 
 impl<R: Room> Search<'_, R> {
     fn node(&mut self) -> Result<Outcome, Cancelled> {
-        self.nodes += 1;
-        if self.nodes > NODES {
+        if self.nodes == NODES {
             return Ok(Outcome::Undecided);
         }
+        self.nodes += 1;
         if self.nodes.is_multiple_of(64) {
             self.monitor.check()?;
         }
