@@ -103,12 +103,14 @@ pub use taut_delaunay::{
 };
 pub use taut_enclose as enclose;
 pub use taut_enclose::{
-    BallMethod, BallOptions, CentersMethod, CentersOptions, EllipsoidMethod, EllipsoidOptions,
-    InscribedOptions, RobustOptions, ball, ball_of_balls, ball_of_ellipsoids, ball_of_source,
-    centers, centers_of_balls, centers_of_source, ellipsoid, ellipsoid_of_balls,
-    ellipsoid_of_ellipsoids, ellipsoid_of_items, ellipsoid_of_source, ellipsoids,
-    ellipsoids_of_sources, inscribed_ellipsoid, inscribed_ellipsoid_of_source, robust_ellipsoid,
-    robust_ellipsoid_of_source,
+    BallMethod, BallOptions, CentersMethod, CentersOptions, Cover, CoverOptions, Covered,
+    EllipsoidMethod, EllipsoidOptions, FarthestFirst, FarthestFirstOptions, InscribedOptions,
+    RobustOptions, SphereNode, SphereTree, SphereTreeOptions, Summary, ball, ball_of_balls,
+    ball_of_ellipsoids, ball_of_source, centers, centers_of_balls, centers_of_source,
+    cover_of_source, ellipsoid, ellipsoid_of_balls, ellipsoid_of_ellipsoids, ellipsoid_of_items,
+    ellipsoid_of_source, ellipsoids, ellipsoids_of_sources, farthest_first,
+    farthest_first_of_source, inscribed_ellipsoid, inscribed_ellipsoid_of_source, robust_ellipsoid,
+    robust_ellipsoid_of_source, sphere_tree,
 };
 pub use taut_points as points;
 pub use taut_points::{Distribution, Monitor, PointSource, Points, generate};
