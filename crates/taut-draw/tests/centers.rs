@@ -134,9 +134,9 @@ fn a_line_has_intervals_space_spheres_and_more_dimensions_shadows() {
 
     let (values, found) = case(5, 41);
     let figures = drawn(&values, 5, &found);
-    // The centres spread along the first axis, so they are 8 apart in the shadow as well.
+    // The centres spread along the first axis, and the items turn the view from it a little: they are nearly 8 apart.
     let shadows = circles(plane(&figures), Tone::Answer);
-    assert!(((shadows[0].0[0] - shadows[1].0[0]).abs() - 8.0).abs() < 1e-9, "{shadows:?}");
+    assert!(((shadows[0].0[0] - shadows[1].0[0]).abs() - 8.0).abs() < 1e-6, "{shadows:?}");
     let Figure::Plot(Plot { bars, .. }) = &figures[1] else { panic!("no plot") };
     assert_eq!(bars.iter().map(|bar| bar.height).sum::<f64>(), 40.0);
 }
