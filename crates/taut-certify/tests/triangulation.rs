@@ -194,6 +194,23 @@ fn one_diagonal_is_right() {
     }
 }
 
+/// Differences that are no `f64`, and some of 2⁶³ and more of the least bit of all: exact signs must not take a short cut.
+#[test]
+fn coordinates_of_very_different_size() {
+    let (x, g) = (2f64.powi(89), 262_144.0);
+    let flat = [g, 1., 0., x, 1., 0., 0., 1., 2., -x, 0., 0., -2. * x, 2., 1., 2. * x, 2., 2.];
+    let simplices = [4, 3, 0, 2, 4, 2, 0, 5, 4, 0, 1, 5, 3, 2, 1, 0, 2, 0, 5, 1];
+    let points = Points::new(&flat, 3).unwrap();
+    assert!(check_simplices(&points, &simplices, 4, &Monitor::silent()).is_ok());
+
+    let (y, z, a, b) = (2f64.powi(75), 2f64.powi(74), 2f64.powi(20), 2f64.powi(47));
+    let values =
+        [[0., 0., 0.], [2. * a, y, y], [a, 0., y], [0., -a, 0.], [0., -z, z], [a, b, a], [a, z, b]];
+    let simplices = [4, 3, 0, 5, 4, 0, 2, 5, 0, 5, 6, 2, 0, 6, 1, 2, 5, 6, 2, 1];
+    let points = Points::new(values.as_flattened(), 3).unwrap();
+    assert!(check_simplices(&points, &simplices, 4, &Monitor::silent()).is_ok());
+}
+
 #[test]
 fn f32_points_are_read_as_what_they_are() {
     let narrow: Vec<f32> = vec![0.1, 0.2, 0.9, 0.3, 0.5, 0.8, 0.4, 0.4];

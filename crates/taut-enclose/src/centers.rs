@@ -7,6 +7,7 @@
 mod answer;
 mod cloud;
 mod clusters;
+mod conflict;
 mod items;
 mod options;
 mod proof;
@@ -152,7 +153,7 @@ fn solve_in<P: Position>(
     let k = k.min(cloud.len());
     let z = options.outliers as usize;
     let target = (options.epsilon - FINEST).max(FINEST);
-    let start = start::start(&cloud, k, z);
+    let start = start::start(&cloud, k, z, monitor)?;
     let apart = start.apart.clone();
     let found = match options.method {
         CentersMethod::Tree => {
@@ -208,7 +209,6 @@ fn prove<P: Position>(
     Ok((plain, given_up))
 }
 
-#[allow(clippy::too_many_arguments)]
 fn finish<P: Position>(
     table: &Table,
     cloud: &Cloud<P>,

@@ -1,7 +1,7 @@
 //! k centres among the rows: the discrete k-center problem, to a proved gap, down to 0.
 //!
-//! *Problem.* Of n items in ℝᵈ choose k rows as centres, and up to z items to leave out, such that the largest reach w·|p − c| (|m − c| + r
-//! for balls) of an item from the nearest centre is least.
+//! *Problem.* Of n items in ℝᵈ choose k rows as centres, and up to z items to leave out, such that the largest reach of an
+//! item from the nearest centre is least: w·|p − c| for points, |m − c| + r for balls.
 //! *Idea.* The optimum is one of the n² reaches between rows. Farthest-first traversals bracket it ([`start`]). For a radius
 //! between the bounds, each item has the set of rows within it, and a cluster is what such sets have in common; a tree
 //! over a few items X either finds that no k clusters hold X, which raises the lower bound to the next reach of X, or

@@ -31,7 +31,7 @@ pub use summary::Summary;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CoverOptions {
     /// Guesses of the radius that are kept at a time, m. Memory and time are proportional to it, and the factor falls from
-    /// 8 with one to 2.96 with eight, 2.54 with 16, 2.14 with 64. From 1 to 1000, default 8.
+    /// 8 with one to 2.96 with eight, 2.54 with 16, 2.17 with 64. From 1 to 1000, default 8.
     pub instances: usize,
 }
 

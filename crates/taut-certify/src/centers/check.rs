@@ -116,7 +116,7 @@ fn prove(
         }
         (LowerBound::Search, Placement::Free) => {
             limited(search::ITEMS, "search")?;
-            let pairs = Pairs::of(core);
+            let pairs = Pairs::of(core, monitor)?;
             let nodes = searched(&mut Free::of(core, &pairs), certificate, monitor)?;
             Ok((nodes, cover::of_balls(core, kind, &pairs, certificate, monitor)?))
         }
@@ -128,7 +128,7 @@ fn prove(
         }
         (LowerBound::Branches { items }, Placement::Free) => {
             limited(replay::ITEMS, "branches")?;
-            let pairs = Pairs::of(core);
+            let pairs = Pairs::of(core, monitor)?;
             let mut room = Free::of(core, &pairs);
             replay::replay(&mut room, most(certificate), outliers, items, monitor)?;
             let cover = cover::of_balls(core, kind, &pairs, certificate, monitor)?;

@@ -197,11 +197,9 @@ pub enum CentersViolation {
     Covered,
     /// The places that centres among the rows can take are too many to be held.
     #[error(
-        "a proof for centres among the rows needs {needed} bytes for what each row is near to, and at most {most} are taken"
+        "centres among the rows cannot be judged by so large a core-set: what each row is near to takes more than {most} bytes"
     )]
     Memory {
-        /// What would be needed, at least.
-        needed: u64,
         /// What is granted.
         most: u64,
     },

@@ -114,7 +114,7 @@ fn reach<P: Position>(
     match table.shape {
         Shape::Weighted => {
             let plain = if table.scale == 1.0 { extra[0] * plain } else { 0.0 };
-            (extra[0] * up).next_up().max(plain)
+            if up > 0.0 { (extra[0] * up).next_up().max(plain) } else { 0.0 }
         }
         Shape::Balls if table.scale == 1.0 => up.max(plain + extra[0]),
         Shape::Points if table.scale == 1.0 => up.max(plain),

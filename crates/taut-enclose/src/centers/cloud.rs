@@ -55,7 +55,8 @@ impl<P: Position> Cloud<P> {
     pub(super) fn new(given: ItemSet<P>) -> Self {
         let mut order: Vec<u32> = (0..given.len() as u32).collect();
         let mut ranges = vec![];
-        let mut open = vec![0..order.len()];
+        let mut open: Vec<Range<usize>> = Vec::new();
+        open.push(0..order.len());
         while let Some(range) = open.pop() {
             if range.len() <= LEAF {
                 ranges.push(range);
@@ -272,4 +273,73 @@ fn widest_axis<P: Position>(items: &ItemSet<P>, part: &[u32]) -> usize {
     }
     let width = |axis: usize| high.as_ref()[axis] - low.as_ref()[axis];
     (0..items.dim()).fold(0, |best, axis| if width(axis) > width(best) { axis } else { best })
+}
+
+#[cfg(test)]
+mod tests {
+    use taut_points::{Distribution, generate};
+
+    use super::*;
+
+    fn clouds(mut judge: impl FnMut(&Cloud<Vec<f64>>, &str)) {
+        for shape in [Shape::Points, Shape::Weighted, Shape::Balls] {
+            for (n, dim, seed) in [(1, 2, 0), (40, 1, 1), (500, 2, 2), (700, 3, 3), (300, 9, 4)] {
+                let values: Vec<f64> = generate(Distribution::Normal, n, dim + 1, seed).unwrap();
+                let mut items = ItemSet::new(shape, dim);
+                for row in values.chunks_exact(dim + 1) {
+                    // Coarse coordinates bring ties.
+                    let position: Vec<f64> = row[..dim].iter().map(|x| (4.0 * x).round()).collect();
+                    items.push(&position, row[dim].abs() + 0.1);
+                }
+                judge(&Cloud::new(items), &format!("{shape:?} {n} × {dim}"));
+            }
+        }
+    }
+
+    #[test]
+    fn cells_find_what_a_look_at_all_items_finds() {
+        clouds(|cloud, what| {
+            let n = cloud.len();
+            let some = [0, n / 3, n / 2].map(|item| cloud.items.position(item));
+            for (count, centers) in
+                [(1, &some[..]), (5, &some[..2]), (100, &some[..]), (3, &some[..0])]
+            {
+                let mut all: Vec<Far> = (0..n)
+                    .map(|item| Far { item: item as u32, reach: cloud.reach(item, centers) })
+                    .collect();
+                all.sort_by(|a, b| cloud.order(*a, *b));
+                all.truncate(count);
+                assert_eq!(cloud.farthest(centers, count), all, "{what}, {count}");
+            }
+            let mut seen = vec![false; n];
+            cloud.assign(&some, |item, center, d| {
+                assert!(!std::mem::replace(&mut seen[item], true));
+                let distances =
+                    some.iter().map(|c| square(cloud.items.at(item), c)).collect::<Vec<_>>();
+                let least = distances.iter().copied().fold(f64::INFINITY, f64::min);
+                assert_eq!(distances.iter().position(|&d| d == least), Some(center), "{what}");
+                assert_eq!(d, least.sqrt());
+            });
+            assert!(seen.into_iter().all(|is_seen| is_seen), "{what}");
+        });
+    }
+
+    #[test]
+    fn a_traversal_takes_the_farthest_each_time() {
+        clouds(|cloud, what| {
+            let traversal = cloud.traverse(0, 12).items;
+            for at in 1..traversal.len() {
+                let centers: Vec<Vec<f64>> = traversal[..at]
+                    .iter()
+                    .map(|&item| cloud.items.position(item as usize))
+                    .collect();
+                let farthest = (0..cloud.len())
+                    .filter(|&item| !traversal[..at].contains(&(item as u32)))
+                    .map(|item| Far { item: item as u32, reach: cloud.reach(item, &centers) })
+                    .min_by(|a, b| cloud.order(*a, *b));
+                assert_eq!(farthest.map(|far| far.item), Some(traversal[at]), "{what}, step {at}");
+            }
+            assert!(traversal.len() == 12.min(cloud.len()) || cloud.items.shape() != Shape::Balls);
+        });
+    }
 }

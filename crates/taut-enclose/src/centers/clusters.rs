@@ -8,11 +8,14 @@
 //! *Choice.* The item that fits in the fewest clusters; of equals, the one that makes them grow most. Items that fit in none
 //! need an empty cluster each, if no two of them fit in one: a clique.
 
+use super::conflict::Levels;
 use super::items::{ItemSet, Position, Shape, distance};
 use super::small_ball::{Ball, Workspace};
 
 /// Cliques are sought from every item that fits nowhere if there are at most so many, else from the first so many.
 const CLIQUE_STARTS: usize = 24;
+/// Comparisons of pairs that a search for a large clique may make, about 0.1 s: beyond, it starts from fewer items.
+const CLIQUE_PAIRS: usize = 20_000_000;
 
 /// Items of the core-set that are together.
 pub(super) struct Cluster<P> {
@@ -42,7 +45,7 @@ pub(super) enum Place {
 pub(super) enum Survey {
     /// Every item is in a ball or left out.
     Covered,
-    /// No balls below the threshold hold all items.
+    /// No balls below the threshold hold all items; [`Clusters::conflict`] says why.
     Stuck,
     /// This item has the fewest places.
     Branch(u32),
@@ -57,17 +60,21 @@ pub(super) struct Clusters<P> {
     k: usize,
     /// How many more items may be left out.
     spare: u64,
-    pub(super) left_out: Vec<bool>,
+    left_out: Vec<bool>,
+    /// The level at which each item was put where it is.
+    levels: Vec<u32>,
     pub(super) work: Workspace<P>,
     /// Items that fit in no cluster.
     homeless: Vec<u32>,
     clique: Vec<u32>,
+    /// In a dead end: items that need more empty clusters than there are, if any.
+    blamed: Vec<u32>,
     columns: Vec<Vec<f64>>,
 }
 
 impl<P: Position> Clusters<P> {
     pub(super) fn new(items: ItemSet<P>, k: usize, spare: u64, threshold: f64) -> Self {
-        let left_out = vec![false; items.len()];
+        let (left_out, levels) = (vec![false; items.len()], vec![0; items.len()]);
         let work = Workspace::new(items.dim());
         Clusters {
             items,
@@ -76,9 +83,11 @@ impl<P: Position> Clusters<P> {
             k,
             spare,
             left_out,
+            levels,
             work,
             homeless: vec![],
             clique: vec![],
+            blamed: vec![],
             columns: vec![],
         }
     }
@@ -87,6 +96,7 @@ impl<P: Position> Clusters<P> {
     pub(super) fn add(&mut self, position: &[f64], extra: f64) {
         self.items.push(position, extra);
         self.left_out.push(false);
+        self.levels.push(0);
     }
 
     /// Clusters that are still empty.
@@ -103,8 +113,9 @@ impl<P: Position> Clusters<P> {
         self.clusters.iter().any(|cluster| cluster.ball.radius >= self.threshold)
     }
 
-    /// Puts an item where it may go.
-    pub(super) fn put(&mut self, item: u32, place: Place) -> Undo<P> {
+    /// Puts an item where it may go, as the decision of this level.
+    pub(super) fn put(&mut self, item: u32, place: Place, level: u32) -> Undo<P> {
+        self.levels[item as usize] = level;
         match place {
             Place::Open => {
                 let ball = Ball::of_one(&self.items, item);
@@ -179,6 +190,7 @@ impl<P: Position> Clusters<P> {
 
     /// What is to be done. With `chains` dead ends are not told at once but left to be branched on, as a proof must show them.
     pub(super) fn survey(&mut self, chains: bool) -> Survey {
+        self.blamed.clear();
         if self.is_too_large() {
             return Survey::Stuck;
         }
@@ -212,6 +224,7 @@ impl<P: Position> Clusters<P> {
             }
             if places == 0 {
                 if room == 0 {
+                    self.blamed.push(item as u32);
                     return if chains { Survey::Branch(item as u32) } else { Survey::Stuck };
                 }
                 self.homeless.push(item as u32);
@@ -229,12 +242,17 @@ impl<P: Position> Clusters<P> {
             return Survey::Branch(item);
         }
         self.find_clique(room);
-        let is_stuck = self.clique.len() > room || self.homeless.len() > room && self.empty() == 0;
-        if !chains && (is_stuck || self.empty() == 1 && self.spare == 0 && self.is_last_too_large())
-        {
-            return Survey::Stuck;
+        if chains {
+            return Survey::Branch(self.clique[0]);
         }
-        Survey::Branch(self.clique[0])
+        if self.clique.len() > room {
+            self.blamed.extend_from_slice(&self.clique);
+        } else if self.homeless.len() > room && self.empty() == 0 {
+            self.blamed.extend_from_slice(&self.homeless[..=room]);
+        } else if self.empty() == 1 && self.spare == 0 {
+            self.blame_last();
+        }
+        if self.blamed.is_empty() { Survey::Branch(self.clique[0]) } else { Survey::Stuck }
     }
 
     /// A clique of homeless items, the largest of some greedy ones; the search ends with one of more than `room` items.
@@ -254,8 +272,8 @@ impl<P: Position> Clusters<P> {
         self.clique = clique;
     }
 
-    /// Whether no ball below the threshold holds all homeless items.
-    fn is_last_too_large(&mut self) -> bool {
+    /// Where no ball below the threshold holds all homeless items, blames some of which that is true.
+    fn blame_last(&mut self) {
         let mut ball = Ball::of_one(&self.items, self.homeless[0]);
         for at in 1..self.homeless.len() {
             let (known, more) = (&self.homeless[..at], self.homeless[at]);
@@ -263,10 +281,69 @@ impl<P: Position> Clusters<P> {
                 ball.grow(&self.items, known, more, self.threshold, &mut self.work);
             }
             if ball.radius >= self.threshold {
-                return true;
+                self.blamed.extend_from_slice(&ball.support);
+                return;
             }
         }
-        ball.radius >= self.threshold
+    }
+
+    /// The levels of decisions on which the dead end that the last survey found rests.
+    pub(super) fn conflict(&mut self) -> Levels {
+        let mut levels = Levels::default();
+        if self.blamed.is_empty() {
+            let too_large = self.clusters.iter().find(|c| c.ball.radius >= self.threshold);
+            for &item in too_large.iter().flat_map(|cluster| &cluster.ball.support) {
+                levels.insert(self.levels[item as usize]);
+            }
+        }
+        let blamed = std::mem::take(&mut self.blamed);
+        for &item in &blamed {
+            for at in 0..self.clusters.len() {
+                self.blame(item, at, &mut levels);
+            }
+        }
+        self.blamed = blamed;
+        self.blame_left_out(&mut levels);
+        levels
+    }
+
+    /// The levels of all decisions.
+    pub(super) fn everything(&self) -> Levels {
+        let mut levels = Levels::default();
+        let members = self.clusters.iter().flat_map(|cluster| &cluster.members);
+        members.for_each(|&item| levels.insert(self.levels[item as usize]));
+        self.blame_left_out(&mut levels);
+        levels
+    }
+
+    /// Adds the levels of members of a cluster with which an item fits in no ball: of one, if there is such a one, and of those the
+    /// one that was put there first; else of the support of a ball.
+    pub(super) fn blame(&mut self, item: u32, cluster: usize, levels: &mut Levels) {
+        let (items, cluster) = (&self.items, &self.clusters[cluster]);
+        let far = cluster
+            .members
+            .iter()
+            .filter(|&&m| items.pair_radius(m as usize, item as usize) >= self.threshold)
+            .map(|&member| self.levels[member as usize])
+            .min();
+        if let Some(level) = far {
+            levels.insert(level);
+            return;
+        }
+        let mut ball = cluster.ball.clone();
+        ball.grow(items, &cluster.members, item, self.threshold, &mut self.work);
+        for &member in ball.support.iter().filter(|&&member| member != item) {
+            levels.insert(self.levels[member as usize]);
+        }
+    }
+
+    /// Adds the levels at which items were left out, as without these more could be.
+    pub(super) fn blame_left_out(&self, levels: &mut Levels) {
+        for (is_out, &level) in self.left_out.iter().zip(&self.levels) {
+            if *is_out {
+                levels.insert(level);
+            }
+        }
     }
 
     /// Where an item may go, by growing radius; empty clusters and outliers last.
@@ -322,8 +399,30 @@ impl<P: Position> Cluster<P> {
     }
 }
 
+/// The largest of greedy cliques from all candidates in turn; the search ends with one of more than `enough`.
+pub(super) fn large_clique<P: Position>(
+    items: &ItemSet<P>,
+    candidates: &[u32],
+    threshold: f64,
+    enough: usize,
+) -> Vec<u32> {
+    let pairs = candidates.len().saturating_mul(enough.min(candidates.len()));
+    let starts = (CLIQUE_PAIRS / pairs.max(1)).max(1);
+    let (mut clique, mut trial) = (vec![], vec![]);
+    for &start in candidates.iter().take(starts) {
+        greedy_clique(items, start, candidates, threshold, enough, &mut trial);
+        if trial.len() > clique.len() {
+            std::mem::swap(&mut clique, &mut trial);
+        }
+        if clique.len() > enough {
+            break;
+        }
+    }
+    clique
+}
+
 /// Items no two of which fit in one ball below the threshold, taken in order after `start`; ends with more than `enough`.
-pub(super) fn greedy_clique<P: Position>(
+fn greedy_clique<P: Position>(
     items: &ItemSet<P>,
     start: u32,
     candidates: &[u32],

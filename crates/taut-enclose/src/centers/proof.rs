@@ -13,7 +13,7 @@ use taut_certify::LowerBound;
 use taut_points::{Monitor, ReadError};
 
 use super::cloud::Cloud;
-use super::clusters::{Clusters, Place, Survey, Undo, greedy_clique};
+use super::clusters::{Clusters, Place, Survey, Undo, large_clique};
 use super::items::{ItemSet, Position};
 use super::start::least_pair_radius;
 use crate::Error;
@@ -68,7 +68,9 @@ impl Proof {
         budget: u64,
         monitor: &Monitor<'_>,
     ) -> Result<Option<Self>, Error> {
-        if let Some(apart) = clique(cloud, core_set, threshold, k.saturating_add(z)) {
+        let room = k.saturating_add(z);
+        let apart = large_clique(&cloud.items, core_set, threshold, room);
+        if apart.len() > room {
             return Ok(Some(Self::apart(cloud, apart)));
         }
         let mut best: Option<(Vec<u32>, Log)> = None;
@@ -93,23 +95,6 @@ impl Proof {
             Proof { lower: log.lower * (1.0 - ROUNDING), core_set, kind, nodes }
         }))
     }
-}
-
-/// More than `room` items of the core-set, no two of which fit in a ball below the threshold.
-fn clique<P: Position>(
-    cloud: &Cloud<P>,
-    core_set: &[u32],
-    threshold: f64,
-    room: usize,
-) -> Option<Vec<u32>> {
-    let mut clique = vec![];
-    for &start in core_set {
-        greedy_clique(&cloud.items, start, core_set, threshold, room, &mut clique);
-        if clique.len() > room {
-            return Some(clique);
-        }
-    }
-    None
 }
 
 /// The core-set without the items on which no node branches, in the order in which nodes do, and the log in these numbers.
@@ -174,7 +159,7 @@ fn tree<P: Position>(
                 continue;
             };
             frame.next += 1;
-            frame.undo = Some(state.put(frame.item, place));
+            frame.undo = Some(state.put(frame.item, place, 0));
             break;
         }
     }

@@ -319,7 +319,9 @@ impl<P: Position> Workspace<P> {
                 linear -= part * self.linear[l];
             }
             let across = dot(edge.as_ref(), edge.as_ref()).sqrt();
-            if !(across > DEPENDENT * length2.sqrt()) {
+            // Also where numbers are none.
+            let is_independent = across > DEPENDENT * length2.sqrt();
+            if !is_independent {
                 return false;
             }
             edge.as_mut().iter_mut().for_each(|e| *e /= across);
@@ -437,4 +439,98 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
         sum += a * b;
     }
     sum
+}
+
+#[cfg(test)]
+mod tests {
+    use taut_points::{Distribution, Points, generate};
+
+    use super::*;
+    use crate::{BallOptions, ball, ball_of_balls};
+
+    /// Optimal by its own proof: all items are inside, and no smaller ball holds the support.
+    fn judge<P: Position>(items: &ItemSet<P>, what: &str) -> f64 {
+        let members: Vec<u32> = (0..items.len() as u32).collect();
+        let mut work = Workspace::new(items.dim());
+        let all = Ball::of_all(items, &members, &mut work);
+        // One by one, as a search does.
+        let mut grown = Ball::of_one(items, 0);
+        for at in 1..members.len() {
+            let known = &members[..at];
+            let radius = work.radius_with(items, &grown, known, members[at], f64::INFINITY);
+            grown.grow(items, known, members[at], f64::INFINITY, &mut work);
+            assert_eq!(radius, grown.radius, "{what}");
+        }
+        for ball in [&all, &grown] {
+            let lower = ball.lower_bound(items);
+            let error = (ball.radius - lower).abs();
+            assert!(error <= 1e-12 * ball.radius, "{what}: {lower} to {}", ball.radius);
+            let reaches = (0..items.len()).map(|item| items.reach(item, &ball.center));
+            let reach = reaches.fold(0.0, f64::max);
+            assert!(reach <= ball.radius * (1.0 + 1e-12), "{what}: {reach} of {}", ball.radius);
+            assert!(ball.support.len() <= items.dim() + 1, "{what}");
+        }
+        all.radius
+    }
+
+    fn sets<P: Position>(dim: usize) {
+        for seed in 0..150 {
+            let n = 1 + seed as usize % 23;
+            let values: Vec<f64> = generate(Distribution::Normal, n, dim, seed).unwrap();
+            // Every third set is a grid, with copies, lines and cospherical items.
+            let values: Vec<f64> = match seed % 3 {
+                0 => values.iter().map(|v| (2.0 * v).round()).collect(),
+                _ => values,
+            };
+            let extras: Vec<f64> = generate(Distribution::Uniform, n, 1, seed).unwrap();
+            let extras: Vec<f64> = match seed % 3 {
+                0 => extras.iter().map(|v| (2.0 * v.abs()).round() + 0.5).collect(),
+                _ => extras.iter().map(|v| v.abs() + 0.01).collect(),
+            };
+            for shape in [Shape::Points, Shape::Weighted, Shape::Balls] {
+                let mut items = ItemSet::<P>::new(shape, dim);
+                for (row, &extra) in values.chunks_exact(dim).zip(&extras) {
+                    items.push(row, extra);
+                }
+                let what = format!("{shape:?} {dim} × {n}, seed {seed}");
+                let radius = judge(&items, &what);
+                let options = BallOptions { epsilon: 1e-12, ..BallOptions::default() };
+                let wanted = match shape {
+                    Shape::Points => ball(&Points::new(&values, dim).unwrap(), &options),
+                    Shape::Balls => {
+                        let rows: Vec<f64> = (values.chunks_exact(dim).zip(&extras))
+                            .flat_map(|(row, &r)| row.iter().copied().chain([r]))
+                            .collect();
+                        ball_of_balls(&Points::new(&rows, dim + 1).unwrap(), &options)
+                    }
+                    Shape::Weighted => continue,
+                };
+                let wanted = wanted.unwrap().answer.radius;
+                assert!((radius - wanted).abs() <= 1e-11 * wanted, "{what}: {radius}, {wanted}");
+            }
+        }
+    }
+
+    #[test]
+    fn balls_prove_themselves() {
+        sets::<[f64; 1]>(1);
+        sets::<[f64; 2]>(2);
+        sets::<[f64; 3]>(3);
+        sets::<Vec<f64>>(2);
+        sets::<Vec<f64>>(6);
+    }
+
+    /// Three points on a circle of radius 5 around (1, 2), and its centre.
+    #[test]
+    fn a_circle() {
+        let mut items = ItemSet::<[f64; 2]>::new(Shape::Points, 2);
+        for row in [[1.0, 2.0], [6.0, 2.0], [-3.0, 5.0], [-2.0, -2.0]] {
+            items.push(&row, 0.0);
+        }
+        let ball = Ball::of_all(&items, &[0, 1, 2, 3], &mut Workspace::new(2));
+        assert!((ball.radius - 5.0).abs() <= 1e-14);
+        assert!(distance(&ball.center, &[1.0, 2.0]) <= 1e-14);
+        assert_eq!(ball.support.len(), 3);
+        assert!((ball.shares.iter().sum::<f64>() - 1.0).abs() <= 1e-15);
+    }
 }

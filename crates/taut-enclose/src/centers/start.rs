@@ -5,9 +5,12 @@
 //! one another, which is a lower bound; where z items may be left out, the k + z first centres lose those of the fewest items.
 //! *Reference.* Gonzalez, Theoretical Computer Science 38, 1985; Lloyd, IEEE Trans. Information Theory 28, 1982.
 
+use taut_points::{Monitor, ReadError};
+
 use super::cloud::{Cloud, Far};
 use super::items::Position;
 use super::small_ball::{Ball, Workspace};
+use crate::Error;
 
 /// Lloyd's steps end when one gains less than this part of the radius.
 const GAIN: f64 = 1e-9;
@@ -36,13 +39,19 @@ pub(super) struct Start<P> {
 }
 
 /// Searches for k centres that may leave out z items, from four first items.
-pub(super) fn start<P: Position>(cloud: &Cloud<P>, k: usize, z: usize) -> Start<P> {
+pub(super) fn start<P: Position>(
+    cloud: &Cloud<P>,
+    k: usize,
+    z: usize,
+    monitor: &Monitor<'_>,
+) -> Result<Start<P>, Error> {
     let count = (2 * k).saturating_add(z).saturating_add(cloud.items.dim());
     let (far, near) = extremes(cloud);
     let mut best: Option<Start<P>> = None;
     let mut firsts = vec![far, near];
     let mut at = 0;
     while at < firsts.len() {
+        monitor.check().map_err(ReadError::from)?;
         let traversal = cloud.traverse(firsts[at], count).items;
         if at == 0 {
             firsts.extend(traversal.iter().skip(1).take(2));
@@ -65,7 +74,7 @@ pub(super) fn start<P: Position>(cloud: &Cloud<P>, k: usize, z: usize) -> Start<
             (best.lower, best.apart, best.traversal) = (lower, apart, traversal);
         }
     }
-    best.expect("there is a first item")
+    Ok(best.expect("there is a first item"))
 }
 
 /// The items farthest from and nearest to the mean position.
@@ -161,7 +170,7 @@ pub(super) fn improve<P: Position>(
             })
             .collect();
         let next = measured(cloud, centers, z);
-        if !(next.radius < best.radius * (1.0 - GAIN)) {
+        if next.radius >= best.radius * (1.0 - GAIN) {
             return if next.radius < best.radius { next } else { best };
         }
         best = next;

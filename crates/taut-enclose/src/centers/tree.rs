@@ -5,6 +5,8 @@
 //! radius so far. Where that is impossible, τ is a lower bound. Where it succeeds, the balls are looked at from all items: σ may
 //! get smaller, and the farthest item joins X. The item with the fewest colours left is coloured next ([`super::clusters`]).
 //! ε comes down in steps, 0.1, 0.03, …: each step that ends has proved a gap, and leaves a better σ and X to the next.
+//! *Backjumps.* A dead end rests on some of the decisions that led to it: those about the items that leave no room for others. Where
+//! one is not among these, its other places would end the same way and are not tried.
 //! *Restarts.* An early choice on a small X may be a poor one: while X grows, the tree starts anew after 200 nodes, then 400, ….
 //! *Guarantee.* σ ≤ (1 + ε)·σ*, unless the nodes run out; then the gap of the last step that ended. One thread, no clock: the
 //! same on every run.
@@ -17,7 +19,8 @@ use taut_certify::{PassBounds, Stop};
 use taut_points::{Monitor, ReadError};
 
 use super::cloud::Cloud;
-use super::clusters::{Clusters, Place, Survey, Undo, greedy_clique};
+use super::clusters::{Clusters, Place, Survey, Undo, large_clique};
+use super::conflict::Levels;
 use super::items::{ItemSet, Position};
 use super::start::{Incumbent, Start, improve};
 use crate::Error;
@@ -31,8 +34,6 @@ const LAST_BUT_ONE: f64 = 0.03;
 const FIRST_RUN: u64 = 200;
 /// Centres whose radius is this near to the best are worth Lloyd's steps.
 const WORTH_IMPROVING: f64 = 1.01;
-/// Comparisons of pairs that a search for cliques at the root may make: beyond, it starts from fewer items.
-const ROOT_PAIRS: usize = 20_000_000;
 
 /// What a search found.
 pub(super) struct Found<P> {
@@ -77,6 +78,16 @@ struct Frame<P> {
     places: Vec<(f64, Place)>,
     next: usize,
     undo: Option<Undo<P>>,
+    /// Clusters that the item was put into.
+    tried: Vec<usize>,
+    /// What its children that failed rest on, but for its own level.
+    conflict: Levels,
+}
+
+impl<P> Frame<P> {
+    fn new(item: u32, places: Vec<(f64, Place)>, undo: Option<Undo<P>>) -> Self {
+        Frame { item, places, next: 0, undo, tried: vec![], conflict: Levels::default() }
+    }
 }
 
 /// Solves to a gap of `epsilon`, from where the traversals have led.
@@ -110,7 +121,9 @@ pub(super) fn solve<P: Position>(
     let mut thresholds = vec![];
     let mut history = vec![];
     let mut stop = Stop::Converged;
-    search.gap = epsilon.max(FIRST_GAP);
+    // What items apart prove of outliers is poor, and gains most from steps that are quick to end.
+    let open = if z > 0 && lower > 0.0 { search.best.radius / lower - 1.0 } else { 0.0 };
+    search.gap = epsilon.max(FIRST_GAP).max(0.5 * open);
     loop {
         let before = search.best.radius;
         if before <= (1.0 + epsilon) * lower {
@@ -184,39 +197,63 @@ impl<P: Position> Search<'_, P> {
                 return Err(Halt::Budget);
             }
             self.nodes += 1;
-            if self.nodes % 256 == 0 {
+            if self.nodes.is_multiple_of(256) {
                 let go_on = self.monitor.check().map_err(ReadError::from);
                 go_on.map_err(|error| Halt::Error(error.into()))?;
             }
-            if let Some(item) = self.examine() {
-                let places = self.state.places(item);
-                frames.push(Frame { item, places, next: 0, undo: None });
-            }
+            let mut failed = match self.examine() {
+                Ok(item) => {
+                    frames.push(Frame::new(item, self.state.places(item), None));
+                    None
+                }
+                Err(conflict) => Some(conflict),
+            };
             if self.core_set.len() > known && self.nodes - first_node >= run {
                 return Err(Halt::Restart);
             }
             // On to the next child of the deepest node that has one.
             loop {
-                if frames.len() == root {
+                let level = (frames.len() - root) as u32;
+                if level == 0 {
                     return Ok(());
                 }
                 let frame = frames.last_mut().expect("there are more than at the root");
                 if let Some(undo) = frame.undo.take() {
                     self.state.undo(undo);
                 }
-                match frame.places.get(frame.next) {
-                    None => drop(frames.pop()),
-                    Some(&(radius, place)) => {
-                        frame.next += 1;
-                        // The threshold may have come down since the places were listed.
-                        if radius < self.state.threshold {
-                            frame.undo = Some(self.state.put(frame.item, place));
-                            break;
-                        }
+                if let Some(mut conflict) = failed.take() {
+                    if !conflict.contains(level) {
+                        frames.pop();
+                        failed = Some(conflict);
+                        continue;
                     }
+                    conflict.remove(level);
+                    frame.conflict.add_all(&conflict);
+                }
+                let Some(&(radius, place)) = frame.places.get(frame.next) else {
+                    self.blame_untried(frame);
+                    failed = frames.pop().map(|frame| frame.conflict);
+                    continue;
+                };
+                frame.next += 1;
+                // The threshold may have come down since the places were listed.
+                if radius < self.state.threshold {
+                    if let Place::Into(cluster) = place {
+                        frame.tried.push(cluster);
+                    }
+                    frame.undo = Some(self.state.put(frame.item, place, level));
+                    break;
                 }
             }
         }
+    }
+
+    /// Adds why the item of a node fits in none of the clusters that were not tried.
+    fn blame_untried(&mut self, frame: &mut Frame<P>) {
+        for at in (0..self.state.clusters.len()).filter(|at| !frame.tried.contains(at)) {
+            self.state.blame(frame.item, at, &mut frame.conflict);
+        }
+        self.state.blame_left_out(&mut frame.conflict);
     }
 
     /// Where nothing may be left out, items no two of which fit together are each put into a cluster of its own. False where there
@@ -224,36 +261,28 @@ impl<P: Position> Search<'_, P> {
     fn open_clique(&mut self, frames: &mut Vec<Frame<P>>) -> bool {
         let all: Vec<u32> = (0..self.core_set.len() as u32).collect();
         let room = self.k.saturating_add(self.z);
-        let starts = (ROOT_PAIRS / (all.len() * room.min(all.len())).max(1)).max(1);
-        let (mut clique, mut trial) = (vec![], vec![]);
-        for &start in all.iter().take(starts) {
-            let state = &self.state;
-            greedy_clique(&state.items, start, &all, state.threshold, room, &mut trial);
-            if trial.len() > clique.len() {
-                std::mem::swap(&mut clique, &mut trial);
-            }
-        }
+        let clique = large_clique(&self.state.items, &all, self.state.threshold, room);
         if clique.len() > room {
             return false;
         }
         if self.z == 0 {
             for item in clique {
-                let undo = Some(self.state.put(item, Place::Open));
-                frames.push(Frame { item, places: vec![], next: 0, undo });
+                let undo = Some(self.state.put(item, Place::Open, 0));
+                frames.push(Frame::new(item, vec![], undo));
             }
         }
         true
     }
 
-    /// The item to branch on, after as many looks at all items as it takes; none in a dead end.
-    fn examine(&mut self) -> Option<u32> {
+    /// The item to branch on, after as many looks at all items as it takes; in a dead end, what that rests on.
+    fn examine(&mut self) -> Result<u32, Levels> {
         loop {
             match self.state.survey(false) {
-                Survey::Stuck => return None,
-                Survey::Branch(item) => return Some(item),
+                Survey::Stuck => return Err(self.state.conflict()),
+                Survey::Branch(item) => return Ok(item),
                 Survey::Covered => {
                     if !self.look() {
-                        return None;
+                        return Err(self.state.everything());
                     }
                 }
             }
@@ -278,7 +307,8 @@ impl<P: Position> Search<'_, P> {
             self.offer(seen);
         }
         if self.state.is_too_large() {
-            return false;
+            // The next survey tells.
+            return true;
         }
         let wanted = self.state.spare().saturating_add(1) as usize;
         let new: Vec<u32> = far

@@ -130,20 +130,17 @@ impl Sites {
         weight * distance + self.radii.get(site).copied().unwrap_or(0.0)
     }
 
-    /// The reach of item `site` from a centre at the row of `center`.
-    pub(super) fn reach_from(&self, site: usize, center: usize) -> f64 {
+    /// The distance of a site from the row of `center`.
+    fn distance(&self, site: usize, center: usize) -> f64 {
         let mut distance = [0.0];
-        let center = self.center(center);
-        self.distances(site, &center, &mut distance);
-        self.reach(site, distance[0])
+        self.distances(site, &self.center(center), &mut distance);
+        distance[0]
     }
 
-    /// The reach that two items have at least from any centre, a row or not: r² and r for balls, w₁w₂D/(w₁ + w₂) for weights.
+    /// The reach that one of two items has at least, wherever the centre: (D + r₁ + r₂)/2 or a radius for balls,
+    /// w₁w₂D/(w₁ + w₂) for weights.
     pub(super) fn reach_of_pair(&self, a: usize, b: usize) -> f64 {
-        let mut distance = [0.0];
-        let center = self.center(b);
-        self.distances(a, &center, &mut distance);
-        let [distance] = distance;
+        let distance = self.distance(a, b);
         if !self.radii.is_empty() {
             let (a, b) = (self.radii[a], self.radii[b]);
             return a.max(b).max(distance.mul_add(0.5, a.mul_add(0.5, b * 0.5)));
@@ -292,14 +289,13 @@ impl Sites {
     /// The reach of item `site` from a centre as somebody else may evaluate it, or a little more; itself where nothing
     /// is rounded.
     pub(super) fn reach_up(&self, site: usize, center: usize) -> f64 {
+        let distance = self.distance(site, center);
+        let reach = self.reach(site, distance);
         let center = self.center(center);
-        let mut distance = [0.0];
-        self.distances(site, &center, &mut distance);
-        let reach = self.reach(site, distance[0]);
         let square = Difference::new(self.position(site), &center, 1.0).squared();
         let root = square.high.sqrt();
         let exact = square.low == 0.0 && root.mul_add(root, -square.high) == 0.0;
-        if distance == [0.0] || exact && self.are_plain() && SAFE.contains(&square.high) {
+        if distance == 0.0 || exact && self.are_plain() && SAFE.contains(&square.high) {
             return reach;
         }
         (reach * (1.0 + relative_error(self.dim))).next_up()
@@ -382,7 +378,7 @@ mod tests {
         assert!(rows > 100 && used < 40, "{rows} rows in {used} words");
         for (other, reach) in sites.reaches(&[777]).into_iter().enumerate() {
             assert_eq!(near[other / WORD] >> (other % WORD) & 1 == 1, reach < 0.1);
-            assert_eq!(reach, sites.reach_from(777, other), "not symmetric");
+            assert_eq!(reach, sites.reach(777, sites.distance(777, other)), "not symmetric");
         }
     }
 
@@ -392,7 +388,7 @@ mod tests {
             let values = [0.0, 0.0, 3.0 * scale, 4.0 * scale];
             let sites = sites(&values, 2);
             let wanted = 5.0 * scale;
-            let found = sites.reach_from(0, 1);
+            let found = sites.distance(0, 1);
             assert!((found - wanted).abs() <= 1e-15 * wanted + 5e-322, "{found:e} {wanted:e}");
         }
     }

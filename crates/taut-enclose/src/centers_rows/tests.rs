@@ -265,6 +265,37 @@ fn each_row_is_told_its_centre_on_request() {
 }
 
 #[test]
+fn the_judge_rejects_what_is_not_proved() {
+    let values: Vec<f64> = generate(Distribution::Uniform, 800, 2, 6).unwrap();
+    let problem = points(&values, 2, 8, 0);
+    let found = solved(&problem);
+    let LowerBound::Branches { items } = &found.certificate.proof else { panic!("a short proof") };
+    let rejects = |problem: &Problem<'_>, edit: &dyn Fn(&mut Solution<Centers>)| {
+        let mut doctored = found.clone();
+        edit(&mut doctored);
+        std::panic::catch_unwind(|| judge(problem, &doctored, 0.0)).is_err()
+    };
+    assert!(!rejects(&problem, &|_| ()));
+    assert!(rejects(&problem, &|found| {
+        found.answer.radius *= 1.0 + 1e-6;
+        found.answer.lower_bound = found.answer.radius;
+    }));
+    assert!(rejects(&problem, &|found| found.answer.radius *= 1.0 - 1e-6));
+    let log = |items: Vec<u32>| {
+        move |found: &mut Solution<Centers>| {
+            found.certificate.proof = LowerBound::Branches { items: items.clone() };
+        }
+    };
+    assert!(rejects(&problem, &log(items[1..].to_vec())));
+    assert!(rejects(&problem, &log(items[..items.len() - 1].to_vec())));
+    assert!(rejects(&problem, &log([&items[..], &[0]].concat())));
+    let more = Problem { k: 9, ..problem };
+    assert!(rejects(&more, &|found| found.certificate.k = 9));
+    let fewer = Problem { outliers: 1, ..problem };
+    assert!(rejects(&fewer, &|found| found.certificate.outliers = 1));
+}
+
+#[test]
 fn cancelling_stops_the_search() {
     let values = rows(50, 2, 5);
     let points = Points::new(&values, 2).unwrap();

@@ -14,8 +14,7 @@ use super::lazy::{Key, Leaf, Leaves, Top};
 use crate::Error;
 use crate::frame::Frame;
 
-/// Points of a leaf, a multiple of [`GROUP`]. With half or twice as many it takes about as long; fewer mean more boxes to
-/// ask, more mean larger ones.
+/// Points of a leaf, a multiple of [`GROUP`]: fewer have a smaller box that rules out more, and more boxes are to be asked.
 const POINTS: usize = 256;
 
 /// Some neighbours.

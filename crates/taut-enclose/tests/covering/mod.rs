@@ -102,4 +102,6 @@ pub fn judge(found: &Solution<Centers>, values: &[f64], dim: usize) {
     } else {
         assert_eq!((*claimed, certificate.gap), (0.0, 0.0));
     }
+    let points = Points::new(values, dim).unwrap();
+    found.check(&points).unwrap_or_else(|error| panic!("{error}\n{found:?}"));
 }

@@ -9,6 +9,8 @@
 
 use std::cmp::Ordering;
 
+use taut_points::{Monitor, ReadError};
+
 use super::distance::{Scale, compare, kappa, square};
 use super::item::Kind;
 use crate::arithmetic::U;
@@ -100,7 +102,7 @@ impl Core {
                 let square = square(p, q, 1.0, self.scale);
                 let sum = (self.reaches[i] + self.reaches[j]) * (1.0 + 4.0 * U);
                 let more = sum * (1.0 + kappa(self.dim));
-                return more > 1e-70 && more * more <= square;
+                return more > 1e-70 && more * more <= square && square < f64::INFINITY;
             }
         };
         nearer != Ordering::Less
@@ -155,10 +157,11 @@ pub(super) struct Pairs {
 
 impl Pairs {
     /// All n(n − 1)/2 pairs.
-    pub(super) fn of(core: &Core) -> Self {
+    pub(super) fn of(core: &Core, monitor: &Monitor<'_>) -> Result<Self, ReadError> {
         let n = core.len();
         let mut rows = vec![vec![0; n.div_ceil(64)]; n];
         for i in 0..n {
+            monitor.check()?;
             for j in 0..i {
                 if core.are_apart(i, j) {
                     set(&mut rows[i], j);
@@ -166,14 +169,10 @@ impl Pairs {
                 }
             }
         }
-        Pairs { rows }
+        Ok(Pairs { rows })
     }
 
     pub(super) fn are_apart(&self, i: usize, j: usize) -> bool {
         is_set(&self.rows[i], j)
-    }
-
-    pub(super) fn row(&self, i: usize) -> &[u64] {
-        &self.rows[i]
     }
 }

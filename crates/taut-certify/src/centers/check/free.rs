@@ -91,8 +91,8 @@ impl Room for Free<'_> {
         self.core.len()
     }
 
-    fn apart(&self, item: usize) -> &[u64] {
-        self.pairs.row(item)
+    fn are_apart(&self, i: usize, j: usize) -> bool {
+        self.pairs.are_apart(i, j)
     }
 
     fn open(&mut self, item: usize) -> Option<Group> {
@@ -346,13 +346,15 @@ fn is_refuted(core: &Core, group: &Group) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use taut_points::Monitor;
+
     use super::super::item::Kind;
     use super::*;
 
     /// Whether a ball of radius less than `bound` is proved not to hold these rows.
     fn refuted(rows: &[f64], columns: usize, kind: Kind, bound: f64) -> bool {
         let core = Core::of(rows, columns, kind, bound);
-        let pairs = Pairs::of(&core);
+        let pairs = Pairs::of(&core, &Monitor::silent()).unwrap();
         let mut room = Free::of(&core, &pairs);
         let mut group = room.open(0);
         for item in 1..core.len() {

@@ -11,8 +11,8 @@ pub(super) trait Room {
     /// How many items there are.
     fn len(&self) -> usize;
 
-    /// The items that are known at a glance to be apart from this one, a bit each.
-    fn apart(&self, item: usize) -> &[u64];
+    /// Whether it is known without a search that no ball holds both items.
+    fn are_apart(&self, i: usize, j: usize) -> bool;
 
     /// A group of one item; `None` where it is refuted.
     fn open(&mut self, item: usize) -> Option<Self::Group>;

@@ -8,16 +8,17 @@
 //! are granted.
 
 use std::collections::HashSet;
+use std::sync::{Mutex, PoisonError};
 
 use taut_points::{Monitor, PointSource, map_blocks};
 
 use super::super::CentersViolation;
-use super::core::{Bits, Core, is_set, set};
+use super::core::{Bits, Core, is_set, items, set};
 use super::item::Kind;
 use super::room::Room;
 use crate::CheckError;
 
-/// Most bytes for the sets of all places, as they are found and as they are kept.
+/// Most bytes for the sets of all places, once by place and once by item.
 const MEMORY: u64 = 1 << 30;
 
 /// Places at rows, for one core-set.
@@ -26,8 +27,6 @@ pub(super) struct Places {
     pub(super) sets: Vec<Bits>,
     /// For each item, the places near to it.
     near: Vec<Bits>,
-    /// For each item, the items that no place is near to both of; all items where no place is near to it alone.
-    apart: Vec<Bits>,
 }
 
 impl Places {
@@ -39,7 +38,8 @@ impl Places {
         monitor: &Monitor<'_>,
     ) -> Result<Self, CheckError> {
         let words = core.len().div_ceil(64);
-        let blocks = map_blocks(source, monitor, |_, rows| {
+        let sets: Mutex<HashSet<Bits>> = Mutex::default();
+        map_blocks(source, monitor, |_, rows| {
             let mut found = HashSet::new();
             let mut row = vec![0.0; source.dim()];
             for number in 0..rows.len() {
@@ -53,51 +53,27 @@ impl Places {
                     found.insert(near);
                 }
             }
-            Ok::<_, CheckError>(found)
-        })?;
-        let mut sets: HashSet<Bits> = HashSet::new();
-        for block in blocks {
-            sets.extend(block);
-            // What is found is kept once by row and once by column.
-            let needed = 2 * 8 * words as u64 * sets.len() as u64;
-            if needed > MEMORY {
-                let violation = CentersViolation::Memory { needed, most: MEMORY };
-                return Err(violation.into());
+            // Sets are put together in any order and sorted in the end.
+            let mut sets = sets.lock().unwrap_or_else(PoisonError::into_inner);
+            sets.extend(found);
+            match 2 * 8 * words as u64 * sets.len() as u64 > MEMORY {
+                true => Err(CheckError::from(CentersViolation::Memory { most: MEMORY })),
+                false => Ok(()),
             }
-        }
+        })?;
+        let sets = sets.into_inner().unwrap_or_else(PoisonError::into_inner);
         let mut sets: Vec<Bits> = sets.into_iter().collect();
         sets.sort_unstable();
-        Ok(Places::of_sets(sets, core.len()))
-    }
-
-    fn of_sets(sets: Vec<Bits>, items: usize) -> Self {
-        let mut near = vec![vec![0; sets.len().div_ceil(64)]; items];
+        let mut near = vec![vec![0; sets.len().div_ceil(64)]; core.len()];
         for (place, of_place) in sets.iter().enumerate() {
-            for item in super::core::items(of_place) {
-                set(&mut near[item], place);
-            }
+            items(of_place).for_each(|item| set(&mut near[item], place));
         }
-        let mut apart = vec![vec![!0; items.div_ceil(64)]; items];
-        for i in 0..items {
-            for j in 0..items {
-                if near[i].iter().zip(&near[j]).any(|(a, b)| a & b != 0) {
-                    super::core::clear(&mut apart[i], j);
-                }
-            }
-            mask(&mut apart[i], items);
-        }
-        Places { sets, near, apart }
+        Ok(Places { sets, near })
     }
 
+    /// Whether no place is near to both.
     pub(super) fn are_apart(&self, i: usize, j: usize) -> bool {
-        is_set(&self.apart[i], j)
-    }
-}
-
-/// Clears the bits beyond the last item.
-fn mask(bits: &mut [u64], items: usize) {
-    if let Some(last) = bits.last_mut().filter(|_| !items.is_multiple_of(64)) {
-        *last &= (1 << (items % 64)) - 1;
+        self.near[i].iter().zip(&self.near[j]).all(|(a, b)| a & b == 0)
     }
 }
 
@@ -109,8 +85,8 @@ impl Room for &Places {
         self.near.len()
     }
 
-    fn apart(&self, item: usize) -> &[u64] {
-        &self.apart[item]
+    fn are_apart(&self, i: usize, j: usize) -> bool {
+        Places::are_apart(self, i, j)
     }
 
     fn open(&mut self, item: usize) -> Option<Bits> {
@@ -132,6 +108,6 @@ impl Room for &Places {
     }
 
     fn covers(&self, group: &Bits, item: usize) -> bool {
-        super::core::items(group).next().is_some_and(|place| is_set(&self.near[item], place))
+        items(group).next().is_some_and(|place| is_set(&self.near[item], place))
     }
 }

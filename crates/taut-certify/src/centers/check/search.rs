@@ -43,7 +43,15 @@ pub(super) fn search<R: Room>(
     monitor: &Monitor<'_>,
 ) -> Result<(Outcome, u64), Cancelled> {
     let n = room.len();
+    let apart = (0..n)
+        .map(|i| {
+            let mut apart = vec![0; n.div_ceil(64)];
+            (0..n).filter(|&j| j != i && room.are_apart(i, j)).for_each(|j| set(&mut apart, j));
+            apart
+        })
+        .collect();
     let mut search = Search {
+        apart,
         opens: (0..n).map(|item| room.open(item).is_some()).collect(),
         room,
         k,
@@ -60,6 +68,8 @@ pub(super) fn search<R: Room>(
 
 struct Search<'a, R: Room> {
     room: &'a mut R,
+    /// For each item, the items that are apart from it.
+    apart: Vec<Bits>,
     /// Whether a ball of its own holds the item.
     opens: Vec<bool>,
     k: usize,
@@ -126,7 +136,7 @@ impl<R: Room> Search<'_, R> {
             rest.copy_from_slice(&all);
             loop {
                 clear(&mut rest, last);
-                rest.iter_mut().zip(self.room.apart(last)).for_each(|(rest, apart)| *rest &= apart);
+                rest.iter_mut().zip(&self.apart[last]).for_each(|(rest, apart)| *rest &= apart);
                 let Some(next) = self::items(&rest).next() else { break };
                 (last, size) = (next, size + 1);
             }
@@ -153,7 +163,7 @@ impl<R: Room> Search<'_, R> {
                 .fold((0, 0.0), |(choices, sum), strain| (choices + 1, sum + strain));
             // Without a group, the item that is apart from most.
             let relief = match choices {
-                0 => self.room.apart(item).iter().map(|word| word.count_ones()).sum::<u32>().into(),
+                0 => self.apart[item].iter().map(|word| word.count_ones()).sum::<u32>().into(),
                 _ => strain,
             };
             if choices < best.0 || (choices == best.0 && -relief < best.1) {

@@ -131,8 +131,8 @@ pub(super) struct Complex<'a, const D: usize, const V: usize> {
 }
 
 impl<const D: usize, const V: usize> Complex<'_, D, V> {
-    /// Every id is a row, every simplex is positively oriented, every facet has another side or is open, and no apex of a neighbour is in
-    /// conflict.
+    /// Every id is a row, every simplex is positively oriented, every facet has another side or is open, and no apex of a
+    /// neighbour is in conflict.
     pub(super) fn check<G: Geometry<D, V>, const F: usize>(
         &self,
     ) -> Result<Paired<F>, MeshViolation>
