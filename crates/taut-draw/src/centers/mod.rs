@@ -162,9 +162,10 @@ impl Picture<'_> {
             _ => "circles",
         };
         let bound = match self.lower_is_visible() {
-            true => {
-                format!(" The dashed {shape} have the radius of the lower bound: no k are smaller.")
-            }
+            true => format!(
+                " The dashed {shape} have the radius of the lower bound: no {} smaller ones hold all.",
+                count(self.certificate.k)
+            ),
             false => String::new(),
         };
         let weights = match self.certificate.weights {
