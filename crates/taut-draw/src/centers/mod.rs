@@ -156,17 +156,21 @@ impl Picture<'_> {
             gap => format!("certified relative gap {}", short(gap, 3)),
         };
         let shape = match self.dim {
-            1 => "intervals",
-            2 => "circles",
-            3 => "spheres",
-            _ => "circles",
+            1 => "interval",
+            3 => "sphere",
+            _ => "circle",
         };
-        let bound = match self.lower_is_visible() {
-            true => format!(
-                " The dashed {shape} have the radius of the lower bound: no {} smaller ones hold all.",
-                count(self.certificate.k)
+        let bound = match (self.lower_is_visible(), self.certificate.k) {
+            (false, _) => String::new(),
+            (true, 1) => {
+                format!(
+                    " The dashed {shape} has the radius of the lower bound: no smaller one would do."
+                )
+            }
+            (true, k) => format!(
+                " The dashed {shape}s have the radius of the lower bound: no {} smaller ones would do.",
+                count(k)
             ),
-            false => String::new(),
         };
         let weights = match self.certificate.weights {
             true => {
