@@ -89,6 +89,22 @@ pub(crate) fn centre(center: &[f64], size: f64) -> Fact {
     fact
 }
 
+/// Rows whose numbers are shown.
+const NAMED: usize = 8;
+
+/// How many rows there are, and the numbers of the first, counted from 1 as in the file.
+pub(crate) fn rows_of(name: &'static str, rows: &[u64]) -> Fact {
+    let fact = Fact::new(name, count(rows.len() as u64));
+    let row = |&row: &u64| row.saturating_add(1).to_string();
+    let named: Vec<String> = rows.iter().take(NAMED).map(row).collect();
+    let more = if rows.len() > NAMED { ", …; the JSON holds them (-o FILE)" } else { "" };
+    match named.len() {
+        0 => fact,
+        1 => fact.remark(format!("row {}", named[0])),
+        _ => fact.remark(format!("rows {}{more}", named.join(", "))),
+    }
+}
+
 /// The gap, as proved (then with what that means) or as the solver says; and which of the two it is.
 pub(crate) fn gap_and_verified(
     proved: Option<(f64, String)>,
