@@ -4,7 +4,7 @@
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use taut::Items;
-use taut::certify::Violation;
+use taut::certify::{CentersViolation, Violation};
 use taut::enclose::Error;
 
 /// What the rows are, in a word.
@@ -35,6 +35,7 @@ pub(crate) fn raise(error: Error, items: Items, columns: usize) -> PyErr {
             PyValueError::new_err(not_finite(items, row, column, value, dim))
         }
         Error::NegativeRadius { row, value } => PyValueError::new_err(negative_radius(row, value)),
+        Error::NonPositiveWeight { row, value } => PyValueError::new_err(weight(row, value)),
         _ => PyValueError::new_err(error.to_string()),
     }
 }
@@ -47,6 +48,7 @@ pub(crate) fn words(violation: Violation, items: Option<Items>, columns: usize) 
             Some(items @ (Items::Balls | Items::Ellipsoids)),
         ) => not_finite(items, row, column, value, items.dim(columns)),
         (Violation::NegativeRadius { row, value }, _) => negative_radius(row, value),
+        (Violation::Centers(CentersViolation::Weight { row, value }), _) => weight(row, value),
         (other, _) => other.to_string(),
     }
 }
@@ -70,4 +72,10 @@ fn not_finite(items: Items, row: u64, column: usize, value: f64, dim: usize) -> 
 
 fn negative_radius(row: u64, value: f64) -> String {
     format!("the radius of ball {row} is {value}: all radii must be at least 0")
+}
+
+/// A weight that is NaN, infinite or not above 0.
+pub(crate) fn weight(row: u64, value: f64) -> String {
+    let expected = if value.is_finite() { "more than 0" } else { "finite" };
+    format!("the weight of point {row} is {value}: all weights must be {expected}")
 }

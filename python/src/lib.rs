@@ -6,8 +6,10 @@
 #![forbid(unsafe_code)]
 
 mod ball;
+mod centers;
 mod delaunay;
 mod ellipsoid;
+mod farthest_first;
 mod generate;
 mod inscribed;
 mod items;
@@ -26,11 +28,15 @@ mod _native {
     #[pymodule_export]
     use crate::ball::ball;
     #[pymodule_export]
+    use crate::centers::{Centers, CentersCertificate, CentersVerdict, centers};
+    #[pymodule_export]
     use crate::delaunay::delaunay;
     #[pymodule_export]
     use crate::ellipsoid::{
         Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipsoid, ellipsoids,
     };
+    #[pymodule_export]
+    use crate::farthest_first::{FarthestFirst, farthest_first};
     #[pymodule_export]
     use crate::generate::generate;
     #[pymodule_export]

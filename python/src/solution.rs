@@ -8,6 +8,7 @@ use pyo3::types::{PyDict, PyTuple};
 use taut::Items;
 use taut::certify::{self, AnySolution, AnyVerdict, CheckError, Stop};
 
+use crate::centers::{Centers, CentersCertificate, CentersVerdict};
 use crate::ellipsoid::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, directions};
 use crate::inscribed::{InscribedCertificate, InscribedEllipsoid, InscribedVerdict};
 use crate::items::{name_of_items, words};
@@ -117,7 +118,8 @@ impl PassBounds {
 /// method : str
 ///     The method.
 /// stop : str
-///     ``"converged"``, ``"rounding"`` (no smaller gap can be proved in float64) or ``"pass-budget"``.
+///     ``"converged"``, ``"rounding"`` (no smaller gap can be proved in float64), ``"pass-budget"`` or
+///     ``"node-budget"``.
 /// passes : int
 ///     Reads of all points.
 /// iterations : int
@@ -146,6 +148,7 @@ impl Trace {
             Stop::Converged => "converged",
             Stop::Rounding => "rounding",
             Stop::PassBudget => "pass-budget",
+            Stop::NodeBudget => "node-budget",
         }
     }
 
@@ -222,10 +225,10 @@ impl Verdict {
 /// Attributes
 /// ----------
 /// kind : str
-///     ``"ball"``, ``"ellipsoid"``, ``"inscribed-ellipsoid"``, ``"robust-ellipsoid"`` or ``"delaunay"``.
-/// answer : Ball, Ellipsoid, InscribedEllipsoid, RobustEllipsoid or Triangulation
+///     ``"ball"``, ``"ellipsoid"``, ``"inscribed-ellipsoid"``, ``"robust-ellipsoid"``, ``"centers"`` or ``"delaunay"``.
+/// answer : Ball, Ellipsoid, InscribedEllipsoid, RobustEllipsoid, Centers or Triangulation
 ///     The shape.
-/// certificate : BallCertificate, EllipsoidCertificate, InscribedCertificate, RobustCertificate or TriangulationCertificate
+/// certificate : BallCertificate, EllipsoidCertificate and so on
 ///     Its proof.
 /// trace : Trace
 ///     Counters of the run.
@@ -266,6 +269,11 @@ impl Solution {
                 let certificate = RobustCertificate::new(py, &found.certificate)?;
                 (answer, Py::new(py, certificate)?.into_any(), found.trace.clone())
             }
+            AnySolution::Centers(found) => {
+                let answer = Py::new(py, Centers::new(py, &found.answer)?)?.into_any();
+                let certificate = CentersCertificate::new(py, &found.certificate)?;
+                (answer, Py::new(py, certificate)?.into_any(), found.trace.clone())
+            }
             AnySolution::Triangulation(found) => {
                 let answer = Py::new(py, Triangulation::new(py, found)?)?.into_any();
                 let certificate = TriangulationCertificate::new(&found.certificate);
@@ -288,17 +296,28 @@ impl Solution {
             AnySolution::Ball(_)
             | AnySolution::Ellipsoid(_)
             | AnySolution::Inscribed(_)
-            | AnySolution::Robust(_) => {
-                let article = if self.kind().starts_with(['e', 'i']) { "an" } else { "a" };
-                let problem = format!("{article} {} has no {name}: triangulations do", self.kind());
+            | AnySolution::Robust(_)
+            | AnySolution::Centers(_) => {
+                let kind = self.kind();
+                let holder = match kind {
+                    "centers" => "centers have".to_owned(),
+                    _ if kind.starts_with(['e', 'i']) => format!("an {kind} has"),
+                    _ => format!("a {kind} has"),
+                };
+                let problem = format!("{holder} no {name}: triangulations do");
                 Err(PyAttributeError::new_err(problem))
             }
         }
     }
 
     /// Refuses arrays that do not belong to what the answer encloses, and asks for those that do.
-    fn match_arrays(&self, radii: bool, shapes: bool, offsets: bool) -> PyResult<()> {
+    fn match_arrays(&self, is_given: [bool; 4]) -> PyResult<()> {
         let (what, wanted) = match (&self.solution, self.items()) {
+            (AnySolution::Centers(found), _) if found.certificate.weights => {
+                ("is about points with weights", "weights")
+            }
+            (AnySolution::Centers(_), Some(Items::Points)) => ("is about points", ""),
+            (AnySolution::Centers(_), Some(Items::Balls)) => ("is about balls", "radii"),
             (AnySolution::Inscribed(_), _) => ("lies in half-spaces", "offsets"),
             (_, Some(Items::Balls)) => ("encloses balls", "radii"),
             (_, Some(Items::Ellipsoids)) => ("encloses ellipsoids", "shapes"),
@@ -306,7 +325,8 @@ impl Solution {
             (_, Some(Items::Points)) => ("encloses points", ""),
             (_, None) => ("joins points", ""),
         };
-        for (name, given) in [("radii", radii), ("shapes", shapes), ("offsets", offsets)] {
+        let names = ["radii", "shapes", "offsets", "weights"];
+        for (name, given) in names.into_iter().zip(is_given) {
             let problem = match (given, name == wanted) {
                 (false, true) => format!("the answer {what}: give their {name}"),
                 (true, false) => format!("the answer {what}, which have no {name}"),
@@ -323,6 +343,7 @@ impl Solution {
             AnySolution::Ball(found) => Some(found.certificate.items),
             AnySolution::Ellipsoid(found) => Some(found.certificate.items),
             AnySolution::Robust(_) => Some(Items::Points),
+            AnySolution::Centers(found) => Some(found.certificate.items),
             AnySolution::Inscribed(_) | AnySolution::Triangulation(_) => None,
         }
     }
@@ -371,6 +392,7 @@ impl Solution {
             AnySolution::Ellipsoid(_) => "ellipsoid",
             AnySolution::Inscribed(_) => "inscribed-ellipsoid",
             AnySolution::Robust(_) => "robust-ellipsoid",
+            AnySolution::Centers(_) => "centers",
             AnySolution::Triangulation(_) => "delaunay",
         }
     }
@@ -413,15 +435,17 @@ impl Solution {
     ///     The points, or the centres of the balls or ellipsoids, that the answer was found for; of an inscribed
     ///     ellipsoid the normals.
     /// radii : array_like of shape (n,), optional
-    ///     The radii, when the answer encloses balls.
+    ///     The radii, when the answer is about balls.
     /// shapes : array_like of shape (n, d, d), optional
     ///     The shape matrices, when the answer encloses ellipsoids.
     /// offsets : array_like of shape (n,), optional
     ///     The offsets of the half-spaces, when the answer is inscribed.
+    /// weights : array_like of shape (n,), optional
+    ///     The weights of the points, when the answer is about points that have some.
     ///
     /// Returns
     /// -------
-    /// Verdict, EllipsoidVerdict, InscribedVerdict, RobustVerdict or TriangulationVerdict
+    /// Verdict, EllipsoidVerdict, InscribedVerdict, RobustVerdict, CentersVerdict or TriangulationVerdict
     ///     Proved bounds ``lower`` and ``upper``, and their ``gap``; of a robust ellipsoid and a triangulation what was
     ///     proved instead.
     ///
@@ -439,7 +463,7 @@ impl Solution {
     /// >>> found.check([[0, 0], [2, 0], [1, 2]])
     /// Traceback (most recent call last):
     /// taut.Violation: ...
-    #[pyo3(signature = (points, radii=None, *, shapes=None, offsets=None))]
+    #[pyo3(signature = (points, radii=None, *, shapes=None, offsets=None, weights=None))]
     fn check(
         &self,
         py: Python<'_>,
@@ -447,13 +471,15 @@ impl Solution {
         radii: Option<&Bound<'_, PyAny>>,
         shapes: Option<&Bound<'_, PyAny>>,
         offsets: Option<&Bound<'_, PyAny>>,
+        weights: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Py<PyAny>> {
-        self.match_arrays(radii.is_some(), shapes.is_some(), offsets.is_some())?;
+        let is_given = [radii, shapes, offsets, weights].map(|array| array.is_some());
+        self.match_arrays(is_given)?;
         // Arrays are put in order in one place, and that is written in Python.
         let rows = py
             .import("taut._arrays")?
             .getattr("as_rows")?
-            .call1((points, radii, shapes, offsets))?;
+            .call1((points, radii, shapes, offsets, weights))?;
         let rows = Rows::borrow(&rows)?;
         let source = rows.source()?;
         let verdict = interruptible(py, |monitor| self.solution.check(source.as_ref(), monitor))?;
@@ -469,6 +495,9 @@ impl Solution {
             }
             Ok(AnyVerdict::Robust(proved)) => {
                 Ok(Py::new(py, RobustVerdict::new(py, proved)?)?.into_any())
+            }
+            Ok(AnyVerdict::Centers(proved)) => {
+                Ok(Py::new(py, CentersVerdict::new(proved))?.into_any())
             }
             Ok(AnyVerdict::Triangulation(proved)) => {
                 Ok(Py::new(py, TriangulationVerdict::new(&proved))?.into_any())
@@ -541,6 +570,14 @@ impl Solution {
                 let log_det = float(py, found.answer.log_det)?;
                 let outliers = found.answer.flagged.len();
                 format!("Solution(kind='{kind}', log_det={log_det}, outliers={outliers})")
+            }
+            AnySolution::Centers(found) => {
+                let taut::Centers { radius, lower_bound, .. } = found.answer;
+                let (radius, lower_bound) = (float(py, radius)?, float(py, lower_bound)?);
+                let k = found.certificate.k;
+                format!(
+                    "Solution(kind='{kind}', k={k}, radius={radius}, lower_bound={lower_bound})"
+                )
             }
             AnySolution::Triangulation(found) => {
                 let certify::TriangulationCounts { sites, simplices, hull } =

@@ -12,15 +12,20 @@ The names, options and defaults are those of the Rust library and of the command
 """
 
 from ._ball import ball, ball_of_balls
+from ._centers import centers, farthest_first
 from ._delaunay import delaunay
 from ._ellipsoid import ellipsoid, ellipsoids, inscribed_ellipsoid
 from ._generate import generate
 from ._native import (
     Ball,
     BallCertificate,
+    Centers,
+    CentersCertificate,
+    CentersVerdict,
     Ellipsoid,
     EllipsoidCertificate,
     EllipsoidVerdict,
+    FarthestFirst,
     Hull,
     InscribedCertificate,
     InscribedEllipsoid,
@@ -44,9 +49,13 @@ from ._verify import verify
 __all__ = [
     "Ball",
     "BallCertificate",
+    "Centers",
+    "CentersCertificate",
+    "CentersVerdict",
     "Ellipsoid",
     "EllipsoidCertificate",
     "EllipsoidVerdict",
+    "FarthestFirst",
     "Hull",
     "InscribedCertificate",
     "InscribedEllipsoid",
@@ -65,9 +74,11 @@ __all__ = [
     "__version__",
     "ball",
     "ball_of_balls",
+    "centers",
     "delaunay",
     "ellipsoid",
     "ellipsoids",
+    "farthest_first",
     "generate",
     "inscribed_ellipsoid",
     "robust_ellipsoid",

@@ -19,6 +19,7 @@ def as_rows(
     radii: ArrayLike | None = None,
     shapes: ArrayLike | None = None,
     offsets: ArrayLike | None = None,
+    weights: ArrayLike | None = None,
 ) -> Rows:
     """Rows of float32 or float64 in C order; a fitting array is returned as it is.
 
@@ -32,19 +33,23 @@ def as_rows(
         Shape matrices of ellipsoids: their lower triangles become the last columns, row by row, in a new array.
     offsets : array_like of shape (n,), optional
         Offsets of half-spaces: they become the last column, in a new array.
+    weights : array_like of shape (n,), optional
+        Weights of points: they become the last column, in a new array.
 
     Returns
     -------
     ndarray of shape (n, d), (n, d + 1) or (n, d (d + 3) / 2)
         float32 where all that is given is, else float64.
     """
-    given = [values is not None for values in (radii, shapes, offsets)]
+    given = [values is not None for values in (radii, shapes, offsets, weights)]
     if sum(given) > 1:
-        raise ValueError("only one of radii, shapes and offsets can be given")
+        raise ValueError("only one of radii, shapes, offsets and weights can be given")
     if radii is not None:
         return _with_column("centers", points, "radii", radii)
     if offsets is not None:
         return _with_column("normals", points, "offsets", offsets)
+    if weights is not None:
+        return _with_column("points", points, "weights", weights)
     if shapes is not None:
         return _with_shapes(points, shapes)
     return _real("points", points, 2)
@@ -166,6 +171,8 @@ def _place(name: str, index: tuple[int, ...]) -> str:
     match name:
         case "radii":
             return f"the radius of ball {index[0]}"
+        case "weights":
+            return f"the weight of point {index[0]}"
         case "offsets":
             return f"offset {index[0]}"
         case "shapes":

@@ -6,9 +6,13 @@ from numpy.typing import ArrayLike, NDArray
 __all__ = [
     "Ball",
     "BallCertificate",
+    "Centers",
+    "CentersCertificate",
+    "CentersVerdict",
     "Ellipsoid",
     "EllipsoidCertificate",
     "EllipsoidVerdict",
+    "FarthestFirst",
     "Hull",
     "InscribedCertificate",
     "InscribedEllipsoid",
@@ -26,9 +30,11 @@ __all__ = [
     "Violation",
     "__version__",
     "ball",
+    "centers",
     "delaunay",
     "ellipsoid",
     "ellipsoids",
+    "farthest_first",
     "generate",
     "inscribed_ellipsoid",
     "robust_ellipsoid",
@@ -45,6 +51,19 @@ def ball(
     max_passes: int,
     threads: int | None,
     seed: int,
+) -> Solution: ...
+def centers(
+    rows: NDArray[np.float32] | NDArray[np.float64],
+    k: int,
+    items: str,
+    weights: bool,
+    epsilon: float,
+    method: str,
+    discrete: bool,
+    outliers: int,
+    max_nodes: int,
+    assignment: bool,
+    threads: int | None,
 ) -> Solution: ...
 def delaunay(
     rows: NDArray[np.float32] | NDArray[np.float64],
@@ -69,6 +88,12 @@ def ellipsoids(
     threads: int | None,
     seed: int,
 ) -> list[Solution]: ...
+def farthest_first(
+    rows: NDArray[np.float32] | NDArray[np.float64],
+    count: int,
+    start: int,
+    threads: int | None,
+) -> FarthestFirst: ...
 def generate(
     out: NDArray[np.float32] | NDArray[np.float64],
     distribution: str,
@@ -122,6 +147,64 @@ class BallCertificate:
     def gap(self) -> float: ...
     @property
     def points_hash(self) -> str: ...
+
+@final
+class Centers:
+    @property
+    def centers(self) -> NDArray[np.float64]: ...
+    @property
+    def rows(self) -> NDArray[np.int64]: ...
+    @property
+    def radius(self) -> float: ...
+    @property
+    def lower_bound(self) -> float: ...
+    @property
+    def outliers(self) -> NDArray[np.int64]: ...
+    @property
+    def assignment(self) -> NDArray[np.uint32] | None: ...
+
+@final
+class CentersCertificate:
+    @property
+    def items(self) -> str: ...
+    @property
+    def weights(self) -> bool: ...
+    @property
+    def discrete(self) -> bool: ...
+    @property
+    def k(self) -> int: ...
+    @property
+    def outliers(self) -> int: ...
+    @property
+    def gap(self) -> float: ...
+    @property
+    def core_set(self) -> NDArray[np.int64]: ...
+    @property
+    def proof(self) -> str: ...
+    @property
+    def points_hash(self) -> str: ...
+
+@final
+class CentersVerdict:
+    @property
+    def lower(self) -> float: ...
+    @property
+    def upper(self) -> float: ...
+    @property
+    def gap(self) -> float: ...
+    @property
+    def nodes(self) -> int: ...
+    @property
+    def cover_nodes(self) -> int | None: ...
+
+@final
+class FarthestFirst:
+    @property
+    def order(self) -> NDArray[np.int64]: ...
+    @property
+    def radii(self) -> NDArray[np.float64]: ...
+    @property
+    def next(self) -> int | None: ...
 
 @final
 class Ellipsoid:
@@ -379,6 +462,7 @@ class Solution:
         *,
         shapes: ArrayLike | None = None,
         offsets: ArrayLike | None = None,
+        weights: ArrayLike | None = None,
     ) -> Any: ...
     def to_json(self) -> str: ...
     @staticmethod

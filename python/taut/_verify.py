@@ -5,6 +5,7 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from ._native import (
+    CentersVerdict,
     EllipsoidVerdict,
     InscribedVerdict,
     RobustVerdict,
@@ -13,7 +14,14 @@ from ._native import (
     Verdict,
 )
 
-AnyVerdict = Verdict | EllipsoidVerdict | InscribedVerdict | RobustVerdict | TriangulationVerdict
+AnyVerdict = (
+    Verdict
+    | EllipsoidVerdict
+    | InscribedVerdict
+    | RobustVerdict
+    | CentersVerdict
+    | TriangulationVerdict
+)
 
 
 def verify(
@@ -23,6 +31,7 @@ def verify(
     *,
     shapes: ArrayLike | None = None,
     offsets: ArrayLike | None = None,
+    weights: ArrayLike | None = None,
 ) -> AnyVerdict:
     """Check an answer over the points it was found for.
 
@@ -33,15 +42,17 @@ def verify(
     points : array_like of shape (n, d)
         The points, or the centres of the balls or ellipsoids; of an inscribed ellipsoid the normals.
     radii : array_like of shape (n,), optional
-        The radii, when the answer encloses balls.
+        The radii, when the answer is about balls.
     shapes : array_like of shape (n, d, d), optional
         The shape matrices, when the answer encloses ellipsoids.
     offsets : array_like of shape (n,), optional
         The offsets of the half-spaces, when the answer is inscribed.
+    weights : array_like of shape (n,), optional
+        The weights of the points, when the answer is about points that have some.
 
     Returns
     -------
-    Verdict, EllipsoidVerdict, InscribedVerdict, RobustVerdict or TriangulationVerdict
+    Verdict, EllipsoidVerdict, InscribedVerdict, RobustVerdict, CentersVerdict or TriangulationVerdict
         Proved bounds ``lower`` and ``upper``, and their ``gap``; of a robust ellipsoid and a triangulation what was
         proved instead.
 
@@ -67,5 +78,5 @@ def verify(
         solution = Solution.from_json(solution)
     elif not isinstance(solution, Solution):
         raise TypeError(f"expected a Solution or its JSON text as str, not {type(solution).__name__}")
-    verdict: AnyVerdict = solution.check(points, radii, shapes=shapes, offsets=offsets)
+    verdict: AnyVerdict = solution.check(points, radii, shapes=shapes, offsets=offsets, weights=weights)
     return verdict

@@ -63,6 +63,7 @@ impl Solved {
                 Stop::Converged => "converged",
                 Stop::Rounding => "rounding",
                 Stop::PassBudget => "pass budget",
+                Stop::NodeBudget => "node budget",
             }
             .to_owned(),
             trace.passes.to_string(),

@@ -7,8 +7,8 @@ use serde_json::ser::{Formatter, PrettyFormatter};
 use taut_points::{Monitor, PointSource, PointsHash};
 
 use crate::{
-    Answer, AnyVerdict, Ball, CheckError, Ellipsoid, InscribedEllipsoid, RobustEllipsoid, Solution,
-    Trace, Triangulation,
+    Answer, AnyVerdict, Ball, Centers, CheckError, Ellipsoid, InscribedEllipsoid, RobustEllipsoid,
+    Solution, Trace, Triangulation,
 };
 
 /// Version of the document; it grows by one when a reader of the old one would misread the new.
@@ -192,6 +192,8 @@ pub enum AnySolution {
     Inscribed(Solution<InscribedEllipsoid>),
     /// A robust ellipsoid.
     Robust(Box<Solution<RobustEllipsoid>>),
+    /// k centres.
+    Centers(Solution<Centers>),
     /// A Delaunay triangulation.
     Triangulation(Solution<Triangulation>),
 }
@@ -223,6 +225,7 @@ impl AnySolution {
             Ellipsoid::KIND => Ok(AnySolution::Ellipsoid(parse(text)?)),
             InscribedEllipsoid::KIND => Ok(AnySolution::Inscribed(parse(text)?)),
             RobustEllipsoid::KIND => Ok(AnySolution::Robust(Box::new(parse(text)?))),
+            Centers::KIND => Ok(AnySolution::Centers(parse(text)?)),
             Triangulation::KIND => Ok(AnySolution::Triangulation(parse(text)?)),
             _ => Err(JsonError::Kind { found: head.kind }),
         }
@@ -235,6 +238,7 @@ impl AnySolution {
             AnySolution::Ellipsoid(found) => found.to_json(),
             AnySolution::Inscribed(found) => found.to_json(),
             AnySolution::Robust(found) => found.to_json(),
+            AnySolution::Centers(found) => found.to_json(),
             AnySolution::Triangulation(found) => found.to_json(),
         }
     }
@@ -260,6 +264,9 @@ impl AnySolution {
             }
             AnySolution::Robust(found) => {
                 found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Robust)
+            }
+            AnySolution::Centers(found) => {
+                found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Centers)
             }
             AnySolution::Triangulation(found) => found
                 .answer

@@ -6,6 +6,7 @@
 //! | [`Ellipsoid`] | [`EllipsoidCertificate`] | every point is inside; no ellipsoid of a log-volume less by more than the gap holds them all |
 //! | [`RobustEllipsoid`] | [`RobustCertificate`] | centre, scatter, factors and flags are those of the points kept; no C-step leads on from them; by `mve` and `trim`, no smaller ellipsoid holds them |
 //! | [`InscribedEllipsoid`] | [`InscribedCertificate`] | it lies in every half-space; no ellipsoid in the polytope has a log-volume larger by more than the gap |
+//! | [`Centers`] | [`CentersCertificate`] | every item that counts is within the radius of a centre; no k equal balls much smaller hold the core-set |
 //! | [`Triangulation`] | [`TriangulationCertificate`] | the simplices are *the* Delaunay triangulation of the points |
 //!
 //! A [`Solution`] is an answer, its certificate and a trace of counters. [`Solution::check`] reads the points again
@@ -37,6 +38,7 @@
 
 mod arithmetic;
 mod ball;
+mod centers;
 mod ellipsoid;
 mod inscribed;
 mod items;
@@ -47,6 +49,9 @@ mod triangulation;
 mod verdict;
 
 pub use ball::{Ball, BallCertificate};
+pub use centers::{
+    Centers, CentersCertificate, CentersVerdict, CentersViolation, LowerBound, Placement,
+};
 pub use ellipsoid::{
     EllipseSupport, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipse_support,
 };

@@ -62,6 +62,8 @@ pub enum Stop {
     Rounding,
     /// The budget of passes was used up.
     PassBudget,
+    /// The budget of nodes of a search, or of its proof, was used up.
+    NodeBudget,
 }
 
 /// The bounds known after one pass over all points.

@@ -3,7 +3,8 @@
 use taut_points::ReadError;
 
 use crate::{
-    EllipsoidVerdict, InscribedVerdict, MeshViolation, RobustVerdict, TriangulationVerdict,
+    CentersVerdict, CentersViolation, EllipsoidVerdict, InscribedVerdict, MeshViolation,
+    RobustVerdict, TriangulationVerdict,
 };
 
 /// What was proved of an answer of any kind.
@@ -17,6 +18,8 @@ pub enum AnyVerdict {
     Inscribed(InscribedVerdict),
     /// Of a robust ellipsoid.
     Robust(RobustVerdict),
+    /// Of k centres.
+    Centers(CentersVerdict),
     /// Of a Delaunay triangulation.
     Triangulation(TriangulationVerdict),
 }
@@ -361,6 +364,9 @@ pub enum Violation {
         /// Its squared distance.
         nearer: f64,
     },
+    /// Something is wrong with centres.
+    #[error(transparent)]
+    Centers(#[from] CentersViolation),
     /// Something is wrong with a triangulation.
     #[error(transparent)]
     Mesh(#[from] MeshViolation),
@@ -386,6 +392,12 @@ pub enum CheckError {
     /// The points could not be read.
     #[error(transparent)]
     Read(#[from] ReadError),
+}
+
+impl From<CentersViolation> for CheckError {
+    fn from(violation: CentersViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
 }
 
 impl From<MeshViolation> for CheckError {

@@ -4,7 +4,8 @@ use clap::{Parser, Subcommand};
 
 use crate::exit::Outcome;
 use crate::{
-    ball, completions, delaunay, draw, ellipsoid, formats, generate, inscribe, man, tour, verify,
+    ball, centers, completions, delaunay, draw, ellipsoid, formats, generate, inscribe, man, tour,
+    verify,
 };
 
 /// Tight shapes around, through and inside point sets, with proof.
@@ -24,6 +25,7 @@ pub(crate) struct Cli {
 enum Command {
     Ball(ball::Args),
     Ellipsoid(ellipsoid::Args),
+    Centers(centers::Args),
     Delaunay(delaunay::Args),
     Inscribe(inscribe::Args),
     Verify(verify::Args),
@@ -40,6 +42,7 @@ impl Cli {
         match &self.command {
             Command::Ball(args) => args.run(),
             Command::Ellipsoid(args) => args.run(),
+            Command::Centers(args) => args.run(),
             Command::Delaunay(args) => args.run(),
             Command::Inscribe(args) => args.run(),
             Command::Verify(args) => args.run(),

@@ -25,13 +25,13 @@ pub(crate) struct Delivery {
     no_verify: bool,
     /// Write the answer and its certificate as JSON; - is standard output
     #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
-    out: Option<PathBuf>,
+    pub(crate) out: Option<PathBuf>,
     /// Print the JSON instead of the summary
     #[arg(long, help_heading = "Writing")]
     json: bool,
     /// Draw the answer with what it was made for; .svg and .png show one picture, .html all
     #[arg(long, value_name = "FILE", help_heading = "Writing")]
-    draw: Option<PathBuf>,
+    pub(crate) draw: Option<PathBuf>,
 }
 
 /// Where rows come from, and how much effort is spent on them.
@@ -102,8 +102,13 @@ impl Delivery {
         Ok(Some(found))
     }
 
+    /// Whether the check is wanted.
+    pub(crate) fn is_verified(&self) -> bool {
+        !self.no_verify
+    }
+
     /// Refuses what cannot be written, before any work; the kind of picture that is wanted.
-    fn look_at_places(&self, input: &Path) -> anyhow::Result<Option<Picture>> {
+    pub(crate) fn look_at_places(&self, input: &Path) -> anyhow::Result<Option<Picture>> {
         let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
         if let Some(out) = &self.out
             && Picture::of_path(out).is_ok()

@@ -53,6 +53,7 @@ impl Args {
             AnySolution::Ellipsoid(found) => self.drawing(found, &points, &watch)?,
             AnySolution::Inscribed(found) => self.drawing(found, &points, &watch)?,
             AnySolution::Robust(found) => self.drawing(found, &points, &watch)?,
+            AnySolution::Centers(found) => self.drawing(found, &points, &watch)?,
             AnySolution::Triangulation(found) => self.drawing(found, &points, &watch)?,
         };
         match drawing {

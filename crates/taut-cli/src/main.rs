@@ -7,6 +7,8 @@
 
 mod ball;
 mod ball_report;
+mod centers;
+mod centers_report;
 mod cli;
 mod clock;
 mod completions;
@@ -14,6 +16,7 @@ mod delaunay;
 mod delivery;
 mod draw;
 mod effort;
+mod elbow;
 mod ellipsoid;
 mod ellipsoid_report;
 mod exit;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::certify::MeshViolation;
+use taut::certify::{CentersViolation, MeshViolation};
 use taut::delaunay::Error as DelaunayError;
 use taut::enclose::Error as SolveError;
 use taut::points::{ReadError, ScalarKind};
@@ -134,6 +134,16 @@ impl Opened {
                  or choose more with --columns",
                 self.name()
             ),
+            SolveError::NonPositiveWeight { row, value } => anyhow!(
+                "{}: the weight is {value}, and weights (the last column with --weights) must be more than 0: repair \
+                 or remove that row, or choose the columns with --columns",
+                self.input.describe_cell(row, last)
+            ),
+            SolveError::NoWeight { .. } => anyhow!(
+                "{}: a point with a weight needs a coordinate and a weight, at least two columns, but there is one: \
+                 leave out --weights or choose more with --columns",
+                self.name()
+            ),
             SolveError::NoShape { columns } => anyhow!(
                 "{}: ellipsoids in dimension d have d(d + 3)/2 columns, 2, 5, 9, 14, …, the centre and the lower \
                  triangle of the shape matrix, but there are {columns}: leave out --ellipsoids or choose others with \
@@ -235,6 +245,15 @@ impl Opened {
                     violation.to_string().replacen(&point, &format!("{point} (row {place})"), 1);
                 format!("{points}: {said}")
             }
+            Violation::Centers(
+                CentersViolation::Outside { row, .. }
+                | CentersViolation::NoSuchCenter { row, .. }
+                | CentersViolation::Assignment { row, .. },
+            ) => {
+                let place = self.input.describe_cell(row, 0).row;
+                let (from, to) = (format!("row {row}"), format!("point {row} (row {place})"));
+                format!("{points}: {}", violation.to_string().replacen(&from, &to, 1))
+            }
             Violation::OutsideHalfSpace { row, .. } => {
                 let (side, place) =
                     (format!("half-space {row}"), self.input.describe_cell(row, 0).row);
@@ -246,12 +265,18 @@ impl Opened {
             | Violation::Dimension { .. }
             | Violation::NoRadius { .. }
             | Violation::NoShape { .. }
+            | Violation::Centers(
+                CentersViolation::Dimension { .. } | CentersViolation::NoWeight { .. },
+            )
             | Violation::Mesh(MeshViolation::Dimension { .. } | MeshViolation::Id { .. }) => {
                 format!("{points} does not belong to {answer}: {violation}")
             }
-            Violation::Support { point, .. } | Violation::LeftOut { row: point, .. }
-                if point >= self.input.source.len() =>
-            {
+            Violation::Support { point, .. }
+            | Violation::LeftOut { row: point, .. }
+            | Violation::Centers(
+                CentersViolation::CoreSet { row: point, .. }
+                | CentersViolation::Row { row: point, .. },
+            ) if point >= self.input.source.len() => {
                 format!("{points} does not belong to {answer}: {violation}")
             }
             _ => format!("{answer}: {violation}"),

@@ -89,6 +89,22 @@ pub(crate) fn centre(center: &[f64], size: f64) -> Fact {
     fact
 }
 
+/// Rows whose numbers are shown.
+const NAMED: usize = 8;
+
+/// How many rows there are, and the numbers of the first, counted from 1 as in the file.
+pub(crate) fn rows_of(name: &'static str, rows: &[u64]) -> Fact {
+    let fact = Fact::new(name, count(rows.len() as u64));
+    let row = |&row: &u64| row.saturating_add(1).to_string();
+    let named: Vec<String> = rows.iter().take(NAMED).map(row).collect();
+    let more = if rows.len() > NAMED { ", …; the JSON holds them (-o FILE)" } else { "" };
+    match named.len() {
+        0 => fact,
+        1 => fact.remark(format!("row {}", named[0])),
+        _ => fact.remark(format!("rows {}{more}", named.join(", "))),
+    }
+}
+
 /// The gap, as proved (then with what that means) or as the solver says; and which of the two it is.
 pub(crate) fn gap_and_verified(
     proved: Option<(f64, String)>,
@@ -112,6 +128,7 @@ pub(crate) fn stopped(stop: Stop) -> &'static str {
         Stop::Converged => "converged",
         Stop::Rounding => "stopped where this method's rounding allows no smaller gap",
         Stop::PassBudget => "stopped early by the budget of passes",
+        Stop::NodeBudget => "stopped early by the budget of nodes",
     }
 }
 
@@ -128,7 +145,7 @@ pub(crate) fn text(title: &str, facts: &[Fact]) -> String {
 /// Whether a run that asked for the gap `epsilon`, stopped for that reason and has the gap `gap` got what it asked for.
 pub(crate) fn outcome(stop: Stop, gap: f64, epsilon: f64) -> Outcome {
     match stop {
-        Stop::PassBudget => Outcome::StoppedEarly,
+        Stop::PassBudget | Stop::NodeBudget => Outcome::StoppedEarly,
         // ε = 0 asks for what rounding allows, and has it; a positive ε is a promise that was not kept.
         Stop::Rounding if epsilon > 0.0 && gap > epsilon => Outcome::StoppedEarly,
         Stop::Rounding | Stop::Converged => Outcome::Done,
@@ -148,6 +165,7 @@ mod tests {
             (Stop::Rounding, 1e-9, Outcome::Done),
             (Stop::Rounding, 1e-15, Outcome::StoppedEarly),
             (Stop::PassBudget, 1e-9, Outcome::StoppedEarly),
+            (Stop::NodeBudget, 1e-9, Outcome::StoppedEarly),
         ] {
             assert_eq!(outcome(stop, 1e-12, epsilon), expected, "{stop:?} with ε = {epsilon}");
         }

@@ -4,10 +4,7 @@ use taut::{RobustEllipsoid, RobustMethod, RobustVerdict, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, robust_figures};
 
 use crate::numbers::{count, counted, exact, gap};
-use crate::report::{Fact, Report, Tell, centre};
-
-/// Outliers whose rows are named.
-const NAMED: usize = 8;
+use crate::report::{Fact, Report, Tell, centre, rows_of};
 
 impl Tell for Report<'_, RobustEllipsoid> {
     const FOUND: &'static str = "the ellipsoid found";
@@ -33,7 +30,7 @@ impl Tell for Report<'_, RobustEllipsoid> {
             Fact::new("log-det", exact(answer.log_det)).remark("of the scatter"),
             Fact::new("log-volume", exact(answer.log_volume)).remark(border),
             Fact::new("kept", format!("{} of {}", count(certificate.kept), counted(n, "point"))),
-            self.outliers(),
+            rows_of("outliers", &answer.flagged),
         ];
         if answer.hull.is_some() {
             let on = self.verdict.map_or_else(
@@ -73,22 +70,6 @@ impl Tell for Report<'_, RobustEllipsoid> {
 
     fn figures(&self, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
         robust_figures(self.found, self.points.source(), options)
-    }
-}
-
-impl Report<'_, RobustEllipsoid> {
-    /// How many, and the rows of the first, counted from 1 as in the file.
-    fn outliers(&self) -> Fact {
-        let flagged = &self.found.answer.flagged;
-        let fact = Fact::new("outliers", count(flagged.len() as u64));
-        let row = |&row: &u64| row.saturating_add(1).to_string();
-        let rows: Vec<String> = flagged.iter().take(NAMED).map(row).collect();
-        let more = if flagged.len() > NAMED { ", …; the JSON holds them (-o FILE)" } else { "" };
-        match rows.len() {
-            0 => fact,
-            1 => fact.remark(format!("row {}", rows[0])),
-            _ => fact.remark(format!("rows {}{more}", rows.join(", "))),
-        }
     }
 }
 

@@ -8,11 +8,12 @@ use std::process::Command;
 use std::time::Instant;
 
 use anyhow::{anyhow, bail};
-use taut::certify::NO_NEIGHBOR;
+use taut::certify::{CentersViolation, NO_NEIGHBOR};
 use taut::{
-    Answer, BallOptions, DelaunayOptions, Ellipsoid, EllipsoidOptions, InscribedOptions, Items,
-    RobustOptions, Solution, Triangulation, Violation, ball_of_source, delaunay_of_source,
-    ellipsoid_of_source, inscribed_ellipsoid_of_source, robust_ellipsoid_of_source,
+    Answer, BallOptions, CentersOptions, DelaunayOptions, Ellipsoid, EllipsoidOptions,
+    InscribedOptions, Items, RobustOptions, Solution, Triangulation, Violation, ball_of_source,
+    centers_of_source, delaunay_of_source, ellipsoid_of_source, inscribed_ellipsoid_of_source,
+    robust_ellipsoid_of_source,
 };
 use taut_draw::{Fact, Page, Section, to_html};
 
@@ -123,6 +124,7 @@ fn visit(station: &Station, watch: &Watch) -> anyhow::Result<Stop> {
         Tool::Ellipsoid => ellipsoid(station, &points, watch),
         Tool::Robust => robust(station, &points, watch),
         Tool::Inscribed => inscribed(station, &points, watch),
+        Tool::Centers(k) => centers(station, k, &points, watch),
         Tool::Delaunay => triangulation(station, &points, watch),
     }
 }
@@ -194,6 +196,29 @@ fn robust(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result<S
     told(station, &found, points, watch, ("an outlier less", &doctor), |_| {
         let outliers = count(found.answer.flagged.len() as u64);
         format!("{outliers} outliers of {} points", count(points.source().len()))
+    })
+}
+
+fn centers(station: &Station, k: usize, points: &Opened, watch: &Watch) -> anyhow::Result<Stop> {
+    let options = CentersOptions { epsilon: 1e-6, ..CentersOptions::default() };
+    let found = watch
+        .during("solving", |monitor| {
+            centers_of_source(points.source(), Items::Points, k, &options, monitor)
+        })
+        .map_err(|error| points.explain(error))?;
+    let doctor = || {
+        let mut doctored = found.clone();
+        // The lower bound as well, or the two would contradict each other.
+        doctored.answer.radius *= 1.0 - 1e-6;
+        doctored.answer.lower_bound *= 1.0 - 1e-6;
+        doctored
+    };
+    told(station, &found, points, watch, ("a millionth smaller", &doctor), |verdict| {
+        let radius = short(found.answer.radius);
+        match verdict {
+            Some(proved) => format!("radius {radius:<12} gap {}", gap(proved.gap)),
+            None => format!("radius {radius}"),
+        }
     })
 }
 
@@ -299,6 +324,7 @@ where
 fn in_short(violation: &Violation) -> String {
     match violation {
         Violation::Outside { row, excess, .. }
+        | Violation::Centers(CentersViolation::Outside { row, excess, .. })
         | Violation::OutsideEllipsoid { row, excess, .. } => {
             format!("point {row} is outside by {}", gap(*excess))
         }
@@ -315,8 +341,8 @@ fn page(sections: Vec<Section>) -> String {
         intro: "Tight shapes around, through and inside point sets, with proof. Each section shows one tool on one \
                 sample, the command that does the same, and what was found.\n\n\
                 Verified means: a checker that shares no code with the solver read the points again and proved the \
-                answer from its certificate: every point is inside and no smaller shape of its kind could hold them \
-                all, or none larger could fit; the triangles are those of Delaunay and there are no others. Of \
+                answer from its certificate: every point is inside and no smaller shape of its kind, and no eight smaller \
+                discs, could hold them all, or none larger could fit; the triangles are those of Delaunay and there are no others. Of \
                 outliers it proves all but that no other half of the points lies closer together."
             .to_owned(),
         sections,

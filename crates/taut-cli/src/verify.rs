@@ -4,17 +4,18 @@ use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
-use taut::certify::{CheckError, JsonError, check_simplices};
+use taut::certify::{CentersViolation, CheckError, JsonError, check_simplices};
 use taut::enclose::Error as SolveError;
 use taut::points::{Blocks, Scratch};
 use taut::{Answer, AnySolution, Solution, Verdict, Violation};
 use taut_io::{Mesh, MeshFormat, open_mesh};
 
+use crate::centers_report::proved_of_centers;
 use crate::effort::Effort;
 use crate::ellipsoid_report::proved_of_ellipsoid;
 use crate::exit::Outcome;
 use crate::inscribed_report::proved_of_inscribed;
-use crate::numbers::{exact, gap};
+use crate::numbers::{count, exact, gap};
 use crate::reading::{Opened, Points, Reading};
 use crate::report::{self, Fact};
 use crate::robust_report::proved_of_robust;
@@ -90,6 +91,11 @@ impl Args {
                     points.source().len()
                 );
                 (Outcome::Done, report::text(&title, &proved_of_robust(found, &verdict)))
+            }),
+            AnySolution::Centers(found) => judge(found, &points, &watch)?.map(|verdict| {
+                let (k, radius) = (count(found.certificate.k), exact(found.answer.radius));
+                let what = format!("centres, k = {k}, of radius {radius}");
+                within(verdict.gap, what, proved_of_centers(&verdict))
             }),
             AnySolution::Triangulation(found) => judge(found, &points, &watch)?.map(|verdict| {
                 let title = triangulation(points.source().dim());
@@ -188,6 +194,9 @@ fn verdict<V>(
         }
         Err(CheckError::Rejected(Violation::NegativeShape { row })) => {
             Err(points.explain(SolveError::NegativeShape { row }))
+        }
+        Err(CheckError::Rejected(Violation::Centers(CentersViolation::Weight { row, value }))) => {
+            Err(points.explain(SolveError::NonPositiveWeight { row, value }))
         }
         Err(CheckError::Rejected(violation)) => Ok(Err(violation)),
         Err(CheckError::Read(error)) => Err(points.reading_failed(error)),

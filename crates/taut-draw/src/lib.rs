@@ -3,6 +3,8 @@
 //! | you have | you call | you get |
 //! |---|---|---|
 //! | a ball and its points | [`ball_figures`] | scenes of the plane or of space, and plots |
+//! | k centres and their items | [`centers_figures`] | the same, with all balls, what is left out and the core-set |
+//! | the radius for each of several k | [`elbow_figure`] | a plot of both bounds |
 //! | an ellipsoid and its points | [`ellipsoid_figures`] | scenes of the plane or of space, shadows on pairs of coordinates, and plots |
 //! | a robust ellipsoid and its points | [`robust_figures`] | the same with outliers apart, and the distance of each point |
 //! | an ellipsoid in a polytope, and its half-spaces | [`inscribed_figures`] | scenes of the plane or of space, cuts through the centre, and plots |
@@ -31,6 +33,7 @@
 
 mod axes;
 mod ball;
+mod centers;
 mod delaunay;
 mod ellipsoid;
 mod error;
@@ -53,6 +56,7 @@ mod svg;
 mod text;
 
 pub use ball::ball_figures;
+pub use centers::{ElbowStep, centers_figures, elbow_figure};
 pub use delaunay::delaunay_figures;
 pub use ellipsoid::{ellipsoid_figures, robust_figures};
 pub use error::Error;

@@ -22,6 +22,7 @@ use taut_points::{Monitor, PointSource, Points, Scalar};
 use crate::Error;
 use crate::scan::Scan;
 pub use options::{BallMethod, BallOptions};
+pub(crate) use proof::reach_up;
 
 /// The smallest ball that encloses `points`, n × d.
 ///

@@ -33,6 +33,22 @@ pub enum Error {
         /// Columns there are.
         columns: usize,
     },
+    /// Weights were announced, but the rows have no room for a point and a weight.
+    #[error(
+        "a point with a weight needs a coordinate and a weight, but rows have {columns} column"
+    )]
+    NoWeight {
+        /// Columns there are.
+        columns: usize,
+    },
+    /// A weight of the input is not positive.
+    #[error("point {row} has weight {value}: weights are the last column and must be more than 0")]
+    NonPositiveWeight {
+        /// Point, from 0.
+        row: u64,
+        /// Its weight.
+        value: f64,
+    },
     /// Ellipsoids were announced, but no dimension has rows of that many numbers.
     #[error(
         "ellipsoids in dimension d have rows of d(d + 3)/2 numbers, 2, 5, 9, 14, …, but rows have {columns}"

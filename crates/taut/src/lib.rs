@@ -6,6 +6,10 @@
 //! | the smallest ball around balls | [`ball_of_balls()`] | the same | [`enclose`] |
 //! | the smallest ball around ellipsoids | [`ball_of_ellipsoids()`] | the same | [`enclose`] |
 //! | any of these balls, of more points than memory holds | [`ball_of_source()`] | the same | [`enclose`] |
+//! | k centres, the farthest point as near to one of them as can be | [`centers()`], [`centers_of_balls()`] | radius ≤ (1 + ε) times the least, proved; with outliers, weights, or among the points | [`enclose`] |
+//! | centres for every k at once, of any number of points | [`farthest_first()`], [`farthest_first_of_source()`] | at most twice the least radius, for each k | [`enclose`] |
+//! | k centres of a stream, or of points in many places | [`Cover`], [`Summary`] | a factor of the least radius, both bounds told | [`enclose`] |
+//! | a tree of balls | [`sphere_tree()`] | each the smallest around its points | [`enclose`] |
 //! | the ellipsoid of least volume around points | [`ellipsoid()`] | log-volume ≤ least + ε, proved | [`enclose`] |
 //! | the same, of more points than memory holds | [`ellipsoid_of_source()`] | the same | [`enclose`] |
 //! | one for each of many point sets | [`ellipsoids()`] | the same | [`enclose`] |
@@ -57,6 +61,17 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! Few centres for many points, and the proof that no others do much better:
+//!
+//! ```
+//! let towns = taut::Points::new(&[0.0, 0.0, 0.0, 2.0, 9.0, 0.0, 9.0, 1.0], 2)?;
+//! let options = taut::CentersOptions { epsilon: 1e-6, ..Default::default() };
+//! let found = taut::centers(&towns, 2, &options)?;
+//! assert_eq!(found.answer.radius, 1.0);
+//! assert!(found.check(&towns)?.gap <= 1e-6);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! Triangulations are answers like any other:
 //!
 //! ```
@@ -71,15 +86,16 @@
 //! Nothing but names lives here; each crate behind the door can be used on its own. Files are read and written by
 //! `taut-io`, pictures drawn by `taut-draw`, and the command `taut` is the crate `taut-cli`.
 //!
-//! Not for: distances other than Euclidean, or weights.
+//! Not for: distances other than Euclidean, or weights other than those of centres.
 #![forbid(unsafe_code)]
 
 pub use taut_certify as certify;
 pub use taut_certify::{
-    Answer, AnySolution, Ball, BallCertificate, EllipseSupport, Ellipsoid, EllipsoidCertificate,
-    EllipsoidVerdict, InscribedCertificate, InscribedEllipsoid, InscribedVerdict, Items,
-    RobustCertificate, RobustEllipsoid, RobustMethod, RobustVerdict, Solution, Trace,
-    Triangulation, TriangulationCertificate, Verdict, Violation, ellipse_support,
+    Answer, AnySolution, Ball, BallCertificate, Centers, CentersCertificate, CentersVerdict,
+    EllipseSupport, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, InscribedCertificate,
+    InscribedEllipsoid, InscribedVerdict, Items, LowerBound, Placement, RobustCertificate,
+    RobustEllipsoid, RobustMethod, RobustVerdict, Solution, Trace, Triangulation,
+    TriangulationCertificate, Verdict, Violation, ellipse_support,
 };
 pub use taut_delaunay as delaunay;
 pub use taut_delaunay::{
@@ -87,11 +103,14 @@ pub use taut_delaunay::{
 };
 pub use taut_enclose as enclose;
 pub use taut_enclose::{
-    BallMethod, BallOptions, EllipsoidMethod, EllipsoidOptions, InscribedOptions, RobustOptions,
-    ball, ball_of_balls, ball_of_ellipsoids, ball_of_source, ellipsoid, ellipsoid_of_balls,
-    ellipsoid_of_ellipsoids, ellipsoid_of_items, ellipsoid_of_source, ellipsoids,
-    ellipsoids_of_sources, inscribed_ellipsoid, inscribed_ellipsoid_of_source, robust_ellipsoid,
-    robust_ellipsoid_of_source,
+    BallMethod, BallOptions, CentersMethod, CentersOptions, Cover, CoverOptions, Covered,
+    EllipsoidMethod, EllipsoidOptions, FarthestFirst, FarthestFirstOptions, InscribedOptions,
+    RobustOptions, SphereNode, SphereTree, SphereTreeOptions, Summary, ball, ball_of_balls,
+    ball_of_ellipsoids, ball_of_source, centers, centers_of_balls, centers_of_source,
+    cover_of_source, ellipsoid, ellipsoid_of_balls, ellipsoid_of_ellipsoids, ellipsoid_of_items,
+    ellipsoid_of_source, ellipsoids, ellipsoids_of_sources, farthest_first,
+    farthest_first_of_source, inscribed_ellipsoid, inscribed_ellipsoid_of_source, robust_ellipsoid,
+    robust_ellipsoid_of_source, sphere_tree,
 };
 pub use taut_points as points;
 pub use taut_points::{Distribution, Monitor, PointSource, Points, generate};
@@ -103,6 +122,8 @@ mod pages {
     struct Readme;
     #[doc = include_str!("../../../docs/ball.md")]
     struct Ball;
+    #[doc = include_str!("../../../docs/centers.md")]
+    struct Centers;
     #[doc = include_str!("../../../docs/delaunay.md")]
     struct Delaunay;
     #[doc = include_str!("../../../docs/ellipsoid.md")]

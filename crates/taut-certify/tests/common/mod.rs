@@ -1,6 +1,7 @@
 //! Certificates made from multipliers with exact fractions, so that tests know what is true.
 #![allow(dead_code, reason = "each test file uses its part")]
 
+pub(crate) mod centers;
 pub(crate) mod ellipsoids;
 
 use num_rational::BigRational;
@@ -190,7 +191,7 @@ pub(crate) fn brute_force(values: &[f64], dim: usize) -> Option<(Vec<u64>, Vec<f
 }
 
 /// Barycentric coordinates, all positive, of the centre of the smallest sphere through affinely independent points.
-fn circumcentre(points: &[&[f64]]) -> Option<Vec<f64>> {
+pub(crate) fn circumcentre(points: &[&[f64]]) -> Option<Vec<f64>> {
     let k = points.len() - 1;
     let edge = |i: usize| -> Vec<f64> {
         points[i + 1].iter().zip(points[0]).map(|(a, b)| a - b).collect()

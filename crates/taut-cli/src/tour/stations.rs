@@ -13,6 +13,8 @@ pub(super) enum Tool {
     Robust,
     /// The ellipsoid of largest volume in a polytope.
     Inscribed,
+    /// So many centres.
+    Centers(usize),
     /// The Delaunay triangulation.
     Delaunay,
 }
@@ -121,6 +123,19 @@ pub(super) const STATIONS: &[Station] = &[
         doctored: true,
     },
     Station {
+        heading: "Near to all: k centres",
+        text: "The larger cities of Europe (places of GeoNames, CC BY 4.0), here on a map in kilometres. Where \
+               would eight helicopters stand, so that the farthest city is as near to one of them as can be? No eight \
+               places do better than these by more than a millionth: the cities of the core-set alone prove it.\n\n\
+               The checker proves it twice, by a search of its own and by one over all discs that could be needed. \
+               Shown a radius that is a millionth smaller, it names a city that lies outside.",
+        file: "europe.csv",
+        bytes: include_bytes!("../../samples/europe.csv"),
+        tool: Tool::Centers(8),
+        command: "taut centers europe.csv -k 8 --epsilon 1e-6 --draw centers.html",
+        doctored: true,
+    },
+    Station {
         heading: "From within: a polytope",
         text: "A cut stone: 25 half-spaces, a row each. No ellipsoid inside has a larger volume; the marks are where it \
                touches, and their weights are the proof.\n\n\
@@ -133,7 +148,7 @@ pub(super) const STATIONS: &[Station] = &[
     },
     Station {
         heading: "Through the points: a triangulation",
-        text: "The larger cities of Europe (places of GeoNames, CC BY 4.0), joined by triangles whose circumcircles hold \
+        text: "The larger cities of Europe again, by longitude and latitude, joined by triangles whose circumcircles hold \
                no other city. The Voronoi diagram beside it shows which places are nearest to which city.\n\n\
                The checker goes over all pairs of neighbouring triangles, in exact arithmetic. Shown the same \
                triangulation with one edge turned, it names the place that is wrong.",

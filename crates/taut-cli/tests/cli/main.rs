@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod ball;
+mod centers;
 mod delaunay;
 mod desk;
 mod ellipsoid;

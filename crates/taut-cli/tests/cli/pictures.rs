@@ -68,7 +68,7 @@ fn the_tour_shows_and_verifies_every_tool() {
     let desk = Desk::new();
     let run = desk.taut("tour --samples samples").ends(0).says(&["verified yes", "tour.html"]);
     let stations = run.out.lines().filter(|line| line.contains(" verified yes ")).count();
-    assert_eq!(stations, 11, "{}", run.out);
+    assert_eq!(stations, 12, "{}", run.out);
     assert_eq!(desk.files(), ["samples", "tour.html"]);
     let page = desk.text("tour.html");
     for part in [
@@ -88,6 +88,8 @@ fn the_tour_shows_and_verifies_every_tool() {
         "Most of the points: outliers",
         "an outlier less",
         "lacks point 149",
+        "Near to all: k centres",
+        "taut centers europe.csv -k 8",
         "From within: a polytope",
         "a millionth longer",
         "is crossed by",
@@ -97,9 +99,9 @@ fn the_tour_shows_and_verifies_every_tool() {
     ] {
         assert!(page.contains(part), "no {part}");
     }
-    assert_eq!(page.matches("verified</th><td>yes</td>").count(), 11);
+    assert_eq!(page.matches("verified</th><td>yes</td>").count(), 12);
     // Each command of the page does what it says.
-    for tool in ["ball", "ellipsoid", "inscribe ellipsoid", "delaunay"] {
+    for tool in ["ball", "ellipsoid", "centers", "inscribe ellipsoid", "delaunay"] {
         for line in page.lines().filter_map(|line| line.split(&format!("taut {tool} ")).nth(1)) {
             let words = line.split('<').next().unwrap().trim();
             desk.taut(&format!("{tool} samples/{words} --quiet")).ends(0);

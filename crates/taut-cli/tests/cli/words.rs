@@ -2,9 +2,10 @@
 
 use crate::desk::Desk;
 
-const COMMANDS: [&str; 11] = [
+const COMMANDS: [&str; 12] = [
     "ball",
     "ellipsoid",
+    "centers",
     "delaunay",
     "inscribe",
     "verify",

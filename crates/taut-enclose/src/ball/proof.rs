@@ -211,7 +211,7 @@ impl Measured {
 }
 
 /// The smallest `f64` radius that is not below |x − c| + r; infinite where that is no `f64`.
-fn reach_up(difference: &Difference, squared: DoubleDouble, r: f64) -> f64 {
+pub(crate) fn reach_up(difference: &Difference, squared: DoubleDouble, r: f64) -> f64 {
     if !(squared.high + r).is_finite() {
         return f64::INFINITY;
     }

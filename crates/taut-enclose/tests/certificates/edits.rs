@@ -4,8 +4,11 @@
 use std::sync::OnceLock;
 
 use serde_json::{Value, json};
-use taut_certify::{AnySolution, RobustMethod};
-use taut_enclose::{InscribedOptions, RobustOptions, inscribed_ellipsoid, robust_ellipsoid};
+use taut_certify::{AnySolution, Placement, RobustMethod};
+use taut_enclose::{
+    CentersMethod, CentersOptions, InscribedOptions, RobustOptions, centers, inscribed_ellipsoid,
+    robust_ellipsoid,
+};
 use taut_points::{Distribution, Monitor, Points, generate};
 
 /// Rows, columns, and what was found for them.
@@ -36,6 +39,22 @@ fn sound() -> &'static [Sound] {
         let found =
             inscribed_ellipsoid(&Points::new(&sides, 3).unwrap(), &InscribedOptions::default());
         all.push((sides, 3, found.unwrap().to_json()));
+        let asked = [
+            (Placement::Free, 1, CentersMethod::Tree),
+            (Placement::Rows, 0, CentersMethod::Tree),
+            (Placement::Free, 0, CentersMethod::FarthestFirst),
+        ];
+        for (placement, outliers, method) in asked {
+            let options = CentersOptions {
+                placement,
+                outliers,
+                method,
+                assignment: true,
+                ..Default::default()
+            };
+            let found = centers(&Points::new(&plain, 2).unwrap(), 3, &options);
+            all.push((plain.clone(), 2, found.unwrap().to_json()));
+        }
         let parsed = |(values, columns, json): (Vec<f64>, usize, String)| {
             let json = serde_json::from_str(&json).unwrap();
             Sound { values, columns, json }

@@ -1,0 +1,137 @@
+//! k equal balls around all items, and the certificate that no k much smaller ones would do.
+
+mod check;
+mod violation;
+
+use serde::{Deserialize, Serialize};
+use taut_points::{Monitor, PointSource, PointsHash};
+
+use crate::json::{hash_from_hex, hash_to_hex};
+use crate::{Answer, CheckError, Items};
+
+pub use violation::CentersViolation;
+
+/// Where centres may be.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Placement {
+    /// Anywhere in the space.
+    #[default]
+    Free,
+    /// At points of the input only.
+    Rows,
+}
+
+/// k centres, from one of which each item is at most `radius` away.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "centers: an object with centers, radius and lower_bound")]
+pub struct Centers {
+    /// At most k centres of d coordinates each. Fewer than k where fewer are as good.
+    pub centers: Vec<Vec<f64>>,
+    /// For centres among the points, the row of each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rows: Vec<u64>,
+    /// The largest distance of an item to the centre next to it, as evaluated in `f64` or a little more: |p − c|, |m − c| + r for a ball,
+    /// w·|p − c| for a point of weight w.
+    pub radius: f64,
+    /// No k centres have a smaller radius.
+    pub lower_bound: f64,
+    /// The rows that are left out, ascending; they count for nothing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outliers: Vec<u64>,
+    /// On request, for each row the number of the centre next to it, the first of several; also for rows that are left out.
+    ///
+    /// The checker asks that no other centre is nearer by more than what a sum in `f64` may be off by: which of centres that
+    /// are equally near but for rounding is the first, depends on the order of the sum.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub assignment: Vec<u32>,
+}
+
+/// How the lower bound is to be confirmed: that no k balls of a radius less than it hold all of a core-set but so many of
+/// its items.
+///
+/// A ball of a radius less than ρ holds items just when its centre is less than ρᵢ from each of them, with ρᵢ = ρ for points,
+/// ρ − r for balls and ρ/w for points of weight w. That no such ball holds some items is shown by λ ≥ 0 with
+/// Σλᵢ = 1 and p̄ = Σλᵢpᵢ, when Σλᵢ(|pᵢ − p̄|² − ρᵢ²) ≥ 0; the checker finds λ itself, and refutes with a bound on all that it
+/// rounds, some 1e-14·d/8 of ρ: claim the radius at which all cases are refuted, less 1e-12 of it. For centres among the
+/// rows, and for two items apart, it decides exactly (two weighted points but for rounding).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", tag = "by", deny_unknown_fields)]
+pub enum LowerBound {
+    /// No two items of the core-set fit in one ball, and there are more than k and the outliers together. O(|X|²d).
+    Apart,
+    /// By a search of the checker's own, of at most 65536 nodes, over at most 1024 items.
+    Search,
+    /// By the branches of a search, in the order in which they were taken (preorder), over at most 16384 items.
+    Branches {
+        /// At each node that is not refuted at once, which item of the core-set is given to the balls in turn: to each that has
+        /// items already, in the order in which they got their first, then to the next empty one, if there is one, and
+        /// then to the outliers, if there may be more. A child is refuted at once when no ball of a radius less than
+        /// the bound holds the items of the one that got the item.
+        items: Vec<u32>,
+    },
+}
+
+/// What was asked, and a few items that prove the lower bound.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "the certificate of centers: an object with items, k, core_set and proof"
+)]
+pub struct CentersCertificate {
+    /// Points or balls.
+    pub items: Items,
+    /// Whether the last column holds the weights w > 0 of points.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub weights: bool,
+    /// Where centres may be.
+    pub placement: Placement,
+    /// Most centres.
+    pub k: u64,
+    /// Most rows that may be left out.
+    #[serde(default)]
+    pub outliers: u64,
+    /// The gap claimed: radius ≤ (1 + gap)·lower_bound. Accepted when the gap found is at most gap·(1 + 1e-9) + 4e-16; where
+    /// the lower bound is 0 and the radius is not, only [`f64::MAX`] is.
+    pub gap: f64,
+    /// Row numbers, none twice, in the order that `proof` speaks of.
+    pub core_set: Vec<u64>,
+    /// How these rows prove the lower bound. Where that is 0 nothing has to be proved.
+    pub proof: LowerBound,
+    /// The hash of the rows this was made for.
+    #[serde(serialize_with = "hash_to_hex", deserialize_with = "hash_from_hex")]
+    pub points_hash: PointsHash,
+}
+
+/// What was proved of centres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CentersVerdict {
+    /// No k centres have a smaller radius.
+    pub lower: f64,
+    /// The radius of the answer, within which every item that counts was found.
+    pub upper: f64,
+    /// `upper / lower − 1`, rounded up; 0 where both are equal, infinite where `lower` alone is 0.
+    pub gap: f64,
+    /// Nodes of the search, or branches of the log, by which the lower bound was confirmed; 0 where none was needed.
+    pub nodes: u64,
+    /// Nodes of a second search, over all sets that one ball can hold, where it confirmed the bound, less 4e-9 of it, too.
+    ///
+    /// It is made for core-sets of at most 200 items: of points without weights, in the plane for k ≤ 10 and in space for
+    /// k ≤ 6, and for k ≤ 10 where centres are rows. `None` where it was not made, or has nothing to say after 32768 nodes.
+    pub cover_nodes: Option<u64>,
+}
+
+impl Answer for Centers {
+    type Certificate = CentersCertificate;
+    type Verdict = CentersVerdict;
+    const KIND: &'static str = "centers";
+
+    fn check(
+        &self,
+        certificate: &CentersCertificate,
+        source: &dyn PointSource,
+        monitor: &Monitor<'_>,
+    ) -> Result<CentersVerdict, CheckError> {
+        check::check(self, certificate, source, monitor)
+    }
+}

@@ -1,0 +1,181 @@
+//! The checker of centres, in arithmetic of its own.
+//!
+//! *Problem.* Given rows, at most k centres, a radius R, rows left out, a core-set X and a bound L, prove L ≤ R* ≤ R, where R*
+//! is the least radius of k equal balls, with their centres anywhere or at rows, that hold all rows but so many.
+//! *Upper bound.* Each row that counts is at most R from a centre, decided exactly: [`enclosure`].
+//! *Lower bound.* No k balls of a radius less than L hold all of X but so many of its rows. Balls that held all rows but z
+//! would; so R* ≥ L. Three proofs: rows that are apart two by two and more than k + z ([`apart`]); a search of the checker's
+//! own ([`search`]), for points in the plane and in space and for centres among the rows followed by a second one of
+//! another kind ([`cover`]), over all sets that one ball can hold; and the branches of the solver's search, gone through
+//! again ([`replay`]). What a ball can hold is decided with bounds on all that is rounded ([`free`]), or exactly, where
+//! centres are rows ([`rows`]).
+//! *Order.* Structure and the gap between the bounds, one pass (finite rows, hash, balls, assignment), the rows of the
+//! core-set, then the lower bound. Centres among the rows may take one pass more.
+//! *Tolerances.* The balls have none. The gap claimed may differ from that of the two bounds as quotients differ by
+//! rounding. An assignment may name any of centres that are equally near but for rounding.
+
+mod core;
+mod cover;
+mod distance;
+mod enclosure;
+mod free;
+mod halves;
+mod item;
+mod replay;
+mod room;
+mod rows;
+mod search;
+mod structure;
+
+use taut_points::{Monitor, PointSource, ReadError, gather};
+
+use self::core::{Core, Pairs};
+use self::enclosure::Enclosure;
+use self::free::Free;
+use self::item::Kind;
+use self::room::Room;
+use self::rows::Places;
+use self::search::Outcome;
+use super::{Centers, CentersCertificate, CentersVerdict, CentersViolation, LowerBound, Placement};
+use crate::CheckError;
+
+pub(super) fn check(
+    answer: &Centers,
+    certificate: &CentersCertificate,
+    source: &dyn PointSource,
+    monitor: &Monitor<'_>,
+) -> Result<CentersVerdict, CheckError> {
+    let (kind, gap) = structure::check(answer, certificate, source)?;
+    monitor.pass(1, source.len());
+    Enclosure::of(answer, kind).check(source, certificate.points_hash, monitor)?;
+    are_rows(answer, kind, source)?;
+    let (lower, upper) = (answer.lower_bound, answer.radius);
+    let mut verdict = CentersVerdict { lower, upper, gap, nodes: 0, cover_nodes: None };
+    if lower > 0.0 {
+        let rows = gather(source, &certificate.core_set)?;
+        let core = Core::of(&rows, source.dim(), kind, lower);
+        (verdict.nodes, verdict.cover_nodes) = prove(&core, kind, certificate, source, monitor)?;
+    }
+    Ok(verdict)
+}
+
+/// Centres among the rows are the rows they are said to be, to the last bit.
+fn are_rows(answer: &Centers, kind: Kind, source: &dyn PointSource) -> Result<(), CheckError> {
+    let rows = gather(source, &answer.rows)?;
+    for (center, (row, place)) in rows.chunks_exact(source.dim()).zip(&answer.centers).enumerate() {
+        if kind.item(row).position != place {
+            let (row, problem) = (answer.rows[center], "which has other coordinates");
+            return Err(CentersViolation::Row { center, row, problem }.into());
+        }
+    }
+    Ok(())
+}
+
+/// Proves the lower bound; the nodes of both searches.
+fn prove(
+    core: &Core,
+    kind: Kind,
+    certificate: &CentersCertificate,
+    source: &dyn PointSource,
+    monitor: &Monitor<'_>,
+) -> Result<(u64, Option<u64>), CheckError> {
+    let (rows, outliers) = (core.len(), certificate.outliers);
+    // All rows left out, or a ball for each, prove nothing about balls of any radius above 0.
+    if rows as u64 <= outliers {
+        return refused(CentersViolation::TooFew { rows, outliers });
+    }
+    let places = || {
+        monitor.pass(2, source.len());
+        Places::of(core, kind, source, monitor)
+    };
+    let limited = |most, proof| match rows > most {
+        true => refused(CentersViolation::CoreSetSize { rows, most, proof }),
+        false => Ok(()),
+    };
+    match (&certificate.proof, certificate.placement) {
+        (LowerBound::Apart, placement) => {
+            if rows as u64 <= certificate.k.saturating_add(outliers) {
+                return refused(CentersViolation::TooFew { rows, outliers });
+            }
+            let close = first_pair(rows, monitor, |i, j| core.are_apart(i, j))?;
+            let close = match (close, placement) {
+                (Some(_), Placement::Rows) => {
+                    limited(replay::ITEMS, "rows apart")?;
+                    let places = places()?;
+                    first_pair(rows, monitor, |i, j| places.are_apart(i, j))?
+                }
+                (close, _) => close,
+            };
+            match close {
+                Some((i, j)) => {
+                    let (first, second) = (certificate.core_set[i], certificate.core_set[j]);
+                    refused(CentersViolation::NotApart { first, second })
+                }
+                None => Ok((0, None)),
+            }
+        }
+        (LowerBound::Search, Placement::Free) => {
+            limited(search::ITEMS, "search")?;
+            let pairs = Pairs::of(core, monitor)?;
+            let nodes = searched(&mut Free::of(core, &pairs), certificate, monitor)?;
+            Ok((nodes, cover::of_balls(core, kind, &pairs, certificate, monitor)?))
+        }
+        (LowerBound::Search, Placement::Rows) => {
+            limited(search::ITEMS, "search")?;
+            let places = places()?;
+            let nodes = searched(&mut &places, certificate, monitor)?;
+            Ok((nodes, cover::of_places(&places, certificate, monitor)?))
+        }
+        (LowerBound::Branches { items }, Placement::Free) => {
+            limited(replay::ITEMS, "branches")?;
+            let pairs = Pairs::of(core, monitor)?;
+            let mut room = Free::of(core, &pairs);
+            replay::replay(&mut room, most(certificate), outliers, items, monitor)?;
+            let cover = cover::of_balls(core, kind, &pairs, certificate, monitor)?;
+            Ok((items.len() as u64, cover))
+        }
+        (LowerBound::Branches { items }, Placement::Rows) => {
+            limited(replay::ITEMS, "branches")?;
+            let places = places()?;
+            replay::replay(&mut &places, most(certificate), outliers, items, monitor)?;
+            Ok((items.len() as u64, cover::of_places(&places, certificate, monitor)?))
+        }
+    }
+}
+
+/// k, as more balls than fit in memory are as good as any number.
+fn most(certificate: &CentersCertificate) -> usize {
+    usize::try_from(certificate.k).unwrap_or(usize::MAX)
+}
+
+fn searched<R: Room>(
+    room: &mut R,
+    certificate: &CentersCertificate,
+    monitor: &Monitor<'_>,
+) -> Result<u64, CheckError> {
+    let found = search::search(room, most(certificate), certificate.outliers, monitor);
+    match found.map_err(ReadError::from)? {
+        (Outcome::Refuted, nodes) => Ok(nodes),
+        (Outcome::Held, _) => Err(CentersViolation::NotProved.into()),
+        (Outcome::Undecided, nodes) => Err(CentersViolation::NotConfirmed { nodes }.into()),
+    }
+}
+
+fn refused<T>(violation: CentersViolation) -> Result<T, CheckError> {
+    Err(violation.into())
+}
+
+/// The first two rows that are not apart.
+fn first_pair(
+    rows: usize,
+    monitor: &Monitor<'_>,
+    are_apart: impl Fn(usize, usize) -> bool,
+) -> Result<Option<(usize, usize)>, ReadError> {
+    for i in 0..rows {
+        monitor.check()?;
+        if let Some(j) = (0..i).find(|&j| !are_apart(i, j)) {
+            return Ok(Some((j, i)));
+        }
+    }
+    Ok(None)
+}

@@ -1,0 +1,178 @@
+//! The items of the core-set, and which two of them no ball of a radius less than ρ holds.
+//!
+//! *Idea.* An item lies in the ball of centre c and radius less than ρ just when |p − c| < ρᵢ, with ρᵢ = ρ for points,
+//! ρ − r for balls and ρ/w for points of weight w: whatever items are, each asks for a centre in an open ball of its own,
+//! and a ball that holds some of them exists just when these have a common point. Two have none when
+//! |p − q| ≥ ρᵢ + ρⱼ, which is r ≥ ρ in the words of the papers for r = D/2, (D + rᵢ + rⱼ)/2, wᵢwⱼD/(wᵢ + wⱼ).
+//! *Rounding.* ρᵢ is rounded up, so that what has no common point had none before. Two points or balls are told apart
+//! exactly, for weights ρᵢ + ρⱼ is rounded up.
+
+use std::cmp::Ordering;
+
+use taut_points::{Monitor, ReadError};
+
+use super::distance::{Scale, compare, kappa, square};
+use super::item::Kind;
+use crate::arithmetic::U;
+
+/// The core-set, for one bound ρ > 0.
+pub(super) struct Core {
+    pub(super) dim: usize,
+    /// The power of two by which lengths are multiplied.
+    pub(super) scale: Scale,
+    kind: Kind,
+    /// ρ.
+    bound: f64,
+    /// Coordinates as given, row by row.
+    places: Vec<f64>,
+    /// r of balls, w of points with weights.
+    extras: Vec<f64>,
+    /// ρᵢ, scaled and rounded up; where it is not above 0, nothing holds the item.
+    reaches: Vec<f64>,
+}
+
+impl Core {
+    /// The items of these rows of so many columns.
+    pub(super) fn of(rows: &[f64], columns: usize, kind: Kind, bound: f64) -> Self {
+        let dim = kind.dim(columns);
+        let items = || rows.chunks_exact(columns).map(|row| kind.item(row));
+        let places = items().flat_map(|item| item.position.iter().copied()).collect();
+        let extras: Vec<f64> = match kind {
+            Kind::Points => vec![],
+            Kind::Balls => items().map(|item| item.radius).collect(),
+            Kind::Weighted => items().map(|item| item.weight).collect(),
+        };
+        let lengths: Vec<f64> = items()
+            .map(|item| match kind {
+                Kind::Points => bound,
+                Kind::Balls if bound - item.radius > 0.0 => (bound - item.radius).next_up(),
+                Kind::Balls => 0.0,
+                Kind::Weighted => (bound / item.weight).next_up(),
+            })
+            .collect();
+        let of_scale = match kind {
+            Kind::Weighted => lengths.iter().copied().fold(f64::INFINITY, f64::min),
+            _ => bound,
+        };
+        let scale = Scale::of(of_scale);
+        let reaches = lengths.iter().map(|&length| length * scale.up).collect();
+        Core { dim, scale, kind, bound, places, extras, reaches }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.reaches.len()
+    }
+
+    pub(super) fn place(&self, item: usize) -> &[f64] {
+        &self.places[item * self.dim..(item + 1) * self.dim]
+    }
+
+    /// ρᵢ, scaled.
+    pub(super) fn reach(&self, item: usize) -> f64 {
+        self.reaches[item]
+    }
+
+    /// Whether a ball of a radius less than ρ holds the item.
+    pub(super) fn is_free(&self, item: usize) -> bool {
+        self.reaches[item] > 0.0
+    }
+
+    /// Whether no ball of a radius less than ρ holds both.
+    pub(super) fn are_apart(&self, i: usize, j: usize) -> bool {
+        if !self.is_free(i) || !self.is_free(j) {
+            return true;
+        }
+        let (p, q) = (self.place(i), self.place(j));
+        let nearer = match self.kind {
+            Kind::Points => compare(p, q, 0.5, &[self.bound], self.scale),
+            Kind::Balls => {
+                let square = square(p, q, 1.0, self.scale);
+                let sum = self.reaches[i] + self.reaches[j];
+                let (less, more) = (sum * (1.0 - kappa(self.dim)), sum * (1.0 + kappa(self.dim)));
+                if less > 1e-70 && square < less * less {
+                    return false;
+                }
+                if less > 1e-70 && square > more * more && square < f64::INFINITY {
+                    return true;
+                }
+                let rho = [self.bound, self.bound, -self.extras[i], -self.extras[j]];
+                compare(p, q, 1.0, &rho, self.scale)
+            }
+            Kind::Weighted => {
+                let square = square(p, q, 1.0, self.scale);
+                let sum = (self.reaches[i] + self.reaches[j]) * (1.0 + 4.0 * U);
+                let more = sum * (1.0 + kappa(self.dim));
+                return more > 1e-70 && more * more <= square && square < f64::INFINITY;
+            }
+        };
+        nearer != Ordering::Less
+    }
+
+    /// Whether no ball of a radius less than ρ with its centre at this place holds the item.
+    pub(super) fn is_out_of_reach(&self, item: usize, center: &[f64]) -> bool {
+        let extra = self.extras.get(item).copied();
+        let (weight, radius) = match (self.kind, extra) {
+            (Kind::Weighted, Some(weight)) => (weight, 0.0),
+            (Kind::Balls, Some(radius)) => (1.0, radius),
+            _ => (1.0, 0.0),
+        };
+        let scale = Scale::of(self.bound);
+        compare(self.place(item), center, weight, &[self.bound, -radius], scale) != Ordering::Less
+    }
+}
+
+/// A set of items, a bit each.
+pub(super) type Bits = Vec<u64>;
+
+pub(super) fn is_set(bits: &[u64], item: usize) -> bool {
+    bits[item / 64] >> (item % 64) & 1 == 1
+}
+
+pub(super) fn set(bits: &mut [u64], item: usize) {
+    bits[item / 64] |= 1 << (item % 64);
+}
+
+pub(super) fn clear(bits: &mut [u64], item: usize) {
+    bits[item / 64] &= !(1 << (item % 64));
+}
+
+/// The items of a set, ascending.
+pub(super) fn items(bits: &[u64]) -> impl Iterator<Item = usize> {
+    bits.iter().enumerate().flat_map(|(word, &bits)| {
+        let mut rest = bits;
+        std::iter::from_fn(move || {
+            let at = rest.trailing_zeros() as usize;
+            (rest != 0).then(|| {
+                rest &= rest - 1;
+                64 * word + at
+            })
+        })
+    })
+}
+
+/// For each item of the core-set, those that are apart from it.
+pub(super) struct Pairs {
+    rows: Vec<Bits>,
+}
+
+impl Pairs {
+    /// All n(n − 1)/2 pairs.
+    pub(super) fn of(core: &Core, monitor: &Monitor<'_>) -> Result<Self, ReadError> {
+        let n = core.len();
+        let mut rows = vec![vec![0; n.div_ceil(64)]; n];
+        for i in 0..n {
+            monitor.check()?;
+            for j in 0..i {
+                if core.are_apart(i, j) {
+                    set(&mut rows[i], j);
+                    set(&mut rows[j], i);
+                }
+            }
+        }
+        Ok(Pairs { rows })
+    }
+
+    pub(super) fn are_apart(&self, i: usize, j: usize) -> bool {
+        is_set(&self.rows[i], j)
+    }
+}

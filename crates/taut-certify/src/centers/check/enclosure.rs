@@ -1,0 +1,201 @@
+//! Whether every row that counts lies in one of the balls, decided exactly; and whether the rows are those the certificate
+//! speaks of.
+//!
+//! *Problem.* For each of n rows, some centre c with w·|p − c| + r ≤ R; in one pass.
+//! *Idea.* The centre that held the row before is asked first, then those that are not too far along some axis
+//! ([`Halves`]). What plain arithmetic leaves open is decided in whole numbers, by [`compare`].
+//! *Assignment.* Where it is given, the centre named for a row must be the nearest but for what a sum in `f64` may be off
+//! by, |p − c| ≤ |p − c'|·(1 + (d + 32)u) + 4ur for every other c': which of centres that are equally near by rounding is
+//! the first, depends on the order of a sum. Rows left out are assigned like others.
+//! *Guarantee.* No row is misjudged by R, so the first row found outside does not depend on threads.
+
+use std::cmp::Ordering;
+
+use taut_points::{
+    BlockHash, Monitor, PointSource, Points, PointsHash, Rows, Scalar, hash_block, map_blocks,
+};
+
+use super::super::{Centers, CentersViolation};
+use super::distance::{Scale, compare, is_tame, kappa, square, thresholds};
+use super::halves::Halves;
+use super::item::{Item, Kind};
+use crate::arithmetic::U;
+use crate::{CheckError, Violation};
+
+/// The balls, ready to be compared with rows.
+pub(super) struct Enclosure<'a> {
+    answer: &'a Centers,
+    kind: Kind,
+    scale: Scale,
+    kappa: f64,
+    halves: Halves,
+}
+
+/// What one block of rows has to say.
+struct Block {
+    hash: BlockHash,
+    problem: Option<CentersViolation>,
+}
+
+impl<'a> Enclosure<'a> {
+    pub(super) fn of(answer: &'a Centers, kind: Kind) -> Self {
+        let dim = answer.centers[0].len();
+        let halves = Halves::of(&answer.centers);
+        let scale = Scale::of(answer.radius);
+        Enclosure { answer, kind, scale, kappa: kappa(dim), halves }
+    }
+
+    /// Reads all rows once.
+    pub(super) fn check(
+        &self,
+        source: &dyn PointSource,
+        claimed: PointsHash,
+        monitor: &Monitor<'_>,
+    ) -> Result<(), CheckError> {
+        let blocks = map_blocks(source, monitor, |first, rows| {
+            let problem = match &rows {
+                Rows::F32(points) => self.rows(first, points),
+                Rows::F64(points) => self.rows(first, points),
+            }?;
+            Ok::<_, CheckError>(Block { hash: hash_block(&rows), problem })
+        })?;
+        let found =
+            PointsHash::of_blocks(source.len(), source.dim(), blocks.iter().map(|b| b.hash));
+        if found != claimed {
+            let (claimed, found) = (claimed.to_string(), found.to_string());
+            return Err(Violation::Hash { claimed, found }.into());
+        }
+        match blocks.into_iter().find_map(|block| block.problem) {
+            Some(problem) => Err(problem.into()),
+            None => Ok(()),
+        }
+    }
+
+    /// The first row outside or assigned wrongly; an error if a row is no item at all.
+    fn rows<T: Scalar>(
+        &self,
+        first: u64,
+        points: &Points<'_, T>,
+    ) -> Result<Option<CentersViolation>, Violation> {
+        let left_out = &self.answer.outliers;
+        let mut left_out = &left_out[left_out.partition_point(|&row| row < first)..];
+        let mut problem = None;
+        let mut held_by = 0;
+        for (number, row) in (first..).zip(points.rows()) {
+            self.kind.is_valid(number, row)?;
+            if problem.is_some() {
+                continue;
+            }
+            let item = self.kind.item(row);
+            let counts = left_out.first() != Some(&number);
+            left_out = &left_out[usize::from(!counts)..];
+            problem = self.row(number, &item, counts, &mut held_by).err();
+        }
+        Ok(problem)
+    }
+
+    /// `held_by` is the centre that held the row before, and becomes the one that holds this.
+    #[inline(always)]
+    fn row<T: Scalar>(
+        &self,
+        number: u64,
+        item: &Item<'_, T>,
+        counts: bool,
+        held_by: &mut usize,
+    ) -> Result<(), CentersViolation> {
+        if let Some(assigned) = self.assigned(number, item)? {
+            *held_by = assigned;
+        }
+        match !counts || self.is_held(item, held_by) {
+            true => Ok(()),
+            false => Err(self.outside(number, item)),
+        }
+    }
+
+    /// Whether a ball holds the item; `held_by` is the one asked first, and becomes the one that does.
+    #[inline(always)]
+    fn is_held<T: Scalar>(&self, item: &Item<'_, T>, held_by: &mut usize) -> bool {
+        let rho = self.answer.radius - item.radius;
+        let (inside, _) = thresholds(rho, self.kappa, self.scale);
+        // What underflows is nothing beside this.
+        if inside > 1e-150 && is_tame(item.weight) {
+            let plainly = |center: usize| self.square(item, center) < inside;
+            if plainly(*held_by) {
+                return true;
+            }
+            let reach = rho / item.weight * (1.0 + 1e-9);
+            if let Some(found) = self.halves.find(item.position, reach, plainly) {
+                *held_by = found;
+                return true;
+            }
+        }
+        let exactly = |&center: &usize| self.compare(item, center) != Ordering::Greater;
+        match (0..self.answer.centers.len()).find(exactly) {
+            Some(found) => {
+                *held_by = found;
+                true
+            }
+            None => false,
+        }
+    }
+
+    fn square<T: Scalar>(&self, item: &Item<'_, T>, center: usize) -> f64 {
+        square(item.position, &self.answer.centers[center], item.weight, self.scale)
+    }
+
+    fn compare<T: Scalar>(&self, item: &Item<'_, T>, center: usize) -> Ordering {
+        let rho = [self.answer.radius, -item.radius];
+        compare(item.position, &self.answer.centers[center], item.weight, &rho, self.scale)
+    }
+
+    /// The centre to which an item is assigned, if it is the nearest.
+    fn assigned<T: Scalar>(
+        &self,
+        row: u64,
+        item: &Item<'_, T>,
+    ) -> Result<Option<usize>, CentersViolation> {
+        let Some(&center) = self.answer.assignment.get(row as usize) else { return Ok(None) };
+        let named = center as usize;
+        if named >= self.answer.centers.len() {
+            return Err(CentersViolation::NoSuchCenter { row, center });
+        }
+        let distance = |center: usize| distance(item.position, &self.answer.centers[center]);
+        let own = distance(named);
+        let slack = 1.0 + (item.position.len() + 32) as f64 * U;
+        let is_nearer = |other: usize| distance(other) * slack + 4.0 * U * item.radius < own;
+        let nearer = self.halves.find(item.position, own * (1.0 + 1e-9), is_nearer);
+        match nearer {
+            Some(nearer) => Err(CentersViolation::Assignment { row, center, nearer }),
+            None => Ok(Some(named)),
+        }
+    }
+
+    /// How far the item reaches from the centre next to it, for people to read.
+    fn outside<T: Scalar>(&self, row: u64, item: &Item<'_, T>) -> CentersViolation {
+        let reach = |center: &Vec<f64>| item.weight * distance(item.position, center) + item.radius;
+        let mut nearest = (0, f64::INFINITY);
+        for (center, distance) in self.answer.centers.iter().map(reach).enumerate() {
+            if distance < nearest.1 {
+                nearest = (center, distance);
+            }
+        }
+        let ((center, distance), radius) = (nearest, self.answer.radius);
+        // By how little it is outside, may be less than the rounding of the distance.
+        let excess = (distance - radius).max(radius * f64::EPSILON / 2.0);
+        CentersViolation::Outside { row, center, distance, radius, excess }
+    }
+}
+
+/// |p − c| to a few units in the last place, whatever its size.
+fn distance<T: Scalar>(position: &[T], center: &[f64]) -> f64 {
+    let differences = || position.iter().zip(center).map(|(&x, &c)| x.into() - c);
+    let plain: f64 = differences().map(|d| d * d).sum();
+    if (1e-280..1e280).contains(&plain) {
+        return plain.sqrt();
+    }
+    let largest = differences().fold(0.0, |m: f64, d| m.max(d.abs()));
+    if largest == 0.0 || largest.is_infinite() {
+        return largest;
+    }
+    largest * differences().map(|d| (d / largest).powi(2)).sum::<f64>().sqrt()
+}

@@ -1,0 +1,404 @@
+//! Balls with their centres anywhere: the centre that is deepest within all balls in which it must lie, and the proof that
+//! there is none.
+//!
+//! *Problem.* Items i of a group ask for a centre c with |pᵢ − c| < ρᵢ. Is there one?
+//! *Idea.* Let gᵢ(c) = |pᵢ − c|² − ρᵢ² and v = min over c of max over i of gᵢ(c): a centre exists just when v < 0. For λ ≥ 0
+//! with Σλᵢ = W and p̄ = Σλᵢpᵢ/W, Σλᵢgᵢ(c) = Σλᵢgᵢ(p̄) + W|c − p̄|² for every c, so that Σλᵢgᵢ(p̄) ≥ 0 proves v ≥ 0. For
+//! equal ρᵢ this is the smallest enclosing ball and the proof that it is too large.
+//! *Method.* v and λ grow item by item. At the optimum of a group, gᵢ(c) = v on a support S of affinely independent
+//! items with λᵢ > 0, and c = Σλᵢpᵢ. A new item x with gₓ(c) > v gets weight t: with its projection Σαᵢpᵢ (Σαᵢ = 1) on the
+//! affine hull of S and the rest n, c moves to c + tn, λ on S to λ − tα. As n is orthogonal to the hull, all gᵢ of S stay
+//! equal to each other, and gₓ comes nearer to them by 2t|n|²: so t = (gₓ − gₛ)/2|n|², or as far as λ stays positive; then
+//! the item whose λ is 0 leaves S and the same starts again. This is the dual method for quadratic programs; v rises
+//! with each step, so it ends.
+//! *Proof.* λ from the above is only approximate, which costs v to second order. What counts is the sum over the support in
+//! plain arithmetic, with a bound on all that was rounded: [`Free::is_refuted`].
+//! *Reference.* Goldfarb, Idnani, Math. Programming 27, 1983, of which this is a special case.
+
+use super::core::{Core, Pairs};
+use super::room::Room;
+use crate::arithmetic::U;
+
+/// Items in one ball with its centre anywhere.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Group {
+    members: Vec<usize>,
+    /// (pᵢ − p₀)·scale, member by member: rounded once.
+    places: Vec<f64>,
+    fit: Fit,
+}
+
+/// The centre that is deepest within the balls of a group, its depth, and multipliers; about p₀ and scaled.
+#[derive(Debug, Default)]
+struct Fit {
+    center: Vec<f64>,
+    /// v.
+    value: f64,
+    /// Positions in the list of members, with their λ.
+    support: Vec<(usize, f64)>,
+}
+
+// Written out for `clone_from`, by which scratch space is used again.
+impl Clone for Fit {
+    fn clone(&self) -> Self {
+        Fit { center: self.center.clone(), value: self.value, support: self.support.clone() }
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        self.center.clone_from(&other.center);
+        self.value = other.value;
+        self.support.clone_from(&other.support);
+    }
+}
+
+/// A core-set with its pairs, and scratch space.
+pub(super) struct Free<'a> {
+    core: &'a Core,
+    pairs: &'a Pairs,
+    scratch: Group,
+    hull: Hull,
+}
+
+impl<'a> Free<'a> {
+    pub(super) fn of(core: &'a Core, pairs: &'a Pairs) -> Self {
+        Free { core, pairs, scratch: Group::default(), hull: Hull::default() }
+    }
+
+    /// Puts `group` with one item more into the scratch space; `false` where it is refuted.
+    fn extend(&mut self, group: &Group, item: usize) -> bool {
+        if !self.core.is_free(item) || group.members.iter().any(|&m| self.pairs.are_apart(m, item))
+        {
+            return false;
+        }
+        let scratch = &mut self.scratch;
+        scratch.members.clone_from(&group.members);
+        scratch.places.clone_from(&group.places);
+        scratch.fit.clone_from(&group.fit);
+        scratch.members.push(item);
+        relative(self.core, group.members[0], item, &mut scratch.places);
+        let newcomer = scratch.members.len() - 1;
+        if !fit(self.core, scratch, newcomer, &mut self.hull) {
+            return true;
+        }
+        !(scratch.fit.value >= -1e-9 && is_refuted(self.core, scratch))
+    }
+}
+
+impl Room for Free<'_> {
+    type Group = Group;
+
+    fn len(&self) -> usize {
+        self.core.len()
+    }
+
+    fn are_apart(&self, i: usize, j: usize) -> bool {
+        self.pairs.are_apart(i, j)
+    }
+
+    fn open(&mut self, item: usize) -> Option<Group> {
+        let fit = Fit {
+            center: vec![0.0; self.core.dim],
+            value: -square(self.core.reach(item)),
+            support: vec![(0, 1.0)],
+        };
+        let group = Group { members: vec![item], places: vec![0.0; self.core.dim], fit };
+        self.core.is_free(item).then_some(group)
+    }
+
+    fn with(&mut self, group: &Group, item: usize) -> Option<Group> {
+        self.extend(group, item).then(|| self.scratch.clone())
+    }
+
+    fn strain(&mut self, group: &Group, item: usize) -> f64 {
+        match self.extend(group, item) {
+            true => self.scratch.fit.value - group.fit.value,
+            false => f64::INFINITY,
+        }
+    }
+
+    fn covers(&self, group: &Group, item: usize) -> bool {
+        let places = self.core.place(item).iter().zip(self.core.place(group.members[0]));
+        let offsets = places.map(|(x, o)| (x - o) * self.core.scale.up);
+        let distance: f64 = offsets.zip(&group.fit.center).map(|(y, c)| square(y - c)).sum();
+        distance < square(self.core.reach(item))
+    }
+}
+
+fn square(value: f64) -> f64 {
+    value * value
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn distance_square(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| square(a - b)).sum()
+}
+
+/// Appends (p − o)·scale.
+fn relative(core: &Core, origin: usize, item: usize, out: &mut Vec<f64>) {
+    let places = core.place(item).iter().zip(core.place(origin));
+    out.extend(places.map(|(x, o)| (x - o) * core.scale.up));
+}
+
+fn place(group: &Group, dim: usize, member: usize) -> &[f64] {
+    &group.places[member * dim..(member + 1) * dim]
+}
+
+/// gᵢ(c).
+fn excess(core: &Core, group: &Group, member: usize) -> f64 {
+    let reach = core.reach(group.members[member]);
+    distance_square(place(group, core.dim, member), &group.fit.center) - square(reach)
+}
+
+/// Brings the fit of a group to its optimum, when all but the newcomer are at theirs; `false` when the newcomer changes
+/// nothing.
+fn fit(core: &Core, group: &mut Group, newcomer: usize, hull: &mut Hull) -> bool {
+    // The depth counts in units of ρ², which is 1 or more.
+    const ENOUGH: f64 = 1e-15;
+    let mut member = newcomer;
+    let mut least = excess(core, group, member);
+    if least <= group.fit.value {
+        return false;
+    }
+    // Each round raises v, so no support occurs twice; rounding alone needs an end set.
+    for _ in 0..8 + 4 * group.members.len() {
+        admit(core, group, member, hull);
+        (member, least) = (0, f64::NEG_INFINITY);
+        for other in 0..group.members.len() {
+            let excess = excess(core, group, other);
+            if excess > least {
+                (member, least) = (other, excess);
+            }
+        }
+        let scale = least.abs().max(square(core.reach(group.members[member])));
+        let is_in_support = group.fit.support.iter().any(|&(other, _)| other == member);
+        if is_in_support || least <= group.fit.value + ENOUGH * scale {
+            break;
+        }
+    }
+    true
+}
+
+/// Gives weight to one member that is farther than the support.
+fn admit(core: &Core, group: &mut Group, member: usize, hull: &mut Hull) {
+    let dim = core.dim;
+    let mut weight = 0.0;
+    while !group.fit.support.is_empty() {
+        hull.project(group, dim, member);
+        let first = group.fit.support[0].0;
+        let wanted = excess(core, group, member) - excess(core, group, first);
+        let full = match hull.is_flat {
+            true => f64::INFINITY,
+            false => (wanted / (2.0 * hull.rest_square)).max(0.0),
+        };
+        let (mut step, mut leaves) = (full, None);
+        for (position, (&alpha, &(_, lambda))) in
+            hull.alpha.iter().zip(&group.fit.support).enumerate()
+        {
+            if alpha > 0.0 && lambda / alpha < step {
+                (step, leaves) = (lambda / alpha, Some(position));
+            }
+        }
+        if step == f64::INFINITY {
+            break;
+        }
+        weight += step;
+        for (c, n) in group.fit.center.iter_mut().zip(&hull.rest) {
+            *c += step * n;
+        }
+        for ((_, lambda), alpha) in group.fit.support.iter_mut().zip(&hull.alpha) {
+            *lambda = (*lambda - step * alpha).max(0.0);
+        }
+        match leaves {
+            Some(position) => drop(group.fit.support.swap_remove(position)),
+            None => break,
+        }
+    }
+    if group.fit.support.is_empty() {
+        let range = member * dim..(member + 1) * dim;
+        group.fit.center.copy_from_slice(&group.places[range]);
+        weight = 1.0;
+    }
+    group.fit.support.push((member, weight));
+    group.fit.value = excess(core, group, member);
+}
+
+/// The projection of a place on the affine hull of the support; scratch space.
+#[derive(Default)]
+struct Hull {
+    /// An orthonormal basis of the hull, from its first place.
+    basis: Vec<f64>,
+    /// The triangle R with edges = R·basis, row by row.
+    triangle: Vec<f64>,
+    /// α.
+    alpha: Vec<f64>,
+    /// n and |n|².
+    rest: Vec<f64>,
+    rest_square: f64,
+    /// Whether nothing of n can be told from rounding.
+    is_flat: bool,
+    coefficients: Vec<f64>,
+}
+
+impl Hull {
+    fn project(&mut self, group: &Group, dim: usize, member: usize) {
+        let support = &group.fit.support;
+        let (origin, edges) = (support[0].0, support.len() - 1);
+        self.basis.clear();
+        self.triangle.clear();
+        self.triangle.resize(edges * edges, 0.0);
+        for edge in 0..edges {
+            self.take(group, dim, origin, support[edge + 1].0);
+            let before = self.coefficients.len();
+            let length = self.rest_square.sqrt();
+            for (column, &coefficient) in self.coefficients.iter().enumerate() {
+                self.triangle[edge * edges + column] = coefficient;
+            }
+            debug_assert_eq!(before, edge);
+            self.triangle[edge * edges + edge] = length;
+            let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
+            self.basis.extend(self.rest.iter().map(|n| n * inverse));
+        }
+        let size = self.take(group, dim, origin, member);
+        self.is_flat = edges >= dim || self.rest_square <= 1e-24 * size;
+        // Σ βₑ·edgeₑ = Σ coefficients·basis, from the last edge to the first.
+        self.alpha.clear();
+        self.alpha.resize(edges + 1, 0.0);
+        for edge in (0..edges).rev() {
+            let above: f64 = (edge + 1..edges)
+                .map(|later| self.alpha[later + 1] * self.triangle[later * edges + edge])
+                .sum();
+            let diagonal = self.triangle[edge * edges + edge];
+            let beta = (self.coefficients[edge] - above) / diagonal;
+            self.alpha[edge + 1] = if beta.is_finite() { beta } else { 0.0 };
+        }
+        self.alpha[0] = 1.0 - self.alpha[1..].iter().sum::<f64>();
+        if self.is_flat {
+            self.rest.fill(0.0);
+            self.rest_square = 0.0;
+        }
+    }
+
+    /// Splits the edge from `origin` to `member` into its part within the basis and the rest; the square of its length.
+    fn take(&mut self, group: &Group, dim: usize, origin: usize, member: usize) -> f64 {
+        self.rest.clear();
+        let ends = place(group, dim, member).iter().zip(place(group, dim, origin));
+        self.rest.extend(ends.map(|(p, o)| p - o));
+        let size = dot(&self.rest, &self.rest);
+        self.coefficients.clear();
+        self.coefficients.resize(self.basis.len() / dim, 0.0);
+        // Twice is enough to make the rest orthogonal to the last bits.
+        for _ in 0..2 {
+            for (coefficient, direction) in
+                self.coefficients.iter_mut().zip(self.basis.chunks_exact(dim))
+            {
+                let along = dot(&self.rest, direction);
+                *coefficient += along;
+                for (n, q) in self.rest.iter_mut().zip(direction) {
+                    *n -= along * q;
+                }
+            }
+        }
+        self.rest_square = dot(&self.rest, &self.rest);
+        size
+    }
+}
+
+/// Whether the multipliers prove that no centre exists.
+///
+/// With W = Σλᵢ, any c and M = Σλᵢ(pᵢ − c), Σλᵢgᵢ(p̄) = Σλᵢgᵢ(c) − |M|²/W. Of the differences tᵢ = yᵢ − c, where yᵢ is
+/// pᵢ − p₀ rounded, each is off by a vector no longer than u(|tᵢ| + |yᵢ|). So |tᵢ|² is off by at most
+/// u((d/8 + 20)|tᵢ|² + 3|tᵢ||yᵢ|), as it is summed in eight parts, and with S = Σλᵢ(|tᵢ|² + |yᵢ|² + ρᵢ²) over m items the sum of
+/// λᵢgᵢ(c) by less than u(d/8 + m + 24)S; M by less than u(d + m + 8)·Σλᵢ(|tᵢ| + |yᵢ|), so that |M|²/W is at most twice
+/// the square of what was computed over W, and less than uS. Multipliers below 2⁻⁶⁰ are not looked at, and 2⁻⁹⁰⁰ is
+/// more than what can underflow.
+fn is_refuted(core: &Core, group: &Group) -> bool {
+    const LEAST: f64 = f64::from_bits((1023 - 60) << 52);
+    let dim = core.dim;
+    let center = &group.fit.center;
+    let used = || group.fit.support.iter().filter(|&&(_, lambda)| lambda >= LEAST);
+    let (mut sum, mut size, mut weight) = (0.0, 0.0, 0.0);
+    for &(member, lambda) in used() {
+        let place = place(group, dim, member);
+        let (mut square_of, mut from_origin) = ([0.0; 8], [0.0; 8]);
+        for (column, (y, c)) in place.iter().zip(center).enumerate() {
+            square_of[column % 8] += square(y - c);
+            from_origin[column % 8] += square(*y);
+        }
+        let [distance, from_origin]: [f64; 2] = [square_of, from_origin].map(|s| s.iter().sum());
+        let reach = square(core.reach(group.members[member]));
+        sum += lambda * (distance - reach);
+        size += lambda * (distance + from_origin + reach);
+        weight += lambda;
+    }
+    let mut moment = 0.0;
+    for (column, c) in center.iter().enumerate() {
+        let along: f64 =
+            used().map(|&(member, lambda)| lambda * (place(group, dim, member)[column] - c)).sum();
+        moment += square(along);
+    }
+    let count = group.fit.support.len();
+    let lost = ((dim / 8 + count + 32) as f64 * U * size + 4.0 * moment / weight) * (1.0 + 1e-9);
+    sum - lost >= f64::from_bits((1023 - 900) << 52)
+}
+
+#[cfg(test)]
+mod tests {
+    use taut_points::Monitor;
+
+    use super::super::item::Kind;
+    use super::*;
+
+    /// Whether a ball of radius less than `bound` is proved not to hold these rows.
+    fn refuted(rows: &[f64], columns: usize, kind: Kind, bound: f64) -> bool {
+        let core = Core::of(rows, columns, kind, bound);
+        let pairs = Pairs::of(&core, &Monitor::silent()).unwrap();
+        let mut room = Free::of(&core, &pairs);
+        let mut group = room.open(0);
+        for item in 1..core.len() {
+            group = group.and_then(|group| room.with(&group, item));
+        }
+        group.is_none()
+    }
+
+    fn is_radius(rows: &[f64], columns: usize, kind: Kind, radius: f64) {
+        assert!(refuted(rows, columns, kind, radius * (1.0 - 1e-13)), "{radius} is too small");
+        assert!(!refuted(rows, columns, kind, radius * (1.0 + 1e-13)), "{radius} is too large");
+    }
+
+    #[test]
+    fn closed_forms_are_met_to_thirteen_digits() {
+        let root3 = 3f64.sqrt();
+        let triangle = [0.0, 0.0, 1.0, 0.0, 0.5, root3 / 2.0];
+        is_radius(&triangle, 2, Kind::Points, 1.0 / root3);
+        is_radius(&[0.0, 0.0, 4.0, 0.0, 1.0, 1.0, 1.0, 1.0], 2, Kind::Points, 2.0);
+        is_radius(
+            &[0.0, 0.0, 2.0, 0.0, 0.0, 2.0, 2.0, 2.0, 1.0, 1.0],
+            2,
+            Kind::Points,
+            2f64.sqrt(),
+        );
+        // A regular simplex of d points with edges √2.
+        for dim in [3, 7, 40] {
+            let rows: Vec<f64> = (0..dim * dim).map(|i| f64::from(i % (dim + 1) == 0)).collect();
+            let n = f64::from(dim);
+            is_radius(&rows, dim as usize, Kind::Points, ((n - 1.0) / n).sqrt());
+        }
+        // Two balls, and one within another.
+        is_radius(&[0.0, 0.0, 1.0, 6.0, 8.0, 2.0], 3, Kind::Balls, 6.5);
+        is_radius(&[0.0, 0.0, 5.0, 1.0, 0.0, 2.0], 3, Kind::Balls, 5.0);
+        // w₁w₂D/(w₁ + w₂).
+        is_radius(&[0.0, 2.0, 7.0, 3.0], 2, Kind::Weighted, 7.0 * 6.0 / 5.0);
+    }
+
+    #[test]
+    fn scale_and_place_do_not_matter() {
+        for (scale, shift) in [(1e-200, 0.0), (1e200, 0.0), (1.0, 1e8), (2f64.powi(-1000), 0.0)] {
+            let unit = [0.0, 0.0, 6.0, 8.0, 0.0, 8.0, 3.0, 1.0];
+            let rows: Vec<f64> = unit.iter().map(|x| x * scale + shift).collect();
+            is_radius(&rows, 2, Kind::Points, 5.0 * scale);
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Balls with their centres at rows of the input: which items each row is near enough to.
+//!
+//! *Idea.* A row is as good a centre as the set of items less than ρ from it. One more pass over the rows finds these
+//! sets; rows with the same set are one place. A group of items is held by a ball just when some place is near to all of
+//! them, which is the intersection of sets of places, one for each item.
+//! *Guarantee.* Whether an item is less than ρ from a row is decided exactly.
+//! *Cost.* O(n·|X|·d) for n rows and |X| items, and |X| bits for each place, of which there are at most n: [`MEMORY`] bytes
+//! are granted.
+
+use std::collections::HashSet;
+use std::sync::{Mutex, PoisonError};
+
+use taut_points::{Monitor, PointSource, map_blocks};
+
+use super::super::CentersViolation;
+use super::core::{Bits, Core, is_set, items, set};
+use super::item::Kind;
+use super::room::Room;
+use crate::CheckError;
+
+/// Most bytes for the sets of all places, once by place and once by item.
+const MEMORY: u64 = 1 << 30;
+
+/// Places at rows, for one core-set.
+pub(super) struct Places {
+    /// For each place, the items near to it; no two alike, in a fixed order.
+    pub(super) sets: Vec<Bits>,
+    /// For each item, the places near to it.
+    near: Vec<Bits>,
+}
+
+impl Places {
+    /// Reads all rows once.
+    pub(super) fn of(
+        core: &Core,
+        kind: Kind,
+        source: &dyn PointSource,
+        monitor: &Monitor<'_>,
+    ) -> Result<Self, CheckError> {
+        let words = core.len().div_ceil(64);
+        let sets: Mutex<HashSet<Bits>> = Mutex::default();
+        map_blocks(source, monitor, |_, rows| {
+            let mut found = HashSet::new();
+            let mut row = vec![0.0; source.dim()];
+            for number in 0..rows.len() {
+                rows.copy_row(number, &mut row);
+                let center = kind.item(&row).position;
+                let mut near = vec![0; words];
+                for item in (0..core.len()).filter(|&item| !core.is_out_of_reach(item, center)) {
+                    set(&mut near, item);
+                }
+                if near.iter().any(|&word| word != 0) {
+                    found.insert(near);
+                }
+            }
+            // Sets are put together in any order and sorted in the end.
+            let mut sets = sets.lock().unwrap_or_else(PoisonError::into_inner);
+            sets.extend(found);
+            match 2 * 8 * words as u64 * sets.len() as u64 > MEMORY {
+                true => Err(CheckError::from(CentersViolation::Memory { most: MEMORY })),
+                false => Ok(()),
+            }
+        })?;
+        let sets = sets.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let mut sets: Vec<Bits> = sets.into_iter().collect();
+        sets.sort_unstable();
+        let mut near = vec![vec![0; sets.len().div_ceil(64)]; core.len()];
+        for (place, of_place) in sets.iter().enumerate() {
+            items(of_place).for_each(|item| set(&mut near[item], place));
+        }
+        Ok(Places { sets, near })
+    }
+
+    /// Whether no place is near to both.
+    pub(super) fn are_apart(&self, i: usize, j: usize) -> bool {
+        self.near[i].iter().zip(&self.near[j]).all(|(a, b)| a & b == 0)
+    }
+}
+
+/// The places that are near to all items of a group.
+impl Room for &Places {
+    type Group = Bits;
+
+    fn len(&self) -> usize {
+        self.near.len()
+    }
+
+    fn are_apart(&self, i: usize, j: usize) -> bool {
+        Places::are_apart(self, i, j)
+    }
+
+    fn open(&mut self, item: usize) -> Option<Bits> {
+        self.near[item].iter().any(|&word| word != 0).then(|| self.near[item].clone())
+    }
+
+    fn with(&mut self, group: &Bits, item: usize) -> Option<Bits> {
+        let both: Bits = group.iter().zip(&self.near[item]).map(|(a, b)| a & b).collect();
+        both.iter().any(|&word| word != 0).then_some(both)
+    }
+
+    fn strain(&mut self, group: &Bits, item: usize) -> f64 {
+        let mut counts = [0, 0];
+        for (group, near) in group.iter().zip(&self.near[item]) {
+            counts[0] += (group & near).count_ones();
+            counts[1] += (group & !near).count_ones();
+        }
+        if counts[0] == 0 { f64::INFINITY } else { counts[1].into() }
+    }
+
+    fn covers(&self, group: &Bits, item: usize) -> bool {
+        items(group).next().is_some_and(|place| is_set(&self.near[item], place))
+    }
+}

@@ -1,0 +1,228 @@
+//! A search of the checker's own: no k balls of a radius less than ρ hold all items but so many.
+//!
+//! *Idea.* A node gives items to groups, each of which some ball may hold. At each node:
+//! 1. An item that no group has and no ball covers has as many choices as there are groups it fits in, and one more each
+//!    where a ball is left for it and where an item may still be left out. No choice: refuted.
+//! 2. Of the items that fit in no group, a clique of items that are apart two by two needs a ball, or to be left out, for
+//!    each: more than there are refutes. With one ball left and none to be left out, all of them must fit in it.
+//! 3. Otherwise the item with the fewest choices is tried in each; among several, the one that narrows its groups most.
+//!
+//! Groups stay as they are when an item is put elsewhere, so what did not fit never fits again below: a column of strains
+//! for each group is computed only when that group grows.
+//! *Guarantee.* [`Outcome::Refuted`] only when all cases were gone through.
+//! *Cost.* Exponential in k: at most [`NODES`] nodes, each of at most |X| tests for the group that grew.
+//! *Reference.* The choice of the most constrained item is that of Brélaz, Comm. ACM 22(4), 1979, for colourings.
+
+use taut_points::{Cancelled, Monitor};
+
+use super::core::{Bits, clear, is_set, items, set};
+use super::room::Room;
+
+/// Most nodes. What needs more is to be proved by its branches.
+pub(super) const NODES: u64 = 1 << 16;
+
+/// Most items of a core-set that is searched.
+pub(super) const ITEMS: usize = 1024;
+
+/// How a search ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// No balls hold the items.
+    Refuted,
+    /// Balls hold them, as far as rounding tells.
+    Held,
+    /// All nodes were used up.
+    Undecided,
+}
+
+/// Searches; the number of nodes beside.
+pub(super) fn search<R: Room>(
+    room: &mut R,
+    k: usize,
+    outliers: u64,
+    monitor: &Monitor<'_>,
+) -> Result<(Outcome, u64), Cancelled> {
+    let n = room.len();
+    let apart = (0..n)
+        .map(|i| {
+            let mut apart = vec![0; n.div_ceil(64)];
+            (0..n).filter(|&j| j != i && room.are_apart(i, j)).for_each(|j| set(&mut apart, j));
+            apart
+        })
+        .collect();
+    let mut search = Search {
+        apart,
+        opens: (0..n).map(|item| room.open(item).is_some()).collect(),
+        room,
+        k,
+        monitor,
+        nodes: 0,
+        groups: vec![],
+        strains: vec![],
+        given: vec![0; n.div_ceil(64)],
+        left: outliers,
+    };
+    let outcome = search.node()?;
+    Ok((outcome, search.nodes))
+}
+
+struct Search<'a, R: Room> {
+    room: &'a mut R,
+    /// For each item, the items that are apart from it.
+    apart: Vec<Bits>,
+    /// Whether a ball of its own holds the item.
+    opens: Vec<bool>,
+    k: usize,
+    monitor: &'a Monitor<'a>,
+    nodes: u64,
+    groups: Vec<R::Group>,
+    /// For each group the strain of each item, infinite where it does not fit.
+    strains: Vec<Vec<f64>>,
+    /// Items of groups and those left out.
+    given: Bits,
+    /// How many may still be left out.
+    left: u64,
+}
+
+impl<R: Room> Search<'_, R> {
+    fn node(&mut self) -> Result<Outcome, Cancelled> {
+        if self.nodes == NODES {
+            return Ok(Outcome::Undecided);
+        }
+        self.nodes += 1;
+        if self.nodes.is_multiple_of(64) {
+            self.monitor.check()?;
+        }
+        let open: Vec<usize> = (0..self.room.len())
+            .filter(|&item| !is_set(&self.given, item))
+            .filter(|&item| !self.groups.iter().any(|group| self.room.covers(group, item)))
+            .collect();
+        if open.is_empty() {
+            return Ok(Outcome::Held);
+        }
+        if self.is_refuted(&open) {
+            return Ok(Outcome::Refuted);
+        }
+        let item = self.choice(&open);
+        set(&mut self.given, item);
+        let outcome = self.branch(item);
+        clear(&mut self.given, item);
+        outcome
+    }
+
+    /// Whether items that fit in no group need more than is left.
+    fn is_refuted(&mut self, open: &[usize]) -> bool {
+        let fits = |item: usize| self.strains.iter().any(|strain| strain[item] < f64::INFINITY);
+        let homeless: Vec<usize> = open.iter().copied().filter(|&item| !fits(item)).collect();
+        let balls = self.k - self.groups.len();
+        let places = (balls as u64).saturating_add(self.left);
+        let no_place = |&item: &usize| self.left == 0 && (balls == 0 || !self.opens[item]);
+        if homeless.iter().any(no_place) || self.has_clique(&homeless, places) {
+            return true;
+        }
+        balls == 1 && self.left == 0 && !self.fit_in_one(&homeless)
+    }
+
+    /// Whether more than so many of these items are found apart, two by two.
+    fn has_clique(&self, items: &[usize], places: u64) -> bool {
+        if items.len() as u64 <= places {
+            return false;
+        }
+        let mut all = vec![0; self.given.len()];
+        items.iter().for_each(|&item| set(&mut all, item));
+        let mut rest = vec![0; all.len()];
+        items.iter().any(|&start| {
+            let (mut last, mut size) = (start, 1);
+            rest.copy_from_slice(&all);
+            loop {
+                clear(&mut rest, last);
+                rest.iter_mut().zip(&self.apart[last]).for_each(|(rest, apart)| *rest &= apart);
+                let Some(next) = self::items(&rest).next() else { break };
+                (last, size) = (next, size + 1);
+            }
+            size > places
+        })
+    }
+
+    fn fit_in_one(&mut self, items: &[usize]) -> bool {
+        let Some((&first, rest)) = items.split_first() else { return true };
+        let mut group = self.room.open(first);
+        for &item in rest {
+            group = group.and_then(|group| self.room.with(&group, item));
+        }
+        group.is_some()
+    }
+
+    /// The item with the fewest choices.
+    fn choice(&self, open: &[usize]) -> usize {
+        let mut best = (usize::MAX, f64::INFINITY, 0);
+        for &item in open {
+            let strains = self.strains.iter().map(|strain| strain[item]);
+            let (choices, strain) = strains
+                .filter(|strain| *strain < f64::INFINITY)
+                .fold((0, 0.0), |(choices, sum), strain| (choices + 1, sum + strain));
+            // Without a group, the item that is apart from most.
+            let relief = match choices {
+                0 => self.apart[item].iter().map(|word| word.count_ones()).sum::<u32>().into(),
+                _ => strain,
+            };
+            if choices < best.0 || (choices == best.0 && -relief < best.1) {
+                best = (choices, -relief, item);
+            }
+        }
+        best.2
+    }
+
+    /// Tries the item in all groups, in a new one, and left out.
+    fn branch(&mut self, item: usize) -> Result<Outcome, Cancelled> {
+        let mut order: Vec<usize> = (0..self.groups.len())
+            .filter(|&group| self.strains[group][item] < f64::INFINITY)
+            .collect();
+        order.sort_by(|&a, &b| self.strains[a][item].total_cmp(&self.strains[b][item]));
+        for number in order {
+            let Some(grown) = self.room.with(&self.groups[number], item) else { continue };
+            let strains = self.strained(&grown, Some(number));
+            let group = std::mem::replace(&mut self.groups[number], grown);
+            let before = std::mem::replace(&mut self.strains[number], strains);
+            let outcome = self.node()?;
+            self.groups[number] = group;
+            self.strains[number] = before;
+            if outcome != Outcome::Refuted {
+                return Ok(outcome);
+            }
+        }
+        if self.groups.len() < self.k
+            && let Some(group) = self.room.open(item)
+        {
+            let strains = self.strained(&group, None);
+            self.groups.push(group);
+            self.strains.push(strains);
+            let outcome = self.node()?;
+            self.groups.pop();
+            self.strains.pop();
+            if outcome != Outcome::Refuted {
+                return Ok(outcome);
+            }
+        }
+        if self.left > 0 {
+            self.left -= 1;
+            let outcome = self.node()?;
+            self.left += 1;
+            return Ok(outcome);
+        }
+        Ok(Outcome::Refuted)
+    }
+
+    /// The strains of all items that nothing has yet, for a group that was this one before.
+    fn strained(&mut self, group: &R::Group, before: Option<usize>) -> Vec<f64> {
+        (0..self.room.len())
+            .map(|item| {
+                let was = before.map_or(0.0, |number| self.strains[number][item]);
+                if was == f64::INFINITY || is_set(&self.given, item) {
+                    return f64::INFINITY;
+                }
+                self.room.strain(group, item)
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,137 @@
+//! What can be refused before any row is read: lengths, ranges, lists, and the gap between the bounds.
+
+use taut_points::PointSource;
+
+use super::super::{Centers, CentersCertificate, CentersViolation, Placement};
+use super::item::Kind;
+use crate::Violation;
+use crate::arithmetic::U;
+
+/// How much the gap claimed may fall short of the gap found, relatively and in units of 1: a solver forms the quotient in
+/// arithmetic of its own.
+const GAP_SLACK: (f64, f64) = (1e-9, 4e-16);
+
+/// What rows are, and the gap found.
+pub(super) fn check(
+    answer: &Centers,
+    certificate: &CentersCertificate,
+    source: &dyn PointSource,
+) -> Result<(Kind, f64), Violation> {
+    let kind = Kind::of(certificate, source.dim())?;
+    if source.is_empty() {
+        return Err(CentersViolation::Empty.into());
+    }
+    number("the radius", answer.radius)?;
+    number("the lower bound", answer.lower_bound)?;
+    number("the claimed gap", certificate.gap)?;
+    centers(answer, certificate, kind.dim(source.dim()))?;
+    rows(answer, certificate, source.len())?;
+    outliers(answer, certificate, source.len())?;
+    if !answer.assignment.is_empty() {
+        let expected = usize::try_from(source.len()).unwrap_or(usize::MAX);
+        length("the assignment", answer.assignment.len(), expected)?;
+    }
+    core_set(certificate, source.len())?;
+    Ok((kind, gap(answer, certificate)?))
+}
+
+fn centers(
+    answer: &Centers,
+    certificate: &CentersCertificate,
+    dim: usize,
+) -> Result<(), Violation> {
+    let found = answer.centers.len();
+    if found == 0 || found as u64 > certificate.k {
+        return Err(CentersViolation::Count { found, k: certificate.k }.into());
+    }
+    for (center, place) in answer.centers.iter().enumerate() {
+        if place.len() != dim {
+            let found = place.len();
+            return Err(CentersViolation::Dimension { center, found, expected: dim }.into());
+        }
+        if let Some(column) = place.iter().position(|value| !value.is_finite()) {
+            let what = format!("coordinate {column} of centre {center}");
+            let value = place[column];
+            return Err(Violation::Number { what, value, expected: "a finite number" });
+        }
+    }
+    Ok(())
+}
+
+fn rows(answer: &Centers, certificate: &CentersCertificate, n: u64) -> Result<(), Violation> {
+    let expected = match certificate.placement {
+        Placement::Free => 0,
+        Placement::Rows => answer.centers.len(),
+    };
+    length("the list of rows of the centres", answer.rows.len(), expected)?;
+    match answer.rows.iter().position(|&row| row >= n) {
+        Some(center) => {
+            let (row, problem) = (answer.rows[center], "but there are not so many");
+            Err(CentersViolation::Row { center, row, problem }.into())
+        }
+        None => Ok(()),
+    }
+}
+
+fn outliers(answer: &Centers, certificate: &CentersCertificate, n: u64) -> Result<(), Violation> {
+    let (rows, most) = (&answer.outliers, certificate.outliers);
+    if rows.len() as u64 > most {
+        return Err(CentersViolation::Outliers { found: rows.len(), most }.into());
+    }
+    for (position, &row) in rows.iter().enumerate() {
+        let before = position.checked_sub(1).map(|before| rows[before]);
+        let problem = match before {
+            _ if row >= n => "but there are not so many",
+            Some(before) if before == row => "as does the entry before it",
+            Some(before) if before > row => "which is less than the entry before it",
+            _ => continue,
+        };
+        return Err(Violation::LeftOut { position, row, problem });
+    }
+    Ok(())
+}
+
+fn core_set(certificate: &CentersCertificate, n: u64) -> Result<(), Violation> {
+    let rows = &certificate.core_set;
+    let refused = |position: usize, problem| CentersViolation::CoreSet {
+        position,
+        row: rows[position],
+        problem,
+    };
+    if let Some(position) = rows.iter().position(|&row| row >= n) {
+        return Err(refused(position, "but there are not so many").into());
+    }
+    let mut order: Vec<usize> = (0..rows.len()).collect();
+    order.sort_unstable_by_key(|&position| (rows[position], position));
+    let twice = order.windows(2).find(|pair| rows[pair[0]] == rows[pair[1]]);
+    twice.map_or(Ok(()), |pair| Err(refused(pair[1], "as does an entry before it").into()))
+}
+
+/// R/L − 1, rounded up.
+fn gap(answer: &Centers, certificate: &CentersCertificate) -> Result<f64, Violation> {
+    let (lower, radius) = (answer.lower_bound, answer.radius);
+    if lower > radius {
+        return Err(CentersViolation::Order { lower, radius }.into());
+    }
+    let found = match radius == lower {
+        true => 0.0,
+        // The difference of neighbours is exact, and of others is off by half an ulp.
+        false => (radius - lower) / lower * (1.0 + 8.0 * U),
+    };
+    let (relative, absolute) = GAP_SLACK;
+    if found > certificate.gap * (1.0 + relative) + absolute {
+        return Err(CentersViolation::Gap { claimed: certificate.gap, found }.into());
+    }
+    Ok(found)
+}
+
+fn length(what: &'static str, found: usize, expected: usize) -> Result<(), Violation> {
+    if found == expected { Ok(()) } else { Err(Violation::Length { what, found, expected }) }
+}
+
+fn number(what: &str, value: f64) -> Result<(), Violation> {
+    if value >= 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(Violation::Number { what: what.into(), value, expected: "a finite number, at least 0" })
+}

@@ -1,0 +1,206 @@
+//! What can be wrong with centres.
+
+/// Why centres or their certificate are wrong.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CentersViolation {
+    /// There are no items.
+    #[error("there are no rows: centres need at least one")]
+    Empty,
+    /// The certificate speaks of ellipsoids.
+    #[error("the items are said to be ellipsoids: centres are of points or of balls")]
+    Ellipsoids,
+    /// The certificate speaks of balls with weights.
+    #[error("the items are said to be balls with weights: points alone can have weights")]
+    WeightsOfBalls,
+    /// The certificate speaks of weights, but the rows have no room for them.
+    #[error("a point with a weight needs two columns or more, but rows have {columns}")]
+    NoWeight {
+        /// Columns there are.
+        columns: usize,
+    },
+    /// A weight of the input is not positive.
+    #[error("point {row} has weight {value:?}: weights are the last column and must be above 0")]
+    Weight {
+        /// Point, from 0.
+        row: u64,
+        /// Its weight.
+        value: f64,
+    },
+    /// There are no centres, or more than were asked for.
+    #[error("there are {found} centres: expected at least 1 and at most k = {k}")]
+    Count {
+        /// Centres there are.
+        found: usize,
+        /// Most centres.
+        k: u64,
+    },
+    /// A centre has another dimension than the points.
+    #[error("centre {center} has {found} coordinates, but the points have dimension {expected}")]
+    Dimension {
+        /// Centre, from 0.
+        center: usize,
+        /// Its coordinates.
+        found: usize,
+        /// Dimension of the points.
+        expected: usize,
+    },
+    /// A centre is not the row it is said to be.
+    #[error("centre {center} is said to be row {row}, {problem}")]
+    Row {
+        /// Centre, from 0.
+        center: usize,
+        /// The row it is said to be.
+        row: u64,
+        /// What is wrong with that.
+        problem: &'static str,
+    },
+    /// More rows are left out than may be.
+    #[error("{found} rows are left out, but at most {most} may be")]
+    Outliers {
+        /// Rows left out.
+        found: usize,
+        /// Most that may be.
+        most: u64,
+    },
+    /// The lower bound is larger than the radius.
+    #[error("the lower bound {lower:?} is larger than the radius {radius:?}")]
+    Order {
+        /// The lower bound.
+        lower: f64,
+        /// The radius.
+        radius: f64,
+    },
+    /// The gap between the bounds is larger than the gap claimed.
+    #[error("the bounds are {found:e} apart, relatively; the certificate claims {claimed:e}")]
+    Gap {
+        /// What the certificate says.
+        claimed: f64,
+        /// `radius / lower_bound − 1`, rounded up.
+        found: f64,
+    },
+    /// An item that counts lies in none of the balls.
+    #[error(
+        "row {row} reaches {distance:?} from centre {center}, the next, outside the radius {radius:?} by {excess:e}"
+    )]
+    Outside {
+        /// The first such row, from 0.
+        row: u64,
+        /// The centre next to it, from 0.
+        center: usize,
+        /// How far it reaches from there.
+        distance: f64,
+        /// The claimed radius.
+        radius: f64,
+        /// distance − radius.
+        excess: f64,
+    },
+    /// An item is assigned to a centre that does not exist.
+    #[error("row {row} is assigned to centre {center}, but there are not so many")]
+    NoSuchCenter {
+        /// The first such row, from 0.
+        row: u64,
+        /// The centre named.
+        center: u32,
+    },
+    /// An item is assigned to a centre that is not the nearest.
+    #[error("row {row} is assigned to centre {center}, but centre {nearer} is nearer to it")]
+    Assignment {
+        /// The first such row, from 0.
+        row: u64,
+        /// The centre named.
+        center: u32,
+        /// One that is nearer.
+        nearer: usize,
+    },
+    /// The core-set names a row that does not exist, or one twice.
+    #[error("entry {position} of the core-set names row {row}, {problem}")]
+    CoreSet {
+        /// Position in the list, from 0.
+        position: usize,
+        /// The row it names.
+        row: u64,
+        /// What is wrong with that.
+        problem: &'static str,
+    },
+    /// The core-set is larger than a proof of its kind may have.
+    #[error("the core-set has {rows} rows, but a proof by {proof} is taken of at most {most}")]
+    CoreSetSize {
+        /// Rows of the core-set.
+        rows: usize,
+        /// Most there may be.
+        most: usize,
+        /// The kind of proof.
+        proof: &'static str,
+    },
+    /// The core-set has too few rows to prove anything.
+    #[error(
+        "the core-set has {rows} rows: k balls and {outliers} rows left out make do for k + {outliers}"
+    )]
+    TooFew {
+        /// Rows of the core-set.
+        rows: usize,
+        /// Most rows that may be left out.
+        outliers: u64,
+    },
+    /// Two rows of the core-set fit in one ball.
+    #[error(
+        "rows {first} and {second} are said to be apart, but one ball of a radius less than the lower bound holds both"
+    )]
+    NotApart {
+        /// One row.
+        first: u64,
+        /// The other.
+        second: u64,
+    },
+    /// An entry of the log of branches cannot be.
+    #[error("branch {entry} gives item {item} of the core-set, {problem}")]
+    Branch {
+        /// Position in the log, from 0.
+        entry: usize,
+        /// The item it gives.
+        item: u32,
+        /// What is wrong with that.
+        problem: &'static str,
+    },
+    /// The log of branches ends where a node is neither refuted nor branched on.
+    #[error("the log ends after {branches} branches, before all cases are refuted")]
+    LogEnds {
+        /// Branches there are.
+        branches: usize,
+    },
+    /// The log of branches goes on where all cases are refuted.
+    #[error("all cases are refuted after {used} branches, but the log has {branches}")]
+    LogGoesOn {
+        /// Branches that were needed.
+        used: usize,
+        /// Branches there are.
+        branches: usize,
+    },
+    /// The core-set does not prove the lower bound.
+    #[error(
+        "the lower bound does not hold, as far as rounding tells: so many balls of less than this radius hold the core-set"
+    )]
+    NotProved,
+    /// The checker's own search was cut short.
+    #[error(
+        "the lower bound is not confirmed: the search of the checker was cut short after {nodes} nodes"
+    )]
+    NotConfirmed {
+        /// Nodes it went through.
+        nodes: u64,
+    },
+    /// The second search contradicts the first.
+    #[error(
+        "the lower bound is not confirmed: a search over candidate balls finds balls that hold the core-set"
+    )]
+    Covered,
+    /// The places that centres among the rows can take are too many to be held.
+    #[error(
+        "centres among the rows cannot be judged by so large a core-set: what each row is near to takes more than {most} bytes"
+    )]
+    Memory {
+        /// What is granted.
+        most: u64,
+    },
+}

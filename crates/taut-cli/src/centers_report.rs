@@ -1,0 +1,156 @@
+//! What is said about centres.
+
+use taut::certify::{CentersVerdict, LowerBound, Placement};
+use taut::{Centers, Items};
+use taut_draw::{DrawOptions, Error as DrawError, Figure, centers_figures};
+
+use crate::numbers::{abridged, coordinates, count, counted, exact, gap};
+use crate::report::{Fact, Report, Tell, noun, rows_of, stopped};
+
+/// Centres whose coordinates are shown; more are in the JSON.
+const SHOWN: usize = 20;
+
+impl Tell for Report<'_, Centers> {
+    const FOUND: &'static str = "the centres found";
+
+    fn title(&self) -> String {
+        let certificate = &self.found.certificate;
+        let around = counted(self.points.source().len(), noun(certificate.items));
+        let weights = if certificate.weights { " with weights" } else { "" };
+        let centres = match certificate.placement {
+            Placement::Free => counted(certificate.k, "centre"),
+            Placement::Rows => format!("{} among them", counted(certificate.k, "centre")),
+        };
+        let dimensions = counted(self.dim() as u64, "dimension");
+        format!("{around}{weights} in {dimensions}: {centres}")
+    }
+
+    fn facts(&self) -> Vec<Fact> {
+        let (answer, certificate) = (&self.found.answer, &self.found.certificate);
+        let (trace, noun) = (&self.found.trace, noun(certificate.items));
+        let mut facts = self.centres();
+        let [radius, lower] = [answer.radius, answer.lower_bound].map(exact);
+        let counts = if answer.outliers.is_empty() { "" } else { " that counts" };
+        facts.extend([
+            Fact::new("radius", radius)
+                .remark(format!("no {noun}{counts} is farther from the centre next to it")),
+            Fact::new("lower bound", &*lower)
+                .remark(format!("no {} have a smaller radius", counted(certificate.k, "centre"))),
+        ]);
+        facts.push(match &self.verdict {
+            Some(proved) => gap_of(answer, proved.gap),
+            None => gap_of(answer, certificate.gap).remark("as the solver says"),
+        });
+        facts.push(match &self.verdict {
+            Some(_) => Fact::new("verified", "yes")
+                .remark(format!("every {noun}{counts} is in a ball, and the gap is proved")),
+            None => Fact::new("verified", "not checked"),
+        });
+        if certificate.outliers > 0 {
+            facts.push(rows_of("left out", &answer.outliers));
+        }
+        facts.push(Fact::new("method", &*trace.method).remark(stopped(trace.stop)));
+        let proof = match certificate.proof {
+            LowerBound::Apart => "no two of which fit in one ball".to_owned(),
+            LowerBound::Search => "which the checker searches".to_owned(),
+            LowerBound::Branches { ref items } => {
+                format!("with {} of a search", counted_branches(items.len() as u64))
+            }
+        };
+        let core_set = counted(certificate.core_set.len() as u64, noun);
+        facts.extend([
+            Fact::new("nodes", count(trace.iterations)),
+            match certificate.core_set.len() {
+                0 => Fact::new("core-set", core_set),
+                _ => Fact::new("core-set", core_set).remark(proof),
+            },
+            Fact::new("passes", count(trace.passes)),
+        ]);
+        facts
+    }
+
+    fn dim(&self) -> usize {
+        let certificate = &self.found.certificate;
+        let columns = self.points.source().dim();
+        match certificate.weights {
+            true => columns.saturating_sub(1),
+            false => certificate.items.dim(columns),
+        }
+    }
+
+    fn figures(&self, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
+        centers_figures(self.found, self.points.source(), options)
+    }
+}
+
+impl Report<'_, Centers> {
+    /// A line for each of the first centres: its place, of which row it is, how many are next to it.
+    fn centres(&self) -> Vec<Fact> {
+        let answer = &self.found.answer;
+        let mut sizes = vec![0u64; answer.centers.len()];
+        for &center in &answer.assignment {
+            if let Some(size) = sizes.get_mut(center as usize) {
+                *size += 1;
+            }
+        }
+        let mut facts = Vec::new();
+        for (j, center) in answer.centers.iter().enumerate().take(SHOWN) {
+            let name = match j {
+                0 if answer.centers.len() == 1 => "centre",
+                0 => "centres",
+                _ => "",
+            };
+            let mut place = coordinates(center, answer.radius);
+            if abridged(center) {
+                place += &format!(" {} in all", count(center.len() as u64));
+            }
+            let row = answer.rows.get(j).map(|row| format!("row {}", row.saturating_add(1)));
+            let next = (!answer.assignment.is_empty())
+                .then(|| format!("next to {}", counted(sizes[j], noun(self.items()))));
+            let mut fact = Fact::new(name, place);
+            let remarks: Vec<String> = [row, next].into_iter().flatten().collect();
+            if !remarks.is_empty() {
+                fact = fact.remark(remarks.join(", "));
+            }
+            facts.push(fact);
+        }
+        if answer.centers.len() > SHOWN {
+            let all = count(answer.centers.len() as u64);
+            facts.push(Fact::new("", format!("… {all} in all; the JSON holds them (-o FILE)")));
+        }
+        facts
+    }
+
+    fn items(&self) -> Items {
+        self.found.certificate.items
+    }
+}
+
+/// The gap, where there is a bound to have one.
+fn gap_of(answer: &Centers, value: f64) -> Fact {
+    match answer.lower_bound > 0.0 || answer.radius == 0.0 {
+        true => Fact::new("gap", gap(value)),
+        false => Fact::new("gap", "none"),
+    }
+}
+
+fn counted_branches(branches: u64) -> String {
+    format!("{} branch{}", count(branches), if branches == 1 { "" } else { "es" })
+}
+
+/// What was proved of centres.
+pub(crate) fn proved_of_centers(proved: &CentersVerdict) -> Vec<Fact> {
+    let bracket = format!("{} ≤ least radius ≤ {}", exact(proved.lower), exact(proved.upper));
+    let mut facts = vec![
+        Fact::new("bracket", bracket),
+        Fact::new("gap", gap(proved.gap)).remark("relative, proved from the points alone"),
+        Fact::new("nodes", count(proved.nodes)).remark("of the search for the lower bound"),
+    ];
+    if let Some(nodes) = proved.cover_nodes {
+        facts.push(
+            Fact::new("again", format!("{} nodes", count(nodes)))
+                .remark("of a second search, over candidate balls, which agrees"),
+        );
+    }
+    facts
+}

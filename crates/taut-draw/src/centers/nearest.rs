@@ -1,0 +1,71 @@
+//! How far items reach from the nearest of some centres.
+
+use taut_certify::{Centers, CentersCertificate, Items};
+
+use crate::axes::unit;
+use crate::survey::Measure;
+
+/// Centres and their radius, scaled so that sums of squares neither overflow nor vanish.
+pub(super) struct Nearest {
+    pub(super) unit: f64,
+    dim: usize,
+    centers: Vec<f64>,
+    middle: Vec<f64>,
+    radius: f64,
+    weights: bool,
+}
+
+impl Nearest {
+    pub(super) fn new(answer: &Centers, certificate: &CentersCertificate, dim: usize) -> Self {
+        let numbers = answer.centers.iter().flatten().copied();
+        let unit = unit(numbers.clone().chain([answer.radius]));
+        let centers: Vec<f64> = numbers.map(|x| x / unit).collect();
+        let mut middle = vec![0.0; dim];
+        for center in centers.chunks_exact(dim) {
+            let part = 1.0 / answer.centers.len() as f64;
+            middle.iter_mut().zip(center).for_each(|(m, x)| *m += part * x);
+        }
+        let (radius, weights) = (answer.radius / unit, certificate.weights);
+        Nearest { unit, dim, centers, middle, radius, weights }
+    }
+
+    /// How far an item reaches from the centre next to it, in units.
+    pub(super) fn reach(&self, row: &[f64], items: Items) -> f64 {
+        let square = |center: &[f64]| -> f64 {
+            center.iter().zip(row).map(|(c, x)| (x / self.unit - c).powi(2)).sum()
+        };
+        let nearest = self.centers.chunks_exact(self.dim).map(square).fold(f64::INFINITY, f64::min);
+        match items {
+            _ if self.weights => row[self.dim] * nearest.sqrt(),
+            Items::Balls => nearest.sqrt() + row[self.dim] / self.unit,
+            Items::Points | Items::Ellipsoids => nearest.sqrt(),
+        }
+    }
+
+    /// The centres from the middle of all, in units.
+    pub(super) fn offsets(&self) -> impl Iterator<Item = Vec<f64>> + '_ {
+        self.centers
+            .chunks_exact(self.dim)
+            .map(|center| center.iter().zip(&self.middle).map(|(x, m)| x - m).collect())
+    }
+}
+
+impl Measure for Nearest {
+    fn dim(&self) -> usize {
+        self.dim
+    }
+
+    fn offset(&self, row: &[f64]) -> Vec<f64> {
+        row.iter().zip(&self.middle).map(|(x, m)| x / self.unit - m).collect()
+    }
+
+    fn part(&self, row: &[f64], items: Items) -> f64 {
+        let reach = self.reach(row, items);
+        match reach {
+            // A finite reach is a finite part, however small the radius.
+            _ if self.radius > 0.0 && reach.is_finite() => (reach / self.radius).min(f64::MAX),
+            0.0 => 1.0,
+            _ => 1.0 + reach,
+        }
+    }
+}

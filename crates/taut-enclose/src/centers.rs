@@ -1,0 +1,289 @@
+//! k equal balls around all items, as small as can be, with a lower bound that others can confirm.
+//!
+//! A method ([`tree`], [`thesis`], a traversal) ends with centres, a core-set and radii that trees over the core-set have shown
+//! to be too small; [`proof`] proves one of these again, in a form that can be checked, and [`answer`] measures every item from the
+//! centres as they are returned.
+
+mod answer;
+mod cloud;
+mod clusters;
+mod conflict;
+mod items;
+mod options;
+mod proof;
+mod read;
+mod small_ball;
+mod start;
+mod thesis;
+mod tree;
+
+use std::collections::BTreeMap;
+
+use taut_certify::{
+    Centers, CentersCertificate, Items, PassBounds, Placement, Solution, Stop, Trace,
+};
+use taut_points::{Monitor, PointSource, Points, Scalar};
+
+use self::cloud::Cloud;
+use self::items::Position;
+use self::proof::Proof;
+use self::read::Table;
+use self::start::Start;
+use self::tree::Found;
+use crate::threads::on_threads;
+use crate::{Error, FarthestFirstOptions, centers_rows, farthest_first_of_source};
+pub use options::{CentersMethod, CentersOptions};
+
+/// The least relative gap that is sought; proofs take 1e-12 of it.
+const FINEST: f64 = 5e-12;
+/// What counts as no gap.
+const ROUNDING: f64 = 2e-11;
+/// A proof may take so many times the nodes of the search that came before it, and so many more.
+const PROOF_FACTOR: u64 = 20;
+const PROOF_NODES: u64 = 10_000;
+
+/// k centres such that no point of `points`, n × d, is farther than `radius` from the nearest, with a radius at most 1 + ε times the
+/// least possible.
+///
+/// The problem is NP-hard; the time is exponential in k, and proofs are what takes it. In the plane gaps of 1e-6 are proved up to k
+/// of about 12, and 1 % up to about 15; in space 1 % up to about 12. Whatever the k, the search can be stopped
+/// ([`CentersOptions::max_nodes`]) and returns centres with the gap proved so far, at worst that of farthest-first traversal, a
+/// factor of 2. Duplicates, points on a line and k ≥ n are solved as any others.
+///
+/// *Cost.* Nodes of some 5 to 50 µs: about a thousand for k = 5, 10⁴ for k = 10, 10⁵ for k = 15 in the plane at 1 %. All points are in
+/// memory as `f64`, twice; a look at all of them takes a small part of them on average in few dimensions.
+///
+/// *Source.* See the head of the method's module.
+///
+/// ```
+/// use taut_enclose::{CentersOptions, centers};
+///
+/// // Two pairs, far from each other.
+/// let points = [0.0, 0.0, 0.0, 2.0, 9.0, 0.0, 9.0, 1.0];
+/// let points = taut_points::Points::new(&points, 2)?;
+/// let found = centers(&points, 2, &CentersOptions { epsilon: 1e-6, ..Default::default() })?;
+/// assert_eq!(found.answer.radius, 1.0);
+/// assert!(found.answer.lower_bound > 0.999_999);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Empty`], [`Error::NonFinite`], [`Error::Overflow`], [`Error::Option`]; with weights also [`Error::NoWeight`] and
+/// [`Error::NonPositiveWeight`].
+pub fn centers<T: Scalar>(
+    points: &Points<'_, T>,
+    k: usize,
+    options: &CentersOptions,
+) -> Result<Solution<Centers>, Error> {
+    centers_of_source(points, Items::Points, k, options, &Monitor::silent())
+}
+
+/// The same for balls, given as rows of d coordinates of the centre and the radius, n × (d + 1): each ball is in one of the k.
+///
+/// # Errors
+/// As [`centers()`], and [`Error::NoRadius`], [`Error::NegativeRadius`].
+pub fn centers_of_balls<T: Scalar>(
+    balls: &Points<'_, T>,
+    k: usize,
+    options: &CentersOptions,
+) -> Result<Solution<Centers>, Error> {
+    centers_of_source(balls, Items::Balls, k, options, &Monitor::silent())
+}
+
+/// The same for the items of a source, which is read once.
+///
+/// # Errors
+/// As [`centers_of_balls()`], and [`Error::Read`] when the source fails or `monitor` stops the work.
+pub fn centers_of_source(
+    source: &dyn PointSource,
+    items: Items,
+    k: usize,
+    options: &CentersOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Centers>, Error> {
+    options.check(k)?;
+    on_threads(options.threads, || {
+        let is_plain = items == Items::Points && !options.weights && options.outliers == 0;
+        if options.method == CentersMethod::FarthestFirst && is_plain && !options.assignment {
+            let k = k as u64;
+            let traversal = FarthestFirstOptions::default();
+            return farthest_first_of_source(source, k, &traversal, monitor)?
+                .solution(k, options.placement, source);
+        }
+        match options.placement {
+            Placement::Free => solve(source, items, k, options, monitor),
+            Placement::Rows => centers_rows::solve(source, items, k, options, monitor),
+        }
+    })
+}
+
+fn solve(
+    source: &dyn PointSource,
+    items: Items,
+    k: usize,
+    options: &CentersOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Centers>, Error> {
+    let table = Table::read(source, items, options.weights, monitor)?;
+    if options.outliers >= table.len() as u64 {
+        return Err(Error::Option {
+            name: "outliers",
+            value: options.outliers.to_string(),
+            expected: "less than the number of items",
+        });
+    }
+    match table.dim {
+        1 => solve_in::<[f64; 1]>(&table, items, k, options, monitor),
+        2 => solve_in::<[f64; 2]>(&table, items, k, options, monitor),
+        3 => solve_in::<[f64; 3]>(&table, items, k, options, monitor),
+        _ => solve_in::<Vec<f64>>(&table, items, k, options, monitor),
+    }
+}
+
+fn solve_in<P: Position>(
+    table: &Table,
+    items: Items,
+    k: usize,
+    options: &CentersOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Centers>, Error> {
+    let cloud = Cloud::<P>::new(table.items());
+    // More centres than items are of no use, but what is proved is proved of as many as were asked for.
+    let asked = k;
+    let k = k.min(cloud.len());
+    let z = options.outliers as usize;
+    let target = (options.epsilon - FINEST).max(FINEST);
+    let start = start::start(&cloud, k, z, monitor)?;
+    let apart = start.apart.clone();
+    let found = match options.method {
+        CentersMethod::Tree => {
+            tree::solve(&cloud, start, k, z, target, options.max_nodes, monitor)?
+        }
+        CentersMethod::Thesis => {
+            thesis::solve(&cloud, start.plain, k, target, options.max_nodes, monitor)?
+        }
+        CentersMethod::FarthestFirst => of_traversal(start),
+    };
+    let (proof, given_up) = prove(&cloud, &found, apart, k, z, monitor)?;
+    let answered = answer::answer(table, &cloud, &found.incumbent.centers, z, options.assignment)?;
+    finish(table, &cloud, items, asked, options, found, proof, given_up, answered)
+}
+
+/// Centres of the traversal, with its own bound.
+fn of_traversal<P: Position>(start: Start<P>) -> Found<P> {
+    let core_set = start.apart;
+    let (lower, upper, working_set) = (start.lower, start.plain.radius, core_set.len() as u64);
+    Found {
+        incumbent: start.plain,
+        thresholds: vec![],
+        core_set,
+        stop: Stop::Converged,
+        nodes: 0,
+        restarts: 0,
+        scans: 0,
+        history: vec![PassBounds { lower, upper, working_set }],
+    }
+}
+
+/// The largest of the radii shown that can be proved again, and how many could not.
+fn prove<P: Position>(
+    cloud: &Cloud<P>,
+    found: &Found<P>,
+    apart: Vec<u32>,
+    k: usize,
+    z: usize,
+    monitor: &Monitor<'_>,
+) -> Result<(Proof, u64), Error> {
+    let plain = if apart.is_empty() { Proof::none() } else { Proof::apart(cloud, apart) };
+    let budget = found.nodes.saturating_mul(PROOF_FACTOR).saturating_add(PROOF_NODES);
+    let mut given_up = 0;
+    for &threshold in found.thresholds.iter().rev() {
+        if threshold <= plain.lower {
+            break;
+        }
+        match Proof::by_tree(cloud, &found.core_set, threshold, k, z, budget, monitor)? {
+            Some(proof) if proof.lower >= plain.lower => return Ok((proof, given_up)),
+            _ => given_up += 1,
+        }
+    }
+    Ok((plain, given_up))
+}
+
+fn finish<P: Position>(
+    table: &Table,
+    cloud: &Cloud<P>,
+    items: Items,
+    k: usize,
+    options: &CentersOptions,
+    found: Found<P>,
+    proof: Proof,
+    given_up: u64,
+    answered: answer::Answered,
+) -> Result<Solution<Centers>, Error> {
+    let unit = table.scale * table.weight_scale;
+    if !(unit > 0.0 && unit.is_finite()) {
+        return Err(Error::Overflow);
+    }
+    let radius = answered.radius;
+    let mut lower = proof.lower / unit;
+    if lower * unit > proof.lower {
+        lower = lower.next_down();
+    }
+    let lower = lower.min(radius);
+    let gap = match radius {
+        0.0 => 0.0,
+        // JSON knows no infinity.
+        _ if lower <= 0.0 => f64::MAX,
+        _ => ((radius / lower).next_up() - 1.0).next_up().min(f64::MAX),
+    };
+    let wanted = if options.epsilon > 0.0 { options.epsilon } else { ROUNDING };
+    let stop = match found.stop {
+        _ if gap <= wanted || options.method == CentersMethod::FarthestFirst => Stop::Converged,
+        Stop::Converged if given_up == 0 => Stop::Rounding,
+        _ => Stop::NodeBudget,
+    };
+    let counters = [
+        ("nodes", found.nodes),
+        ("restarts", found.restarts),
+        ("scans", found.scans),
+        ("proof_nodes", proof.nodes),
+        ("proofs_given_up", given_up),
+    ];
+    let said = |value: f64| (value / unit).min(f64::MAX);
+    let bounds = |b: &PassBounds| PassBounds { lower: said(b.lower), upper: said(b.upper), ..*b };
+    let trace = Trace {
+        method: options.method.name().to_owned(),
+        stop,
+        passes: 1,
+        iterations: found.nodes,
+        core_set: found.core_set.len() as u64,
+        history: found.history.iter().map(bounds).collect(),
+        counters: counters
+            .into_iter()
+            .filter(|(_, events)| *events > 0)
+            .map(|(name, events)| (name.to_owned(), events))
+            .collect::<BTreeMap<_, _>>(),
+    };
+    // Where nothing is claimed, nothing is shown.
+    let core_set = if lower > 0.0 { proof.core_set } else { vec![] };
+    let answer = Centers {
+        centers: answered.centers,
+        rows: vec![],
+        radius,
+        lower_bound: lower.max(0.0),
+        outliers: answered.outliers,
+        assignment: answered.assignment,
+    };
+    let certificate = CentersCertificate {
+        items,
+        weights: options.weights,
+        placement: options.placement,
+        k: k as u64,
+        outliers: options.outliers,
+        gap,
+        core_set: core_set.into_iter().map(|item| cloud.rows[item as usize]).collect(),
+        proof: proof.kind,
+        points_hash: table.hash,
+    };
+    Ok(Solution { answer, certificate, trace })
+}

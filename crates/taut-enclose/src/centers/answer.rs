@@ -1,0 +1,143 @@
+//! From centres in the units of the search to an answer in those of the rows: every reach once more, from the centres as they are
+//! returned.
+
+use super::cloud::{Cloud, Far};
+use super::items::{Position, Shape, distance};
+use super::read::Table;
+use crate::Error;
+use crate::ball::reach_up;
+use crate::kernel::{Center, Difference, relative_error};
+
+/// Items that may reach as far as the farthest, and are measured exactly: mostly two or three for each of some centres.
+const NEAR: usize = 64;
+/// Squares of distances below this have lost digits.
+const TINY: f64 = 1e-140;
+
+/// What is said of the items.
+pub(super) struct Answered {
+    pub(super) centers: Vec<Vec<f64>>,
+    /// The upper bound, not below any reach, exactly or in plain `f64`.
+    pub(super) radius: f64,
+    pub(super) outliers: Vec<u64>,
+    pub(super) assignment: Vec<u32>,
+}
+
+/// Measures everything from these centres, of which those that are nearest to nothing are left away.
+pub(super) fn answer<P: Position>(
+    table: &Table,
+    cloud: &Cloud<P>,
+    centers: &[P],
+    z: usize,
+    assignment: bool,
+) -> Result<Answered, Error> {
+    let mut is_used = vec![false; centers.len()];
+    cloud.assign(centers, |_, center, _| is_used[center] = true);
+    let used =
+        centers.iter().zip(is_used).filter(|(_, is_used)| *is_used).map(|(center, _)| center);
+    let outside: Vec<Vec<f64>> =
+        used.map(|center| center.as_ref().iter().map(|c| c / table.scale).collect()).collect();
+    if outside.iter().flatten().any(|c| !c.is_finite()) {
+        return Err(Error::Overflow);
+    }
+    let inside: Vec<P> = outside
+        .iter()
+        .map(|center| {
+            let mut inside = P::zeros(table.dim);
+            inside.as_mut().iter_mut().zip(center).for_each(|(c, x)| *c = x * table.scale);
+            inside
+        })
+        .collect();
+    let exact = |item: u32| reach(table, cloud, &inside, &outside, item);
+
+    let far = cloud.farthest(&inside, z.saturating_add(NEAR));
+    let (left_out, kept) = far.split_at(z.min(far.len()));
+    let farthest = kept.first().map_or(0.0, |far| far.reach);
+    let doubt = 4.0 * relative_error(table.dim);
+    let mut radius = 0.0f64;
+    if farthest < TINY {
+        // Distances of different sizes than all others: each is measured, by whatever is left of it.
+        let left_out: Vec<u32> = left_out.iter().map(|far| far.item).collect();
+        let items = (0..cloud.len() as u32).filter(|item| !left_out.contains(item));
+        radius = items.map(exact).fold(radius, f64::max);
+    } else {
+        let near: Vec<&Far> =
+            kept.iter().take_while(|far| far.reach >= farthest * (1.0 - doubt)).collect();
+        radius = near.iter().map(|far| exact(far.item)).fold(radius, f64::max);
+        if near.len() == NEAR {
+            radius *= 1.0 + doubt;
+        }
+    }
+    if !radius.is_finite() {
+        return Err(Error::Overflow);
+    }
+    let mut outliers: Vec<u64> = left_out
+        .iter()
+        .filter(|far| exact(far.item) > radius)
+        .map(|far| cloud.rows[far.item as usize])
+        .collect();
+    outliers.sort_unstable();
+    let mut numbers = vec![];
+    if assignment {
+        numbers.resize(cloud.len(), 0);
+        cloud.assign(&inside, |item, center, _| numbers[cloud.rows[item] as usize] = center as u32);
+    }
+    Ok(Answered { centers: outside, radius, outliers, assignment: numbers })
+}
+
+/// How far an item reaches from the nearest centre, in the units of the rows: the larger of what is exact, rounded up, and what
+/// plain `f64` says.
+fn reach<P: Position>(
+    table: &Table,
+    cloud: &Cloud<P>,
+    inside: &[P],
+    outside: &[Vec<f64>],
+    item: u32,
+) -> f64 {
+    let position = cloud.items.at(item as usize);
+    let nearest = (0..inside.len())
+        .min_by(|&a, &b| {
+            let reach = |j: usize| length(position, inside[j].as_ref());
+            reach(a).total_cmp(&reach(b))
+        })
+        .expect("there is a centre");
+    let row = table.row(cloud.rows[item as usize] as usize);
+    let (x, extra) = row.split_at(table.dim);
+    let center = Center { high: outside[nearest].clone(), low: vec![] };
+    let difference = Difference::new(x, &center, table.scale);
+    let radius = if table.shape == Shape::Balls { extra[0] * table.scale } else { 0.0 };
+    let up = match length(position, inside[nearest].as_ref()) {
+        tiny if tiny < TINY && tiny > 0.0 => (tiny * (1.0 + 1e-12)).next_up() + radius,
+        _ => reach_up(&difference, difference.squared(), radius),
+    };
+    let up = unscale_up(up, table.scale);
+    let plain = distance(x, &center.high);
+    match table.shape {
+        Shape::Weighted => {
+            let plain = if table.scale == 1.0 { extra[0] * plain } else { 0.0 };
+            if up > 0.0 { (extra[0] * up).next_up().max(plain) } else { 0.0 }
+        }
+        Shape::Balls if table.scale == 1.0 => up.max(plain + extra[0]),
+        Shape::Points if table.scale == 1.0 => up.max(plain),
+        _ => up,
+    }
+}
+
+/// |a − b| whatever its size.
+fn length(a: &[f64], b: &[f64]) -> f64 {
+    let plain = distance(a, b);
+    if plain >= TINY {
+        return plain;
+    }
+    let largest = a.iter().zip(b).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
+    if largest == 0.0 {
+        return 0.0;
+    }
+    let squares = a.iter().zip(b).map(|(a, b)| ((a - b) / largest).powi(2));
+    largest * squares.sum::<f64>().sqrt()
+}
+
+/// value / scale for a power of two; where that cannot be exact, because it is subnormal, rounded up.
+fn unscale_up(value: f64, scale: f64) -> f64 {
+    let unscaled = value / scale;
+    if unscaled * scale < value { unscaled.next_up() } else { unscaled }
+}

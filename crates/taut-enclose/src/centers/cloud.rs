@@ -1,0 +1,345 @@
+//! All items in memory, in cells that let a search look at few of them.
+//!
+//! *Idea.* Items are put in the order of a k-d tree; the leaves, up to [`LEAF`] neighbours each, have a middle and a spread. The
+//! farthest item from some centres is sought in the cell whose bound is largest, then in the next, until no bound is larger than
+//! what was found: some ten of hundreds of cells. Nearest centres are sought among those that can be nearest for a cell.
+//! *Guarantee.* What is found is what a look at all items would find; of equals, the one of the lower row. Nothing depends on
+//! threads.
+//! *Trap.* In many dimensions every bound is weak and every cell is opened: as much work as without cells, and little more.
+
+use std::cmp::Ordering;
+use std::ops::Range;
+
+use super::items::{ItemSet, Position, Shape, distance, square};
+
+/// Items in a cell. 16 to 64 serve equally well on 15,112 cities.
+const LEAF: usize = 32;
+/// Covers the roundings of a bound.
+const SLACK: f64 = 1.0 + 1e-12;
+/// Up to here a list of the farthest items is kept in order; longer ones are selected from all.
+const SHORT_LIST: usize = 64;
+
+/// Items and their cells.
+pub(super) struct Cloud<P> {
+    pub(super) items: ItemSet<P>,
+    /// The row of each item.
+    pub(super) rows: Vec<u64>,
+    cells: Vec<Cell<P>>,
+}
+
+struct Cell<P> {
+    range: Range<usize>,
+    middle: P,
+    /// The largest distance of a position from the middle.
+    spread: f64,
+    /// The largest reach of an item from the middle, but for its weight.
+    reach: f64,
+    /// The largest weight.
+    weight: f64,
+}
+
+/// An item and how far it reaches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Far {
+    pub(super) item: u32,
+    pub(super) reach: f64,
+}
+
+/// Items in the order in which they were found farthest from all before, each with how far it reached then.
+pub(super) struct Traversal {
+    pub(super) items: Vec<u32>,
+}
+
+impl<P: Position> Cloud<P> {
+    /// `given` in the order of rows.
+    pub(super) fn new(given: ItemSet<P>) -> Self {
+        let mut order: Vec<u32> = (0..given.len() as u32).collect();
+        let mut ranges = vec![];
+        let mut open: Vec<Range<usize>> = Vec::new();
+        open.push(0..order.len());
+        while let Some(range) = open.pop() {
+            if range.len() <= LEAF {
+                ranges.push(range);
+                continue;
+            }
+            let axis = widest_axis(&given, &order[range.clone()]);
+            let half = range.len() / 2;
+            order[range.clone()].select_nth_unstable_by(half, |&a, &b| {
+                given.at(a as usize)[axis].total_cmp(&given.at(b as usize)[axis]).then(a.cmp(&b))
+            });
+            open.push(range.start + half..range.end);
+            open.push(range.start..range.start + half);
+        }
+        let mut items = ItemSet::new(given.shape(), given.dim());
+        for range in &ranges {
+            // Select leaves the order within a part open.
+            order[range.clone()].sort_unstable();
+        }
+        for &row in &order {
+            items.push(given.at(row as usize), given.extra(row as usize));
+        }
+        let cells = ranges.into_iter().map(|range| Cell::new(&items, range)).collect();
+        Cloud { items, rows: order.into_iter().map(u64::from).collect(), cells }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Which of two reaches farther; of equals, the lower row.
+    fn order(&self, a: Far, b: Far) -> Ordering {
+        let rows = self.rows[a.item as usize].cmp(&self.rows[b.item as usize]);
+        b.reach.total_cmp(&a.reach).then(rows)
+    }
+
+    /// The `count` items that reach farthest from the nearest centre, farthest first; from no centre, all reach infinitely far.
+    pub(super) fn farthest(&self, centers: &[P], count: usize) -> Vec<Far> {
+        if count == 0 {
+            return vec![];
+        }
+        if count > SHORT_LIST {
+            let mut all: Vec<Far> = (0..self.len())
+                .map(|item| Far { item: item as u32, reach: self.reach(item, centers) })
+                .collect();
+            let count = count.min(all.len());
+            if count < all.len() {
+                all.select_nth_unstable_by(count, |a, b| self.order(*a, *b));
+                all.truncate(count);
+            }
+            all.sort_unstable_by(|a, b| self.order(*a, *b));
+            return all;
+        }
+        let mut bounds: Vec<f64> =
+            self.cells.iter().map(|cell| cell.bound(&self.items, centers)).collect();
+        let mut list: Vec<Far> = Vec::with_capacity(count + 1);
+        loop {
+            let (mut widest, mut bound) = (0, f64::NEG_INFINITY);
+            for (at, &value) in bounds.iter().enumerate() {
+                if value > bound {
+                    (widest, bound) = (at, value);
+                }
+            }
+            let is_full = list.len() == count;
+            if bound == f64::NEG_INFINITY || is_full && bound < list[count - 1].reach {
+                return list;
+            }
+            bounds[widest] = f64::NEG_INFINITY;
+            for item in self.cells[widest].range.clone() {
+                let far = Far { item: item as u32, reach: self.reach(item, centers) };
+                if list.len() == count {
+                    if self.order(far, list[count - 1]).is_ge() {
+                        continue;
+                    }
+                    list.pop();
+                }
+                let place = list.partition_point(|other| self.order(*other, far).is_lt());
+                list.insert(place, far);
+            }
+        }
+    }
+
+    /// How far an item reaches from the nearest centre.
+    pub(super) fn reach(&self, item: usize, centers: &[P]) -> f64 {
+        let position = self.items.at(item);
+        let nearest = centers
+            .iter()
+            .map(|center| square(position, center.as_ref()))
+            .fold(f64::INFINITY, f64::min);
+        self.items.reach_at(item, nearest.sqrt())
+    }
+
+    /// Calls `visit(item, nearest centre, its distance)` for each item; of equally near centres, the first.
+    pub(super) fn assign(&self, centers: &[P], mut visit: impl FnMut(usize, usize, f64)) {
+        let mut distances = vec![0.0; centers.len()];
+        let mut near = Vec::with_capacity(centers.len());
+        for cell in &self.cells {
+            let mut least = f64::INFINITY;
+            for (d, center) in distances.iter_mut().zip(centers) {
+                *d = distance(cell.middle.as_ref(), center.as_ref());
+                least = least.min(*d);
+            }
+            let cut = (least + 2.0 * cell.spread) * SLACK;
+            near.clear();
+            near.extend((0..centers.len()).filter(|&j| distances[j] <= cut));
+            for item in cell.range.clone() {
+                let position = self.items.at(item);
+                let (mut nearest, mut least) = (near[0], f64::INFINITY);
+                for &j in &near {
+                    let d = square(position, centers[j].as_ref());
+                    if d < least {
+                        (nearest, least) = (j, d);
+                    }
+                }
+                visit(item, nearest, least.sqrt());
+            }
+        }
+    }
+
+    /// Farthest-first traversal: `first`, then again and again the item that reaches farthest from the positions of all before.
+    /// It ends early when no item is left, or only copies of points.
+    pub(super) fn traverse(&self, first: u32, count: usize) -> Traversal {
+        let mut reaches = vec![f64::INFINITY; self.len()];
+        let mut tops: Vec<Far> = self
+            .cells
+            .iter()
+            .map(|cell| Far { item: cell.range.start as u32, reach: f64::INFINITY })
+            .collect();
+        let mut traversal = Traversal { items: vec![] };
+        let mut next = first;
+        while traversal.items.len() < count.min(self.len()) {
+            traversal.items.push(next);
+            // It is not to come again, though a ball reaches beyond its own centre.
+            reaches[next as usize] = f64::NEG_INFINITY;
+            let center = self.items.at(next as usize);
+            for (cell, top) in self.cells.iter().zip(&mut tops) {
+                let holds_it = cell.range.contains(&(next as usize));
+                if self.items.shape() == Shape::Points && !holds_it {
+                    let nearest = distance(cell.middle.as_ref(), center) / SLACK - cell.spread;
+                    if nearest > top.reach {
+                        continue;
+                    }
+                }
+                *top = Far { item: cell.range.start as u32, reach: f64::NEG_INFINITY };
+                for item in cell.range.clone() {
+                    let d = distance(self.items.at(item), center);
+                    let reach = self.items.reach_at(item, d).min(reaches[item]);
+                    reaches[item] = reach;
+                    let far = Far { item: item as u32, reach };
+                    if self.order(far, *top).is_lt() {
+                        *top = far;
+                    }
+                }
+            }
+            let farthest = tops.iter().copied().min_by(|a, b| self.order(*a, *b));
+            let farthest = farthest.expect("a set that is not empty has cells");
+            let is_over = match self.items.shape() {
+                Shape::Balls => farthest.reach == f64::NEG_INFINITY,
+                Shape::Points | Shape::Weighted => farthest.reach <= 0.0,
+            };
+            if is_over {
+                break;
+            }
+            next = farthest.item;
+        }
+        traversal
+    }
+}
+
+impl<P: Position> Cell<P> {
+    fn new(items: &ItemSet<P>, range: Range<usize>) -> Self {
+        let mut low = items.position(range.start);
+        let mut high = low.clone();
+        for item in range.clone() {
+            for (axis, &x) in items.at(item).iter().enumerate() {
+                low.as_mut()[axis] = low.as_ref()[axis].min(x);
+                high.as_mut()[axis] = high.as_ref()[axis].max(x);
+            }
+        }
+        let mut middle = low;
+        middle.as_mut().iter_mut().zip(high.as_ref()).for_each(|(m, h)| *m = 0.5 * *m + 0.5 * h);
+        let (mut spread, mut reach, mut weight) = (0.0f64, 0.0f64, 0.0f64);
+        for item in range.clone() {
+            let d = distance(items.at(item), middle.as_ref());
+            spread = spread.max(d);
+            reach = reach.max(d + items.radius(item));
+            weight = weight.max(items.weight(item));
+        }
+        Cell { range, middle, spread, reach, weight }
+    }
+
+    /// No item of this cell reaches farther from the nearest centre.
+    fn bound(&self, items: &ItemSet<P>, centers: &[P]) -> f64 {
+        let nearest = centers
+            .iter()
+            .map(|center| square(self.middle.as_ref(), center.as_ref()))
+            .fold(f64::INFINITY, f64::min)
+            .sqrt();
+        let bound = match items.shape() {
+            Shape::Weighted => self.weight * (nearest + self.spread),
+            Shape::Points | Shape::Balls => nearest + self.reach,
+        };
+        bound * SLACK
+    }
+}
+
+fn widest_axis<P: Position>(items: &ItemSet<P>, part: &[u32]) -> usize {
+    let mut low = items.position(part[0] as usize);
+    let mut high = low.clone();
+    for &item in part {
+        for (axis, &x) in items.at(item as usize).iter().enumerate() {
+            low.as_mut()[axis] = low.as_ref()[axis].min(x);
+            high.as_mut()[axis] = high.as_ref()[axis].max(x);
+        }
+    }
+    let width = |axis: usize| high.as_ref()[axis] - low.as_ref()[axis];
+    (0..items.dim()).fold(0, |best, axis| if width(axis) > width(best) { axis } else { best })
+}
+
+#[cfg(test)]
+mod tests {
+    use taut_points::{Distribution, generate};
+
+    use super::*;
+
+    fn clouds(mut judge: impl FnMut(&Cloud<Vec<f64>>, &str)) {
+        for shape in [Shape::Points, Shape::Weighted, Shape::Balls] {
+            for (n, dim, seed) in [(1, 2, 0), (40, 1, 1), (500, 2, 2), (700, 3, 3), (300, 9, 4)] {
+                let values: Vec<f64> = generate(Distribution::Normal, n, dim + 1, seed).unwrap();
+                let mut items = ItemSet::new(shape, dim);
+                for row in values.chunks_exact(dim + 1) {
+                    // Coarse coordinates bring ties.
+                    let position: Vec<f64> = row[..dim].iter().map(|x| (4.0 * x).round()).collect();
+                    items.push(&position, row[dim].abs() + 0.1);
+                }
+                judge(&Cloud::new(items), &format!("{shape:?} {n} × {dim}"));
+            }
+        }
+    }
+
+    #[test]
+    fn cells_find_what_a_look_at_all_items_finds() {
+        clouds(|cloud, what| {
+            let n = cloud.len();
+            let some = [0, n / 3, n / 2].map(|item| cloud.items.position(item));
+            for (count, centers) in
+                [(1, &some[..]), (5, &some[..2]), (100, &some[..]), (3, &some[..0])]
+            {
+                let mut all: Vec<Far> = (0..n)
+                    .map(|item| Far { item: item as u32, reach: cloud.reach(item, centers) })
+                    .collect();
+                all.sort_by(|a, b| cloud.order(*a, *b));
+                all.truncate(count);
+                assert_eq!(cloud.farthest(centers, count), all, "{what}, {count}");
+            }
+            let mut seen = vec![false; n];
+            cloud.assign(&some, |item, center, d| {
+                assert!(!std::mem::replace(&mut seen[item], true));
+                let distances =
+                    some.iter().map(|c| square(cloud.items.at(item), c)).collect::<Vec<_>>();
+                let least = distances.iter().copied().fold(f64::INFINITY, f64::min);
+                assert_eq!(distances.iter().position(|&d| d == least), Some(center), "{what}");
+                assert_eq!(d, least.sqrt());
+            });
+            assert!(seen.into_iter().all(|is_seen| is_seen), "{what}");
+        });
+    }
+
+    #[test]
+    fn a_traversal_takes_the_farthest_each_time() {
+        clouds(|cloud, what| {
+            let traversal = cloud.traverse(0, 12).items;
+            for at in 1..traversal.len() {
+                let centers: Vec<Vec<f64>> = traversal[..at]
+                    .iter()
+                    .map(|&item| cloud.items.position(item as usize))
+                    .collect();
+                let farthest = (0..cloud.len())
+                    .filter(|&item| !traversal[..at].contains(&(item as u32)))
+                    .map(|item| Far { item: item as u32, reach: cloud.reach(item, &centers) })
+                    .min_by(|a, b| cloud.order(*a, *b));
+                assert_eq!(farthest.map(|far| far.item), Some(traversal[at]), "{what}, step {at}");
+            }
+            assert!(traversal.len() == 12.min(cloud.len()) || cloud.items.shape() != Shape::Balls);
+        });
+    }
+}

@@ -1,0 +1,445 @@
+//! A part of a colouring: items of the core-set in k clusters, and what each further item would do to each of them.
+//!
+//! *State.* The core-set X; clusters 1…used, each with its items, their exact ball, and a column: for every item of X the radius
+//! of the ball with it, or ∞ where that is no less than the threshold; which items are left out.
+//! *Columns, cheapest first.* An item inside leaves the radius as it is. One too far from the new item, or for which
+//! (D² + r²)/2D, a lower bound on the radius of a ball that holds the old one's points and one at distance D > r, is too large,
+//! is out of the question for good. For the others the ball is made.
+//! *Choice.* The item that fits in the fewest clusters; of equals, the one that makes them grow most. Items that fit in none
+//! need an empty cluster each, if no two of them fit in one: a clique.
+
+use super::conflict::Levels;
+use super::items::{ItemSet, Position, Shape, distance};
+use super::small_ball::{Ball, Workspace};
+
+/// Cliques are sought from every item that fits nowhere if there are at most so many, else from the first so many.
+const CLIQUE_STARTS: usize = 24;
+/// Comparisons of pairs that a search for a large clique may make, about 0.1 s: beyond, it starts from fewer items.
+const CLIQUE_PAIRS: usize = 20_000_000;
+
+/// Items of the core-set that are together.
+pub(super) struct Cluster<P> {
+    pub(super) members: Vec<u32>,
+    pub(super) ball: Ball<P>,
+    /// For each item of the core-set the radius with it, ∞ if too large; shorter than the core-set where that has grown.
+    column: Vec<f64>,
+}
+
+/// What has to be known to take a step back.
+pub(super) enum Undo<P> {
+    Into { cluster: usize, ball: Ball<P>, column: Vec<f64> },
+    Open,
+    LeaveOut { item: u32 },
+}
+
+/// Where an item may go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Place {
+    Into(usize),
+    /// The first empty cluster.
+    Open,
+    LeaveOut,
+}
+
+/// What is to be done with a state.
+pub(super) enum Survey {
+    /// Every item is in a ball or left out.
+    Covered,
+    /// No balls below the threshold hold all items; [`Clusters::conflict`] says why.
+    Stuck,
+    /// This item has the fewest places.
+    Branch(u32),
+}
+
+/// The state of a search.
+pub(super) struct Clusters<P> {
+    pub(super) items: ItemSet<P>,
+    pub(super) clusters: Vec<Cluster<P>>,
+    /// Balls must stay below this radius.
+    pub(super) threshold: f64,
+    k: usize,
+    /// How many more items may be left out.
+    spare: u64,
+    left_out: Vec<bool>,
+    /// The level at which each item was put where it is.
+    levels: Vec<u32>,
+    pub(super) work: Workspace<P>,
+    /// Items that fit in no cluster.
+    homeless: Vec<u32>,
+    clique: Vec<u32>,
+    /// In a dead end: items that need more empty clusters than there are, if any.
+    blamed: Vec<u32>,
+    columns: Vec<Vec<f64>>,
+}
+
+impl<P: Position> Clusters<P> {
+    pub(super) fn new(items: ItemSet<P>, k: usize, spare: u64, threshold: f64) -> Self {
+        let (left_out, levels) = (vec![false; items.len()], vec![0; items.len()]);
+        let work = Workspace::new(items.dim());
+        Clusters {
+            items,
+            clusters: vec![],
+            threshold,
+            k,
+            spare,
+            left_out,
+            levels,
+            work,
+            homeless: vec![],
+            clique: vec![],
+            blamed: vec![],
+            columns: vec![],
+        }
+    }
+
+    /// Adds an item to the core-set.
+    pub(super) fn add(&mut self, position: &[f64], extra: f64) {
+        self.items.push(position, extra);
+        self.left_out.push(false);
+        self.levels.push(0);
+    }
+
+    /// Clusters that are still empty.
+    pub(super) fn empty(&self) -> usize {
+        self.k - self.clusters.len()
+    }
+
+    pub(super) fn spare(&self) -> u64 {
+        self.spare
+    }
+
+    /// Whether a ball has reached the threshold.
+    pub(super) fn is_too_large(&self) -> bool {
+        self.clusters.iter().any(|cluster| cluster.ball.radius >= self.threshold)
+    }
+
+    /// Puts an item where it may go, as the decision of this level.
+    pub(super) fn put(&mut self, item: u32, place: Place, level: u32) -> Undo<P> {
+        self.levels[item as usize] = level;
+        match place {
+            Place::Open => {
+                let ball = Ball::of_one(&self.items, item);
+                let mut column = self.columns.pop().unwrap_or_default();
+                column.clear();
+                self.clusters.push(Cluster { members: vec![item], ball, column });
+                self.fill_columns();
+                Undo::Open
+            }
+            Place::LeaveOut => {
+                self.left_out[item as usize] = true;
+                self.spare -= 1;
+                Undo::LeaveOut { item }
+            }
+            Place::Into(at) => {
+                let (items, work) = (&self.items, &mut self.work);
+                let cluster = &mut self.clusters[at];
+                let ball = cluster.ball.clone();
+                cluster.ball.grow(items, &cluster.members, item, f64::INFINITY, work);
+                cluster.members.push(item);
+                let mut column = self.columns.pop().unwrap_or_default();
+                column.clear();
+                column.extend_from_slice(&cluster.column);
+                let old = std::mem::replace(&mut cluster.column, column);
+                for i in 0..cluster.column.len() {
+                    let before = cluster.column[i];
+                    if before < self.threshold {
+                        cluster.column[i] =
+                            cluster.radius_with(items, i as u32, &[item], self.threshold, work);
+                    }
+                }
+                Undo::Into { cluster: at, ball, column: old }
+            }
+        }
+    }
+
+    /// Takes a step back.
+    pub(super) fn undo(&mut self, undo: Undo<P>) {
+        match undo {
+            Undo::Open => {
+                let cluster = self.clusters.pop().expect("it was opened");
+                self.columns.push(cluster.column);
+            }
+            Undo::LeaveOut { item } => {
+                self.left_out[item as usize] = false;
+                self.spare += 1;
+            }
+            Undo::Into { cluster, ball, column } => {
+                let cluster = &mut self.clusters[cluster];
+                cluster.members.pop();
+                cluster.ball = ball;
+                self.columns.push(std::mem::replace(&mut cluster.column, column));
+            }
+        }
+    }
+
+    /// Brings columns to the length of the core-set.
+    fn fill_columns(&mut self) {
+        for cluster in &mut self.clusters {
+            for item in cluster.column.len()..self.items.len() {
+                let radius = cluster.radius_with(
+                    &self.items,
+                    item as u32,
+                    &cluster.members,
+                    self.threshold,
+                    &mut self.work,
+                );
+                cluster.column.push(radius);
+            }
+        }
+    }
+
+    /// What is to be done. With `chains` dead ends are not told at once but left to be branched on, as a proof must show them.
+    pub(super) fn survey(&mut self, chains: bool) -> Survey {
+        self.blamed.clear();
+        if self.is_too_large() {
+            return Survey::Stuck;
+        }
+        self.fill_columns();
+        let room = self.empty() + self.spare as usize;
+        self.homeless.clear();
+        let mut best: Option<(usize, f64, u32)> = None;
+        for item in 0..self.items.len() {
+            if self.left_out[item] {
+                continue;
+            }
+            if self.items.radius(item) >= self.threshold {
+                // A ball too large by itself can only be left out.
+                let is_stuck = self.spare == 0 && !chains;
+                return if is_stuck { Survey::Stuck } else { Survey::Branch(item as u32) };
+            }
+            let (mut places, mut rise, mut is_covered) = (0, 0.0, false);
+            for cluster in &self.clusters {
+                let radius = cluster.column[item];
+                if radius <= cluster.ball.radius {
+                    is_covered = true;
+                    break;
+                }
+                if radius < self.threshold {
+                    places += 1;
+                    rise += radius - cluster.ball.radius;
+                }
+            }
+            if is_covered {
+                continue;
+            }
+            if places == 0 {
+                if room == 0 {
+                    self.blamed.push(item as u32);
+                    return if chains { Survey::Branch(item as u32) } else { Survey::Stuck };
+                }
+                self.homeless.push(item as u32);
+            }
+            let is_better = match best {
+                Some((fewest, most, _)) => places < fewest || places == fewest && rise > most,
+                None => true,
+            };
+            if is_better {
+                best = Some((places, rise, item as u32));
+            }
+        }
+        let Some((_, _, item)) = best else { return Survey::Covered };
+        if self.homeless.is_empty() {
+            return Survey::Branch(item);
+        }
+        self.find_clique(room);
+        if chains {
+            return Survey::Branch(self.clique[0]);
+        }
+        if self.clique.len() > room {
+            self.blamed.extend_from_slice(&self.clique);
+        } else if self.homeless.len() > room && self.empty() == 0 {
+            self.blamed.extend_from_slice(&self.homeless[..=room]);
+        } else if self.empty() == 1 && self.spare == 0 {
+            self.blame_last();
+        }
+        if self.blamed.is_empty() { Survey::Branch(self.clique[0]) } else { Survey::Stuck }
+    }
+
+    /// A clique of homeless items, the largest of some greedy ones; the search ends with one of more than `room` items.
+    fn find_clique(&mut self, room: usize) {
+        let mut clique = std::mem::take(&mut self.clique);
+        clique.clear();
+        let mut trial = vec![];
+        for &start in self.homeless.iter().take(CLIQUE_STARTS) {
+            greedy_clique(&self.items, start, &self.homeless, self.threshold, room, &mut trial);
+            if trial.len() > clique.len() {
+                std::mem::swap(&mut clique, &mut trial);
+            }
+            if clique.len() > room {
+                break;
+            }
+        }
+        self.clique = clique;
+    }
+
+    /// Where no ball below the threshold holds all homeless items, blames some of which that is true.
+    fn blame_last(&mut self) {
+        let mut ball = Ball::of_one(&self.items, self.homeless[0]);
+        for at in 1..self.homeless.len() {
+            let (known, more) = (&self.homeless[..at], self.homeless[at]);
+            if !ball.holds(&self.items, more) {
+                ball.grow(&self.items, known, more, self.threshold, &mut self.work);
+            }
+            if ball.radius >= self.threshold {
+                self.blamed.extend_from_slice(&ball.support);
+                return;
+            }
+        }
+    }
+
+    /// The levels of decisions on which the dead end that the last survey found rests.
+    pub(super) fn conflict(&mut self) -> Levels {
+        let mut levels = Levels::default();
+        if self.blamed.is_empty() {
+            let too_large = self.clusters.iter().find(|c| c.ball.radius >= self.threshold);
+            for &item in too_large.iter().flat_map(|cluster| &cluster.ball.support) {
+                levels.insert(self.levels[item as usize]);
+            }
+        }
+        let blamed = std::mem::take(&mut self.blamed);
+        for &item in &blamed {
+            for at in 0..self.clusters.len() {
+                self.blame(item, at, &mut levels);
+            }
+        }
+        self.blamed = blamed;
+        self.blame_left_out(&mut levels);
+        levels
+    }
+
+    /// The levels of all decisions.
+    pub(super) fn everything(&self) -> Levels {
+        let mut levels = Levels::default();
+        let members = self.clusters.iter().flat_map(|cluster| &cluster.members);
+        members.for_each(|&item| levels.insert(self.levels[item as usize]));
+        self.blame_left_out(&mut levels);
+        levels
+    }
+
+    /// Adds the levels of members of a cluster with which an item fits in no ball: of one, if there is such a one, and of those the
+    /// one that was put there first; else of the support of a ball.
+    pub(super) fn blame(&mut self, item: u32, cluster: usize, levels: &mut Levels) {
+        let (items, cluster) = (&self.items, &self.clusters[cluster]);
+        let far = cluster
+            .members
+            .iter()
+            .filter(|&&m| items.pair_radius(m as usize, item as usize) >= self.threshold)
+            .map(|&member| self.levels[member as usize])
+            .min();
+        if let Some(level) = far {
+            levels.insert(level);
+            return;
+        }
+        let mut ball = cluster.ball.clone();
+        ball.grow(items, &cluster.members, item, self.threshold, &mut self.work);
+        for &member in ball.support.iter().filter(|&&member| member != item) {
+            levels.insert(self.levels[member as usize]);
+        }
+    }
+
+    /// Adds the levels at which items were left out, as without these more could be.
+    pub(super) fn blame_left_out(&self, levels: &mut Levels) {
+        for (is_out, &level) in self.left_out.iter().zip(&self.levels) {
+            if *is_out {
+                levels.insert(level);
+            }
+        }
+    }
+
+    /// Where an item may go, by growing radius; empty clusters and outliers last.
+    pub(super) fn places(&self, item: u32) -> Vec<(f64, Place)> {
+        let mut places: Vec<(f64, Place)> = vec![];
+        for (at, cluster) in self.clusters.iter().enumerate() {
+            let radius = cluster.column[item as usize];
+            if radius < self.threshold {
+                places.push((radius, Place::Into(at)));
+            }
+        }
+        places.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if self.empty() > 0 && self.items.radius(item as usize) < self.threshold {
+            places.push((0.0, Place::Open));
+        }
+        if self.spare > 0 {
+            places.push((0.0, Place::LeaveOut));
+        }
+        places
+    }
+}
+
+impl<P: Position> Cluster<P> {
+    /// The radius with one item more, ∞ if it is not below the threshold; `others` are the members to which the item may be too far
+    /// for any ball.
+    #[inline(always)]
+    fn radius_with(
+        &self,
+        items: &ItemSet<P>,
+        item: u32,
+        others: &[u32],
+        threshold: f64,
+        work: &mut Workspace<P>,
+    ) -> f64 {
+        let at = item as usize;
+        let d = distance(items.at(at), self.ball.center.as_ref());
+        if items.reach_at(at, d) <= self.ball.radius * (1.0 + super::small_ball::TOLERANCE) {
+            return self.ball.radius;
+        }
+        let r = self.ball.radius;
+        if items.shape() == Shape::Points && d * d + r * r >= 2.0 * d * threshold {
+            return f64::INFINITY;
+        }
+        for &other in others {
+            if items.pair_radius(other as usize, at) >= threshold {
+                return f64::INFINITY;
+            }
+        }
+        match self.members[..] {
+            [only] => items.pair_radius(only as usize, at),
+            _ => work.radius_with(items, &self.ball, &self.members, item, threshold),
+        }
+    }
+}
+
+/// The largest of greedy cliques from all candidates in turn; the search ends with one of more than `enough`.
+pub(super) fn large_clique<P: Position>(
+    items: &ItemSet<P>,
+    candidates: &[u32],
+    threshold: f64,
+    enough: usize,
+) -> Vec<u32> {
+    let pairs = candidates.len().saturating_mul(enough.min(candidates.len()));
+    let starts = (CLIQUE_PAIRS / pairs.max(1)).max(1);
+    let (mut clique, mut trial) = (vec![], vec![]);
+    for &start in candidates.iter().take(starts) {
+        greedy_clique(items, start, candidates, threshold, enough, &mut trial);
+        if trial.len() > clique.len() {
+            std::mem::swap(&mut clique, &mut trial);
+        }
+        if clique.len() > enough {
+            break;
+        }
+    }
+    clique
+}
+
+/// Items no two of which fit in one ball below the threshold, taken in order after `start`; ends with more than `enough`.
+fn greedy_clique<P: Position>(
+    items: &ItemSet<P>,
+    start: u32,
+    candidates: &[u32],
+    threshold: f64,
+    enough: usize,
+    clique: &mut Vec<u32>,
+) {
+    clique.clear();
+    clique.push(start);
+    for &candidate in candidates {
+        if clique.len() > enough {
+            return;
+        }
+        let is_apart =
+            |&member: &u32| items.pair_radius(member as usize, candidate as usize) >= threshold;
+        if candidate != start && clique.iter().all(is_apart) {
+            clique.push(candidate);
+        }
+    }
+}

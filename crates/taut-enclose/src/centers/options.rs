@@ -1,0 +1,120 @@
+//! What can be asked of centres.
+
+use std::fmt;
+use std::str::FromStr;
+
+use taut_certify::Placement;
+
+use crate::Error;
+
+/// How to look for centres.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CentersMethod {
+    /// A tree over a small growing core-set, to any proved gap; for centres among the points, covers by their balls.
+    #[default]
+    Tree,
+    /// The algorithm of the thesis (Algorithm 2), with a bound that is valid in place of its own: each item that is
+    /// farthest from all balls is given to each of them in turn. Free centres of points or balls, without weights and outliers.
+    Thesis,
+    /// Farthest-first traversal (Gonzalez 1985): at most twice the optimal radius, in O(nkd) for any n and d.
+    FarthestFirst,
+}
+
+impl CentersMethod {
+    /// All methods, the default first.
+    pub const ALL: [CentersMethod; 3] =
+        [CentersMethod::Tree, CentersMethod::Thesis, CentersMethod::FarthestFirst];
+
+    /// The name on the command line, in Python and in the trace.
+    pub const fn name(self) -> &'static str {
+        match self {
+            CentersMethod::Tree => "tree",
+            CentersMethod::Thesis => "thesis",
+            CentersMethod::FarthestFirst => "farthest-first",
+        }
+    }
+}
+
+impl fmt::Display for CentersMethod {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for CentersMethod {
+    type Err = Error;
+    fn from_str(name: &str) -> Result<Self, Error> {
+        CentersMethod::ALL.into_iter().find(|method| method.name() == name).ok_or_else(|| {
+            Error::Option {
+                name: "method",
+                value: name.to_owned(),
+                expected: "tree, thesis or farthest-first",
+            }
+        })
+    }
+}
+
+/// How to look for centres. Write `CentersOptions { epsilon: 1e-6, ..Default::default() }`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CentersOptions {
+    /// Wanted relative gap, radius ≤ (1 + ε)·lower bound. Range [0, 1), default 0.01. Has no influence on
+    /// [`CentersMethod::FarthestFirst`].
+    pub epsilon: f64,
+    /// Default [`CentersMethod::Tree`].
+    pub method: CentersMethod,
+    /// Where centres may be. Default [`Placement::Free`].
+    pub placement: Placement,
+    /// Most items that may be left out. Default 0.
+    pub outliers: u64,
+    /// Whether the last column holds weights w > 0: a point then counts with w times its distance. Default no.
+    pub weights: bool,
+    /// Most nodes of the search; then the best centres so far are returned with their gap. Writing down the proof may take
+    /// twenty times the nodes of the search, and 10,000; where it takes more, the bound before is proved. Default 10 million.
+    pub max_nodes: u64,
+    /// Whether the answer is to say which centre each item has. Default no.
+    pub assignment: bool,
+    /// Threads; `None` for those of the surrounding pool. The answer does not depend on it.
+    pub threads: Option<usize>,
+}
+
+impl Default for CentersOptions {
+    fn default() -> Self {
+        CentersOptions {
+            epsilon: 0.01,
+            method: CentersMethod::Tree,
+            placement: Placement::Free,
+            outliers: 0,
+            weights: false,
+            max_nodes: 10_000_000,
+            assignment: false,
+            threads: None,
+        }
+    }
+}
+
+impl CentersOptions {
+    pub(super) fn check(&self, k: usize) -> Result<(), Error> {
+        let wrong = |name, value: String, expected| Err(Error::Option { name, value, expected });
+        if k == 0 {
+            return wrong("k", "0".into(), "at least 1");
+        }
+        if !(0.0..1.0).contains(&self.epsilon) {
+            return wrong("epsilon", self.epsilon.to_string(), "a number in [0, 1)");
+        }
+        if self.threads == Some(0) {
+            return wrong("threads", "0".into(), "at least 1");
+        }
+        if self.method == CentersMethod::Thesis {
+            if self.placement == Placement::Rows {
+                return wrong("placement", "rows".into(), "free for the method thesis");
+            }
+            if self.outliers > 0 {
+                return wrong("outliers", self.outliers.to_string(), "0 for the method thesis");
+            }
+            if self.weights {
+                return wrong("weights", "true".into(), "false for the method thesis");
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,187 @@
+//! Where a search starts: centres, a lower bound, and the first items of its core-set.
+//!
+//! *Idea.* Farthest-first traversals from four items, each made better by Lloyd's steps with exact balls: every item goes to the
+//! nearest centre, every centre to that of the smallest ball of its items. The first k + z + 1 items of a traversal are far from
+//! one another, which is a lower bound; where z items may be left out, the k + z first centres lose those of the fewest items.
+//! *Reference.* Gonzalez, Theoretical Computer Science 38, 1985; Lloyd, IEEE Trans. Information Theory 28, 1982.
+
+use taut_points::{Monitor, ReadError};
+
+use super::cloud::{Cloud, Far};
+use super::items::Position;
+use super::small_ball::{Ball, Workspace};
+use crate::Error;
+
+/// Lloyd's steps end when one gains less than this part of the radius.
+const GAIN: f64 = 1e-9;
+/// And after this many; most starts need five to twenty.
+const MOST_STEPS: usize = 100;
+
+/// Centres and the radius from them.
+#[derive(Clone, Debug)]
+pub(super) struct Incumbent<P> {
+    pub(super) centers: Vec<P>,
+    pub(super) radius: f64,
+}
+
+/// What the traversals found.
+pub(super) struct Start<P> {
+    /// The best centres after Lloyd's steps.
+    pub(super) incumbent: Incumbent<P>,
+    /// The first centres of the first traversal, as they are.
+    pub(super) plain: Incumbent<P>,
+    /// No k centres have a smaller radius: of `apart`, no two fit in one smaller ball.
+    pub(super) lower: f64,
+    /// k + z + 1 items; none where there are not so many different ones.
+    pub(super) apart: Vec<u32>,
+    /// The traversal that `apart` begins.
+    pub(super) traversal: Vec<u32>,
+}
+
+/// Searches for k centres that may leave out z items, from four first items.
+pub(super) fn start<P: Position>(
+    cloud: &Cloud<P>,
+    k: usize,
+    z: usize,
+    monitor: &Monitor<'_>,
+) -> Result<Start<P>, Error> {
+    let count = (2 * k).saturating_add(z).saturating_add(cloud.items.dim());
+    let (far, near) = extremes(cloud);
+    let mut best: Option<Start<P>> = None;
+    let mut firsts = vec![far, near];
+    let mut at = 0;
+    while at < firsts.len() {
+        monitor.check().map_err(ReadError::from)?;
+        let traversal = cloud.traverse(firsts[at], count).items;
+        if at == 0 {
+            firsts.extend(traversal.iter().skip(1).take(2));
+        }
+        at += 1;
+        let plain = heaviest(cloud, &traversal, k, z);
+        let incumbent = improve(cloud, plain.clone(), k, z);
+        let apart: Vec<u32> =
+            traversal.iter().copied().take(k.saturating_add(z).saturating_add(1)).collect();
+        let apart = if apart.len() > k.saturating_add(z) { apart } else { vec![] };
+        let lower = least_pair_radius(cloud, &apart);
+        let Some(best) = &mut best else {
+            best = Some(Start { incumbent, plain, lower, apart, traversal });
+            continue;
+        };
+        if incumbent.radius < best.incumbent.radius {
+            best.incumbent = incumbent;
+        }
+        if lower > best.lower {
+            (best.lower, best.apart, best.traversal) = (lower, apart, traversal);
+        }
+    }
+    Ok(best.expect("there is a first item"))
+}
+
+/// The items farthest from and nearest to the mean position.
+fn extremes<P: Position>(cloud: &Cloud<P>) -> (u32, u32) {
+    let mut mean = P::zeros(cloud.items.dim());
+    let count = cloud.len() as f64;
+    for item in 0..cloud.len() {
+        mean.as_mut().iter_mut().zip(cloud.items.at(item)).for_each(|(m, x)| *m += x / count);
+    }
+    let far = cloud.farthest(std::slice::from_ref(&mean), 1)[0].item;
+    let mut near = (f64::INFINITY, u64::MAX, 0);
+    cloud.assign(std::slice::from_ref(&mean), |item, _, distance| {
+        let candidate = (distance, cloud.rows[item], item as u32);
+        if (candidate.0, candidate.1) < (near.0, near.1) {
+            near = candidate;
+        }
+    });
+    (far, near.2)
+}
+
+/// The least radius of a ball of two of these; 0 for none.
+pub(super) fn least_pair_radius<P: Position>(cloud: &Cloud<P>, items: &[u32]) -> f64 {
+    let mut least = f64::INFINITY;
+    for (at, &a) in items.iter().enumerate() {
+        for &b in &items[..at] {
+            least = least.min(cloud.items.pair_radius(a as usize, b as usize));
+        }
+    }
+    if least.is_finite() { least } else { 0.0 }
+}
+
+/// The first k + z of a traversal, but for the z to which the fewest items are nearest.
+fn heaviest<P: Position>(cloud: &Cloud<P>, traversal: &[u32], k: usize, z: usize) -> Incumbent<P> {
+    let first: Vec<P> = traversal
+        .iter()
+        .take(k.saturating_add(z))
+        .map(|&item| cloud.items.position(item as usize))
+        .collect();
+    let centers = if first.len() <= k {
+        first
+    } else {
+        let mut sizes = vec![0usize; first.len()];
+        cloud.assign(&first, |_, center, _| sizes[center] += 1);
+        let mut order: Vec<usize> = (0..first.len()).collect();
+        order.sort_by_key(|&at| std::cmp::Reverse(sizes[at]));
+        order.truncate(k);
+        order.sort_unstable();
+        order.into_iter().map(|at| first[at].clone()).collect()
+    };
+    measured(cloud, centers, z)
+}
+
+/// Centres with their radius: the reach of the item that is farthest but for z.
+pub(super) fn measured<P: Position>(cloud: &Cloud<P>, centers: Vec<P>, z: usize) -> Incumbent<P> {
+    let far = cloud.farthest(&centers, z.saturating_add(1));
+    let radius = far.get(z).map_or(0.0, |far| far.reach);
+    Incumbent { centers, radius }
+}
+
+/// Lloyd's steps, as long as the radius gets smaller.
+pub(super) fn improve<P: Position>(
+    cloud: &Cloud<P>,
+    mut best: Incumbent<P>,
+    k: usize,
+    z: usize,
+) -> Incumbent<P> {
+    let mut work = Workspace::new(cloud.items.dim());
+    let mut clusters: Vec<Vec<u32>> = vec![];
+    let mut left_out = vec![false; cloud.len()];
+    for _ in 0..MOST_STEPS {
+        left_out.iter_mut().for_each(|is_out| *is_out = false);
+        for far in cloud.farthest(&best.centers, z) {
+            left_out[far.item as usize] = true;
+        }
+        let mut centers = best.centers.clone();
+        // A centre that is still free goes where it helps most.
+        if let Some(Far { item, .. }) = spare(cloud, &best, k, z) {
+            centers.push(cloud.items.position(item as usize));
+        }
+        clusters.iter_mut().for_each(Vec::clear);
+        clusters.resize(centers.len(), vec![]);
+        cloud.assign(&centers, |item, center, _| {
+            if !left_out[item] {
+                clusters[center].push(item as u32);
+            }
+        });
+        let centers = clusters
+            .iter()
+            .zip(&centers)
+            .map(|(cluster, center)| match cluster[..] {
+                [] => center.clone(),
+                _ => Ball::of_all(&cloud.items, cluster, &mut work).center,
+            })
+            .collect();
+        let next = measured(cloud, centers, z);
+        if next.radius >= best.radius * (1.0 - GAIN) {
+            return if next.radius < best.radius { next } else { best };
+        }
+        best = next;
+    }
+    best
+}
+
+/// The item to open a further centre at, where there are fewer than k.
+fn spare<P: Position>(cloud: &Cloud<P>, best: &Incumbent<P>, k: usize, z: usize) -> Option<Far> {
+    if best.centers.len() >= k || best.radius == 0.0 {
+        return None;
+    }
+    cloud.farthest(&best.centers, z.saturating_add(1)).pop()
+}

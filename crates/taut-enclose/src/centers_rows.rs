@@ -1,0 +1,305 @@
+//! k centres among the rows: the discrete k-center problem, to a proved gap, down to 0.
+//!
+//! *Problem.* Of n items in ℝᵈ choose k rows as centres, and up to z items to leave out, such that the largest reach of an
+//! item from the nearest centre is least: w·|p − c| for points, |m − c| + r for balls.
+//! *Idea.* The optimum is one of the n² reaches between rows. Farthest-first traversals bracket it ([`start`]). For a radius
+//! between the bounds, each item has the set of rows within it, and a cluster is what such sets have in common; a tree
+//! over a few items X either finds that no k clusters hold X, which raises the lower bound to the next reach of X, or
+//! centres that hold all ([`search`]). The bracket is halved until it is narrow; then the radius wanted is tried at once.
+//! *Guarantee.* For ε = 0 no k rows have a smaller radius, as reaches are evaluated in `f64`. The bound given is lower by a
+//! relative 1e-12, which is more than rounding. When the nodes are used up, the best centres and the best bound so far.
+//! *Cost.* O(nd) for each item of X and each radius, O(nkd) for each cover that is measured; nodes exponential in k and z.
+//! Memory: all rows, and n|X|/8 bytes.
+//! *Trap.* "Less than the radius", everywhere: at the optimum itself there is a cover.
+
+mod core_set;
+mod proof;
+mod search;
+mod sites;
+mod start;
+mod state;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+
+use taut_certify::{
+    Centers, CentersCertificate, Items, LowerBound, PassBounds, Placement, Solution, Stop, Trace,
+};
+use taut_points::{Monitor, PointSource};
+
+use self::core_set::CoreSet;
+use self::proof::{Proof, prove};
+use self::search::{End, Search};
+use self::sites::Sites;
+use self::start::{Incumbent, start};
+use crate::Error;
+use crate::centers::{CentersMethod, CentersOptions};
+
+/// Once the gap is at most this beyond the one wanted, the radius wanted is tried at once.
+const NEAR: f64 = 0.02;
+/// Nodes of the first try at a radius; twice as many for each next one, so that all cost about twice the last.
+const PATIENCE: u64 = 200;
+/// A proof may take so many times the nodes of the search, and so many more.
+const PROOF_NODES: (u64, u64) = (20, 10_000);
+
+/// By how much, relatively, bounds are lowered: many times what a reach can be off by.
+fn rounding(sites: &Sites) -> f64 {
+    1e-12 + sites.dim() as f64 * 4.0 * f64::EPSILON
+}
+
+/// What is proved when no k balls of less than `radius` hold X: less by a little, so that rounding explains no cover.
+fn proved(radius: f64, sites: &Sites) -> f64 {
+    // The second term is there for reaches at the lower end of the range.
+    (radius * (1.0 - rounding(sites)) - 2f64.powi(-1072)).max(0.0)
+}
+
+/// At most k rows as centres of all items but `options.outliers` of them.
+pub(crate) fn solve(
+    source: &dyn PointSource,
+    items: Items,
+    k: usize,
+    options: &CentersOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Centers>, Error> {
+    if k == 0 {
+        let (name, value) = ("k", k.to_string());
+        return Err(Error::Option { name, value, expected: "at least 1" });
+    }
+    if options.method == CentersMethod::Thesis {
+        let (name, value) = ("method", "thesis".into());
+        return Err(Error::Option {
+            name,
+            value,
+            expected: "tree or farthest-first among the rows",
+        });
+    }
+    if !source.is_empty() && options.outliers >= source.len() {
+        return Err(Error::Option {
+            name: "outliers",
+            value: options.outliers.to_string(),
+            expected: "less than the number of items",
+        });
+    }
+    let sites = Sites::read(source, items, options.weights, monitor)?;
+    let outliers = options.outliers as usize;
+    // More centres than rows are of no use.
+    let mut bracket = Bracket::new(&sites, k.min(sites.len()), outliers, options, monitor);
+    if !bracket.incumbent.radius.is_finite() {
+        return Err(Error::Overflow);
+    }
+    bracket.record();
+    if options.method == CentersMethod::Tree {
+        bracket.close()?;
+    }
+    let (lower, proof) = bracket.proof()?;
+    let answer = answer(&sites, &bracket.incumbent, outliers, lower, options)?;
+    let gap = match answer.radius {
+        radius if radius <= lower => 0.0,
+        _ if lower == 0.0 => f64::MAX,
+        radius => (radius / lower - 1.0).next_up(),
+    };
+    let is_reached = options.method == CentersMethod::FarthestFirst
+        || gap <= options.epsilon.max(4.0 * rounding(&sites));
+    let certificate = CentersCertificate {
+        items,
+        weights: options.weights,
+        placement: Placement::Rows,
+        k: k as u64,
+        outliers: options.outliers,
+        gap,
+        core_set: proof.members.iter().map(|&site| sites.row(site)).collect(),
+        proof: proof.by,
+        points_hash: sites.hash(),
+    };
+    let mut counters = BTreeMap::from([("scans".to_owned(), bracket.scans)]);
+    counters.insert("proof_nodes".to_owned(), proof.nodes);
+    let trace = Trace {
+        method: match options.method {
+            CentersMethod::FarthestFirst => "farthest-first".to_owned(),
+            _ => "tree".to_owned(),
+        },
+        stop: if is_reached { Stop::Converged } else { Stop::NodeBudget },
+        passes: 1,
+        iterations: bracket.nodes,
+        core_set: bracket.members.len() as u64,
+        history: bracket.history,
+        counters,
+    };
+    Ok(Solution { answer, certificate, trace })
+}
+
+/// The bounds, and how they were found.
+struct Bracket<'a> {
+    sites: &'a Sites,
+    k: usize,
+    outliers: usize,
+    options: &'a CentersOptions,
+    monitor: &'a Monitor<'a>,
+    incumbent: Incumbent,
+    /// Sites of the items of X, in the order in which they were added.
+    members: Vec<usize>,
+    /// Radii less than which no k balls hold so many of the first members, ascending.
+    refuted: Vec<(f64, usize)>,
+    nodes: u64,
+    scans: u64,
+    history: Vec<PassBounds>,
+}
+
+impl<'a> Bracket<'a> {
+    fn new(
+        sites: &'a Sites,
+        k: usize,
+        outliers: usize,
+        options: &'a CentersOptions,
+        monitor: &'a Monitor<'a>,
+    ) -> Self {
+        let start = start(sites, k, outliers);
+        Bracket {
+            sites,
+            k,
+            outliers,
+            options,
+            monitor,
+            incumbent: start.incumbent,
+            refuted: vec![(start.lower, start.members.len())],
+            members: start.members,
+            nodes: 0,
+            scans: 0,
+            history: vec![],
+        }
+    }
+
+    fn lower(&self) -> f64 {
+        self.refuted.last().map_or(0.0, |&(radius, _)| radius)
+    }
+
+    /// Whether the gap is as small as was asked.
+    fn is_closed(&self) -> bool {
+        let (upper, lower) = (self.incumbent.radius, self.lower());
+        // Half of the rounding is for the radius, which is given a little larger.
+        let upper_given = upper * (1.0 + 0.5 * rounding(self.sites));
+        lower >= upper || upper_given <= (1.0 + self.options.epsilon) * proved(lower, self.sites)
+    }
+
+    /// The radius to try next, above the lower bound and at most the upper.
+    fn next_radius(&self) -> f64 {
+        let (upper, lower, epsilon) = (self.incumbent.radius, self.lower(), self.options.epsilon);
+        let rounding = rounding(self.sites);
+        let wanted = match epsilon > 4.0 * rounding {
+            true => upper / (1.0 + epsilon) * (1.0 + 2.0 * rounding),
+            false => upper,
+        };
+        let middle = lower * (upper / lower).sqrt();
+        let is_near = upper <= (1.0 + NEAR) * (1.0 + epsilon) * lower;
+        // Without a lower bound there is no middle.
+        let is_between = middle > lower && middle <= wanted;
+        if is_near || !is_between { wanted } else { middle }
+    }
+
+    /// Halves the bracket until it is as narrow as was asked, or the nodes are used up.
+    fn close(&mut self) -> Result<(), Error> {
+        while !self.is_closed() {
+            let radius = self.next_radius();
+            let mut core = CoreSet::new(self.sites, radius, &self.members);
+            let mut patience = PATIENCE;
+            let end = loop {
+                let mut search = Search {
+                    core: &mut core,
+                    k: self.k,
+                    outliers: self.outliers,
+                    incumbent: &mut self.incumbent,
+                    nodes: &mut self.nodes,
+                    scans: &mut self.scans,
+                    max_nodes: self.options.max_nodes,
+                    monitor: self.monitor,
+                };
+                match search.run(patience)? {
+                    End::Grown => patience = patience.saturating_mul(2),
+                    end => break end,
+                }
+            };
+            self.members = core.members;
+            match end {
+                End::Spent => break,
+                End::Refuted => {
+                    // X has the same balls up to the next of its reaches.
+                    let next = self.members.iter().map(|&item| self.sites.next_reach(item, radius));
+                    let next = next.fold(self.incumbent.radius, f64::min).max(radius);
+                    self.refuted.push((next, self.members.len()));
+                }
+                End::Covered | End::Grown => {}
+            }
+            self.record();
+        }
+        Ok(())
+    }
+
+    fn record(&mut self) {
+        let bounds = PassBounds {
+            lower: proved(self.lower(), self.sites),
+            upper: self.incumbent.radius,
+            working_set: self.members.len() as u64,
+        };
+        self.history.push(bounds);
+    }
+
+    /// The best bound that can be written down, and its proof.
+    fn proof(&self) -> Result<(f64, Proof), Error> {
+        let (factor, more) = PROOF_NODES;
+        let max_nodes = self.nodes.saturating_mul(factor).saturating_add(more);
+        for &(radius, count) in self.refuted.iter().rev() {
+            let lower = proved(radius, self.sites);
+            if lower == 0.0 || self.incumbent.radius == 0.0 {
+                break;
+            }
+            let members = &self.members[..count];
+            let proof =
+                prove(self.sites, members, radius, self.k, self.outliers, max_nodes, self.monitor)?;
+            if let Some(proof) = proof {
+                return Ok((lower, proof));
+            }
+        }
+        Ok((0.0, Proof { members: vec![], by: LowerBound::Search, nodes: 0 }))
+    }
+}
+
+/// The centres as they are returned: by row, each once, with a radius that holds as anybody may evaluate it.
+fn answer(
+    sites: &Sites,
+    incumbent: &Incumbent,
+    outliers: usize,
+    lower_bound: f64,
+    options: &CentersOptions,
+) -> Result<Centers, Error> {
+    let mut centers = incumbent.centers.clone();
+    centers.sort_unstable_by_key(|&site| sites.row(site));
+    centers.dedup();
+    let (reaches, nearest) = sites.nearest(&centers);
+    let mut left_out: Vec<u64> = (0..sites.len())
+        .filter(|&site| reaches[site] > incumbent.radius)
+        .map(|site| sites.row(site))
+        .collect();
+    left_out.sort_unstable();
+    debug_assert!(left_out.len() <= outliers, "the radius leaves out more than may be");
+    let close = incumbent.radius * (1.0 - rounding(sites));
+    let radius = (0..sites.len())
+        .filter(|&site| (close..=incumbent.radius).contains(&reaches[site]))
+        .map(|site| sites.reach_up(site, centers[nearest[site] as usize]))
+        .fold(0.0, f64::max);
+    if !radius.is_finite() {
+        return Err(Error::Overflow);
+    }
+    let mut assignment = vec![0; if options.assignment { sites.len() } else { 0 }];
+    if options.assignment {
+        nearest.iter().enumerate().for_each(|(site, &j)| assignment[sites.row(site) as usize] = j);
+    }
+    Ok(Centers {
+        rows: centers.iter().map(|&site| sites.row(site)).collect(),
+        centers: centers.iter().map(|&site| sites.position(site).to_vec()).collect(),
+        radius,
+        lower_bound,
+        outliers: left_out,
+        assignment,
+    })
+}

@@ -1,0 +1,121 @@
+//! Whether k balls of less than a radius hold all items: a tree over X, which grows where X is held and something else is not.
+//!
+//! *Idea.* Depth first; a node is [`State`]. Where X is held, each cluster takes one of its rows as centre, and all
+//! items are measured: either the radius is enough, or the farthest item joins X and the node is looked at again. What
+//! was refuted stays refuted. When X has grown and the tree as well, it starts anew, as the new items may refute it sooner.
+
+use taut_points::{Monitor, ReadError};
+
+use super::core_set::CoreSet;
+use super::start::{Incumbent, radius};
+use super::state::{Child, Look, State, Undo};
+use crate::Error;
+
+/// How a search ended.
+#[derive(Debug, PartialEq)]
+pub(super) enum End {
+    /// No k balls of less than the radius hold X.
+    Refuted,
+    /// The incumbent has less than the radius.
+    Covered,
+    /// X has grown, and the nodes for this try are used up.
+    Grown,
+    /// All nodes are used up.
+    Spent,
+}
+
+/// A search at work.
+pub(super) struct Search<'a, 's> {
+    pub(super) core: &'a mut CoreSet<'s>,
+    pub(super) k: usize,
+    pub(super) outliers: usize,
+    pub(super) incumbent: &'a mut Incumbent,
+    pub(super) nodes: &'a mut u64,
+    pub(super) scans: &'a mut u64,
+    pub(super) max_nodes: u64,
+    pub(super) monitor: &'a Monitor<'a>,
+}
+
+/// A node above the present one.
+struct Frame {
+    item: usize,
+    children: std::vec::IntoIter<Child>,
+    entered: Option<(Child, Undo)>,
+}
+
+impl Search<'_, '_> {
+    /// Searches from the root; starts anew rather than go on after `patience` nodes when X has grown.
+    pub(super) fn run(&mut self, patience: u64) -> Result<End, Error> {
+        let (members, restart) = (self.core.len(), self.nodes.saturating_add(patience));
+        let mut state = State::new(self.k, self.outliers);
+        let mut path: Vec<Frame> = vec![];
+        loop {
+            self.monitor.check().map_err(ReadError::from)?;
+            if *self.nodes >= self.max_nodes {
+                return Ok(End::Spent);
+            }
+            if *self.nodes >= restart && self.core.len() > members {
+                return Ok(End::Grown);
+            }
+            *self.nodes += 1;
+            let item = loop {
+                match state.look(self.core) {
+                    Look::Dead(_) => break None,
+                    Look::Branch(item) => break Some(item),
+                    Look::Covered => {
+                        let Some(farthest) = self.measure(&state) else {
+                            return Ok(End::Covered);
+                        };
+                        self.core.add(farthest);
+                    }
+                }
+            };
+            if let Some(item) = item {
+                let children = state.promising(self.core, item).into_iter();
+                path.push(Frame { item, children, entered: None });
+            }
+            loop {
+                let Some(frame) = path.last_mut() else { return Ok(End::Refuted) };
+                if let Some((child, undo)) = frame.entered.take() {
+                    state.leave(frame.item, child, undo);
+                }
+                if let Some(child) = frame.children.next() {
+                    frame.entered = Some((child, state.enter(self.core, frame.item, child)));
+                    break;
+                }
+                path.pop();
+            }
+        }
+    }
+
+    /// Measures all items from a centre for each cluster. The farthest that is not left out, unless the radius is enough.
+    fn measure(&mut self, state: &State) -> Option<usize> {
+        let core = &*self.core;
+        let mut counts = vec![true; core.sites.len()];
+        state.left_out.iter().for_each(|&item| counts[core.members[item]] = false);
+        let mut centers: Vec<usize> = vec![];
+        for (cluster, held) in state.clusters.iter().zip(state.held(core)) {
+            let items: Vec<usize> = held.into_iter().map(|item| core.members[item]).collect();
+            centers.extend(core.sites.middle(&cluster.words, &items));
+        }
+        *self.scans += 1;
+        let mut reaches = core.sites.reaches(&centers);
+        loop {
+            let far = (0..reaches.len()).filter(|&site| counts[site]);
+            // The first of the farthest.
+            let farthest = far.reduce(|a, b| if reaches[b] > reaches[a] { b } else { a });
+            let spare = farthest
+                .filter(|&far| centers.len() < self.k && reaches[far] > core.sites.own_reach(far));
+            if let Some(center) = spare {
+                centers.push(center);
+                core.sites.lower(&mut reaches, center);
+                continue;
+            }
+            let radius = radius(&reaches, self.outliers);
+            if radius < self.incumbent.radius {
+                *self.incumbent = Incumbent { centers, radius };
+            }
+            return farthest.filter(|_| radius >= core.radius);
+        }
+    }
+}

@@ -1,0 +1,404 @@
+//! All rows in memory, in an order in which near rows stand near one another.
+//!
+//! *Idea.* Rows are halved along their widest coordinate down to 64, which then share one word of a set of rows. A ball
+//! of rows is so few words, and so is what two balls have in common.
+//! *Guarantee.* Distances are those of [`squared_distances`], symmetric and to [`relative_error`]; where squares would
+//! overflow or vanish they are taken again in other units, so that only a distance that is no `f64` itself is lost.
+
+use rayon::prelude::*;
+use taut_certify::Items;
+use taut_points::{Monitor, PointSource, PointsHash, ReadError, Rows, hash_block, map_blocks};
+
+use crate::Error;
+use crate::kernel::{Center, Difference, relative_error, squared_distances};
+
+/// Rows that share a word.
+pub(super) const WORD: usize = 64;
+/// Rows that one thread takes at a time; a multiple of [`WORD`].
+const CHUNK: usize = 1 << 12;
+/// Rows whose distances are taken before they are compared: 4 KiB.
+const LOWER: usize = 512;
+/// Squares between these are as exact as any.
+const SAFE: std::ops::RangeInclusive<f64> = 1e-280..=1e300;
+
+/// The rows, by site: the place in the order that this module gives them.
+pub(super) struct Sites {
+    dim: usize,
+    /// Coordinates by site.
+    positions: Vec<f64>,
+    /// By site; empty where all are 1.
+    weights: Vec<f64>,
+    /// By site; empty for points.
+    radii: Vec<f64>,
+    /// The row of each site.
+    rows: Vec<u64>,
+    hash: PointsHash,
+}
+
+impl Sites {
+    /// Reads all rows, and refuses those that are no items.
+    pub(super) fn read(
+        source: &dyn PointSource,
+        items: Items,
+        weights: bool,
+        monitor: &Monitor<'_>,
+    ) -> Result<Self, Error> {
+        let columns = source.dim();
+        let extra = weights || items == Items::Balls;
+        match items {
+            Items::Balls if columns < 2 => return Err(Error::NoRadius { columns }),
+            Items::Points if weights && columns < 2 => return Err(Error::NoWeight { columns }),
+            Items::Points | Items::Balls => {}
+            Items::Ellipsoids => {
+                let (name, value) = ("items", "ellipsoids".into());
+                return Err(Error::Option { name, value, expected: "points or balls" });
+            }
+        }
+        if weights && items == Items::Balls {
+            let (name, value) = ("weights", "true".into());
+            return Err(Error::Option { name, value, expected: "false for balls" });
+        }
+        if source.is_empty() {
+            return Err(Error::Empty);
+        }
+        if u32::try_from(source.len()).is_err() {
+            return Err(ReadError::TooLarge { rows: source.len(), dim: columns }.into());
+        }
+        monitor.pass(1, source.len());
+        let blocks = map_blocks(source, monitor, |first, rows| {
+            let values = finite_values(first, &rows)?;
+            for (row, values) in (first..).zip(values.chunks_exact(columns)) {
+                let value = values[columns - 1];
+                if weights && value <= 0.0 {
+                    return Err(Error::NonPositiveWeight { row, value });
+                }
+                if items == Items::Balls && value < 0.0 {
+                    return Err(Error::NegativeRadius { row, value });
+                }
+            }
+            Ok((hash_block(&rows), values))
+        })?;
+        let hash =
+            PointsHash::of_blocks(source.len(), columns, blocks.iter().map(|(hash, _)| *hash));
+        let values: Vec<f64> = blocks.into_iter().flat_map(|(_, values)| values).collect();
+
+        let dim = columns - usize::from(extra);
+        let mut order: Vec<u32> = (0..source.len() as u32).collect();
+        halve(&mut order, &|row, j| values[row as usize * columns + j], dim);
+        let row = |&id: &u32| &values[id as usize * columns..(id as usize + 1) * columns];
+        let last = || order.iter().map(|id| row(id)[dim]).collect();
+        Ok(Sites {
+            dim,
+            positions: order.iter().flat_map(|id| row(id)[..dim].iter().copied()).collect(),
+            weights: if weights { last() } else { vec![] },
+            radii: if items == Items::Balls { last() } else { vec![] },
+            rows: order.iter().map(|&id| id.into()).collect(),
+            hash,
+        })
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    pub(super) fn dim(&self) -> usize {
+        self.dim
+    }
+
+    pub(super) fn hash(&self) -> PointsHash {
+        self.hash
+    }
+
+    /// The row that stands at a site.
+    pub(super) fn row(&self, site: usize) -> u64 {
+        self.rows[site]
+    }
+
+    /// Its coordinates.
+    pub(super) fn position(&self, site: usize) -> &[f64] {
+        &self.positions[site * self.dim..(site + 1) * self.dim]
+    }
+
+    /// Whether all items count alike.
+    pub(super) fn are_plain(&self) -> bool {
+        self.weights.is_empty() && self.radii.is_empty()
+    }
+
+    /// What an item counts at a distance: w·distance + r.
+    fn reach(&self, site: usize, distance: f64) -> f64 {
+        let weight = self.weights.get(site).copied().unwrap_or(1.0);
+        weight * distance + self.radii.get(site).copied().unwrap_or(0.0)
+    }
+
+    /// The distance of a site from the row of `center`.
+    fn distance(&self, site: usize, center: usize) -> f64 {
+        let mut distance = [0.0];
+        self.distances(site, &self.center(center), &mut distance);
+        distance[0]
+    }
+
+    /// The reach that one of two items has at least, wherever the centre: (D + r₁ + r₂)/2 or a radius for balls,
+    /// w₁w₂D/(w₁ + w₂) for weights.
+    pub(super) fn reach_of_pair(&self, a: usize, b: usize) -> f64 {
+        let distance = self.distance(a, b);
+        if !self.radii.is_empty() {
+            let (a, b) = (self.radii[a], self.radii[b]);
+            return a.max(b).max(distance.mul_add(0.5, a.mul_add(0.5, b * 0.5)));
+        }
+        match (self.weights.get(a), self.weights.get(b)) {
+            (Some(&a), Some(&b)) => distance / (1.0 / a + 1.0 / b),
+            _ => 0.5 * distance,
+        }
+    }
+
+    /// The distances of the sites from `first` on to a centre.
+    fn distances(&self, first: usize, center: &Center, out: &mut [f64]) {
+        let values = &self.positions[first * self.dim..(first + out.len()) * self.dim];
+        squared_distances(values, self.dim, center, out);
+        for (value, row) in out.iter_mut().zip(values.chunks_exact(self.dim)) {
+            *value = match SAFE.contains(value) {
+                true => value.sqrt(),
+                false => careful_distance(row, &center.high),
+            };
+        }
+    }
+
+    /// Few rows are done sooner than other threads wake.
+    fn is_small(&self) -> bool {
+        self.len() * self.dim < 8 * CHUNK
+    }
+
+    /// A row as centre.
+    fn center(&self, site: usize) -> Center {
+        Center { high: self.position(site).to_vec(), low: vec![] }
+    }
+
+    /// Calls `work` with the first site of each chunk and the distances of its sites to the row of `center`; results in order.
+    fn by_chunks<R: Send>(
+        &self,
+        center: usize,
+        work: impl Fn(usize, &mut [f64]) -> R + Sync,
+    ) -> Vec<R> {
+        let center = self.center(center);
+        let chunk = |first: usize| {
+            let mut distances = vec![0.0; CHUNK.min(self.len() - first)];
+            self.distances(first, &center, &mut distances);
+            work(first, &mut distances)
+        };
+        let firsts = (0..self.len()).step_by(CHUNK);
+        match self.is_small() {
+            true => firsts.map(chunk).collect(),
+            false => firsts.collect::<Vec<_>>().into_par_iter().map(chunk).collect(),
+        }
+    }
+
+    /// The set of rows at which a centre has item `site` within a reach less than `radius`, 64 rows a word.
+    pub(super) fn near(&self, site: usize, radius: f64) -> Vec<u64> {
+        let words = self.by_chunks(site, |_, distances| {
+            let word = |distances: &[f64]| {
+                let bits = distances.iter().enumerate();
+                bits.fold(0u64, |word, (bit, &distance)| {
+                    word | u64::from(self.reach(site, distance) < radius) << bit
+                })
+            };
+            distances.chunks(WORD).map(word).collect::<Vec<_>>()
+        });
+        words.concat()
+    }
+
+    /// The least reach of item `site` from any row that is not below `radius`; infinite where there is none.
+    pub(super) fn next_reach(&self, site: usize, radius: f64) -> f64 {
+        let least = self.by_chunks(site, |_, distances| {
+            let reaches = distances.iter().map(|&distance| self.reach(site, distance));
+            reaches.filter(|&reach| reach >= radius).fold(f64::INFINITY, f64::min)
+        });
+        least.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Lowers the reaches of all items to those from one more centre.
+    pub(super) fn lower(&self, reaches: &mut [f64], center: usize) {
+        let center = self.center(center);
+        let chunk = |(number, reaches): (usize, &mut [f64])| {
+            let mut distances = [0.0; LOWER];
+            let distances = &mut distances[..reaches.len()];
+            self.distances(number * LOWER, &center, distances);
+            for (i, (reach, &distance)) in reaches.iter_mut().zip(&*distances).enumerate() {
+                *reach = self.reach(number * LOWER + i, distance).min(*reach);
+            }
+        };
+        match self.is_small() {
+            true => reaches.chunks_mut(LOWER).enumerate().for_each(chunk),
+            false => reaches.par_chunks_mut(LOWER).enumerate().with_min_len(8).for_each(chunk),
+        }
+    }
+
+    /// The reach of every item from the nearest of these centres.
+    pub(super) fn reaches(&self, centers: &[usize]) -> Vec<f64> {
+        let mut reaches = vec![f64::INFINITY; self.len()];
+        centers.iter().for_each(|&center| self.lower(&mut reaches, center));
+        reaches
+    }
+
+    /// The reach of every item from the nearest of these centres, and which that is, the first of several.
+    pub(super) fn nearest(&self, centers: &[usize]) -> (Vec<f64>, Vec<u32>) {
+        let mut reaches = vec![f64::INFINITY; self.len()];
+        let mut nearest = vec![0; self.len()];
+        for (j, &center) in (0..).zip(centers) {
+            let before = reaches.clone();
+            self.lower(&mut reaches, center);
+            for (site, nearest) in nearest.iter_mut().enumerate() {
+                if reaches[site] < before[site] {
+                    *nearest = j;
+                }
+            }
+        }
+        (reaches, nearest)
+    }
+
+    /// The reach of an item from its own position: 0, or its radius.
+    pub(super) fn own_reach(&self, site: usize) -> f64 {
+        self.reach(site, 0.0)
+    }
+
+    /// Of these rows, one from which the largest reach of `items` is about least; the first row if nothing has to be reached.
+    pub(super) fn middle(&self, words: &[(u32, u64)], items: &[usize]) -> Option<usize> {
+        let mut best: Option<(f64, usize)> = None;
+        for &(at, mut word) in words {
+            while word != 0 {
+                let site = at as usize * WORD + word.trailing_zeros() as usize;
+                word &= word - 1;
+                let position = self.position(site);
+                let most = best.map_or(f64::INFINITY, |(most, _)| most);
+                let mut largest = 0.0;
+                for &item in items {
+                    let squares = self.position(item).iter().zip(position);
+                    let square: f64 = squares.map(|(a, b)| (a - b) * (a - b)).sum();
+                    largest = self.reach(item, square.sqrt()).max(largest);
+                    if largest >= most {
+                        break;
+                    }
+                }
+                if best.is_none() || largest < most {
+                    best = Some((largest, site));
+                }
+            }
+        }
+        best.map(|(_, site)| site)
+    }
+
+    /// The reach of item `site` from a centre as somebody else may evaluate it, or a little more; itself where nothing
+    /// is rounded.
+    pub(super) fn reach_up(&self, site: usize, center: usize) -> f64 {
+        let distance = self.distance(site, center);
+        let reach = self.reach(site, distance);
+        let center = self.center(center);
+        let square = Difference::new(self.position(site), &center, 1.0).squared();
+        let root = square.high.sqrt();
+        let exact = square.low == 0.0 && root.mul_add(root, -square.high) == 0.0;
+        if distance == 0.0 || exact && self.are_plain() && SAFE.contains(&square.high) {
+            return reach;
+        }
+        (reach * (1.0 + relative_error(self.dim))).next_up()
+    }
+}
+
+/// The values of a block, unless one of them is not finite.
+fn finite_values(first: u64, rows: &Rows<'_>) -> Result<Vec<f64>, Error> {
+    if let Some((row, column, value)) = rows.first_non_finite() {
+        return Err(Error::NonFinite { row: first + row as u64, column, value });
+    }
+    Ok(match rows {
+        Rows::F32(points) => points.values().iter().map(|&v| v.into()).collect(),
+        Rows::F64(points) => points.values().to_vec(),
+    })
+}
+
+/// Orders ids so that each run of 64 is one leaf of a tree of halves along the widest coordinate.
+fn halve(ids: &mut [u32], value: &impl Fn(u32, usize) -> f64, dim: usize) {
+    if ids.len() <= WORD {
+        ids.sort_unstable();
+        return;
+    }
+    let width = |j: usize| {
+        let values = ids.iter().map(|&id| value(id, j));
+        let (low, high) = values
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+        high - low
+    };
+    let widest = (0..dim)
+        .map(|j| (j, width(j)))
+        .fold((0, f64::NEG_INFINITY), |best, next| if next.1 > best.1 { next } else { best });
+    let middle = (ids.len() / 2).next_multiple_of(WORD);
+    ids.select_nth_unstable_by(middle, |&a, &b| {
+        value(a, widest.0).total_cmp(&value(b, widest.0)).then(a.cmp(&b))
+    });
+    let (low, high) = ids.split_at_mut(middle);
+    halve(low, value, dim);
+    halve(high, value, dim);
+}
+
+/// |x − c| where squares overflow or vanish: in units of the largest difference, rounded to a power of two.
+fn careful_distance(x: &[f64], center: &[f64]) -> f64 {
+    let differences = || x.iter().zip(center).map(|(x, c)| x - c);
+    let largest = differences().fold(0.0f64, |largest, d| largest.max(d.abs()));
+    if largest == 0.0 || !largest.is_finite() {
+        return largest;
+    }
+    // Two steps, as the inverse of the smallest numbers is no f64.
+    let half = 2f64.powi((-largest.log2() / 2.0) as i32);
+    let squares: f64 = differences().map(|d| (d * half * half).powi(2)).sum();
+    squares.sqrt() / half / half
+}
+
+#[cfg(test)]
+mod tests {
+    use taut_points::{Distribution, Points, generate};
+
+    use super::*;
+
+    fn sites(values: &[f64], dim: usize) -> Sites {
+        let points = Points::new(values, dim).unwrap();
+        Sites::read(&points, Items::Points, false, &Monitor::silent()).unwrap()
+    }
+
+    #[test]
+    fn sites_are_the_rows_in_another_order_and_balls_are_few_words() {
+        let values: Vec<f64> = generate(Distribution::Uniform, 20_000, 2, 5).unwrap();
+        let sites = sites(&values, 2);
+        let mut rows: Vec<u64> = (0..sites.len()).map(|site| sites.row(site)).collect();
+        for (site, &row) in rows.iter().enumerate() {
+            assert_eq!(sites.position(site), &values[2 * row as usize..2 * row as usize + 2]);
+        }
+        rows.sort_unstable();
+        assert!(rows.iter().copied().eq(0..20_000));
+        let near = sites.near(777, 0.1);
+        let (used, rows) = near
+            .iter()
+            .fold((0, 0), |(u, r), word| (u + usize::from(*word != 0), r + word.count_ones()));
+        assert!(rows > 100 && used < 40, "{rows} rows in {used} words");
+        for (other, reach) in sites.reaches(&[777]).into_iter().enumerate() {
+            assert_eq!(near[other / WORD] >> (other % WORD) & 1 == 1, reach < 0.1);
+            assert_eq!(reach, sites.reach(777, sites.distance(777, other)), "not symmetric");
+        }
+    }
+
+    #[test]
+    fn distances_at_the_ends_of_the_range_are_right() {
+        for scale in [1e-318, 1e-300, 1e-160, 1.0, 1e160, 1e300, 1e307] {
+            let values = [0.0, 0.0, 3.0 * scale, 4.0 * scale];
+            let sites = sites(&values, 2);
+            let wanted = 5.0 * scale;
+            let found = sites.distance(0, 1);
+            assert!((found - wanted).abs() <= 1e-15 * wanted + 5e-322, "{found:e} {wanted:e}");
+        }
+    }
+
+    #[test]
+    fn a_reach_without_rounding_is_kept() {
+        let sites = sites(&[0.0, 0.0, 3.0, 4.0, 1.0, 1.0], 2);
+        let site = |row| (0..3).find(|&site| sites.row(site) == row).unwrap();
+        assert_eq!(sites.reach_up(site(0), site(1)), 5.0);
+        let diagonal = sites.reach_up(site(0), site(2));
+        assert!(diagonal > 2f64.sqrt() && diagonal < 2f64.sqrt() * (1.0 + 1e-14));
+    }
+}
