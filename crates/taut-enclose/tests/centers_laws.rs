@@ -215,6 +215,20 @@ fn a_budget_of_nodes_leaves_a_proof() {
     assert!(gaps.is_sorted_by(|a, b| a >= b) && gaps[3] <= 1e-6, "{gaps:?}");
 }
 
+/// Beyond eight centres the tree is written down; the judge follows it to its end.
+#[test]
+fn logs_are_followed() {
+    for (n, z) in [(30, 0), (60, 0), (60, 1)] {
+        let values: Vec<f64> = generate(Distribution::Uniform, n, 2, 5).unwrap();
+        let options = CentersOptions { outliers: z, ..fine() };
+        let found = found(&values, 2, 9, &options);
+        let LowerBound::Branches { items } = &found.certificate.proof else {
+            panic!("no log for {n} points: {:?}", found.certificate.proof)
+        };
+        assert!(items.len() > 3, "{} nodes", items.len());
+    }
+}
+
 /// Corners of a triangle around a point of weight 3, which draws the centre to itself.
 #[test]
 fn a_weight_draws_the_centre() {
