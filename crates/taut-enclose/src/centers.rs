@@ -107,8 +107,11 @@ pub fn centers_of_source(
         if options.method == CentersMethod::FarthestFirst && is_plain && !options.assignment {
             let k = k as u64;
             let traversal = FarthestFirstOptions::default();
-            return farthest_first_of_source(source, k, &traversal, monitor)?
-                .solution(k, options.placement, source);
+            return farthest_first_of_source(source, k, &traversal, monitor)?.solution(
+                k,
+                options.placement,
+                source,
+            );
         }
         match options.placement {
             Placement::Free => solve(source, items, k, options, monitor),
