@@ -107,7 +107,15 @@ fn reach<P: Position>(
     let radius = if table.shape == Shape::Balls { extra[0] * table.scale } else { 0.0 };
     let up = match length(position, inside[nearest].as_ref()) {
         tiny if tiny < TINY && tiny > 0.0 => (tiny * (1.0 + 1e-12)).next_up() + radius,
-        _ => reach_up(&difference, difference.squared(), radius),
+        _ => {
+            let up = reach_up(&difference, difference.squared(), radius);
+            // Squares that vanish are far less than an ulp of the sum, but not nothing.
+            let is_lost = |(a, b): (&f64, &f64)| a != b && (a - b).abs() < TINY;
+            match position.iter().zip(inside[nearest].as_ref()).any(is_lost) {
+                true => up.next_up(),
+                false => up,
+            }
+        }
     };
     let up = unscale_up(up, table.scale);
     let plain = distance(x, &center.high);

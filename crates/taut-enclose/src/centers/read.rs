@@ -73,7 +73,18 @@ impl Table {
         let values = blocks.into_iter().flat_map(|block| block.values).collect();
         let dim = if shape == Shape::Points { columns } else { columns - 1 };
         let (scale, weight_scale) = (scale_of(largest.0), scale_of(largest.1));
-        Ok(Table { shape, dim, columns, values, hash, scale, weight_scale })
+        let table = Table { shape, dim, columns, values, hash, scale, weight_scale };
+        if table.loses_digits() { Err(Error::Overflow) } else { Ok(table) }
+    }
+
+    /// Whether numbers so small beside the largest are there that they cannot be scaled with it.
+    fn loses_digits(&self) -> bool {
+        let is_lost = |value: f64, scale: f64| value * scale / scale != value;
+        self.values.chunks_exact(self.columns).any(|row| {
+            let (place, extra) = row.split_at(self.dim);
+            let unit = if self.shape == Shape::Weighted { self.weight_scale } else { self.scale };
+            place.iter().any(|&x| is_lost(x, self.scale)) || extra.iter().any(|&x| is_lost(x, unit))
+        })
     }
 
     pub(super) fn len(&self) -> usize {
