@@ -46,7 +46,8 @@ def centers(
     method : {"tree", "thesis", "farthest-first"}, default "tree"
         The way to find them; all end in the same kind of certificate. "tree" proves any gap in time exponential in k;
         "thesis" is the method of the literature it grew from, for free centres without weights and outliers;
-        "farthest-first" takes any k and proves a radius of at most twice the least.
+        "farthest-first" takes any k and proves a radius of at most twice the least,
+        but for weights and outliers, with which it proves what it can.
     discrete : bool, default False
         Whether centres have to be points of the input.
     outliers : int >= 0, default 0

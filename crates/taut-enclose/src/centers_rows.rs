@@ -247,18 +247,21 @@ impl<'a> Bracket<'a> {
     /// The best bound that can be written down, and its proof.
     fn proof(&self) -> Result<(f64, Proof), Error> {
         let (factor, more) = PROOF_NODES;
-        let max_nodes = self.nodes.saturating_mul(factor).saturating_add(more);
+        let mut max_nodes = self.nodes.saturating_mul(factor).saturating_add(more);
         for &(radius, count) in self.refuted.iter().rev() {
             let lower = proved(radius, self.sites);
             if lower == 0.0 || self.incumbent.radius == 0.0 {
                 break;
             }
             let members = &self.members[..count];
+            // At the very bound that is claimed: a reach between it and the radius is in no ball of the checker's.
             let proof =
-                prove(self.sites, members, radius, self.k, self.outliers, max_nodes, self.monitor)?;
+                prove(self.sites, members, lower, self.k, self.outliers, max_nodes, self.monitor)?;
             if let Some(proof) = proof {
                 return Ok((lower, proof));
             }
+            // All tries together cost no more than two of the first.
+            max_nodes /= 2;
         }
         Ok((0.0, Proof { members: vec![], by: LowerBound::Search, nodes: 0 }))
     }

@@ -16,7 +16,8 @@ pub enum CentersMethod {
     /// The algorithm of the thesis (Algorithm 2), with a bound that is valid in place of its own: each item that is
     /// farthest from all balls is given to each of them in turn. Free centres of points or balls, without weights and outliers.
     Thesis,
-    /// Farthest-first traversal (Gonzalez 1985): at most twice the optimal radius, in O(nkd) for any n and d.
+    /// Farthest-first traversal (Gonzalez 1985) in O(nkd) for any n and d: at most twice the optimal radius. With weights or
+    /// outliers that is not promised; the gap that is proved is in the certificate.
     FarthestFirst,
 }
 

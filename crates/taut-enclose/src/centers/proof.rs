@@ -25,6 +25,9 @@ const PAIR_ROUNDING: f64 = 1e-14;
 /// Trees of up to so many nodes, and up to so many centres, are left to a checker to find; larger ones are written down.
 const SEARCH_NODES: u64 = 2000;
 const SEARCH_CENTERS: usize = 8;
+/// Core-sets of more items are not given to a search, and of still more to no checker at all.
+const SEARCH_ITEMS: usize = 1000;
+const BRANCH_ITEMS: usize = 16_000;
 /// Trees over what the one before has branched on.
 const ROUNDS: usize = 4;
 
@@ -86,9 +89,11 @@ impl Proof {
                 break;
             }
         }
+        let best = best.filter(|(core_set, _)| core_set.len() <= BRANCH_ITEMS);
         Ok(best.map(|(core_set, log)| {
             let nodes = log.items.len() as u64;
-            let kind = match nodes <= SEARCH_NODES && k <= SEARCH_CENTERS {
+            let is_small = nodes <= SEARCH_NODES && core_set.len() <= SEARCH_ITEMS;
+            let kind = match is_small && k <= SEARCH_CENTERS {
                 true => LowerBound::Search,
                 false => LowerBound::Branches { items: log.items },
             };

@@ -1,7 +1,7 @@
 //! Where the search starts: farthest-first traversals.
 //!
-//! *Idea.* Each next centre is the item that reaches farthest from all before. k of them are at most twice (for
-//! weights, thrice) as bad as the best; k + z + 1 of them prove a bound: two of them share a ball, whichever z are
+//! *Idea.* Each next centre is the item that reaches farthest from all before. k of them are at most twice
+//! as bad as the best (with weights or outliers that is not promised); k + z + 1 of them prove a bound: two of them share a ball, whichever z are
 //! left out. Where items may be left out, traversals that take the (z + 1)-th farthest do not end among the outliers.
 //! *Reference.* Gonzalez, Theoretical Computer Science 38, 1985; with weights, Dyer and Frieze, Operations Research
 //! Letters 3(6), 1985.
