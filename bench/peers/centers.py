@@ -10,6 +10,8 @@ PROBLEM is one of
 - `traversal-K` and `traversal-single-K`: K points of the traversal of Gonzalez (1985) by NumPy, from row 0, in double
   and in single precision.
 
+Only the packages of the problem are loaded, before the clock runs.
+
 What goes to CENTRE are the rows chosen, as doubles, numbered within the set. Seconds of `set-cover` are those of the
 distances, of building the programs and of solving them.
 """
@@ -31,8 +33,6 @@ def distances(points):
 
 def fewest(near, limit):
     """Points whose rows of `near` hold all, at most `limit` of them; none where there are no so few."""
-    import highspy
-
     count = len(near)
     program = highspy.HighsLp()
     program.num_col_, program.num_row_ = count, count
@@ -74,8 +74,6 @@ def set_cover(points, k):
 
 def medoids(points, k):
     """The radius around k medoids, and the medoids."""
-    from sklearn_extra.cluster import KMedoids
-
     chosen = KMedoids(k, random_state=0).fit(points).medoid_indices_
     return float(distances(points)[:, chosen].min(axis=1).max()), chosen
 
@@ -92,6 +90,12 @@ def traversal(points, k):
 
 def main():
     problem, input_path, center_path = sys.argv[1:]
+    if problem == "set-cover":
+        global highspy
+        import highspy
+    elif problem == "medoids":
+        global KMedoids
+        from sklearn_extra.cluster import KMedoids
     with open(input_path, "rb") as file:
         count, columns = (int(number) for number in numpy.fromfile(file, dtype="<u8", count=2))
         rows = numpy.fromfile(file, dtype="<f8").reshape(count, columns)
