@@ -72,7 +72,7 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
                     order.to_owned(),
                     k.to_string(),
                     instances.to_string(),
-                    clock.map(seconds).unwrap_or_default(),
+                    clock.map(|clock| format!("{:.0} ns", 1e9 * clock)).unwrap_or_default(),
                     format!("{stated:.3}"),
                     format!("{measured:.3}"),
                     proved.map_or(String::new(), |factor| format!("{factor:.3}")),
