@@ -14,9 +14,12 @@ use crate::meter::Meter;
 use crate::stats::{Summary, seconds};
 use crate::table::Table;
 
+/// Coordinates, one row after another, and the dimension.
+type Rows = (Vec<f64>, usize);
+
 impl Set {
     /// Its rows and their dimension; `None`, after saying so, where they are not to be had.
-    pub(super) fn load(self, quick: bool) -> Result<Option<(Vec<f64>, usize)>> {
+    fn load(self, quick: bool) -> Result<Option<Rows>> {
         Ok(match self {
             // A tenth of the cities would have other optima.
             Set::Cities(name) => cities::read(name)?.map(|values| (values, 2)),
@@ -38,12 +41,15 @@ impl Set {
 /// Runs all tasks of a case.
 pub(super) fn run(context: &mut Context, case: &Case, tasks: &[Task]) -> Result<()> {
     let mut all = Vec::new();
-    let mut loaded: Option<(Set, Vec<f64>, usize)> = None;
+    // `None` for a set that is not to be had, so that this is said once.
+    let mut loaded: Option<(Set, Option<Rows>)> = None;
     for task in tasks {
-        if loaded.as_ref().is_none_or(|(set, ..)| *set != task.set) {
-            loaded = task.set.load(context.quick)?.map(|(values, dim)| (task.set, values, dim));
-        }
-        let Some((_, values, dim)) = &loaded else {
+        let values = match loaded.take() {
+            Some((set, values)) if set == task.set => values,
+            _ => task.set.load(context.quick)?,
+        };
+        let (_, values) = loaded.insert((task.set, values));
+        let Some((values, dim)) = values else {
             all.push(json!({ "set": task.set.name(), "k": task.k, "left_out": "no TAUT_DATA" }));
             continue;
         };
