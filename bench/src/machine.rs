@@ -36,6 +36,8 @@ pub(crate) fn describe() -> Value {
         "cvxpy": "1.7.5",
         "clarabel": "0.11.1",
         "dynesty": "3.1.0",
+        "highspy": "1.15.1",
+        "scikit-learn-extra": "0.3.0",
         "eigen": output("dpkg-query", &["-W", "-f=${Version}", "libeigen3-dev"]),
     })
 }

@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 mod ball;
+mod centers;
 mod context;
 mod delaunay;
 mod ellipsoid;
@@ -41,6 +42,8 @@ enum Area {
     Delaunay(delaunay::Arguments),
     /// Ellipsoids of points and of ellipsoids, and robust ones: times, ratios, and a proof of every answer.
     Ellipsoid(ellipsoid::Arguments),
+    /// k centres: times, radii and nodes of proven optima, traversals and streams, with a proof of every answer.
+    Centers(centers::Arguments),
     /// Figures 5 to 15 of the thesis, rerun as CSV and SVG.
     ThesisBall(thesis::Arguments),
     /// Figure 18 of the thesis, core-sets of ellipsoids, rerun as CSV and SVG.
@@ -69,6 +72,7 @@ fn main() -> anyhow::Result<()> {
         Area::Ball(arguments) => ball::run(&arguments),
         Area::Delaunay(arguments) => delaunay::run(&arguments),
         Area::Ellipsoid(arguments) => ellipsoid::run(&arguments),
+        Area::Centers(arguments) => centers::run(&arguments),
         Area::ThesisBall(arguments) => thesis::run(&arguments),
         Area::ThesisEllipsoid(arguments) => thesis::run_ellipsoid(&arguments),
         Area::SolveFile(arguments) => ball::file::solve(&arguments),

@@ -68,7 +68,8 @@ pub(crate) fn folder() -> PathBuf {
 /// How a peer is called; `None` when it is not installed.
 ///
 /// Names: a program of `peers/build` with its build (`fgk-native`, `cgal-spheres-3-o2`), or `cyminiball`,
-/// `miniball-pypi`, `miniball-crate`, `sklearn-mcd-H`, `conic-PROBLEM`, `dynesty`, `cgal-approximate-EPSILON`.
+/// `miniball-pypi`, `miniball-crate`, `sklearn-mcd-H`, `conic-PROBLEM`, `dynesty`, `cgal-approximate-EPSILON`, `set-cover`,
+/// `medoids`, `traversal-K`, `traversal-single-K`.
 fn command(name: &str) -> Result<Option<Command>> {
     let python = |package: &str| {
         let interpreter = folder().join(".venv/bin/python");
@@ -99,6 +100,9 @@ fn command(name: &str) -> Result<Option<Command>> {
         "conic-points" => script("cvxpy", "conic.py", "points"),
         "conic-ellipsoid" => script("cvxpy", "conic.py", "ellipsoid"),
         "conic-ball" => script("cvxpy", "conic.py", "ball"),
+        "set-cover" => script("highspy", "centers.py", "set-cover"),
+        "medoids" => script("sklearn_extra.cluster", "centers.py", "medoids"),
+        name if name.starts_with("traversal-") => script("numpy", "centers.py", name),
         "dynesty" => python("dynesty").map(|mut command| {
             command.arg(folder().join("peers/bounding.py"));
             command

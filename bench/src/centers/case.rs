@@ -1,0 +1,207 @@
+//! The list of cases: which inputs, and what has to be reached.
+
+use super::goals::Goal;
+
+/// A case by name.
+pub(super) struct Case {
+    /// Its name on the command line.
+    pub(super) name: &'static str,
+    /// What it shows.
+    pub(super) about: &'static str,
+    /// What is done.
+    pub(super) kind: Kind,
+    /// What has to be reached by all of its inputs.
+    pub(super) must: &'static [Goal],
+}
+
+/// What is done in a case.
+pub(super) enum Kind {
+    /// Free centres of points, to a gap.
+    Free(&'static [Task]),
+    /// Centres among the points, beside a set-cover program.
+    Discrete,
+    /// Farthest-first traversals of many points.
+    Traversal,
+    /// Centres of all but a few points.
+    Outliers,
+    /// Points that come by once.
+    Streams,
+}
+
+/// Points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Set {
+    /// The cities of a file of `$TAUT_DATA/ball`.
+    Cities(&'static str),
+    /// So many normal points of space.
+    Normal(usize),
+}
+
+/// The cities of Germany.
+pub(super) const GERMANY: Set = Set::Cities("d15112.tsp.xz");
+const USA: Set = Set::Cities("usa13509.xy.xz");
+const SPACE: Set = Set::Normal(10_000);
+
+/// So many centres, to such a gap, and what has to be reached.
+pub(super) struct Task {
+    /// The points.
+    pub(super) set: Set,
+    /// Number of centres.
+    pub(super) k: usize,
+    /// Relative gap asked for.
+    pub(super) epsilon: f64,
+    /// Most permutations, where one takes minutes.
+    pub(super) permutations: usize,
+    /// What has to be reached, beside the gap.
+    pub(super) must: &'static [Goal],
+    /// What is hoped for.
+    pub(super) aim: &'static [Goal],
+}
+
+const fn task(
+    set: Set,
+    k: usize,
+    epsilon: f64,
+    must: &'static [Goal],
+    aim: &'static [Goal],
+) -> Task {
+    Task { set, k, epsilon, permutations: usize::MAX, must, aim }
+}
+
+impl Task {
+    const fn once(self) -> Self {
+        Task { permutations: 1, ..self }
+    }
+}
+
+const EXACT: f64 = 1e-6;
+const QUICK: Goal = Goal::Seconds(0.3);
+const QUICK_AIM: &[Goal] = &[Goal::Seconds(0.05)];
+const SMALL: Goal = Goal::CoreSet(200);
+const TWICE: Goal = Goal::Check { seconds: 1.0, twice: true };
+
+/// All cases, in the order in which they run; the longest is the last.
+pub(super) const CASES: &[Case] = &[
+    Case {
+        name: "cities",
+        about: "Cities of Germany and of the USA, free centres at ε = 1e-6, beside the optima that are known.",
+        kind: Kind::Free(&[
+            task(GERMANY, 2, EXACT, &[Goal::Radius(9342.60196519), QUICK, SMALL, TWICE], QUICK_AIM),
+            task(GERMANY, 3, EXACT, &[Goal::Radius(8139.66296907), QUICK, SMALL, TWICE], QUICK_AIM),
+            task(GERMANY, 4, EXACT, &[Goal::Radius(6573.74826488), QUICK, SMALL, TWICE], QUICK_AIM),
+            task(GERMANY, 5, EXACT, &[Goal::Radius(5818.46791619), QUICK, SMALL, TWICE], QUICK_AIM),
+            task(
+                GERMANY,
+                8,
+                EXACT,
+                &[Goal::Radius(4306.44830458), Goal::Seconds(2.0), SMALL, TWICE],
+                &[Goal::Seconds(0.1)],
+            ),
+            task(
+                GERMANY,
+                10,
+                EXACT,
+                &[Goal::Radius(3725.69052411), Goal::Seconds(10.0)],
+                &[Goal::Seconds(1.0)],
+            ),
+            task(GERMANY, 12, EXACT, &[Goal::Seconds(60.0)], &[Goal::Seconds(5.0)]),
+            task(
+                USA,
+                5,
+                EXACT,
+                &[Goal::Radius(99986.80259875), Goal::Seconds(0.2), SMALL, TWICE],
+                &[],
+            ),
+            task(USA, 10, EXACT, &[Goal::Radius(65210.68259879), Goal::Seconds(4.0)], &[]),
+        ]),
+        must: &[],
+    },
+    Case {
+        name: "cities-15",
+        about: "The same for k = 15, at 1 %.",
+        kind: Kind::Free(&[
+            task(GERMANY, 15, 0.01, &[Goal::Seconds(300.0)], &[Goal::Seconds(10.0)]),
+            task(USA, 15, 0.01, &[Goal::Seconds(100.0)], &[Goal::Seconds(4.0)]),
+        ]),
+        must: &[],
+    },
+    Case {
+        name: "space",
+        about: "Normal, 10⁴ × 3, free centres at 1 %: the thesis needed almost a week for four.",
+        kind: Kind::Free(&[
+            task(SPACE, 4, 0.01, &[Goal::Seconds(0.1), SMALL], &[Goal::Seconds(0.01)]),
+            task(SPACE, 6, 0.01, &[Goal::Seconds(0.3), SMALL], &[Goal::Seconds(0.03)]),
+            task(SPACE, 8, 0.01, &[Goal::Seconds(3.0), SMALL], &[Goal::Seconds(0.2)]),
+            task(SPACE, 10, 0.01, &[Goal::Seconds(40.0)], &[Goal::Seconds(2.0)]),
+        ]),
+        must: &[],
+    },
+    Case {
+        name: "discrete",
+        about: "Centres among the points, exact: 200 small sets beside set-cover programs under HiGHS, and the cities of Germany.",
+        kind: Kind::Discrete,
+        must: &[Goal::Gap(1e-11), Goal::Equal(1e-12)],
+    },
+    Case {
+        name: "farthest-first",
+        about: "1000 points in farthest-first order, of 10⁷ × 3 in double and 10⁶ × 128 in single precision, beside NumPy.",
+        kind: Kind::Traversal,
+        must: &[Goal::Bandwidth(0.8), Goal::Equal(1e-5)],
+    },
+    Case {
+        name: "outliers",
+        about: "Uniform, 2000 × 2, without up to five points, at ε = 1e-6.",
+        kind: Kind::Outliers,
+        must: &[Goal::Gap(EXACT)],
+    },
+    Case {
+        name: "streams",
+        about: "Normal, 10⁶ × 3, one after another: the factor measured beside the one stated, on two orders.",
+        kind: Kind::Streams,
+        must: &[Goal::Factor],
+    },
+    Case {
+        name: "cities-20",
+        about: "The cities of Germany for k = 20, at 5 % and at 1 %: minutes, one permutation.",
+        kind: Kind::Free(&[
+            task(GERMANY, 20, 0.05, &[Goal::Seconds(300.0)], &[]).once(),
+            task(GERMANY, 20, 0.01, &[], &[Goal::Gap(0.01), Goal::Seconds(600.0)]).once(),
+        ]),
+        must: &[],
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_unique_and_every_case_has_a_goal() {
+        for (at, case) in CASES.iter().enumerate() {
+            assert!(CASES[..at].iter().all(|other| other.name != case.name), "{}", case.name);
+            let has_goal = match case.kind {
+                Kind::Free(tasks) => {
+                    tasks.iter().all(|task| !task.must.is_empty() || !task.aim.is_empty())
+                }
+                _ => !case.must.is_empty(),
+            };
+            assert!(has_goal, "{}", case.name);
+        }
+    }
+
+    #[test]
+    fn more_centres_of_a_set_are_known_to_reach_less_far() {
+        let radius = |goal: &Goal| match goal {
+            Goal::Radius(radius) => Some(*radius),
+            _ => None,
+        };
+        for case in CASES {
+            let Kind::Free(tasks) = case.kind else { continue };
+            for pair in tasks.windows(2).filter(|pair| pair[0].set == pair[1].set) {
+                assert!(pair[0].k < pair[1].k || pair[0].epsilon > pair[1].epsilon);
+                let [a, b] = [0, 1].map(|i| pair[i].must.iter().find_map(radius));
+                assert!(a.zip(b).is_none_or(|(a, b)| a > b), "{}, k = {}", case.name, pair[1].k);
+            }
+        }
+    }
+}
