@@ -108,6 +108,44 @@ fn nothing_is_to_be_proved_of_zero() {
 }
 
 #[test]
+fn a_bound_of_minus_zero_is_no_number() {
+    let values = [0.0, 0.0, 1.0, 0.0];
+    let points = Points::new(&values, 2).unwrap();
+    for lower in [-0.0, -1.0] {
+        let mut found = by_hand(&points, &[&[0.0, 0.0]], (1e6, lower), &[], LowerBound::Apart);
+        found.certificate.gap = 0.0;
+        match found.check(&points) {
+            Err(CheckError::Rejected(Violation::Number { what, .. })) => {
+                assert_eq!(what, "the lower bound")
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+/// The least radius is 1. Beside squares of 1e155 and more, the differences of depths are no numbers.
+#[test]
+fn weights_far_apart_prove_nothing() {
+    for weight in [1e100, 1e150, 1e155, 1e200, 1e300] {
+        for rows in [[0.0, 0.0, 1.0, 0.0, 1.0, weight], [0.0, 1.0, weight, 0.0, 0.0, 1.0]] {
+            let points = Points::new(&rows, 3).unwrap();
+            for proof in [LowerBound::Search, LowerBound::Branches { items: vec![0, 1] }] {
+                let centers: [&[f64]; 1] = [&[0.0, 1.0]];
+                let mut found = by_hand(&points, &centers, (1e6, 1e6), &[0, 1], proof);
+                found.certificate.weights = true;
+                let refused = found.check(&points);
+                assert!(matches!(refused, Err(CheckError::Rejected(_))), "{weight}: {refused:?}");
+                (found.answer.radius, found.answer.lower_bound) = (1.0, 0.999);
+                found.certificate.gap = 0.01;
+                if weight <= 1e100 {
+                    assert!(found.check(&points).is_ok(), "{weight}: {:?}", found.check(&points));
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn rows_that_are_no_items_are_named() {
     let check = |values: &[f64], change: &dyn Fn(&mut Solution<Centers>)| {
         let points = Points::new(values, 2).unwrap();

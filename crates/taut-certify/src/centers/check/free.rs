@@ -111,7 +111,11 @@ impl Room for Free<'_> {
 
     fn strain(&mut self, group: &Group, item: usize) -> f64 {
         match self.extend(group, item) {
-            true => self.scratch.fit.value - group.fit.value,
+            // A strain that is no number, as of weights that are too far apart, must not pass for an item that does not fit.
+            true => match self.scratch.fit.value - group.fit.value {
+                strain if strain.is_finite() => strain,
+                _ => f64::MAX,
+            },
             false => f64::INFINITY,
         }
     }

@@ -130,7 +130,8 @@ fn length(what: &'static str, found: usize, expected: usize) -> Result<(), Viola
 }
 
 fn number(what: &str, value: f64) -> Result<(), Violation> {
-    if value >= 0.0 && value.is_finite() {
+    // By −0 a quotient would be −∞, as good a gap as any.
+    if value >= 0.0 && value.is_sign_positive() && value.is_finite() {
         return Ok(());
     }
     Err(Violation::Number { what: what.into(), value, expected: "a finite number, at least 0" })
