@@ -36,6 +36,7 @@ pub(crate) struct Residue(u128);
 impl Residue {
     pub(crate) const ZERO: Residue = Residue(0);
 
+    /// The residue of a whole number.
     #[inline(always)]
     pub(crate) fn of(value: i64) -> Self {
         Residue(i128::from(value) as u128)

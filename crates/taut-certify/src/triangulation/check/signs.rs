@@ -225,6 +225,8 @@ impl Signs {
         if most < scale * 2f64.powi(126) {
             let mut differences = [[Residue::ZERO; D]; MOST];
             let (per_quantum, mut are_near) = (1.0 / self.quantum, true);
+            // Points close together have differences that `f64` holds, and that are small whole numbers of quanta: to turn
+            // these into residues takes a small part of the time that it takes to turn every coordinate into one.
             for (difference, point) in differences.iter_mut().zip(points) {
                 for k in 0..D {
                     let DoubleDouble { high, low } = DoubleDouble::difference(point[k], origin[k]);
