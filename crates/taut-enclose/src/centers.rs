@@ -10,12 +10,14 @@ mod clusters;
 mod conflict;
 mod items;
 mod options;
+mod plain_tree;
 mod proof;
 mod read;
 mod small_ball;
 mod start;
 mod thesis;
 mod tree;
+mod walk;
 
 use std::collections::BTreeMap;
 
@@ -29,7 +31,7 @@ use self::items::Position;
 use self::proof::Proof;
 use self::read::Table;
 use self::start::Start;
-use self::tree::Found;
+use self::tree::{Found, Shown};
 use crate::threads::on_threads;
 use crate::{Error, FarthestFirstOptions, centers_rows, farthest_first_of_source};
 pub use options::{CentersMethod, CentersOptions};
@@ -178,7 +180,7 @@ fn of_traversal<P: Position>(start: Start<P>) -> Found<P> {
     let (lower, upper, working_set) = (start.lower, start.plain.radius, core_set.len() as u64);
     Found {
         incumbent: start.plain,
-        thresholds: vec![],
+        shown: vec![],
         core_set,
         stop: Stop::Converged,
         nodes: 0,
@@ -200,11 +202,11 @@ fn prove<P: Position>(
     let plain = if apart.is_empty() { Proof::none() } else { Proof::apart(cloud, apart) };
     let mut budget = found.nodes.saturating_mul(PROOF_FACTOR).saturating_add(PROOF_NODES);
     let mut given_up = 0;
-    for &threshold in found.thresholds.iter().rev() {
+    for &Shown { threshold, items } in found.shown.iter().rev() {
         if threshold <= plain.lower {
             break;
         }
-        match Proof::by_tree(cloud, &found.core_set, threshold, k, z, budget, monitor)? {
+        match Proof::by_tree(cloud, &found.core_set[..items], threshold, k, z, budget, monitor)? {
             Some(proof) if proof.lower >= plain.lower => return Ok((proof, given_up)),
             _ => given_up += 1,
         }

@@ -1,8 +1,8 @@
 //! A part of a colouring: items of the core-set in k clusters, and what each further item would do to each of them.
 //!
-//! *State.* The core-set X; clusters 1…used, each with its items, their exact ball, and a column: for every item of X the radius
-//! of the ball with it, or ∞ where that is no less than the threshold; which items are left out.
-//! *Columns, cheapest first.* An item inside leaves the radius as it is. One too far from the new item, or for which
+//! *State.* The core-set X; clusters 1…used, each with its items, their exact ball, and its guests: the items of X that fit into
+//! it, with the radius of the ball with each, which is below the threshold; which items are left out.
+//! *Guests, cheapest first.* An item inside leaves the radius as it is. One too far from the new item, or for which
 //! (D² + r²)/2D, a lower bound on the radius of a ball that holds the old one's points and one at distance D > r, is too large,
 //! is out of the question for good. For the others the ball is made.
 //! *Choice.* The item that fits in the fewest clusters; of equals, the one that makes them grow most. Items that fit in none
@@ -18,16 +18,37 @@ const CLIQUE_STARTS: usize = 24;
 const CLIQUE_PAIRS: usize = 20_000_000;
 
 /// Items of the core-set that are together.
+#[derive(Clone)]
 pub(super) struct Cluster<P> {
     pub(super) members: Vec<u32>,
     pub(super) ball: Ball<P>,
-    /// For each item of the core-set the radius with it, ∞ if too large; shorter than the core-set where that has grown.
-    column: Vec<f64>,
+    /// In the order of the core-set.
+    guests: Vec<Guest>,
+    /// Items of the core-set that were asked; fewer than all where that has grown.
+    asked: usize,
+}
+
+/// An item that fits into a cluster, and the radius of its ball with it.
+#[derive(Clone, Copy)]
+pub(super) struct Guest {
+    item: u32,
+    radius: f64,
+}
+
+/// What the clusters are to an item.
+#[derive(Clone, Copy, Default)]
+struct Prospect {
+    /// Clusters that it fits into.
+    places: u32,
+    is_covered: bool,
+    /// By how much it would make these grow, in all.
+    rise: f64,
 }
 
 /// What has to be known to take a step back.
+#[derive(Clone)]
 pub(super) enum Undo<P> {
-    Into { cluster: usize, ball: Ball<P>, column: Vec<f64> },
+    Into { cluster: usize, ball: Ball<P>, guests: Vec<Guest>, asked: usize },
     Open,
     LeaveOut { item: u32 },
 }
@@ -52,6 +73,7 @@ pub(super) enum Survey {
 }
 
 /// The state of a search.
+#[derive(Clone)]
 pub(super) struct Clusters<P> {
     pub(super) items: ItemSet<P>,
     pub(super) clusters: Vec<Cluster<P>>,
@@ -69,7 +91,9 @@ pub(super) struct Clusters<P> {
     clique: Vec<u32>,
     /// In a dead end: items that need more empty clusters than there are, if any.
     blamed: Vec<u32>,
-    columns: Vec<Vec<f64>>,
+    prospects: Vec<Prospect>,
+    /// Lists that are not in use.
+    lists: Vec<Vec<Guest>>,
 }
 
 impl<P: Position> Clusters<P> {
@@ -88,7 +112,8 @@ impl<P: Position> Clusters<P> {
             homeless: vec![],
             clique: vec![],
             blamed: vec![],
-            columns: vec![],
+            prospects: vec![],
+            lists: vec![],
         }
     }
 
@@ -119,10 +144,10 @@ impl<P: Position> Clusters<P> {
         match place {
             Place::Open => {
                 let ball = Ball::of_one(&self.items, item);
-                let mut column = self.columns.pop().unwrap_or_default();
-                column.clear();
-                self.clusters.push(Cluster { members: vec![item], ball, column });
-                self.fill_columns();
+                let mut guests = self.lists.pop().unwrap_or_default();
+                guests.clear();
+                self.clusters.push(Cluster { members: vec![item], ball, guests, asked: 0 });
+                self.ask_new_items();
                 Undo::Open
             }
             Place::LeaveOut => {
@@ -136,18 +161,18 @@ impl<P: Position> Clusters<P> {
                 let ball = cluster.ball.clone();
                 cluster.ball.grow(items, &cluster.members, item, f64::INFINITY, work);
                 cluster.members.push(item);
-                let mut column = self.columns.pop().unwrap_or_default();
-                column.clear();
-                column.extend_from_slice(&cluster.column);
-                let old = std::mem::replace(&mut cluster.column, column);
-                for i in 0..cluster.column.len() {
-                    let before = cluster.column[i];
-                    if before < self.threshold {
-                        cluster.column[i] =
-                            cluster.radius_with(items, i as u32, &[item], self.threshold, work);
+                let mut guests = self.lists.pop().unwrap_or_default();
+                guests.clear();
+                let old = std::mem::take(&mut cluster.guests);
+                for guest in old.iter().filter(|guest| guest.radius < self.threshold) {
+                    let radius =
+                        cluster.radius_with(items, guest.item, &[item], self.threshold, work);
+                    if radius < self.threshold {
+                        guests.push(Guest { radius, ..*guest });
                     }
                 }
-                Undo::Into { cluster: at, ball, column: old }
+                cluster.guests = guests;
+                Undo::Into { cluster: at, ball, guests: old, asked: cluster.asked }
             }
         }
     }
@@ -157,33 +182,55 @@ impl<P: Position> Clusters<P> {
         match undo {
             Undo::Open => {
                 let cluster = self.clusters.pop().expect("it was opened");
-                self.columns.push(cluster.column);
+                self.lists.push(cluster.guests);
             }
             Undo::LeaveOut { item } => {
                 self.left_out[item as usize] = false;
                 self.spare += 1;
             }
-            Undo::Into { cluster, ball, column } => {
+            Undo::Into { cluster, ball, guests, asked } => {
                 let cluster = &mut self.clusters[cluster];
                 cluster.members.pop();
                 cluster.ball = ball;
-                self.columns.push(std::mem::replace(&mut cluster.column, column));
+                cluster.asked = asked;
+                self.lists.push(std::mem::replace(&mut cluster.guests, guests));
             }
         }
     }
 
-    /// Brings columns to the length of the core-set.
-    fn fill_columns(&mut self) {
+    /// Asks each cluster of the items that the core-set has won.
+    fn ask_new_items(&mut self) {
         for cluster in &mut self.clusters {
-            for item in cluster.column.len()..self.items.len() {
+            for item in cluster.asked as u32..self.items.len() as u32 {
                 let radius = cluster.radius_with(
                     &self.items,
-                    item as u32,
+                    item,
                     &cluster.members,
                     self.threshold,
                     &mut self.work,
                 );
-                cluster.column.push(radius);
+                if radius < self.threshold {
+                    cluster.guests.push(Guest { item, radius });
+                }
+            }
+            cluster.asked = self.items.len();
+        }
+    }
+
+    /// What the clusters are to each item.
+    fn look_around(&mut self) {
+        self.prospects.clear();
+        self.prospects.resize(self.items.len(), Prospect::default());
+        for cluster in &self.clusters {
+            let radius = cluster.ball.radius;
+            for guest in &cluster.guests {
+                let prospect = &mut self.prospects[guest.item as usize];
+                if guest.radius <= radius {
+                    prospect.is_covered = true;
+                } else if guest.radius < self.threshold {
+                    prospect.places += 1;
+                    prospect.rise += guest.radius - radius;
+                }
             }
         }
     }
@@ -194,10 +241,11 @@ impl<P: Position> Clusters<P> {
         if self.is_too_large() {
             return Survey::Stuck;
         }
-        self.fill_columns();
+        self.ask_new_items();
+        self.look_around();
         let room = self.empty() + self.spare as usize;
         self.homeless.clear();
-        let mut best: Option<(usize, f64, u32)> = None;
+        let mut best: Option<(u32, f64, u32)> = None;
         for item in 0..self.items.len() {
             if self.left_out[item] {
                 continue;
@@ -207,18 +255,7 @@ impl<P: Position> Clusters<P> {
                 let is_stuck = self.spare == 0 && !chains;
                 return if is_stuck { Survey::Stuck } else { Survey::Branch(item as u32) };
             }
-            let (mut places, mut rise, mut is_covered) = (0, 0.0, false);
-            for cluster in &self.clusters {
-                let radius = cluster.column[item];
-                if radius <= cluster.ball.radius {
-                    is_covered = true;
-                    break;
-                }
-                if radius < self.threshold {
-                    places += 1;
-                    rise += radius - cluster.ball.radius;
-                }
-            }
+            let Prospect { places, is_covered, rise } = self.prospects[item];
             if is_covered {
                 continue;
             }
@@ -350,9 +387,11 @@ impl<P: Position> Clusters<P> {
     pub(super) fn places(&self, item: u32) -> Vec<(f64, Place)> {
         let mut places: Vec<(f64, Place)> = vec![];
         for (at, cluster) in self.clusters.iter().enumerate() {
-            let radius = cluster.column[item as usize];
-            if radius < self.threshold {
-                places.push((radius, Place::Into(at)));
+            let found = cluster.guests.binary_search_by_key(&item, |guest| guest.item);
+            if let Ok(found) = found
+                && cluster.guests[found].radius < self.threshold
+            {
+                places.push((cluster.guests[found].radius, Place::Into(at)));
             }
         }
         places.sort_by(|a, b| a.0.total_cmp(&b.0));

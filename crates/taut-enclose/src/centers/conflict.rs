@@ -27,6 +27,12 @@ impl Levels {
         self.words.get(level as usize / 64).is_some_and(|word| word >> (level % 64) & 1 == 1)
     }
 
+    /// The last of the levels; 0 where there is none.
+    pub(super) fn last(&self) -> u32 {
+        let word = self.words.iter().rposition(|&word| word != 0);
+        word.map_or(0, |at| at as u32 * 64 + self.words[at].ilog2())
+    }
+
     pub(super) fn add_all(&mut self, other: &Levels) {
         if self.words.len() < other.words.len() {
             self.words.resize(other.words.len(), 0);
@@ -49,5 +55,8 @@ mod tests {
         a.remove(5000);
         let kept: Vec<u32> = (0..300).filter(|&level| a.contains(level)).collect();
         assert_eq!(kept, [1, 2, 64, 200]);
+        assert_eq!((a.last(), Levels::default().last()), (200, 0));
+        [1, 2, 64, 200].into_iter().for_each(|level| a.remove(level));
+        assert_eq!(a.last(), 0);
     }
 }

@@ -10,11 +10,12 @@
 //! step before is tried.
 
 use taut_certify::LowerBound;
-use taut_points::{Monitor, ReadError};
+use taut_points::Monitor;
 
 use super::cloud::Cloud;
-use super::clusters::{Clusters, Place, Survey, Undo, large_clique};
-use super::items::{ItemSet, Position};
+use super::clusters::large_clique;
+use super::items::Position;
+use super::plain_tree::{Log, PlainTree};
 use super::start::least_pair_radius;
 use crate::Error;
 
@@ -22,14 +23,16 @@ use crate::Error;
 const ROUNDING: f64 = 1e-12;
 /// The same for two items.
 const PAIR_ROUNDING: f64 = 1e-14;
+/// How far open children stay below the refuted ones, so that others, who round otherwise, refute the same.
+const CLEAR: f64 = 4e-12;
 /// Trees of up to so many nodes, and up to so many centres, are left to a checker to find; larger ones are written down.
 const SEARCH_NODES: u64 = 2000;
 const SEARCH_CENTERS: usize = 8;
 /// Core-sets of more items are not given to a search, and of still more to no checker at all.
 const SEARCH_ITEMS: usize = 1000;
 const BRANCH_ITEMS: usize = 16_000;
-/// Trees over what the one before has branched on.
-const ROUNDS: usize = 4;
+/// Trees over what the one before has branched on, or with open children farther from the bound.
+const ROUNDS: usize = 5;
 
 /// Items and how they prove the lower bound.
 pub(super) struct Proof {
@@ -38,14 +41,6 @@ pub(super) struct Proof {
     pub(super) core_set: Vec<u32>,
     pub(super) kind: LowerBound,
     pub(super) nodes: u64,
-}
-
-/// A tree written down.
-struct Log {
-    /// The item of each node, in preorder.
-    items: Vec<u32>,
-    /// The least of the bounds by which children were refuted.
-    lower: f64,
 }
 
 impl Proof {
@@ -77,10 +72,16 @@ impl Proof {
             return Ok(Some(Self::apart(cloud, apart)));
         }
         let mut best: Option<(Vec<u32>, Log)> = None;
-        let mut budget = budget;
+        let (mut budget, mut threshold) = (budget, threshold);
         for _ in 0..ROUNDS {
             let core_set = best.as_ref().map_or(core_set, |(core_set, _)| core_set);
-            let Some(log) = tree(cloud, core_set, threshold, k, z, budget, monitor)? else { break };
+            let tree = PlainTree::new(cloud, core_set, threshold, k, z, budget, monitor);
+            let Some(log) = tree.log()? else { break };
+            if log.open > log.lower * (1.0 - CLEAR) {
+                // A child that is open here may be refuted there: both have to be on the same side of the bound.
+                threshold = log.open * (1.0 - CLEAR);
+                continue;
+            }
             budget = (log.items.len() as u64).saturating_sub(1);
             let (needed, log) = renumbered(core_set, log);
             let is_last = needed.len() == core_set.len();
@@ -115,84 +116,5 @@ fn renumbered(core_set: &[u32], log: Log) -> (Vec<u32>, Log) {
         }
         *item = *number;
     }
-    (needed, Log { items, lower: log.lower })
-}
-
-/// A node under way: the children that are not refuted at once.
-struct Frame<P> {
-    item: u32,
-    places: Vec<Place>,
-    next: usize,
-    undo: Option<Undo<P>>,
-}
-
-/// The plain tree; none where it is too large, or the core-set does fit.
-fn tree<P: Position>(
-    cloud: &Cloud<P>,
-    core_set: &[u32],
-    threshold: f64,
-    k: usize,
-    z: usize,
-    budget: u64,
-    monitor: &Monitor<'_>,
-) -> Result<Option<Log>, Error> {
-    let mut items = ItemSet::new(cloud.items.shape(), cloud.items.dim());
-    for &item in core_set {
-        items.push(cloud.items.at(item as usize), cloud.items.extra(item as usize));
-    }
-    let mut state = Clusters::new(items, k, z as u64, threshold);
-    let mut log = Log { items: vec![], lower: f64::INFINITY };
-    let mut frames: Vec<Frame<P>> = vec![];
-    loop {
-        if log.items.len() as u64 >= budget {
-            return Ok(None);
-        }
-        if log.items.len() % 256 == 255 {
-            monitor.check().map_err(ReadError::from)?;
-        }
-        let Survey::Branch(item) = state.survey(true) else { return Ok(None) };
-        log.items.push(item);
-        let places = open_places(&mut state, item, &mut log.lower);
-        frames.push(Frame { item, places, next: 0, undo: None });
-        loop {
-            let Some(frame) = frames.last_mut() else { return Ok(Some(log)) };
-            if let Some(undo) = frame.undo.take() {
-                state.undo(undo);
-            }
-            let Some(&place) = frame.places.get(frame.next) else {
-                frames.pop();
-                continue;
-            };
-            frame.next += 1;
-            frame.undo = Some(state.put(frame.item, place, 0));
-            break;
-        }
-    }
-}
-
-/// The places of an item whose ball stays below the threshold, in the order of the log; what refutes the others goes to `lower`.
-fn open_places<P: Position>(state: &mut Clusters<P>, item: u32, lower: &mut f64) -> Vec<Place> {
-    let mut places = vec![];
-    let Clusters { items, clusters, threshold, work, .. } = state;
-    for (at, cluster) in clusters.iter().enumerate() {
-        let mut ball = cluster.ball.clone();
-        ball.grow(items, &cluster.members, item, f64::INFINITY, work);
-        if ball.radius >= *threshold {
-            *lower = lower.min(ball.lower_bound(items));
-        } else {
-            places.push(Place::Into(at));
-        }
-    }
-    if state.empty() > 0 {
-        let alone = state.items.radius(item as usize);
-        if alone >= state.threshold {
-            *lower = lower.min(alone);
-        } else {
-            places.push(Place::Open);
-        }
-    }
-    if state.spare() > 0 {
-        places.push(Place::LeaveOut);
-    }
-    places
+    (needed, Log { items, ..log })
 }

@@ -36,6 +36,7 @@ pub(super) struct Ball<P> {
 }
 
 /// Room for calculations, kept so that none of them asks for memory.
+#[derive(Clone)]
 pub(super) struct Workspace<P> {
     /// Q by columns.
     basis: Vec<P>,

@@ -18,7 +18,7 @@ use super::cloud::Cloud;
 use super::items::{Position, Shape, distance};
 use super::small_ball::{Ball, Workspace};
 use super::start::Incumbent;
-use super::tree::Found;
+use super::tree::{Found, Shown};
 use crate::Error;
 
 struct Cluster<P> {
@@ -96,13 +96,14 @@ pub(super) fn solve<P: Position>(
     core_set.sort_unstable();
     core_set.dedup();
     let threshold = best.radius / (1.0 + epsilon);
-    let thresholds = if stop == Stop::Converged { vec![threshold] } else { vec![] };
-    let lower = thresholds.first().copied().unwrap_or(0.0);
+    let is_shown = stop == Stop::Converged;
+    let shown = is_shown.then_some(Shown { threshold, items: core_set.len() });
+    let lower = shown.map_or(0.0, |shown| shown.threshold);
     let history =
         vec![PassBounds { lower, upper: best.radius, working_set: core_set.len() as u64 }];
     Ok(Found {
         incumbent: best,
-        thresholds,
+        shown: shown.into_iter().collect(),
         core_set,
         stop,
         nodes,

@@ -1,0 +1,221 @@
+//! The plain tree over a core-set that proves a radius too small, written down node by node.
+//!
+//! *Idea.* The radius and the items stay as they are: each item is given to each cluster in turn, to a new one, and to those left
+//! out, and each of these children has a tree of its own or is refuted at once by a ball that is too large.
+//! *Threads.* What is below a node depends on nothing beside it. A tree that is not small is opened from its root until there are
+//! [`PARTS`] nodes whose trees are unknown; these are made side by side, and their logs put where they belong.
+//! *Guarantee.* One set of options has one log. It is given up just when it is longer than the budget, or does not end in dead
+//! ends alone.
+
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use rayon::prelude::*;
+use taut_points::{Monitor, ReadError};
+
+use super::cloud::Cloud;
+use super::clusters::{Clusters, Place, Survey, Undo};
+use super::items::{ItemSet, Position};
+use crate::Error;
+
+/// A tree with more nodes is made in parts.
+const SMALL: u64 = 1000;
+/// Far more than there are cores, as some are a hundred times as large as others.
+const PARTS: usize = 256;
+/// Nodes until they are counted, and it is asked whether to go on.
+const BREATH: u64 = 64;
+
+/// A tree written down.
+#[derive(Debug, PartialEq)]
+pub(super) struct Log {
+    /// The item of each node, in preorder.
+    pub(super) items: Vec<u32>,
+    /// The least of the bounds by which children were refuted.
+    pub(super) lower: f64,
+    /// The largest radius of a ball of a child that was not.
+    pub(super) open: f64,
+}
+
+impl Log {
+    fn empty() -> Self {
+        Log { items: vec![], lower: f64::INFINITY, open: 0.0 }
+    }
+}
+
+/// The tree that is asked for.
+pub(super) struct PlainTree<'a, P> {
+    items: ItemSet<P>,
+    threshold: f64,
+    k: usize,
+    z: usize,
+    /// Most nodes.
+    budget: u64,
+    monitor: &'a Monitor<'a>,
+    nodes: AtomicU64,
+    is_given_up: AtomicBool,
+}
+
+/// A piece of a log that is not complete.
+enum Part<P> {
+    Node(u32),
+    /// All from the node on to which so many decisions led.
+    Below {
+        state: Clusters<P>,
+        depth: usize,
+    },
+}
+
+/// A node under way: the children that are not refuted at once.
+struct Frame<P> {
+    item: u32,
+    places: Vec<Place>,
+    next: usize,
+    undo: Option<Undo<P>>,
+}
+
+impl<'a, P: Position> PlainTree<'a, P> {
+    pub(super) fn new(
+        cloud: &Cloud<P>,
+        core_set: &[u32],
+        threshold: f64,
+        k: usize,
+        z: usize,
+        budget: u64,
+        monitor: &'a Monitor<'a>,
+    ) -> Self {
+        let mut items = ItemSet::new(cloud.items.shape(), cloud.items.dim());
+        for &item in core_set {
+            items.push(cloud.items.at(item as usize), cloud.items.extra(item as usize));
+        }
+        let (nodes, is_given_up) = (AtomicU64::new(0), AtomicBool::new(false));
+        PlainTree { items, threshold, k, z, budget, monitor, nodes, is_given_up }
+    }
+
+    /// The whole tree; none where it has more nodes than the budget, or balls below the threshold hold the core-set.
+    pub(super) fn log(&self) -> Result<Option<Log>, Error> {
+        if let Some(log) = self.below(self.root(), SMALL.min(self.budget))? {
+            return Ok(Some(log));
+        }
+        if self.budget <= SMALL || self.is_given_up.load(Ordering::Relaxed) {
+            return Ok(None);
+        }
+        self.nodes.store(0, Ordering::Relaxed);
+        let mut log = Log::empty();
+        let Some(parts) = self.open(&mut log)? else { return Ok(None) };
+        let pieces: Vec<Option<Log>> = parts
+            .into_par_iter()
+            .map(|part| match part {
+                Part::Node(item) => Ok(Some(Log { items: vec![item], ..Log::empty() })),
+                Part::Below { state, .. } => self.below(state, self.budget),
+            })
+            .collect::<Result<_, Error>>()?;
+        let Some(pieces) = pieces.into_iter().collect::<Option<Vec<Log>>>() else {
+            return Ok(None);
+        };
+        for piece in pieces {
+            log.items.extend(piece.items);
+            log.lower = log.lower.min(piece.lower);
+            log.open = log.open.max(piece.open);
+        }
+        Ok((log.items.len() as u64 <= self.budget).then_some(log))
+    }
+
+    /// The tree opened from its root on, nodes nearest to it first; `bounds` takes what its children are refuted by.
+    fn open(&self, bounds: &mut Log) -> Result<Option<Vec<Part<P>>>, Error> {
+        let mut parts = vec![Part::Below { state: self.root(), depth: 0 }];
+        let mut unknown = 1;
+        while (1..PARTS).contains(&unknown) {
+            self.monitor.check().map_err(ReadError::from)?;
+            let unknowns = parts.iter_mut().enumerate().filter_map(|(at, part)| match part {
+                Part::Node(_) => None,
+                Part::Below { state, depth } => Some((*depth, at, state)),
+            });
+            let first = unknowns.min_by_key(|&(depth, at, _)| (depth, at));
+            let (depth, at, state) = first.expect("some are unknown");
+            let Survey::Branch(item) = state.survey(true) else { return Ok(None) };
+            let places = open_places(state, item, bounds);
+            unknown = unknown - 1 + places.len();
+            let child = |place| {
+                let mut state = state.clone();
+                state.put(item, place, 0);
+                Part::Below { state, depth: depth + 1 }
+            };
+            let children: Vec<Part<P>> = places.into_iter().map(child).collect();
+            parts.splice(at..=at, std::iter::once(Part::Node(item)).chain(children));
+        }
+        Ok(Some(parts))
+    }
+
+    /// The state before any decision.
+    fn root(&self) -> Clusters<P> {
+        Clusters::new(self.items.clone(), self.k, self.z as u64, self.threshold)
+    }
+
+    /// All from the node in this state on; none where that is more than `most` nodes, or others have given up.
+    fn below(&self, mut state: Clusters<P>, most: u64) -> Result<Option<Log>, Error> {
+        let mut log = Log::empty();
+        let mut frames: Vec<Frame<P>> = vec![];
+        loop {
+            if (log.items.len() as u64).is_multiple_of(BREATH) {
+                self.monitor.check().map_err(ReadError::from)?;
+                let counted = if log.items.is_empty() { 0 } else { BREATH };
+                let nodes = self.nodes.fetch_add(counted, Ordering::Relaxed) + counted;
+                if nodes > self.budget || self.is_given_up.load(Ordering::Relaxed) {
+                    return Ok(None);
+                }
+            }
+            if log.items.len() as u64 >= most {
+                return Ok(None);
+            }
+            let Survey::Branch(item) = state.survey(true) else {
+                // It holds: whatever else there is, proves nothing.
+                self.is_given_up.store(true, Ordering::Relaxed);
+                return Ok(None);
+            };
+            log.items.push(item);
+            let places = open_places(&mut state, item, &mut log);
+            frames.push(Frame { item, places, next: 0, undo: None });
+            loop {
+                let Some(frame) = frames.last_mut() else { return Ok(Some(log)) };
+                if let Some(undo) = frame.undo.take() {
+                    state.undo(undo);
+                }
+                let Some(&place) = frame.places.get(frame.next) else {
+                    frames.pop();
+                    continue;
+                };
+                frame.next += 1;
+                frame.undo = Some(state.put(frame.item, place, 0));
+                break;
+            }
+        }
+    }
+}
+
+/// The places of an item whose ball stays below the threshold, in the order of the log; `bounds` takes what refutes the others.
+fn open_places<P: Position>(state: &mut Clusters<P>, item: u32, bounds: &mut Log) -> Vec<Place> {
+    let mut places = vec![];
+    let Clusters { items, clusters, threshold, work, .. } = state;
+    for (at, cluster) in clusters.iter().enumerate() {
+        let mut ball = cluster.ball.clone();
+        ball.grow(items, &cluster.members, item, f64::INFINITY, work);
+        if ball.radius >= *threshold {
+            bounds.lower = bounds.lower.min(ball.lower_bound(items));
+        } else {
+            bounds.open = bounds.open.max(ball.radius);
+            places.push(Place::Into(at));
+        }
+    }
+    if state.empty() > 0 {
+        let alone = state.items.radius(item as usize);
+        if alone >= state.threshold {
+            bounds.lower = bounds.lower.min(alone);
+        } else {
+            bounds.open = bounds.open.max(alone);
+            places.push(Place::Open);
+        }
+    }
+    if state.spare() > 0 {
+        places.push(Place::LeaveOut);
+    }
+    places
+}
