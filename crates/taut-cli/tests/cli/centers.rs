@@ -187,11 +187,14 @@ fn the_elbow_is_a_table_a_file_and_a_plot() {
     let rows: Vec<Vec<f64>> = table
         .lines()
         .skip(1)
-        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .map(|line| {
+            line.replace("converged", "1").split(',').map(|cell| cell.parse().unwrap()).collect()
+        })
         .collect();
-    assert!(table.starts_with("k,radius,lower_bound,nodes,core_set\n"));
+    assert!(table.starts_with("k,radius,lower_bound,gap,stop,nodes,core_set\n"));
     assert_eq!(rows.iter().map(|row| row[0]).collect::<Vec<_>>(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
     assert!(rows.iter().all(|row| row[2] <= row[1] && row[1] <= (1.0 + 1e-6) * row[2]));
+    assert!(rows.iter().all(|row| (0.0..=1e-6).contains(&row[3])));
     assert_eq!((rows[1][1], rows[5][1], rows[5][2]), (1.0, 0.0, 0.0));
     let picture = desk.text("elbow.svg");
     for part in ["Radius by number of centres", "radius found", "lower bound: proved"] {
@@ -201,6 +204,38 @@ fn the_elbow_is_a_table_a_file_and_a_plot() {
     assert!(desk.text("elbow.html").contains("k = 3"));
     let run = desk.taut("centers towns.csv --elbow 2..3 -o -").ends(0);
     assert!(run.out.starts_with("k,radius,") && run.out.lines().count() == 3, "{}", run.out);
+}
+
+#[test]
+fn the_elbow_ends_where_the_radius_does_and_says_how_far_it_is() {
+    let desk = desk();
+    let run = desk
+        .taut("centers towns.csv --elbow 4..900 --epsilon 1e-6 -o elbow.csv --progress always")
+        .ends(0)
+        .says(&["\n  ended       at k = 6; the radius is 0, and is for every larger k\n"]);
+    assert_eq!(desk.text("elbow.csv").lines().count(), 4);
+    for part in ["k = 4: radius 0.", "k = 5: radius 0.", "k = 6: radius 0, gap 0; converged"] {
+        assert!(run.err.contains(part), "{part} in {}", run.err);
+    }
+    desk.taut("centers towns.csv --elbow 1..1001").ends(2).complains(&["at most 1000 values"]);
+}
+
+/// Searches that are stopped at once may end with a larger radius than those for fewer centres; the table does not.
+#[test]
+fn the_elbow_never_rises() {
+    let desk = Desk::new();
+    desk.taut("generate uniform -n 300 -d 2 --seed 5 -o points.npy").ends(0);
+    desk.taut("centers points.npy --elbow 1..30 --epsilon 1e-6 --max-nodes 0 -o elbow.csv").ends(3);
+    let table = desk.text("elbow.csv");
+    let column = |i: usize| -> Vec<f64> {
+        table.lines().skip(1).map(|line| line.split(',').nth(i).unwrap().parse().unwrap()).collect()
+    };
+    let (radii, bounds, gaps) = (column(1), column(2), column(3));
+    assert!(radii.is_sorted_by(|a, b| a >= b) && bounds.is_sorted_by(|a, b| a >= b), "{table}");
+    for ((radius, bound), gap) in radii.iter().zip(&bounds).zip(&gaps) {
+        assert!(radius <= &(bound * (1.0 + gap)) && bound <= radius, "{table}");
+    }
+    assert!(table.contains(",node-budget,") && table.contains(",converged,"), "{table}");
 }
 
 #[test]
