@@ -31,7 +31,10 @@ use self::read::Table;
 use self::start::Start;
 use self::tree::Found;
 use crate::threads::on_threads;
-use crate::{Error, FarthestFirstOptions, centers_rows, farthest_first_of_source};
+use crate::{
+    CoverOptions, Error, FarthestFirstOptions, centers_rows, cover_of_source,
+    farthest_first_of_source,
+};
 pub use options::{CentersMethod, CentersOptions};
 
 /// The least relative gap that is sought; proofs take 1e-12 of it.
@@ -90,7 +93,7 @@ pub fn centers_of_balls<T: Scalar>(
     centers_of_source(balls, Items::Balls, k, options, &Monitor::silent())
 }
 
-/// The same for the items of a source, which is read once.
+/// The same for the items of a source, which is read once, or twice by [`CentersMethod::Stream`].
 ///
 /// # Errors
 /// As [`centers_of_balls()`], and [`Error::Read`] when the source fails or `monitor` stops the work.
@@ -113,11 +116,32 @@ pub fn centers_of_source(
                 source,
             );
         }
+        if options.method == CentersMethod::Stream {
+            return of_stream(source, items, k, options.placement, monitor);
+        }
         match options.placement {
             Placement::Free => solve(source, items, k, options, monitor),
             Placement::Rows => centers_rows::solve(source, items, k, options, monitor),
         }
     })
+}
+
+/// Centres of one pass, measured by another.
+fn of_stream(
+    source: &dyn PointSource,
+    items: Items,
+    k: usize,
+    placement: Placement,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Centers>, Error> {
+    if items != Items::Points {
+        return Err(Error::Option {
+            name: "method",
+            value: CentersMethod::Stream.to_string(),
+            expected: "one of the others for balls",
+        });
+    }
+    cover_of_source(source, k, placement, &CoverOptions::default(), monitor)
 }
 
 fn solve(
@@ -165,7 +189,8 @@ fn solve_in<P: Position>(
         CentersMethod::Thesis => {
             thesis::solve(&cloud, start.plain, k, target, options.max_nodes, monitor)?
         }
-        CentersMethod::FarthestFirst => of_traversal(start),
+        // Streams are not held in memory, and so do not come here.
+        CentersMethod::FarthestFirst | CentersMethod::Stream => of_traversal(start),
     };
     let (proof, given_up) = prove(&cloud, &found, apart, k, z, monitor)?;
     let answered = answer::answer(table, &cloud, &found.incumbent.centers, z, options.assignment)?;

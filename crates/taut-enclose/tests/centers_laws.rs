@@ -7,7 +7,8 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use taut_certify::{Centers, Items, LowerBound, Placement, Solution, Stop};
 use taut_enclose::{
-    CentersMethod, CentersOptions, Error, centers, centers_of_balls, centers_of_source,
+    CentersMethod, CentersOptions, CoverOptions, Error, centers, centers_of_balls,
+    centers_of_source,
 };
 use taut_points::{Distribution, Monitor, Points, generate};
 
@@ -121,7 +122,11 @@ proptest! {
             let other = found(&values, dim, k, &options);
             prop_assert!(other.answer.lower_bound <= best.radius);
             prop_assert!(other.answer.radius >= best.lower_bound);
-            let gap = if method == CentersMethod::FarthestFirst { 1.0 } else { 0.05 };
+            let gap = match method {
+                CentersMethod::FarthestFirst => 1.0,
+                CentersMethod::Stream => CoverOptions::default().factor() - 1.0,
+                CentersMethod::Tree | CentersMethod::Thesis => 0.05,
+            };
             prop_assert!(other.certificate.gap <= gap * (1.0 + 1e-9), "{method}: {}", other.certificate.gap);
         }
     }
@@ -273,6 +278,13 @@ fn wrong_input_is_named() {
     assert_eq!(option(CentersOptions { outliers: 1, ..thesis }, 1), "outliers");
     assert_eq!(option(CentersOptions { weights: true, ..thesis }, 1), "weights");
     assert_eq!(option(CentersOptions { placement: Placement::Rows, ..thesis }, 1), "placement");
+
+    let stream = CentersOptions { method: CentersMethod::Stream, ..plain };
+    assert_eq!(option(CentersOptions { outliers: 1, ..stream }, 1), "outliers");
+    assert_eq!(option(CentersOptions { weights: true, ..stream }, 1), "weights");
+    assert_eq!(option(CentersOptions { assignment: true, ..stream }, 1), "assignment");
+    let of_balls = centers_of_balls(&points, 1, &stream);
+    assert!(matches!(of_balls, Err(Error::Option { name: "method", .. })));
 
     let weights = CentersOptions { weights: true, ..plain };
     assert!(matches!(

@@ -151,13 +151,30 @@ fn outliers_weights_and_balls_are_asked_for() {
 fn all_methods_end_in_a_proof() {
     let desk = Desk::new();
     desk.taut("generate clusters -n 500 -d 2 --seed 3 -o points.npy").ends(0);
-    for (method, most) in [("tree", "0.01"), ("thesis", "0.01"), ("farthest-first", "1.000000001")]
-    {
+    for (method, most) in [
+        ("tree", "0.01"),
+        ("thesis", "0.01"),
+        ("farthest-first", "1.000000001"),
+        ("stream", "1.97"),
+    ] {
         desk.taut(&format!("centers points.npy -k 4 --method {method} -o found.json"))
             .ends(0)
             .says(&[&format!("\n  method      {method}; converged\n"), "verified    yes"]);
         desk.taut(&format!("verify found.json points.npy --epsilon {most}")).ends(0);
     }
+}
+
+/// Two passes, one to look and one to measure; centres that are rows are named on request.
+#[test]
+fn a_stream_is_read_twice() {
+    let desk = Desk::new();
+    desk.taut("generate uniform -n 100000 -d 3 --seed 4 -o points.npy").ends(0);
+    desk.taut("centers points.npy -k 7 --method stream --discrete -o found.json").ends(0).says(&[
+        "\n  passes      2\n",
+        "; row ",
+        "verified    yes",
+    ]);
+    desk.taut("verify found.json points.npy --epsilon 1.97").ends(0);
 }
 
 #[test]
@@ -277,7 +294,9 @@ fn wrong_input_and_options_are_named_and_nothing_is_written() {
         ("towns.csv -k -2", &["-2"]),
         ("towns.csv -k 2 --epsilon 1", &["--epsilon` is 1", "[0, 1)"]),
         ("towns.csv -k 2 --outliers 6", &["--outliers` is 6", "less than"]),
-        ("towns.csv -k 2 --method lloyd", &["lloyd", "tree, thesis, farthest-first"]),
+        ("towns.csv -k 2 --method lloyd", &["lloyd", "tree, thesis, farthest-first, stream"]),
+        ("towns.csv -k 2 --method stream --balls", &["--balls", "stream"]),
+        ("towns.csv -k 2 --method stream --assignment", &["--assignment", "stream"]),
         ("towns.csv -k 2 --method thesis --discrete", &["--discrete", "thesis"]),
         ("towns.csv -k 2 --method thesis --outliers 1", &["--outliers", "thesis"]),
         ("towns.csv -k 2 --weights --balls", &["--weights", "--balls"]),
