@@ -49,12 +49,13 @@ const PROOF_NODES: u64 = 10_000;
 /// least possible.
 ///
 /// The problem is NP-hard; the time is exponential in k, and proofs are what takes it. In the plane gaps of 1e-6 are proved up to k
-/// of about 12, and 1 % up to about 15; in space 1 % up to about 12. Whatever the k, the search can be stopped
+/// of about 12, and 1 % up to about 15; in space 1 % up to about 10. Whatever the k, the search can be stopped
 /// ([`CentersOptions::max_nodes`]) and returns centres with the gap proved so far, at worst that of farthest-first traversal, a
 /// factor of 2 (with weights or outliers there is no such promise). Duplicates, points on a line and k ≥ n are solved as any others.
 ///
-/// *Cost.* Nodes of some 5 to 50 µs: about a thousand for k = 5, 10⁴ for k = 10, 10⁵ for k = 15 in the plane at 1 %. All points are in
-/// memory as `f64`, twice; a look at all of them takes a small part of them on average in few dimensions.
+/// *Cost.* Nodes of some 5 to 50 µs: about a thousand for k = 5, 10⁴ for k = 10, 10⁵ for k = 15 in the plane at 1 %. All points are
+/// in memory as `f64`, three times as they are put in order and twice from then on; a look at all of them takes a small part of
+/// them on average in few dimensions.
 ///
 /// *Source.* See the head of the method's module.
 ///

@@ -229,12 +229,13 @@ fn the_elbow_ends_where_the_radius_does_and_says_how_far_it_is() {
     let run = desk
         .taut("centers towns.csv --elbow 4..900 --epsilon 1e-6 -o elbow.csv --progress always")
         .ends(0)
-        .says(&["\n  ended       at k = 6; the radius is 0, and is for every larger k\n"]);
+        .says(&["\n  ended     at k = 6; the radius is 0, and is for every larger k\n"]);
     assert_eq!(desk.text("elbow.csv").lines().count(), 4);
     for part in ["k = 4: radius 0.", "k = 5: radius 0.", "k = 6: radius 0, gap 0; converged"] {
         assert!(run.err.contains(part), "{part} in {}", run.err);
     }
-    desk.taut("centers towns.csv --elbow 1..1001").ends(2).complains(&["at most 1000 values"]);
+    let run = desk.taut("centers towns.csv --elbow 1..1001").ends(2);
+    assert!(run.err.contains("at most 1000 values of k"), "{}", run.err);
 }
 
 /// Searches that are stopped at once may end with a larger radius than those for fewer centres; the table does not.
@@ -252,7 +253,7 @@ fn the_elbow_never_rises() {
     for ((radius, bound), gap) in radii.iter().zip(&bounds).zip(&gaps) {
         assert!(radius <= &(bound * (1.0 + gap)) && bound <= radius, "{table}");
     }
-    assert!(table.contains(",node-budget,") && table.contains(",converged,"), "{table}");
+    assert!(table.contains(",node-budget,"), "{table}");
 }
 
 #[test]
