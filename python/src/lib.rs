@@ -17,6 +17,7 @@ mod numbers;
 mod robust;
 mod rows;
 mod solution;
+mod sphere_tree;
 mod triangulation;
 mod work;
 
@@ -47,6 +48,8 @@ mod _native {
     use crate::robust::{RobustCertificate, RobustEllipsoid, RobustVerdict, robust_ellipsoid};
     #[pymodule_export]
     use crate::solution::{Ball, BallCertificate, PassBounds, Solution, Trace, Verdict, Violation};
+    #[pymodule_export]
+    use crate::sphere_tree::{SphereTree, sphere_tree};
     #[pymodule_export]
     use crate::triangulation::{Triangulation, TriangulationCertificate, TriangulationVerdict};
 

@@ -31,21 +31,21 @@ impl<'py> Rows<'py> {
     /// The same memory as a source of points.
     pub(crate) fn source(&self) -> PyResult<Box<dyn PointSource + '_>> {
         match self {
-            Rows::F32(array) => view(array),
-            Rows::F64(array) => view(array),
+            Rows::F32(array) => Ok(Box::new(points(array)?)),
+            Rows::F64(array) => Ok(Box::new(points(array)?)),
         }
     }
 }
 
-fn view<'a, T: Scalar + Element>(
+/// An array as points.
+pub(crate) fn points<'a, T: Scalar + Element>(
     array: &'a PyReadonlyArray2<'_, T>,
-) -> PyResult<Box<dyn PointSource + 'a>> {
+) -> PyResult<Points<'a, T>> {
     if !array.is_c_contiguous() {
         return Err(PyValueError::new_err("expected an array in C order"));
     }
-    let points = Points::new(array.as_slice()?, array.shape()[1])
-        .map_err(|error| PyValueError::new_err(error.to_string()))?;
-    Ok(Box::new(points))
+    Points::new(array.as_slice()?, array.shape()[1])
+        .map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
 /// An array of the numbers that cannot be written to.

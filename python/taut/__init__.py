@@ -12,7 +12,7 @@ The names, options and defaults are those of the Rust library and of the command
 """
 
 from ._ball import ball, ball_of_balls
-from ._centers import centers, farthest_first
+from ._centers import centers, farthest_first, sphere_tree
 from ._delaunay import delaunay
 from ._ellipsoid import ellipsoid, ellipsoids, inscribed_ellipsoid
 from ._generate import generate
@@ -35,6 +35,7 @@ from ._native import (
     RobustEllipsoid,
     RobustVerdict,
     Solution,
+    SphereTree,
     Trace,
     Triangulation,
     TriangulationCertificate,
@@ -65,6 +66,7 @@ __all__ = [
     "RobustEllipsoid",
     "RobustVerdict",
     "Solution",
+    "SphereTree",
     "Trace",
     "Triangulation",
     "TriangulationCertificate",
@@ -82,5 +84,6 @@ __all__ = [
     "generate",
     "inscribed_ellipsoid",
     "robust_ellipsoid",
+    "sphere_tree",
     "verify",
 ]

@@ -8,9 +8,9 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from ._arrays import as_rows
-from ._native import FarthestFirst, Solution
+from ._native import FarthestFirst, Solution, SphereTree
 
-CentersMethod = Literal["tree", "thesis", "farthest-first"]
+CentersMethod = Literal["tree", "thesis", "farthest-first", "stream"]
 
 
 def centers(
@@ -42,12 +42,14 @@ def centers(
         Numbers above 0: a point counts with its weight times its distance. ``check`` takes the weights as well.
     epsilon : float in [0, 1), default 0.01
         Relative gap to prove, radius <= (1 + epsilon) lower_bound; 0 asks for the least radius, to rounding. Has no
-        influence on "farthest-first".
-    method : {"tree", "thesis", "farthest-first"}, default "tree"
+        influence on "farthest-first" and "stream".
+    method : {"tree", "thesis", "farthest-first", "stream"}, default "tree"
         The way to find them; all end in the same kind of certificate. "tree" proves any gap in time exponential in k;
         "thesis" is the method of the literature it grew from, for free centres without weights and outliers;
         "farthest-first" takes any k and proves a radius of at most twice the least,
-        but for weights and outliers, with which it proves what it can.
+        but for weights and outliers, with which it proves what it can; "stream" goes through the points twice, holds
+        some 8 k of them, and proves a radius of at most 2.96 times the least, for points without weights and outliers,
+        and without ``assignment``.
     discrete : bool, default False
         Whether centres have to be points of the input.
     outliers : int >= 0, default 0
@@ -76,6 +78,7 @@ def centers(
     See Also
     --------
     farthest_first : an order whose first k points are good centres for every k.
+    sphere_tree : balls within balls, from repeated splits in two.
     ball : the smallest ball, which is k = 1.
 
     Examples
@@ -165,3 +168,58 @@ def farthest_first(
     array([2., 1.])
     """
     return _native.farthest_first(as_rows(points), count, start, threads)
+
+
+def sphere_tree(
+    points: ArrayLike,
+    *,
+    leaf_size: int = 8,
+    epsilon: float = 1e-9,
+    threads: int | None = None,
+) -> SphereTree:
+    """A tree of balls around ever fewer points, for queries such as "what is near here".
+
+    The ball of each node is the smallest around its points. These are parted in two, so that the larger ball of both parts is
+    small, down to leaves of a few points.
+
+    Parameters
+    ----------
+    points : array_like of shape (n, d)
+        Finite real numbers, taken as by `ball`.
+    leaf_size : int >= 1, default 8
+        Most points of a leaf, unless they are all equal.
+    epsilon : float in [0, 1), default 1e-9
+        Relative gap of the ball of each node.
+    threads : int >= 1, optional
+        Threads to use, by default all cores. The tree does not depend on it.
+
+    Returns
+    -------
+    SphereTree
+        Arrays with one entry for each node, the root first, each before its children: ``centers`` of shape (m, d), ``radii``,
+        ``ranges`` of shape (m, 2) and ``children`` of shape (m, 2), -1 for a leaf. The points of node i are the rows
+        ``order[ranges[i, 0]:ranges[i, 1]]``.
+
+    Raises
+    ------
+    ValueError
+        When there is no point, a coordinate is NaN or infinite, sizes are beyond what float64 can hold, or an option is
+        out of range.
+
+    See Also
+    --------
+    centers : k balls of one size, to any proved gap.
+
+    Examples
+    --------
+    >>> import taut
+    >>> tree = taut.sphere_tree([[0.0], [9.0], [1.0], [8.0]], leaf_size=2)
+    >>> tree.radii
+    array([4.5, 0.5, 0.5])
+    >>> tree.children[0]
+    array([1, 2])
+    >>> start, end = tree.ranges[1]
+    >>> tree.order[start:end]
+    array([0, 2])
+    """
+    return _native.sphere_tree(as_rows(points), leaf_size, epsilon, threads)

@@ -22,6 +22,7 @@ __all__ = [
     "RobustEllipsoid",
     "RobustVerdict",
     "Solution",
+    "SphereTree",
     "Trace",
     "Triangulation",
     "TriangulationCertificate",
@@ -38,6 +39,7 @@ __all__ = [
     "generate",
     "inscribed_ellipsoid",
     "robust_ellipsoid",
+    "sphere_tree",
 ]
 
 __version__: str
@@ -121,6 +123,12 @@ def robust_ellipsoid(
     epsilon: float,
     threads: int | None,
 ) -> Solution: ...
+def sphere_tree(
+    rows: NDArray[np.float32] | NDArray[np.float64],
+    leaf_size: int,
+    epsilon: float,
+    threads: int | None,
+) -> SphereTree: ...
 
 class Violation(Exception): ...
 
@@ -205,6 +213,19 @@ class FarthestFirst:
     def radii(self) -> NDArray[np.float64]: ...
     @property
     def next(self) -> int | None: ...
+
+@final
+class SphereTree:
+    @property
+    def centers(self) -> NDArray[np.float64]: ...
+    @property
+    def radii(self) -> NDArray[np.float64]: ...
+    @property
+    def ranges(self) -> NDArray[np.int64]: ...
+    @property
+    def children(self) -> NDArray[np.int64]: ...
+    @property
+    def order(self) -> NDArray[np.int64]: ...
 
 @final
 class Ellipsoid:

@@ -71,11 +71,22 @@ def test_one_centre_is_the_smallest_ball(points):
     )
 
 
-@pytest.mark.parametrize("method", ["tree", "thesis", "farthest-first"])
-def test_methods_share_one_kind_of_proof(points, method):
+@pytest.mark.parametrize(
+    ("method", "gap"), [("tree", 0.01), ("thesis", 0.01), ("farthest-first", 1 + 1e-9), ("stream", 1.97)]
+)
+def test_methods_share_one_kind_of_proof(points, method, gap):
     found = taut.centers(points, 3, method=method)
     assert found.trace.method == method
-    assert found.check(points).gap <= (1 + 1e-9 if method == "farthest-first" else 0.01)
+    assert found.check(points).gap <= gap
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [({"outliers": 1}, "outliers"), ({"assignment": True}, "assignment"), ({"radii": np.ones(300)}, "balls")],
+)
+def test_a_stream_knows_plain_points_only(points, options, message):
+    with pytest.raises(ValueError, match=message):
+        taut.centers(points, 3, method="stream", **options)
 
 
 def test_discrete_centres_are_rows_and_the_best_of_all(points):
@@ -166,7 +177,7 @@ def test_answers_travel_and_lies_are_found(points):
         (0, {}, "`k` is 0"),
         (-1, {}, "`k` is -1: expected at least 1"),
         (2, {"epsilon": 1}, "epsilon"),
-        (2, {"method": "lloyd"}, "expected tree, thesis or farthest-first"),
+        (2, {"method": "lloyd"}, "expected tree, thesis, farthest-first or stream"),
         (2, {"outliers": 300}, "outliers"),
         (2, {"outliers": -1}, "outliers"),
         (2, {"threads": 0}, "threads"),
@@ -227,3 +238,43 @@ def test_farthest_first_ends_with_the_last_different_point():
 def test_wrong_options_of_farthest_first_are_named(points, count, options, message):
     with pytest.raises(ValueError, match=message):
         taut.farthest_first(points, count, **options)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_a_tree_of_balls_holds_every_point_in_every_node(points, dtype):
+    # Far from the origin centres have a tail, which the radii make up for.
+    points = (points + [1e6, 0]).astype(dtype)
+    tree = taut.sphere_tree(points, leaf_size=4)
+    m = len(tree.radii)
+    assert (tree.centers.shape, tree.ranges.shape, tree.children.shape) == ((m, 2), (m, 2), (m, 2))
+    assert sorted(tree.order) == list(range(300)) and tree.ranges[0].tolist() == [0, 300]
+    for i in range(m):
+        start, end = tree.ranges[i]
+        rows = points[tree.order[start:end]].astype(np.longdouble)
+        assert (np.sqrt(((rows - tree.centers[i]) ** 2).sum(axis=1)) <= tree.radii[i] * (1 + 1e-15)).all()
+        left, right = tree.children[i]
+        if left < 0:
+            assert right < 0 and (end - start <= 4 or (rows == rows[0]).all())
+        else:
+            assert i < left < right
+            assert (tree.ranges[left, 0], tree.ranges[right, 1]) == (start, end)
+            assert tree.ranges[left, 1] == tree.ranges[right, 0]
+    again = taut.sphere_tree(points, leaf_size=4, threads=1)
+    assert (again.order == tree.order).all() and (again.radii == tree.radii).all()
+    assert repr(tree) == f"SphereTree(nodes=<{m}>, order=<300 rows>)"
+    with pytest.raises(ValueError, match="read-only"):
+        tree.radii[0] = 1
+
+
+@pytest.mark.parametrize(
+    ("rows", "options", "message"),
+    [
+        ([[0.0]], {"leaf_size": 0}, "leaf_size"),
+        ([[0.0]], {"epsilon": 1.0}, "epsilon"),
+        ([[0.0], [np.nan]], {}, "coordinate 0 of point 1"),
+        (np.zeros((0, 2)), {}, "empty"),
+    ],
+)
+def test_wrong_input_of_a_tree_is_named(rows, options, message):
+    with pytest.raises(ValueError, match=message):
+        taut.sphere_tree(rows, **options)

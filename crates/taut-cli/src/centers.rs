@@ -16,7 +16,7 @@ use crate::report;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 The search takes time exponential in k: seconds for ten centres in the plane, and for twenty a --max-nodes or a larger
---epsilon is wise. farthest-first takes any number of centres.
+--epsilon is wise. farthest-first takes any number of centres, and stream files larger than memory.
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
       3 stopped early by the budget of nodes, or where rounding hides the gap that was asked for;
         the gap reached is reported
@@ -79,6 +79,10 @@ fn methods() -> impl TypedValueParser<Value = CentersMethod> {
             CentersMethod::FarthestFirst => {
                 "at most twice the least radius, whatever --epsilon says; for any k, fast"
             }
+            CentersMethod::Stream => {
+                "at most 2.96 times the least radius, whatever --epsilon says; two passes over files of any size, which are \
+                 not held in memory; no balls, weights, outliers or assignment"
+            }
         })
     });
     PossibleValuesParser::new(explained).try_map(|name| name.parse::<CentersMethod>())
@@ -118,19 +122,31 @@ impl Args {
         if self.balls { Items::Balls } else { Items::Points }
     }
 
-    /// What Algorithm 2 does not do, in the words of the command line.
+    /// What some methods do not do, in the words of the command line.
     fn check_method(&self) -> anyhow::Result<()> {
         let asked = [
             ("--discrete", self.discrete),
+            ("--balls", self.balls),
             ("--weights", self.weights),
             ("--outliers", self.outliers > 0),
+            ("--assignment", self.assignment),
         ];
-        match asked.into_iter().find(|(_, is_asked)| *is_asked) {
-            Some((name, _)) if self.method == CentersMethod::Thesis => bail!(
-                "{name} has no meaning with --method thesis, which knows free centres of points and balls: leave out \
-                 one of the two"
+        let (names, knows) = match self.method {
+            CentersMethod::Tree | CentersMethod::FarthestFirst => return Ok(()),
+            CentersMethod::Thesis => {
+                (&["--discrete", "--weights", "--outliers"][..], "free centres of points and balls")
+            }
+            CentersMethod::Stream => (
+                &["--balls", "--weights", "--outliers", "--assignment"][..],
+                "centres of points alone, which it does not look at again",
             ),
-            _ => Ok(()),
+        };
+        match asked.into_iter().find(|(name, is_asked)| *is_asked && names.contains(name)) {
+            Some((name, _)) => bail!(
+                "{name} has no meaning with --method {}, which knows {knows}: leave out one of the two",
+                self.method
+            ),
+            None => Ok(()),
         }
     }
 }

@@ -1,10 +1,13 @@
 //! `taut centers --elbow`: the radius for each of a range of k, as a table, a file and a plot.
+//!
+//! *Idea.* Centres for k are centres for k + 1, and what no k + 1 balls can do no k can: searches that were stopped are mended by
+//! those beside them, so that neither the radius nor the bound ever rises with k. A radius of 0 ends the range.
 
 use anyhow::bail;
-use taut::{CentersOptions, Items, centers_of_source};
+use taut::certify::Stop;
+use taut::{Centers, CentersOptions, Items, Solution, centers_of_source};
 use taut_draw::{ElbowStep, elbow_figure};
 
-use crate::centers::outcome;
 use crate::clock::Clock;
 use crate::delivery::{Delivery, Desk};
 use crate::exit::Outcome;
@@ -22,23 +25,71 @@ pub(crate) struct Range {
     last: usize,
 }
 
+/// Most values of k in a range: more make no plot, and each is a search of its own.
+const STEPS_MOST: usize = 1000;
+
 /// Reads `2..8`.
 pub(crate) fn range(text: &str) -> Result<Range, String> {
     let ends = text.split_once("..").and_then(|(first, last)| {
         Some(Range { first: first.trim().parse().ok()?, last: last.trim().parse().ok()? })
     });
-    ends.filter(|range| 1 <= range.first && range.first <= range.last).ok_or_else(|| {
-        "expected two whole numbers from 1, the smaller first, such as 2..8".to_owned()
-    })
+    let range = ends
+        .filter(|range| 1 <= range.first && range.first <= range.last)
+        .ok_or("expected two whole numbers from 1, the smaller first, such as 2..8")?;
+    match range.last - range.first < STEPS_MOST {
+        true => Ok(range),
+        false => Err(format!("expected at most {STEPS_MOST} values of k, such as 2..8")),
+    }
 }
 
 /// What was found for one k.
+#[derive(Clone, Debug, PartialEq)]
 struct Row {
     step: ElbowStep,
-    gap: f64,
+    /// Why the search for this k ended.
+    stop: Stop,
     nodes: u64,
     core_set: usize,
-    ended: Outcome,
+}
+
+impl Row {
+    fn of(k: usize, found: &Solution<Centers>) -> Self {
+        let (radius, lower_bound) = (found.answer.radius, found.answer.lower_bound);
+        Row {
+            step: ElbowStep { k: k as u64, radius, lower_bound },
+            stop: found.trace.stop,
+            nodes: found.trace.iterations,
+            core_set: found.certificate.core_set.len(),
+        }
+    }
+
+    /// The relative gap, rounded up, where there is a bound to have one.
+    fn gap(&self) -> Option<f64> {
+        let ElbowStep { radius, lower_bound, .. } = self.step;
+        match (radius == lower_bound, lower_bound > 0.0) {
+            (true, _) => Some(0.0),
+            (false, true) => Some(((radius / lower_bound).next_up() - 1.0).next_up()),
+            (false, false) => None,
+        }
+    }
+
+    /// Whether this k has the gap that was asked for; a search beside it may have helped.
+    fn ended(&self, epsilon: f64) -> Outcome {
+        match self.gap() {
+            Some(gap) if gap <= epsilon => Outcome::Done,
+            gap => report::outcome(self.stop, gap.unwrap_or(f64::MAX), epsilon),
+        }
+    }
+}
+
+/// Gives each k what those beside it have proved for it: the radius of fewer centres, the bound of more.
+fn carry_over(rows: &mut [Row]) {
+    for i in 1..rows.len() {
+        rows[i].step.radius = rows[i].step.radius.min(rows[i - 1].step.radius);
+    }
+    for i in (1..rows.len()).rev() {
+        rows[i - 1].step.lower_bound = rows[i - 1].step.lower_bound.max(rows[i].step.lower_bound);
+    }
 }
 
 /// Opens, solves and checks for each k, writes and says.
@@ -76,15 +127,15 @@ pub(crate) fn run(
             writing::complain(&format!("the check failed for k = {k}: {violation}"));
             return Ok(Outcome::CheckFailed);
         }
-        let (radius, lower_bound) = (found.answer.radius, found.answer.lower_bound);
-        rows.push(Row {
-            step: ElbowStep { k: k as u64, radius, lower_bound },
-            gap: found.certificate.gap,
-            nodes: found.trace.iterations,
-            core_set: found.certificate.core_set.len(),
-            ended: outcome(&found, options.epsilon),
-        });
+        let row = Row::of(k, &found);
+        let (radius, gap) = (short(row.step.radius), bounded(&row));
+        watch.say(&format!("k = {k}: radius {radius}, gap {gap}; {}", report::stopped(row.stop)));
+        rows.push(row);
+        if found.answer.radius == 0.0 {
+            break;
+        }
     }
+    carry_over(&mut rows);
     let checked = if delivery.is_verified() { "solving and checking" } else { "solving" };
     clock.lap(checked);
 
@@ -106,11 +157,15 @@ pub(crate) fn run(
     // Where the table goes to standard output, nothing else does.
     let is_free = delivery.out.as_deref().is_none_or(|out| !writing::is_stream(out));
     if is_free && !desk.effort.quiet {
-        outputs.say(&format!("{title}\n{}", table(&rows)));
-        outputs.say(&report::text("", &[verified, clock.fact()])[1..]);
+        outputs.say(&format!("{title}\n{}", table(&rows, options.epsilon)));
+        let facts: Vec<Fact> = [end_of(&rows, range), Some(verified), Some(clock.fact())]
+            .into_iter()
+            .flatten()
+            .collect();
+        outputs.say(&report::text("", &facts)[1..]);
     }
     outputs.finish()?;
-    let is_early = rows.iter().any(|row| row.ended == Outcome::StoppedEarly);
+    let is_early = rows.iter().any(|row| row.ended(options.epsilon) == Outcome::StoppedEarly);
     Ok(if is_early { Outcome::StoppedEarly } else { Outcome::Done })
 }
 
@@ -119,17 +174,29 @@ fn title(points: &Opened, items: Items) -> String {
     format!("Radius by number of centres of {around}")
 }
 
+/// Where the range ended before its last k.
+fn end_of(rows: &[Row], range: &Range) -> Option<Fact> {
+    let last = rows.last()?.step.k;
+    (last < range.last as u64).then(|| {
+        Fact::new("ended", format!("at k = {}", count(last)))
+            .remark("the radius is 0, and is for every larger k")
+    })
+}
+
 /// Columns for a terminal.
-fn table(rows: &[Row]) -> String {
+fn table(rows: &[Row], epsilon: f64) -> String {
     let head = ["k", "radius", "lower bound", "gap", "nodes", "core-set"].map(str::to_owned);
     let cells = rows.iter().map(|row| {
         let ElbowStep { k, radius, lower_bound } = row.step;
-        let early = if row.ended == Outcome::StoppedEarly { "; stopped early" } else { "" };
+        let early = match row.ended(epsilon) {
+            Outcome::StoppedEarly => format!("; {}", report::stopped(row.stop)),
+            _ => String::new(),
+        };
         [
             count(k),
             short(radius),
             short(lower_bound),
-            bounded(&row.step, row.gap),
+            bounded(row),
             count(row.nodes),
             format!("{}{early}", count(row.core_set as u64)),
         ]
@@ -145,17 +212,31 @@ fn table(rows: &[Row]) -> String {
     text
 }
 
-/// The gap, where there is a bound.
-fn bounded(step: &ElbowStep, proved: f64) -> String {
-    if step.lower_bound > 0.0 || step.radius == 0.0 { gap(proved) } else { "none".to_owned() }
+/// The gap in words.
+fn bounded(row: &Row) -> String {
+    row.gap().map_or("none".to_owned(), gap)
 }
 
+/// The table for other programs. The gap is empty where there is none.
 fn csv(rows: &[Row]) -> String {
-    let mut text = "k,radius,lower_bound,nodes,core_set\n".to_owned();
-    for Row { step: ElbowStep { k, radius, lower_bound }, nodes, core_set, .. } in rows {
-        text += &format!("{k},{},{},{nodes},{core_set}\n", exact(*radius), exact(*lower_bound));
+    let mut text = "k,radius,lower_bound,gap,stop,nodes,core_set\n".to_owned();
+    for row in rows {
+        let Row { step: ElbowStep { k, radius, lower_bound }, stop, nodes, core_set } = row;
+        let (radius, lower_bound) = (exact(*radius), exact(*lower_bound));
+        let (gap, stop) = (row.gap().map(exact).unwrap_or_default(), name_of(*stop));
+        text += &format!("{k},{radius},{lower_bound},{gap},{stop},{nodes},{core_set}\n");
     }
     text
+}
+
+/// The word that the JSON of an answer has for it.
+fn name_of(stop: Stop) -> &'static str {
+    match stop {
+        Stop::Converged => "converged",
+        Stop::Rounding => "rounding",
+        Stop::PassBudget => "pass-budget",
+        Stop::NodeBudget => "node-budget",
+    }
 }
 
 fn drawing(title: &str, points: &Opened, rows: &[Row], verified: &Fact) -> anyhow::Result<Drawing> {
@@ -164,7 +245,7 @@ fn drawing(title: &str, points: &Opened, rows: &[Row], verified: &Fact) -> anyho
         .map_err(|error| picture::refused(error, points))?;
     let fact = |row: &Row| {
         let ElbowStep { k, radius, lower_bound } = row.step;
-        let value = format!("{} to {}", short(lower_bound), short(radius));
+        let value = format!("{} to {}, gap {}", short(lower_bound), short(radius), bounded(row));
         taut_draw::Fact::new(format!("k = {k}"), value)
     };
     let verified = taut_draw::Fact::new(verified.name, verified.value.clone());
@@ -184,8 +265,40 @@ mod tests {
     fn ranges_have_two_ends() {
         assert_eq!(range("2..8"), Ok(Range { first: 2, last: 8 }));
         assert_eq!(range("3..3"), Ok(Range { first: 3, last: 3 }));
-        for wrong in ["", "3", "0..2", "5..2", "1..x", "-1..2", "1...2", "1.5..2"] {
+        assert_eq!(range("5..1004"), Ok(Range { first: 5, last: 1004 }));
+        let huge = format!("1..{}", usize::MAX);
+        for wrong in ["", "3", "0..2", "5..2", "1..x", "-1..2", "1...2", "1.5..2", "5..1005", &huge]
+        {
             assert!(range(wrong).unwrap_err().contains("such as 2..8"), "{wrong}");
         }
+    }
+
+    #[test]
+    fn neighbours_mend_what_a_budget_left() {
+        let row = |k, radius, lower_bound, stop| Row {
+            step: ElbowStep { k, radius, lower_bound },
+            stop,
+            nodes: 0,
+            core_set: 0,
+        };
+        let (done, early) = (Stop::Converged, Stop::NodeBudget);
+        let mut rows = [
+            row(1, 8.0, 3.0, early),
+            row(2, 6.0, 6.0, done),
+            row(3, 7.0, 2.0, early),
+            row(4, 4.0, 3.0, early),
+            row(5, 0.0, 0.0, done),
+        ];
+        carry_over(&mut rows);
+        let bounds = rows.each_ref().map(|row| (row.step.radius, row.step.lower_bound));
+        assert_eq!(bounds, [(8.0, 6.0), (6.0, 6.0), (6.0, 3.0), (4.0, 3.0), (0.0, 0.0)]);
+        let gaps = rows.each_ref().map(|row| row.gap().unwrap());
+        assert!(
+            (gaps[0] - 1.0 / 3.0).abs() < 1e-15 && gaps[1] == 0.0 && gaps[2] >= 1.0,
+            "{gaps:?}"
+        );
+        assert_eq!(rows[0].ended(0.34), Outcome::Done);
+        assert_eq!(rows[0].ended(0.33), Outcome::StoppedEarly);
+        assert_eq!(row(2, 1.0, 0.0, early).gap(), None);
     }
 }

@@ -61,6 +61,15 @@ impl Watch {
         Watch { how, terminal: std::io::stderr().is_terminal() }
     }
 
+    /// Says how far the work has come, where progress is shown.
+    pub(crate) fn say(&self, words: &str) {
+        match self.how {
+            Progress::Always => writing::tell(words),
+            Progress::Auto if self.terminal => writing::tell(words),
+            Progress::Auto | Progress::Never => {}
+        }
+    }
+
     /// Does one step of work with a monitor that shows it as `what` and hears interrupts.
     pub(crate) fn during<R>(&self, what: &str, work: impl FnOnce(&Monitor<'_>) -> R) -> R {
         let lines = self.how == Progress::Always && !self.terminal;

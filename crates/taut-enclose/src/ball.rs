@@ -21,6 +21,7 @@ use taut_points::{Monitor, PointSource, Points, Scalar};
 
 use crate::Error;
 use crate::scan::Scan;
+use crate::threads::on_threads;
 pub use options::{BallMethod, BallOptions};
 pub(crate) use proof::reach_up;
 
@@ -113,15 +114,7 @@ pub fn ball_of_source(
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Ball>, Error> {
     options.check()?;
-    let Some(threads) = options.threads else { return solve(source, items, options, monitor) };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|_| {
-        Error::Option {
-            name: "threads",
-            value: threads.to_string(),
-            expected: "as many threads as the system grants",
-        }
-    })?;
-    pool.install(|| solve(source, items, options, monitor))
+    on_threads(options.threads, || solve(source, items, options, monitor))
 }
 
 fn solve(

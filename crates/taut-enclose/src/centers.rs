@@ -33,7 +33,10 @@ use self::read::Table;
 use self::start::Start;
 use self::tree::{Found, Shown};
 use crate::threads::on_threads;
-use crate::{Error, FarthestFirstOptions, centers_rows, farthest_first_of_source};
+use crate::{
+    CoverOptions, Error, FarthestFirstOptions, centers_rows, cover_of_source,
+    farthest_first_of_source,
+};
 pub use options::{CentersMethod, CentersOptions};
 
 /// The least relative gap that is sought; proofs take 1e-12 of it.
@@ -48,12 +51,13 @@ const PROOF_NODES: u64 = 10_000;
 /// least possible.
 ///
 /// The problem is NP-hard; the time is exponential in k, and proofs are what takes it. In the plane gaps of 1e-6 are proved up to k
-/// of about 12, and 1 % up to about 15; in space 1 % up to about 12. Whatever the k, the search can be stopped
+/// of about 12, and 1 % up to about 15; in space 1 % up to about 10. Whatever the k, the search can be stopped
 /// ([`CentersOptions::max_nodes`]) and returns centres with the gap proved so far, at worst that of farthest-first traversal, a
 /// factor of 2 (with weights or outliers there is no such promise). Duplicates, points on a line and k ≥ n are solved as any others.
 ///
-/// *Cost.* Nodes of some 5 to 50 µs: about a thousand for k = 5, 10⁴ for k = 10, 10⁵ for k = 15 in the plane at 1 %. All points are in
-/// memory as `f64`, twice; a look at all of them takes a small part of them on average in few dimensions.
+/// *Cost.* Nodes of some 5 to 50 µs: about a thousand for k = 5, 10⁴ for k = 10, 10⁵ for k = 15 in the plane at 1 %. All points are
+/// in memory as `f64`, three times as they are put in order and twice from then on; a look at all of them takes a small part of
+/// them on average in few dimensions.
 ///
 /// *Source.* See the head of the method's module.
 ///
@@ -92,7 +96,7 @@ pub fn centers_of_balls<T: Scalar>(
     centers_of_source(balls, Items::Balls, k, options, &Monitor::silent())
 }
 
-/// The same for the items of a source, which is read once.
+/// The same for the items of a source, which is read once, or twice by [`CentersMethod::Stream`].
 ///
 /// # Errors
 /// As [`centers_of_balls()`], and [`Error::Read`] when the source fails or `monitor` stops the work.
@@ -115,11 +119,32 @@ pub fn centers_of_source(
                 source,
             );
         }
+        if options.method == CentersMethod::Stream {
+            return of_stream(source, items, k, options.placement, monitor);
+        }
         match options.placement {
             Placement::Free => solve(source, items, k, options, monitor),
             Placement::Rows => centers_rows::solve(source, items, k, options, monitor),
         }
     })
+}
+
+/// Centres of one pass, measured by another.
+fn of_stream(
+    source: &dyn PointSource,
+    items: Items,
+    k: usize,
+    placement: Placement,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Centers>, Error> {
+    if items != Items::Points {
+        return Err(Error::Option {
+            name: "method",
+            value: CentersMethod::Stream.to_string(),
+            expected: "one of the others for balls",
+        });
+    }
+    cover_of_source(source, k, placement, &CoverOptions::default(), monitor)
 }
 
 fn solve(
@@ -167,7 +192,8 @@ fn solve_in<P: Position>(
         CentersMethod::Thesis => {
             thesis::solve(&cloud, start.plain, k, target, options.max_nodes, monitor)?
         }
-        CentersMethod::FarthestFirst => of_traversal(start),
+        // Streams are not held in memory, and so do not come here.
+        CentersMethod::FarthestFirst | CentersMethod::Stream => of_traversal(start),
     };
     let (proof, given_up) = prove(&cloud, &found, apart, k, z, monitor)?;
     let answered = answer::answer(table, &cloud, &found.incumbent.centers, z, options.assignment)?;

@@ -21,8 +21,8 @@ use rayon::prelude::*;
 use taut_certify::{Centers, Placement, Solution, Stop, Trace};
 use taut_points::{Blocks, Monitor, PointSource, Points, Rows, Scalar, Scratch};
 
-use crate::Error;
 use crate::apart::{Apart, rounded_up};
+use crate::{CentersMethod, Error};
 use instance::{Instance, distance, least_distance};
 use measure::measure;
 pub use summary::Summary;
@@ -248,7 +248,7 @@ impl Cover {
         let found = self.covered();
         let measured = measure(source, &found.centers, monitor)?;
         let trace = Trace {
-            method: "cover".into(),
+            method: CentersMethod::Stream.name().into(),
             stop: Stop::Converged,
             passes: 1 + measured.passes,
             iterations: 0,

@@ -33,6 +33,7 @@ use self::sample::Sample;
 use self::survey::Survey;
 use self::whitener::Whitener;
 use crate::Error;
+use crate::threads::on_threads;
 pub use batch::{ellipsoids, ellipsoids_of_sources};
 pub(crate) use dense::cholesky;
 pub use options::{EllipsoidMethod, EllipsoidOptions};
@@ -131,7 +132,7 @@ pub fn ellipsoid_of_items(
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Ellipsoid>, Error> {
     options.check()?;
-    on_threads(options, || match items {
+    on_threads(options.threads, || match items {
         Items::Points => solve(source, options, monitor),
         Items::Balls | Items::Ellipsoids => of_shapes::solve(source, items, options, monitor),
     })
@@ -150,22 +151,6 @@ pub fn ellipsoid_of_source(
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Ellipsoid>, Error> {
     ellipsoid_of_items(source, Items::Points, options, monitor)
-}
-
-/// Works on the threads that the options ask for.
-fn on_threads<R: Send>(
-    options: &EllipsoidOptions,
-    work: impl FnOnce() -> Result<R, Error> + Send,
-) -> Result<R, Error> {
-    let Some(threads) = options.threads else { return work() };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|_| {
-        Error::Option {
-            name: "threads",
-            value: threads.to_string(),
-            expected: "as many threads as the system grants",
-        }
-    })?;
-    pool.install(work)
 }
 
 fn solve(

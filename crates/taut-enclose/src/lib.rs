@@ -16,7 +16,7 @@
 //! | centre, scatter and outliers | [`robust_ellipsoid()`] | all proved but that no other points kept would do better | some ten to thirty passes of O(nd²) |
 //! | 2-approximate centres for every k at once | [`farthest_first()`] | radius ≤ 2·lower bound for each k | O(nkd) at worst, a small part of it as a rule |
 //! | the same, larger than memory | [`farthest_first_of_source()`] | the same | far fewer passes than centres |
-//! | k centres of a stream | [`Cover`] | radius ≤ 2.96·lower bound, or another factor | O(kd) for each point, one pass |
+//! | k centres of a stream | [`Cover`] | radius ≤ 2.96·lower bound, or another factor | O(mkd) for each point, m = 8 guesses; one pass, and one to measure |
 //! | k centres of points in many places | [`Summary`] | radius ≤ 4 times the optimum, less with larger summaries | one pass in each place, and one to measure |
 //! | a tree of balls | [`sphere_tree()`] | each the smallest around its points | some thirty passes of O(nd) for each level |
 //! ```

@@ -29,6 +29,7 @@ use crate::Error;
 use crate::ellipsoid::dense::divide_rows;
 use crate::ellipsoid::outcome::log_unit_ball;
 use crate::ellipsoid::survey::Survey;
+use crate::threads::on_threads;
 pub use options::RobustOptions;
 
 /// Centre and scatter of most of `points`, n × d, the tolerance ellipsoid, and the points outside of it.
@@ -92,15 +93,7 @@ pub fn robust_ellipsoid_of_source(
     monitor: &Monitor<'_>,
 ) -> Result<Solution<RobustEllipsoid>, Error> {
     options.check()?;
-    let Some(threads) = options.threads else { return solve(source, options, monitor) };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|_| {
-        Error::Option {
-            name: "threads",
-            value: threads.to_string(),
-            expected: "as many threads as the system grants",
-        }
-    })?;
-    pool.install(|| solve(source, options, monitor))
+    on_threads(options.threads, || solve(source, options, monitor))
 }
 
 fn solve(

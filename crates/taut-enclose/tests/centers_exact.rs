@@ -14,9 +14,12 @@ fn seeded(cases: u32) -> Config {
     Config { cases, rng_seed: RngSeed::Fixed(50), failure_persistence: None, ..Config::default() }
 }
 
-/// Small integers for ties, copies and lines, or reals; with their dimension.
+/// The most items that all colourings are gone through of.
+const MOST: usize = 12;
+
+/// Small integers for ties, copies and lines, or reals; with their dimension. One time in three as many as there may be.
 fn few_points() -> impl Strategy<Value = (Vec<f64>, usize)> {
-    (1usize..=3, 1usize..=10).prop_flat_map(|(dim, n)| {
+    (1usize..=3, prop_oneof![2 => 1..=MOST, 1 => Just(MOST)]).prop_flat_map(|(dim, n)| {
         let grid = vec((-2i32..3).prop_map(f64::from), n * dim);
         let integers = vec((-9i32..10).prop_map(f64::from), n * dim);
         let reals = vec(-1.0f64..1.0, n * dim);
@@ -30,6 +33,7 @@ fn solve(values: &[f64], columns: usize, items: Items, k: usize, options: &Cente
     if let Err(why) = judge(values, columns, k, options, &found) {
         panic!("{why}\nk = {k}, {options:?}\n{values:?}\n{found:?}");
     }
+    found.check(&points).unwrap_or_else(|why| panic!("{why}\n{values:?}\n{found:?}"));
     let gap = found.certificate.gap;
     assert!(gap <= options.epsilon.max(2e-11), "gap {gap} of {found:?} for {values:?}");
     found.answer.radius
@@ -40,7 +44,7 @@ fn close(a: f64, b: f64) -> bool {
 }
 
 proptest! {
-    #![proptest_config(seeded(60))]
+    #![proptest_config(seeded(40))]
 
     #[test]
     fn points((values, dim) in few_points(), epsilon in prop_oneof![Just(0.0), Just(1e-9)]) {
@@ -77,7 +81,7 @@ proptest! {
     }
 
     #[test]
-    fn weighted((mut values, dim) in few_points(), weights in vec(prop_oneof![Just(1.0), Just(2.0), 0.1f64..9.0], 11), z in 0usize..3) {
+    fn weighted((mut values, dim) in few_points(), weights in vec(prop_oneof![Just(1.0), Just(2.0), 0.1f64..9.0], MOST), z in 0usize..3) {
         let n = values.len() / dim;
         prop_assume!(z < n);
         for row in (0..n).rev() {
@@ -92,7 +96,7 @@ proptest! {
     }
 
     #[test]
-    fn balls((mut values, dim) in few_points(), radii in vec(prop_oneof![Just(0.0), Just(1.0), 0.0f64..3.0], 11), z in 0usize..3) {
+    fn balls((mut values, dim) in few_points(), radii in vec(prop_oneof![Just(0.0), Just(1.0), 0.0f64..3.0], MOST), z in 0usize..3) {
         let n = values.len() / dim;
         prop_assume!(z < n);
         for row in (0..n).rev() {

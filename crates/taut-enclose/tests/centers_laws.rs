@@ -7,7 +7,8 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use taut_certify::{Centers, Items, LowerBound, Placement, Solution, Stop};
 use taut_enclose::{
-    CentersMethod, CentersOptions, Error, centers, centers_of_balls, centers_of_source,
+    CentersMethod, CentersOptions, CoverOptions, Error, centers, centers_of_balls,
+    centers_of_source,
 };
 use taut_points::{Distribution, Monitor, Points, generate};
 
@@ -15,13 +16,28 @@ fn seeded(cases: u32) -> Config {
     Config { cases, rng_seed: RngSeed::Fixed(51), failure_persistence: None, ..Config::default() }
 }
 
+/// An answer that both judges accept: the one of these tests, and the checker.
 fn found(values: &[f64], dim: usize, k: usize, options: &CentersOptions) -> Solution<Centers> {
-    let points = Points::new(values, dim).unwrap();
-    let found = centers(&points, k, options).unwrap();
+    let found = checked(values, dim, k, options);
     if let Err(why) = judge(values, dim, k, options, &found) {
         panic!("{why}: k = {k}, {options:?}");
     }
     found
+}
+
+/// An answer that the checker accepts.
+fn checked(values: &[f64], dim: usize, k: usize, options: &CentersOptions) -> Solution<Centers> {
+    let points = Points::new(values, dim).unwrap();
+    let found = centers(&points, k, options).unwrap();
+    is_confirmed(&found, &points);
+    found
+}
+
+/// Fails unless the checker proves what the answer claims.
+fn is_confirmed(found: &Solution<Centers>, points: &Points<'_, f64>) {
+    let verdict = found.check(points).unwrap_or_else(|why| panic!("{why}\n{found:?}"));
+    let Centers { radius, lower_bound, .. } = found.answer;
+    assert_eq!((verdict.upper, verdict.lower), (radius, lower_bound));
 }
 
 fn fine() -> CentersOptions {
@@ -79,8 +95,7 @@ proptest! {
         // Powers of two are exact; the judge's squares would not be.
         let factor = 2f64.powi(power);
         let scaled: Vec<f64> = values.iter().map(|v| v * factor).collect();
-        let points = Points::new(&scaled, dim).unwrap();
-        near(centers(&points, 3, &fine()).unwrap().answer.radius / factor, "scaled");
+        near(checked(&scaled, dim, 3, &fine()).answer.radius / factor, "scaled");
     }
 
     /// Single precision is its own widened copy, and threads decide nothing.
@@ -107,7 +122,11 @@ proptest! {
             let other = found(&values, dim, k, &options);
             prop_assert!(other.answer.lower_bound <= best.radius);
             prop_assert!(other.answer.radius >= best.lower_bound);
-            let gap = if method == CentersMethod::FarthestFirst { 1.0 } else { 0.05 };
+            let gap = match method {
+                CentersMethod::FarthestFirst => 1.0,
+                CentersMethod::Stream => CoverOptions::default().factor() - 1.0,
+                CentersMethod::Tree | CentersMethod::Thesis => 0.05,
+            };
             prop_assert!(other.certificate.gap <= gap * (1.0 + 1e-9), "{method}: {}", other.certificate.gap);
         }
     }
@@ -125,6 +144,7 @@ proptest! {
             let points = Points::new(&rows, dim + 1).unwrap();
             let other = centers_of_source(&points, items, k, &options, &Monitor::silent()).unwrap();
             judge(&rows, dim + 1, k, &options, &other).unwrap();
+            is_confirmed(&other, &points);
             let grown = if items == Items::Balls { extra } else { 0.0 };
             let radius = other.answer.radius - grown;
             prop_assert!((radius - wanted).abs() <= 3e-9 * (wanted + grown), "{radius} against {wanted}");
@@ -180,8 +200,7 @@ fn numbers_at_both_ends_of_the_range() {
         let factor = half * 2f64.powi(power - power / 2);
         let values: Vec<f64> =
             square.iter().map(|v| v * half * 2f64.powi(power - power / 2)).collect();
-        let points = Points::new(&values, 2).unwrap();
-        let answer = centers(&points, 2, &fine()).unwrap().answer;
+        let answer = checked(&values, 2, 2, &fine()).answer;
         assert_eq!(answer.radius, 2.5 * factor, "2^{power}");
         // One unit of the last place may be lost, which is much where numbers are subnormal.
         let lower = if power < -1000 { 2.499 } else { 2.499_999_9 };
@@ -196,12 +215,11 @@ fn numbers_at_both_ends_of_the_range() {
 #[test]
 fn a_budget_of_nodes_leaves_a_proof() {
     let values: Vec<f64> = generate(Distribution::Uniform, 2000, 2, 8).unwrap();
-    let points = Points::new(&values, 2).unwrap();
     let mut gaps = vec![];
     for max_nodes in [0, 30, 1000, 100_000] {
         for method in [CentersMethod::Tree, CentersMethod::Thesis] {
             let options = CentersOptions { epsilon: 1e-6, max_nodes, method, ..Default::default() };
-            let found = centers(&points, 7, &options).unwrap();
+            let found = checked(&values, 2, 7, &options);
             assert!(found.trace.iterations <= max_nodes);
             assert!(found.certificate.gap <= 1.0 + 1e-9, "{}", found.certificate.gap);
             let is_done = found.certificate.gap <= 1e-6;
@@ -215,7 +233,7 @@ fn a_budget_of_nodes_leaves_a_proof() {
     assert!(gaps.is_sorted_by(|a, b| a >= b) && gaps[3] <= 1e-6, "{gaps:?}");
 }
 
-/// Beyond eight centres the tree is written down; the judge follows it to its end.
+/// Beyond eight centres the tree is written down; the judge follows it to its end, and so does the checker.
 #[test]
 fn logs_are_followed() {
     for (n, z) in [(30, 0), (60, 0), (60, 1)] {
@@ -239,6 +257,7 @@ fn a_weight_draws_the_centre() {
     assert!((found.answer.radius - 3.0).abs() <= 1e-12);
     assert!((found.answer.centers[0][0] - 1.0).abs() <= 1e-9);
     judge(&rows, 3, 1, &options, &found).unwrap();
+    is_confirmed(&found, &points);
 }
 
 #[test]
@@ -259,6 +278,13 @@ fn wrong_input_is_named() {
     assert_eq!(option(CentersOptions { outliers: 1, ..thesis }, 1), "outliers");
     assert_eq!(option(CentersOptions { weights: true, ..thesis }, 1), "weights");
     assert_eq!(option(CentersOptions { placement: Placement::Rows, ..thesis }, 1), "placement");
+
+    let stream = CentersOptions { method: CentersMethod::Stream, ..plain };
+    assert_eq!(option(CentersOptions { outliers: 1, ..stream }, 1), "outliers");
+    assert_eq!(option(CentersOptions { weights: true, ..stream }, 1), "weights");
+    assert_eq!(option(CentersOptions { assignment: true, ..stream }, 1), "assignment");
+    let of_balls = centers_of_balls(&points, 1, &stream);
+    assert!(matches!(of_balls, Err(Error::Option { name: "method", .. })));
 
     let weights = CentersOptions { weights: true, ..plain };
     assert!(matches!(
@@ -295,10 +321,10 @@ fn cities_have_their_optima() {
         let Some(values) = cities(name) else { return };
         for &(k, wanted) in wanted {
             let options = CentersOptions { epsilon: 1e-6, ..Default::default() };
-            // The judge has no speed to speak of.
+            // The judge of these tests has no speed to speak of.
             let found = match k {
                 ..=4 => found(&values, 2, k, &options),
-                _ => centers(&Points::new(&values, 2).unwrap(), k, &options).unwrap(),
+                _ => checked(&values, 2, k, &options),
             };
             let radius = found.answer.radius;
             assert!((radius - wanted).abs() <= 1e-6 * wanted, "{name}, k = {k}: {radius}");

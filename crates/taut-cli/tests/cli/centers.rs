@@ -151,13 +151,30 @@ fn outliers_weights_and_balls_are_asked_for() {
 fn all_methods_end_in_a_proof() {
     let desk = Desk::new();
     desk.taut("generate clusters -n 500 -d 2 --seed 3 -o points.npy").ends(0);
-    for (method, most) in [("tree", "0.01"), ("thesis", "0.01"), ("farthest-first", "1.000000001")]
-    {
+    for (method, most) in [
+        ("tree", "0.01"),
+        ("thesis", "0.01"),
+        ("farthest-first", "1.000000001"),
+        ("stream", "1.97"),
+    ] {
         desk.taut(&format!("centers points.npy -k 4 --method {method} -o found.json"))
             .ends(0)
             .says(&[&format!("\n  method      {method}; converged\n"), "verified    yes"]);
         desk.taut(&format!("verify found.json points.npy --epsilon {most}")).ends(0);
     }
+}
+
+/// Two passes, one to look and one to measure; centres that are rows are named on request.
+#[test]
+fn a_stream_is_read_twice() {
+    let desk = Desk::new();
+    desk.taut("generate uniform -n 100000 -d 3 --seed 4 -o points.npy").ends(0);
+    desk.taut("centers points.npy -k 7 --method stream --discrete -o found.json").ends(0).says(&[
+        "\n  passes      2\n",
+        "; row ",
+        "verified    yes",
+    ]);
+    desk.taut("verify found.json points.npy --epsilon 1.97").ends(0);
 }
 
 #[test]
@@ -187,11 +204,14 @@ fn the_elbow_is_a_table_a_file_and_a_plot() {
     let rows: Vec<Vec<f64>> = table
         .lines()
         .skip(1)
-        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .map(|line| {
+            line.replace("converged", "1").split(',').map(|cell| cell.parse().unwrap()).collect()
+        })
         .collect();
-    assert!(table.starts_with("k,radius,lower_bound,nodes,core_set\n"));
+    assert!(table.starts_with("k,radius,lower_bound,gap,stop,nodes,core_set\n"));
     assert_eq!(rows.iter().map(|row| row[0]).collect::<Vec<_>>(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
     assert!(rows.iter().all(|row| row[2] <= row[1] && row[1] <= (1.0 + 1e-6) * row[2]));
+    assert!(rows.iter().all(|row| (0.0..=1e-6).contains(&row[3])));
     assert_eq!((rows[1][1], rows[5][1], rows[5][2]), (1.0, 0.0, 0.0));
     let picture = desk.text("elbow.svg");
     for part in ["Radius by number of centres", "radius found", "lower bound: proved"] {
@@ -201,6 +221,39 @@ fn the_elbow_is_a_table_a_file_and_a_plot() {
     assert!(desk.text("elbow.html").contains("k = 3"));
     let run = desk.taut("centers towns.csv --elbow 2..3 -o -").ends(0);
     assert!(run.out.starts_with("k,radius,") && run.out.lines().count() == 3, "{}", run.out);
+}
+
+#[test]
+fn the_elbow_ends_where_the_radius_does_and_says_how_far_it_is() {
+    let desk = desk();
+    let run = desk
+        .taut("centers towns.csv --elbow 4..900 --epsilon 1e-6 -o elbow.csv --progress always")
+        .ends(0)
+        .says(&["\n  ended     at k = 6; the radius is 0, and is for every larger k\n"]);
+    assert_eq!(desk.text("elbow.csv").lines().count(), 4);
+    for part in ["k = 4: radius 0.", "k = 5: radius 0.", "k = 6: radius 0, gap 0; converged"] {
+        assert!(run.err.contains(part), "{part} in {}", run.err);
+    }
+    let run = desk.taut("centers towns.csv --elbow 1..1001").ends(2);
+    assert!(run.err.contains("at most 1000 values of k"), "{}", run.err);
+}
+
+/// Searches that are stopped at once may end with a larger radius than those for fewer centres; the table does not.
+#[test]
+fn the_elbow_never_rises() {
+    let desk = Desk::new();
+    desk.taut("generate uniform -n 300 -d 2 --seed 5 -o points.npy").ends(0);
+    desk.taut("centers points.npy --elbow 1..30 --epsilon 1e-6 --max-nodes 0 -o elbow.csv").ends(3);
+    let table = desk.text("elbow.csv");
+    let column = |i: usize| -> Vec<f64> {
+        table.lines().skip(1).map(|line| line.split(',').nth(i).unwrap().parse().unwrap()).collect()
+    };
+    let (radii, bounds, gaps) = (column(1), column(2), column(3));
+    assert!(radii.is_sorted_by(|a, b| a >= b) && bounds.is_sorted_by(|a, b| a >= b), "{table}");
+    for ((radius, bound), gap) in radii.iter().zip(&bounds).zip(&gaps) {
+        assert!(radius <= &(bound * (1.0 + gap)) && bound <= radius, "{table}");
+    }
+    assert!(table.contains(",node-budget,"), "{table}");
 }
 
 #[test]
@@ -242,7 +295,9 @@ fn wrong_input_and_options_are_named_and_nothing_is_written() {
         ("towns.csv -k -2", &["-2"]),
         ("towns.csv -k 2 --epsilon 1", &["--epsilon` is 1", "[0, 1)"]),
         ("towns.csv -k 2 --outliers 6", &["--outliers` is 6", "less than"]),
-        ("towns.csv -k 2 --method lloyd", &["lloyd", "tree, thesis, farthest-first"]),
+        ("towns.csv -k 2 --method lloyd", &["lloyd", "tree, thesis, farthest-first, stream"]),
+        ("towns.csv -k 2 --method stream --balls", &["--balls", "stream"]),
+        ("towns.csv -k 2 --method stream --assignment", &["--assignment", "stream"]),
         ("towns.csv -k 2 --method thesis --discrete", &["--discrete", "thesis"]),
         ("towns.csv -k 2 --method thesis --outliers 1", &["--outliers", "thesis"]),
         ("towns.csv -k 2 --weights --balls", &["--weights", "--balls"]),

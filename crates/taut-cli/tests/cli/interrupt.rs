@@ -57,3 +57,29 @@ fn an_interrupt_stops_a_triangulation() {
     assert_eq!(desk.files(), ["mesh.ply", "points.npy"]);
     assert_eq!(desk.text("mesh.ply"), "earlier mesh");
 }
+
+#[test]
+fn an_interrupt_stops_a_long_range_of_k() {
+    let desk = Desk::new();
+    desk.taut("generate uniform -n 3000 -d 2 -o points.npy").ends(0);
+    desk.put("elbow.csv", "earlier table");
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin!("taut"))
+        .current_dir(desk.path(""))
+        .args(
+            "centers points.npy --elbow 1..1000 --epsilon 0 -o elbow.csv --progress always"
+                .split(' '),
+        )
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut said = String::new();
+    let mut words = BufReader::new(child.stderr.take().unwrap());
+    while !said.contains("k = 2: radius") && words.read_line(&mut said).unwrap() > 0 {}
+    let id = child.id().to_string();
+    assert!(
+        Command::new("sh").args(["-c", &format!("kill -INT {id}")]).status().unwrap().success()
+    );
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(desk.files(), ["elbow.csv", "points.npy"]);
+    assert_eq!(desk.text("elbow.csv"), "earlier table");
+}

@@ -19,12 +19,19 @@ pub enum CentersMethod {
     /// Farthest-first traversal (Gonzalez 1985) in O(nkd) for any n and d: at most twice the optimal radius. With weights or
     /// outliers that is not promised; the gap that is proved is in the certificate.
     FarthestFirst,
+    /// A [`Cover`](crate::Cover) with its default options: two passes over a source of any size, in memory for some 8k points, at
+    /// most 2.96 times the optimal radius. Points without weights and outliers, and without assignment.
+    Stream,
 }
 
 impl CentersMethod {
     /// All methods, the default first.
-    pub const ALL: [CentersMethod; 3] =
-        [CentersMethod::Tree, CentersMethod::Thesis, CentersMethod::FarthestFirst];
+    pub const ALL: [CentersMethod; 4] = [
+        CentersMethod::Tree,
+        CentersMethod::Thesis,
+        CentersMethod::FarthestFirst,
+        CentersMethod::Stream,
+    ];
 
     /// The name on the command line, in Python and in the trace.
     pub const fn name(self) -> &'static str {
@@ -32,6 +39,7 @@ impl CentersMethod {
             CentersMethod::Tree => "tree",
             CentersMethod::Thesis => "thesis",
             CentersMethod::FarthestFirst => "farthest-first",
+            CentersMethod::Stream => "stream",
         }
     }
 }
@@ -49,7 +57,7 @@ impl FromStr for CentersMethod {
             Error::Option {
                 name: "method",
                 value: name.to_owned(),
-                expected: "tree, thesis or farthest-first",
+                expected: "tree, thesis, farthest-first or stream",
             }
         })
     }
@@ -59,7 +67,7 @@ impl FromStr for CentersMethod {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CentersOptions {
     /// Wanted relative gap, radius ≤ (1 + ε)·lower bound. Range [0, 1), default 0.01. Has no influence on
-    /// [`CentersMethod::FarthestFirst`].
+    /// [`CentersMethod::FarthestFirst`] and [`CentersMethod::Stream`].
     pub epsilon: f64,
     /// Default [`CentersMethod::Tree`].
     pub method: CentersMethod,
@@ -114,6 +122,17 @@ impl CentersOptions {
             }
             if self.weights {
                 return wrong("weights", "true".into(), "false for the method thesis");
+            }
+        }
+        if self.method == CentersMethod::Stream {
+            if self.outliers > 0 {
+                return wrong("outliers", self.outliers.to_string(), "0 for the method stream");
+            }
+            if self.weights {
+                return wrong("weights", "true".into(), "false for the method stream");
+            }
+            if self.assignment {
+                return wrong("assignment", "true".into(), "false for the method stream");
             }
         }
         Ok(())

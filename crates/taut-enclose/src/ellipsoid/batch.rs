@@ -11,8 +11,9 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use taut_certify::{Ellipsoid, Solution};
 use taut_points::{Monitor, PointSource, Points, ReadError, Scalar};
 
-use super::{EllipsoidOptions, on_threads, solve};
+use super::{EllipsoidOptions, solve};
 use crate::Error;
+use crate::threads::on_threads;
 
 /// The ellipsoid of least volume of each of `sets`, in their order; sets may differ in size and dimension.
 ///
@@ -81,7 +82,7 @@ pub fn ellipsoids_of_sources(
         Some(found)
     };
     let found: Vec<Option<Result<Solution<Ellipsoid>, Error>>> =
-        on_threads(options, || Ok((0..sources.len()).into_par_iter().map(one).collect()))?;
+        on_threads(options.threads, || Ok((0..sources.len()).into_par_iter().map(one).collect()))?;
     let sets = found.into_iter().enumerate();
     sets.filter_map(|(set, found)| found.map(|found| found.map_err(|error| named(set, error))))
         .collect()

@@ -28,6 +28,9 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
         2 => (Placement::Free, 1, CentersMethod::Tree),
         3 if !weights => (Placement::Free, 0, CentersMethod::Thesis),
         4 => (Placement::Free, 0, CentersMethod::FarthestFirst),
+        5 if (items, weights) == (Items::Points, false) => {
+            (Placement::Free, 0, CentersMethod::Stream)
+        }
         _ => (Placement::Free, 0, CentersMethod::Tree),
     };
     let is_whole = head & 16 == 0;
@@ -50,7 +53,7 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
         outliers,
         weights,
         max_nodes: if wish & 128 == 0 { 20_000 } else { 50 },
-        assignment: true,
+        assignment: method != CentersMethod::Stream,
         threads: None,
     };
     match centers_of_source(&points, items, k, &options, &Monitor::silent()) {
@@ -59,7 +62,8 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
             assert!(
                 found.answer.lower_bound <= found.answer.radius && found.answer.centers.len() <= k
             );
-            assert_eq!(found.answer.assignment.len(), rows);
+            let assigned = if options.assignment { rows } else { 0 };
+            assert_eq!(found.answer.assignment.len(), assigned);
         }
         Err(Error::Empty) => assert!(values.is_empty()),
         Err(Error::NonFinite { row, column, value }) => {
