@@ -6,12 +6,15 @@ use super::items::{Position, Shape, distance};
 use super::read::Table;
 use crate::Error;
 use crate::ball::reach_up;
+use crate::frame::exponent;
 use crate::kernel::{Center, Difference, relative_error};
 
 /// Items that may reach as far as the farthest, and are measured exactly: mostly two or three for each of some centres.
 const NEAR: usize = 64;
 /// Squares of distances below this have lost digits.
 const TINY: f64 = 1e-140;
+/// Distances whose squares have all their digits.
+const EVEN: std::ops::RangeInclusive<f64> = TINY..=1e150;
 
 /// What is said of the items.
 pub(super) struct Answered {
@@ -34,8 +37,7 @@ pub(super) fn answer<P: Position>(
     cloud.assign(centers, |_, center, _| is_used[center] = true);
     let used =
         centers.iter().zip(is_used).filter(|(_, is_used)| *is_used).map(|(center, _)| center);
-    let outside: Vec<Vec<f64>> =
-        used.map(|center| center.as_ref().iter().map(|c| c / table.scale).collect()).collect();
+    let outside: Vec<Vec<f64>> = used.map(|center| table.bring_out(center.as_ref())).collect();
     if outside.iter().flatten().any(|c| !c.is_finite()) {
         return Err(Error::Overflow);
     }
@@ -43,7 +45,7 @@ pub(super) fn answer<P: Position>(
         .iter()
         .map(|center| {
             let mut inside = P::zeros(table.dim);
-            inside.as_mut().iter_mut().zip(center).for_each(|(c, x)| *c = x * table.scale);
+            table.bring_in(center, inside.as_mut());
             inside
         })
         .collect();
@@ -101,31 +103,29 @@ fn reach<P: Position>(
         })
         .expect("there is a centre");
     let row = table.row(cloud.rows[item as usize] as usize);
-    let (x, extra) = row.split_at(table.dim);
+    let (place, extra) = row.split_at(table.dim);
     let center = Center { high: outside[nearest].clone(), low: vec![] };
-    let difference = Difference::new(x, &center, table.scale);
-    let radius = if table.shape == Shape::Balls { extra[0] * table.scale } else { 0.0 };
-    let up = match length(position, inside[nearest].as_ref()) {
-        tiny if tiny < TINY && tiny > 0.0 => (tiny * (1.0 + 1e-12)).next_up() + radius,
-        _ => {
-            let up = reach_up(&difference, difference.squared(), radius);
-            // Squares that vanish are far less than an ulp of the sum, but not nothing.
-            let is_lost = |(a, b): (&f64, &f64)| a != b && (a - b).abs() < TINY;
-            match position.iter().zip(inside[nearest].as_ref()).any(is_lost) {
-                true => up.next_up(),
-                false => up,
-            }
-        }
+    let (weight, radius) = match table.shape {
+        Shape::Points => (1.0, 0.0),
+        Shape::Weighted => (extra[0], 0.0),
+        Shape::Balls => (1.0, extra[0]),
     };
-    let up = unscale_up(up, table.scale);
-    let plain = distance(x, &center.high);
-    match table.shape {
-        Shape::Weighted => {
-            let plain = if table.scale == 1.0 { extra[0] * plain } else { 0.0 };
-            if up > 0.0 { (extra[0] * up).next_up().max(plain) } else { 0.0 }
-        }
-        Shape::Balls if table.scale == 1.0 => up.max(plain + extra[0]),
-        Shape::Points if table.scale == 1.0 => up.max(plain),
+    let differences = place.iter().zip(&center.high).map(|(x, c)| (x / 2.0 - c / 2.0).abs());
+    let largest = differences.fold(0.0, f64::max);
+    if largest == 0.0 && place == center.high {
+        return radius;
+    }
+    // Units of its own, in which the square is near 1.
+    let size = largest.max(radius / 2.0).max(f64::MIN_POSITIVE);
+    let scale = 2f64.powi((-exponent(size)).clamp(-1000, 1000));
+    let difference = Difference::new(place, &center, scale);
+    let up = reach_up(&difference, difference.squared(), radius * scale);
+    // What vanishes is less than an ulp, but not nothing.
+    let is_lost = difference.vanishes || radius * scale / scale != radius;
+    let up = unscale_up(if is_lost { up.next_up() } else { up }, scale);
+    let up = if weight == 1.0 { up } else { (weight * up).next_up() };
+    match distance(place, &center.high) {
+        plain if EVEN.contains(&plain) => up.max(weight * plain + radius),
         _ => up,
     }
 }
