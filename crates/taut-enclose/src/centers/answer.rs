@@ -3,6 +3,7 @@
 
 use super::cloud::{Cloud, Far};
 use super::items::{Position, Shape, distance};
+use super::nearest::{EVEN, length};
 use super::read::Table;
 use crate::Error;
 use crate::ball::reach_up;
@@ -13,8 +14,6 @@ use crate::kernel::{Center, Difference, relative_error};
 const NEAR: usize = 64;
 /// Squares of distances below this have lost digits.
 const TINY: f64 = 1e-140;
-/// Distances whose squares have all their digits.
-const EVEN: std::ops::RangeInclusive<f64> = TINY..=1e150;
 
 /// What is said of the items.
 pub(super) struct Answered {
@@ -104,44 +103,33 @@ fn reach<P: Position>(
         .expect("there is a centre");
     let row = table.row(cloud.rows[item as usize] as usize);
     let (place, extra) = row.split_at(table.dim);
-    let center = Center { high: outside[nearest].clone(), low: vec![] };
     let (weight, radius) = match table.shape {
         Shape::Points => (1.0, 0.0),
         Shape::Weighted => (extra[0], 0.0),
         Shape::Balls => (1.0, extra[0]),
     };
-    let differences = place.iter().zip(&center.high).map(|(x, c)| (x / 2.0 - c / 2.0).abs());
-    let largest = differences.fold(0.0, f64::max);
-    if largest == 0.0 && place == center.high {
+    reach_of(place, &outside[nearest], weight, radius)
+}
+
+/// w·|p − c| + r, one of w = 1 and r = 0 being so: the larger of what is exact, rounded up, and what plain `f64` says.
+pub(crate) fn reach_of(place: &[f64], center: &[f64], weight: f64, radius: f64) -> f64 {
+    if place == center {
         return radius;
     }
+    let halves = place.iter().zip(center).map(|(x, c)| (x / 2.0 - c / 2.0).abs());
     // Units of its own, in which the square is near 1.
-    let size = largest.max(radius / 2.0).max(f64::MIN_POSITIVE);
+    let size = halves.fold(radius / 2.0, f64::max).max(f64::MIN_POSITIVE);
     let scale = 2f64.powi((-exponent(size)).clamp(-1000, 1000));
-    let difference = Difference::new(place, &center, scale);
+    let difference = Difference::new(place, &Center { high: center.to_vec(), low: vec![] }, scale);
     let up = reach_up(&difference, difference.squared(), radius * scale);
     // What vanishes is less than an ulp, but not nothing.
     let is_lost = difference.vanishes || radius * scale / scale != radius;
     let up = unscale_up(if is_lost { up.next_up() } else { up }, scale);
     let up = if weight == 1.0 { up } else { (weight * up).next_up() };
-    match distance(place, &center.high) {
+    match distance(place, center) {
         plain if EVEN.contains(&plain) => up.max(weight * plain + radius),
         _ => up,
     }
-}
-
-/// |a − b| whatever its size.
-fn length(a: &[f64], b: &[f64]) -> f64 {
-    let plain = distance(a, b);
-    if plain >= TINY {
-        return plain;
-    }
-    let largest = a.iter().zip(b).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
-    if largest == 0.0 {
-        return 0.0;
-    }
-    let squares = a.iter().zip(b).map(|(a, b)| ((a - b) / largest).powi(2));
-    largest * squares.sum::<f64>().sqrt()
 }
 
 /// value / scale for a power of two; where that cannot be exact, because it is subnormal, rounded up.

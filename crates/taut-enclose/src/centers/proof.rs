@@ -9,7 +9,7 @@
 //! *Trap.* A plain tree may be larger than the search that found it. It is given up after a number of nodes, and the bound of a
 //! step before is tried.
 
-use taut_certify::LowerBound;
+use taut_certify::{LowerBound, Stop};
 use taut_points::{Monitor, ReadError};
 
 use super::cloud::Cloud;
@@ -20,8 +20,8 @@ use crate::Error;
 
 /// What rounding may have added to the radius of a ball of a few items, for the solver and for a checker; in parts of it.
 const ROUNDING: f64 = 1e-12;
-/// The same for two items.
-const PAIR_ROUNDING: f64 = 1e-14;
+/// The same for two items, but for what grows with d.
+const PAIR_ROUNDING: f64 = 2e-14;
 /// Trees of up to so many nodes, and up to so many centres, are left to a checker to find; larger ones are written down.
 const SEARCH_NODES: u64 = 2000;
 const SEARCH_CENTERS: usize = 8;
@@ -56,12 +56,13 @@ impl Proof {
 
     /// More than k + z items no two of which fit in a ball of a smaller radius.
     pub(super) fn apart<P: Position>(cloud: &Cloud<P>, core_set: Vec<u32>) -> Self {
-        let lower = least_pair_radius(cloud, &core_set) * (1.0 - PAIR_ROUNDING);
+        let rounding = PAIR_ROUNDING + cloud.items.dim() as f64 * f64::EPSILON;
+        let lower = least_pair_radius(cloud, &core_set) * (1.0 - rounding);
         Proof { lower, core_set, kind: LowerBound::Apart, nodes: 0 }
     }
 
-    /// That no k balls of a radius less than `threshold` hold all of the core-set but z. None where that takes more than
-    /// `budget` nodes, or is not so.
+    /// That no k balls of a radius less than `threshold` hold all of the core-set but z; or why not: it takes more than `budget`
+    /// nodes or more items than a checker takes, or is not so, which can only be by rounding.
     pub(super) fn by_tree<P: Position>(
         cloud: &Cloud<P>,
         core_set: &[u32],
@@ -70,17 +71,21 @@ impl Proof {
         z: usize,
         budget: u64,
         monitor: &Monitor<'_>,
-    ) -> Result<Option<Self>, Error> {
+    ) -> Result<Result<Self, Stop>, Error> {
         let room = k.saturating_add(z);
         let apart = large_clique(&cloud.items, core_set, threshold, room);
         if apart.len() > room {
-            return Ok(Some(Self::apart(cloud, apart)));
+            return Ok(Ok(Self::apart(cloud, apart)));
         }
         let mut best: Option<(Vec<u32>, Log)> = None;
         let mut budget = budget;
         for _ in 0..ROUNDS {
             let core_set = best.as_ref().map_or(core_set, |(core_set, _)| core_set);
-            let Some(log) = tree(cloud, core_set, threshold, k, z, budget, monitor)? else { break };
+            let log = match tree(cloud, core_set, threshold, k, z, budget, monitor)? {
+                Ok(log) => log,
+                Err(why) if best.is_none() => return Ok(Err(why)),
+                Err(_) => break,
+            };
             budget = (log.items.len() as u64).saturating_sub(1);
             let (needed, log) = renumbered(core_set, log);
             let is_last = needed.len() == core_set.len();
@@ -90,7 +95,7 @@ impl Proof {
             }
         }
         let best = best.filter(|(core_set, _)| core_set.len() <= BRANCH_ITEMS);
-        Ok(best.map(|(core_set, log)| {
+        let proof = best.map(|(core_set, log)| {
             let nodes = log.items.len() as u64;
             let is_small = nodes <= SEARCH_NODES && core_set.len() <= SEARCH_ITEMS;
             let kind = match is_small && k <= SEARCH_CENTERS {
@@ -98,7 +103,8 @@ impl Proof {
                 false => LowerBound::Branches { items: log.items },
             };
             Proof { lower: log.lower * (1.0 - ROUNDING), core_set, kind, nodes }
-        }))
+        });
+        Ok(proof.ok_or(Stop::ProofBudget))
     }
 }
 
@@ -126,7 +132,7 @@ struct Frame<P> {
     undo: Option<Undo<P>>,
 }
 
-/// The plain tree; none where it is too large, or the core-set does fit.
+/// The plain tree, or why there is none: it is too large, or the core-set does fit.
 fn tree<P: Position>(
     cloud: &Cloud<P>,
     core_set: &[u32],
@@ -135,7 +141,7 @@ fn tree<P: Position>(
     z: usize,
     budget: u64,
     monitor: &Monitor<'_>,
-) -> Result<Option<Log>, Error> {
+) -> Result<Result<Log, Stop>, Error> {
     let mut items = ItemSet::new(cloud.items.shape(), cloud.items.dim());
     for &item in core_set {
         items.push(cloud.items.at(item as usize), cloud.items.extra(item as usize));
@@ -145,17 +151,19 @@ fn tree<P: Position>(
     let mut frames: Vec<Frame<P>> = vec![];
     loop {
         if log.items.len() as u64 >= budget {
-            return Ok(None);
+            return Ok(Err(Stop::ProofBudget));
         }
         if log.items.len() % 256 == 255 {
             monitor.check().map_err(ReadError::from)?;
         }
-        let Survey::Branch(item) = state.survey(true) else { return Ok(None) };
+        let Survey::Branch(item) = state.survey(true) else {
+            return Ok(Err(Stop::Rounding));
+        };
         log.items.push(item);
         let places = open_places(&mut state, item, &mut log.lower);
         frames.push(Frame { item, places, next: 0, undo: None });
         loop {
-            let Some(frame) = frames.last_mut() else { return Ok(Some(log)) };
+            let Some(frame) = frames.last_mut() else { return Ok(Ok(log)) };
             if let Some(undo) = frame.undo.take() {
                 state.undo(undo);
             }

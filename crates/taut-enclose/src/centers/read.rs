@@ -13,9 +13,9 @@ use crate::frame::exponent;
 
 /// Numbers between 2⁻²⁰⁰ and 2²⁰⁰ stay as they are: squares of their differences are at least 2⁻⁵⁰⁶.
 const SAFE_EXPONENT: i32 = 200;
-/// Where there are others, the largest coordinate or radius gets this exponent, so that squares of what is 2⁻⁹⁵⁰ of it are
-/// numbers.
-const LARGEST: i32 = 480;
+/// Where there are others, the largest coordinate or radius gets this exponent, so that squares of what is 2⁻⁹⁸⁰ of it keep
+/// their digits.
+const LARGEST: i32 = 500;
 /// A column whose values differ by at most this part of the least is moved.
 const NARROW: f64 = 1.0 / 16.0;
 
@@ -122,6 +122,16 @@ impl Table {
     /// A row as it was given.
     pub(super) fn row(&self, row: usize) -> &[f64] {
         &self.values[row * self.columns..][..self.columns]
+    }
+
+    /// The coordinates of a row.
+    pub(super) fn place(&self, row: usize) -> &[f64] {
+        &self.row(row)[..self.dim]
+    }
+
+    /// Whether no item is a ball of a radius above 0.
+    pub(super) fn are_points(&self) -> bool {
+        self.shape != Shape::Balls || (0..self.len()).all(|row| self.row(row)[self.dim] == 0.0)
     }
 
     /// The items in the units of the search.
