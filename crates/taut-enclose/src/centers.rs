@@ -161,7 +161,7 @@ fn solve(
     if table.are_points()
         && let Some(few) = Few::of(table.len(), |row| table.place(row), k, z)
     {
-        return Ok(few.solution(k, options, items, table.hash));
+        return Ok(few.solution(k, Placement::Free, options, items, table.hash));
     }
     match table.dim {
         1 => solve_in::<[f64; 1]>(&table, items, k, options, monitor),

@@ -87,7 +87,7 @@ pub(crate) fn solve(
         let by_row = sites.by_row();
         let position = |row: usize| sites.position(by_row[row]);
         if let Some(few) = Few::of(sites.len(), position, k, outliers) {
-            return Ok(few.solution(k, options, items, sites.hash()));
+            return Ok(few.solution(k, Placement::Rows, options, items, sites.hash()));
         }
     }
     // More centres than rows are of no use.

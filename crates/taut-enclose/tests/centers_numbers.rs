@@ -182,6 +182,7 @@ fn every_answer_is_confirmed() {
     let mut overflows = 0;
     for seed in 0..count {
         let case = case(seed);
+        if std::env::var_os("TRACE").is_some() { eprintln!("at {seed}"); }
         overflows += u64::from(matches!(case.solve(CentersMethod::Tree), Err(Error::Overflow)));
         if let Err(why) = case.judge() {
             let Case { family, columns, items, k, options, .. } = &case;

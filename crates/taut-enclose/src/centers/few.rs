@@ -76,6 +76,7 @@ impl Few {
     pub(crate) fn solution(
         self,
         k: usize,
+        placement: Placement,
         options: &CentersOptions,
         items: Items,
         points_hash: PointsHash,
@@ -83,7 +84,7 @@ impl Few {
         Solution {
             answer: Centers {
                 centers: self.centers,
-                rows: if options.placement == Placement::Rows { self.rows } else { vec![] },
+                rows: if placement == Placement::Rows { self.rows } else { vec![] },
                 radius: 0.0,
                 lower_bound: 0.0,
                 outliers: self.outliers,
@@ -92,7 +93,7 @@ impl Few {
             certificate: CentersCertificate {
                 items,
                 weights: options.weights,
-                placement: options.placement,
+                placement,
                 k: k as u64,
                 outliers: options.outliers,
                 gap: 0.0,
