@@ -316,10 +316,11 @@ impl Sites {
         }
         let reach = self.reach(site, distance);
         let center = self.center(center);
-        let square = Difference::new(self.position(site), &center, 1.0).squared();
+        let difference = Difference::new(self.position(site), &center, 1.0);
+        let (square, is_whole) = (difference.squared(), !difference.vanishes);
         let root = square.high.sqrt();
-        let exact = square.low == 0.0 && root.mul_add(root, -square.high) == 0.0;
-        if exact && self.are_plain() {
+        let is_exact = square.low == 0.0 && root.mul_add(root, -square.high) == 0.0;
+        if is_exact && is_whole && self.are_plain() {
             return reach;
         }
         (reach * (1.0 + relative_error(self.dim))).next_up()
