@@ -46,6 +46,15 @@ struct Log {
     items: Vec<u32>,
     /// The least of the bounds by which children were refuted.
     lower: f64,
+    /// The largest radius of a child that was not.
+    open: f64,
+}
+
+impl Log {
+    /// Whether rounding may let a checker refute what the log goes on from.
+    fn is_close(&self) -> bool {
+        self.open * (1.0 + 2.0 * ROUNDING) >= self.lower * (1.0 - ROUNDING)
+    }
 }
 
 impl Proof {
@@ -95,16 +104,16 @@ impl Proof {
             }
         }
         let best = best.filter(|(core_set, _)| core_set.len() <= BRANCH_ITEMS);
-        let proof = best.map(|(core_set, log)| {
-            let nodes = log.items.len() as u64;
-            let is_small = nodes <= SEARCH_NODES && core_set.len() <= SEARCH_ITEMS;
-            let kind = match is_small && k <= SEARCH_CENTERS {
-                true => LowerBound::Search,
-                false => LowerBound::Branches { items: log.items },
-            };
-            Proof { lower: log.lower * (1.0 - ROUNDING), core_set, kind, nodes }
-        });
-        Ok(proof.ok_or(Stop::ProofBudget))
+        let Some((core_set, log)) = best else { return Ok(Err(Stop::ProofBudget)) };
+        let nodes = log.items.len() as u64;
+        let is_small = nodes <= SEARCH_NODES && core_set.len() <= SEARCH_ITEMS;
+        let lower = log.lower * (1.0 - ROUNDING);
+        let kind = match is_small && k <= SEARCH_CENTERS {
+            true => LowerBound::Search,
+            false if log.is_close() => return Ok(Err(Stop::Rounding)),
+            false => LowerBound::Branches { items: log.items },
+        };
+        Ok(Ok(Proof { lower, core_set, kind, nodes }))
     }
 }
 
@@ -121,7 +130,7 @@ fn renumbered(core_set: &[u32], log: Log) -> (Vec<u32>, Log) {
         }
         *item = *number;
     }
-    (needed, Log { items, lower: log.lower })
+    (needed, Log { items, ..log })
 }
 
 /// A node under way: the children that are not refuted at once.
@@ -147,7 +156,7 @@ fn tree<P: Position>(
         items.push(cloud.items.at(item as usize), cloud.items.extra(item as usize));
     }
     let mut state = Clusters::new(items, k, z as u64, threshold);
-    let mut log = Log { items: vec![], lower: f64::INFINITY };
+    let mut log = Log { items: vec![], lower: f64::INFINITY, open: 0.0 };
     let mut frames: Vec<Frame<P>> = vec![];
     loop {
         if log.items.len() as u64 >= budget {
@@ -160,7 +169,7 @@ fn tree<P: Position>(
             return Ok(Err(Stop::Rounding));
         };
         log.items.push(item);
-        let places = open_places(&mut state, item, &mut log.lower);
+        let places = open_places(&mut state, item, &mut log);
         frames.push(Frame { item, places, next: 0, undo: None });
         loop {
             let Some(frame) = frames.last_mut() else { return Ok(Ok(log)) };
@@ -178,24 +187,26 @@ fn tree<P: Position>(
     }
 }
 
-/// The places of an item whose ball stays below the threshold, in the order of the log; what refutes the others goes to `lower`.
-fn open_places<P: Position>(state: &mut Clusters<P>, item: u32, lower: &mut f64) -> Vec<Place> {
+/// The places of an item whose ball stays below the threshold, in the order of the log, which is told by what the others are refuted.
+fn open_places<P: Position>(state: &mut Clusters<P>, item: u32, log: &mut Log) -> Vec<Place> {
     let mut places = vec![];
     let Clusters { items, clusters, threshold, work, .. } = state;
     for (at, cluster) in clusters.iter().enumerate() {
         let mut ball = cluster.ball.clone();
         ball.grow(items, &cluster.members, item, f64::INFINITY, work);
         if ball.radius >= *threshold {
-            *lower = lower.min(ball.lower_bound(items));
+            log.lower = log.lower.min(ball.lower_bound(items));
         } else {
+            log.open = log.open.max(ball.radius);
             places.push(Place::Into(at));
         }
     }
     if state.empty() > 0 {
         let alone = state.items.radius(item as usize);
         if alone >= state.threshold {
-            *lower = lower.min(alone);
+            log.lower = log.lower.min(alone);
         } else {
+            log.open = log.open.max(alone);
             places.push(Place::Open);
         }
     }
