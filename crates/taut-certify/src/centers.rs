@@ -56,7 +56,7 @@ pub struct Centers {
 /// rounds, some 1e-14·d/8 of ρ: claim the radius at which all cases are refuted, less 1e-12 of it. For centres among the
 /// rows, and for two items apart, it decides exactly (two weighted points but for rounding).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", tag = "by", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", tag = "by", from = "Written")]
 pub enum LowerBound {
     /// No two items of the core-set fit in one ball, and there are more than k and the outliers together. O(|X|²d).
     Apart,
@@ -70,6 +70,25 @@ pub enum LowerBound {
         /// the bound holds the items of the one that got the item.
         items: Vec<u32>,
     },
+}
+
+/// A [`LowerBound`] as it is read: of a variant without braces, serde would not refuse unknown fields.
+#[derive(Deserialize)]
+#[serde(rename_all = "kebab-case", tag = "by", deny_unknown_fields)]
+enum Written {
+    Apart {},
+    Search {},
+    Branches { items: Vec<u32> },
+}
+
+impl From<Written> for LowerBound {
+    fn from(written: Written) -> Self {
+        match written {
+            Written::Apart {} => LowerBound::Apart,
+            Written::Search {} => LowerBound::Search,
+            Written::Branches { items } => LowerBound::Branches { items },
+        }
+    }
 }
 
 /// What was asked, and a few items that prove the lower bound.

@@ -364,3 +364,22 @@ fn a_document_is_judged_as_what_it_is() {
         assert!(AnySolution::from_json(&text.replacen(from, to, 1)).is_err(), "{to}");
     }
 }
+
+#[test]
+fn fields_that_no_proof_has_are_named() {
+    let values = [0.0, 0.0, 4.0, 0.0];
+    let points = Points::new(&values, 2).unwrap();
+    for (proof, by) in [
+        (LowerBound::Apart, "apart"),
+        (LowerBound::Search, "search"),
+        (LowerBound::Branches { items: vec![0] }, "branches"),
+    ] {
+        let found = by_hand(&points, &[&[2.0, 0.0]], (2.0, 2.0), &[0, 1], proof);
+        let text = found.to_json();
+        let field = format!("\"by\": \"{by}\"");
+        assert!(text.contains(&field) && AnySolution::from_json(&text).is_ok(), "{text}");
+        let more = text.replacen(&field, &format!("\"more\": 1, {field}"), 1);
+        let error = AnySolution::from_json(&more).unwrap_err().to_string();
+        assert!(error.contains("unknown field `more`"), "{error}");
+    }
+}

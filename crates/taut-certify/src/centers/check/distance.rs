@@ -3,16 +3,21 @@
 //! *Problem.* w·|p − c| compared with ρ = Σ ρₖ, all of them `f64`.
 //! *Idea.* With u = 2⁻⁵³, S = Σ (w·(pⱼ − cⱼ)·2ᵏ)² in `f64` and eight partial sums is w²|p − c|²4ᵏ up to a factor between
 //! (1 − κ)² and (1 + κ)² for κ ≥ mu/2 + 4u, m = d/8 + 16 roundings a square; κ = (m + 24)u also covers the rounding of the
-//! thresholds with which S is compared, and what underflows: less than 2⁻⁷⁰⁰ where 2ᵏ brings the reach to [1, 2) and
-//! weights lie between 2⁻²⁰⁰ and 2²⁰⁰; others are left to the second stage. That is the same in whole numbers of any
-//! length, for the few items about which S says nothing.
+//! thresholds with which S is compared, and what underflows: less than 2⁻⁷⁰⁰ where 2ᵏ brings the reach to [1, 2), for
+//! weights between 2⁻²⁰⁰ and 2²⁰⁰, and for others where w·2ᵏ is no subnormal number. A reach of 0, and one less than any
+//! two places are apart, asks for equal coordinates. The second stage is the same in whole numbers of any length, for the
+//! few items about which S says nothing.
 //! *Guarantee.* No item is misjudged, so no answer depends on the order of a sum.
 
 use std::cmp::Ordering;
 
+use super::meter::{Meter, Stop};
 use crate::arithmetic::{Integer, Ring, U, parts};
 
 const LANES: usize = 8;
+
+/// Steps that a coordinate takes in whole numbers.
+const EXACT: usize = 200;
 
 /// A multiplication by the power of two that brings a length near 1; exact, but for what underflows beside it.
 #[derive(Clone, Copy, Debug)]
@@ -36,23 +41,28 @@ pub(super) fn kappa(dim: usize) -> f64 {
     ((dim / LANES + 16) + 24) as f64 * U
 }
 
-/// Whether weights are so far from the ends of the range that S can be trusted.
+/// What differences are multiplied by, one after the other: 2ᵏ and the weight, or for a weight far from 1 their product,
+/// which is exact. `None` where that leaves the range, so that S cannot be trusted.
 #[inline(always)]
-pub(super) fn is_tame(weight: f64) -> bool {
+pub(super) fn factors(weight: f64, scale: Scale) -> Option<[f64; 2]> {
     const LEAST: f64 = f64::from_bits((1023 - 200) << 52);
     const MOST: f64 = f64::from_bits((1023 + 200) << 52);
-    (LEAST..=MOST).contains(&weight)
+    if (LEAST..=MOST).contains(&weight) {
+        return Some([scale.up, weight]);
+    }
+    let product = scale.up * weight;
+    product.is_normal().then_some([product, 1.0])
 }
 
 /// S of the head.
 #[inline(always)]
-pub(super) fn square<A, B>(p: &[A], c: &[B], weight: f64, scale: Scale) -> f64
+pub(super) fn square<A, B>(p: &[A], c: &[B], factors: [f64; 2]) -> f64
 where
     A: Copy + Into<f64>,
     B: Copy + Into<f64>,
 {
     let square = |x: A, c: B| {
-        let difference = (x.into() - c.into()) * scale.up * weight;
+        let difference = (x.into() - c.into()) * factors[0] * factors[1];
         difference * difference
     };
     let (head, rest) = p.as_chunks::<LANES>();
@@ -78,28 +88,73 @@ pub(super) fn thresholds(rho: f64, kappa: f64, scale: Scale) -> (f64, f64) {
 }
 
 /// w·|p − c| compared with Σ `rho`.
-pub(super) fn compare<A, B>(p: &[A], c: &[B], weight: f64, rho: &[f64], scale: Scale) -> Ordering
+pub(super) fn compare<A, B>(
+    p: &[A],
+    c: &[B],
+    weight: f64,
+    rho: &[f64],
+    scale: Scale,
+    meter: &mut Meter<'_>,
+) -> Result<Ordering, Stop>
 where
     A: Copy + Into<f64>,
     B: Copy + Into<f64>,
 {
-    if is_tame(weight) && rho.len() <= 2 {
-        let sum = rho.iter().sum();
-        let (inside, beyond) = thresholds(sum, kappa(p.len()), scale);
-        let square = square(p, c, weight, scale);
-        match () {
-            // Beside less than this, and at infinity, what under- and overflows matters.
-            () if inside < 1e-150 || square == f64::INFINITY => {}
-            () if square < inside => return Ordering::Less,
-            () if square > beyond => return Ordering::Greater,
-            () => {}
-        }
+    meter.spend(p.len())?;
+    if let Some(plainly) = plainly(p, c, weight, rho, scale) {
+        return Ok(plainly);
     }
-    exactly(p, c, weight, rho)
+    meter.spend(EXACT * (p.len() + 1))?;
+    Ok(exactly(p, c, weight, rho))
+}
+
+/// The same, where it can be told without whole numbers.
+fn plainly<A, B>(p: &[A], c: &[B], weight: f64, rho: &[f64], scale: Scale) -> Option<Ordering>
+where
+    A: Copy + Into<f64>,
+    B: Copy + Into<f64>,
+{
+    // The sum of two is rounded once: its sign is right.
+    let sum: f64 = match rho {
+        [_] | [_, _] => rho.iter().sum(),
+        _ => return None,
+    };
+    if sum < 0.0 {
+        return Some(Ordering::Greater);
+    }
+    // Different places are 2⁻¹⁰⁷⁴ apart or more, and what rounds to 0 is less.
+    if sum / weight == 0.0 {
+        let is_same = is_same_place(p, c);
+        return match (is_same, sum == 0.0) {
+            (true, true) => Some(Ordering::Equal),
+            (true, false) => Some(Ordering::Less),
+            (false, _) => Some(Ordering::Greater),
+        };
+    }
+    let factors = factors(weight, scale)?;
+    let (inside, beyond) = thresholds(sum, kappa(p.len()), scale);
+    let square = square(p, c, factors);
+    match () {
+        // Beside less than this, and at infinity, what under- and overflows matters.
+        () if inside < 1e-150 || square == f64::INFINITY => None,
+        () if square < inside => Some(Ordering::Less),
+        () if square > beyond => Some(Ordering::Greater),
+        () => None,
+    }
+}
+
+/// Whether two places are one, coordinate by coordinate.
+#[inline(always)]
+pub(super) fn is_same_place<A, B>(p: &[A], c: &[B]) -> bool
+where
+    A: Copy + Into<f64>,
+    B: Copy + Into<f64>,
+{
+    p.iter().zip(c).all(|(&x, &c)| x.into() == c.into())
 }
 
 /// The same in whole numbers.
-pub(super) fn exactly<A, B>(p: &[A], c: &[B], weight: f64, rho: &[f64]) -> Ordering
+fn exactly<A, B>(p: &[A], c: &[B], weight: f64, rho: &[f64]) -> Ordering
 where
     A: Copy + Into<f64>,
     B: Copy + Into<f64>,
@@ -135,11 +190,14 @@ where
 
 #[cfg(test)]
 mod tests {
+    use taut_points::Monitor;
+
     use super::*;
 
     fn compared(p: &[f64], c: &[f64], weight: f64, rho: &[f64]) -> Ordering {
         let scale = Scale::of(rho[0]);
-        let found = compare(p, c, weight, rho, scale);
+        let mut meter = Meter::endless(&Monitor::silent());
+        let found = compare(p, c, weight, rho, scale, &mut meter).unwrap();
         assert_eq!(found, exactly(p, c, weight, rho), "{p:?} {c:?} {weight} {rho:?}");
         found
     }

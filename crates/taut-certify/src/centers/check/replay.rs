@@ -3,65 +3,72 @@
 //! *Idea.* Each branch gives an item to each group in turn, to a new one if there may be more, and to those left out. A
 //! case whose group no ball holds is refuted there and then; of every other the log says how it goes on.
 //! *Guarantee.* All cases are gone through, or the log is refused. No recursion: the depth is what the log makes it.
-//! *Cost.* For each branch, a test for each group, and the item added to each group that takes it.
-
-use taut_points::{Monitor, ReadError};
+//! *Cost.* For each branch, a test for each group, and the item added to each group that takes it. An item that the deepest
+//! centre of its group has room for leaves nothing to be kept, another the centre and the multipliers before it: a number
+//! for each coordinate and two for each multiplier, of which there are at most d + 1. [`KEPT`] bytes are granted.
 
 use super::super::CentersViolation;
 use super::core::{clear, is_set, set};
+use super::meter::Meter;
 use super::room::Room;
 use crate::{CheckError, Violation};
 
 /// Most items of a core-set whose branches are followed: their pairs take 32 MiB.
 pub(super) const ITEMS: usize = 1 << 14;
 
+/// Most bytes that are kept to undo the cases that are gone through.
+pub(super) const KEPT: u64 = 1 << 29;
+
 /// One branch whose cases are gone through.
-struct Branch<G> {
+struct Branch<U> {
     item: usize,
     /// The case to be looked at next: a group by its number, then a new one, then those left out.
     next: usize,
     /// How to undo the case that is being gone through.
-    undo: Undo<G>,
+    undo: Undo<U>,
 }
 
-enum Undo<G> {
+enum Undo<U> {
     Nothing,
-    /// A group grew; this is what it was.
-    Grown(usize, G),
+    /// This group got the item.
+    Grown(usize, U),
     Opened,
     LeftOut,
 }
 
-/// Goes through all cases.
+/// Goes through all cases, and keeps at most so many bytes to undo them; the most that were kept.
 pub(super) fn replay<R: Room>(
     room: &mut R,
     k: usize,
     outliers: u64,
     log: &[u32],
-    monitor: &Monitor<'_>,
-) -> Result<(), CheckError> {
+    most: u64,
+    meter: &mut Meter<'_>,
+) -> Result<u64, CheckError> {
     let mut groups: Vec<R::Group> = vec![];
     let mut given = vec![0; room.len().div_ceil(64)];
     let mut left = outliers;
     let mut entries = log.iter().copied().enumerate();
     let mut open = vec![taken(&mut entries, &mut given, room.len(), log)?];
-    let mut cases = 0u64;
+    let (mut kept, mut peak) = (0, 0);
     while let Some(branch) = open.last_mut() {
-        cases += 1;
-        if cases.is_multiple_of(1024) {
-            monitor.check().map_err(ReadError::from)?;
-        }
+        meter.spend(16)?;
         match std::mem::replace(&mut branch.undo, Undo::Nothing) {
             Undo::Nothing => {}
-            Undo::Grown(number, group) => groups[number] = group,
+            Undo::Grown(number, undo) => {
+                kept -= R::kept(&undo) as u64;
+                room.shrink(&mut groups[number], undo);
+            }
             Undo::Opened => drop(groups.pop()),
             Undo::LeftOut => left += 1,
         }
         let (case, item) = (branch.next, branch.item);
         branch.next += 1;
         let goes_on = if case < groups.len() {
-            room.with(&groups[case], item)
-                .map(|grown| Undo::Grown(case, std::mem::replace(&mut groups[case], grown)))
+            room.grow(&mut groups[case], item, meter)?.map(|undo| {
+                kept += R::kept(&undo) as u64;
+                Undo::Grown(case, undo)
+            })
         } else if case == groups.len() && groups.len() < k {
             room.open(item).map(|group| {
                 groups.push(group);
@@ -78,23 +85,27 @@ pub(super) fn replay<R: Room>(
         };
         if let Some(undo) = goes_on {
             branch.undo = undo;
+            peak = kept.max(peak);
+            if kept > most {
+                return Err(CentersViolation::Kept { branches: open.len(), most }.into());
+            }
             let entry = taken(&mut entries, &mut given, room.len(), log)?;
             open.push(entry);
         }
     }
     match entries.next() {
         Some((used, _)) => Err(CentersViolation::LogGoesOn { used, branches: log.len() }.into()),
-        None => Ok(()),
+        None => Ok(peak),
     }
 }
 
 /// The next branch of the log.
-fn taken<G>(
+fn taken<U>(
     entries: &mut impl Iterator<Item = (usize, u32)>,
     given: &mut [u64],
     items: usize,
     log: &[u32],
-) -> Result<Branch<G>, Violation> {
+) -> Result<Branch<U>, Violation> {
     let Some((entry, item)) = entries.next() else {
         return Err(CentersViolation::LogEnds { branches: log.len() }.into());
     };
