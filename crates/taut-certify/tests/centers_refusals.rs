@@ -226,6 +226,21 @@ fn a_search_that_is_cut_short_confirms_nothing() {
     }
 }
 
+/// Each item gets a ball of its own, one below the other: as deep as a search of the largest core-set can be.
+#[test]
+fn a_search_as_deep_as_can_be_ends() {
+    let values: Vec<f64> = (0..1024).flat_map(|i| [f64::from(i % 32), f64::from(i / 32)]).collect();
+    let points = Points::new(&values, 2).unwrap();
+    let core: Vec<u64> = (0..1024).collect();
+    let mut found = by_hand(&points, &[&[16.0, 16.0]], (30.0, 0.4), &core, LowerBound::Search);
+    found.certificate.k = 1024;
+    let judged = || refusal(&found, &points);
+    let small = std::thread::Builder::new().stack_size(2 << 20);
+    let violation =
+        std::thread::scope(|scope| small.spawn_scoped(scope, judged).unwrap().join().unwrap());
+    assert_eq!(violation, CentersViolation::NotProved);
+}
+
 /// 5000 rows and 200 centres, of which each row finds one by way of lists.
 #[test]
 fn many_centres_hold_many_rows() {

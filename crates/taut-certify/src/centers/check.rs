@@ -139,7 +139,14 @@ fn prove(
             let mut meter = Meter::endless(monitor);
             let pairs = Pairs::of(core, &mut meter)?;
             let mut room = Free::of(core, &pairs);
-            replay::replay(&mut room, most(certificate), outliers, items, replay::KEPT, &mut meter)?;
+            replay::replay(
+                &mut room,
+                most(certificate),
+                outliers,
+                items,
+                replay::KEPT,
+                &mut meter,
+            )?;
             let cover = cover::of_balls(core, kind, &pairs, certificate, monitor)?;
             Ok((items.len() as u64, cover))
         }
@@ -147,7 +154,14 @@ fn prove(
             limited(replay::ITEMS, "branches")?;
             let places = places()?;
             let (mut room, mut meter) = (&places, Meter::endless(monitor));
-            replay::replay(&mut room, most(certificate), outliers, items, replay::KEPT, &mut meter)?;
+            replay::replay(
+                &mut room,
+                most(certificate),
+                outliers,
+                items,
+                replay::KEPT,
+                &mut meter,
+            )?;
             Ok((items.len() as u64, cover::of_places(&places, certificate, monitor)?))
         }
     }

@@ -4,15 +4,13 @@
 //! ρ − r for balls and ρ/w for points of weight w: whatever items are, each asks for a centre in an open ball of its own,
 //! and a ball that holds some of them exists just when these have a common point. Two have none when
 //! |p − q| ≥ ρᵢ + ρⱼ, which is r ≥ ρ in the words of the papers for r = D/2, (D + rᵢ + rⱼ)/2, wᵢwⱼD/(wᵢ + wⱼ).
-//! *Rounding.* ρᵢ is rounded up, so that what has no common point had none before. Two points or balls are told apart
-//! exactly, for weights ρᵢ + ρⱼ is rounded up.
+//! *Rounding.* ρᵢ is rounded up, so that what has no common point had none before. Two items are told apart exactly.
 
 use std::cmp::Ordering;
 
-use super::distance::{Scale, compare, kappa, square};
+use super::distance::{Scale, compare, compare_weighted, kappa, square};
 use super::item::Kind;
 use super::meter::{Meter, Stop};
-use crate::arithmetic::U;
 
 /// The core-set, for one bound ρ > 0.
 pub(super) struct Core {
@@ -104,10 +102,8 @@ impl Core {
                 compare(p, q, 1.0, &rho, self.scale, meter)?
             }
             Kind::Weighted => {
-                let square = square(p, q, [self.scale.up, 1.0]);
-                let sum = (self.reaches[i] + self.reaches[j]) * (1.0 + 4.0 * U);
-                let more = sum * (1.0 + kappa(self.dim));
-                return Ok(more > 1e-70 && more * more <= square && square < f64::INFINITY);
+                let weights = [self.extras[i], self.extras[j]];
+                compare_weighted(p, q, weights, self.bound, meter)?
             }
         };
         Ok(nearer != Ordering::Less)

@@ -23,8 +23,8 @@ use super::room::Room;
 use super::rows::Places;
 use crate::CheckError;
 
-/// Most steps of a second search: a few seconds.
-const WORK: u64 = 1 << 32;
+/// Most steps, each about a word of a set: a few seconds.
+const WORK: u64 = 1 << 33;
 
 /// Most sets for places at rows.
 const SETS: usize = 1 << 22;
@@ -70,9 +70,7 @@ pub(super) fn of_places(
 }
 
 /// What a search found that may have nothing to say.
-fn silently(
-    search: impl FnOnce() -> Result<Found, Stop>,
-) -> Result<Option<u64>, CheckError> {
+fn silently(search: impl FnOnce() -> Result<Found, Stop>) -> Result<Option<u64>, CheckError> {
     match search() {
         Ok(Found::NoCover(nodes)) => Ok(Some(nodes)),
         Ok(Found::Cover) => Err(CentersViolation::Covered.into()),

@@ -153,12 +153,59 @@ where
     p.iter().zip(c).all(|(&x, &c)| x.into() == c.into())
 }
 
+/// |p − q| compared with ρ/w + ρ/v.
+///
+/// The quotients and their sum are rounded once each; what underflows is nothing beside a sum of 1e-290 or more. In whole
+/// numbers it is |p − q|·w·v that is compared with ρ·(w + v).
+pub(super) fn compare_weighted(
+    p: &[f64],
+    q: &[f64],
+    [w, v]: [f64; 2],
+    rho: f64,
+    meter: &mut Meter<'_>,
+) -> Result<Ordering, Stop> {
+    let sum = rho / w + rho / v;
+    if (1e-290..=f64::MAX).contains(&sum) {
+        let scale = Scale::of(sum);
+        let (inside, beyond) = thresholds(sum, kappa(p.len()) + 4.0 * U, scale);
+        let square = square(p, q, [scale.up, 1.0]);
+        match () {
+            () if square == f64::INFINITY => {}
+            () if square < inside => return Ok(Ordering::Less),
+            () if square > beyond => return Ok(Ordering::Greater),
+            () => {}
+        }
+    }
+    meter.spend(EXACT * (p.len() + 4))?;
+    let least = |values: &mut dyn Iterator<Item = &f64>| -> i32 {
+        values.filter(|&&value| value != 0.0).map(|&value| parts(value).1).min().unwrap_or(0)
+    };
+    let of_places = least(&mut p.iter().chain(q));
+    let of_weights = least(&mut [w, v].iter());
+    let [w, v] = [w, v].map(|weight| Integer::scaled(weight, of_weights));
+    let of_rho = parts(rho).1;
+    let differences = p
+        .iter()
+        .zip(q)
+        .map(|(&x, &y)| Integer::scaled(x, of_places).minus(&Integer::scaled(y, of_places)));
+    let square = |value: &Integer| value.times(value);
+    let distance = differences.fold(Integer::scaled(0.0, 0), |sum, d| sum.plus(&square(&d)));
+    let left = distance.times(&square(&w.times(&v)));
+    let right = square(&Integer::scaled(rho, of_rho).times(&w.plus(&v)));
+    // Both are multiples of a power of four; the larger power is brought to the other.
+    let shift = of_places + of_weights - of_rho;
+    let power = |shift: i32| square(&Integer::scaled(1.0, -shift.max(0)));
+    Ok(left.times(&power(shift)).minus(&right.times(&power(-shift))).sign())
+}
+
 /// The same in whole numbers.
 fn exactly<A, B>(p: &[A], c: &[B], weight: f64, rho: &[f64]) -> Ordering
 where
     A: Copy + Into<f64>,
     B: Copy + Into<f64>,
 {
+    #[cfg(test)]
+    tests::EXACTLY.set(tests::EXACTLY.get() + 1);
     let least = |values: &mut dyn Iterator<Item = f64>| -> Option<i32> {
         values.filter(|&value| value != 0.0).map(|value| parts(value).1).min()
     };
@@ -189,10 +236,17 @@ where
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
+    use std::cell::Cell;
+
     use taut_points::Monitor;
 
     use super::*;
+
+    thread_local! {
+        /// How often this thread took the second stage.
+        pub(in super::super) static EXACTLY: Cell<u64> = const { Cell::new(0) };
+    }
 
     fn compared(p: &[f64], c: &[f64], weight: f64, rho: &[f64]) -> Ordering {
         let scale = Scale::of(rho[0]);
@@ -218,5 +272,37 @@ mod tests {
         assert_eq!(compared(&[f64::MAX], &[0.0], 1e-308, &[2.0]), Ordering::Less);
         assert_eq!(compared(&[5e-324], &[0.0], 1e308, &[5e-16]), Ordering::Less);
         assert_eq!(compared(&[5e-324], &[0.0], 1e308, &[4e-16]), Ordering::Greater);
+        assert_eq!(compared(&[5e-324], &[0.0], 1e308, &[1e-300]), Ordering::Greater);
+        assert_eq!(compared(&[1e-310], &[1e-310], 1e308, &[1e-300]), Ordering::Less);
+        assert_eq!(compared(&[2.0], &[1.0], 1e250, &[1e250]), Ordering::Equal);
+        assert_eq!(compared(&[1e200], &[0.0], 1e-250, &[1e-51]), Ordering::Greater);
+    }
+
+    #[test]
+    fn weighted_points_are_told_apart_at_every_scale() {
+        let apart = |distance: f64, weights: [f64; 2], rho: f64| {
+            let mut meter = Meter::endless(&Monitor::silent());
+            let [first, other] = [[1.0, distance], [1.0, 0.0]];
+            compare_weighted(&first, &other, weights, rho, &mut meter).unwrap()
+        };
+        // wvD/(w + v) = 2·1·3/(2 + 1).
+        for power in [0, -300, -1000, 300, 1000] {
+            let scale = 2f64.powi(power);
+            assert_eq!(apart(3.0, [2.0 * scale, scale], 2.0 * scale), Ordering::Equal);
+            assert_eq!(apart(3.0, [2.0 * scale, scale], (2.0 * scale).next_up()), Ordering::Less);
+            assert_eq!(
+                apart(3.0, [scale, 2.0 * scale], (2.0 * scale).next_down()),
+                Ordering::Greater
+            );
+            assert_eq!(apart(3.0 * scale, [2.0, 1.0], 2.0 * scale), Ordering::Equal);
+        }
+        // The lighter item counts alone, whatever the other weighs.
+        for heavy in [1e50, 1e150, 1e300] {
+            assert_eq!(apart(3.0, [heavy, 1e-150], 2.99e-150), Ordering::Greater);
+            assert_eq!(apart(3.0, [heavy, 1e-150], 3.01e-150), Ordering::Less);
+            assert_eq!(apart(3.0, [heavy, 1e-150], 3e-150), Ordering::Less);
+        }
+        assert_eq!(apart(5e-324, [1e300, 1e-300], 1e-323), Ordering::Less);
+        assert_eq!(apart(f64::MAX, [1e-300, 1e-300], 1e300), Ordering::Less);
     }
 }

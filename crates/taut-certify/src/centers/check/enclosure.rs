@@ -142,8 +142,7 @@ impl<'a> Enclosure<'a> {
         if inside > 1e-150
             && let Some(factors) = factors(item.weight, self.scale)
         {
-            let plainly =
-                |center: usize| square(item.position, &centers[center], factors) < inside;
+            let plainly = |center: usize| square(item.position, &centers[center], factors) < inside;
             if self.find(item.position, reach * (1.0 + 1e-9), plainly, held_by, meter)? {
                 return Ok(true);
             }
@@ -241,4 +240,65 @@ fn distance<T: Scalar>(position: &[T], center: &[f64]) -> f64 {
         return largest;
     }
     largest * differences().map(|d| (d / largest).powi(2)).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use taut_points::hash_points;
+
+    use super::super::distance::tests::EXACTLY;
+    use super::*;
+
+    /// Whether rows are held, and how many comparisons took whole numbers.
+    fn held(
+        rows: &[f64],
+        dim: usize,
+        kind: Kind,
+        centers: Vec<Vec<f64>>,
+        radius: f64,
+    ) -> (bool, u64) {
+        let (points, monitor) = (Points::new(rows, dim).unwrap(), Monitor::silent());
+        let (lower_bound, none) = (0.0, vec![]);
+        let answer = Centers {
+            centers,
+            rows: vec![],
+            radius,
+            lower_bound,
+            outliers: none,
+            assignment: vec![],
+        };
+        let before = EXACTLY.get();
+        let hash = hash_points(&points, &monitor).unwrap();
+        let is_held = Enclosure::of(&answer, kind).check(&points, hash, &monitor).is_ok();
+        (is_held, EXACTLY.get() - before)
+    }
+
+    #[test]
+    fn rows_that_have_to_be_centres_are_compared_plainly() {
+        let centers: Vec<Vec<f64>> =
+            (0..300).map(|i| vec![f64::from(i * i % 307), f64::from(i) * 0.1 - 3.0]).collect();
+        let rows: Vec<f64> = centers.iter().rev().cycle().take(3000).flatten().copied().collect();
+        assert_eq!(held(&rows, 2, Kind::Points, centers.clone(), 0.0), (true, 0));
+        let mut other = rows.clone();
+        other[4001] = other[4001].next_up();
+        assert_eq!(held(&other, 2, Kind::Points, centers.clone(), 0.0), (false, 0));
+        // Zeros of either sign are one place.
+        assert_eq!(held(&[-0.0, 0.0], 2, Kind::Points, vec![vec![0.0, -0.0]], 0.0), (true, 0));
+        let with = |extra: f64| -> Vec<f64> {
+            rows.chunks(2).flat_map(|row| [row[0], row[1], extra]).collect()
+        };
+        // Balls as large as they may be, and larger ones.
+        assert_eq!(held(&with(2.5), 3, Kind::Balls, centers.clone(), 2.5), (true, 0));
+        assert_eq!(held(&with(2.5), 3, Kind::Balls, centers.clone(), 2.4), (false, 0));
+        // Weights beside which no distance is small enough, and weights far from 1.
+        for weight in [1e-300, 1.0, 1e300] {
+            assert_eq!(held(&with(weight), 3, Kind::Weighted, centers.clone(), 0.0), (true, 0));
+        }
+        assert_eq!(held(&with(1e300), 3, Kind::Weighted, centers.clone(), 1e-300), (true, 0));
+        assert_eq!(held(&with(1e150), 3, Kind::Weighted, centers.clone(), 1e148), (true, 0));
+        assert_eq!(
+            held(&with(1e-150), 3, Kind::Weighted, centers[..9].to_vec(), 1e-152),
+            (false, 0)
+        );
+    }
 }

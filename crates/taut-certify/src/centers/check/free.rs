@@ -76,12 +76,7 @@ impl<'a> Free<'a> {
         Free { core, pairs, scratch: Group::default(), hull: Hull::default() }
     }
 
-    fn tried(
-        &mut self,
-        group: &Group,
-        item: usize,
-        meter: &mut Meter<'_>,
-    ) -> Result<Tried, Stop> {
+    fn tried(&mut self, group: &Group, item: usize, meter: &mut Meter<'_>) -> Result<Tried, Stop> {
         meter.spend(group.members.len() + self.core.dim)?;
         if !self.core.is_free(item) || group.members.iter().any(|&m| self.pairs.are_apart(item, m))
         {
@@ -151,12 +146,7 @@ impl Room for Free<'_> {
         before.as_ref().map_or(0, bytes)
     }
 
-    fn strain(
-        &mut self,
-        group: &Group,
-        item: usize,
-        meter: &mut Meter<'_>,
-    ) -> Result<f64, Stop> {
+    fn strain(&mut self, group: &Group, item: usize, meter: &mut Meter<'_>) -> Result<f64, Stop> {
         Ok(match self.tried(group, item, meter)? {
             Tried::Refuted => f64::INFINITY,
             Tried::Unchanged => 0.0,
@@ -203,12 +193,7 @@ fn excess(core: &Core, group: &Group, item: usize) -> f64 {
 }
 
 /// Brings the fit of a group to its optimum, when all but the last member are at theirs, and that one is farther.
-fn fit(
-    core: &Core,
-    group: &mut Group,
-    hull: &mut Hull,
-    meter: &mut Meter<'_>,
-) -> Result<(), Stop> {
+fn fit(core: &Core, group: &mut Group, hull: &mut Hull, meter: &mut Meter<'_>) -> Result<(), Stop> {
     // The depth counts in units of ρ², which is 1 or more.
     const ENOUGH: f64 = 1e-15;
     let mut member = group.members.len() - 1;

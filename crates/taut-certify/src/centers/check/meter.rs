@@ -86,6 +86,16 @@ mod tests {
     }
 
     #[test]
+    fn work_that_is_spent_is_a_refusal() {
+        match CheckError::from(Stop::Spent(7)) {
+            CheckError::Rejected(violation) => {
+                assert_eq!(violation, CentersViolation::Work { most: 7 }.into());
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
     fn the_monitor_is_heard_within_few_steps() {
         let cancel = AtomicBool::new(false);
         let monitor = Monitor { cancel: Some(&cancel), ..Monitor::silent() };

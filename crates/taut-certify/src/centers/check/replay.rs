@@ -36,7 +36,7 @@ enum Undo<U> {
     LeftOut,
 }
 
-/// Goes through all cases, and keeps at most so many bytes to undo them; the most that were kept.
+/// Goes through all cases, and keeps at most so many bytes to undo them.
 pub(super) fn replay<R: Room>(
     room: &mut R,
     k: usize,
@@ -44,13 +44,13 @@ pub(super) fn replay<R: Room>(
     log: &[u32],
     most: u64,
     meter: &mut Meter<'_>,
-) -> Result<u64, CheckError> {
+) -> Result<(), CheckError> {
     let mut groups: Vec<R::Group> = vec![];
     let mut given = vec![0; room.len().div_ceil(64)];
     let mut left = outliers;
     let mut entries = log.iter().copied().enumerate();
     let mut open = vec![taken(&mut entries, &mut given, room.len(), log)?];
-    let (mut kept, mut peak) = (0, 0);
+    let mut kept = 0;
     while let Some(branch) = open.last_mut() {
         meter.spend(16)?;
         match std::mem::replace(&mut branch.undo, Undo::Nothing) {
@@ -85,7 +85,6 @@ pub(super) fn replay<R: Room>(
         };
         if let Some(undo) = goes_on {
             branch.undo = undo;
-            peak = kept.max(peak);
             if kept > most {
                 return Err(CentersViolation::Kept { branches: open.len(), most }.into());
             }
@@ -95,7 +94,7 @@ pub(super) fn replay<R: Room>(
     }
     match entries.next() {
         Some((used, _)) => Err(CentersViolation::LogGoesOn { used, branches: log.len() }.into()),
-        None => Ok(peak),
+        None => Ok(()),
     }
 }
 
@@ -119,4 +118,66 @@ fn taken<U>(
     }
     set(given, number);
     Ok(Branch { item: number, next: 0, undo: Undo::Nothing })
+}
+
+#[cfg(test)]
+mod tests {
+    use taut_points::Monitor;
+
+    use super::super::core::{Core, Pairs};
+    use super::super::free::Free;
+    use super::super::item::Kind;
+    use super::*;
+
+    /// Points that go out from the origin, each a little farther, so that the ball of a group changes with each; the log
+    /// puts them all into one.
+    fn refusal(most: u64) -> CentersViolation {
+        let (rows, dim) = (ROWS, DIM);
+        let mut state = 1u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695);
+            (state >> 33) as f64 / 2f64.powi(31) - 0.5
+        };
+        let values: Vec<f64> = (0..rows)
+            .flat_map(|row| {
+                let place: Vec<f64> = (0..dim).map(|_| next()).collect();
+                let length = place.iter().map(|x| x * x).sum::<f64>().sqrt();
+                let radius = 1.0 + row as f64 / rows as f64;
+                place.into_iter().map(move |x| x / length * radius)
+            })
+            .collect();
+        let mut meter = Meter::endless(&Monitor::silent());
+        let core = Core::of(&values, dim, Kind::Points, 1e3);
+        let pairs = Pairs::of(&core, &mut meter).unwrap();
+        let log: Vec<u32> = (0..rows as u32).collect();
+        match replay(&mut Free::of(&core, &pairs), 2, 0, &log, most, &mut meter) {
+            Err(CheckError::Rejected(Violation::Centers(violation))) => violation,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    const ROWS: usize = 600;
+    const DIM: usize = 20;
+
+    /// Copies of the group at each branch would take 29 MB here, and grow by the square of the rows.
+    #[test]
+    fn what_is_kept_grows_by_a_fit_for_each_branch() {
+        let fit = 8 * DIM + 16 * (DIM + 1);
+        let at_most = refusal((ROWS * fit) as u64);
+        assert_eq!(at_most, CentersViolation::LogEnds { branches: ROWS });
+        let few = 100 * fit as u64;
+        match refusal(few) {
+            CentersViolation::Kept { branches, most } => {
+                assert_eq!(most, few);
+                assert!((100..ROWS).contains(&branches), "{branches}");
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// The largest core-set in forty dimensions stays below what is granted.
+    #[test]
+    fn all_branches_there_can_be_are_granted() {
+        assert!((ITEMS * (8 * 40 + 16 * 41)) as u64 <= KEPT);
+    }
 }

@@ -45,12 +45,8 @@ pub(super) trait Room {
     ) -> Result<f64, Stop>;
 
     /// Whether a ball that holds the group, as far as rounding tells, holds the item too.
-    fn covers(
-        &self,
-        group: &Self::Group,
-        item: usize,
-        meter: &mut Meter<'_>,
-    ) -> Result<bool, Stop>;
+    fn covers(&self, group: &Self::Group, item: usize, meter: &mut Meter<'_>)
+    -> Result<bool, Stop>;
 
     /// Whether one ball may hold all these items.
     fn fit(

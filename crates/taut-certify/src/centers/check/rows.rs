@@ -129,12 +129,7 @@ impl Room for &Places {
         size_of_val(&before[..])
     }
 
-    fn strain(
-        &mut self,
-        group: &Bits,
-        item: usize,
-        meter: &mut Meter<'_>,
-    ) -> Result<f64, Stop> {
+    fn strain(&mut self, group: &Bits, item: usize, meter: &mut Meter<'_>) -> Result<f64, Stop> {
         meter.spend(2 * group.len())?;
         let mut counts = [0, 0];
         for (group, near) in group.iter().zip(&self.near[item]) {

@@ -21,8 +21,8 @@ use super::room::Room;
 /// Most nodes. What needs more is to be proved by its branches.
 pub(super) const NODES: u64 = 1 << 16;
 
-/// Most steps.
-pub(super) const WORK: u64 = 1 << 33;
+/// Most steps: some five seconds. Proofs that are left to a search took 5·10⁷ and less, in up to 500 dimensions.
+pub(super) const WORK: u64 = 3 << 30;
 
 /// Most items of a core-set that is searched.
 pub(super) const ITEMS: usize = 1024;
@@ -240,5 +240,34 @@ impl<R: Room> Search<'_, R> {
             }
         }
         Ok(strains)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taut_points::Monitor;
+
+    use super::super::core::{Core, Pairs};
+    use super::super::free::Free;
+    use super::super::item::Kind;
+    use super::*;
+
+    /// Three pentagons far from each other need three balls each, while no more than two of their corners are apart.
+    #[test]
+    fn a_search_ends_with_its_work() {
+        let corner = |i: usize| {
+            let angle = std::f64::consts::TAU * (i % 5) as f64 / 5.0;
+            [10.0 * (i / 5) as f64 + angle.cos(), angle.sin()]
+        };
+        let values: Vec<f64> = (0..15).flat_map(corner).collect();
+        let core = Core::of(&values, 2, Kind::Points, 0.6);
+        let monitor = Monitor::silent();
+        let pairs = Pairs::of(&core, &mut Meter::endless(&monitor)).unwrap();
+        let searched = |most| {
+            let mut meter = Meter::of(&monitor, most);
+            search(&mut Free::of(&core, &pairs), 8, 0, &mut meter)
+        };
+        assert_eq!(searched(1000), Err(Stop::Spent(1000)));
+        assert!(matches!(searched(WORK), Ok((Outcome::Refuted, 11..))));
     }
 }
