@@ -87,7 +87,7 @@ fn case(seed: u64) -> Case {
     let largest = places.iter().fold(0.0f64, |most, x| most.max(x.abs()));
     let values = if weights || items == Items::Balls {
         let extra = |random: &mut Random| match (weights, is_wild) {
-            (true, true) => 10f64.powf(120.0 * random.unit() - 60.0),
+            (true, true) => 10f64.powf(300.0 * random.unit() - 150.0),
             (true, false) => 0.5 + random.below(4) as f64,
             (false, true) => random.of(&[0.0, 1e100, 1e-100, 1.0, 5e-324]),
             (false, false) => largest * 0.25 * random.below(3) as f64,
