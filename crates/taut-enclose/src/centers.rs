@@ -14,6 +14,7 @@ mod nearest;
 mod options;
 mod proof;
 mod read;
+mod rows;
 mod small_ball;
 mod start;
 mod thesis;
@@ -35,7 +36,7 @@ use self::start::Start;
 use self::tree::Found;
 use crate::apart::claimed;
 use crate::threads::on_threads;
-use crate::{Error, FarthestFirstOptions, centers_rows, farthest_first_of_source};
+use crate::{Error, FarthestFirstOptions, farthest_first_of_source};
 pub(crate) use answer::reach_of;
 pub(crate) use nearest::EVEN;
 pub use options::{CentersMethod, CentersOptions};
@@ -121,7 +122,7 @@ pub fn centers_of_source(
         }
         match options.placement {
             Placement::Free => solve(source, items, k, options, monitor),
-            Placement::Rows => centers_rows::solve(source, items, k, options, monitor),
+            Placement::Rows => rows::solve(source, items, k, options, monitor),
         }
     })
 }
