@@ -118,8 +118,8 @@ impl PassBounds {
 /// method : str
 ///     The method.
 /// stop : str
-///     ``"converged"``, ``"rounding"`` (no smaller gap can be proved in float64), ``"pass-budget"`` or
-///     ``"node-budget"``.
+///     ``"converged"``, ``"rounding"`` (no smaller gap can be proved in float64), ``"pass-budget"``,
+///     ``"node-budget"`` or ``"proof-budget"`` (what was found takes too many nodes to prove).
 /// passes : int
 ///     Reads of all points.
 /// iterations : int
@@ -149,6 +149,7 @@ impl Trace {
             Stop::Rounding => "rounding",
             Stop::PassBudget => "pass-budget",
             Stop::NodeBudget => "node-budget",
+            Stop::ProofBudget => "proof-budget",
         }
     }
 

@@ -54,13 +54,14 @@ pub struct Centers {
 /// ρ − r for balls and ρ/w for points of weight w. That no such ball holds some items is shown by λ ≥ 0 with
 /// Σλᵢ = 1 and p̄ = Σλᵢpᵢ, when Σλᵢ(|pᵢ − p̄|² − ρᵢ²) ≥ 0; the checker finds λ itself, and refutes with a bound on all that it
 /// rounds, some 1e-14·d/8 of ρ: claim the radius at which all cases are refuted, less 1e-12 of it. For centres among the
-/// rows, and for two items apart, it decides exactly (two weighted points but for rounding).
+/// rows, and for two items apart, it decides exactly.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", tag = "by", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", tag = "by", from = "Written")]
 pub enum LowerBound {
     /// No two items of the core-set fit in one ball, and there are more than k and the outliers together. O(|X|²d).
     Apart,
-    /// By a search of the checker's own, of at most 65536 nodes, over at most 1024 items.
+    /// By a search of the checker's own, over at most 1024 items, of at most 65536 nodes and 3·2³⁰ steps, each about a
+    /// coordinate that is looked at: some seconds. What takes more is to be proved by its branches.
     Search,
     /// By the branches of a search, in the order in which they were taken (preorder), over at most 16384 items.
     Branches {
@@ -70,6 +71,25 @@ pub enum LowerBound {
         /// the bound holds the items of the one that got the item.
         items: Vec<u32>,
     },
+}
+
+/// A [`LowerBound`] as it is read: of a variant without braces, serde would not refuse unknown fields.
+#[derive(Deserialize)]
+#[serde(rename_all = "kebab-case", tag = "by", deny_unknown_fields)]
+enum Written {
+    Apart {},
+    Search {},
+    Branches { items: Vec<u32> },
+}
+
+impl From<Written> for LowerBound {
+    fn from(written: Written) -> Self {
+        match written {
+            Written::Apart {} => LowerBound::Apart,
+            Written::Search {} => LowerBound::Search,
+            Written::Branches { items } => LowerBound::Branches { items },
+        }
+    }
 }
 
 /// What was asked, and a few items that prove the lower bound.
@@ -117,7 +137,8 @@ pub struct CentersVerdict {
     /// Nodes of a second search, over all sets that one ball can hold, where it confirmed the bound, less 4e-9 of it, too.
     ///
     /// It is made for core-sets of at most 200 items: of points without weights, in the plane for k ≤ 10 and in space for
-    /// k ≤ 6, and for k ≤ 10 where centres are rows. `None` where it was not made, or has nothing to say after 32768 nodes.
+    /// k ≤ 6, and for k ≤ 10 where centres are rows. `None` where it was not made, or has nothing to say after 32768 nodes or
+    /// 2³³ steps, each about a word of a set of items that is looked at.
     pub cover_nodes: Option<u64>,
 }
 

@@ -62,8 +62,10 @@ pub enum Stop {
     Rounding,
     /// The budget of passes was used up.
     PassBudget,
-    /// The budget of nodes of a search, or of its proof, was used up.
+    /// The budget of nodes of a search was used up.
     NodeBudget,
+    /// The search ended, but to write down what it found takes more nodes than a proof is granted: a lower bound below it is proved.
+    ProofBudget,
 }
 
 /// The bounds known after one pass over all points.

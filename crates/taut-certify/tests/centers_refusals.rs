@@ -226,6 +226,21 @@ fn a_search_that_is_cut_short_confirms_nothing() {
     }
 }
 
+/// Each item gets a ball of its own, one below the other: as deep as a search of the largest core-set can be.
+#[test]
+fn a_search_as_deep_as_can_be_ends() {
+    let values: Vec<f64> = (0..1024).flat_map(|i| [f64::from(i % 32), f64::from(i / 32)]).collect();
+    let points = Points::new(&values, 2).unwrap();
+    let core: Vec<u64> = (0..1024).collect();
+    let mut found = by_hand(&points, &[&[16.0, 16.0]], (30.0, 0.4), &core, LowerBound::Search);
+    found.certificate.k = 1024;
+    let judged = || refusal(&found, &points);
+    let small = std::thread::Builder::new().stack_size(2 << 20);
+    let violation =
+        std::thread::scope(|scope| small.spawn_scoped(scope, judged).unwrap().join().unwrap());
+    assert_eq!(violation, CentersViolation::NotProved);
+}
+
 /// 5000 rows and 200 centres, of which each row finds one by way of lists.
 #[test]
 fn many_centres_hold_many_rows() {
@@ -362,5 +377,24 @@ fn a_document_is_judged_as_what_it_is() {
     ] {
         assert!(text.contains(from), "{text}");
         assert!(AnySolution::from_json(&text.replacen(from, to, 1)).is_err(), "{to}");
+    }
+}
+
+#[test]
+fn fields_that_no_proof_has_are_named() {
+    let values = [0.0, 0.0, 4.0, 0.0];
+    let points = Points::new(&values, 2).unwrap();
+    for (proof, by) in [
+        (LowerBound::Apart, "apart"),
+        (LowerBound::Search, "search"),
+        (LowerBound::Branches { items: vec![0] }, "branches"),
+    ] {
+        let found = by_hand(&points, &[&[2.0, 0.0]], (2.0, 2.0), &[0, 1], proof);
+        let text = found.to_json();
+        let field = format!("\"by\": \"{by}\"");
+        assert!(text.contains(&field) && AnySolution::from_json(&text).is_ok(), "{text}");
+        let more = text.replacen(&field, &format!("\"more\": 1, {field}"), 1);
+        let error = AnySolution::from_json(&more).unwrap_err().to_string();
+        assert!(error.contains("unknown field `more`"), "{error}");
     }
 }

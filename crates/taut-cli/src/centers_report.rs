@@ -1,7 +1,8 @@
 //! What is said about centres.
 
-use taut::certify::{CentersVerdict, LowerBound, Placement};
-use taut::{Centers, Items};
+use taut::certify::{CentersCertificate, CentersVerdict, LowerBound, Placement};
+use taut::points::PointSource;
+use taut::{Centers, Items, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, centers_figures};
 
 use crate::numbers::{abridged, coordinates, count, counted, exact, gap};
@@ -15,14 +16,12 @@ impl Tell for Report<'_, Centers> {
 
     fn title(&self) -> String {
         let certificate = &self.found.certificate;
-        let around = counted(self.points.source().len(), noun(certificate.items));
-        let weights = if certificate.weights { " with weights" } else { "" };
         let centres = match certificate.placement {
             Placement::Free => counted(certificate.k, "centre"),
             Placement::Rows => format!("{} among them", counted(certificate.k, "centre")),
         };
-        let dimensions = counted(self.dim() as u64, "dimension");
-        format!("{around}{weights} in {dimensions}: {centres}")
+        let items = items_of(certificate, self.points.source().len(), self.dim());
+        format!("{items}: {centres}")
     }
 
     fn facts(&self) -> Vec<Fact> {
@@ -70,12 +69,7 @@ impl Tell for Report<'_, Centers> {
     }
 
     fn dim(&self) -> usize {
-        let certificate = &self.found.certificate;
-        let columns = self.points.source().dim();
-        match certificate.weights {
-            true => columns.saturating_sub(1),
-            false => certificate.items.dim(columns),
-        }
+        dim_of(&self.found.certificate, self.points.source().dim())
     }
 
     fn figures(&self, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
@@ -138,10 +132,47 @@ fn counted_branches(branches: u64) -> String {
     format!("{} branch{}", count(branches), if branches == 1 { "" } else { "es" })
 }
 
-/// What was proved of centres.
-pub(crate) fn proved_of_centers(proved: &CentersVerdict) -> Vec<Fact> {
+/// What the rows are, and how many.
+fn items_of(certificate: &CentersCertificate, rows: u64, dim: usize) -> String {
+    let items = counted(rows, noun(certificate.items));
+    let weights = if certificate.weights { " with weights" } else { "" };
+    format!("{items}{weights} in {}", counted(dim as u64, "dimension"))
+}
+
+/// The dimension of rows of so many columns.
+fn dim_of(certificate: &CentersCertificate, columns: usize) -> usize {
+    match certificate.weights {
+        true => columns.saturating_sub(1),
+        false => certificate.items.dim(columns),
+    }
+}
+
+/// Of which problem what was proved of centres: a certificate of another one is as true.
+pub(crate) fn proved_of_centers(
+    found: &Solution<Centers>,
+    source: &dyn PointSource,
+    proved: &CentersVerdict,
+) -> Vec<Fact> {
+    let certificate = &found.certificate;
+    let items = items_of(certificate, source.len(), dim_of(certificate, source.dim()));
+    let noun = noun(certificate.items);
+    let placement = match certificate.placement {
+        Placement::Free => "anywhere".to_owned(),
+        Placement::Rows => format!("among the {noun}s"),
+    };
+    let left_out = match certificate.outliers {
+        0 => Fact::new("left out", "none"),
+        most => {
+            let left_out = count(found.answer.outliers.len() as u64);
+            Fact::new("left out", left_out).remark(format!("of at most {}", counted(most, noun)))
+        }
+    };
     let bracket = format!("{} ≤ least radius ≤ {}", exact(proved.lower), exact(proved.upper));
     let mut facts = vec![
+        Fact::new("of", items),
+        Fact::new("centres", format!("{}, {placement}", count(found.answer.centers.len() as u64)))
+            .remark(format!("of at most {}", count(certificate.k))),
+        left_out,
         Fact::new("bracket", bracket),
         Fact::new("gap", gap(proved.gap)).remark("relative, proved from the points alone"),
         Fact::new("nodes", count(proved.nodes)).remark("of the search for the lower bound"),

@@ -129,6 +129,7 @@ pub(crate) fn stopped(stop: Stop) -> &'static str {
         Stop::Rounding => "stopped where this method's rounding allows no smaller gap",
         Stop::PassBudget => "stopped early by the budget of passes",
         Stop::NodeBudget => "stopped early by the budget of nodes",
+        Stop::ProofBudget => "the proof of a smaller gap takes more nodes than are granted",
     }
 }
 
@@ -145,7 +146,7 @@ pub(crate) fn text(title: &str, facts: &[Fact]) -> String {
 /// Whether a run that asked for the gap `epsilon`, stopped for that reason and has the gap `gap` got what it asked for.
 pub(crate) fn outcome(stop: Stop, gap: f64, epsilon: f64) -> Outcome {
     match stop {
-        Stop::PassBudget | Stop::NodeBudget => Outcome::StoppedEarly,
+        Stop::PassBudget | Stop::NodeBudget | Stop::ProofBudget => Outcome::StoppedEarly,
         // ε = 0 asks for what rounding allows, and has it; a positive ε is a promise that was not kept.
         Stop::Rounding if epsilon > 0.0 && gap > epsilon => Outcome::StoppedEarly,
         Stop::Rounding | Stop::Converged => Outcome::Done,
@@ -166,6 +167,7 @@ mod tests {
             (Stop::Rounding, 1e-15, Outcome::StoppedEarly),
             (Stop::PassBudget, 1e-9, Outcome::StoppedEarly),
             (Stop::NodeBudget, 1e-9, Outcome::StoppedEarly),
+            (Stop::ProofBudget, 1e-9, Outcome::StoppedEarly),
         ] {
             assert_eq!(outcome(stop, 1e-12, epsilon), expected, "{stop:?} with ε = {epsilon}");
         }

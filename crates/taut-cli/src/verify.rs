@@ -95,7 +95,7 @@ impl Args {
             AnySolution::Centers(found) => judge(found, &points, &watch)?.map(|verdict| {
                 let (k, radius) = (count(found.certificate.k), exact(found.answer.radius));
                 let what = format!("centres, k = {k}, of radius {radius}");
-                within(verdict.gap, what, proved_of_centers(&verdict))
+                within(verdict.gap, what, proved_of_centers(found, points.source(), &verdict))
             }),
             AnySolution::Triangulation(found) => judge(found, &points, &watch)?.map(|verdict| {
                 let title = triangulation(points.source().dim());

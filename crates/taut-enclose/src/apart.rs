@@ -12,6 +12,12 @@ use crate::Error;
 /// 2⁻⁵³.
 const U: f64 = f64::EPSILON / 2.0;
 
+/// A lower bound as it is claimed: less by what a few roundings at the lower end of the range may have added, which is nothing beside
+/// other bounds. `weight` is the largest of the weights by which a checker divides.
+pub(crate) fn claimed(bound: f64, weight: f64) -> f64 {
+    (bound - 2f64.powi(-1072) * weight.max(1.0)).max(0.0)
+}
+
 /// Points of which no two are nearer than some distance.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Apart {
@@ -28,7 +34,7 @@ pub(crate) fn rounded_up(distance: f64, dim: usize) -> f64 {
 impl Apart {
     /// No ball of a smaller radius holds two of the points: half the least distance, rounded down.
     pub(crate) fn bound(&self, dim: usize) -> f64 {
-        self.distance / 2.0 * (1.0 - 1e-12 - dim as f64 * U)
+        claimed(self.distance / 2.0 * (1.0 - 1e-12 - dim as f64 * U), 1.0)
     }
 
     /// The answer with its radius, as evaluated, rounded up, and with these points for its lower bound.

@@ -8,11 +8,14 @@ mod answer;
 mod cloud;
 mod clusters;
 mod conflict;
+mod few;
 mod items;
+mod nearest;
 mod options;
 mod plain_tree;
 mod proof;
 mod read;
+mod rows;
 mod small_ball;
 mod start;
 mod thesis;
@@ -27,22 +30,25 @@ use taut_certify::{
 use taut_points::{Monitor, PointSource, Points, Scalar};
 
 use self::cloud::Cloud;
+pub(crate) use self::few::Few;
 use self::items::Position;
 use self::proof::Proof;
 use self::read::Table;
 use self::start::Start;
 use self::tree::{Found, Shown};
+use crate::apart::claimed;
 use crate::threads::on_threads;
-use crate::{
-    CoverOptions, Error, FarthestFirstOptions, centers_rows, cover_of_source,
-    farthest_first_of_source,
-};
+use crate::{CoverOptions, Error, FarthestFirstOptions, cover_of_source, farthest_first_of_source};
+pub(crate) use answer::reach_of;
+pub(crate) use nearest::EVEN;
 pub use options::{CentersMethod, CentersOptions};
 
 /// The least relative gap that is sought; proofs take 1e-12 of it.
 const FINEST: f64 = 5e-12;
 /// What counts as no gap.
 const ROUNDING: f64 = 2e-11;
+/// Bounds below this, in the units of the search, rest on squares that may have lost digits.
+const LEAST_PROVED: f64 = f64::from_bits((1023 - 480) << 52);
 /// A proof may take so many times the nodes of the search that came before it, and so many more.
 const PROOF_FACTOR: u64 = 20;
 const PROOF_NODES: u64 = 10_000;
@@ -110,21 +116,19 @@ pub fn centers_of_source(
     options.check(k)?;
     on_threads(options.threads, || {
         let is_plain = items == Items::Points && !options.weights && options.outliers == 0;
-        if options.method == CentersMethod::FarthestFirst && is_plain && !options.assignment {
-            let k = k as u64;
-            let traversal = FarthestFirstOptions::default();
-            return farthest_first_of_source(source, k, &traversal, monitor)?.solution(
-                k,
-                options.placement,
-                source,
-            );
+        if options.method == CentersMethod::FarthestFirst && is_plain {
+            match traversed(source, k as u64, options, monitor) {
+                // Sizes that no one scale holds are for those who have all points in memory.
+                Err(Error::Overflow) => {}
+                found => return found,
+            }
         }
         if options.method == CentersMethod::Stream {
             return of_stream(source, items, k, options.placement, monitor);
         }
         match options.placement {
             Placement::Free => solve(source, items, k, options, monitor),
-            Placement::Rows => centers_rows::solve(source, items, k, options, monitor),
+            Placement::Rows => rows::solve(source, items, k, options, monitor),
         }
     })
 }
@@ -147,6 +151,22 @@ fn of_stream(
     cover_of_source(source, k, placement, &CoverOptions::default(), monitor)
 }
 
+/// The first k points of a traversal.
+fn traversed(
+    source: &dyn PointSource,
+    k: u64,
+    options: &CentersOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Centers>, Error> {
+    let order = farthest_first_of_source(source, k, &FarthestFirstOptions::default(), monitor)?;
+    let mut found = order.solution(k, options.placement, source)?;
+    if options.assignment {
+        found.answer.assignment = nearest::assignment(source, &found.answer.centers, monitor)?;
+        found.trace.passes += 1;
+    }
+    Ok(found)
+}
+
 fn solve(
     source: &dyn PointSource,
     items: Items,
@@ -161,6 +181,12 @@ fn solve(
             value: options.outliers.to_string(),
             expected: "less than the number of items",
         });
+    }
+    let z = options.outliers as usize;
+    if table.are_points()
+        && let Some(few) = Few::of(table.len(), |row| table.place(row), k, z)
+    {
+        return Ok(few.solution(k, Placement::Free, options, items, table.hash));
     }
     match table.dim {
         1 => solve_in::<[f64; 1]>(&table, items, k, options, monitor),
@@ -195,9 +221,9 @@ fn solve_in<P: Position>(
         // Streams are not held in memory, and so do not come here.
         CentersMethod::FarthestFirst | CentersMethod::Stream => of_traversal(start),
     };
-    let (proof, given_up) = prove(&cloud, &found, apart, k, z, monitor)?;
+    let (proof, given_up, why) = prove(&cloud, &found, apart, k, z, monitor)?;
     let answered = answer::answer(table, &cloud, &found.incumbent.centers, z, options.assignment)?;
-    finish(table, &cloud, items, asked, options, found, proof, given_up, answered)
+    finish(table, &cloud, items, asked, options, found, proof, (given_up, why), answered)
 }
 
 /// Centres of the traversal, with its own bound.
@@ -216,7 +242,7 @@ fn of_traversal<P: Position>(start: Start<P>) -> Found<P> {
     }
 }
 
-/// The largest of the radii shown that can be proved again, and how many could not.
+/// The largest of the radii shown that can be proved again; how many could not, and why not the largest of all.
 fn prove<P: Position>(
     cloud: &Cloud<P>,
     found: &Found<P>,
@@ -224,22 +250,24 @@ fn prove<P: Position>(
     k: usize,
     z: usize,
     monitor: &Monitor<'_>,
-) -> Result<(Proof, u64), Error> {
+) -> Result<(Proof, u64, Option<Stop>), Error> {
     let plain = if apart.is_empty() { Proof::none() } else { Proof::apart(cloud, apart) };
     let mut budget = found.nodes.saturating_mul(PROOF_FACTOR).saturating_add(PROOF_NODES);
-    let mut given_up = 0;
+    let (mut given_up, mut why) = (0, None);
     for &Shown { threshold, items } in found.shown.iter().rev() {
         if threshold <= plain.lower {
             break;
         }
-        match Proof::by_tree(cloud, &found.core_set[..items], threshold, k, z, budget, monitor)? {
-            Some(proof) if proof.lower >= plain.lower => return Ok((proof, given_up)),
-            _ => given_up += 1,
+        let core_set = &found.core_set[..items];
+        match Proof::by_tree(cloud, core_set, threshold, k, z, budget, monitor)? {
+            Ok(proof) if proof.lower >= plain.lower => return Ok((proof, given_up, why)),
+            tried => why = why.or(Some(tried.err().unwrap_or(Stop::Rounding))),
         }
+        given_up += 1;
         // All tries together cost no more than two of the first.
         budget /= 2;
     }
-    Ok((plain, given_up))
+    Ok((plain, given_up, why))
 }
 
 fn finish<P: Position>(
@@ -250,7 +278,7 @@ fn finish<P: Position>(
     options: &CentersOptions,
     found: Found<P>,
     proof: Proof,
-    given_up: u64,
+    (given_up, why): (u64, Option<Stop>),
     answered: answer::Answered,
 ) -> Result<Solution<Centers>, Error> {
     let unit = table.scale * table.weight_scale;
@@ -258,11 +286,7 @@ fn finish<P: Position>(
         return Err(Error::Overflow);
     }
     let radius = answered.radius;
-    let mut lower = proof.lower / unit;
-    if lower * unit > proof.lower {
-        lower = lower.next_down();
-    }
-    let lower = lower.min(radius);
+    let lower = lower_bound(&proof, table, cloud).min(radius);
     let gap = match radius {
         0.0 => 0.0,
         // JSON knows no infinity.
@@ -272,8 +296,8 @@ fn finish<P: Position>(
     let wanted = if options.epsilon > 0.0 { options.epsilon } else { ROUNDING };
     let stop = match found.stop {
         _ if gap <= wanted || options.method == CentersMethod::FarthestFirst => Stop::Converged,
-        Stop::Converged if given_up == 0 => Stop::Rounding,
-        _ => Stop::NodeBudget,
+        Stop::Converged => why.unwrap_or(Stop::Rounding),
+        stop => stop,
     };
     let counters = [
         ("nodes", found.nodes),
@@ -282,8 +306,12 @@ fn finish<P: Position>(
         ("proof_nodes", proof.nodes),
         ("proofs_given_up", given_up),
     ];
-    let said = |value: f64| (value / unit).min(f64::MAX);
-    let bounds = |b: &PassBounds| PassBounds { lower: said(b.lower), upper: said(b.upper), ..*b };
+    // What was shown on the way, as far as it is proved in the end.
+    let bounds = |b: &PassBounds| PassBounds {
+        lower: (b.lower / unit).min(lower),
+        upper: (b.upper / unit).max(radius).min(f64::MAX),
+        ..*b
+    };
     let trace = Trace {
         method: options.method.name().to_owned(),
         stop,
@@ -303,7 +331,7 @@ fn finish<P: Position>(
         centers: answered.centers,
         rows: vec![],
         radius,
-        lower_bound: lower.max(0.0),
+        lower_bound: lower,
         outliers: answered.outliers,
         assignment: answered.assignment,
     };
@@ -319,4 +347,19 @@ fn finish<P: Position>(
         points_hash: table.hash,
     };
     Ok(Solution { answer, certificate, trace })
+}
+
+/// What a proof shows, in the units of the rows and less by what rounding there may have added; 0 where it may have added anything.
+fn lower_bound<P: Position>(proof: &Proof, table: &Table, cloud: &Cloud<P>) -> f64 {
+    let weights = proof.core_set.iter().map(|&item| cloud.items.weight(item as usize));
+    let weight = weights.fold(0.0, f64::max);
+    if proof.lower < LEAST_PROVED * weight {
+        return 0.0;
+    }
+    let unit = table.scale * table.weight_scale;
+    let lower = proof.lower / unit;
+    claimed(
+        if lower * unit > proof.lower { lower.next_down() } else { lower },
+        weight / table.weight_scale,
+    )
 }

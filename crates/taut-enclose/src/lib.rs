@@ -31,7 +31,6 @@
 mod apart;
 mod ball;
 mod centers;
-mod centers_rows;
 mod cover;
 mod ellipsoid;
 mod error;

@@ -21,18 +21,20 @@ mod enclosure;
 mod free;
 mod halves;
 mod item;
+mod meter;
 mod replay;
 mod room;
 mod rows;
 mod search;
 mod structure;
 
-use taut_points::{Monitor, PointSource, ReadError, gather};
+use taut_points::{Monitor, PointSource, gather};
 
 use self::core::{Core, Pairs};
 use self::enclosure::Enclosure;
 use self::free::Free;
 use self::item::Kind;
+use self::meter::{Meter, Stop};
 use self::room::Room;
 use self::rows::Places;
 use self::search::Outcome;
@@ -97,12 +99,16 @@ fn prove(
             if rows as u64 <= certificate.k.saturating_add(outliers) {
                 return refused(CentersViolation::TooFew { rows, outliers });
             }
-            let close = first_pair(rows, monitor, |i, j| core.are_apart(i, j))?;
+            let mut meter = Meter::endless(monitor);
+            let close = first_pair(rows, |i, j| core.are_apart(i, j, &mut meter))?;
             let close = match (close, placement) {
                 (Some(_), Placement::Rows) => {
                     limited(replay::ITEMS, "rows apart")?;
                     let places = places()?;
-                    first_pair(rows, monitor, |i, j| places.are_apart(i, j))?
+                    first_pair(rows, |i, j| {
+                        meter.spend(places.words())?;
+                        Ok(places.are_apart(i, j))
+                    })?
                 }
                 (close, _) => close,
             };
@@ -116,28 +122,46 @@ fn prove(
         }
         (LowerBound::Search, Placement::Free) => {
             limited(search::ITEMS, "search")?;
-            let pairs = Pairs::of(core, monitor)?;
-            let nodes = searched(&mut Free::of(core, &pairs), certificate, monitor)?;
+            let mut meter = Meter::of(monitor, search::WORK);
+            let pairs = Pairs::of(core, &mut meter)?;
+            let nodes = searched(&mut Free::of(core, &pairs), certificate, &mut meter)?;
             Ok((nodes, cover::of_balls(core, kind, &pairs, certificate, monitor)?))
         }
         (LowerBound::Search, Placement::Rows) => {
             limited(search::ITEMS, "search")?;
             let places = places()?;
-            let nodes = searched(&mut &places, certificate, monitor)?;
+            let mut meter = Meter::of(monitor, search::WORK);
+            let nodes = searched(&mut &places, certificate, &mut meter)?;
             Ok((nodes, cover::of_places(&places, certificate, monitor)?))
         }
         (LowerBound::Branches { items }, Placement::Free) => {
             limited(replay::ITEMS, "branches")?;
-            let pairs = Pairs::of(core, monitor)?;
+            let mut meter = Meter::endless(monitor);
+            let pairs = Pairs::of(core, &mut meter)?;
             let mut room = Free::of(core, &pairs);
-            replay::replay(&mut room, most(certificate), outliers, items, monitor)?;
+            replay::replay(
+                &mut room,
+                most(certificate),
+                outliers,
+                items,
+                replay::KEPT,
+                &mut meter,
+            )?;
             let cover = cover::of_balls(core, kind, &pairs, certificate, monitor)?;
             Ok((items.len() as u64, cover))
         }
         (LowerBound::Branches { items }, Placement::Rows) => {
             limited(replay::ITEMS, "branches")?;
             let places = places()?;
-            replay::replay(&mut &places, most(certificate), outliers, items, monitor)?;
+            let (mut room, mut meter) = (&places, Meter::endless(monitor));
+            replay::replay(
+                &mut room,
+                most(certificate),
+                outliers,
+                items,
+                replay::KEPT,
+                &mut meter,
+            )?;
             Ok((items.len() as u64, cover::of_places(&places, certificate, monitor)?))
         }
     }
@@ -151,10 +175,9 @@ fn most(certificate: &CentersCertificate) -> usize {
 fn searched<R: Room>(
     room: &mut R,
     certificate: &CentersCertificate,
-    monitor: &Monitor<'_>,
+    meter: &mut Meter<'_>,
 ) -> Result<u64, CheckError> {
-    let found = search::search(room, most(certificate), certificate.outliers, monitor);
-    match found.map_err(ReadError::from)? {
+    match search::search(room, most(certificate), certificate.outliers, meter)? {
         (Outcome::Refuted, nodes) => Ok(nodes),
         (Outcome::Held, _) => Err(CentersViolation::NotProved.into()),
         (Outcome::Undecided, nodes) => Err(CentersViolation::NotConfirmed { nodes }.into()),
@@ -168,13 +191,13 @@ fn refused<T>(violation: CentersViolation) -> Result<T, CheckError> {
 /// The first two rows that are not apart.
 fn first_pair(
     rows: usize,
-    monitor: &Monitor<'_>,
-    are_apart: impl Fn(usize, usize) -> bool,
-) -> Result<Option<(usize, usize)>, ReadError> {
+    mut are_apart: impl FnMut(usize, usize) -> Result<bool, Stop>,
+) -> Result<Option<(usize, usize)>, Stop> {
     for i in 0..rows {
-        monitor.check()?;
-        if let Some(j) = (0..i).find(|&j| !are_apart(i, j)) {
-            return Ok(Some((j, i)));
+        for j in 0..i {
+            if !are_apart(i, j)? {
+                return Ok(Some((j, i)));
+            }
         }
     }
     Ok(None)

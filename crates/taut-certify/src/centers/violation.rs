@@ -190,6 +190,22 @@ pub enum CentersViolation {
         /// Nodes it went through.
         nodes: u64,
     },
+    /// The checker's own search took too much work.
+    #[error(
+        "the lower bound is not confirmed: the search of the checker was cut short after {most} steps"
+    )]
+    Work {
+        /// Most steps, each about a coordinate that is looked at.
+        most: u64,
+    },
+    /// To go back in the log of branches takes too much memory.
+    #[error("to come back from {branches} branches of the log takes more than {most} bytes")]
+    Kept {
+        /// Branches that are open.
+        branches: usize,
+        /// Bytes that are granted.
+        most: u64,
+    },
     /// The second search contradicts the first.
     #[error(
         "the lower bound is not confirmed: a search over candidate balls finds balls that hold the core-set"

@@ -71,6 +71,9 @@ fn answers_are_verified_and_lies_rejected() {
     desk.taut("verify centers.json towns.csv --epsilon 1e-6").ends(0).says(&[
         "Verified within a gap of ",
         ": centres, k = 2, of radius 1",
+        "\n  of        6 points in 2 dimensions\n",
+        "\n  centres   2, anywhere; of at most 2\n",
+        "\n  left out  none\n",
         " ≤ least radius ≤ ",
         "\n  nodes ",
     ]);
@@ -118,7 +121,9 @@ fn centres_among_the_points_are_named_by_their_rows() {
     rows.sort_unstable();
     assert!([[2, 4], [3, 4], [4, 5]].iter().any(|pair| rows == pair), "{rows:?}");
     close(&found["answer"]["radius"], 1.0);
-    desk.taut("verify centers.json towns.csv").ends(0);
+    desk.taut("verify centers.json towns.csv")
+        .ends(0)
+        .says(&["\n  centres   2, among the points; of at most 2\n"]);
 }
 
 #[test]
@@ -130,21 +135,25 @@ fn outliers_weights_and_balls_are_asked_for() {
         "no point that counts is farther",
         "\n  radius      1",
     ]);
-    desk.taut("verify out.json far.csv").ends(0);
+    desk.taut("verify out.json far.csv").ends(0).says(&["\n  left out  1; of at most 1 point\n"]);
     desk.put("heavy.csv", "x,w\n0,2\n3,1\n");
     desk.taut("centers heavy.csv -k 1 --weights --epsilon 1e-9 -o heavy.json")
         .ends(0)
         .says(&["2 points with weights in 1 dimension: 1 centre\n", "\n  centre      (1"]);
     let found: serde_json::Value = serde_json::from_str(&desk.text("heavy.json")).unwrap();
     close(&found["answer"]["radius"], 2.0);
-    desk.taut("verify heavy.json heavy.csv").ends(0);
+    desk.taut("verify heavy.json heavy.csv")
+        .ends(0)
+        .says(&["\n  of        2 points with weights in 1 dimension\n"]);
     desk.put("discs.csv", "x,y,r\n0,0,1\n4,0,2\n100,0,3\n");
     desk.taut("centers discs.csv -k 2 --balls --epsilon 1e-9 -o discs.json")
         .ends(0)
         .says(&["3 balls in 2 dimensions: 2 centres\n", "every ball is in a ball"]);
     let found: serde_json::Value = serde_json::from_str(&desk.text("discs.json")).unwrap();
     close(&found["answer"]["radius"], 3.5);
-    desk.taut("verify discs.json discs.csv").ends(0);
+    desk.taut("verify discs.json discs.csv")
+        .ends(0)
+        .says(&["\n  of        3 balls in 2 dimensions\n"]);
 }
 
 #[test]

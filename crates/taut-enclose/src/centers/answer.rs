@@ -3,9 +3,11 @@
 
 use super::cloud::{Cloud, Far};
 use super::items::{Position, Shape, distance};
+use super::nearest::{EVEN, length};
 use super::read::Table;
 use crate::Error;
 use crate::ball::reach_up;
+use crate::frame::exponent;
 use crate::kernel::{Center, Difference, relative_error};
 
 /// Items that may reach as far as the farthest, and are measured exactly: mostly two or three for each of some centres.
@@ -34,8 +36,7 @@ pub(super) fn answer<P: Position>(
     cloud.assign(centers, |_, center, _| is_used[center] = true);
     let used =
         centers.iter().zip(is_used).filter(|(_, is_used)| *is_used).map(|(center, _)| center);
-    let outside: Vec<Vec<f64>> =
-        used.map(|center| center.as_ref().iter().map(|c| c / table.scale).collect()).collect();
+    let outside: Vec<Vec<f64>> = used.map(|center| table.bring_out(center.as_ref())).collect();
     if outside.iter().flatten().any(|c| !c.is_finite()) {
         return Err(Error::Overflow);
     }
@@ -43,7 +44,7 @@ pub(super) fn answer<P: Position>(
         .iter()
         .map(|center| {
             let mut inside = P::zeros(table.dim);
-            inside.as_mut().iter_mut().zip(center).for_each(|(c, x)| *c = x * table.scale);
+            table.bring_in(center, inside.as_mut());
             inside
         })
         .collect();
@@ -101,47 +102,34 @@ fn reach<P: Position>(
         })
         .expect("there is a centre");
     let row = table.row(cloud.rows[item as usize] as usize);
-    let (x, extra) = row.split_at(table.dim);
-    let center = Center { high: outside[nearest].clone(), low: vec![] };
-    let difference = Difference::new(x, &center, table.scale);
-    let radius = if table.shape == Shape::Balls { extra[0] * table.scale } else { 0.0 };
-    let up = match length(position, inside[nearest].as_ref()) {
-        tiny if tiny < TINY && tiny > 0.0 => (tiny * (1.0 + 1e-12)).next_up() + radius,
-        _ => {
-            let up = reach_up(&difference, difference.squared(), radius);
-            // Squares that vanish are far less than an ulp of the sum, but not nothing.
-            let is_lost = |(a, b): (&f64, &f64)| a != b && (a - b).abs() < TINY;
-            match position.iter().zip(inside[nearest].as_ref()).any(is_lost) {
-                true => up.next_up(),
-                false => up,
-            }
-        }
+    let (place, extra) = row.split_at(table.dim);
+    let (weight, radius) = match table.shape {
+        Shape::Points => (1.0, 0.0),
+        Shape::Weighted => (extra[0], 0.0),
+        Shape::Balls => (1.0, extra[0]),
     };
-    let up = unscale_up(up, table.scale);
-    let plain = distance(x, &center.high);
-    match table.shape {
-        Shape::Weighted => {
-            let plain = if table.scale == 1.0 { extra[0] * plain } else { 0.0 };
-            if up > 0.0 { (extra[0] * up).next_up().max(plain) } else { 0.0 }
-        }
-        Shape::Balls if table.scale == 1.0 => up.max(plain + extra[0]),
-        Shape::Points if table.scale == 1.0 => up.max(plain),
-        _ => up,
-    }
+    reach_of(place, &outside[nearest], weight, radius)
 }
 
-/// |a − b| whatever its size.
-fn length(a: &[f64], b: &[f64]) -> f64 {
-    let plain = distance(a, b);
-    if plain >= TINY {
-        return plain;
+/// w·|p − c| + r, one of w = 1 and r = 0 being so: the larger of what is exact, rounded up, and what plain `f64` says.
+pub(crate) fn reach_of(place: &[f64], center: &[f64], weight: f64, radius: f64) -> f64 {
+    if place == center {
+        return radius;
     }
-    let largest = a.iter().zip(b).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
-    if largest == 0.0 {
-        return 0.0;
+    let halves = place.iter().zip(center).map(|(x, c)| (x / 2.0 - c / 2.0).abs());
+    // Units of its own, in which the square is near 1.
+    let size = halves.fold(radius / 2.0, f64::max).max(f64::MIN_POSITIVE);
+    let scale = 2f64.powi((-exponent(size)).clamp(-1000, 1000));
+    let difference = Difference::new(place, &Center { high: center.to_vec(), low: vec![] }, scale);
+    let up = reach_up(&difference, difference.squared(), radius * scale);
+    // What vanishes is less than an ulp, but not nothing.
+    let is_lost = difference.vanishes || radius * scale / scale != radius;
+    let up = unscale_up(if is_lost { up.next_up() } else { up }, scale);
+    let up = if weight == 1.0 { up } else { (weight * up).next_up() };
+    match distance(place, center) {
+        plain if EVEN.contains(&plain) => up.max(weight * plain + radius),
+        _ => up,
     }
-    let squares = a.iter().zip(b).map(|(a, b)| ((a - b) / largest).powi(2));
-    largest * squares.sum::<f64>().sqrt()
 }
 
 /// value / scale for a power of two; where that cannot be exact, because it is subnormal, rounded up.

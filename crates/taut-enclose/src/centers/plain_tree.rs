@@ -4,12 +4,13 @@
 //! out, and each of these children has a tree of its own or is refuted at once by a ball that is too large.
 //! *Threads.* What is below a node depends on nothing beside it. A tree that is not small is opened from its root until there are
 //! [`PARTS`] nodes whose trees are unknown; these are made side by side, and their logs put where they belong.
-//! *Guarantee.* One set of options has one log. It is given up just when it is longer than the budget, or does not end in dead
-//! ends alone.
+//! *Guarantee.* One set of options has one log, or one reason to have none: it is longer than the budget, else it does not end in
+//! dead ends alone. So a part that does not, stops no other.
 
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
+use taut_certify::Stop;
 use taut_points::{Monitor, ReadError};
 
 use super::cloud::Cloud;
@@ -41,6 +42,22 @@ impl Log {
     }
 }
 
+/// A part of a log.
+struct Piece {
+    log: Log,
+    /// Whether it goes on to the end of the last dead end.
+    is_whole: bool,
+    /// Whether balls below the threshold hold the core-set.
+    holds: bool,
+}
+
+impl Piece {
+    fn node(item: u32) -> Self {
+        let log = Log { items: vec![item], ..Log::empty() };
+        Piece { log, is_whole: true, holds: false }
+    }
+}
+
 /// The tree that is asked for.
 pub(super) struct PlainTree<'a, P> {
     items: ItemSet<P>,
@@ -50,8 +67,8 @@ pub(super) struct PlainTree<'a, P> {
     /// Most nodes.
     budget: u64,
     monitor: &'a Monitor<'a>,
+    /// Nodes so far, but for the last few of each part.
     nodes: AtomicU64,
-    is_given_up: AtomicBool,
 }
 
 /// A piece of a log that is not complete.
@@ -86,37 +103,43 @@ impl<'a, P: Position> PlainTree<'a, P> {
         for &item in core_set {
             items.push(cloud.items.at(item as usize), cloud.items.extra(item as usize));
         }
-        let (nodes, is_given_up) = (AtomicU64::new(0), AtomicBool::new(false));
-        PlainTree { items, threshold, k, z, budget, monitor, nodes, is_given_up }
+        PlainTree { items, threshold, k, z, budget, monitor, nodes: AtomicU64::new(0) }
     }
 
-    /// The whole tree; none where it has more nodes than the budget, or balls below the threshold hold the core-set.
-    pub(super) fn log(&self) -> Result<Option<Log>, Error> {
-        if let Some(log) = self.below(self.root(), SMALL.min(self.budget))? {
-            return Ok(Some(log));
+    /// The whole tree, or why there is none: [`Stop::ProofBudget`], or [`Stop::Rounding`] where balls below the threshold hold the
+    /// core-set.
+    pub(super) fn log(&self) -> Result<Result<Log, Stop>, Error> {
+        let small = self.below(self.root(), SMALL.min(self.budget))?;
+        if !small.holds && (small.is_whole || self.budget <= SMALL) {
+            return Ok(if small.is_whole { Ok(small.log) } else { Err(Stop::ProofBudget) });
         }
-        if self.budget <= SMALL || self.is_given_up.load(Ordering::Relaxed) {
-            return Ok(None);
+        if small.holds {
+            return Ok(Err(Stop::Rounding));
         }
         self.nodes.store(0, Ordering::Relaxed);
         let mut log = Log::empty();
-        let Some(parts) = self.open(&mut log)? else { return Ok(None) };
-        let pieces: Vec<Option<Log>> = parts
+        let Some(parts) = self.open(&mut log)? else { return Ok(Err(Stop::Rounding)) };
+        let pieces: Vec<Piece> = parts
             .into_par_iter()
             .map(|part| match part {
-                Part::Node(item) => Ok(Some(Log { items: vec![item], ..Log::empty() })),
+                Part::Node(item) => Ok(Piece::node(item)),
                 Part::Below { state, .. } => self.below(state, self.budget),
             })
             .collect::<Result<_, Error>>()?;
-        let Some(pieces) = pieces.into_iter().collect::<Option<Vec<Log>>>() else {
-            return Ok(None);
-        };
-        for piece in pieces {
+        let nodes: u64 = pieces.iter().map(|piece| piece.log.items.len() as u64).sum();
+        let is_cut_short = |piece: &Piece| !piece.is_whole && !piece.holds;
+        if nodes > self.budget || pieces.iter().any(is_cut_short) {
+            return Ok(Err(Stop::ProofBudget));
+        }
+        if pieces.iter().any(|piece| piece.holds) {
+            return Ok(Err(Stop::Rounding));
+        }
+        for Piece { log: piece, .. } in pieces {
             log.items.extend(piece.items);
             log.lower = log.lower.min(piece.lower);
             log.open = log.open.max(piece.open);
         }
-        Ok((log.items.len() as u64 <= self.budget).then_some(log))
+        Ok(Ok(log))
     }
 
     /// The tree opened from its root on, nodes nearest to it first; `bounds` takes what its children are refuted by.
@@ -150,32 +173,35 @@ impl<'a, P: Position> PlainTree<'a, P> {
         Clusters::new(self.items.clone(), self.k, self.z as u64, self.threshold)
     }
 
-    /// All from the node in this state on; none where that is more than `most` nodes, or others have given up.
-    fn below(&self, mut state: Clusters<P>, most: u64) -> Result<Option<Log>, Error> {
-        let mut log = Log::empty();
+    /// All from the node in this state on, but no more than `most` nodes, and no more once all parts together exceed the budget.
+    fn below(&self, mut state: Clusters<P>, most: u64) -> Result<Piece, Error> {
+        let mut piece = Piece { log: Log::empty(), is_whole: false, holds: false };
+        let log = &mut piece.log;
         let mut frames: Vec<Frame<P>> = vec![];
         loop {
             if (log.items.len() as u64).is_multiple_of(BREATH) {
                 self.monitor.check().map_err(ReadError::from)?;
                 let counted = if log.items.is_empty() { 0 } else { BREATH };
                 let nodes = self.nodes.fetch_add(counted, Ordering::Relaxed) + counted;
-                if nodes > self.budget || self.is_given_up.load(Ordering::Relaxed) {
-                    return Ok(None);
+                if nodes > self.budget {
+                    return Ok(piece);
                 }
             }
             if log.items.len() as u64 >= most {
-                return Ok(None);
+                return Ok(piece);
             }
             let Survey::Branch(item) = state.survey(true) else {
-                // It holds: whatever else there is, proves nothing.
-                self.is_given_up.store(true, Ordering::Relaxed);
-                return Ok(None);
+                piece.holds = true;
+                return Ok(piece);
             };
             log.items.push(item);
-            let places = open_places(&mut state, item, &mut log);
+            let places = open_places(&mut state, item, log);
             frames.push(Frame { item, places, next: 0, undo: None });
             loop {
-                let Some(frame) = frames.last_mut() else { return Ok(Some(log)) };
+                let Some(frame) = frames.last_mut() else {
+                    piece.is_whole = true;
+                    return Ok(piece);
+                };
                 if let Some(undo) = frame.undo.take() {
                     state.undo(undo);
                 }

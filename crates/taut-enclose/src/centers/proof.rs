@@ -9,7 +9,7 @@
 //! *Trap.* A plain tree may be larger than the search that found it. It is given up after a number of nodes, and the bound of a
 //! step before is tried.
 
-use taut_certify::LowerBound;
+use taut_certify::{LowerBound, Stop};
 use taut_points::Monitor;
 
 use super::cloud::Cloud;
@@ -21,8 +21,8 @@ use crate::Error;
 
 /// What rounding may have added to the radius of a ball of a few items, for the solver and for a checker; in parts of it.
 const ROUNDING: f64 = 1e-12;
-/// The same for two items.
-const PAIR_ROUNDING: f64 = 1e-14;
+/// The same for two items, but for what grows with d.
+const PAIR_ROUNDING: f64 = 2e-14;
 /// How far open children stay below the refuted ones, so that others, who round otherwise, refute the same.
 const CLEAR: f64 = 4e-12;
 /// Trees of up to so many nodes, and up to so many centres, are left to a checker to find; larger ones are written down.
@@ -51,12 +51,13 @@ impl Proof {
 
     /// More than k + z items no two of which fit in a ball of a smaller radius.
     pub(super) fn apart<P: Position>(cloud: &Cloud<P>, core_set: Vec<u32>) -> Self {
-        let lower = least_pair_radius(cloud, &core_set) * (1.0 - PAIR_ROUNDING);
+        let rounding = PAIR_ROUNDING + cloud.items.dim() as f64 * f64::EPSILON;
+        let lower = least_pair_radius(cloud, &core_set) * (1.0 - rounding);
         Proof { lower, core_set, kind: LowerBound::Apart, nodes: 0 }
     }
 
-    /// That no k balls of a radius less than `threshold` hold all of the core-set but z. None where that takes more than
-    /// `budget` nodes, or is not so.
+    /// That no k balls of a radius less than `threshold` hold all of the core-set but z; or why not: it takes more than `budget`
+    /// nodes or more items than a checker takes, or is not so, which can only be by rounding.
     pub(super) fn by_tree<P: Position>(
         cloud: &Cloud<P>,
         core_set: &[u32],
@@ -65,18 +66,22 @@ impl Proof {
         z: usize,
         budget: u64,
         monitor: &Monitor<'_>,
-    ) -> Result<Option<Self>, Error> {
+    ) -> Result<Result<Self, Stop>, Error> {
         let room = k.saturating_add(z);
         let apart = large_clique(&cloud.items, core_set, threshold, room);
         if apart.len() > room {
-            return Ok(Some(Self::apart(cloud, apart)));
+            return Ok(Ok(Self::apart(cloud, apart)));
         }
         let mut best: Option<(Vec<u32>, Log)> = None;
         let (mut budget, mut threshold) = (budget, threshold);
         for _ in 0..ROUNDS {
             let core_set = best.as_ref().map_or(core_set, |(core_set, _)| core_set);
             let tree = PlainTree::new(cloud, core_set, threshold, k, z, budget, monitor);
-            let Some(log) = tree.log()? else { break };
+            let log = match tree.log()? {
+                Ok(log) => log,
+                Err(why) if best.is_none() => return Ok(Err(why)),
+                Err(_) => break,
+            };
             if log.open > log.lower * (1.0 - CLEAR) {
                 // A child that is open here may be refuted there: both have to be on the same side of the bound.
                 threshold = log.open * (1.0 - CLEAR);
@@ -90,16 +95,19 @@ impl Proof {
                 break;
             }
         }
-        let best = best.filter(|(core_set, _)| core_set.len() <= BRANCH_ITEMS);
-        Ok(best.map(|(core_set, log)| {
-            let nodes = log.items.len() as u64;
-            let is_small = nodes <= SEARCH_NODES && core_set.len() <= SEARCH_ITEMS;
-            let kind = match is_small && k <= SEARCH_CENTERS {
-                true => LowerBound::Search,
-                false => LowerBound::Branches { items: log.items },
-            };
-            Proof { lower: log.lower * (1.0 - ROUNDING), core_set, kind, nodes }
-        }))
+        // Only logs that are not clear have led here without one.
+        let Some((core_set, log)) = best else { return Ok(Err(Stop::Rounding)) };
+        if core_set.len() > BRANCH_ITEMS {
+            return Ok(Err(Stop::ProofBudget));
+        }
+        let nodes = log.items.len() as u64;
+        let is_small = nodes <= SEARCH_NODES && core_set.len() <= SEARCH_ITEMS;
+        let lower = log.lower * (1.0 - ROUNDING);
+        let kind = match is_small && k <= SEARCH_CENTERS {
+            true => LowerBound::Search,
+            false => LowerBound::Branches { items: log.items },
+        };
+        Ok(Ok(Proof { lower, core_set, kind, nodes }))
     }
 }
 

@@ -1,13 +1,23 @@
-//! The rows of a source as items in memory, in units in which squares neither overflow nor vanish.
+//! The rows of a source as items in memory, about an origin near them and in units in which squares neither overflow nor vanish.
+//!
+//! *Idea.* A centre has no more digits than its coordinates, which are few where all rows are far from the origin. A column whose
+//! values differ by little is therefore moved by the least of them, which is exact: both are within a factor of 2 (Sterbenz).
+//! *Guarantee.* Moved and scaled rows are the rows, without rounding; what cannot be is refused.
 
 use taut_certify::Items;
 use taut_points::{Monitor, PointSource, PointsHash, Rows, hash_block, map_blocks};
 
 use super::items::{ItemSet, Position, Shape};
 use crate::Error;
+use crate::frame::exponent;
 
-/// Numbers between 2⁻²⁰⁰ and 2²⁰⁰ stay as they are.
+/// Numbers between 2⁻²⁰⁰ and 2²⁰⁰ stay as they are: squares of their differences are at least 2⁻⁵⁰⁶.
 const SAFE_EXPONENT: i32 = 200;
+/// Where there are others, the largest coordinate or radius gets this exponent, so that squares of what is 2⁻⁹⁸⁰ of it keep
+/// their digits.
+const LARGEST: i32 = 500;
+/// A column whose values differ by at most this part of the least is moved.
+const NARROW: f64 = 1.0 / 16.0;
 
 /// All rows, as they are.
 pub(super) struct Table {
@@ -16,7 +26,9 @@ pub(super) struct Table {
     columns: usize,
     values: Vec<f64>,
     pub(super) hash: PointsHash,
-    /// What coordinates and radii are multiplied with, a power of two.
+    /// What is taken away from each coordinate, without rounding.
+    shift: Vec<f64>,
+    /// What coordinates and radii are then multiplied with, a power of two.
     pub(super) scale: f64,
     /// What weights are multiplied with, a power of two.
     pub(super) weight_scale: f64,
@@ -26,8 +38,6 @@ pub(super) struct Table {
 struct Block {
     hash: taut_points::BlockHash,
     values: Vec<f64>,
-    /// The largest coordinate or radius, and the largest weight.
-    largest: (f64, f64),
 }
 
 impl Table {
@@ -67,24 +77,42 @@ impl Table {
         monitor.pass(1, source.len());
         let blocks = map_blocks(source, monitor, |first, rows| Block::read(shape, first, &rows))?;
         let hash = PointsHash::of_blocks(source.len(), columns, blocks.iter().map(|b| b.hash));
-        let largest = blocks.iter().fold((0.0f64, 0.0f64), |(x, w), block| {
-            (x.max(block.largest.0), w.max(block.largest.1))
-        });
-        let values = blocks.into_iter().flat_map(|block| block.values).collect();
+        let values: Vec<f64> = blocks.into_iter().flat_map(|block| block.values).collect();
         let dim = if shape == Shape::Points { columns } else { columns - 1 };
-        let (scale, weight_scale) = (scale_of(largest.0), scale_of(largest.1));
-        let table = Table { shape, dim, columns, values, hash, scale, weight_scale };
+        let shift = (0..dim).map(|column| shift_of(&values[column..], columns)).collect();
+        let mut table =
+            Table { shape, dim, columns, values, hash, shift, scale: 1.0, weight_scale: 1.0 };
+        table.set_scales();
         if table.loses_digits() { Err(Error::Overflow) } else { Ok(table) }
+    }
+
+    /// Coordinates and radii in the units of the rows, but about the origin of the search.
+    fn lengths(&self) -> impl Iterator<Item = f64> {
+        let is_length = self.shape == Shape::Balls;
+        self.values.chunks_exact(self.columns).flat_map(move |row| {
+            let moved = row.iter().zip(&self.shift).map(|(x, shift)| x - shift);
+            moved.chain(row[self.dim..].iter().copied().filter(move |_| is_length))
+        })
+    }
+
+    fn set_scales(&mut self) {
+        let weights = self.values.chunks_exact(self.columns).flat_map(|row| &row[self.dim..]);
+        let weights = Exponents::of(weights.copied().filter(|_| self.shape == Shape::Weighted));
+        let lengths = Exponents::of(self.lengths());
+        if lengths.are_safe() && weights.are_safe() {
+            return;
+        }
+        self.scale = lengths.scale(LARGEST);
+        self.weight_scale = weights.scale(0);
     }
 
     /// Whether numbers so small beside the largest are there that they cannot be scaled with it.
     fn loses_digits(&self) -> bool {
         let is_lost = |value: f64, scale: f64| value * scale / scale != value;
-        self.values.chunks_exact(self.columns).any(|row| {
-            let (place, extra) = row.split_at(self.dim);
-            let unit = if self.shape == Shape::Weighted { self.weight_scale } else { self.scale };
-            place.iter().any(|&x| is_lost(x, self.scale)) || extra.iter().any(|&x| is_lost(x, unit))
-        })
+        let weights = self.values.chunks_exact(self.columns).flat_map(|row| &row[self.dim..]);
+        self.lengths().any(|x| is_lost(x, self.scale))
+            || self.shape == Shape::Weighted
+                && weights.copied().any(|w| is_lost(w, self.weight_scale))
     }
 
     pub(super) fn len(&self) -> usize {
@@ -96,17 +124,39 @@ impl Table {
         &self.values[row * self.columns..][..self.columns]
     }
 
+    /// The coordinates of a row.
+    pub(super) fn place(&self, row: usize) -> &[f64] {
+        &self.row(row)[..self.dim]
+    }
+
+    /// Whether no item is a ball of a radius above 0.
+    pub(super) fn are_points(&self) -> bool {
+        self.shape != Shape::Balls || (0..self.len()).all(|row| self.row(row)[self.dim] == 0.0)
+    }
+
     /// The items in the units of the search.
     pub(super) fn items<P: Position>(&self) -> ItemSet<P> {
         let mut items = ItemSet::new(self.shape, self.dim);
         let mut position = vec![0.0; self.dim];
         for row in self.values.chunks_exact(self.columns) {
-            position.iter_mut().zip(row).for_each(|(p, x)| *p = x * self.scale);
+            self.bring_in(row, &mut position);
             let extra = row.get(self.dim).copied().unwrap_or(0.0);
             let unit = if self.shape == Shape::Weighted { self.weight_scale } else { self.scale };
             items.push(&position, extra * unit);
         }
         items
+    }
+
+    /// A place in the units of the search.
+    pub(super) fn bring_in(&self, place: &[f64], position: &mut [f64]) {
+        for ((p, x), shift) in position.iter_mut().zip(place).zip(&self.shift) {
+            *p = (x - shift) * self.scale;
+        }
+    }
+
+    /// A position of the search in the units of the rows, rounded.
+    pub(super) fn bring_out(&self, position: &[f64]) -> Vec<f64> {
+        position.iter().zip(&self.shift).map(|(p, shift)| p / self.scale + shift).collect()
     }
 }
 
@@ -121,33 +171,49 @@ impl Block {
             }
             Rows::F64(points) => (points.values().to_vec(), points.dim()),
         };
-        let mut largest = (0.0f64, 0.0f64);
-        for (id, row) in (first..).zip(values.chunks_exact(columns)) {
-            let (coordinates, extra) = match shape {
-                Shape::Weighted => (&row[..columns - 1], row[columns - 1]),
-                Shape::Points | Shape::Balls => (row, 0.0),
-            };
-            largest.0 = coordinates.iter().fold(largest.0, |most, x| most.max(x.abs()));
-            largest.1 = largest.1.max(extra);
+        for (row, values) in (first..).zip(values.chunks_exact(columns)) {
+            let value = values[columns - 1];
             match shape {
-                Shape::Weighted if extra <= 0.0 => {
-                    return Err(Error::NonPositiveWeight { row: id, value: extra });
+                Shape::Weighted if value <= 0.0 => {
+                    return Err(Error::NonPositiveWeight { row, value });
                 }
-                Shape::Balls if row[columns - 1] < 0.0 => {
-                    return Err(Error::NegativeRadius { row: id, value: row[columns - 1] });
-                }
+                Shape::Balls if value < 0.0 => return Err(Error::NegativeRadius { row, value }),
                 _ => {}
             }
         }
-        Ok(Block { hash: hash_block(rows), values, largest })
+        Ok(Block { hash: hash_block(rows), values })
     }
 }
 
-/// 1, or for numbers whose squares are in danger the power of two that brings the largest to about 1.
-fn scale_of(largest: f64) -> f64 {
-    if largest == 0.0 {
-        return 1.0;
+/// What a column is moved by: its least value in size, or 0.
+fn shift_of(values: &[f64], columns: usize) -> f64 {
+    let column = || values.iter().step_by(columns);
+    let low = column().copied().fold(f64::INFINITY, f64::min);
+    let high = column().copied().fold(f64::NEG_INFINITY, f64::max);
+    let (least, most) = if low > 0.0 { (low, high) } else { (high, low) };
+    let is_narrow = low > 0.0 || high < 0.0;
+    if is_narrow && (most - least).abs() <= NARROW * least.abs() { least } else { 0.0 }
+}
+
+/// Of numbers that are not 0, the exponents of the least and the largest.
+struct Exponents(Option<(i32, i32)>);
+
+impl Exponents {
+    fn of(values: impl Iterator<Item = f64>) -> Self {
+        let sizes = values.map(f64::abs).filter(|&size| size > 0.0);
+        let range = sizes.fold(None, |range: Option<(f64, f64)>, size| {
+            let (least, most) = range.unwrap_or((size, size));
+            Some((least.min(size), most.max(size)))
+        });
+        Exponents(range.map(|(least, most)| (exponent(least), exponent(most))))
     }
-    let exponent = largest.log2().floor() as i32;
-    if exponent.abs() <= SAFE_EXPONENT { 1.0 } else { 2f64.powi((-exponent).clamp(-1000, 1000)) }
+
+    fn are_safe(&self) -> bool {
+        self.0.is_none_or(|(least, most)| -SAFE_EXPONENT <= least && most <= SAFE_EXPONENT)
+    }
+
+    /// The power of two that brings the largest to about this exponent.
+    fn scale(&self, wanted: i32) -> f64 {
+        self.0.map_or(1.0, |(_, most)| 2f64.powi((wanted - most).clamp(-1000, 1000)))
+    }
 }

@@ -32,6 +32,8 @@ use crate::Error;
 /// The first gap that is proved on the way to smaller ones, and by how much each is smaller than the one before.
 const FIRST_GAP: f64 = 0.1;
 const NEXT_GAP: f64 = 0.5;
+/// The first gap, however little is known; half of infinity would never end.
+const WIDEST_GAP: f64 = 1e6;
 /// Once a step below this leaves the centres as they are, the next is the last.
 const LAST_BUT_ONE: f64 = 0.03;
 /// Nodes before the first restart.
@@ -115,7 +117,7 @@ pub(super) fn solve<P: Position>(
     let mut stop = Stop::Converged;
     // What items apart prove of outliers is poor, and gains most from steps that are quick to end.
     let open = if z > 0 && lower > 0.0 { search.best.radius / lower - 1.0 } else { 0.0 };
-    search.gap = epsilon.max(FIRST_GAP).max(0.5 * open);
+    search.gap = epsilon.max(FIRST_GAP).max((0.5 * open).min(WIDEST_GAP));
     loop {
         let before = search.best.radius;
         if before <= (1.0 + epsilon) * lower {

@@ -4,16 +4,13 @@
 //! ρ − r for balls and ρ/w for points of weight w: whatever items are, each asks for a centre in an open ball of its own,
 //! and a ball that holds some of them exists just when these have a common point. Two have none when
 //! |p − q| ≥ ρᵢ + ρⱼ, which is r ≥ ρ in the words of the papers for r = D/2, (D + rᵢ + rⱼ)/2, wᵢwⱼD/(wᵢ + wⱼ).
-//! *Rounding.* ρᵢ is rounded up, so that what has no common point had none before. Two points or balls are told apart
-//! exactly, for weights ρᵢ + ρⱼ is rounded up.
+//! *Rounding.* ρᵢ is rounded up, so that what has no common point had none before. Two items are told apart exactly.
 
 use std::cmp::Ordering;
 
-use taut_points::{Monitor, ReadError};
-
-use super::distance::{Scale, compare, kappa, square};
+use super::distance::{Scale, compare, compare_weighted, kappa, square};
 use super::item::Kind;
-use crate::arithmetic::U;
+use super::meter::{Meter, Stop};
 
 /// The core-set, for one bound ρ > 0.
 pub(super) struct Core {
@@ -78,46 +75,55 @@ impl Core {
     }
 
     /// Whether no ball of a radius less than ρ holds both.
-    pub(super) fn are_apart(&self, i: usize, j: usize) -> bool {
+    pub(super) fn are_apart(
+        &self,
+        i: usize,
+        j: usize,
+        meter: &mut Meter<'_>,
+    ) -> Result<bool, Stop> {
+        meter.spend(self.dim + 4)?;
         if !self.is_free(i) || !self.is_free(j) {
-            return true;
+            return Ok(true);
         }
         let (p, q) = (self.place(i), self.place(j));
         let nearer = match self.kind {
-            Kind::Points => compare(p, q, 0.5, &[self.bound], self.scale),
+            Kind::Points => compare(p, q, 0.5, &[self.bound], self.scale, meter)?,
             Kind::Balls => {
-                let square = square(p, q, 1.0, self.scale);
+                let square = square(p, q, [self.scale.up, 1.0]);
                 let sum = self.reaches[i] + self.reaches[j];
                 let (less, more) = (sum * (1.0 - kappa(self.dim)), sum * (1.0 + kappa(self.dim)));
                 if less > 1e-70 && square < less * less {
-                    return false;
+                    return Ok(false);
                 }
                 if less > 1e-70 && square > more * more && square < f64::INFINITY {
-                    return true;
+                    return Ok(true);
                 }
                 let rho = [self.bound, self.bound, -self.extras[i], -self.extras[j]];
-                compare(p, q, 1.0, &rho, self.scale)
+                compare(p, q, 1.0, &rho, self.scale, meter)?
             }
             Kind::Weighted => {
-                let square = square(p, q, 1.0, self.scale);
-                let sum = (self.reaches[i] + self.reaches[j]) * (1.0 + 4.0 * U);
-                let more = sum * (1.0 + kappa(self.dim));
-                return more > 1e-70 && more * more <= square && square < f64::INFINITY;
+                let weights = [self.extras[i], self.extras[j]];
+                compare_weighted(p, q, weights, self.bound, meter)?
             }
         };
-        nearer != Ordering::Less
+        Ok(nearer != Ordering::Less)
     }
 
     /// Whether no ball of a radius less than ρ with its centre at this place holds the item.
-    pub(super) fn is_out_of_reach(&self, item: usize, center: &[f64]) -> bool {
+    pub(super) fn is_out_of_reach(
+        &self,
+        item: usize,
+        center: &[f64],
+        meter: &mut Meter<'_>,
+    ) -> Result<bool, Stop> {
         let extra = self.extras.get(item).copied();
         let (weight, radius) = match (self.kind, extra) {
             (Kind::Weighted, Some(weight)) => (weight, 0.0),
             (Kind::Balls, Some(radius)) => (1.0, radius),
             _ => (1.0, 0.0),
         };
-        let scale = Scale::of(self.bound);
-        compare(self.place(item), center, weight, &[self.bound, -radius], scale) != Ordering::Less
+        let (scale, rho) = (Scale::of(self.bound), [self.bound, -radius]);
+        Ok(compare(self.place(item), center, weight, &rho, scale, meter)? != Ordering::Less)
     }
 }
 
@@ -157,13 +163,12 @@ pub(super) struct Pairs {
 
 impl Pairs {
     /// All n(n − 1)/2 pairs.
-    pub(super) fn of(core: &Core, monitor: &Monitor<'_>) -> Result<Self, ReadError> {
+    pub(super) fn of(core: &Core, meter: &mut Meter<'_>) -> Result<Self, Stop> {
         let n = core.len();
         let mut rows = vec![vec![0; n.div_ceil(64)]; n];
         for i in 0..n {
-            monitor.check()?;
             for j in 0..i {
-                if core.are_apart(i, j) {
+                if core.are_apart(i, j, meter)? {
                     set(&mut rows[i], j);
                     set(&mut rows[j], i);
                 }

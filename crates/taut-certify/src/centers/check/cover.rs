@@ -1,7 +1,8 @@
 //! A second search, of another kind: k sets cannot cover the core-set, out of all sets that one ball can hold.
 //!
 //! *Where.* Points without weights, in the plane for k ≤ 10 and in space for k ≤ 6, and centres among the rows for k ≤ 10;
-//! for core-sets of at most 200 items. It is cut short after [`sets::NODES`] nodes; then it has nothing to say.
+//! for core-sets of at most 200 items and places at rows that have at most [`SETS`] different sets of them. It is cut short
+//! after [`sets::NODES`] nodes and after [`WORK`] steps; then it has nothing to say.
 //! *Agreement.* The sets are cut out by balls a little larger than those that they stand for, so a cover of the items may be
 //! found where there is none. Only when each of its sets is held by one ball of a radius less than the bound, as far as
 //! the arithmetic of the first search tells, do the searches contradict each other, and the certificate is refused.
@@ -10,16 +11,23 @@
 mod candidates;
 mod sets;
 
-use taut_points::{Monitor, ReadError};
+use taut_points::Monitor;
 
 use self::sets::{Covering, ITEMS, Set};
 use super::super::{CentersCertificate, CentersViolation};
 use super::core::{Core, Pairs};
 use super::free::Free;
 use super::item::Kind;
+use super::meter::{Meter, Stop};
 use super::room::Room;
 use super::rows::Places;
 use crate::CheckError;
+
+/// Most steps, each about a word of a set: a few seconds.
+const WORK: u64 = 1 << 33;
+
+/// Most sets for places at rows.
+const SETS: usize = 1 << 22;
 
 /// The nodes of the search over sets that balls with any centres hold, where one was made and came to an end.
 pub(super) fn of_balls(
@@ -37,11 +45,14 @@ pub(super) fn of_balls(
     if certificate.k > most || core.len() > ITEMS {
         return Ok(None);
     }
-    let sets = match core.dim {
-        2 => candidates::in_the_plane(core),
-        _ => candidates::in_space(core, monitor)?,
-    };
-    confirmed(sets, &mut Free::of(core, pairs), certificate, monitor)
+    let mut meter = Meter::of(monitor, WORK);
+    silently(|| {
+        let sets = match core.dim {
+            2 => candidates::in_the_plane(core, &mut meter)?,
+            _ => candidates::in_space(core, &mut meter)?,
+        };
+        confirmed(sets, &mut Free::of(core, pairs), certificate, &mut meter)
+    })
 }
 
 /// The nodes of the search over sets that balls with centres at rows hold, where one was made and came to an end.
@@ -50,30 +61,51 @@ pub(super) fn of_places(
     certificate: &CentersCertificate,
     monitor: &Monitor<'_>,
 ) -> Result<Option<u64>, CheckError> {
-    if certificate.k > 10 || Room::len(&places) > ITEMS {
+    if certificate.k > 10 || Room::len(&places) > ITEMS || places.sets.len() > SETS {
         return Ok(None);
     }
     let sets = places.sets.iter().map(|set| Set::of_words(set)).collect();
-    confirmed(sets, &mut &*places, certificate, monitor)
+    let mut meter = Meter::of(monitor, WORK);
+    silently(|| confirmed(sets, &mut &*places, certificate, &mut meter))
+}
+
+/// What a search found that may have nothing to say.
+fn silently(search: impl FnOnce() -> Result<Found, Stop>) -> Result<Option<u64>, CheckError> {
+    match search() {
+        Ok(Found::NoCover(nodes)) => Ok(Some(nodes)),
+        Ok(Found::Cover) => Err(CentersViolation::Covered.into()),
+        Ok(Found::Nothing) | Err(Stop::Spent(_)) => Ok(None),
+        Err(stop) => Err(stop.into()),
+    }
+}
+
+/// How a second search ended.
+enum Found {
+    /// No sets cover the items, after so many nodes.
+    NoCover(u64),
+    /// Some do, and for each of them there is a ball, as far as rounding tells.
+    Cover,
+    Nothing,
 }
 
 fn confirmed<R: Room>(
     sets: Vec<Set>,
     room: &mut R,
     certificate: &CentersCertificate,
-    monitor: &Monitor<'_>,
-) -> Result<Option<u64>, CheckError> {
-    let mut covering = Covering::of(sets, room.len());
-    let found = covering.search(certificate.k as usize, certificate.outliers as usize, monitor);
-    let Some(found) = found.map_err(ReadError::from)? else { return Ok(None) };
-    let Some(cover) = found else { return Ok(Some(covering.nodes)) };
-    let is_held = |set: &Set| {
-        let mut items = set.items();
-        let first = items.next().and_then(|first| room.open(first));
-        items.fold(first, |group, item| group.and_then(|group| room.with(&group, item))).is_some()
-    };
-    match cover.iter().all(is_held) {
-        true => Err(CentersViolation::Covered.into()),
-        false => Ok(None),
-    }
+    meter: &mut Meter<'_>,
+) -> Result<Found, Stop> {
+    let mut covering = Covering::of(sets, room.len(), meter)?;
+    let found = covering.search(certificate.k as usize, certificate.outliers as usize, meter)?;
+    Ok(match found {
+        None => Found::Nothing,
+        Some(None) => Found::NoCover(covering.nodes),
+        Some(Some(cover)) => {
+            for set in &cover {
+                if !room.fit(set.items(), meter)? {
+                    return Ok(Found::Nothing);
+                }
+            }
+            Found::Cover
+        }
+    })
 }

@@ -16,9 +16,10 @@ use taut_points::{
 };
 
 use super::super::{Centers, CentersViolation};
-use super::distance::{Scale, compare, is_tame, kappa, square, thresholds};
+use super::distance::{Scale, compare, factors, is_same_place, kappa, square, thresholds};
 use super::halves::Halves;
 use super::item::{Item, Kind};
+use super::meter::{Meter, Stop};
 use crate::arithmetic::U;
 use crate::{CheckError, Violation};
 
@@ -53,9 +54,10 @@ impl<'a> Enclosure<'a> {
         monitor: &Monitor<'_>,
     ) -> Result<(), CheckError> {
         let blocks = map_blocks(source, monitor, |first, rows| {
+            let mut meter = Meter::endless(monitor);
             let problem = match &rows {
-                Rows::F32(points) => self.rows(first, points),
-                Rows::F64(points) => self.rows(first, points),
+                Rows::F32(points) => self.rows(first, points, &mut meter),
+                Rows::F64(points) => self.rows(first, points, &mut meter),
             }?;
             Ok::<_, CheckError>(Block { hash: hash_block(&rows), problem })
         })?;
@@ -76,7 +78,8 @@ impl<'a> Enclosure<'a> {
         &self,
         first: u64,
         points: &Points<'_, T>,
-    ) -> Result<Option<CentersViolation>, Violation> {
+        meter: &mut Meter<'_>,
+    ) -> Result<Option<CentersViolation>, CheckError> {
         let left_out = &self.answer.outliers;
         let mut left_out = &left_out[left_out.partition_point(|&row| row < first)..];
         let mut problem = None;
@@ -89,7 +92,7 @@ impl<'a> Enclosure<'a> {
             let item = self.kind.item(row);
             let counts = left_out.first() != Some(&number);
             left_out = &left_out[usize::from(!counts)..];
-            problem = self.row(number, &item, counts, &mut held_by).err();
+            problem = self.row(number, &item, counts, &mut held_by, meter)?.err();
         }
         Ok(problem)
     }
@@ -102,50 +105,83 @@ impl<'a> Enclosure<'a> {
         item: &Item<'_, T>,
         counts: bool,
         held_by: &mut usize,
-    ) -> Result<(), CentersViolation> {
-        if let Some(assigned) = self.assigned(number, item)? {
-            *held_by = assigned;
+        meter: &mut Meter<'_>,
+    ) -> Result<Result<(), CentersViolation>, Stop> {
+        match self.assigned(number, item, meter)? {
+            Err(violation) => return Ok(Err(violation)),
+            Ok(Some(assigned)) => *held_by = assigned,
+            Ok(None) => {}
         }
-        match !counts || self.is_held(item, held_by) {
-            true => Ok(()),
-            false => Err(self.outside(number, item)),
+        match !counts || self.is_held(item, held_by, meter)? {
+            true => Ok(Ok(())),
+            false => Ok(Err(self.outside(number, item))),
         }
     }
 
     /// Whether a ball holds the item; `held_by` is the one asked first, and becomes the one that does.
     #[inline(always)]
-    fn is_held<T: Scalar>(&self, item: &Item<'_, T>, held_by: &mut usize) -> bool {
+    fn is_held<T: Scalar>(
+        &self,
+        item: &Item<'_, T>,
+        held_by: &mut usize,
+        meter: &mut Meter<'_>,
+    ) -> Result<bool, Stop> {
+        let centers = &self.answer.centers;
         let rho = self.answer.radius - item.radius;
+        if rho < 0.0 {
+            return Ok(false);
+        }
+        let reach = rho / item.weight;
+        if reach == 0.0 {
+            // Not even the least number: nothing but the very place of the centre.
+            let is_same = |center: usize| is_same_place(item.position, &centers[center]);
+            return self.find(item.position, 0.0, is_same, held_by, meter);
+        }
         let (inside, _) = thresholds(rho, self.kappa, self.scale);
         // What underflows is nothing beside this.
-        if inside > 1e-150 && is_tame(item.weight) {
-            let plainly = |center: usize| self.square(item, center) < inside;
-            if plainly(*held_by) {
-                return true;
-            }
-            let reach = rho / item.weight * (1.0 + 1e-9);
-            if let Some(found) = self.halves.find(item.position, reach, plainly) {
-                *held_by = found;
-                return true;
+        if inside > 1e-150
+            && let Some(factors) = factors(item.weight, self.scale)
+        {
+            let plainly = |center: usize| square(item.position, &centers[center], factors) < inside;
+            if self.find(item.position, reach * (1.0 + 1e-9), plainly, held_by, meter)? {
+                return Ok(true);
             }
         }
-        let exactly = |&center: &usize| self.compare(item, center) != Ordering::Greater;
-        match (0..self.answer.centers.len()).find(exactly) {
-            Some(found) => {
-                *held_by = found;
-                true
-            }
-            None => false,
-        }
-    }
-
-    fn square<T: Scalar>(&self, item: &Item<'_, T>, center: usize) -> f64 {
-        square(item.position, &self.answer.centers[center], item.weight, self.scale)
-    }
-
-    fn compare<T: Scalar>(&self, item: &Item<'_, T>, center: usize) -> Ordering {
         let rho = [self.answer.radius, -item.radius];
-        compare(item.position, &self.answer.centers[center], item.weight, &rho, self.scale)
+        for (center, place) in centers.iter().enumerate() {
+            let reaches = compare(item.position, place, item.weight, &rho, self.scale, meter)?;
+            if reaches != Ordering::Greater {
+                *held_by = center;
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Whether some centre, of all that are so near and perhaps of others, passes a test; the one that did last is asked
+    /// first.
+    #[inline(always)]
+    fn find<T: Scalar>(
+        &self,
+        place: &[T],
+        reach: f64,
+        mut test: impl FnMut(usize) -> bool,
+        held_by: &mut usize,
+        meter: &mut Meter<'_>,
+    ) -> Result<bool, Stop> {
+        let mut asked = 1;
+        let found = match test(*held_by) {
+            true => Some(*held_by),
+            false => self.halves.find(place, reach, |center| {
+                asked += 1;
+                test(center)
+            }),
+        };
+        meter.spend(asked * place.len())?;
+        if let Some(found) = found {
+            *held_by = found;
+        }
+        Ok(found.is_some())
     }
 
     /// The centre to which an item is assigned, if it is the nearest.
@@ -153,21 +189,27 @@ impl<'a> Enclosure<'a> {
         &self,
         row: u64,
         item: &Item<'_, T>,
-    ) -> Result<Option<usize>, CentersViolation> {
-        let Some(&center) = self.answer.assignment.get(row as usize) else { return Ok(None) };
+        meter: &mut Meter<'_>,
+    ) -> Result<Result<Option<usize>, CentersViolation>, Stop> {
+        let Some(&center) = self.answer.assignment.get(row as usize) else { return Ok(Ok(None)) };
         let named = center as usize;
         if named >= self.answer.centers.len() {
-            return Err(CentersViolation::NoSuchCenter { row, center });
+            return Ok(Err(CentersViolation::NoSuchCenter { row, center }));
         }
         let distance = |center: usize| distance(item.position, &self.answer.centers[center]);
         let own = distance(named);
         let slack = 1.0 + (item.position.len() + 32) as f64 * U;
-        let is_nearer = |other: usize| distance(other) * slack + 4.0 * U * item.radius < own;
+        let mut asked = 1;
+        let is_nearer = |other: usize| {
+            asked += 1;
+            distance(other) * slack + 4.0 * U * item.radius < own
+        };
         let nearer = self.halves.find(item.position, own * (1.0 + 1e-9), is_nearer);
-        match nearer {
+        meter.spend(asked * item.position.len())?;
+        Ok(match nearer {
             Some(nearer) => Err(CentersViolation::Assignment { row, center, nearer }),
             None => Ok(Some(named)),
-        }
+        })
     }
 
     /// How far the item reaches from the centre next to it, for people to read.
@@ -198,4 +240,65 @@ fn distance<T: Scalar>(position: &[T], center: &[f64]) -> f64 {
         return largest;
     }
     largest * differences().map(|d| (d / largest).powi(2)).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use taut_points::hash_points;
+
+    use super::super::distance::tests::EXACTLY;
+    use super::*;
+
+    /// Whether rows are held, and how many comparisons took whole numbers.
+    fn held(
+        rows: &[f64],
+        dim: usize,
+        kind: Kind,
+        centers: Vec<Vec<f64>>,
+        radius: f64,
+    ) -> (bool, u64) {
+        let (points, monitor) = (Points::new(rows, dim).unwrap(), Monitor::silent());
+        let (lower_bound, none) = (0.0, vec![]);
+        let answer = Centers {
+            centers,
+            rows: vec![],
+            radius,
+            lower_bound,
+            outliers: none,
+            assignment: vec![],
+        };
+        let before = EXACTLY.get();
+        let hash = hash_points(&points, &monitor).unwrap();
+        let is_held = Enclosure::of(&answer, kind).check(&points, hash, &monitor).is_ok();
+        (is_held, EXACTLY.get() - before)
+    }
+
+    #[test]
+    fn rows_that_have_to_be_centres_are_compared_plainly() {
+        let centers: Vec<Vec<f64>> =
+            (0..300).map(|i| vec![f64::from(i * i % 307), f64::from(i) * 0.1 - 3.0]).collect();
+        let rows: Vec<f64> = centers.iter().rev().cycle().take(3000).flatten().copied().collect();
+        assert_eq!(held(&rows, 2, Kind::Points, centers.clone(), 0.0), (true, 0));
+        let mut other = rows.clone();
+        other[4001] = other[4001].next_up();
+        assert_eq!(held(&other, 2, Kind::Points, centers.clone(), 0.0), (false, 0));
+        // Zeros of either sign are one place.
+        assert_eq!(held(&[-0.0, 0.0], 2, Kind::Points, vec![vec![0.0, -0.0]], 0.0), (true, 0));
+        let with = |extra: f64| -> Vec<f64> {
+            rows.chunks(2).flat_map(|row| [row[0], row[1], extra]).collect()
+        };
+        // Balls as large as they may be, and larger ones.
+        assert_eq!(held(&with(2.5), 3, Kind::Balls, centers.clone(), 2.5), (true, 0));
+        assert_eq!(held(&with(2.5), 3, Kind::Balls, centers.clone(), 2.4), (false, 0));
+        // Weights beside which no distance is small enough, and weights far from 1.
+        for weight in [1e-300, 1.0, 1e300] {
+            assert_eq!(held(&with(weight), 3, Kind::Weighted, centers.clone(), 0.0), (true, 0));
+        }
+        assert_eq!(held(&with(1e300), 3, Kind::Weighted, centers.clone(), 1e-300), (true, 0));
+        assert_eq!(held(&with(1e150), 3, Kind::Weighted, centers.clone(), 1e148), (true, 0));
+        assert_eq!(
+            held(&with(1e-150), 3, Kind::Weighted, centers[..9].to_vec(), 1e-152),
+            (false, 0)
+        );
+    }
 }

@@ -16,21 +16,23 @@
 //! *Reference.* Goldfarb, Idnani, Math. Programming 27, 1983, of which this is a special case.
 
 use super::core::{Core, Pairs};
+use super::meter::{Meter, Stop};
 use super::room::Room;
 use crate::arithmetic::U;
 
 /// Items in one ball with its centre anywhere.
-#[derive(Clone, Debug, Default)]
+///
+/// Places are measured from the first member, yᵢ = (pᵢ − p₀)·scale, rounded once; they are formed again wherever they are
+/// needed, as a search keeps many groups.
+#[derive(Debug, Default)]
 pub(super) struct Group {
     members: Vec<usize>,
-    /// (pᵢ − p₀)·scale, member by member: rounded once.
-    places: Vec<f64>,
     fit: Fit,
 }
 
 /// The centre that is deepest within the balls of a group, its depth, and multipliers; about p₀ and scaled.
 #[derive(Debug, Default)]
-struct Fit {
+pub(super) struct Fit {
     center: Vec<f64>,
     /// v.
     value: f64,
@@ -59,33 +61,46 @@ pub(super) struct Free<'a> {
     hull: Hull,
 }
 
+/// What becomes of a group with one item more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Tried {
+    Refuted,
+    /// The item lies where the deepest centre is as deep as before.
+    Unchanged,
+    /// The scratch space holds the group.
+    Changed,
+}
+
 impl<'a> Free<'a> {
     pub(super) fn of(core: &'a Core, pairs: &'a Pairs) -> Self {
         Free { core, pairs, scratch: Group::default(), hull: Hull::default() }
     }
 
-    /// Puts `group` with one item more into the scratch space; `false` where it is refuted.
-    fn extend(&mut self, group: &Group, item: usize) -> bool {
-        if !self.core.is_free(item) || group.members.iter().any(|&m| self.pairs.are_apart(m, item))
+    fn tried(&mut self, group: &Group, item: usize, meter: &mut Meter<'_>) -> Result<Tried, Stop> {
+        meter.spend(group.members.len() + self.core.dim)?;
+        if !self.core.is_free(item) || group.members.iter().any(|&m| self.pairs.are_apart(item, m))
         {
-            return false;
+            return Ok(Tried::Refuted);
+        }
+        if excess(self.core, group, item) <= group.fit.value {
+            return Ok(Tried::Unchanged);
         }
         let scratch = &mut self.scratch;
         scratch.members.clone_from(&group.members);
-        scratch.places.clone_from(&group.places);
         scratch.fit.clone_from(&group.fit);
         scratch.members.push(item);
-        relative(self.core, group.members[0], item, &mut scratch.places);
-        let newcomer = scratch.members.len() - 1;
-        if !fit(self.core, scratch, newcomer, &mut self.hull) {
-            return true;
-        }
-        !(scratch.fit.value >= -1e-9 && is_refuted(self.core, scratch))
+        fit(self.core, scratch, &mut self.hull, meter)?;
+        Ok(match scratch.fit.value >= -1e-9 && is_refuted(self.core, scratch) {
+            true => Tried::Refuted,
+            false => Tried::Changed,
+        })
     }
 }
 
 impl Room for Free<'_> {
     type Group = Group;
+    /// The fit before, where it changed.
+    type Undo = Option<Fit>;
 
     fn len(&self) -> usize {
         self.core.len()
@@ -101,30 +116,53 @@ impl Room for Free<'_> {
             value: -square(self.core.reach(item)),
             support: vec![(0, 1.0)],
         };
-        let group = Group { members: vec![item], places: vec![0.0; self.core.dim], fit };
-        self.core.is_free(item).then_some(group)
+        self.core.is_free(item).then_some(Group { members: vec![item], fit })
     }
 
-    fn with(&mut self, group: &Group, item: usize) -> Option<Group> {
-        self.extend(group, item).then(|| self.scratch.clone())
+    fn grow(
+        &mut self,
+        group: &mut Group,
+        item: usize,
+        meter: &mut Meter<'_>,
+    ) -> Result<Option<Option<Fit>>, Stop> {
+        let before = match self.tried(group, item, meter)? {
+            Tried::Refuted => return Ok(None),
+            Tried::Unchanged => None,
+            Tried::Changed => Some(std::mem::replace(&mut group.fit, self.scratch.fit.clone())),
+        };
+        group.members.push(item);
+        Ok(Some(before))
     }
 
-    fn strain(&mut self, group: &Group, item: usize) -> f64 {
-        match self.extend(group, item) {
-            // A strain that is no number, as of weights that are too far apart, must not pass for an item that does not fit.
-            true => match self.scratch.fit.value - group.fit.value {
-                strain if strain.is_finite() => strain,
-                _ => f64::MAX,
-            },
-            false => f64::INFINITY,
+    fn shrink(&self, group: &mut Group, before: Option<Fit>) {
+        group.members.pop();
+        if let Some(fit) = before {
+            group.fit = fit;
         }
     }
 
-    fn covers(&self, group: &Group, item: usize) -> bool {
-        let places = self.core.place(item).iter().zip(self.core.place(group.members[0]));
-        let offsets = places.map(|(x, o)| (x - o) * self.core.scale.up);
-        let distance: f64 = offsets.zip(&group.fit.center).map(|(y, c)| square(y - c)).sum();
-        distance < square(self.core.reach(item))
+    fn kept(before: &Option<Fit>) -> usize {
+        let bytes = |fit: &Fit| size_of_val(&fit.center[..]) + size_of_val(&fit.support[..]);
+        before.as_ref().map_or(0, bytes)
+    }
+
+    fn strain(&mut self, group: &Group, item: usize, meter: &mut Meter<'_>) -> Result<f64, Stop> {
+        Ok(match self.tried(group, item, meter)? {
+            Tried::Refuted => f64::INFINITY,
+            Tried::Unchanged => 0.0,
+            // A strain that is no number, as of weights that are too far apart, must not pass for an item that does not fit.
+            Tried::Changed => match self.scratch.fit.value - group.fit.value {
+                strain if strain.is_finite() => strain,
+                _ => f64::MAX,
+            },
+        })
+    }
+
+    fn covers(&self, group: &Group, item: usize, meter: &mut Meter<'_>) -> Result<bool, Stop> {
+        meter.spend(self.core.dim)?;
+        let (places, center) = (relative(self.core, group.members[0], item), &group.fit.center);
+        let distance: f64 = places.zip(center).map(|(y, c)| square(y - c)).sum();
+        Ok(distance < square(self.core.reach(item)))
     }
 }
 
@@ -136,42 +174,37 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn distance_square(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| square(a - b)).sum()
+/// (p − o)·scale.
+fn relative(core: &Core, origin: usize, item: usize) -> impl Iterator<Item = f64> {
+    let (places, up) = (core.place(item).iter().zip(core.place(origin)), core.scale.up);
+    places.map(move |(x, o)| (x - o) * up)
 }
 
-/// Appends (p − o)·scale.
-fn relative(core: &Core, origin: usize, item: usize, out: &mut Vec<f64>) {
-    let places = core.place(item).iter().zip(core.place(origin));
-    out.extend(places.map(|(x, o)| (x - o) * core.scale.up));
+/// yᵢ of a member.
+fn place(core: &Core, group: &Group, member: usize) -> impl Iterator<Item = f64> {
+    relative(core, group.members[0], group.members[member])
 }
 
-fn place(group: &Group, dim: usize, member: usize) -> &[f64] {
-    &group.places[member * dim..(member + 1) * dim]
+/// gᵢ(c) of any item.
+fn excess(core: &Core, group: &Group, item: usize) -> f64 {
+    let places = relative(core, group.members[0], item).zip(&group.fit.center);
+    let distance: f64 = places.map(|(y, c)| square(y - c)).sum();
+    distance - square(core.reach(item))
 }
 
-/// gᵢ(c).
-fn excess(core: &Core, group: &Group, member: usize) -> f64 {
-    let reach = core.reach(group.members[member]);
-    distance_square(place(group, core.dim, member), &group.fit.center) - square(reach)
-}
-
-/// Brings the fit of a group to its optimum, when all but the newcomer are at theirs; `false` when the newcomer changes
-/// nothing.
-fn fit(core: &Core, group: &mut Group, newcomer: usize, hull: &mut Hull) -> bool {
+/// Brings the fit of a group to its optimum, when all but the last member are at theirs, and that one is farther.
+fn fit(core: &Core, group: &mut Group, hull: &mut Hull, meter: &mut Meter<'_>) -> Result<(), Stop> {
     // The depth counts in units of ρ², which is 1 or more.
     const ENOUGH: f64 = 1e-15;
-    let mut member = newcomer;
-    let mut least = excess(core, group, member);
-    if least <= group.fit.value {
-        return false;
-    }
+    let mut member = group.members.len() - 1;
     // Each round raises v, so no support occurs twice; rounding alone needs an end set.
     for _ in 0..8 + 4 * group.members.len() {
-        admit(core, group, member, hull);
-        (member, least) = (0, f64::NEG_INFINITY);
-        for other in 0..group.members.len() {
-            let excess = excess(core, group, other);
+        admit(core, group, member, hull, meter)?;
+        meter.spend(group.members.len() * core.dim)?;
+        let mut least = f64::NEG_INFINITY;
+        member = 0;
+        for (other, &item) in group.members.iter().enumerate() {
+            let excess = excess(core, group, item);
             if excess > least {
                 (member, least) = (other, excess);
             }
@@ -182,17 +215,23 @@ fn fit(core: &Core, group: &mut Group, newcomer: usize, hull: &mut Hull) -> bool
             break;
         }
     }
-    true
+    Ok(())
 }
 
 /// Gives weight to one member that is farther than the support.
-fn admit(core: &Core, group: &mut Group, member: usize, hull: &mut Hull) {
-    let dim = core.dim;
+fn admit(
+    core: &Core,
+    group: &mut Group,
+    member: usize,
+    hull: &mut Hull,
+    meter: &mut Meter<'_>,
+) -> Result<(), Stop> {
+    let item = group.members[member];
     let mut weight = 0.0;
     while !group.fit.support.is_empty() {
-        hull.project(group, dim, member);
-        let first = group.fit.support[0].0;
-        let wanted = excess(core, group, member) - excess(core, group, first);
+        hull.project(core, group, member, meter)?;
+        let first = group.members[group.fit.support[0].0];
+        let wanted = excess(core, group, item) - excess(core, group, first);
         let full = match hull.is_flat {
             true => f64::INFINITY,
             false => (wanted / (2.0 * hull.rest_square)).max(0.0),
@@ -221,12 +260,13 @@ fn admit(core: &Core, group: &mut Group, member: usize, hull: &mut Hull) {
         }
     }
     if group.fit.support.is_empty() {
-        let range = member * dim..(member + 1) * dim;
-        group.fit.center.copy_from_slice(&group.places[range]);
+        group.fit.center.clear();
+        group.fit.center.extend(relative(core, group.members[0], item));
         weight = 1.0;
     }
     group.fit.support.push((member, weight));
-    group.fit.value = excess(core, group, member);
+    group.fit.value = excess(core, group, item);
+    Ok(())
 }
 
 /// The projection of a place on the affine hull of the support; scratch space.
@@ -247,14 +287,21 @@ struct Hull {
 }
 
 impl Hull {
-    fn project(&mut self, group: &Group, dim: usize, member: usize) {
-        let support = &group.fit.support;
+    fn project(
+        &mut self,
+        core: &Core,
+        group: &Group,
+        member: usize,
+        meter: &mut Meter<'_>,
+    ) -> Result<(), Stop> {
+        let (support, dim) = (&group.fit.support, core.dim);
         let (origin, edges) = (support[0].0, support.len() - 1);
+        meter.spend(2 * dim * (edges + 1) * (edges + 2))?;
         self.basis.clear();
         self.triangle.clear();
         self.triangle.resize(edges * edges, 0.0);
         for edge in 0..edges {
-            self.take(group, dim, origin, support[edge + 1].0);
+            self.take(core, group, origin, support[edge + 1].0);
             let before = self.coefficients.len();
             let length = self.rest_square.sqrt();
             for (column, &coefficient) in self.coefficients.iter().enumerate() {
@@ -265,7 +312,7 @@ impl Hull {
             let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
             self.basis.extend(self.rest.iter().map(|n| n * inverse));
         }
-        let size = self.take(group, dim, origin, member);
+        let size = self.take(core, group, origin, member);
         self.is_flat = edges >= dim || self.rest_square <= 1e-24 * size;
         // Σ βₑ·edgeₑ = Σ coefficients·basis, from the last edge to the first.
         self.alpha.clear();
@@ -283,12 +330,14 @@ impl Hull {
             self.rest.fill(0.0);
             self.rest_square = 0.0;
         }
+        Ok(())
     }
 
     /// Splits the edge from `origin` to `member` into its part within the basis and the rest; the square of its length.
-    fn take(&mut self, group: &Group, dim: usize, origin: usize, member: usize) -> f64 {
+    fn take(&mut self, core: &Core, group: &Group, origin: usize, member: usize) -> f64 {
+        let dim = core.dim;
         self.rest.clear();
-        let ends = place(group, dim, member).iter().zip(place(group, dim, origin));
+        let ends = place(core, group, member).zip(place(core, group, origin));
         self.rest.extend(ends.map(|(p, o)| p - o));
         let size = dot(&self.rest, &self.rest);
         self.coefficients.clear();
@@ -320,16 +369,14 @@ impl Hull {
 /// more than what can underflow.
 fn is_refuted(core: &Core, group: &Group) -> bool {
     const LEAST: f64 = f64::from_bits((1023 - 60) << 52);
-    let dim = core.dim;
-    let center = &group.fit.center;
+    let (dim, center) = (core.dim, &group.fit.center);
     let used = || group.fit.support.iter().filter(|&&(_, lambda)| lambda >= LEAST);
     let (mut sum, mut size, mut weight) = (0.0, 0.0, 0.0);
     for &(member, lambda) in used() {
-        let place = place(group, dim, member);
         let (mut square_of, mut from_origin) = ([0.0; 8], [0.0; 8]);
-        for (column, (y, c)) in place.iter().zip(center).enumerate() {
+        for (column, (y, c)) in place(core, group, member).zip(center).enumerate() {
             square_of[column % 8] += square(y - c);
-            from_origin[column % 8] += square(*y);
+            from_origin[column % 8] += square(y);
         }
         let [distance, from_origin]: [f64; 2] = [square_of, from_origin].map(|s| s.iter().sum());
         let reach = square(core.reach(group.members[member]));
@@ -337,12 +384,13 @@ fn is_refuted(core: &Core, group: &Group) -> bool {
         size += lambda * (distance + from_origin + reach);
         weight += lambda;
     }
-    let mut moment = 0.0;
-    for (column, c) in center.iter().enumerate() {
-        let along: f64 =
-            used().map(|&(member, lambda)| lambda * (place(group, dim, member)[column] - c)).sum();
-        moment += square(along);
+    let mut along = vec![0.0; dim];
+    for &(member, lambda) in used() {
+        for (along, (y, c)) in along.iter_mut().zip(place(core, group, member).zip(center)) {
+            *along += lambda * (y - c);
+        }
     }
+    let moment: f64 = along.iter().map(|&along| square(along)).sum();
     let count = group.fit.support.len();
     let lost = ((dim / 8 + count + 32) as f64 * U * size + 4.0 * moment / weight) * (1.0 + 1e-9);
     sum - lost >= f64::from_bits((1023 - 900) << 52)
@@ -358,13 +406,9 @@ mod tests {
     /// Whether a ball of radius less than `bound` is proved not to hold these rows.
     fn refuted(rows: &[f64], columns: usize, kind: Kind, bound: f64) -> bool {
         let core = Core::of(rows, columns, kind, bound);
-        let pairs = Pairs::of(&core, &Monitor::silent()).unwrap();
-        let mut room = Free::of(&core, &pairs);
-        let mut group = room.open(0);
-        for item in 1..core.len() {
-            group = group.and_then(|group| room.with(&group, item));
-        }
-        group.is_none()
+        let mut meter = Meter::endless(&Monitor::silent());
+        let pairs = Pairs::of(&core, &mut meter).unwrap();
+        !Free::of(&core, &pairs).fit(0..core.len(), &mut meter).unwrap()
     }
 
     fn is_radius(rows: &[f64], columns: usize, kind: Kind, radius: f64) {

@@ -15,11 +15,19 @@ use taut_points::{Monitor, PointSource, map_blocks};
 use super::super::CentersViolation;
 use super::core::{Bits, Core, is_set, items, set};
 use super::item::Kind;
+use super::meter::{Meter, Stop};
 use super::room::Room;
 use crate::CheckError;
 
-/// Most bytes for the sets of all places, once by place and once by item.
+/// Most bytes for the sets of all places.
 const MEMORY: u64 = 1 << 30;
+
+/// How often there is a bit for each place and item: by place, by item, and in the groups and what is kept to undo them, as
+/// each item begins a group or narrows one.
+const SETS: u64 = 3;
+
+/// Bytes that a place takes beside its bits.
+const ENTRY: u64 = 64;
 
 /// Places at rows, for one core-set.
 pub(super) struct Places {
@@ -41,13 +49,15 @@ impl Places {
         let sets: Mutex<HashSet<Bits>> = Mutex::default();
         map_blocks(source, monitor, |_, rows| {
             let mut found = HashSet::new();
-            let mut row = vec![0.0; source.dim()];
+            let (mut row, mut meter) = (vec![0.0; source.dim()], Meter::endless(monitor));
             for number in 0..rows.len() {
                 rows.copy_row(number, &mut row);
                 let center = kind.item(&row).position;
                 let mut near = vec![0; words];
-                for item in (0..core.len()).filter(|&item| !core.is_out_of_reach(item, center)) {
-                    set(&mut near, item);
+                for item in 0..core.len() {
+                    if !core.is_out_of_reach(item, center, &mut meter)? {
+                        set(&mut near, item);
+                    }
                 }
                 if near.iter().any(|&word| word != 0) {
                     found.insert(near);
@@ -56,7 +66,7 @@ impl Places {
             // Sets are put together in any order and sorted in the end.
             let mut sets = sets.lock().unwrap_or_else(PoisonError::into_inner);
             sets.extend(found);
-            match 2 * 8 * words as u64 * sets.len() as u64 > MEMORY {
+            match (SETS * 8 * words as u64 + ENTRY) * sets.len() as u64 > MEMORY {
                 true => Err(CheckError::from(CentersViolation::Memory { most: MEMORY })),
                 false => Ok(()),
             }
@@ -71,6 +81,11 @@ impl Places {
         Ok(Places { sets, near })
     }
 
+    /// How many words a set of places has.
+    pub(super) fn words(&self) -> usize {
+        self.sets.len().div_ceil(64)
+    }
+
     /// Whether no place is near to both.
     pub(super) fn are_apart(&self, i: usize, j: usize) -> bool {
         self.near[i].iter().zip(&self.near[j]).all(|(a, b)| a & b == 0)
@@ -80,6 +95,7 @@ impl Places {
 /// The places that are near to all items of a group.
 impl Room for &Places {
     type Group = Bits;
+    type Undo = Bits;
 
     fn len(&self) -> usize {
         self.near.len()
@@ -93,21 +109,39 @@ impl Room for &Places {
         self.near[item].iter().any(|&word| word != 0).then(|| self.near[item].clone())
     }
 
-    fn with(&mut self, group: &Bits, item: usize) -> Option<Bits> {
+    fn grow(
+        &mut self,
+        group: &mut Bits,
+        item: usize,
+        meter: &mut Meter<'_>,
+    ) -> Result<Option<Bits>, Stop> {
+        meter.spend(2 * group.len())?;
         let both: Bits = group.iter().zip(&self.near[item]).map(|(a, b)| a & b).collect();
-        both.iter().any(|&word| word != 0).then_some(both)
+        let is_held = both.iter().any(|&word| word != 0);
+        Ok(is_held.then(|| std::mem::replace(group, both)))
     }
 
-    fn strain(&mut self, group: &Bits, item: usize) -> f64 {
+    fn shrink(&self, group: &mut Bits, before: Bits) {
+        *group = before;
+    }
+
+    fn kept(before: &Bits) -> usize {
+        size_of_val(&before[..])
+    }
+
+    fn strain(&mut self, group: &Bits, item: usize, meter: &mut Meter<'_>) -> Result<f64, Stop> {
+        meter.spend(2 * group.len())?;
         let mut counts = [0, 0];
         for (group, near) in group.iter().zip(&self.near[item]) {
             counts[0] += (group & near).count_ones();
             counts[1] += (group & !near).count_ones();
         }
-        if counts[0] == 0 { f64::INFINITY } else { counts[1].into() }
+        Ok(if counts[0] == 0 { f64::INFINITY } else { counts[1].into() })
     }
 
-    fn covers(&self, group: &Bits, item: usize) -> bool {
-        items(group).next().is_some_and(|place| is_set(&self.near[item], place))
+    fn covers(&self, group: &Bits, item: usize, meter: &mut Meter<'_>) -> Result<bool, Stop> {
+        let first = group.iter().position(|&word| word != 0);
+        meter.spend(first.unwrap_or(group.len()) + 1)?;
+        Ok(items(group).next().is_some_and(|place| is_set(&self.near[item], place)))
     }
 }

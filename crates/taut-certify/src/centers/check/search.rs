@@ -10,16 +10,19 @@
 //! Groups stay as they are when an item is put elsewhere, so what did not fit never fits again below: a column of strains
 //! for each group is computed only when that group grows.
 //! *Guarantee.* [`Outcome::Refuted`] only when all cases were gone through.
-//! *Cost.* Exponential in k: at most [`NODES`] nodes, each of at most |X| tests for the group that grew.
+//! *Cost.* Exponential in k: at most [`NODES`] nodes, each of at most |X| tests for the group that grew, and as much work as
+//! its meter allows.
 //! *Reference.* The choice of the most constrained item is that of Brélaz, Comm. ACM 22(4), 1979, for colourings.
 
-use taut_points::{Cancelled, Monitor};
-
 use super::core::{Bits, clear, is_set, items, set};
+use super::meter::{Meter, Stop};
 use super::room::Room;
 
 /// Most nodes. What needs more is to be proved by its branches.
 pub(super) const NODES: u64 = 1 << 16;
+
+/// Most steps: some five seconds. Proofs that are left to a search took 5·10⁷ and less, in up to 500 dimensions.
+pub(super) const WORK: u64 = 3 << 30;
 
 /// Most items of a core-set that is searched.
 pub(super) const ITEMS: usize = 1024;
@@ -40,8 +43,8 @@ pub(super) fn search<R: Room>(
     room: &mut R,
     k: usize,
     outliers: u64,
-    monitor: &Monitor<'_>,
-) -> Result<(Outcome, u64), Cancelled> {
+    meter: &mut Meter<'_>,
+) -> Result<(Outcome, u64), Stop> {
     let n = room.len();
     let apart = (0..n)
         .map(|i| {
@@ -55,14 +58,13 @@ pub(super) fn search<R: Room>(
         opens: (0..n).map(|item| room.open(item).is_some()).collect(),
         room,
         k,
-        monitor,
         nodes: 0,
         groups: vec![],
         strains: vec![],
         given: vec![0; n.div_ceil(64)],
         left: outliers,
     };
-    let outcome = search.node()?;
+    let outcome = search.node(meter)?;
     Ok((outcome, search.nodes))
 }
 
@@ -73,7 +75,6 @@ struct Search<'a, R: Room> {
     /// Whether a ball of its own holds the item.
     opens: Vec<bool>,
     k: usize,
-    monitor: &'a Monitor<'a>,
     nodes: u64,
     groups: Vec<R::Group>,
     /// For each group the strain of each item, infinite where it does not fit.
@@ -85,72 +86,82 @@ struct Search<'a, R: Room> {
 }
 
 impl<R: Room> Search<'_, R> {
-    fn node(&mut self) -> Result<Outcome, Cancelled> {
+    fn node(&mut self, meter: &mut Meter<'_>) -> Result<Outcome, Stop> {
         if self.nodes == NODES {
             return Ok(Outcome::Undecided);
         }
         self.nodes += 1;
-        if self.nodes.is_multiple_of(64) {
-            self.monitor.check()?;
+        let mut open = vec![];
+        for item in 0..self.room.len() {
+            if !is_set(&self.given, item) && !self.is_covered(item, meter)? {
+                open.push(item);
+            }
         }
-        let open: Vec<usize> = (0..self.room.len())
-            .filter(|&item| !is_set(&self.given, item))
-            .filter(|&item| !self.groups.iter().any(|group| self.room.covers(group, item)))
-            .collect();
         if open.is_empty() {
             return Ok(Outcome::Held);
         }
-        if self.is_refuted(&open) {
+        if self.is_refuted(&open, meter)? {
             return Ok(Outcome::Refuted);
         }
         let item = self.choice(&open);
         set(&mut self.given, item);
-        let outcome = self.branch(item);
+        let outcome = self.branch(item, meter);
         clear(&mut self.given, item);
         outcome
     }
 
+    /// Whether the ball of some group holds the item.
+    fn is_covered(&self, item: usize, meter: &mut Meter<'_>) -> Result<bool, Stop> {
+        for group in &self.groups {
+            if self.room.covers(group, item, meter)? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
     /// Whether items that fit in no group need more than is left.
-    fn is_refuted(&mut self, open: &[usize]) -> bool {
+    fn is_refuted(&mut self, open: &[usize], meter: &mut Meter<'_>) -> Result<bool, Stop> {
+        meter.spend(2 * open.len() * (self.groups.len() + 1))?;
         let fits = |item: usize| self.strains.iter().any(|strain| strain[item] < f64::INFINITY);
         let homeless: Vec<usize> = open.iter().copied().filter(|&item| !fits(item)).collect();
         let balls = self.k - self.groups.len();
         let places = (balls as u64).saturating_add(self.left);
         let no_place = |&item: &usize| self.left == 0 && (balls == 0 || !self.opens[item]);
-        if homeless.iter().any(no_place) || self.has_clique(&homeless, places) {
-            return true;
+        if homeless.iter().any(no_place) || self.has_clique(&homeless, places, meter)? {
+            return Ok(true);
         }
-        balls == 1 && self.left == 0 && !self.fit_in_one(&homeless)
+        Ok(balls == 1 && self.left == 0 && !self.room.fit(homeless, meter)?)
     }
 
     /// Whether more than so many of these items are found apart, two by two.
-    fn has_clique(&self, items: &[usize], places: u64) -> bool {
+    fn has_clique(
+        &self,
+        items: &[usize],
+        places: u64,
+        meter: &mut Meter<'_>,
+    ) -> Result<bool, Stop> {
         if items.len() as u64 <= places {
-            return false;
+            return Ok(false);
         }
         let mut all = vec![0; self.given.len()];
         items.iter().for_each(|&item| set(&mut all, item));
         let mut rest = vec![0; all.len()];
-        items.iter().any(|&start| {
+        for &start in items {
             let (mut last, mut size) = (start, 1);
             rest.copy_from_slice(&all);
             loop {
+                meter.spend(2 * rest.len())?;
                 clear(&mut rest, last);
                 rest.iter_mut().zip(&self.apart[last]).for_each(|(rest, apart)| *rest &= apart);
                 let Some(next) = self::items(&rest).next() else { break };
                 (last, size) = (next, size + 1);
             }
-            size > places
-        })
-    }
-
-    fn fit_in_one(&mut self, items: &[usize]) -> bool {
-        let Some((&first, rest)) = items.split_first() else { return true };
-        let mut group = self.room.open(first);
-        for &item in rest {
-            group = group.and_then(|group| self.room.with(&group, item));
+            if size > places {
+                return Ok(true);
+            }
         }
-        group.is_some()
+        Ok(false)
     }
 
     /// The item with the fewest choices.
@@ -174,18 +185,19 @@ impl<R: Room> Search<'_, R> {
     }
 
     /// Tries the item in all groups, in a new one, and left out.
-    fn branch(&mut self, item: usize) -> Result<Outcome, Cancelled> {
+    fn branch(&mut self, item: usize, meter: &mut Meter<'_>) -> Result<Outcome, Stop> {
         let mut order: Vec<usize> = (0..self.groups.len())
             .filter(|&group| self.strains[group][item] < f64::INFINITY)
             .collect();
         order.sort_by(|&a, &b| self.strains[a][item].total_cmp(&self.strains[b][item]));
         for number in order {
-            let Some(grown) = self.room.with(&self.groups[number], item) else { continue };
-            let strains = self.strained(&grown, Some(number));
-            let group = std::mem::replace(&mut self.groups[number], grown);
+            let Some(undo) = self.room.grow(&mut self.groups[number], item, meter)? else {
+                continue;
+            };
+            let strains = self.strained(number, true, meter)?;
             let before = std::mem::replace(&mut self.strains[number], strains);
-            let outcome = self.node()?;
-            self.groups[number] = group;
+            let outcome = self.node(meter)?;
+            self.room.shrink(&mut self.groups[number], undo);
             self.strains[number] = before;
             if outcome != Outcome::Refuted {
                 return Ok(outcome);
@@ -194,10 +206,10 @@ impl<R: Room> Search<'_, R> {
         if self.groups.len() < self.k
             && let Some(group) = self.room.open(item)
         {
-            let strains = self.strained(&group, None);
             self.groups.push(group);
+            let strains = self.strained(self.groups.len() - 1, false, meter)?;
             self.strains.push(strains);
-            let outcome = self.node()?;
+            let outcome = self.node(meter)?;
             self.groups.pop();
             self.strains.pop();
             if outcome != Outcome::Refuted {
@@ -206,23 +218,56 @@ impl<R: Room> Search<'_, R> {
         }
         if self.left > 0 {
             self.left -= 1;
-            let outcome = self.node()?;
+            let outcome = self.node(meter)?;
             self.left += 1;
             return Ok(outcome);
         }
         Ok(Outcome::Refuted)
     }
 
-    /// The strains of all items that nothing has yet, for a group that was this one before.
-    fn strained(&mut self, group: &R::Group, before: Option<usize>) -> Vec<f64> {
-        (0..self.room.len())
-            .map(|item| {
-                let was = before.map_or(0.0, |number| self.strains[number][item]);
-                if was == f64::INFINITY || is_set(&self.given, item) {
-                    return f64::INFINITY;
-                }
-                self.room.strain(group, item)
-            })
-            .collect()
+    /// The strains for a group of all items that nothing has yet; where it grew, what did not fit before does not now.
+    fn strained(
+        &mut self,
+        number: usize,
+        grew: bool,
+        meter: &mut Meter<'_>,
+    ) -> Result<Vec<f64>, Stop> {
+        let mut strains = vec![f64::INFINITY; self.room.len()];
+        for (item, strain) in strains.iter_mut().enumerate() {
+            let fitted = !grew || self.strains[number][item] < f64::INFINITY;
+            if fitted && !is_set(&self.given, item) {
+                *strain = self.room.strain(&self.groups[number], item, meter)?;
+            }
+        }
+        Ok(strains)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taut_points::Monitor;
+
+    use super::super::core::{Core, Pairs};
+    use super::super::free::Free;
+    use super::super::item::Kind;
+    use super::*;
+
+    /// Three pentagons far from each other need three balls each, while no more than two of their corners are apart.
+    #[test]
+    fn a_search_ends_with_its_work() {
+        let corner = |i: usize| {
+            let angle = std::f64::consts::TAU * (i % 5) as f64 / 5.0;
+            [10.0 * (i / 5) as f64 + angle.cos(), angle.sin()]
+        };
+        let values: Vec<f64> = (0..15).flat_map(corner).collect();
+        let core = Core::of(&values, 2, Kind::Points, 0.6);
+        let monitor = Monitor::silent();
+        let pairs = Pairs::of(&core, &mut Meter::endless(&monitor)).unwrap();
+        let searched = |most| {
+            let mut meter = Meter::of(&monitor, most);
+            search(&mut Free::of(&core, &pairs), 8, 0, &mut meter)
+        };
+        assert_eq!(searched(1000), Err(Stop::Spent(1000)));
+        assert!(matches!(searched(WORK), Ok((Outcome::Refuted, 11..))));
     }
 }

@@ -429,7 +429,7 @@ mod tests {
                 Signs { is_filtered: true, quantum: 0.0 },
                 Signs { is_filtered: false, quantum: 0.0 },
             ];
-            signs.push(Signs { is_filtered: true, quantum: if ulps { 2f64.powi(-54) } else { quantum } });
+            signs.push(Signs { is_filtered: true, quantum: if ulps { 2f64.powi(-55) } else { quantum } });
             let flat: Vec<[f64; 2]> = values[..8].as_chunks().0.to_vec();
             agrees::<Triangles, 2, 3>(&signs, &flat)?;
             let solid: Vec<[f64; 3]> = values.as_chunks().0.to_vec();

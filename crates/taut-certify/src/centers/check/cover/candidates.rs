@@ -17,9 +17,8 @@
 //! lies within ρ₂ + 2e-9·ρ of a place is held by a ball of a radius less than ρ: so sets from two points never cover what
 //! the first search proves not to be covered.
 
-use taut_points::{Monitor, ReadError};
-
 use super::super::core::Core;
+use super::super::meter::{Meter, Stop};
 use super::sets::Set;
 use crate::arithmetic::U;
 
@@ -82,10 +81,12 @@ fn speakers<const D: usize>(core: &Core) -> Vec<usize> {
 }
 
 /// Sets for points in the plane; O(n³).
-pub(super) fn in_the_plane(core: &Core) -> Vec<Set> {
+pub(super) fn in_the_plane(core: &Core, meter: &mut Meter<'_>) -> Result<Vec<Set>, Stop> {
     let mut sets = vec![];
     let speakers = speakers::<2>(core);
     for (position, &first) in speakers.iter().enumerate() {
+        // At most two sets a pair, for each of which all items are looked at.
+        meter.spend(2 * 2 * core.len() * (speakers.len() - position))?;
         let (about, rho) = (About::<2>::of(core, first), core.reach(first));
         sets.push(about.within([0.0; 2], TAKEN * rho));
         for &second in &speakers[position + 1..] {
@@ -98,15 +99,15 @@ pub(super) fn in_the_plane(core: &Core) -> Vec<Set> {
             }
         }
     }
-    sets
+    Ok(sets)
 }
 
 /// Sets for points in space; O(n⁴).
-pub(super) fn in_space(core: &Core, monitor: &Monitor<'_>) -> Result<Vec<Set>, ReadError> {
+pub(super) fn in_space(core: &Core, meter: &mut Meter<'_>) -> Result<Vec<Set>, Stop> {
     let mut found = std::collections::HashSet::new();
     let speakers = speakers::<3>(core);
     for (position, &first) in speakers.iter().enumerate() {
-        monitor.check()?;
+        meter.spend(3 * core.len() * (speakers.len() - position))?;
         let (about, rho) = (About::<3>::of(core, first), core.reach(first));
         found.insert(about.within([0.0; 3], TAKEN * rho));
         for &second in &speakers[position + 1..] {
@@ -128,7 +129,9 @@ pub(super) fn in_space(core: &Core, monitor: &Monitor<'_>) -> Result<Vec<Set>, R
                 if dot(side, side) < dot(a, a).max(dot(b, b)) * (1.0 - 1e-9) {
                     continue;
                 }
+                meter.spend(32)?;
                 for (corner, off) in corners(a, b, CIRCLE * rho).into_iter().flatten() {
+                    meter.spend(3 * core.len())?;
                     found.insert(about.within(corner, TAKEN * rho + off));
                 }
             }

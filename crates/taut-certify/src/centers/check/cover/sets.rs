@@ -8,7 +8,7 @@
 
 use std::collections::HashSet;
 
-use taut_points::{Cancelled, Monitor};
+use super::super::meter::{Meter, Stop};
 
 const WORDS: usize = 4;
 
@@ -17,6 +17,9 @@ pub(super) const ITEMS: usize = 200;
 
 /// Most nodes.
 pub(super) const NODES: u64 = 1 << 15;
+
+/// Rounds of weights: the more, the nearer to the best there are; most of the way is gone after six.
+const ROUNDS: usize = 6;
 
 /// A set of at most 256 items.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -57,16 +60,19 @@ impl Set {
 }
 
 /// Sets of which none is within another.
-fn maximal(mut sets: Vec<Set>) -> Vec<Set> {
+fn maximal(mut sets: Vec<Set>, meter: &mut Meter<'_>) -> Result<Vec<Set>, Stop> {
+    meter.spend(WORDS * sets.len() * ((sets.len() + 1).ilog2() as usize + 1))?;
     sets.sort_unstable_by(|a, b| b.len().cmp(&a.len()).then(b.cmp(a)));
     sets.dedup();
     let mut kept: Vec<Set> = vec![];
     for set in sets {
-        if !kept.iter().any(|larger| set.is_within(larger)) {
+        let larger = kept.iter().position(|larger| set.is_within(larger));
+        meter.spend(WORDS / 2 * larger.unwrap_or(kept.len()))?;
+        if larger.is_none() {
             kept.push(set);
         }
     }
-    kept
+    Ok(kept)
 }
 
 /// A search for a cover.
@@ -79,8 +85,9 @@ pub(super) struct Covering {
 }
 
 impl Covering {
-    pub(super) fn of(sets: Vec<Set>, items: usize) -> Self {
-        Covering { sets: maximal(sets), items, nodes: 0, failed: HashSet::new(), chosen: vec![] }
+    pub(super) fn of(sets: Vec<Set>, items: usize, meter: &mut Meter<'_>) -> Result<Self, Stop> {
+        let sets = maximal(sets, meter)?;
+        Ok(Covering { sets, items, nodes: 0, failed: HashSet::new(), chosen: vec![] })
     }
 
     /// A cover by k sets of all items but z, or none; `None` when the nodes are used up.
@@ -88,12 +95,12 @@ impl Covering {
         &mut self,
         k: usize,
         z: usize,
-        monitor: &Monitor<'_>,
-    ) -> Result<Option<Option<Vec<Set>>>, Cancelled> {
+        meter: &mut Meter<'_>,
+    ) -> Result<Option<Option<Vec<Set>>>, Stop> {
         let mut all = Set::default();
         (0..self.items).for_each(|item| all.insert(item));
         let sets = self.sets.clone();
-        Ok(match self.node(all, &sets, k, z, monitor)? {
+        Ok(match self.node(all, &sets, k, z, meter)? {
             Some(true) => Some(Some(self.chosen.clone())),
             Some(false) => Some(None),
             None => None,
@@ -107,10 +114,9 @@ impl Covering {
         sets: &[Set],
         k: usize,
         z: usize,
-        monitor: &Monitor<'_>,
-    ) -> Result<Option<bool>, Cancelled> {
+        meter: &mut Meter<'_>,
+    ) -> Result<Option<bool>, Stop> {
         self.nodes += 1;
-        monitor.check()?;
         if open.len() <= z {
             return Ok(Some(true));
         }
@@ -123,7 +129,8 @@ impl Covering {
         if self.failed.contains(&(open, k, z)) {
             return Ok(Some(false));
         }
-        let sets = maximal(sets.iter().map(|set| set.and(&open)).collect());
+        let sets = maximal(sets.iter().map(|set| set.and(&open)).collect(), meter)?;
+        meter.spend(ROUNDS * (self.items * sets.len() + 16 * self.items))?;
         let counts = counts(&sets, self.items);
         if weighs_too_much(&open, &sets, &counts, k, z) {
             self.failed.insert((open, k, z));
@@ -134,7 +141,7 @@ impl Covering {
         };
         for set in sets.iter().filter(|set| set.has(item)) {
             self.chosen.push(*set);
-            match self.node(open.without(set), &sets, k - 1, z, monitor)? {
+            match self.node(open.without(set), &sets, k - 1, z, meter)? {
                 Some(false) => drop(self.chosen.pop()),
                 other => return Ok(other),
             }
@@ -142,7 +149,7 @@ impl Covering {
         if z > 0 {
             let mut left_out = Set::default();
             left_out.insert(item);
-            match self.node(open.without(&left_out), &sets, k, z - 1, monitor)? {
+            match self.node(open.without(&left_out), &sets, k, z - 1, meter)? {
                 Some(false) => {}
                 other => return Ok(other),
             }
@@ -163,8 +170,6 @@ fn counts(sets: &[Set], items: usize) -> Vec<usize> {
 
 /// Whether weights on the items show that k sets and z items left out are too few.
 fn weighs_too_much(open: &Set, sets: &[Set], counts: &[usize], k: usize, z: usize) -> bool {
-    // The more rounds, the nearer to the best weights there are; most of the way is gone after six.
-    const ROUNDS: usize = 6;
     let mut weights = vec![0.0; counts.len()];
     for item in open.items() {
         weights[item] = if counts[item] == 0 { 1.0 } else { 1.0 / counts[item] as f64 };
@@ -190,6 +195,8 @@ fn weighs_too_much(open: &Set, sets: &[Set], counts: &[usize], k: usize, z: usiz
 
 #[cfg(test)]
 mod tests {
+    use taut_points::Monitor;
+
     use super::*;
 
     fn covered(sets: &[&[usize]], items: usize, k: usize, z: usize) -> bool {
@@ -198,8 +205,9 @@ mod tests {
             items.iter().for_each(|&item| set.insert(item));
             set
         };
-        let mut covering = Covering::of(sets.iter().map(set).collect(), items);
-        let found = covering.search(k, z, &Monitor::silent()).unwrap().unwrap();
+        let mut meter = Meter::endless(&Monitor::silent());
+        let mut covering = Covering::of(sets.iter().map(set).collect(), items, &mut meter).unwrap();
+        let found = covering.search(k, z, &mut meter).unwrap().unwrap();
         if let Some(cover) = &found {
             let held = (0..items).filter(|&item| cover.iter().any(|set| set.has(item))).count();
             assert!(cover.len() <= k && held + z >= items);

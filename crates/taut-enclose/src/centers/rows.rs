@@ -34,7 +34,8 @@ use self::search::{End, Search};
 use self::sites::Sites;
 use self::start::{Incumbent, start};
 use crate::Error;
-use crate::centers::{CentersMethod, CentersOptions};
+use crate::apart::claimed;
+use crate::centers::{CentersMethod, CentersOptions, Few};
 
 /// Once the gap is at most this beyond the one wanted, the radius wanted is tried at once.
 const NEAR: f64 = 0.02;
@@ -50,8 +51,7 @@ fn rounding(sites: &Sites) -> f64 {
 
 /// What is proved when no k balls of less than `radius` hold X: less by a little, so that rounding explains no cover.
 fn proved(radius: f64, sites: &Sites) -> f64 {
-    // The second term is there for reaches at the lower end of the range.
-    (radius * (1.0 - rounding(sites)) - 2f64.powi(-1072)).max(0.0)
+    claimed(radius * (1.0 - rounding(sites)), 1.0)
 }
 
 /// At most k rows as centres of all items but `options.outliers` of them.
@@ -83,6 +83,13 @@ pub(crate) fn solve(
     }
     let sites = Sites::read(source, items, options.weights, monitor)?;
     let outliers = options.outliers as usize;
+    if sites.are_points() {
+        let by_row = sites.by_row();
+        let position = |row: usize| sites.position(by_row[row]);
+        if let Some(few) = Few::of(sites.len(), position, k, outliers) {
+            return Ok(few.solution(k, Placement::Rows, options, items, sites.hash()));
+        }
+    }
     // More centres than rows are of no use.
     let mut bracket = Bracket::new(&sites, k.min(sites.len()), outliers, options, monitor);
     if !bracket.incumbent.radius.is_finite() {
@@ -92,7 +99,7 @@ pub(crate) fn solve(
     if options.method == CentersMethod::Tree {
         bracket.close()?;
     }
-    let (lower, proof) = bracket.proof()?;
+    let (lower, proof, why) = bracket.proof()?;
     let answer = answer(&sites, &bracket.incumbent, outliers, lower, options)?;
     let gap = match answer.radius {
         radius if radius <= lower => 0.0,
@@ -112,6 +119,12 @@ pub(crate) fn solve(
         proof: proof.by,
         points_hash: sites.hash(),
     };
+    // What was shown on the way, as far as it is proved in the end.
+    let bounds = |b: &PassBounds| PassBounds {
+        lower: b.lower.min(lower),
+        upper: b.upper.max(answer.radius),
+        ..*b
+    };
     let mut counters = BTreeMap::from([("scans".to_owned(), bracket.scans)]);
     counters.insert("proof_nodes".to_owned(), proof.nodes);
     let trace = Trace {
@@ -119,11 +132,15 @@ pub(crate) fn solve(
             CentersMethod::FarthestFirst => "farthest-first".to_owned(),
             _ => "tree".to_owned(),
         },
-        stop: if is_reached { Stop::Converged } else { Stop::NodeBudget },
+        stop: match why {
+            _ if is_reached => Stop::Converged,
+            _ if bracket.is_spent => Stop::NodeBudget,
+            why => why.unwrap_or(Stop::Rounding),
+        },
         passes: 1,
         iterations: bracket.nodes,
         core_set: bracket.members.len() as u64,
-        history: bracket.history,
+        history: bracket.history.iter().map(bounds).collect(),
         counters,
     };
     Ok(Solution { answer, certificate, trace })
@@ -142,6 +159,8 @@ struct Bracket<'a> {
     /// Radii less than which no k balls hold so many of the first members, ascending.
     refuted: Vec<(f64, usize)>,
     nodes: u64,
+    /// Whether the nodes ended the search.
+    is_spent: bool,
     scans: u64,
     history: Vec<PassBounds>,
 }
@@ -165,6 +184,7 @@ impl<'a> Bracket<'a> {
             refuted: vec![(start.lower, start.members.len())],
             members: start.members,
             nodes: 0,
+            is_spent: false,
             scans: 0,
             history: vec![],
         }
@@ -221,7 +241,10 @@ impl<'a> Bracket<'a> {
             };
             self.members = core.members;
             match end {
-                End::Spent => break,
+                End::Spent => {
+                    self.is_spent = true;
+                    break;
+                }
                 End::Refuted => {
                     // X has the same balls up to the next of its reaches.
                     let next = self.members.iter().map(|&item| self.sites.next_reach(item, radius));
@@ -244,10 +267,11 @@ impl<'a> Bracket<'a> {
         self.history.push(bounds);
     }
 
-    /// The best bound that can be written down, and its proof.
-    fn proof(&self) -> Result<(f64, Proof), Error> {
+    /// The best bound that can be written down, its proof, and why no better one.
+    fn proof(&self) -> Result<(f64, Proof, Option<Stop>), Error> {
         let (factor, more) = PROOF_NODES;
         let mut max_nodes = self.nodes.saturating_mul(factor).saturating_add(more);
+        let mut why = None;
         for &(radius, count) in self.refuted.iter().rev() {
             let lower = proved(radius, self.sites);
             if lower == 0.0 || self.incumbent.radius == 0.0 {
@@ -257,13 +281,14 @@ impl<'a> Bracket<'a> {
             // At the very bound that is claimed: a reach between it and the radius is in no ball of the checker's.
             let proof =
                 prove(self.sites, members, lower, self.k, self.outliers, max_nodes, self.monitor)?;
-            if let Some(proof) = proof {
-                return Ok((lower, proof));
+            match proof {
+                Ok(proof) => return Ok((lower, proof, why)),
+                Err(reason) => why = why.or(Some(reason)),
             }
             // All tries together cost no more than two of the first.
             max_nodes /= 2;
         }
-        Ok((0.0, Proof { members: vec![], by: LowerBound::Search, nodes: 0 }))
+        Ok((0.0, Proof { members: vec![], by: LowerBound::Search, nodes: 0 }, why))
     }
 }
 
@@ -286,8 +311,13 @@ fn answer(
     left_out.sort_unstable();
     debug_assert!(left_out.len() <= outliers, "the radius leaves out more than may be");
     let close = incumbent.radius * (1.0 - rounding(sites));
+    // Of distances that have lost digits, each may be the largest.
+    let may_be_largest = |&site: &usize| {
+        reaches[site] <= incumbent.radius
+            && (reaches[site] >= close || !sites.is_even(site, centers[nearest[site] as usize]))
+    };
     let radius = (0..sites.len())
-        .filter(|&site| (close..=incumbent.radius).contains(&reaches[site]))
+        .filter(may_be_largest)
         .map(|site| sites.reach_up(site, centers[nearest[site] as usize]))
         .fold(0.0, f64::max);
     if !radius.is_finite() {

@@ -10,6 +10,7 @@ use taut_certify::Items;
 use taut_points::{Monitor, PointSource, PointsHash, ReadError, Rows, hash_block, map_blocks};
 
 use crate::Error;
+use crate::centers::{EVEN, reach_of};
 use crate::kernel::{Center, Difference, relative_error, squared_distances};
 
 /// Rows that share a word.
@@ -119,6 +120,18 @@ impl Sites {
         &self.positions[site * self.dim..(site + 1) * self.dim]
     }
 
+    /// The site of each row.
+    pub(super) fn by_row(&self) -> Vec<usize> {
+        let mut sites = vec![0; self.len()];
+        (0..).zip(&self.rows).for_each(|(site, &row)| sites[row as usize] = site);
+        sites
+    }
+
+    /// Whether no item is a ball of a radius above 0.
+    pub(super) fn are_points(&self) -> bool {
+        self.radii.iter().all(|&radius| radius == 0.0)
+    }
+
     /// Whether all items count alike.
     pub(super) fn are_plain(&self) -> bool {
         self.weights.is_empty() && self.radii.is_empty()
@@ -135,6 +148,11 @@ impl Sites {
         let mut distance = [0.0];
         self.distances(site, &self.center(center), &mut distance);
         distance[0]
+    }
+
+    /// Whether a distance has all its digits.
+    pub(super) fn is_even(&self, site: usize, center: usize) -> bool {
+        site == center || EVEN.contains(&self.distance(site, center))
     }
 
     /// The reach that one of two items has at least, wherever the centre: (D + r₁ + r₂)/2 or a radius for balls,
@@ -241,17 +259,18 @@ impl Sites {
 
     /// The reach of every item from the nearest of these centres, and which that is, the first of several.
     pub(super) fn nearest(&self, centers: &[usize]) -> (Vec<f64>, Vec<u32>) {
-        let mut reaches = vec![f64::INFINITY; self.len()];
+        let mut least = vec![f64::INFINITY; self.len()];
         let mut nearest = vec![0; self.len()];
         for (j, &center) in (0..).zip(centers) {
-            let before = reaches.clone();
-            self.lower(&mut reaches, center);
-            for (site, nearest) in nearest.iter_mut().enumerate() {
-                if reaches[site] < before[site] {
-                    *nearest = j;
+            // Distances, as reaches may vanish or be equal where these differ.
+            let distances = self.by_chunks(center, |_, distances| distances.to_vec()).concat();
+            for (site, distance) in distances.into_iter().enumerate() {
+                if distance < least[site] {
+                    (least[site], nearest[site]) = (distance, j);
                 }
             }
         }
+        let reaches = (0..).zip(least).map(|(site, distance)| self.reach(site, distance)).collect();
         (reaches, nearest)
     }
 
@@ -290,12 +309,18 @@ impl Sites {
     /// is rounded.
     pub(super) fn reach_up(&self, site: usize, center: usize) -> f64 {
         let distance = self.distance(site, center);
+        if !EVEN.contains(&distance) {
+            let weight = self.weights.get(site).copied().unwrap_or(1.0);
+            let radius = self.radii.get(site).copied().unwrap_or(0.0);
+            return reach_of(self.position(site), self.position(center), weight, radius);
+        }
         let reach = self.reach(site, distance);
         let center = self.center(center);
-        let square = Difference::new(self.position(site), &center, 1.0).squared();
+        let difference = Difference::new(self.position(site), &center, 1.0);
+        let (square, is_whole) = (difference.squared(), !difference.vanishes);
         let root = square.high.sqrt();
-        let exact = square.low == 0.0 && root.mul_add(root, -square.high) == 0.0;
-        if distance == 0.0 || exact && self.are_plain() && SAFE.contains(&square.high) {
+        let is_exact = square.low == 0.0 && root.mul_add(root, -square.high) == 0.0;
+        if is_exact && is_whole && self.are_plain() {
             return reach;
         }
         (reach * (1.0 + relative_error(self.dim))).next_up()

@@ -4,7 +4,7 @@
 //! where a node has no way on for a reason (items apart), the items are branched on one after the other until every
 //! child is refuted at once. Items on which no node branches are dropped, and the rest is proved again.
 
-use taut_certify::LowerBound;
+use taut_certify::{LowerBound, Stop};
 use taut_points::{Monitor, ReadError};
 
 use super::core_set::CoreSet;
@@ -24,8 +24,8 @@ pub(super) struct Proof {
     pub(super) nodes: u64,
 }
 
-/// Proves that no k balls of less than `radius` hold all but `outliers` of the members; `None` where that takes more
-/// than `max_nodes`, or is not so.
+/// Proves that no k balls of less than `radius` hold all but `outliers` of the members; or why not: it takes more than
+/// `max_nodes`, or is not so, which can only be by rounding.
 pub(super) fn prove(
     sites: &Sites,
     members: &[usize],
@@ -34,18 +34,19 @@ pub(super) fn prove(
     outliers: usize,
     max_nodes: u64,
     monitor: &Monitor<'_>,
-) -> Result<Option<Proof>, Error> {
+) -> Result<Result<Proof, Stop>, Error> {
     let mut core = CoreSet::new(sites, radius, members);
     if let Look::Dead(mut items) = State::new(k, outliers).look(&core) {
         // One item alone that has no ball is not dead with others apart from it.
         if let Some(count) = k.checked_add(outliers).filter(|&count| items.len() > count) {
             items.truncate(count + 1);
             let members = items.into_iter().map(|item| core.members[item]).collect();
-            return Ok(Some(Proof { members, by: LowerBound::Apart, nodes: 1 }));
+            return Ok(Ok(Proof { members, by: LowerBound::Apart, nodes: 1 }));
         }
     }
-    let Some(mut log) = branches(&core, k, outliers, max_nodes, monitor)? else {
-        return Ok(None);
+    let mut log = match branches(&core, k, outliers, max_nodes, monitor)? {
+        Ok(log) => log,
+        Err(why) => return Ok(Err(why)),
     };
     for _ in 0..ROUNDS {
         let mut used: Vec<u32> = log.clone();
@@ -57,8 +58,8 @@ pub(super) fn prove(
         let members: Vec<usize> = used.iter().map(|&item| core.members[item as usize]).collect();
         let less = CoreSet::new(sites, radius, &members);
         match branches(&less, k, outliers, 2 * log.len() as u64, monitor)? {
-            Some(shorter) => (core, log) = (less, shorter),
-            None => {
+            Ok(shorter) => (core, log) = (less, shorter),
+            Err(_) => {
                 // The log stands as it is, over the items it uses.
                 let place = |item: u32| used.partition_point(|&other| other < item) as u32;
                 (core, log) = (less, log.into_iter().map(place).collect());
@@ -71,7 +72,7 @@ pub(super) fn prove(
         true => LowerBound::Search,
         false => LowerBound::Branches { items: log },
     };
-    Ok(Some(Proof { members: core.members, by, nodes }))
+    Ok(Ok(Proof { members: core.members, by, nodes }))
 }
 
 /// A node above the present one, with the items to branch on below it.
@@ -82,26 +83,26 @@ struct Frame {
     entered: Option<(Child, Undo)>,
 }
 
-/// The items on which the nodes branch, in preorder; `None` where X is held after all, or nodes are used up.
+/// The items on which the nodes branch, in preorder; or why there are none: nodes are used up, or X is held after all.
 fn branches(
     core: &CoreSet<'_>,
     k: usize,
     outliers: usize,
     max_nodes: u64,
     monitor: &Monitor<'_>,
-) -> Result<Option<Vec<u32>>, Error> {
+) -> Result<Result<Vec<u32>, Stop>, Error> {
     let mut log = vec![];
     let mut state = State::new(k, outliers);
     let mut path: Vec<Frame> = vec![];
     loop {
         monitor.check().map_err(ReadError::from)?;
         if log.len() as u64 >= max_nodes {
-            return Ok(None);
+            return Ok(Err(Stop::ProofBudget));
         }
         let mut plan = path.last().map_or(vec![], |frame| frame.plan.clone());
         if plan.is_empty() {
             plan = match state.look(core) {
-                Look::Covered => return Ok(None),
+                Look::Covered => return Ok(Err(Stop::Rounding)),
                 Look::Branch(item) => vec![item],
                 Look::Dead(items) => items,
             };
@@ -111,7 +112,7 @@ fn branches(
         let children = state.children(core, item).into_iter();
         path.push(Frame { item, plan, children, entered: None });
         loop {
-            let Some(frame) = path.last_mut() else { return Ok(Some(log)) };
+            let Some(frame) = path.last_mut() else { return Ok(Ok(log)) };
             if let Some((child, undo)) = frame.entered.take() {
                 state.leave(frame.item, child, undo);
             }
