@@ -145,6 +145,20 @@ fn weights_far_apart_prove_nothing() {
     }
 }
 
+/// The heavy point fixes one centre; the others are 2 apart.
+#[test]
+fn weights_far_apart_do_not_hide_what_is_apart() {
+    let rows = [0.0, 1e150, 1.0, 1e-150, 3.0, 1e-150];
+    let points = Points::new(&rows, 2).unwrap();
+    let centers: [&[f64]; 2] = [&[0.0], &[2.0]];
+    for (lower, is_bound) in [(0.999e-150, true), (1.001e-150, false)] {
+        let radius = 1e-150 * (1.0 + 1e-2);
+        let mut found = by_hand(&points, &centers, (radius, lower), &[0, 1, 2], LowerBound::Apart);
+        found.certificate.weights = true;
+        assert_eq!(found.check(&points).is_ok(), is_bound, "{lower}: {:?}", found.check(&points));
+    }
+}
+
 #[test]
 fn rows_that_are_no_items_are_named() {
     let check = |values: &[f64], change: &dyn Fn(&mut Solution<Centers>)| {
