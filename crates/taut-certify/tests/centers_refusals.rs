@@ -2,14 +2,16 @@
 
 mod common;
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use common::centers::{Best, Case, Task, best, everything, log};
 use common::numbers;
 use proptest::prelude::*;
 use taut_certify::{
-    AnySolution, AnyVerdict, Centers, CentersCertificate, CentersViolation, CheckError, Items,
-    LowerBound, Placement, Solution, Trace, Violation,
+    Answer, AnySolution, AnyVerdict, Centers, CentersCertificate, CentersViolation, CheckError,
+    Items, LowerBound, Placement, Solution, Trace, Violation,
 };
-use taut_points::{Monitor, Points, PointsHash, hash_points};
+use taut_points::{Monitor, Points, PointsHash, ReadError, hash_points};
 
 /// k centres at these places, of this radius.
 fn by_hand(
@@ -145,6 +147,20 @@ fn weights_far_apart_prove_nothing() {
     }
 }
 
+/// The heavy point fixes one centre; the others are 2 apart.
+#[test]
+fn weights_far_apart_do_not_hide_what_is_apart() {
+    let rows = [0.0, 1e150, 1.0, 1e-150, 3.0, 1e-150];
+    let points = Points::new(&rows, 2).unwrap();
+    let centers: [&[f64]; 2] = [&[0.0], &[2.0]];
+    for (lower, is_bound) in [(0.999e-150, true), (1.001e-150, false)] {
+        let radius = 1e-150 * (1.0 + 1e-2);
+        let mut found = by_hand(&points, &centers, (radius, lower), &[0, 1, 2], LowerBound::Apart);
+        found.certificate.weights = true;
+        assert_eq!(found.check(&points).is_ok(), is_bound, "{lower}: {:?}", found.check(&points));
+    }
+}
+
 #[test]
 fn rows_that_are_no_items_are_named() {
     let check = |values: &[f64], change: &dyn Fn(&mut Solution<Centers>)| {
@@ -223,6 +239,36 @@ fn a_search_that_is_cut_short_confirms_nothing() {
         }
         let violation = refusal(&found, &points);
         assert_eq!(violation, CentersViolation::NotConfirmed { nodes: 65_536 });
+    }
+}
+
+/// However small it is, the proof of the bound asks whether to go on after the pass over the rows.
+#[test]
+fn a_proof_that_is_stopped_ends() {
+    let values = [0.0, 0.0, 1.0, 0.0, 0.5, 3f64.sqrt() / 2.0];
+    let points = Points::new(&values, 2).unwrap();
+    let radius = 1.0 / 3f64.sqrt();
+    let branches = LowerBound::Branches { items: vec![0, 1] };
+    for (placement, radius) in [(Placement::Free, radius * (1.0 + 1e-15)), (Placement::Rows, 1.0)] {
+        for proof in [LowerBound::Apart, LowerBound::Search, branches.clone()] {
+            let center: &[f64] = match placement {
+                Placement::Free => &[0.5, radius / 2.0],
+                Placement::Rows => &[0.0, 0.0],
+            };
+            let mut found = by_hand(&points, &[center], (radius, 0.45), &[0, 1, 2], proof);
+            if placement == Placement::Rows {
+                (found.certificate.placement, found.answer.rows) = (placement, vec![0]);
+            }
+            assert!(found.check(&points).is_ok(), "{:?}", found.check(&points));
+            let cancel = AtomicBool::new(false);
+            let stop = |_| cancel.store(true, Ordering::Relaxed);
+            let monitor =
+                Monitor { on_points: Some(&stop), cancel: Some(&cancel), ..Monitor::silent() };
+            match found.answer.check(&found.certificate, &points, &monitor) {
+                Err(CheckError::Read(ReadError::Cancelled(_))) => {}
+                other => panic!("{other:?}"),
+            }
+        }
     }
 }
 

@@ -105,10 +105,7 @@ fn prove(
                 (Some(_), Placement::Rows) => {
                     limited(replay::ITEMS, "rows apart")?;
                     let places = places()?;
-                    first_pair(rows, |i, j| {
-                        meter.spend(places.words())?;
-                        Ok(places.are_apart(i, j))
-                    })?
+                    first_pair(rows, |i, j| places.are_apart(i, j, &mut meter))?
                 }
                 (close, _) => close,
             };

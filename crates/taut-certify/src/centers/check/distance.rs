@@ -17,7 +17,7 @@ use crate::arithmetic::{Integer, Ring, U, parts};
 const LANES: usize = 8;
 
 /// Steps that a coordinate takes in whole numbers.
-const EXACT: usize = 200;
+const EXACT: usize = 60;
 
 /// A multiplication by the power of two that brings a length near 1; exact, but for what underflows beside it.
 #[derive(Clone, Copy, Debug)]

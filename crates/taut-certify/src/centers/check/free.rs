@@ -106,8 +106,9 @@ impl Room for Free<'_> {
         self.core.len()
     }
 
-    fn are_apart(&self, i: usize, j: usize) -> bool {
-        self.pairs.are_apart(i, j)
+    fn are_apart(&self, i: usize, j: usize, meter: &mut Meter<'_>) -> Result<bool, Stop> {
+        meter.spend(1)?;
+        Ok(self.pairs.are_apart(i, j))
     }
 
     fn open(&mut self, item: usize) -> Option<Group> {

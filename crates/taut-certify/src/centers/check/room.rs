@@ -17,7 +17,7 @@ pub(super) trait Room {
     fn len(&self) -> usize;
 
     /// Whether it is known without a search that no ball holds both items.
-    fn are_apart(&self, i: usize, j: usize) -> bool;
+    fn are_apart(&self, i: usize, j: usize, meter: &mut Meter<'_>) -> Result<bool, Stop>;
 
     /// A group of one item; `None` where it is refuted.
     fn open(&mut self, item: usize) -> Option<Self::Group>;

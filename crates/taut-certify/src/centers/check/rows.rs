@@ -81,14 +81,15 @@ impl Places {
         Ok(Places { sets, near })
     }
 
-    /// How many words a set of places has.
-    pub(super) fn words(&self) -> usize {
-        self.sets.len().div_ceil(64)
-    }
-
     /// Whether no place is near to both.
-    pub(super) fn are_apart(&self, i: usize, j: usize) -> bool {
-        self.near[i].iter().zip(&self.near[j]).all(|(a, b)| a & b == 0)
+    pub(super) fn are_apart(
+        &self,
+        i: usize,
+        j: usize,
+        meter: &mut Meter<'_>,
+    ) -> Result<bool, Stop> {
+        meter.spend(self.near[i].len())?;
+        Ok(self.near[i].iter().zip(&self.near[j]).all(|(a, b)| a & b == 0))
     }
 }
 
@@ -101,8 +102,8 @@ impl Room for &Places {
         self.near.len()
     }
 
-    fn are_apart(&self, i: usize, j: usize) -> bool {
-        Places::are_apart(self, i, j)
+    fn are_apart(&self, i: usize, j: usize, meter: &mut Meter<'_>) -> Result<bool, Stop> {
+        Places::are_apart(self, i, j, meter)
     }
 
     fn open(&mut self, item: usize) -> Option<Bits> {

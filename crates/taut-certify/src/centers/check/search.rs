@@ -46,13 +46,15 @@ pub(super) fn search<R: Room>(
     meter: &mut Meter<'_>,
 ) -> Result<(Outcome, u64), Stop> {
     let n = room.len();
-    let apart = (0..n)
-        .map(|i| {
-            let mut apart = vec![0; n.div_ceil(64)];
-            (0..n).filter(|&j| j != i && room.are_apart(i, j)).for_each(|j| set(&mut apart, j));
-            apart
-        })
-        .collect();
+    let mut apart = vec![vec![0; n.div_ceil(64)]; n];
+    for i in 0..n {
+        for j in 0..i {
+            if room.are_apart(i, j, meter)? {
+                set(&mut apart[i], j);
+                set(&mut apart[j], i);
+            }
+        }
+    }
     let mut search = Search {
         apart,
         opens: (0..n).map(|item| room.open(item).is_some()).collect(),
