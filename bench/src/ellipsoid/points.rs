@@ -64,6 +64,7 @@ impl Solved {
                 Stop::Rounding => "rounding",
                 Stop::PassBudget => "pass budget",
                 Stop::NodeBudget => "node budget",
+                Stop::ProofBudget => "proof budget",
             }
             .to_owned(),
             trace.passes.to_string(),

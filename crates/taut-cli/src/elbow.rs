@@ -236,6 +236,7 @@ fn name_of(stop: Stop) -> &'static str {
         Stop::Rounding => "rounding",
         Stop::PassBudget => "pass-budget",
         Stop::NodeBudget => "node-budget",
+        Stop::ProofBudget => "proof-budget",
     }
 }
 

@@ -76,7 +76,7 @@ enum Part<P> {
     Node(u32),
     /// All from the node on to which so many decisions led.
     Below {
-        state: Clusters<P>,
+        state: Box<Clusters<P>>,
         depth: usize,
     },
 }
@@ -123,7 +123,7 @@ impl<'a, P: Position> PlainTree<'a, P> {
             .into_par_iter()
             .map(|part| match part {
                 Part::Node(item) => Ok(Piece::node(item)),
-                Part::Below { state, .. } => self.below(state, self.budget),
+                Part::Below { state, .. } => self.below(*state, self.budget),
             })
             .collect::<Result<_, Error>>()?;
         let nodes: u64 = pieces.iter().map(|piece| piece.log.items.len() as u64).sum();
@@ -144,7 +144,7 @@ impl<'a, P: Position> PlainTree<'a, P> {
 
     /// The tree opened from its root on, nodes nearest to it first; `bounds` takes what its children are refuted by.
     fn open(&self, bounds: &mut Log) -> Result<Option<Vec<Part<P>>>, Error> {
-        let mut parts = vec![Part::Below { state: self.root(), depth: 0 }];
+        let mut parts = vec![Part::Below { state: Box::new(self.root()), depth: 0 }];
         let mut unknown = 1;
         while (1..PARTS).contains(&unknown) {
             self.monitor.check().map_err(ReadError::from)?;
