@@ -3,7 +3,7 @@
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use taut::enclose::Error;
-use taut::{Items, SphereTreeOptions, sphere_tree as tree_of};
+use taut::{Items, SphereTreeOptions, sphere_tree_of_source};
 
 use crate::items::raise;
 use crate::numbers::whole;
@@ -30,11 +30,11 @@ pub(crate) fn sphere_tree(
     let tree = match &rows {
         Rows::F32(array) => {
             let points = points(array)?;
-            interruptible(py, |_| tree_of(&points, &options))?
+            interruptible(py, |monitor| sphere_tree_of_source(&points, &options, monitor))?
         }
         Rows::F64(array) => {
             let points = points(array)?;
-            interruptible(py, |_| tree_of(&points, &options))?
+            interruptible(py, |monitor| sphere_tree_of_source(&points, &options, monitor))?
         }
     };
     SphereTree::new(py, &tree.map_err(refused)?)

@@ -205,6 +205,8 @@ def sphere_tree(
     ValueError
         When there is no point, a coordinate is NaN or infinite, sizes are beyond what float64 can hold, or an option is
         out of range.
+    KeyboardInterrupt
+        Ctrl-C stops the work.
 
     See Also
     --------

@@ -18,7 +18,8 @@ use crate::report;
 The search takes time exponential in k: seconds for ten centres in the plane, and for twenty a --max-nodes or a larger
 --epsilon is wise. farthest-first takes any number of centres, and stream files larger than memory.
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
-      3 stopped early by the budget of nodes, or where rounding hides the gap that was asked for;
+      3 stopped early by the budget of nodes, of the search or of its proof, or where rounding hides the gap
+        that was asked for;
         the gap reached is reported
 Example: taut centers points.csv -k 5 -o centers.json --draw centers.svg && taut verify centers.json points.csv
          taut centers points.csv --elbow 1..10 --draw elbow.svg")]

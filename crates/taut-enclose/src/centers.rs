@@ -61,7 +61,8 @@ const PROOF_NODES: u64 = 10_000;
 /// ([`CentersOptions::max_nodes`]) and returns centres with the gap proved so far, at worst that of farthest-first traversal, a
 /// factor of 2 (with weights or outliers there is no such promise). Duplicates, points on a line and k ≥ n are solved as any others.
 ///
-/// *Cost.* Nodes of some 5 to 50 µs: about a thousand for k = 5, 10⁴ for k = 10, 10⁵ for k = 15 in the plane at 1 %. All points are
+/// *Cost.* Nodes of some 5 to 50 µs in the plane and in space, and of milliseconds in hundreds of dimensions, where for
+/// k = 1 [`ball()`](crate::ball()) is far better: about a thousand for k = 5, 10⁴ for k = 10, 10⁵ for k = 15 in the plane at 1 %. All points are
 /// in memory as `f64`, three times as they are put in order and twice from then on; a look at all of them takes a small part of
 /// them on average in few dimensions.
 ///
@@ -251,7 +252,10 @@ fn prove<P: Position>(
     z: usize,
     monitor: &Monitor<'_>,
 ) -> Result<(Proof, u64, Option<Stop>), Error> {
-    let plain = if apart.is_empty() { Proof::none() } else { Proof::apart(cloud, apart) };
+    let plain = match apart.is_empty() {
+        true => Proof::none(),
+        false => Proof::apart(cloud, apart, monitor)?,
+    };
     let mut budget = found.nodes.saturating_mul(PROOF_FACTOR).saturating_add(PROOF_NODES);
     let (mut given_up, mut why) = (0, None);
     for &Shown { threshold, items } in found.shown.iter().rev() {

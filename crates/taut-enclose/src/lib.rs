@@ -58,4 +58,6 @@ pub use farthest_first::{
 };
 pub use inscribed::{InscribedOptions, inscribed_ellipsoid, inscribed_ellipsoid_of_source};
 pub use robust::{RobustOptions, robust_ellipsoid, robust_ellipsoid_of_source};
-pub use sphere_tree::{SphereNode, SphereTree, SphereTreeOptions, sphere_tree};
+pub use sphere_tree::{
+    SphereNode, SphereTree, SphereTreeOptions, sphere_tree, sphere_tree_of_source,
+};

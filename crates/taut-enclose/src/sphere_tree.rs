@@ -14,7 +14,7 @@ mod split;
 
 use rayon::prelude::*;
 use taut_certify::Ball;
-use taut_points::{Monitor, PointSource, Points, Scalar};
+use taut_points::{Monitor, PointSource, Points, ReadError, Scalar, gather};
 
 use crate::frame::survey;
 use crate::threads::on_threads;
@@ -103,12 +103,37 @@ pub fn sphere_tree<T: Scalar>(
     points: &Points<'_, T>,
     options: &SphereTreeOptions,
 ) -> Result<SphereTree, Error> {
-    if options.leaf_size == 0 {
-        return Err(Error::Option { name: "leaf_size", value: "0".into(), expected: "at least 1" });
+    let silent = Monitor::silent();
+    options.check(points, &silent)?;
+    on_threads(options.threads, || build(points, options, &silent))
+}
+
+/// The same for the points of a source, which are read into memory.
+///
+/// # Errors
+/// As [`sphere_tree()`], and [`Error::Read`] when the source fails or `monitor` stops the work, which it is asked for each node.
+pub fn sphere_tree_of_source(
+    source: &dyn PointSource,
+    options: &SphereTreeOptions,
+    monitor: &Monitor<'_>,
+) -> Result<SphereTree, Error> {
+    options.check(source, monitor)?;
+    let rows: Vec<u64> = (0..source.len()).collect();
+    let values = gather(source, &rows)?;
+    let points = Points::new(&values, source.dim()).expect("a source has whole rows");
+    on_threads(options.threads, || build(&points, options, monitor))
+}
+
+impl SphereTreeOptions {
+    /// Refuses wrong options, and points that are no numbers.
+    fn check(&self, source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<(), Error> {
+        if self.leaf_size == 0 {
+            let (name, value) = ("leaf_size", "0".into());
+            return Err(Error::Option { name, value, expected: "at least 1" });
+        }
+        // What a row is called, whatever is wrong with it: the balls know rows by their place in a node.
+        survey(source, monitor).map(|_| ())
     }
-    // What a row is called, whatever is wrong with it: the balls know rows by their place in a node.
-    survey(points as &dyn PointSource, &Monitor::silent())?;
-    on_threads(options.threads, || build(points, options))
 }
 
 /// A node whose ball is still to be found.
@@ -122,6 +147,7 @@ struct Open<'a, T> {
 fn build<T: Scalar>(
     points: &Points<'_, T>,
     options: &SphereTreeOptions,
+    monitor: &Monitor<'_>,
 ) -> Result<SphereTree, Error> {
     let dim = points.dim();
     let mut values = points.values().to_vec();
@@ -131,7 +157,10 @@ fn build<T: Scalar>(
     while !level.is_empty() {
         let done = level
             .par_iter_mut()
-            .map(|open| open.enclose_and_part(dim, options))
+            .map(|open| {
+                monitor.check().map_err(ReadError::from)?;
+                open.enclose_and_part(dim, options)
+            })
             .collect::<Vec<_>>();
         let (first, mut next) = (nodes.len() + level.len(), vec![]);
         for (open, done) in level.into_iter().zip(done) {

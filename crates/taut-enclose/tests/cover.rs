@@ -9,8 +9,10 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use taut_certify::{Centers, Placement, Solution};
-use taut_enclose::{Cover, CoverOptions, Covered, Error, Summary, cover_of_source};
-use taut_points::{Distribution, Monitor, Points, generate};
+use taut_enclose::{
+    CentersOptions, Cover, CoverOptions, Covered, Error, Summary, centers, cover_of_source,
+};
+use taut_points::{Distribution, Monitor, Points, generate, hash_points};
 
 fn seeded(cases: u32) -> Config {
     Config { cases, rng_seed: RngSeed::Fixed(8), failure_persistence: None, ..Config::default() }
@@ -298,6 +300,18 @@ fn summaries_that_do_not_belong_together_are_refused() {
     let mut found = one.solve(1, Placement::Free, &points, silent).unwrap();
     found.certificate.core_set = vec![0, 7];
     assert!(matches!(lift(&one, found, &points), Err(Error::Option { name: "found", .. })));
+    // Solved for other points.
+    let mut found = one.solve(1, Placement::Free, &points, silent).unwrap();
+    let others = Points::new(&[1.0, 3.0], 1).unwrap();
+    found.certificate.points_hash = hash_points(&others, silent).unwrap();
+    assert!(matches!(lift(&one, found, &points), Err(Error::Option { name: "found", .. })));
+    // Of 0 and 2 alone no row is nearer than 2 to both; of 0, 1 and 2 there is one.
+    let points = Points::new(&[0.0, 2.0, 1.0], 1).unwrap();
+    let ends = Summary::of(&Points::new(&[0.0, 2.0], 1).unwrap(), 0, 2).unwrap();
+    let options = CentersOptions { placement: Placement::Rows, ..Default::default() };
+    let found = centers(&ends.points().unwrap(), 1, &options).unwrap();
+    assert!(found.answer.lower_bound > 1.9);
+    assert!(matches!(lift(&ends, found, &points), Err(Error::Option { name: "found", .. })));
     // Two points of three, and two centres: nothing is proved of the third.
     let points = Points::new(&[1.0, 2.0, 4.0], 1).unwrap();
     let one = Summary::of(&points, 0, 2).unwrap();

@@ -110,7 +110,7 @@ pub use taut_enclose::{
     cover_of_source, ellipsoid, ellipsoid_of_balls, ellipsoid_of_ellipsoids, ellipsoid_of_items,
     ellipsoid_of_source, ellipsoids, ellipsoids_of_sources, farthest_first,
     farthest_first_of_source, inscribed_ellipsoid, inscribed_ellipsoid_of_source, robust_ellipsoid,
-    robust_ellipsoid_of_source, sphere_tree,
+    robust_ellipsoid_of_source, sphere_tree, sphere_tree_of_source,
 };
 pub use taut_points as points;
 pub use taut_points::{Distribution, Monitor, PointSource, Points, generate};

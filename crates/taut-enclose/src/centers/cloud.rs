@@ -10,7 +10,10 @@
 use std::cmp::Ordering;
 use std::ops::Range;
 
+use taut_points::{Monitor, ReadError};
+
 use super::items::{ItemSet, Position, Shape, distance, square};
+use crate::Error;
 
 /// Items in a cell. 16 to 64 serve equally well on 15,112 cities.
 const LEAF: usize = 32;
@@ -177,7 +180,12 @@ impl<P: Position> Cloud<P> {
 
     /// Farthest-first traversal: `first`, then again and again the item that reaches farthest from the positions of all before.
     /// It ends early when no item is left, or only copies of points.
-    pub(super) fn traverse(&self, first: u32, count: usize) -> Traversal {
+    pub(super) fn traverse(
+        &self,
+        first: u32,
+        count: usize,
+        monitor: &Monitor<'_>,
+    ) -> Result<Traversal, Error> {
         let mut reaches = vec![f64::INFINITY; self.len()];
         let mut tops: Vec<Far> = self
             .cells
@@ -187,6 +195,7 @@ impl<P: Position> Cloud<P> {
         let mut traversal = Traversal { items: vec![] };
         let mut next = first;
         while traversal.items.len() < count.min(self.len()) {
+            monitor.check().map_err(ReadError::from)?;
             traversal.items.push(next);
             // It is not to come again, though a ball reaches beyond its own centre.
             reaches[next as usize] = f64::NEG_INFINITY;
@@ -221,7 +230,7 @@ impl<P: Position> Cloud<P> {
             }
             next = farthest.item;
         }
-        traversal
+        Ok(traversal)
     }
 }
 
@@ -327,7 +336,7 @@ mod tests {
     #[test]
     fn a_traversal_takes_the_farthest_each_time() {
         clouds(|cloud, what| {
-            let traversal = cloud.traverse(0, 12).items;
+            let traversal = cloud.traverse(0, 12, &Monitor::silent()).unwrap().items;
             for at in 1..traversal.len() {
                 let centers: Vec<Vec<f64>> = traversal[..at]
                     .iter()

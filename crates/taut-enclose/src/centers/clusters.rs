@@ -8,6 +8,8 @@
 //! *Choice.* The item that fits in the fewest clusters; of equals, the one that makes them grow most. Items that fit in none
 //! need an empty cluster each, if no two of them fit in one: a clique.
 
+use std::sync::Arc;
+
 use super::conflict::Levels;
 use super::items::{ItemSet, Position, Shape, distance};
 use super::small_ball::{Ball, Workspace};
@@ -75,7 +77,8 @@ pub(super) enum Survey {
 /// The state of a search.
 #[derive(Clone)]
 pub(super) struct Clusters<P> {
-    pub(super) items: ItemSet<P>,
+    /// The core-set, which states share until one of them adds to it.
+    pub(super) items: Arc<ItemSet<P>>,
     pub(super) clusters: Vec<Cluster<P>>,
     /// Balls must stay below this radius.
     pub(super) threshold: f64,
@@ -97,7 +100,7 @@ pub(super) struct Clusters<P> {
 }
 
 impl<P: Position> Clusters<P> {
-    pub(super) fn new(items: ItemSet<P>, k: usize, spare: u64, threshold: f64) -> Self {
+    pub(super) fn new(items: Arc<ItemSet<P>>, k: usize, spare: u64, threshold: f64) -> Self {
         let (left_out, levels) = (vec![false; items.len()], vec![0; items.len()]);
         let work = Workspace::new(items.dim());
         Clusters {
@@ -119,7 +122,7 @@ impl<P: Position> Clusters<P> {
 
     /// Adds an item to the core-set.
     pub(super) fn add(&mut self, position: &[f64], extra: f64) {
-        self.items.push(position, extra);
+        Arc::make_mut(&mut self.items).push(position, extra);
         self.left_out.push(false);
         self.levels.push(0);
     }

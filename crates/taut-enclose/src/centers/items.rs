@@ -64,6 +64,16 @@ impl<P: Position> ItemSet<P> {
         ItemSet { shape, dim, coordinates: vec![], extras: vec![], position: PhantomData }
     }
 
+    /// Some of these.
+    pub(super) fn some(&self, which: &[u32]) -> Self {
+        let mut some = ItemSet::new(self.shape, self.dim);
+        for &item in which {
+            let item = item as usize;
+            some.push(self.at(item), if self.extras.is_empty() { 0.0 } else { self.extras[item] });
+        }
+        some
+    }
+
     pub(super) fn shape(&self) -> Shape {
         self.shape
     }

@@ -77,8 +77,10 @@ pub struct CentersOptions {
     pub outliers: u64,
     /// Whether the last column holds weights w > 0: a point then counts with w times its distance. Default no.
     pub weights: bool,
-    /// Most nodes of the search; then the best centres so far are returned with their gap. Writing down the proof may take
-    /// twenty times the nodes of the search, and 10,000; where it takes more, the bound before is proved. Default 10 million.
+    /// Most nodes of the search; then the best centres so far are returned with their gap. A node with k clusters beside a
+    /// core-set of m items in d dimensions counts once more for each 20,000 of kmd; a search ends up to some hundred nodes
+    /// before the last. Writing down the proof may take trees of twenty times the nodes of the search, and 10,000; where it
+    /// takes more, the bound before is proved. Default 10 million.
     pub max_nodes: u64,
     /// Whether the answer is to say which centre each item has. Default no.
     pub assignment: bool,

@@ -3,10 +3,11 @@
 //! *Idea.* The radius and the items stay as they are: each item is given to each cluster in turn, to a new one, and to those left
 //! out, and each of these children has a tree of its own or is refuted at once by a ball that is too large.
 //! *Threads.* What is below a node depends on nothing beside it. A tree that is not small is opened from its root until there are
-//! [`PARTS`] nodes whose trees are unknown; these are made side by side, and their logs put where they belong.
+//! [`PARTS`] nodes whose trees are unknown, or [`OPENED`] in all; these are made side by side, and their logs put where they belong.
 //! *Guarantee.* One set of options has one log, or one reason to have none: it is longer than the budget, else it does not end in
 //! dead ends alone. So a part that does not, stops no other.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
@@ -22,6 +23,8 @@ use crate::Error;
 const SMALL: u64 = 1000;
 /// Far more than there are cores, as some are a hundred times as large as others.
 const PARTS: usize = 256;
+/// A tree that so many nodes have not made so wide is left as it is.
+const OPENED: usize = 4 * PARTS;
 /// Nodes until they are counted, and it is asked whether to go on.
 const BREATH: u64 = 64;
 
@@ -60,7 +63,7 @@ impl Piece {
 
 /// The tree that is asked for.
 pub(super) struct PlainTree<'a, P> {
-    items: ItemSet<P>,
+    items: Arc<ItemSet<P>>,
     threshold: f64,
     k: usize,
     z: usize,
@@ -99,10 +102,7 @@ impl<'a, P: Position> PlainTree<'a, P> {
         budget: u64,
         monitor: &'a Monitor<'a>,
     ) -> Self {
-        let mut items = ItemSet::new(cloud.items.shape(), cloud.items.dim());
-        for &item in core_set {
-            items.push(cloud.items.at(item as usize), cloud.items.extra(item as usize));
-        }
+        let items = Arc::new(cloud.items.some(core_set));
         PlainTree { items, threshold, k, z, budget, monitor, nodes: AtomicU64::new(0) }
     }
 
@@ -146,7 +146,7 @@ impl<'a, P: Position> PlainTree<'a, P> {
     fn open(&self, bounds: &mut Log) -> Result<Option<Vec<Part<P>>>, Error> {
         let mut parts = vec![Part::Below { state: Box::new(self.root()), depth: 0 }];
         let mut unknown = 1;
-        while (1..PARTS).contains(&unknown) {
+        while (1..PARTS).contains(&unknown) && parts.len() < OPENED {
             self.monitor.check().map_err(ReadError::from)?;
             let unknowns = parts.iter_mut().enumerate().filter_map(|(at, part)| match part {
                 Part::Node(_) => None,

@@ -30,6 +30,8 @@ const SEARCH_NODES: u64 = 2000;
 const SEARCH_CENTERS: usize = 8;
 /// Core-sets of more items are not given to a search, and of still more to no checker at all.
 const SEARCH_ITEMS: usize = 1000;
+/// Nor are those with more coordinates: the work for one node grows with d and with the square of the items of a ball.
+const SEARCH_COORDINATES: usize = 4000;
 const BRANCH_ITEMS: usize = 16_000;
 /// Trees over what the one before has branched on, or with open children farther from the bound.
 const ROUNDS: usize = 5;
@@ -50,10 +52,14 @@ impl Proof {
     }
 
     /// More than k + z items no two of which fit in a ball of a smaller radius.
-    pub(super) fn apart<P: Position>(cloud: &Cloud<P>, core_set: Vec<u32>) -> Self {
+    pub(super) fn apart<P: Position>(
+        cloud: &Cloud<P>,
+        core_set: Vec<u32>,
+        monitor: &Monitor<'_>,
+    ) -> Result<Self, Error> {
         let rounding = PAIR_ROUNDING + cloud.items.dim() as f64 * f64::EPSILON;
-        let lower = least_pair_radius(cloud, &core_set) * (1.0 - rounding);
-        Proof { lower, core_set, kind: LowerBound::Apart, nodes: 0 }
+        let lower = least_pair_radius(cloud, &core_set, monitor)? * (1.0 - rounding);
+        Ok(Proof { lower, core_set, kind: LowerBound::Apart, nodes: 0 })
     }
 
     /// That no k balls of a radius less than `threshold` hold all of the core-set but z; or why not: it takes more than `budget`
@@ -70,7 +76,7 @@ impl Proof {
         let room = k.saturating_add(z);
         let apart = large_clique(&cloud.items, core_set, threshold, room);
         if apart.len() > room {
-            return Ok(Ok(Self::apart(cloud, apart)));
+            return Ok(Ok(Self::apart(cloud, apart, monitor)?));
         }
         let mut best: Option<(Vec<u32>, Log)> = None;
         let (mut budget, mut threshold) = (budget, threshold);
@@ -101,7 +107,9 @@ impl Proof {
             return Ok(Err(Stop::ProofBudget));
         }
         let nodes = log.items.len() as u64;
-        let is_small = nodes <= SEARCH_NODES && core_set.len() <= SEARCH_ITEMS;
+        let is_small = nodes <= SEARCH_NODES
+            && core_set.len() <= SEARCH_ITEMS
+            && core_set.len() * cloud.items.dim() <= SEARCH_COORDINATES;
         let lower = log.lower * (1.0 - ROUNDING);
         let kind = match is_small && k <= SEARCH_CENTERS {
             true => LowerBound::Search,

@@ -62,18 +62,6 @@ pub(crate) fn solve(
     options: &CentersOptions,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Centers>, Error> {
-    if k == 0 {
-        let (name, value) = ("k", k.to_string());
-        return Err(Error::Option { name, value, expected: "at least 1" });
-    }
-    if options.method == CentersMethod::Thesis {
-        let (name, value) = ("method", "thesis".into());
-        return Err(Error::Option {
-            name,
-            value,
-            expected: "tree or farthest-first among the rows",
-        });
-    }
     if !source.is_empty() && options.outliers >= source.len() {
         return Err(Error::Option {
             name: "outliers",

@@ -52,17 +52,17 @@ pub(super) fn start<P: Position>(
     let mut at = 0;
     while at < firsts.len() {
         monitor.check().map_err(ReadError::from)?;
-        let traversal = cloud.traverse(firsts[at], count).items;
+        let traversal = cloud.traverse(firsts[at], count, monitor)?.items;
         if at == 0 {
             firsts.extend(traversal.iter().skip(1).take(2));
         }
         at += 1;
         let plain = heaviest(cloud, &traversal, k, z);
-        let incumbent = improve(cloud, plain.clone(), k, z);
+        let incumbent = improve(cloud, plain.clone(), k, z, monitor)?;
         let apart: Vec<u32> =
             traversal.iter().copied().take(k.saturating_add(z).saturating_add(1)).collect();
         let apart = if apart.len() > k.saturating_add(z) { apart } else { vec![] };
-        let lower = least_pair_radius(cloud, &apart);
+        let lower = least_pair_radius(cloud, &apart, monitor)?;
         let Some(best) = &mut best else {
             best = Some(Start { incumbent, plain, lower, apart, traversal });
             continue;
@@ -96,14 +96,19 @@ fn extremes<P: Position>(cloud: &Cloud<P>) -> (u32, u32) {
 }
 
 /// The least radius of a ball of two of these; 0 for none.
-pub(super) fn least_pair_radius<P: Position>(cloud: &Cloud<P>, items: &[u32]) -> f64 {
+pub(super) fn least_pair_radius<P: Position>(
+    cloud: &Cloud<P>,
+    items: &[u32],
+    monitor: &Monitor<'_>,
+) -> Result<f64, Error> {
     let mut least = f64::INFINITY;
     for (at, &a) in items.iter().enumerate() {
+        monitor.check().map_err(ReadError::from)?;
         for &b in &items[..at] {
             least = least.min(cloud.items.pair_radius(a as usize, b as usize));
         }
     }
-    if least.is_finite() { least } else { 0.0 }
+    Ok(if least.is_finite() { least } else { 0.0 })
 }
 
 /// The first k + z of a traversal, but for the z to which the fewest items are nearest.
@@ -140,11 +145,13 @@ pub(super) fn improve<P: Position>(
     mut best: Incumbent<P>,
     k: usize,
     z: usize,
-) -> Incumbent<P> {
+    monitor: &Monitor<'_>,
+) -> Result<Incumbent<P>, Error> {
     let mut work = Workspace::new(cloud.items.dim());
     let mut clusters: Vec<Vec<u32>> = vec![];
     let mut left_out = vec![false; cloud.len()];
     for _ in 0..MOST_STEPS {
+        monitor.check().map_err(ReadError::from)?;
         left_out.iter_mut().for_each(|is_out| *is_out = false);
         for far in cloud.farthest(&best.centers, z) {
             left_out[far.item as usize] = true;
@@ -171,11 +178,11 @@ pub(super) fn improve<P: Position>(
             .collect();
         let next = measured(cloud, centers, z);
         if next.radius >= best.radius * (1.0 - GAIN) {
-            return if next.radius < best.radius { next } else { best };
+            return Ok(if next.radius < best.radius { next } else { best });
         }
         best = next;
     }
-    best
+    Ok(best)
 }
 
 /// The item to open a further centre at, where there are fewer than k.

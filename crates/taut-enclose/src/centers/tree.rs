@@ -6,7 +6,7 @@
 //! get smaller, and the farthest item joins X. The item with the fewest colours left is coloured next ([`super::clusters`]).
 //! ε comes down in steps, 0.1, 0.05, …: each step that ends has proved a gap, and leaves a better σ and X to the next.
 //! *Restarts.* An early choice on a small X may be a poor one: while X grows, the tree starts anew after 200 nodes, then 400, ….
-//! *Threads.* A tree that is not small is cut into [`WALKS`] walks ([`super::walk`]), which go on side by side for [`ROUND`] nodes
+//! *Threads.* A tree that is not small is cut into up to [`WALKS`] walks ([`super::walk`]), which go on side by side for [`ROUND`] nodes
 //! each, knowing nothing of one another; then all learn what each has found, in the order of the walks, those that a dead
 //! end of another one refutes are dropped, and others are cut in their place. None of this knows how many threads there are.
 //! *Guarantee.* σ ≤ (1 + ε)·σ*, unless the nodes run out; then the gap of the last step that ended. The same on every run and for
@@ -133,12 +133,13 @@ pub(super) fn solve<P: Position>(
                 Err(Halt::Error(error)) => return Err(error),
                 Err(_) => {
                     stop = Stop::NodeBudget;
+                    history.push(search.bounds(lower));
                     break;
                 }
             }
         }
         let upper = search.best.radius;
-        history.push(PassBounds { lower, upper, working_set: search.core_set.len() as u64 });
+        history.push(search.bounds(lower));
         if search.gap <= epsilon {
             break;
         }
@@ -150,6 +151,11 @@ pub(super) fn solve<P: Position>(
 }
 
 impl<P: Position> Search<'_, P> {
+    /// What is known, with this lower bound.
+    fn bounds(&self, lower: f64) -> PassBounds {
+        PassBounds { lower, upper: self.best.radius, working_set: self.core_set.len() as u64 }
+    }
+
     /// Trees until one ends; the radius below which no balls were found.
     fn tree(&mut self) -> Result<f64, Halt> {
         let mut run = FIRST_RUN;

@@ -9,20 +9,21 @@
 //! dead end rests on. A larger core-set and a smaller threshold do not change that.
 
 use std::collections::HashSet;
+use std::sync::Arc;
 
 use taut_points::{Monitor, ReadError};
 
 use super::cloud::Cloud;
 use super::clusters::{Clusters, Place, Survey, Undo, large_clique};
 use super::conflict::Levels;
-use super::items::{ItemSet, Position};
+use super::items::Position;
 use super::start::{Incumbent, improve};
 use crate::Error;
 
-/// Centres whose radius is this near to the best are worth Lloyd's steps.
+/// Centres whose radius is this near to the best are worth Lloyd's steps, and those within the gap that is sought.
 const WORTH_IMPROVING: f64 = 1.01;
-/// So many pairs of a cluster and an item count as a node.
-const NODE_PAIRS: usize = 10_000;
+/// So many coordinates, of the items beside each cluster, count as a node.
+const NODE_COORDINATES: usize = 20_000;
 /// The work of so many nodes goes by before it is asked whether to go on.
 const BREATH: u64 = 256;
 
@@ -80,16 +81,6 @@ pub(super) enum End {
     Grown,
 }
 
-/// The state over these items before any decision.
-fn state_of<P: Position>(task: &Task<'_, P>, core_set: &[u32], threshold: f64) -> Clusters<P> {
-    let all = &task.cloud.items;
-    let mut items = ItemSet::new(all.shape(), all.dim());
-    for &item in core_set {
-        items.push(all.at(item as usize), all.extra(item as usize));
-    }
-    Clusters::new(items, task.k, task.z as u64, threshold)
-}
-
 impl<'c, P: Position> Walk<'c, P> {
     /// At the root. None where the core-set holds more items that need a ball each than there may be.
     pub(super) fn new(
@@ -98,7 +89,9 @@ impl<'c, P: Position> Walk<'c, P> {
         best: &Incumbent<P>,
         gap: f64,
     ) -> Result<Option<Self>, Error> {
-        let mut state = state_of(task, core_set, best.radius / (1.0 + gap));
+        let items = Arc::new(task.cloud.items.some(core_set));
+        let threshold = best.radius / (1.0 + gap);
+        let mut state = Clusters::new(items, task.k, task.z as u64, threshold);
         let room = task.k.saturating_add(task.z);
         let all: Vec<u32> = (0..core_set.len() as u32).collect();
         let clique = large_clique(&state.items, &all, state.threshold, room);
@@ -129,11 +122,11 @@ impl<'c, P: Position> Walk<'c, P> {
         let first = self.nodes;
         while self.nodes - first < nodes {
             let before = self.nodes;
-            self.nodes += 1 + (self.state.clusters.len() * self.core_set.len() / NODE_PAIRS) as u64;
+            self.nodes += self.size();
             if before / BREATH != self.nodes / BREATH {
                 self.task.monitor.check().map_err(ReadError::from)?;
             }
-            let failed = match self.examine() {
+            let failed = match self.examine()? {
                 Ok(item) => {
                     let places = self.state.places(item);
                     self.frames.push(Frame {
@@ -157,6 +150,12 @@ impl<'c, P: Position> Walk<'c, P> {
             }
         }
         Ok(End::Open)
+    }
+
+    /// As how many nodes the present one counts.
+    fn size(&self) -> u64 {
+        let items = self.state.clusters.len() * self.core_set.len();
+        1 + (items.saturating_mul(self.state.items.dim()) / NODE_COORDINATES) as u64
     }
 
     /// On to the next child of the deepest node that has one; where none has, how that ends.
@@ -209,14 +208,14 @@ impl<'c, P: Position> Walk<'c, P> {
     }
 
     /// The item to branch on, after as many looks at all items as it takes; in a dead end, what that rests on.
-    fn examine(&mut self) -> Result<u32, Levels> {
+    fn examine(&mut self) -> Result<Result<u32, Levels>, Error> {
         loop {
             match self.state.survey(false) {
-                Survey::Stuck => return Err(self.state.conflict()),
-                Survey::Branch(item) => return Ok(item),
+                Survey::Stuck => return Ok(Err(self.state.conflict())),
+                Survey::Branch(item) => return Ok(Ok(item)),
                 Survey::Covered => {
-                    if !self.look() {
-                        return Err(self.state.everything());
+                    if !self.look()? {
+                        return Ok(Err(self.state.everything()));
                     }
                 }
             }
@@ -224,8 +223,9 @@ impl<'c, P: Position> Walk<'c, P> {
     }
 
     /// All items, seen from the centres of clusters that hold the core-set. False where that ends the branch.
-    fn look(&mut self) -> bool {
-        let Task { cloud, k, z, .. } = *self.task;
+    fn look(&mut self) -> Result<bool, Error> {
+        let Task { cloud, monitor, k, z } = *self.task;
+        monitor.check().map_err(ReadError::from)?;
         let centers: Vec<P> =
             self.state.clusters.iter().map(|cluster| cluster.ball.center.clone()).collect();
         // Of the farthest, z may be left out already, and z more may be yet.
@@ -235,17 +235,17 @@ impl<'c, P: Position> Walk<'c, P> {
         let radius = far.get(z).map_or(0.0, |far| far.reach);
         let is_near = radius <= self.best.radius * WORTH_IMPROVING.max(1.0 + self.gap);
         let seen = Incumbent { centers, radius };
-        self.offer(&if is_near { improve(cloud, seen, k, z) } else { seen });
+        self.offer(&if is_near { improve(cloud, seen, k, z, monitor)? } else { seen });
         if self.state.is_too_large() {
             // The next survey tells.
-            return true;
+            return Ok(true);
         }
         let wanted = self.state.spare().saturating_add(1) as usize;
         let far = far.iter().map(|far| far.item);
         let new: Vec<u32> = far.filter(|item| !self.is_known.contains(item)).take(wanted).collect();
         self.learn(&new);
         // Where there is none, the balls hold everything to rounding, and are as small as the threshold asks.
-        !new.is_empty()
+        Ok(!new.is_empty())
     }
 
     /// Takes items into the core-set that are not in it.
@@ -297,6 +297,7 @@ impl<'c, P: Position> Walk<'c, P> {
         for frame in other.frames.drain(above + 1..).rev() {
             frame.undo.into_iter().for_each(|undo| other.state.undo(undo));
         }
+        debug_assert!(self.frames[..=above].iter().all(|frame| frame.next > 0), "all have a child");
         let decided = |frame: Frame<P>| {
             let (_, place) = frame.places[frame.next - 1];
             (self.core_set[frame.item as usize], place)

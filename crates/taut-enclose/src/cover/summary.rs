@@ -10,8 +10,8 @@
 //! *Reference.* Malkomes, Kusner, Chen, Weinberger and Moseley, NeurIPS 2015 (factor 4); Ceccarello, Pietracaprina and Pucci,
 //! VLDB 2019 (larger summaries).
 
-use taut_certify::{Centers, Items, Placement, Solution};
-use taut_points::{Monitor, PointSource, Points, Scalar};
+use taut_certify::{Centers, CentersCertificate, Items, LowerBound, Placement, Solution};
+use taut_points::{Monitor, PointSource, Points, Scalar, hash_points};
 
 use super::measure::measure;
 use crate::apart::{gap, rounded_up};
@@ -177,10 +177,14 @@ impl Summary {
     /// Centres of [`Summary::points`], by whatever solver, as centres of the points of `source`: row numbers become those of
     /// the whole, the lower bound and its proof hold as they are, and the radius is measured by one pass.
     ///
+    /// What is proved of centres among these rows need not hold among all rows, of which some may lie better. So centres
+    /// among the rows are taken only with a proof that speaks of centres anywhere, by points apart, as [`Summary::solve`] and
+    /// [`farthest_first()`] give it.
+    ///
     /// # Errors
-    /// [`Error::Option`] for centres of anything but all of these points, without weights, and for those whose lower bound is
-    /// 0 while points are left out, as happens with summaries of no more rows than centres; [`Error::NonFinite`],
-    /// [`Error::Overflow`], [`Error::Read`].
+    /// [`Error::Option`] for centres of anything but all of these points, without weights, for those among the rows with
+    /// another proof, and for those whose lower bound is 0 while points are left out, as happens with summaries of no more
+    /// rows than centres; [`Error::NonFinite`], [`Error::Overflow`], [`Error::Read`].
     pub fn lift(
         &self,
         found: Solution<Centers>,
@@ -195,6 +199,14 @@ impl Summary {
         };
         if certificate.items != Items::Points || certificate.weights || certificate.outliers > 0 {
             return Err(wrong("of weighted points, of balls, or with outliers"));
+        }
+        if certificate.points_hash != hash_points(&self.points()?, monitor)? {
+            return Err(wrong("of other points"));
+        }
+        if certificate.placement == Placement::Rows
+            && !self.are_apart_anywhere(&answer, &certificate)
+        {
+            return Err(wrong("among the rows, with a proof that holds of these rows only"));
         }
         if answer.centers.is_empty() || answer.centers.iter().any(|c| c.len() != source.dim()) {
             return Err(wrong("of another dimension"));
@@ -215,6 +227,27 @@ impl Summary {
         certificate.points_hash = measured.points_hash;
         trace.passes += measured.passes;
         Ok(Solution { answer, certificate, trace })
+    }
+}
+
+impl Summary {
+    /// Whether the lower bound is that no two of the core-set fit in one ball, wherever its centre is.
+    fn are_apart_anywhere(&self, answer: &Centers, certificate: &CentersCertificate) -> bool {
+        let rows = &certificate.core_set;
+        let place = |row: u64| {
+            let at = usize::try_from(row).ok()?.checked_mul(self.dim)?;
+            self.coordinates.get(at..at.checked_add(self.dim)?)
+        };
+        let Some(places) = rows.iter().map(|&row| place(row)).collect::<Option<Vec<_>>>() else {
+            return false;
+        };
+        let is_apart = |a: &[f64], b: &[f64]| {
+            let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
+            // The bound of a traversal leaves more room than this rounds.
+            square.sqrt() >= 2.0 * answer.lower_bound
+        };
+        certificate.proof == LowerBound::Apart
+            && (0..places.len()).all(|i| (0..i).all(|j| is_apart(places[i], places[j])))
     }
 }
 

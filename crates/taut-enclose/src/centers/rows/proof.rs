@@ -14,6 +14,8 @@ use crate::Error;
 
 /// Proofs of at most so many nodes are left to the checker to find again.
 const SHORT: usize = 64;
+/// More items no checker takes.
+const ITEMS: usize = 16_000;
 /// Rounds of dropping items that no node branches on.
 const ROUNDS: usize = 4;
 
@@ -38,7 +40,8 @@ pub(super) fn prove(
     let mut core = CoreSet::new(sites, radius, members);
     if let Look::Dead(mut items) = State::new(k, outliers).look(&core) {
         // One item alone that has no ball is not dead with others apart from it.
-        if let Some(count) = k.checked_add(outliers).filter(|&count| items.len() > count) {
+        let count = k.checked_add(outliers).filter(|&count| items.len() > count && count < ITEMS);
+        if let Some(count) = count {
             items.truncate(count + 1);
             let members = items.into_iter().map(|item| core.members[item]).collect();
             return Ok(Ok(Proof { members, by: LowerBound::Apart, nodes: 1 }));
@@ -66,6 +69,9 @@ pub(super) fn prove(
                 break;
             }
         }
+    }
+    if core.len() > ITEMS {
+        return Ok(Err(Stop::ProofBudget));
     }
     let nodes = log.len() as u64;
     let by = match log.len() <= SHORT {

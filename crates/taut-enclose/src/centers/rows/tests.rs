@@ -3,7 +3,7 @@
 mod judge;
 mod other;
 
-use taut_certify::{Centers, Items, LowerBound, Solution, Stop};
+use taut_certify::{Centers, Items, LowerBound, Placement, Solution, Stop};
 use taut_points::{Distribution, Monitor, Points, generate};
 
 use self::judge::{Problem, judge};
@@ -13,6 +13,7 @@ use crate::centers::{CentersMethod, CentersOptions};
 
 fn ask(problem: &Problem<'_>, options: &CentersOptions) -> Result<Solution<Centers>, Error> {
     let points = Points::new(problem.values, problem.columns).unwrap();
+    options.check(problem.k)?;
     solve(&points, problem.items, problem.k, options, &Monitor::silent())
 }
 
@@ -21,6 +22,7 @@ fn exact(problem: &Problem<'_>) -> CentersOptions {
         epsilon: 0.0,
         weights: problem.weights,
         outliers: problem.outliers as u64,
+        placement: Placement::Rows,
         ..CentersOptions::default()
     }
 }
@@ -247,7 +249,7 @@ fn the_traversal_alone_proves_a_factor_of_two() {
     let best = solved(&problem).answer.radius;
     assert!(found.answer.lower_bound <= best && best < found.answer.radius);
     let thesis = CentersOptions { method: CentersMethod::Thesis, ..exact(&problem) };
-    assert!(matches!(ask(&problem, &thesis), Err(Error::Option { name: "method", .. })));
+    assert!(matches!(ask(&problem, &thesis), Err(Error::Option { name: "placement", .. })));
 }
 
 #[test]
