@@ -20,7 +20,7 @@ const LEAF: usize = 32;
 /// Covers the roundings of a bound.
 const SLACK: f64 = 1.0 + 1e-12;
 /// Up to here a list of the farthest items is kept in order; longer ones are selected from all.
-const SHORT_LIST: usize = 64;
+const SHORT_LIST: usize = 256;
 
 /// Items and their cells.
 pub(super) struct Cloud<P> {
@@ -101,9 +101,10 @@ impl<P: Position> Cloud<P> {
             return vec![];
         }
         if count > SHORT_LIST {
-            let mut all: Vec<Far> = (0..self.len())
-                .map(|item| Far { item: item as u32, reach: self.reach(item, centers) })
-                .collect();
+            let mut all: Vec<Far> = Vec::with_capacity(self.len());
+            self.assign(centers, |item, _, distance| {
+                all.push(Far { item: item as u32, reach: self.items.reach_at(item, distance) });
+            });
             let count = count.min(all.len());
             if count < all.len() {
                 all.select_nth_unstable_by(count, |a, b| self.order(*a, *b));
@@ -115,6 +116,7 @@ impl<P: Position> Cloud<P> {
         let mut bounds: Vec<f64> =
             self.cells.iter().map(|cell| cell.bound(&self.items, centers)).collect();
         let mut list: Vec<Far> = Vec::with_capacity(count + 1);
+        let mut near = Near::default();
         loop {
             let (mut widest, mut bound) = (0, f64::NEG_INFINITY);
             for (at, &value) in bounds.iter().enumerate() {
@@ -127,8 +129,10 @@ impl<P: Position> Cloud<P> {
                 return list;
             }
             bounds[widest] = f64::NEG_INFINITY;
+            near.find(&self.cells[widest], centers);
             for item in self.cells[widest].range.clone() {
-                let far = Far { item: item as u32, reach: self.reach(item, centers) };
+                let (_, distance) = near.nearest(self.items.at(item), centers);
+                let far = Far { item: item as u32, reach: self.items.reach_at(item, distance) };
                 if list.len() == count {
                     if self.order(far, list[count - 1]).is_ge() {
                         continue;
@@ -141,39 +145,15 @@ impl<P: Position> Cloud<P> {
         }
     }
 
-    /// How far an item reaches from the nearest centre.
-    pub(super) fn reach(&self, item: usize, centers: &[P]) -> f64 {
-        let position = self.items.at(item);
-        let nearest = centers
-            .iter()
-            .map(|center| square(position, center.as_ref()))
-            .fold(f64::INFINITY, f64::min);
-        self.items.reach_at(item, nearest.sqrt())
-    }
-
-    /// Calls `visit(item, nearest centre, its distance)` for each item; of equally near centres, the first.
+    /// Calls `visit(item, nearest centre, its distance)` for each item; of equally near centres, the first. Without any centre,
+    /// that numbered 0 is infinitely far.
     pub(super) fn assign(&self, centers: &[P], mut visit: impl FnMut(usize, usize, f64)) {
-        let mut distances = vec![0.0; centers.len()];
-        let mut near = Vec::with_capacity(centers.len());
+        let mut near = Near::default();
         for cell in &self.cells {
-            let mut least = f64::INFINITY;
-            for (d, center) in distances.iter_mut().zip(centers) {
-                *d = distance(cell.middle.as_ref(), center.as_ref());
-                least = least.min(*d);
-            }
-            let cut = (least + 2.0 * cell.spread) * SLACK;
-            near.clear();
-            near.extend((0..centers.len()).filter(|&j| distances[j] <= cut));
+            near.find(cell, centers);
             for item in cell.range.clone() {
-                let position = self.items.at(item);
-                let (mut nearest, mut least) = (near[0], f64::INFINITY);
-                for &j in &near {
-                    let d = square(position, centers[j].as_ref());
-                    if d < least {
-                        (nearest, least) = (j, d);
-                    }
-                }
-                visit(item, nearest, least.sqrt());
+                let (nearest, distance) = near.nearest(self.items.at(item), centers);
+                visit(item, nearest, distance);
             }
         }
     }
@@ -231,6 +211,40 @@ impl<P: Position> Cloud<P> {
             next = farthest.item;
         }
         Ok(traversal)
+    }
+}
+
+/// The centres that can be the nearest for an item of some cell.
+#[derive(Default)]
+struct Near {
+    centers: Vec<usize>,
+    /// Of all centres, from the middle of the cell.
+    distances: Vec<f64>,
+}
+
+impl Near {
+    fn find<P: Position>(&mut self, cell: &Cell<P>, centers: &[P]) {
+        let middle = cell.middle.as_ref();
+        self.distances.clear();
+        self.distances.extend(centers.iter().map(|center| distance(middle, center.as_ref())));
+        let least = self.distances.iter().copied().fold(f64::INFINITY, f64::min);
+        let cut = (least + 2.0 * cell.spread) * SLACK;
+        self.centers.clear();
+        self.centers.extend((0..centers.len()).filter(|&j| self.distances[j] <= cut));
+    }
+
+    /// The nearest centre to a place of the cell, the first of several, and its distance; infinite where there is none.
+    #[inline(always)]
+    fn nearest<P: Position>(&self, place: &[f64], centers: &[P]) -> (usize, f64) {
+        let first = self.centers.first().copied().unwrap_or(0);
+        let (mut nearest, mut least) = (first, f64::INFINITY);
+        for &j in &self.centers {
+            let d = square(place, centers[j].as_ref());
+            if d < least {
+                (nearest, least) = (j, d);
+            }
+        }
+        (nearest, least.sqrt())
     }
 }
 
@@ -305,16 +319,25 @@ mod tests {
         }
     }
 
+    fn reach(cloud: &Cloud<Vec<f64>>, item: usize, centers: &[Vec<f64>]) -> f64 {
+        let squares = centers.iter().map(|center| square(cloud.items.at(item), center));
+        cloud.items.reach_at(item, squares.fold(f64::INFINITY, f64::min).sqrt())
+    }
+
     #[test]
     fn cells_find_what_a_look_at_all_items_finds() {
         clouds(|cloud, what| {
             let n = cloud.len();
             let some = [0, n / 3, n / 2].map(|item| cloud.items.position(item));
-            for (count, centers) in
-                [(1, &some[..]), (5, &some[..2]), (100, &some[..]), (3, &some[..0])]
-            {
+            for (count, centers) in [
+                (1, &some[..]),
+                (5, &some[..2]),
+                (100, &some[..]),
+                (300, &some[..]),
+                (3, &some[..0]),
+            ] {
                 let mut all: Vec<Far> = (0..n)
-                    .map(|item| Far { item: item as u32, reach: cloud.reach(item, centers) })
+                    .map(|item| Far { item: item as u32, reach: reach(cloud, item, centers) })
                     .collect();
                 all.sort_by(|a, b| cloud.order(*a, *b));
                 all.truncate(count);
@@ -344,7 +367,7 @@ mod tests {
                     .collect();
                 let farthest = (0..cloud.len())
                     .filter(|&item| !traversal[..at].contains(&(item as u32)))
-                    .map(|item| Far { item: item as u32, reach: cloud.reach(item, &centers) })
+                    .map(|item| Far { item: item as u32, reach: reach(cloud, item, &centers) })
                     .min_by(|a, b| cloud.order(*a, *b));
                 assert_eq!(farthest.map(|far| far.item), Some(traversal[at]), "{what}, step {at}");
             }
