@@ -55,7 +55,8 @@ def centers(
     outliers : int >= 0, default 0
         Most points that may be left out.
     max_nodes : int, default 10,000,000
-        Nodes of the search before the best centres so far are returned with their gap.
+        Nodes of the search before the best centres so far are returned with their gap; large ones count as several. The proof
+        has a budget of its own, some twenty times what the search took; ``stop`` is then "proof-budget".
     assignment : bool, default False
         Whether the answer is to say which centre each point has.
     threads : int >= 1, optional

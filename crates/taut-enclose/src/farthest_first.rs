@@ -59,9 +59,9 @@ pub struct FarthestFirst {
 /// It ends before `count` when all other points are copies of those it has, with a radius of 0; n may be less than `count`.
 ///
 /// *Cost.* O(n·count·d) at worst, and far less where distances can be ruled out: for 1000 of ten million points of a cube in
-/// space 6 distances are evaluated for each point, for 1000 of a million normal points in 128 dimensions 11, as `bench centers` counts them.
-/// Memory beside the points: n numbers of 8 bytes, and 8 bytes more for each point in four dimensions or more; in up to
-/// three, n·d numbers and, to begin with, 16 bytes for each point.
+/// space 6 distances are evaluated for each point, for 1000 of a million normal points in 128 dimensions 11, as
+/// `bench centers` counts them. Memory beside the points: n numbers of 8 bytes, and 8 bytes more for each point in four
+/// dimensions or more; in up to three, n·d numbers and, to begin with, 16 bytes for each point.
 ///
 /// *Source.* Gonzalez 1985; skipped are distances that cannot matter, as in the accelerated greedy of Minoux (1978) and by
 /// the triangle inequality (Elkan 2003).

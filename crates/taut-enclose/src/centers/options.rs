@@ -16,8 +16,9 @@ pub enum CentersMethod {
     /// The algorithm of the thesis (Algorithm 2), with a bound that is valid in place of its own: each item that is
     /// farthest from all balls is given to each of them in turn. Free centres of points or balls, without weights and outliers.
     Thesis,
-    /// Farthest-first traversal (Gonzalez 1985) in O(nkd) for any n and d: at most twice the optimal radius. With weights or
-    /// outliers that is not promised; the gap that is proved is in the certificate.
+    /// Farthest-first traversal (Gonzalez 1985): at most twice the optimal radius, in O(nkd) for any n and d. Balls, points
+    /// with weights and sets with outliers are held in memory and gone through 2k + z + d times; with weights or outliers
+    /// the factor is not promised, the gap that is proved is in the certificate.
     FarthestFirst,
     /// A [`Cover`](crate::Cover) with its default options: two passes over a source of any size, in memory for some 8k points, at
     /// most 2.96 times the optimal radius. Points without weights and outliers, and without assignment.

@@ -116,10 +116,7 @@ pub(crate) fn solve(
     let mut counters = BTreeMap::from([("scans".to_owned(), bracket.scans)]);
     counters.insert("proof_nodes".to_owned(), proof.nodes);
     let trace = Trace {
-        method: match options.method {
-            CentersMethod::FarthestFirst => "farthest-first".to_owned(),
-            _ => "tree".to_owned(),
-        },
+        method: options.method.name().to_owned(),
         stop: match why {
             _ if is_reached => Stop::Converged,
             _ if bracket.is_spent => Stop::NodeBudget,
