@@ -19,7 +19,7 @@ mod summary;
 
 use rayon::prelude::*;
 use taut_certify::{Centers, Placement, Solution, Stop, Trace};
-use taut_points::{Blocks, Monitor, PointSource, Points, Rows, Scalar, Scratch};
+use taut_points::{Blocks, Monitor, PointSource, Points, ReadError, Rows, Scalar, Scratch};
 
 use crate::apart::{Apart, rounded_up};
 use crate::{CentersMethod, Error};
@@ -145,6 +145,15 @@ impl Cover {
     /// then none of these points is counted. [`Error::Overflow`] when a distance is beyond the largest `f64` or smaller than
     /// the normal ones: then this cover is of no more use.
     pub fn add<T: Scalar>(&mut self, points: &Points<'_, T>) -> Result<(), Error> {
+        self.add_while(points, &Monitor::silent())
+    }
+
+    /// The same, as long as the monitor lets it.
+    fn add_while<T: Scalar>(
+        &mut self,
+        points: &Points<'_, T>,
+        monitor: &Monitor<'_>,
+    ) -> Result<(), Error> {
         if points.dim() != self.dim {
             return Err(Error::Option {
                 name: "points",
@@ -158,7 +167,7 @@ impl Cover {
         let mut taken = 0;
         while self.instances.is_empty() && taken < points.len() {
             let row: Vec<f64> = points.row(taken).iter().map(|&v| v.into()).collect();
-            self.begin(row)?;
+            self.begin(row, monitor)?;
             taken += 1;
         }
         let rest = points.slice(taken..points.len());
@@ -166,7 +175,7 @@ impl Cover {
         let failed = self
             .instances
             .par_iter_mut()
-            .map(|instance| instance.add(first_row, &rest))
+            .map(|instance| instance.add(first_row, &rest, monitor))
             .collect::<Vec<_>>();
         for apart in failed {
             self.take(apart?);
@@ -176,7 +185,8 @@ impl Cover {
     }
 
     /// One of the first points: kept if it differs from all before; the k + 1st begins the instances.
-    fn begin(&mut self, row: Vec<f64>) -> Result<(), Error> {
+    fn begin(&mut self, row: Vec<f64>, monitor: &Monitor<'_>) -> Result<(), Error> {
+        monitor.check().map_err(ReadError::from)?;
         let number = self.seen;
         self.seen += 1;
         if self.first.chunks_exact(self.dim).any(|known| known == row) {
@@ -188,7 +198,7 @@ impl Cover {
             return Ok(());
         }
         let (first, rows) = (std::mem::take(&mut self.first), std::mem::take(&mut self.first_rows));
-        let least = least_distance(&first, self.dim)?;
+        let least = least_distance(&first, self.dim, monitor)?;
         if !(f64::MIN_POSITIVE * 4.0..).contains(&least) {
             return Err(Error::Overflow);
         }
@@ -198,7 +208,8 @@ impl Cover {
         for i in 1..=m {
             let guess = least / 2.0 * ratio.powf(i as f64 / m as f64);
             let (k, dim) = (self.k, self.dim);
-            self.instances.push(Instance::new(k, dim, ratio, guess, &first, &rows)?);
+            let instance = Instance::new(k, dim, ratio, guess, &first, &rows, monitor)?;
+            self.instances.push(instance);
         }
         Ok(())
     }
@@ -297,11 +308,11 @@ pub fn cover_of_source(
     let (blocks, mut scratch) = (Blocks::of(source), Scratch::new());
     monitor.pass(1, source.len());
     for block in 0..blocks.count() {
-        monitor.check().map_err(taut_points::ReadError::from)?;
+        monitor.check().map_err(ReadError::from)?;
         let rows = source.read(blocks.range(block), &mut scratch)?;
         match &rows {
-            Rows::F32(points) => cover.add(points)?,
-            Rows::F64(points) => cover.add(points)?,
+            Rows::F32(points) => cover.add_while(points, monitor)?,
+            Rows::F64(points) => cover.add_while(points, monitor)?,
         }
         monitor.points(rows.len() as u64);
     }

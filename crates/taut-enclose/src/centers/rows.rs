@@ -79,7 +79,7 @@ pub(crate) fn solve(
         }
     }
     // More centres than rows are of no use.
-    let mut bracket = Bracket::new(&sites, k.min(sites.len()), outliers, options, monitor);
+    let mut bracket = Bracket::new(&sites, k.min(sites.len()), outliers, options, monitor)?;
     if !bracket.incumbent.radius.is_finite() {
         return Err(Error::Overflow);
     }
@@ -157,9 +157,9 @@ impl<'a> Bracket<'a> {
         outliers: usize,
         options: &'a CentersOptions,
         monitor: &'a Monitor<'a>,
-    ) -> Self {
-        let start = start(sites, k, outliers);
-        Bracket {
+    ) -> Result<Self, Error> {
+        let start = start(sites, k, outliers, monitor)?;
+        Ok(Bracket {
             sites,
             k,
             outliers,
@@ -172,7 +172,7 @@ impl<'a> Bracket<'a> {
             is_spent: false,
             scans: 0,
             history: vec![],
-        }
+        })
     }
 
     fn lower(&self) -> f64 {
@@ -206,7 +206,7 @@ impl<'a> Bracket<'a> {
     fn close(&mut self) -> Result<(), Error> {
         while !self.is_closed() {
             let radius = self.next_radius();
-            let mut core = CoreSet::new(self.sites, radius, &self.members);
+            let mut core = CoreSet::new(self.sites, radius, &self.members, self.monitor)?;
             let mut patience = PATIENCE;
             let end = loop {
                 let mut search = Search {

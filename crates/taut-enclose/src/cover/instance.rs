@@ -1,11 +1,14 @@
 //! One guess of the radius, and points of the stream that are more than twice that apart.
 
-use taut_points::{Points, Scalar};
+use taut_points::{Monitor, Points, ReadError, Scalar};
 
 use super::{Apart, rounded_up};
 use crate::Error;
 use crate::frame::{FLOOR, exponent};
 use crate::kernel::{Center, squared_distances};
+
+/// Points that go by before it is asked whether to go on.
+const BREATH: u64 = 64;
 
 /// A guess r and at most k points that are more than 2r apart.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,11 +34,12 @@ impl Instance {
         guess: f64,
         first: &[f64],
         rows: &[u64],
+        monitor: &Monitor<'_>,
     ) -> Result<Self, Error> {
         let reaches = vec![0.0; rows.len()];
         let (centers, rows) = (first.to_vec(), rows.to_vec());
         let mut instance = Instance { k, dim, ratio, guess, centers, rows, reaches };
-        instance.merge()?;
+        instance.merge(monitor)?;
         Ok(instance)
     }
 
@@ -57,11 +61,15 @@ impl Instance {
         &mut self,
         first_row: u64,
         points: &Points<'_, T>,
+        monitor: &Monitor<'_>,
     ) -> Result<Apart, Error> {
         let mut apart = Apart::default();
         let mut center = Center { high: vec![0.0; self.dim], low: vec![] };
         let mut values = vec![];
         for (number, row) in (first_row..).zip(points.rows()) {
+            if number % BREATH == 0 {
+                monitor.check().map_err(ReadError::from)?;
+            }
             center.high.iter_mut().zip(row).for_each(|(c, &v)| *c = v.into());
             let (nearest, distance) = self.nearest(&center, &mut values)?;
             if distance <= 2.0 * self.guess {
@@ -73,7 +81,7 @@ impl Instance {
             self.rows.push(number);
             self.reaches.push(0.0);
             if self.rows.len() > self.k {
-                apart = self.grow()?;
+                apart = self.grow(monitor)?;
             }
         }
         if self.radius().is_finite() { Ok(apart) } else { Err(Error::Overflow) }
@@ -99,23 +107,24 @@ impl Instance {
     }
 
     /// There are k + 1 points more than 2r apart: a larger guess, under which at least two of them are one.
-    fn grow(&mut self) -> Result<Apart, Error> {
-        let least = least_distance(&self.centers, self.dim)?;
+    fn grow(&mut self, monitor: &Monitor<'_>) -> Result<Apart, Error> {
+        let least = least_distance(&self.centers, self.dim, monitor)?;
         let apart = Apart { rows: self.rows.clone(), distance: least };
         while 2.0 * self.guess < least {
             self.guess *= self.ratio;
         }
-        self.merge()?;
+        self.merge(monitor)?;
         Ok(apart)
     }
 
     /// Of points that are at most 2r apart only the first stays, and takes over what was the other's.
-    fn merge(&mut self) -> Result<(), Error> {
+    fn merge(&mut self, monitor: &Monitor<'_>) -> Result<(), Error> {
         let dim = self.dim;
         let old = std::mem::take(&mut self.centers);
         let rows = std::mem::take(&mut self.rows);
         let reaches = std::mem::take(&mut self.reaches);
         for ((point, row), reach) in old.chunks_exact(dim).zip(rows).zip(reaches) {
+            monitor.check().map_err(ReadError::from)?;
             let mut nearest = (0, f64::INFINITY);
             for (i, kept) in self.centers.chunks_exact(dim).enumerate() {
                 let distance = distance(kept, point)?;
@@ -138,9 +147,14 @@ impl Instance {
 }
 
 /// The least distance of two of the points.
-pub(super) fn least_distance(points: &[f64], dim: usize) -> Result<f64, Error> {
+pub(super) fn least_distance(
+    points: &[f64],
+    dim: usize,
+    monitor: &Monitor<'_>,
+) -> Result<f64, Error> {
     let mut least = f64::INFINITY;
     for (i, a) in points.chunks_exact(dim).enumerate() {
+        monitor.check().map_err(ReadError::from)?;
         for b in points[(i + 1) * dim..].chunks_exact(dim) {
             least = least.min(distance(a, b)?);
         }

@@ -1,6 +1,9 @@
 //! A few items, and for each of them the rows at which a centre has it within less than a radius.
 
+use taut_points::{Monitor, ReadError};
+
 use super::sites::Sites;
+use crate::Error;
 
 /// What of a set of rows is not empty: which word, and the word.
 pub(super) type Words = Vec<(u32, u64)>;
@@ -26,7 +29,12 @@ pub(super) struct CoreSet<'s> {
 }
 
 impl<'s> CoreSet<'s> {
-    pub(super) fn new(sites: &'s Sites, radius: f64, members: &[usize]) -> Self {
+    pub(super) fn new(
+        sites: &'s Sites,
+        radius: f64,
+        members: &[usize],
+        monitor: &Monitor<'_>,
+    ) -> Result<Self, Error> {
         let mut core = CoreSet {
             sites,
             radius,
@@ -36,8 +44,11 @@ impl<'s> CoreSet<'s> {
             sizes: vec![],
             fits: vec![],
         };
-        members.iter().for_each(|&site| core.add(site));
-        core
+        for &site in members {
+            monitor.check().map_err(ReadError::from)?;
+            core.add(site);
+        }
+        Ok(core)
     }
 
     pub(super) fn len(&self) -> usize {

@@ -37,7 +37,7 @@ pub(super) fn prove(
     max_nodes: u64,
     monitor: &Monitor<'_>,
 ) -> Result<Result<Proof, Stop>, Error> {
-    let mut core = CoreSet::new(sites, radius, members);
+    let mut core = CoreSet::new(sites, radius, members, monitor)?;
     if let Look::Dead(mut items) = State::new(k, outliers).look(&core) {
         // One item alone that has no ball is not dead with others apart from it.
         let count = k.checked_add(outliers).filter(|&count| items.len() > count && count < ITEMS);
@@ -59,7 +59,7 @@ pub(super) fn prove(
             break;
         }
         let members: Vec<usize> = used.iter().map(|&item| core.members[item as usize]).collect();
-        let less = CoreSet::new(sites, radius, &members);
+        let less = CoreSet::new(sites, radius, &members, monitor)?;
         match branches(&less, k, outliers, 2 * log.len() as u64, monitor)? {
             Ok(shorter) => (core, log) = (less, shorter),
             Err(_) => {

@@ -6,7 +6,10 @@
 //! *Reference.* Gonzalez, Theoretical Computer Science 38, 1985; with weights, Dyer and Frieze, Operations Research
 //! Letters 3(6), 1985.
 
+use taut_points::{Monitor, ReadError};
+
 use super::sites::Sites;
+use crate::Error;
 
 /// Traversals from different items; each next one from the last item of the one before.
 const RUNS: usize = 4;
@@ -45,11 +48,18 @@ pub(super) fn radius(reaches: &[f64], outliers: usize) -> f64 {
 
 /// At most `count` items, from `first` on, each next the one that reaches farthest but `skip`; and the reach of the last
 /// when it was taken. Ends before `count` when nothing is left to be reached.
-fn farthest_first(sites: &Sites, first: usize, count: usize, skip: usize) -> (Vec<usize>, f64) {
+fn farthest_first(
+    sites: &Sites,
+    first: usize,
+    count: usize,
+    skip: usize,
+    monitor: &Monitor<'_>,
+) -> Result<(Vec<usize>, f64), Error> {
     let mut order = vec![first];
     let mut reaches = sites.reaches(&order);
     let mut last = f64::INFINITY;
     while order.len() < count {
+        monitor.check().map_err(ReadError::from)?;
         let farther = |a: &usize, b: &usize| reaches[*b].total_cmp(&reaches[*a]).then(a.cmp(b));
         let next = match skip {
             0 => (0..sites.len()).min_by(farther),
@@ -64,11 +74,16 @@ fn farthest_first(sites: &Sites, first: usize, count: usize, skip: usize) -> (Ve
         order.push(next);
         sites.lower(&mut reaches, next);
     }
-    (order, last)
+    Ok((order, last))
 }
 
 /// The best of some traversals.
-pub(super) fn start(sites: &Sites, k: usize, outliers: usize) -> Start {
+pub(super) fn start(
+    sites: &Sites,
+    k: usize,
+    outliers: usize,
+    monitor: &Monitor<'_>,
+) -> Result<Start, Error> {
     let count = k.saturating_add(outliers).saturating_add(1);
     let runs = if count <= MANY { RUNS } else { 1 };
     let incumbent = |order: &[usize]| {
@@ -79,11 +94,12 @@ pub(super) fn start(sites: &Sites, k: usize, outliers: usize) -> Start {
     let mut best: Option<Start> = None;
     let mut first = 0;
     for _ in 0..runs {
-        let (order, last) = farthest_first(sites, first, count, 0);
+        let (order, last) = farthest_first(sites, first, count, 0, monitor)?;
         first = order[order.len() - 1];
         let mut found = incumbent(&order);
         if outliers > 0 {
-            let robust = incumbent(&farthest_first(sites, first, k, outliers).0);
+            let (order, _) = farthest_first(sites, first, k, outliers, monitor)?;
+            let robust = incumbent(&order);
             if robust.radius < found.radius {
                 found = robust;
             }
@@ -110,5 +126,5 @@ pub(super) fn start(sites: &Sites, k: usize, outliers: usize) -> Start {
             }
         }
     }
-    best.expect("there is a run")
+    Ok(best.expect("there is a run"))
 }
