@@ -28,7 +28,9 @@ pub(crate) struct Apart {
 
 /// A distance in d dimensions, as evaluated, with room for evaluating it in another order.
 pub(crate) fn rounded_up(distance: f64, dim: usize) -> f64 {
-    distance * (1.0 + (dim as f64 + 16.0) * U)
+    let up = distance * (1.0 + (dim as f64 + 16.0) * U);
+    // Subnormal numbers are too far apart for a factor to count, and have been rounded to one of them.
+    if up > 0.0 && up < 2.0 * f64::MIN_POSITIVE { up.next_up() } else { up }
 }
 
 impl Apart {
