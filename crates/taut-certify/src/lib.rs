@@ -7,6 +7,7 @@
 //! | [`RobustEllipsoid`] | [`RobustCertificate`] | centre, scatter, factors and flags are those of the points kept; no C-step leads on from them; by `mve` and `trim`, no smaller ellipsoid holds them |
 //! | [`InscribedEllipsoid`] | [`InscribedCertificate`] | it lies in every half-space; no ellipsoid in the polytope has a log-volume larger by more than the gap |
 //! | [`Centers`] | [`CentersCertificate`] | every item that counts is within the radius of a centre; no k equal balls much smaller hold the core-set |
+//! | [`Curve`] | [`CurveCertificate`] | it meets neither itself nor others; every point but the outliers is within the band; whether sampling was dense enough |
 //! | [`Triangulation`] | [`TriangulationCertificate`] | the simplices are *the* Delaunay triangulation of the points |
 //!
 //! A [`Solution`] is an answer, its certificate and a trace of counters. [`Solution::check`] reads the points again
@@ -39,6 +40,7 @@
 mod arithmetic;
 mod ball;
 mod centers;
+mod curve;
 mod ellipsoid;
 mod inscribed;
 mod items;
@@ -52,6 +54,7 @@ pub use ball::{Ball, BallCertificate};
 pub use centers::{
     Centers, CentersCertificate, CentersVerdict, CentersViolation, LowerBound, Placement,
 };
+pub use curve::{Curve, CurveCertificate, CurveComponent, CurveVerdict, Place, TourBound};
 pub use ellipsoid::{
     EllipseSupport, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipse_support,
 };

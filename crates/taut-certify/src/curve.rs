@@ -1,0 +1,99 @@
+//! Curves through points of the plane, and the certificate of what is known about them.
+
+mod check;
+
+use serde::{Deserialize, Serialize};
+use taut_points::{Monitor, PointSource, PointsHash};
+
+use crate::json::{hash_from_hex, hash_to_hex};
+use crate::{Answer, CheckError};
+
+/// Curves through a point set of the plane: polylines that meet neither themselves nor one another.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a curve: an object with curves and noise")]
+pub struct Curve {
+    /// The connected curves, each a polyline.
+    pub curves: Vec<CurveComponent>,
+    /// Half the width of the band around the curve that noise fills, as estimated; 0 where vertices are points of the input.
+    pub noise: f64,
+    /// The rows that no curve accounts for, ascending.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outliers: Vec<u64>,
+    /// On request, for each row its place on the curves; of outliers the place next to them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub places: Vec<Place>,
+}
+
+/// One connected curve.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "one curve: an object with vertices and closed")]
+pub struct CurveComponent {
+    /// The vertices in order.
+    pub vertices: Vec<[f64; 2]>,
+    /// Whether an edge leads from the last vertex back to the first.
+    pub closed: bool,
+    /// Where vertices are points of the input, the row of each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rows: Vec<u64>,
+}
+
+/// Where on the curves a row lies: [curve, position] in JSON, the position k + t for the share t of the edge after vertex k.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Place(pub u32, pub f64);
+
+/// What is claimed of a curve.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "the certificate of a curve: an object with band, certified and points_hash"
+)]
+pub struct CurveCertificate {
+    /// No row but the outliers is farther than this from the curve.
+    pub band: f64,
+    /// Whether the sampling is dense enough, beside the features of the curve itself, to call it homeomorphic to the one that was
+    /// sampled.
+    pub certified: bool,
+    /// Of a tour, what proves how short it can be.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tour: Option<TourBound>,
+    /// The hash of the rows this was made for.
+    #[serde(serialize_with = "hash_to_hex", deserialize_with = "hash_from_hex")]
+    pub points_hash: PointsHash,
+}
+
+/// What proves that no tour through the points is shorter than a bound.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "the bound of a tour: an object with potentials and lower"
+)]
+pub struct TourBound {
+    /// A number for each distinct point, in the order of the tour.
+    pub potentials: Vec<f64>,
+    /// No tour is shorter.
+    pub lower: f64,
+}
+
+/// What was proved of a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurveVerdict {
+    /// The largest distance of a row that is no outlier from the curve, rounded up.
+    pub band: f64,
+    /// Whether the evidence for a homeomorphism was found.
+    pub certified: bool,
+}
+
+impl Answer for Curve {
+    type Certificate = CurveCertificate;
+    type Verdict = CurveVerdict;
+    const KIND: &'static str = "curve";
+
+    fn check(
+        &self,
+        certificate: &CurveCertificate,
+        source: &dyn PointSource,
+        monitor: &Monitor<'_>,
+    ) -> Result<CurveVerdict, CheckError> {
+        check::check(self, certificate, source, monitor)
+    }
+}

@@ -1,0 +1,58 @@
+//! Curves through samples of the plane.
+
+mod answer;
+mod cloud;
+mod options;
+
+use taut_certify::{Curve, Solution};
+use taut_points::{Monitor, PointSource, Points, Scalar};
+
+use crate::Error;
+use crate::threads::on_threads;
+use answer::{Outcome, finish};
+use cloud::Cloud;
+
+pub use options::{CurveMethod, CurveOptions, Ends};
+
+/// The curves that points of the plane were sampled from, with what is known about them.
+///
+/// # Errors
+/// [`Error::Dimension`], [`Error::NonFinite`], [`Error::TooManyPoints`], [`Error::Option`].
+pub fn curve<T: Scalar>(
+    points: &Points<'_, T>,
+    options: &CurveOptions,
+) -> Result<Solution<Curve>, Error> {
+    curve_of_source(points, options, &Monitor::silent())
+}
+
+/// The same for points of any source, with a monitor. They are held in memory while it works.
+///
+/// # Errors
+/// As [`curve`], [`Error::Read`] when the points cannot be read, and [`Error::Cancelled`].
+pub fn curve_of_source(
+    source: &dyn PointSource,
+    options: &CurveOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Curve>, Error> {
+    let wrong =
+        |name, value: f64, expected| Error::Option { name, value: value.to_string(), expected };
+    if !(options.rho >= 1.0 && options.rho.is_finite()) {
+        return Err(wrong("rho", options.rho, "a number of at least 1"));
+    }
+    if !(options.omega > 0.0 && options.omega.is_finite()) {
+        return Err(wrong("omega", options.omega, "a number above 0"));
+    }
+    on_threads(options.threads, || {
+        let cloud = Cloud::read(source, monitor)?;
+        let outcome = solve(&cloud, options, monitor)?;
+        finish(&cloud, outcome, options, source, monitor)
+    })
+}
+
+/// The curves by the method chosen.
+fn solve(_cloud: &Cloud, options: &CurveOptions, _monitor: &Monitor<'_>) -> Result<Outcome, Error> {
+    let outcome = Outcome { method: options.method.name(), ..Outcome::default() };
+    Ok(match options.method {
+        _ => outcome,
+    })
+}
