@@ -13,5 +13,5 @@ mod curve;
 mod error;
 mod threads;
 
-pub use curve::{CurveMethod, CurveOptions, Ends, curve, curve_of_source};
+pub use curve::{dev, CurveMethod, CurveOptions, Ends, curve, curve_of_source};
 pub use error::Error;

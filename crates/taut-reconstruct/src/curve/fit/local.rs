@@ -1,0 +1,186 @@
+//! A parabola through the points of a window, in the frame of its own main direction.
+//!
+//! *Idea.* The main direction of the window is the tangent to within its curvature; along it a parabola is fitted by least
+//! squares, twice over what three times the median residual spares, so that points off the curve do not count.
+//! *Guarantee.* A function of the points of the window alone, and it turns and scales with them.
+//! *Trap.* A line would do for the tangent but not for the width: at the least feature size a window that is four times as
+//! long as wide does not exist, since κr²/2 is wide by then; the residuals of a parabola stay narrow.
+
+type Point = [f64; 2];
+
+/// A parabola v = a + bu + cu² in a frame (u along the tangent, v to its left) at `origin`.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::curve) struct Parabola {
+    /// Origin of the frame.
+    pub(in crate::curve) origin: Point,
+    /// Unit vector of u.
+    pub(in crate::curve) tangent: Point,
+    /// a, b, c.
+    pub(in crate::curve) coefficients: [f64; 3],
+    /// Mean square of the residuals of the points that count, over their number less three.
+    pub(in crate::curve) variance: f64,
+    /// Points that count.
+    pub(in crate::curve) kept: usize,
+}
+
+impl Parabola {
+    /// The place on the parabola at u = 0.
+    pub(in crate::curve) fn foot(&self) -> Point {
+        let [tx, ty] = self.tangent;
+        let a = self.coefficients[0];
+        [self.origin[0] - a * ty, self.origin[1] + a * tx]
+    }
+
+    /// The unit tangent there.
+    pub(in crate::curve) fn direction(&self) -> Point {
+        let [tx, ty] = self.tangent;
+        let b = self.coefficients[1];
+        let norm = b.hypot(1.0);
+        [(tx - b * ty) / norm, (ty + b * tx) / norm]
+    }
+
+    /// A point in the frame.
+    #[inline]
+    pub(in crate::curve) fn local(&self, point: Point) -> Point {
+        let (dx, dy) = (point[0] - self.origin[0], point[1] - self.origin[1]);
+        let [tx, ty] = self.tangent;
+        [dx * tx + dy * ty, dy * tx - dx * ty]
+    }
+
+    /// How far a point of the frame is above the parabola.
+    #[inline]
+    pub(in crate::curve) fn residual(&self, [u, v]: Point) -> f64 {
+        let [a, b, c] = self.coefficients;
+        v - (a + u * (b + u * c))
+    }
+}
+
+/// The window fitted; scratch space that is used again.
+#[derive(Default)]
+pub(in crate::curve) struct Window {
+    /// The points in the frame.
+    pub(in crate::curve) local: Vec<Point>,
+    residuals: Vec<f64>,
+}
+
+impl Window {
+    /// The parabola of a window around `origin`; none for fewer than five points, or where they do not determine one.
+    pub(in crate::curve) fn fit(
+        &mut self,
+        origin: Point,
+        points: impl Iterator<Item = Point> + Clone,
+    ) -> Option<Parabola> {
+        let tangent = main_direction(origin, points.clone())?;
+        let mut parabola =
+            Parabola { origin, tangent, coefficients: [0.0; 3], variance: f64::INFINITY, kept: 0 };
+        self.local.clear();
+        self.local.extend(points.map(|p| parabola.local(p)));
+        let mut most = f64::INFINITY;
+        for _ in 0..3 {
+            let (coefficients, kept) = least_squares(&self.local, |p| {
+                most == f64::INFINITY || parabola.residual(p).abs() <= most
+            })?;
+            let fitted = Parabola { coefficients, kept, ..parabola };
+            self.residuals.clear();
+            self.residuals.extend(self.local.iter().map(|&p| fitted.residual(p).abs()));
+            let middle = self.residuals.len() / 2;
+            let (_, &mut median, _) =
+                self.residuals.select_nth_unstable_by(middle, f64::total_cmp);
+            // 1.4826 times the median residual is σ for normal noise; for uniform noise the edge is at 1.35 of it.
+            let next = 3.0 * 1.4826 * median;
+            let squares = |p: &&Point| fitted.residual(**p).abs() <= next;
+            let inside = self.local.iter().filter(squares);
+            let (count, sum) = inside.fold((0usize, 0.0), |(count, sum), &p| {
+                let r = fitted.residual(p);
+                (count + 1, sum + r * r)
+            });
+            parabola = Parabola { variance: sum / (count.max(4) - 3) as f64, kept: count, ..fitted };
+            if count == self.local.len() {
+                break;
+            }
+            most = next;
+        }
+        Some(parabola)
+    }
+}
+
+/// The unit vector along which points spread most, from `origin`'s surroundings; none if they are all in one place.
+fn main_direction(origin: Point, points: impl Iterator<Item = Point> + Clone) -> Option<Point> {
+    let shifted = points.map(|p| [p[0] - origin[0], p[1] - origin[1]]);
+    let (count, sum) =
+        shifted.clone().fold((0.0, [0.0; 2]), |(n, s), p| (n + 1.0, [s[0] + p[0], s[1] + p[1]]));
+    if count < 5.0 {
+        return None;
+    }
+    let mean = [sum[0] / count, sum[1] / count];
+    let [xx, xy, yy] = shifted.fold([0.0; 3], |[xx, xy, yy], p| {
+        let (x, y) = (p[0] - mean[0], p[1] - mean[1]);
+        [xx + x * x, xy + x * y, yy + y * y]
+    });
+    // tan 2φ = 2·xy/(xx − yy), φ the angle of the larger eigenvalue.
+    let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
+    (xx + yy > 0.0).then(|| [angle.cos(), angle.sin()])
+}
+
+/// The parabola of least squares through the points that count, and how many those are; none where the points do not determine it.
+fn least_squares(
+    points: &[Point],
+    counts: impl Fn(Point) -> bool,
+) -> Option<([f64; 3], usize)> {
+    let reach = points.iter().fold(0.0, |most: f64, p| most.max(p[0].abs()));
+    if reach == 0.0 {
+        return None;
+    }
+    // Powers of u/reach are at most 1, so that the sums are of one size.
+    let mut powers = [0.0; 5];
+    let mut moments = [0.0; 3];
+    let mut kept = 0;
+    for &[u, v] in points {
+        if counts([u, v]) {
+            let u = u / reach;
+            let u2 = u * u;
+            powers = [
+                powers[0] + 1.0,
+                powers[1] + u,
+                powers[2] + u2,
+                powers[3] + u2 * u,
+                powers[4] + u2 * u2,
+            ];
+            moments = [moments[0] + v, moments[1] + u * v, moments[2] + u2 * v];
+            kept += 1;
+        }
+    }
+    let [s0, s1, s2, s3, s4] = powers;
+    let solution = cholesky([[s0, s1, s2], [s1, s2, s3], [s2, s3, s4]], moments)?;
+    Some(([solution[0], solution[1] / reach, solution[2] / (reach * reach)], kept))
+}
+
+/// The solution of a positive definite system of three; none where it is not safely so.
+pub(in crate::curve) fn cholesky(m: [[f64; 3]; 3], right: [f64; 3]) -> Option<[f64; 3]> {
+    let mut l = [[0.0; 3]; 3];
+    for i in 0..3 {
+        for j in 0..=i {
+            let mut sum = m[i][j];
+            for k in 0..j {
+                sum -= l[i][k] * l[j][k];
+            }
+            if i == j {
+                // Written so that NaN is refused too.
+                if !(sum > 1e-12 * m[i][i]) {
+                    return None;
+                }
+                l[i][i] = sum.sqrt();
+            } else {
+                l[i][j] = sum / l[j][j];
+            }
+        }
+    }
+    let mut y = [0.0; 3];
+    for i in 0..3 {
+        y[i] = (0..i).fold(right[i], |sum, k| sum - l[i][k] * y[k]) / l[i][i];
+    }
+    for i in (0..3).rev() {
+        y[i] = (i + 1..3).fold(y[i], |sum, k| sum - l[k][i] * y[k]) / l[i][i];
+    }
+    Some(y)
+}

@@ -1,0 +1,214 @@
+//! Places on the curve, some of the noise's width apart, with the tangent there and the width itself.
+//!
+//! *Problem.* Noise turns the curve into a band. Find out how long a window must be to show which way the band runs, and put a
+//! seed on its middle line every now and then, everywhere.
+//! *Idea.* Points are taken in the order of their density, densest first. Around one that is not yet accounted for, windows
+//! grow until the points in it are [`FLATNESS`] times as long as their residuals from a parabola are wide, by more than chance:
+//! a blob inside the band is about twice as long as wide. The window is centred anew on its parabola, and the seed there accounts
+//! for all points of the slab around it. What is left when density has fallen to a fraction are outliers.
+//! *Guarantee.* A function of the point set that turns and scales with it; every point of the slab of a seed is accounted for,
+//! so a curve without gaps gets seeds without gaps. O(n) work in windows beside the search for neighbours.
+//! *Trap.* Windows around a sample, not around the middle line, are askew by up to the noise. A window that may grow without
+//! end swallows the whole curve, which is flat beside its own size: it stops at the first that is flat enough.
+//! *Reference.* The coarse disk of Cheng, Funke, Golin, Kumar, Poon and Ramos, with a parabola in place of the strip, so that it
+//! needs no feature size to be 1.
+
+use rayon::prelude::*;
+use taut_oblivious::hilbert_order;
+use taut_points::Monitor;
+
+use super::local::{Parabola, Window};
+use crate::Error;
+use crate::curve::index::Index;
+
+type Point = [f64; 2];
+
+/// How many standard deviations of the residuals a window must be long, from its centre to its end.
+const FLATNESS: f64 = 8.0;
+/// What the best of all windows must reach where none is flat enough.
+const FLATNESS_LEAST: f64 = 5.0;
+/// Growth of windows.
+const GROWTH: f64 = 1.2;
+/// Neighbours whose distance tells the density at a point.
+const NEIGHBORS: usize = 8;
+/// Half the length of the slab of a seed as a share of its window.
+const SLAB: f64 = 0.45;
+/// Residuals of points of the slab, in standard deviations: 1.73 is the edge of uniform noise.
+const SLAB_WIDTH: f64 = 4.0;
+/// The density of outliers is less than that of nine tenths of the curve by the square of this.
+const SPARSE: f64 = 5.0;
+
+/// A place on the curve.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::curve) struct Seed {
+    /// The place.
+    pub(in crate::curve) at: Point,
+    /// The unit tangent, either way.
+    pub(in crate::curve) tangent: Point,
+    /// Radius of its window.
+    pub(in crate::curve) reach: f64,
+    /// Standard deviation of the residuals.
+    pub(in crate::curve) deviation: f64,
+}
+
+/// The seeds of all curves, in the order in which they were found.
+pub(in crate::curve) fn seeds(
+    points: &[Point],
+    index: &Index<'_>,
+    monitor: &Monitor<'_>,
+) -> Result<Vec<Seed>, Error> {
+    let spacing = spacings(points, index);
+    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    order.par_sort_unstable_by(|&i, &j| {
+        spacing[i as usize].total_cmp(&spacing[j as usize]).then(i.cmp(&j))
+    });
+    let mut covered = vec![false; points.len()];
+    let mut search = Search { points, index, window: Window::default(), ids: Vec::new() };
+    let mut seeds: Vec<Seed> = Vec::new();
+    let mut done = Quantile::default();
+    for (count, &i) in order.iter().enumerate() {
+        let i = i as usize;
+        if count % 4096 == 0 {
+            monitor.check()?;
+        }
+        if covered[i] {
+            done.push(spacing[i]);
+            continue;
+        }
+        if done.value().is_some_and(|usual| spacing[i] > SPARSE * usual) {
+            break;
+        }
+        let Some((parabola, reach)) = search.flat(points[i], spacing[i]) else { continue };
+        let seed = Seed {
+            at: parabola.foot(),
+            tangent: parabola.direction(),
+            reach,
+            deviation: parabola.variance.sqrt(),
+        };
+        search.cover(&parabola, reach, &mut covered);
+        covered[i] = true;
+        seeds.push(seed);
+    }
+    Ok(apart(seeds))
+}
+
+/// The seeds that are not beside an earlier one: two samples on either side of the band lead to one place.
+fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
+    let order = hilbert_order(seeds.len(), |i| seeds[i].at);
+    let mut number = vec![0; seeds.len()];
+    let mut places = Vec::with_capacity(seeds.len());
+    for (place, &i) in order.iter().enumerate() {
+        number[i as usize] = place;
+        places.push(seeds[i as usize].at);
+    }
+    let index = Index::new(&places);
+    let mut beside = vec![false; seeds.len()];
+    for (i, seed) in seeds.iter().enumerate() {
+        if !beside[number[i]] {
+            let apart = 0.5 * SLAB * seed.reach;
+            index.within(seed.at, apart * apart, &mut |place| beside[place as usize] = true);
+            beside[number[i]] = false;
+        }
+    }
+    let mut places = number.into_iter();
+    seeds.into_iter().filter(|_| places.next().is_some_and(|place| !beside[place])).collect()
+}
+
+/// For each point the distance of its [`NEIGHBORS`]-th neighbour.
+fn spacings(points: &[Point], index: &Index<'_>) -> Vec<f64> {
+    points
+        .par_iter()
+        .with_min_len(1 << 12)
+        .map_init(Vec::new, |found, &p| {
+            index.nearest(p, NEIGHBORS + 1, found);
+            found.last().map_or(0.0, |last| last.0.sqrt())
+        })
+        .collect()
+}
+
+/// The value that nine tenths of ascending numbers do not exceed.
+#[derive(Default)]
+struct Quantile {
+    values: Vec<f64>,
+}
+
+impl Quantile {
+    fn push(&mut self, value: f64) {
+        self.values.push(value);
+    }
+
+    /// None for fewer than thirty numbers.
+    fn value(&self) -> Option<f64> {
+        (self.values.len() >= 30).then(|| self.values[self.values.len() * 9 / 10])
+    }
+}
+
+struct Search<'a> {
+    points: &'a [Point],
+    index: &'a Index<'a>,
+    window: Window,
+    ids: Vec<u32>,
+}
+
+impl Search<'_> {
+    fn fit(&mut self, at: Point, reach: f64) -> Option<Parabola> {
+        let ids = &mut self.ids;
+        ids.clear();
+        self.index.within(at, reach * reach, &mut |i| ids.push(i));
+        let points = self.points;
+        self.window.fit(at, self.ids.iter().map(|&i| points[i as usize]))
+    }
+
+    /// The first window that is flat, centred on its parabola; or the flattest, where none is flat enough.
+    fn flat(&mut self, start: Point, spacing: f64) -> Option<(Parabola, f64)> {
+        let most = self.points.len() / 3;
+        let mut reach = spacing;
+        let mut best: Option<(f64, Parabola, f64)> = None;
+        loop {
+            if let Some(parabola) = self.fit(start, reach) {
+                let flatness = flatness(&parabola, reach);
+                if flatness >= FLATNESS {
+                    best = Some((flatness, parabola, reach));
+                    break;
+                }
+                if best.is_none_or(|(most, ..)| flatness > most) {
+                    best = Some((flatness, parabola, reach));
+                }
+            }
+            if self.ids.len() > most.max(8) || best.is_some_and(|(_, _, r)| reach > 4.0 * r) {
+                break;
+            }
+            reach *= GROWTH;
+        }
+        let (flatness, mut parabola, reach) = best?;
+        if flatness < FLATNESS_LEAST {
+            return None;
+        }
+        for _ in 0..2 {
+            parabola = self.fit(parabola.foot(), reach)?;
+        }
+        Some((parabola, reach))
+    }
+
+    /// Marks the points of the slab.
+    fn cover(&mut self, parabola: &Parabola, reach: f64, covered: &mut [bool]) {
+        let width = SLAB_WIDTH * parabola.variance.sqrt();
+        for (&i, &local) in self.ids.iter().zip(&self.window.local) {
+            if local[0].abs() <= SLAB * reach && parabola.residual(local).abs() <= width {
+                covered[i as usize] = true;
+            }
+        }
+    }
+}
+
+/// Length over width, with the width that noise has at most but for one chance in a hundred.
+fn flatness(parabola: &Parabola, reach: f64) -> f64 {
+    let free = parabola.kept as f64 - 3.0;
+    if free < 2.0 {
+        return 0.0;
+    }
+    // The 1 % quantile of χ² with that many degrees of freedom, over their number (Wilson and Hilferty 1931).
+    let spread = 2.0 / (9.0 * free);
+    let quantile = (1.0 - spread - 2.326 * spread.sqrt()).max(0.0).powi(3);
+    reach / (parabola.variance / quantile).sqrt()
+}

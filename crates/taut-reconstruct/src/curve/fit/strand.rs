@@ -1,0 +1,197 @@
+//! A curve as it is known so far, and the points in the order in which they lie along it.
+//!
+//! *Idea.* Between two nodes the curve is the cubic that leaves and arrives along their tangents. Each point goes to the nearest
+//! place on a fine polyline of it, and from then on all neighbourhoods are ranges of a sorted list.
+//! *Guarantee.* O(n log n); a function of the nodes and the points that turns and scales with them.
+
+use rayon::prelude::*;
+use taut_oblivious::hilbert_order;
+
+use crate::curve::index::Index;
+
+type Point = [f64; 2];
+
+/// Pieces of the polyline between two nodes.
+const PIECES: usize = 4;
+
+/// A place on the curve with its tangent.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::curve) struct Node {
+    /// The place.
+    pub(in crate::curve) at: Point,
+    /// The unit tangent, along the curve.
+    pub(in crate::curve) tangent: Point,
+    /// How far around it points are to be looked at first.
+    pub(in crate::curve) reach: f64,
+    /// Standard deviation of the noise there.
+    pub(in crate::curve) deviation: f64,
+}
+
+/// One connected curve.
+#[derive(Clone, Debug, Default)]
+pub(in crate::curve) struct Strand {
+    /// Its nodes in order.
+    pub(in crate::curve) nodes: Vec<Node>,
+    /// Whether the first follows the last.
+    pub(in crate::curve) closed: bool,
+    /// The length along the curve at each node, and for a closed one, at the end, its whole length.
+    pub(in crate::curve) arc: Vec<f64>,
+    /// The points by their place along the curve, ascending.
+    pub(in crate::curve) members: Vec<Member>,
+}
+
+/// A point and its place along a strand.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::curve) struct Member {
+    /// Length along the curve from its first node.
+    pub(in crate::curve) arc: f64,
+    /// The point.
+    pub(in crate::curve) at: Point,
+    /// Its number.
+    pub(in crate::curve) site: u32,
+}
+
+/// The cubic from a to b at t ∈ [0, 1], and its derivative, for tangents as long as the chord.
+pub(in crate::curve) fn hermite(a: &Node, b: &Node, t: f64) -> (Point, Point) {
+    let chord = (b.at[0] - a.at[0]).hypot(b.at[1] - a.at[1]);
+    let (t2, t3) = (t * t, t * t * t);
+    let (p, q) = (2.0 * t3 - 3.0 * t2 + 1.0, -2.0 * t3 + 3.0 * t2);
+    let (r, s) = (t3 - 2.0 * t2 + t, t3 - t2);
+    let (dp, dr, ds) = (6.0 * t2 - 6.0 * t, 3.0 * t2 - 4.0 * t + 1.0, 3.0 * t2 - 2.0 * t);
+    let place = |i: usize| {
+        p * a.at[i] + q * b.at[i] + chord * (r * a.tangent[i] + s * b.tangent[i])
+    };
+    let slope = |i: usize| {
+        dp * (a.at[i] - b.at[i]) + chord * (dr * a.tangent[i] + ds * b.tangent[i])
+    };
+    ([place(0), place(1)], [slope(0), slope(1)])
+}
+
+impl Strand {
+    /// A strand through nodes, without points.
+    pub(in crate::curve) fn new(nodes: Vec<Node>, closed: bool) -> Self {
+        let mut strand = Self { nodes, closed, arc: vec![0.0], members: Vec::new() };
+        let mut sum = 0.0;
+        for edge in 0..strand.edges() {
+            let places: Vec<Point> = (0..=PIECES).map(|k| strand.piece(edge, k)).collect();
+            sum += places.windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1])).sum::<f64>();
+            strand.arc.push(sum);
+        }
+        strand
+    }
+
+    /// Edges between nodes.
+    pub(in crate::curve) fn edges(&self) -> usize {
+        self.nodes.len() - usize::from(!self.closed)
+    }
+
+    /// The whole length.
+    pub(in crate::curve) fn length(&self) -> f64 {
+        self.arc[self.arc.len() - 1]
+    }
+
+    /// The nodes at both ends of an edge.
+    pub(in crate::curve) fn edge(&self, edge: usize) -> (&Node, &Node) {
+        (&self.nodes[edge], &self.nodes[(edge + 1) % self.nodes.len()])
+    }
+
+    fn piece(&self, edge: usize, k: usize) -> Point {
+        let (a, b) = self.edge(edge);
+        hermite(a, b, k as f64 / PIECES as f64).0
+    }
+}
+
+/// A vertex of the fine polylines of all strands.
+struct Vertex {
+    strand: u32,
+    /// Number of the vertex in its polyline.
+    number: u32,
+}
+
+/// Gives each point that is near enough to its strand; the others are named, ascending.
+///
+/// Near is within `width` standard deviations of the noise at the node next to it.
+pub(in crate::curve) fn assign(strands: &mut [Strand], points: &[Point], width: f64) -> Vec<u32> {
+    // The polylines, with the length along the curve at each vertex.
+    let lines: Vec<Vec<(Point, f64)>> = strands.par_iter().map(polyline).collect();
+    let vertices: Vec<Vertex> = lines
+        .iter()
+        .enumerate()
+        .flat_map(|(s, line)| (0..line.len()).map(move |k| Vertex { strand: s as u32, number: k as u32 }))
+        .collect();
+    let at = |v: &Vertex| lines[v.strand as usize][v.number as usize].0;
+    let order = hilbert_order(vertices.len(), |i| at(&vertices[i]));
+    let places: Vec<Point> = order.iter().map(|&i| at(&vertices[i as usize])).collect();
+    let index = Index::new(&places);
+    let shared: &[Strand] = strands;
+    let found: Vec<Option<(u32, f64)>> = points
+        .par_iter()
+        .with_min_len(1 << 10)
+        .map_init(Vec::new, |nearest, &p| {
+            index.nearest(p, 1, nearest);
+            let vertex = &vertices[order[nearest.first()?.1 as usize] as usize];
+            let strand = &shared[vertex.strand as usize];
+            let (distance, arc) = project(strand, &lines[vertex.strand as usize], vertex.number as usize, p);
+            let node = &strand.nodes[(vertex.number as usize).div_ceil(PIECES) % strand.nodes.len()];
+            (distance <= width * node.deviation).then_some((vertex.strand, arc))
+        })
+        .collect();
+    let mut members: Vec<Vec<Member>> = vec![Vec::new(); strands.len()];
+    let mut left = Vec::new();
+    for (site, (&at, found)) in points.iter().zip(&found).enumerate() {
+        match found {
+            Some((strand, arc)) => members[*strand as usize].push(Member { arc: *arc, at, site: site as u32 }),
+            None => left.push(site as u32),
+        }
+    }
+    for (strand, mut members) in strands.iter_mut().zip(members) {
+        members.par_sort_unstable_by(|a, b| a.arc.total_cmp(&b.arc).then(a.site.cmp(&b.site)));
+        strand.members = members;
+    }
+    left
+}
+
+fn polyline(strand: &Strand) -> Vec<(Point, f64)> {
+    let mut line: Vec<(Point, f64)> = Vec::with_capacity(strand.edges() * PIECES + 1);
+    for edge in 0..strand.edges() {
+        let mut arc = strand.arc[edge];
+        for k in 0..PIECES {
+            let at = strand.piece(edge, k);
+            if let Some(&(last, before)) = line.last().filter(|_| k > 0) {
+                arc = before + (at[0] - last[0]).hypot(at[1] - last[1]);
+            }
+            line.push((at, arc));
+        }
+    }
+    if !strand.closed {
+        line.push((strand.nodes[strand.nodes.len() - 1].at, strand.length()));
+    }
+    line
+}
+
+/// The distance of a point from the two pieces at a vertex, and its place along the curve. Beyond the ends of an open
+/// strand the last pieces go on.
+fn project(strand: &Strand, line: &[(Point, f64)], vertex: usize, p: Point) -> (f64, f64) {
+    let mut best = (f64::INFINITY, 0.0);
+    let count = line.len();
+    for first in [vertex.wrapping_sub(1), vertex] {
+        let first = match first {
+            usize::MAX if strand.closed => count - 1,
+            usize::MAX => continue,
+            last if last + 1 == count && !strand.closed => continue,
+            first => first,
+        };
+        let ((a, start), (b, end)) = (line[first], line[(first + 1) % count]);
+        let end = if first + 1 == count { strand.length() } else { end };
+        let (ex, ey) = (b[0] - a[0], b[1] - a[1]);
+        let share = ((p[0] - a[0]) * ex + (p[1] - a[1]) * ey) / (ex * ex + ey * ey).max(f64::MIN_POSITIVE);
+        let least = if !strand.closed && first == 0 { -4.0 } else { 0.0 };
+        let most = if !strand.closed && first + 2 == count { 5.0 } else { 1.0 };
+        let t = share.clamp(least, most);
+        let distance = (p[0] - a[0] - t * ex).hypot(p[1] - a[1] - t * ey);
+        if distance < best.0 {
+            best = (distance, start + t * (end - start));
+        }
+    }
+    best
+}
