@@ -87,7 +87,7 @@ pub fn dev(points: &[[f64; 2]]) {
     let left = fit::strand::assign(&mut strands, &p, 5.0);
     eprintln!("assign left {} {:?}", left.len(), t.elapsed());
     for round in 1..3 {
-        strands = strands.iter().map(|s| fit::strand::Strand::new(fit::regress::regress(s, if round == 1 { 3 } else { 1 }, (round > 1).then(|| 1.73)), s.closed)).collect();
+        strands = strands.iter().map(|s| fit::strand::Strand::new(fit::regress::regress(s, if round == 1 { 3 } else { 1 }, &fit::regress::Noise { edge: (round > 1).then_some(1.73), outliers: left.len() > 100 }), s.closed)).collect();
         eprintln!("regress {:?}", t.elapsed());
         out(&strands, &round.to_string());
         let left = fit::strand::assign(&mut strands, &p, 5.0);

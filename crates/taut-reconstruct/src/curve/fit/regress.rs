@@ -21,6 +21,10 @@ const GROWTH: f64 = 1.25;
 const FEWEST: usize = 6;
 /// Lepski's factor: how many standard errors two windows may differ by.
 fn agree() -> f64 { std::env::var("AGREE").map_or(1.0, |s| s.parse().unwrap()) }
+/// A window by the frame of its middle holds |u| ≤ half. Along the curve that is up to half over this, as slopes are at most [`SLOPE`].
+const WITHIN: f64 = 0.8;
+/// Largest error of a minimax parabola in its middle, in δ/m: the standard error in trials with uniform noise.
+const MINIMAX_ERROR: f64 = 5.5;
 /// Greatest slope against the frame within a window.
 const SLOPE: f64 = 0.8;
 
@@ -33,45 +37,104 @@ pub(in crate::curve) struct Estimate {
     pub(in crate::curve) slope: f64,
     /// Standard error of the offset.
     pub(in crate::curve) error: f64,
-    /// Half the length of the window.
-    pub(in crate::curve) half: f64,
+    /// Half the curvature.
+    pub(in crate::curve) bend: f64,
     /// Standard deviation of the residuals.
     pub(in crate::curve) deviation: f64,
 }
 
+/// What is known about the noise.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::curve) struct Noise {
+    /// The edge of the noise in standard deviations, if it has one.
+    pub(in crate::curve) edge: Option<f64>,
+    /// Whether there are outliers beside the band.
+    pub(in crate::curve) outliers: bool,
+}
+
 /// Nodes in the middle of the band, `parts` for each edge of the strand.
-pub(in crate::curve) fn regress(strand: &Strand, parts: usize, edge: Option<f64>) -> Vec<Node> {
-    let noise = smooth(strand);
-    let places = strand.edges() * parts + usize::from(!strand.closed);
-    (0..places)
-        .into_par_iter()
-        .map_init(Vec::new, |window, place| {
-            let (edge, t) = match place / parts {
-                edge if edge < strand.edges() => (edge, (place % parts) as f64 / parts as f64),
-                edge => (edge - 1, 1.0),
-            };
-            let (a, b) = strand.edge(edge);
-            let (origin, slope) = hermite(a, b, t);
-            let norm = slope[0].hypot(slope[1]);
-            let tangent = [slope[0] / norm, slope[1] / norm];
-            let arc = strand.arc[edge] + t * (strand.arc[edge + 1] - strand.arc[edge]);
-            let start = (1.0 - t) * a.reach + t * b.reach;
-            let frame = Frame { origin, tangent };
-            let deviation = (1.0 - t) * noise[edge] + t * noise[(edge + 1) % noise.len()];
-            match estimate(strand, &frame, arc, start, deviation, edge, window) {
+pub(in crate::curve) fn regress(strand: &Strand, parts: usize, noise: &Noise) -> Vec<Node> {
+    let deviations = smooth(strand);
+    let places: Vec<Place> = (0..strand.edges() * parts + usize::from(!strand.closed))
+        .map(|number| Place::new(strand, &deviations, number, parts))
+        .collect();
+    let halves: Vec<f64> = places
+        .par_iter()
+        .map_init(Vec::new, |window, place| longest(strand, place, noise, window))
+        .collect();
+    let halves = median_around(strand, &places, &halves);
+    places
+        .par_iter()
+        .zip(&halves)
+        .map_init(Vec::new, |window, (place, &half)| {
+            let Frame { origin, tangent } = place.frame;
+            match measure(strand, place, half, noise, window) {
                 Some(found) => Node {
-                    at: frame.place(found.offset),
-                    tangent: frame.direction(found.slope),
-                    reach: start,
+                    at: place.frame.place(found.offset),
+                    tangent: place.frame.direction(found.slope),
+                    reach: place.reach,
                     deviation: found.deviation,
                 },
-                None => Node {
-                    at: origin,
-                    tangent,
-                    reach: start,
-                    deviation: (1.0 - t) * a.deviation + t * b.deviation,
-                },
+                None => Node { at: origin, tangent, reach: place.reach, deviation: place.deviation },
             }
+        })
+        .collect()
+}
+
+/// Where on a strand a node is to be.
+struct Place {
+    frame: Frame,
+    arc: f64,
+    reach: f64,
+    deviation: f64,
+}
+
+impl Place {
+    fn new(strand: &Strand, deviations: &[f64], number: usize, parts: usize) -> Self {
+        let (edge, t) = match number / parts {
+            edge if edge < strand.edges() => (edge, (number % parts) as f64 / parts as f64),
+            edge => (edge - 1, 1.0),
+        };
+        let (a, b) = strand.edge(edge);
+        let (origin, slope) = hermite(a, b, t);
+        let norm = slope[0].hypot(slope[1]);
+        let between = |a: f64, b: f64| (1.0 - t) * a + t * b;
+        Place {
+            frame: Frame { origin, tangent: [slope[0] / norm, slope[1] / norm] },
+            arc: between(strand.arc[edge], strand.arc[edge + 1]),
+            reach: between(a.reach, b.reach),
+            deviation: between(deviations[edge], deviations[(edge + 1) % deviations.len()]),
+        }
+    }
+}
+
+/// For each place the median of the halves of the places within its own half.
+fn median_around(strand: &Strand, places: &[Place], halves: &[f64]) -> Vec<f64> {
+    let q: f64 = std::env::var("QUANT").map_or(0.5, |s| s.parse().unwrap());
+    let count = places.len();
+    let whole = strand.length();
+    (0..count)
+        .map(|i| {
+            let mut around = vec![halves[i]];
+            for forward in [true, false] {
+                for k in 1..count / 2 {
+                    let j = match (forward, strand.closed) {
+                        (true, true) => (i + k) % count,
+                        (false, true) => (i + count - k) % count,
+                        (true, false) if i + k < count => i + k,
+                        (false, false) if i >= k => i - k,
+                        _ => break,
+                    };
+                    let apart = (places[j].arc - places[i].arc).abs();
+                    let apart = if strand.closed { apart.min(whole - apart) } else { apart };
+                    if apart > 1.0 * halves[i] {
+                        break;
+                    }
+                    around.push(halves[j]);
+                }
+            }
+            around.sort_unstable_by(f64::total_cmp);
+            around[((around.len() - 1) as f64 * q).round() as usize]
         })
         .collect()
 }
@@ -118,57 +181,90 @@ impl Frame {
     }
 }
 
-/// The estimate of the longest window that agrees with all shorter ones.
-fn estimate(
-    strand: &Strand,
-    frame: &Frame,
-    arc: f64,
-    start: f64,
-    deviation: f64,
-    edge: Option<f64>,
-    window: &mut Vec<Point>,
-) -> Option<Estimate> {
+/// Half the length of the longest window that agrees with all shorter ones.
+fn longest(strand: &Strand, place: &Place, noise: &Noise, window: &mut Vec<Point>) -> f64 {
     let longest = strand.length() / if strand.closed { 6.0 } else { 2.0 };
-    let mut half = 0.5 * start;
-    let mut best: Option<Estimate> = None;
+    let mut half = 0.5 * place.reach;
+    let mut best = half;
     let mut agreed = [f64::NEG_INFINITY, f64::INFINITY];
     while half <= longest {
-        window.clear();
-        let members = Range::around(strand, arc, half);
-        window.extend(members.map(|m| frame.local(m.at)));
+        if let Some(found) = measure(strand, place, half, noise, window) {
+            let interval =
+                [found.offset - agree() * found.error, found.offset + agree() * found.error];
+            agreed = [agreed[0].max(interval[0]), agreed[1].min(interval[1])];
+            if agreed[0] > agreed[1] || found.deviation > 1.5 * place.deviation {
+                break;
+            }
+            best = half;
+            if found.slope.abs() + 2.0 * found.bend.abs() * half > SLOPE {
+                break;
+            }
+        }
         half *= GROWTH;
-        if window.len() < FEWEST {
-            continue;
-        }
-        let Some((mut found, mut bend)) = least_squares(window, half / GROWTH, deviation) else { continue };
-        if found.error > 0.75 * deviation { continue; }
-        if found.deviation > deviation * 1.5 && best.is_some() { break; }
-        if let Some(edge) = edge {
-            window.retain(|p| (p[1] - found.offset - p[0] * (found.slope + p[0] * bend)).abs() < 1.2 * edge * deviation);
-            let m = window.len() as f64;
-            if m * found.error > 5.5 * deviation * 1.7 {
-            if let Some(w) = peeled(window, 1.03 * edge * deviation) {
-                found.offset = w.coefficients[0];
-                found.slope = w.coefficients[1];
-                bend = w.coefficients[2];
-                found.error = 5.5 * deviation * 1.7 / m;
-            }}
-        }
-        let interval = [found.offset - agree() * found.error, found.offset + agree() * found.error];
-        agreed = [agreed[0].max(interval[0]), agreed[1].min(interval[1])];
-        if agreed[0] > agreed[1] && best.is_some() {
-            break;
-        }
-        best = Some(found);
-        if found.slope.abs() + 2.0 * bend.abs() * half > SLOPE {
-            break;
-        }
     }
     best
 }
 
-/// The parabola of least squares and its bend c.
-fn least_squares(window: &[Point], half: f64, deviation: f64) -> Option<(Estimate, f64)> {
+/// What the window of one length says of a place; none where it holds too few points or all on one side.
+fn measure(
+    strand: &Strand,
+    place: &Place,
+    half: f64,
+    noise: &Noise,
+    window: &mut Vec<Point>,
+) -> Option<Estimate> {
+    window.clear();
+    let members = Range::around(strand, place.arc, half / WITHIN);
+    window.extend(members.map(|m| place.frame.local(m.at)).filter(|p| p[0].abs() <= half));
+    if window.len() < FEWEST {
+        return None;
+    }
+    let found = least_squares(window, half, place.deviation)?;
+    if found.error > 0.75 * place.deviation {
+        return None;
+    }
+    let Some(edge) = noise.edge.map(|edge| edge * place.deviation) else { return Some(found) };
+    // The least largest residual of m points is off by some 5.5·δ/m.
+    let error = MINIMAX_ERROR * edge / window.len() as f64;
+    if error > found.error {
+        return Some(found);
+    }
+    let most = 1.05 * edge + 3.0 * found.error;
+    window.retain_mut(|p| {
+        *p = straightened(*p, &found);
+        p[1].abs() < most
+    });
+    let peels = if noise.outliers { 8 } else { 0 };
+    let fitted = peeled(window, 1.05 * edge, peels)?;
+    let [offset, slope, bend] = fitted.coefficients;
+    Some(Estimate {
+        offset: found.offset + offset * found.slope.hypot(1.0),
+        slope: found.slope + slope,
+        bend: found.bend + bend,
+        error,
+        ..found
+    })
+}
+
+/// The place of a point along a parabola, and its distance from it.
+///
+/// The band that noise fills has its edges at one distance along the normal, not above: where it slopes, it is higher than it is
+/// wide, and a parabola in the frame would be held at the ends of the window only.
+fn straightened([u, v]: Point, parabola: &Estimate) -> Point {
+    let Estimate { offset, slope, bend, .. } = *parabola;
+    let mut foot = u;
+    for _ in 0..2 {
+        // Newton's step for (foot − u) + (p(foot) − v)·p′(foot) = 0.
+        let above = offset + foot * (slope + foot * bend) - v;
+        let rise = slope + 2.0 * foot * bend;
+        foot -= (foot - u + above * rise) / (1.0 + rise * rise + 2.0 * above * bend).max(0.25);
+    }
+    let above = v - (offset + foot * (slope + foot * bend));
+    [foot, (foot - u).hypot(above).copysign(above)]
+}
+
+/// The parabola of least squares.
+fn least_squares(window: &[Point], half: f64, deviation: f64) -> Option<Estimate> {
     let mut powers = [0.0; 5];
     let mut moments = [0.0; 3];
     let mut squares = 0.0;
@@ -191,20 +287,22 @@ fn least_squares(window: &[Point], half: f64, deviation: f64) -> Option<(Estimat
     let inverse = cholesky(matrix, [1.0, 0.0, 0.0])?[0];
     let fitted: f64 = solution.iter().zip(moments).map(|(a, m)| a * m).sum();
     let variance = ((squares - fitted) / (window.len() as f64 - 3.0)).max(0.0);
-    let estimate = Estimate {
+    Some(Estimate {
         offset: solution[0],
         slope: solution[1] / half,
+        bend: solution[2] / (half * half),
         error: deviation * inverse.sqrt(),
-        half,
         deviation: variance.sqrt(),
-    };
-    Some((estimate, solution[2] / (half * half)))
+    })
 }
 
 /// The minimax parabola without the points that make it wider than noise is.
-fn peeled(window: &mut Vec<Point>, widest: f64) -> Option<Minimax> {
+fn peeled(window: &mut Vec<Point>, widest: f64, most: usize) -> Option<Minimax> {
     let mut found = minimax(window)?;
-    while found.width > widest && window.len() > FEWEST {
+    for _ in 0..most {
+        if found.width <= widest || window.len() <= FEWEST {
+            break;
+        }
         let mut best: Option<(usize, Minimax)> = None;
         for i in found.reference {
             let last = window.len() - 1;
