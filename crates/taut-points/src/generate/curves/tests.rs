@@ -11,7 +11,7 @@ fn truth(name: &str) -> TruthCurves {
 #[test]
 fn length_over_feature_and_largest_feature_are_the_published_ones() {
     let known = [
-        ("circle", 6.283, 1.0),
+        ("circle", 2.0 * PI, 1.0),
         ("ellipse3", 20.2, 3.0),
         ("flower5", 52.5, 4.29),
         ("bumpy", 55.8, 8.89),
