@@ -3,6 +3,7 @@
 mod answer;
 mod cloud;
 mod options;
+mod tour;
 
 use taut_certify::{Curve, Solution};
 use taut_points::{Monitor, PointSource, Points, Scalar};
@@ -50,9 +51,10 @@ pub fn curve_of_source(
 }
 
 /// The curves by the method chosen.
-fn solve(_cloud: &Cloud, options: &CurveOptions, _monitor: &Monitor<'_>) -> Result<Outcome, Error> {
+fn solve(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result<Outcome, Error> {
     let outcome = Outcome { method: options.method.name(), ..Outcome::default() };
     Ok(match options.method {
+        CurveMethod::Tour => tour::tour(cloud, options, monitor)?,
         _ => outcome,
     })
 }
