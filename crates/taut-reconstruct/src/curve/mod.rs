@@ -6,6 +6,7 @@ mod chains;
 mod clean;
 mod cloud;
 mod options;
+mod tour;
 
 use taut_certify::{Curve, Solution};
 use taut_points::{Monitor, PointSource, Points, Scalar};
@@ -62,6 +63,7 @@ fn solve(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result
         | CurveMethod::ConservativeCrust
         | CurveMethod::HnnCrust
         | CurveMethod::Corners => clean::solve(cloud, options.method, options.ends, monitor)?,
+        CurveMethod::Tour => tour::tour(cloud, options, monitor)?,
         _ => outcome,
     })
 }
