@@ -275,6 +275,9 @@ impl Solution {
                 let certificate = CentersCertificate::new(py, &found.certificate)?;
                 (answer, Py::new(py, certificate)?.into_any(), found.trace.clone())
             }
+            AnySolution::Curve(_) => {
+                return Err(PyValueError::new_err("curves cannot be shown to Python yet"));
+            }
             AnySolution::Triangulation(found) => {
                 let answer = Py::new(py, Triangulation::new(py, found)?)?.into_any();
                 let certificate = TriangulationCertificate::new(&found.certificate);
@@ -298,7 +301,8 @@ impl Solution {
             | AnySolution::Ellipsoid(_)
             | AnySolution::Inscribed(_)
             | AnySolution::Robust(_)
-            | AnySolution::Centers(_) => {
+            | AnySolution::Centers(_)
+            | AnySolution::Curve(_) => {
                 let kind = self.kind();
                 let holder = match kind {
                     "centers" => "centers have".to_owned(),
@@ -322,7 +326,7 @@ impl Solution {
             (AnySolution::Inscribed(_), _) => ("lies in half-spaces", "offsets"),
             (_, Some(Items::Balls)) => ("encloses balls", "radii"),
             (_, Some(Items::Ellipsoids)) => ("encloses ellipsoids", "shapes"),
-            (AnySolution::Robust(_), _) => ("speaks of points", ""),
+            (AnySolution::Robust(_) | AnySolution::Curve(_), _) => ("speaks of points", ""),
             (_, Some(Items::Points)) => ("encloses points", ""),
             (_, None) => ("joins points", ""),
         };
@@ -345,6 +349,7 @@ impl Solution {
             AnySolution::Ellipsoid(found) => Some(found.certificate.items),
             AnySolution::Robust(_) => Some(Items::Points),
             AnySolution::Centers(found) => Some(found.certificate.items),
+            AnySolution::Curve(_) => Some(Items::Points),
             AnySolution::Inscribed(_) | AnySolution::Triangulation(_) => None,
         }
     }
@@ -394,6 +399,7 @@ impl Solution {
             AnySolution::Inscribed(_) => "inscribed-ellipsoid",
             AnySolution::Robust(_) => "robust-ellipsoid",
             AnySolution::Centers(_) => "centers",
+            AnySolution::Curve(_) => "curve",
             AnySolution::Triangulation(_) => "delaunay",
         }
     }
@@ -500,6 +506,9 @@ impl Solution {
             Ok(AnyVerdict::Centers(proved)) => {
                 Ok(Py::new(py, CentersVerdict::new(proved))?.into_any())
             }
+            Ok(AnyVerdict::Curve(_)) => {
+                Err(PyValueError::new_err("curves cannot be shown to Python yet"))
+            }
             Ok(AnyVerdict::Triangulation(proved)) => {
                 Ok(Py::new(py, TriangulationVerdict::new(&proved))?.into_any())
             }
@@ -579,6 +588,10 @@ impl Solution {
                 format!(
                     "Solution(kind='{kind}', k={k}, radius={radius}, lower_bound={lower_bound})"
                 )
+            }
+            AnySolution::Curve(found) => {
+                let curves = found.answer.curves.len();
+                format!("Solution(kind='{kind}', curves={curves})")
             }
             AnySolution::Triangulation(found) => {
                 let certify::TriangulationCounts { sites, simplices, hull } =

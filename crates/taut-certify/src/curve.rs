@@ -1,12 +1,17 @@
 //! Curves through points of the plane, and the certificate of what is known about them.
 
 mod check;
+mod doubt;
+mod violation;
 
 use serde::{Deserialize, Serialize};
 use taut_points::{Monitor, PointSource, PointsHash};
 
 use crate::json::{hash_from_hex, hash_to_hex};
 use crate::{Answer, CheckError};
+
+pub use doubt::CurveDoubt;
+pub use violation::CurveViolation;
 
 /// Curves through a point set of the plane: polylines that meet neither themselves nor one another.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -42,14 +47,32 @@ pub struct CurveComponent {
 pub struct Place(pub u32, pub f64);
 
 /// What is claimed of a curve.
+///
+/// # What `certified` means
+/// The rows that are not outliers sample the answer itself so densely, and lie so near to it, beside its own features, that a
+/// closed smooth curve that they sample as well is homeomorphic to the answer and passes by them in the same order. The features are
+/// measured by φ, at each vertex the radius of the smallest ball that touches the curve there and meets it elsewhere, on either
+/// side, made 1-Lipschitz along the curve; it is at least the local feature size, the distance to the medial axis. For
+/// vertices that are rows this is the reasoning behind the theorem on NN-Crust (Dey and Kumar 1999): closed smooth curves with the same
+/// sample, at ε ≤ 1/3 for each, have the same polygon. For noise there is no such theorem; thresholds stand a good way below
+/// those where trials with known curves first failed.
+///
+/// It is evidence, not proof, for points cannot tell of what was not sampled. What deceives it: a curve with features smaller than the gaps
+/// between its samples; a curve open by less than such a gap; two strands nearer to each other than the noise is wide, with
+/// samples all over the room between; a curve that has a few samples only, taken for outliers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,
-    expecting = "the certificate of a curve: an object with band, certified and points_hash"
+    expecting = "the certificate of a curve: an object with band, sampling_ratio, noise_ratio, certified and points_hash"
 )]
 pub struct CurveCertificate {
-    /// No row but the outliers is farther than this from the curve.
+    /// No row but the outliers is farther than this from the curve; 0 where vertices are rows, as each row then is a vertex.
     pub band: f64,
+    /// ε: over all gaps between places of rows that follow each other along a curve, the largest of half the gap over φ.
+    /// [`f64::MAX`] where it is not known, or larger.
+    pub sampling_ratio: f64,
+    /// Over all rows but the outliers, the largest of the distance from the curve over φ next to it. [`f64::MAX`] where it is not known.
+    pub noise_ratio: f64,
     /// Whether the sampling is dense enough, beside the features of the curve itself, to call it homeomorphic to the one that was
     /// sampled.
     pub certified: bool,
@@ -79,8 +102,18 @@ pub struct TourBound {
 pub struct CurveVerdict {
     /// The largest distance of a row that is no outlier from the curve, rounded up.
     pub band: f64,
-    /// Whether the evidence for a homeomorphism was found.
+    /// Whether no two edges meet but neighbours at their vertex. Of tours alone it may be false; other answers are refused then.
+    pub is_simple: bool,
+    /// ε as the checker finds it; infinite where it is not known.
+    pub sampling_ratio: f64,
+    /// The noise ratio as the checker finds it; infinite where it is not known.
+    pub noise_ratio: f64,
+    /// Whether the evidence for a homeomorphism was found, claimed or not.
     pub certified: bool,
+    /// Where it was not, the first reason.
+    pub doubt: Option<CurveDoubt>,
+    /// Of a tour with a bound, length / lower bound − 1, rounded up.
+    pub tour_gap: Option<f64>,
 }
 
 impl Answer for Curve {

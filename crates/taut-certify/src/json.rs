@@ -7,8 +7,8 @@ use serde_json::ser::{Formatter, PrettyFormatter};
 use taut_points::{Monitor, PointSource, PointsHash};
 
 use crate::{
-    Answer, AnyVerdict, Ball, Centers, CheckError, Ellipsoid, InscribedEllipsoid, RobustEllipsoid,
-    Solution, Trace, Triangulation,
+    Answer, AnyVerdict, Ball, Centers, CheckError, Curve, Ellipsoid, InscribedEllipsoid,
+    RobustEllipsoid, Solution, Trace, Triangulation,
 };
 
 /// Version of the document; it grows by one when a reader of the old one would misread the new.
@@ -194,6 +194,8 @@ pub enum AnySolution {
     Robust(Box<Solution<RobustEllipsoid>>),
     /// k centres.
     Centers(Solution<Centers>),
+    /// Curves of the plane.
+    Curve(Solution<Curve>),
     /// A Delaunay triangulation.
     Triangulation(Solution<Triangulation>),
 }
@@ -226,6 +228,7 @@ impl AnySolution {
             InscribedEllipsoid::KIND => Ok(AnySolution::Inscribed(parse(text)?)),
             RobustEllipsoid::KIND => Ok(AnySolution::Robust(Box::new(parse(text)?))),
             Centers::KIND => Ok(AnySolution::Centers(parse(text)?)),
+            Curve::KIND => Ok(AnySolution::Curve(parse(text)?)),
             Triangulation::KIND => Ok(AnySolution::Triangulation(parse(text)?)),
             _ => Err(JsonError::Kind { found: head.kind }),
         }
@@ -239,6 +242,7 @@ impl AnySolution {
             AnySolution::Inscribed(found) => found.to_json(),
             AnySolution::Robust(found) => found.to_json(),
             AnySolution::Centers(found) => found.to_json(),
+            AnySolution::Curve(found) => found.to_json(),
             AnySolution::Triangulation(found) => found.to_json(),
         }
     }
@@ -267,6 +271,9 @@ impl AnySolution {
             }
             AnySolution::Centers(found) => {
                 found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Centers)
+            }
+            AnySolution::Curve(found) => {
+                found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Curve)
             }
             AnySolution::Triangulation(found) => found
                 .answer

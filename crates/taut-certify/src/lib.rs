@@ -54,7 +54,10 @@ pub use ball::{Ball, BallCertificate};
 pub use centers::{
     Centers, CentersCertificate, CentersVerdict, CentersViolation, LowerBound, Placement,
 };
-pub use curve::{Curve, CurveCertificate, CurveComponent, CurveVerdict, Place, TourBound};
+pub use curve::{
+    Curve, CurveCertificate, CurveComponent, CurveDoubt, CurveVerdict, CurveViolation, Place,
+    TourBound,
+};
 pub use ellipsoid::{
     EllipseSupport, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipse_support,
 };

@@ -3,8 +3,8 @@
 use taut_points::ReadError;
 
 use crate::{
-    CentersVerdict, CentersViolation, EllipsoidVerdict, InscribedVerdict, MeshViolation,
-    RobustVerdict, TriangulationVerdict,
+    CentersVerdict, CentersViolation, CurveVerdict, CurveViolation, EllipsoidVerdict,
+    InscribedVerdict, MeshViolation, RobustVerdict, TriangulationVerdict,
 };
 
 /// What was proved of an answer of any kind.
@@ -20,6 +20,8 @@ pub enum AnyVerdict {
     Robust(RobustVerdict),
     /// Of k centres.
     Centers(CentersVerdict),
+    /// Of curves.
+    Curve(CurveVerdict),
     /// Of a Delaunay triangulation.
     Triangulation(TriangulationVerdict),
 }
@@ -367,6 +369,9 @@ pub enum Violation {
     /// Something is wrong with centres.
     #[error(transparent)]
     Centers(#[from] CentersViolation),
+    /// Something is wrong with a curve.
+    #[error(transparent)]
+    Curve(#[from] CurveViolation),
     /// Something is wrong with a triangulation.
     #[error(transparent)]
     Mesh(#[from] MeshViolation),
@@ -396,6 +401,12 @@ pub enum CheckError {
 
 impl From<CentersViolation> for CheckError {
     fn from(violation: CentersViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
+}
+
+impl From<CurveViolation> for CheckError {
+    fn from(violation: CurveViolation) -> Self {
         CheckError::Rejected(violation.into())
     }
 }

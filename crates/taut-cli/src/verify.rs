@@ -4,7 +4,7 @@ use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
-use taut::certify::{CentersViolation, CheckError, JsonError, check_simplices};
+use taut::certify::{CentersViolation, CheckError, CurveVerdict, JsonError, check_simplices};
 use taut::enclose::Error as SolveError;
 use taut::points::{Blocks, Scratch};
 use taut::{Answer, AnySolution, Solution, Verdict, Violation};
@@ -96,6 +96,19 @@ impl Args {
                 let (k, radius) = (count(found.certificate.k), exact(found.answer.radius));
                 let what = format!("centres, k = {k}, of radius {radius}");
                 within(verdict.gap, what, proved_of_centers(found, points.source(), &verdict))
+            }),
+            AnySolution::Curve(found) => judge(found, &points, &watch)?.map(|verdict| {
+                let (count, noun) = match found.answer.curves.len() {
+                    1 => ("1".into(), "curve"),
+                    curves => (count(curves as u64), "curves"),
+                };
+                match verdict.tour_gap {
+                    Some(gap) => within(gap, "tour".into(), proved_of_curve(&verdict)),
+                    None => {
+                        let title = format!("Verified: {count} {noun}");
+                        (Outcome::Done, report::text(&title, &proved_of_curve(&verdict)))
+                    }
+                }
             }),
             AnySolution::Triangulation(found) => judge(found, &points, &watch)?.map(|verdict| {
                 let title = triangulation(points.source().dim());
@@ -256,4 +269,18 @@ fn facts(verdict: &Verdict) -> Vec<Fact> {
         Fact::new("bracket", bracket),
         Fact::new("gap", gap(verdict.gap)).remark("relative, proved from the points alone"),
     ]
+}
+
+fn proved_of_curve(verdict: &CurveVerdict) -> Vec<Fact> {
+    let mut facts = vec![
+        Fact::new("band", exact(verdict.band)).remark("no row but outliers is farther off"),
+        Fact::new("simple", if verdict.is_simple { "yes" } else { "no" }.to_owned())
+            .remark("no two edges meet, by exact predicates"),
+    ];
+    facts.push(match verdict.doubt {
+        None => Fact::new("certified", "yes".to_owned())
+            .remark("sampled densely enough to be homeomorphic"),
+        Some(doubt) => Fact::new("certified", "no".to_owned()).remark(doubt.to_string()),
+    });
+    facts
 }

@@ -7,6 +7,7 @@
 //! Yıldırım (ALENEX 2003): uniform in the cube, vertices of the cube, normal, Poisson with λ = 1. Kuzmin's as in the
 //! experiments on Delaunay triangulations by Blelloch, Miller and Talmor (Algorithmica 24(3), 1999).
 
+pub mod curves;
 mod distribution;
 mod draw;
 mod radii;

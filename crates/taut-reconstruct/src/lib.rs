@@ -12,6 +12,7 @@
 mod curve;
 mod error;
 mod threads;
+mod tour;
 
 pub use curve::{dev, CurveMethod, CurveOptions, Ends, curve, curve_of_source};
 pub use error::Error;

@@ -84,7 +84,7 @@ pub(super) fn draw(distribution: &Distribution, seed: u64, i: u64, out: &mut [f6
     }
 }
 
-fn normal(random: &mut ChaCha8Rng) -> f64 {
+pub(super) fn normal(random: &mut ChaCha8Rng) -> f64 {
     StandardNormal.sample(random)
 }
 

@@ -43,8 +43,14 @@ pub(super) fn finish(
     let points_hash = hash_points(source, monitor)?;
     let answer =
         Curve { curves: outcome.curves, noise: outcome.noise, outliers, places: Vec::new() };
-    let certificate =
-        CurveCertificate { band: 0.0, certified: false, tour: outcome.tour, points_hash };
+    let certificate = CurveCertificate {
+        band: 0.0,
+        sampling_ratio: f64::MAX,
+        noise_ratio: f64::MAX,
+        certified: false,
+        tour: outcome.tour,
+        points_hash,
+    };
     let trace = Trace {
         method: outcome.method.into(),
         stop: Stop::Converged,

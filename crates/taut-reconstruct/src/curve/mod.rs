@@ -1,10 +1,14 @@
 //! Curves through samples of the plane.
 
 mod answer;
+mod boxes;
+mod chains;
+mod clean;
 mod cloud;
 mod fit;
 mod index;
 mod options;
+mod tour;
 
 use taut_certify::{Curve, Solution};
 use taut_points::{Monitor, PointSource, Points, Scalar};
@@ -52,9 +56,16 @@ pub fn curve_of_source(
 }
 
 /// The curves by the method chosen.
-fn solve(_cloud: &Cloud, options: &CurveOptions, _monitor: &Monitor<'_>) -> Result<Outcome, Error> {
+fn solve(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result<Outcome, Error> {
     let outcome = Outcome { method: options.method.name(), ..Outcome::default() };
     Ok(match options.method {
+        CurveMethod::Crust
+        | CurveMethod::OneStepCrust
+        | CurveMethod::NnCrust
+        | CurveMethod::ConservativeCrust
+        | CurveMethod::HnnCrust
+        | CurveMethod::Corners => clean::solve(cloud, options.method, options.ends, monitor)?,
+        CurveMethod::Tour => tour::tour(cloud, options, monitor)?,
         _ => outcome,
     })
 }

@@ -1,0 +1,114 @@
+//! Why a curve is not certified.
+
+/// The first reason not to call a curve homeomorphic to the one that was sampled, and where.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CurveDoubt {
+    /// There are no curves.
+    #[error("there are no curves")]
+    Empty,
+    /// Two edges of a tour meet.
+    #[error("curve {curve} meets itself at edge {edge}")]
+    Crossing {
+        /// Curve, from 0.
+        curve: usize,
+        /// The edge after this vertex, from 0.
+        edge: usize,
+    },
+    /// A curve has ends, and an end may be a gap.
+    #[error("curve {curve} has ends, which may be those of a gap")]
+    Open {
+        /// Curve, from 0.
+        curve: usize,
+    },
+    /// A curve has too few rows to tell anything.
+    #[error("curve {curve} has {rows} rows, fewer than {least}")]
+    Few {
+        /// Curve, from 0.
+        curve: usize,
+        /// Rows that are not outliers and nearest to it.
+        rows: usize,
+        /// Fewest that would do.
+        least: usize,
+    },
+    /// A curve turns too sharply.
+    #[error("curve {curve} turns by {degrees:.0} degrees at vertex {vertex}")]
+    Corner {
+        /// Curve, from 0.
+        curve: usize,
+        /// Vertex, from 0.
+        vertex: usize,
+        /// How much.
+        degrees: f64,
+    },
+    /// Samples are too far apart beside the features of the curve.
+    #[error(
+        "a gap between samples of curve {curve}, after vertex {vertex}, is {ratio:.3} of the feature size there, twice; at most {most} would do"
+    )]
+    Sparse {
+        /// Curve, from 0.
+        curve: usize,
+        /// The vertex before the gap begins, from 0.
+        vertex: usize,
+        /// Half the gap over φ.
+        ratio: f64,
+        /// The most that would do.
+        most: f64,
+    },
+    /// A gap is much longer than those beside it.
+    #[error(
+        "a gap between samples of curve {curve}, after vertex {vertex}, is {times:.0} times as long as those beside it"
+    )]
+    Lacuna {
+        /// Curve, from 0.
+        curve: usize,
+        /// The vertex before the gap begins, from 0.
+        vertex: usize,
+        /// Length of the gap over the mean of those beside it.
+        times: f64,
+    },
+    /// Noise is too large beside the features of the curve.
+    #[error(
+        "row {row} lies {ratio:.3} of the feature size off curve {curve}; at most {most} would do"
+    )]
+    Noisy {
+        /// Row, from 0.
+        row: u64,
+        /// Curve, from 0.
+        curve: usize,
+        /// Distance over φ.
+        ratio: f64,
+        /// The most that would do.
+        most: f64,
+    },
+    /// Rows lie in two or more bands beside each other, as the samples of two curves would.
+    #[error(
+        "the rows beside curve {curve}, after vertex {vertex}, lie in bands with {share:.2} of their width empty between"
+    )]
+    Split {
+        /// Curve, from 0.
+        curve: usize,
+        /// The vertex after which they lie, from 0.
+        vertex: usize,
+        /// The widest empty part over the width of the band.
+        share: f64,
+    },
+    /// Too many rows are said to be outliers.
+    #[error("{outliers} of {rows} rows are outliers")]
+    Outliers {
+        /// Outliers.
+        outliers: u64,
+        /// Rows there are.
+        rows: u64,
+    },
+    /// Outliers lie as near to each other as samples of a curve.
+    #[error(
+        "{rows} outliers, row {row} among them, lie as near to each other as the samples of a curve"
+    )]
+    Cluster {
+        /// The first of them.
+        row: u64,
+        /// How many.
+        rows: usize,
+    },
+}

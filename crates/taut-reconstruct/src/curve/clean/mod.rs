@@ -1,0 +1,90 @@
+//! Curves through samples without noise: their vertices are the samples.
+
+mod conservative_crust;
+mod crust;
+mod graph;
+mod hnn_crust;
+mod near;
+mod nn_crust;
+mod one_step_crust;
+#[cfg(test)]
+mod tests;
+
+use std::borrow::Cow;
+
+use taut_certify::CurveComponent;
+use taut_points::Monitor;
+
+use super::answer::Outcome;
+use super::chains::{chains, repair};
+use super::cloud::Cloud;
+use super::options::{CurveMethod, Ends};
+use crate::Error;
+use near::Near;
+
+/// Coordinates up to 2^±SAFE are left as they are: their squares neither overflow nor vanish.
+const SAFE: i32 = 200;
+
+/// The curves by one of the methods of this module.
+pub(super) fn solve(
+    cloud: &Cloud,
+    method: CurveMethod,
+    ends: Ends,
+    monitor: &Monitor<'_>,
+) -> Result<Outcome, Error> {
+    let sites = normalised(&cloud.sites);
+    let edges = edges(&sites, method, monitor)?;
+    monitor.check()?;
+    let (edges, repairs) = repair(&sites, edges, ends, monitor)?;
+    let mut lonely = vec![true; sites.len()];
+    edges.iter().flatten().for_each(|&site| lonely[site as usize] = false);
+    let curves = chains(sites.len(), &edges).into_iter().map(|chain| CurveComponent {
+        vertices: chain.sites.iter().map(|&site| cloud.sites[site as usize]).collect(),
+        closed: chain.closed,
+        rows: chain.sites.iter().map(|&site| cloud.row(site)).collect(),
+    });
+    let counters = [
+        ("edges_cut", repairs.cut),
+        ("edges_crossed", repairs.crossed),
+        ("ends_joined", repairs.joined),
+    ];
+    Ok(Outcome {
+        method: method.name(),
+        curves: curves.collect(),
+        outliers: (0u32..).zip(&lonely).filter(|(_, l)| **l).map(|(site, _)| site).collect(),
+        counters: counters.map(|(name, count)| (name.to_owned(), count)).into(),
+        ..Outcome::default()
+    })
+}
+
+/// The edges a method chooses, as they are.
+fn edges(
+    sites: &[[f64; 2]],
+    method: CurveMethod,
+    monitor: &Monitor<'_>,
+) -> Result<Vec<[u32; 2]>, Error> {
+    match method {
+        CurveMethod::Crust => crust::edges(sites, monitor),
+        CurveMethod::OneStepCrust => {
+            let plane = graph::triangulate(sites, monitor)?;
+            Ok(one_step_crust::edges(sites, &graph::edges(&plane)))
+        }
+        CurveMethod::ConservativeCrust => conservative_crust::edges(sites, monitor),
+        CurveMethod::HnnCrust => hnn_crust::edges(&Near::new(sites), monitor),
+        _ => nn_crust::edges(&Near::new(sites), monitor),
+    }
+}
+
+/// The sites, scaled by a power of two if squares of their coordinates could leave the range of a double. Scaling is exact but for
+/// coordinates 2⁸⁰⁰ times smaller than the largest.
+fn normalised(sites: &[[f64; 2]]) -> Cow<'_, [[f64; 2]]> {
+    let largest = sites.as_flattened().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let exponent = if largest > 0.0 { largest.log2().floor() as i32 } else { 0 };
+    if exponent.abs() <= SAFE {
+        return Cow::Borrowed(sites);
+    }
+    // In two steps, as the factor itself may be out of range.
+    let (half, rest) = (-exponent / 2, -exponent - -exponent / 2);
+    let scale = |x: f64| x * 2f64.powi(half) * 2f64.powi(rest);
+    Cow::Owned(sites.iter().map(|site| site.map(scale)).collect())
+}

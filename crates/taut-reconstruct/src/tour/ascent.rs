@@ -1,0 +1,142 @@
+//! Held and Karp's bound on tours.
+//!
+//! *Problem.* Potentials π for which the least 1-tree under |ij| + πᵢ + πⱼ, less 2Σπ, is as heavy as can be. No tour is shorter.
+//! *Idea.* A 1-tree is a spanning tree of all sites but one and the two least edges of that one; tours are the 1-trees in which all
+//! degrees are 2. Potentials rise where the degree is above 2 and fall where it is 1, by Polyak's step towards the length
+//! of the tour that is known. Of paths: a spanning tree and two ends.
+//! *Guarantee.* The best of all steps is kept. If the 1-tree becomes a tour, that tour is the shortest of the candidates.
+//! *Trap.* The bound is one of tours of candidates. What holds for all tours is found from the potentials afterwards. Without a good
+//! special site the 1-tree of a dense sample of a curve lacks its longest edge: the special site is the leaf of the least
+//! tree whose second edge is the longest.
+//! *Reference.* Held and Karp, Operations Research 18, 1970, and Mathematical Programming 1, 1971; the special site after Helsgaun
+//! 2000; Polyak 1969.
+
+use taut_points::Monitor;
+
+use super::candidates::Candidates;
+use super::tree::least_tree;
+use crate::Error;
+
+/// Share of the last direction in the next, after Volgenant and Jonker 1982 and Helsgaun 2000.
+const MEMORY: f64 = 0.3;
+/// Without a better bound for so many steps, steps get shorter by this factor.
+const PATIENCE: u32 = 4;
+const SHORTER: f64 = 0.7;
+/// The bound is as good as the tour.
+pub(super) const CLOSED_GAP: f64 = 1e-9;
+
+/// An ascent in progress.
+pub(super) struct Ascent<'a> {
+    candidates: &'a Candidates,
+    /// The special site; none for paths.
+    special: Option<u32>,
+    /// Current and best.
+    potentials: Vec<f64>,
+    pub(super) best: Vec<f64>,
+    pub(super) bound: f64,
+    /// Degrees less 2 of the best 1-tree.
+    pub(super) open: Vec<i32>,
+    direction: Vec<f64>,
+    degrees: Vec<i32>,
+    factor: f64,
+    waited: u32,
+    pub(super) steps: u64,
+}
+
+impl<'a> Ascent<'a> {
+    pub(super) fn new(candidates: &'a Candidates, n: usize, special: Option<u32>) -> Self {
+        Self {
+            candidates,
+            special,
+            potentials: vec![0.0; n],
+            best: vec![0.0; n],
+            bound: f64::NEG_INFINITY,
+            open: vec![0; n],
+            direction: vec![0.0; n],
+            degrees: vec![0; n],
+            factor: 1.0,
+            waited: 0,
+            steps: 0,
+        }
+    }
+
+    /// Takes at most so many steps towards the length of a tour that is known; true if the bound reached it.
+    pub(super) fn climb(
+        &mut self,
+        target: f64,
+        steps: usize,
+        monitor: &Monitor<'_>,
+    ) -> Result<bool, Error> {
+        for _ in 0..steps {
+            monitor.check()?;
+            let bound = self.one_tree();
+            self.steps += 1;
+            if bound > self.bound {
+                self.bound = bound;
+                self.best.copy_from_slice(&self.potentials);
+                self.open.copy_from_slice(&self.degrees);
+                self.waited = 0;
+            } else {
+                self.waited += 1;
+                if self.waited == PATIENCE {
+                    self.waited = 0;
+                    self.factor *= SHORTER;
+                }
+            }
+            let square: f64 = self.degrees.iter().map(|&d| f64::from(d * d)).sum();
+            if square == 0.0 || target - self.bound <= CLOSED_GAP * target {
+                return Ok(true);
+            }
+            let step = self.factor * (target - bound) / square;
+            for v in 0..self.degrees.len() {
+                let along = &mut self.direction[v];
+                *along = (1.0 - MEMORY) * f64::from(self.degrees[v]) + MEMORY * *along;
+                self.potentials[v] += step * *along;
+            }
+        }
+        Ok(false)
+    }
+
+    /// The least 1-tree: what it bounds, and its degrees less 2.
+    fn one_tree(&mut self) -> f64 {
+        self.degrees.fill(-2);
+        let degrees = &mut self.degrees;
+        let total = least_tree(self.candidates, &self.potentials, self.special, |a, b| {
+            degrees[a as usize] += 1;
+            degrees[b as usize] += 1;
+        });
+        let potentials = &self.potentials;
+        let mut two = [(f64::INFINITY, 0); 2];
+        let mut offer = |weight: f64, v: u32| {
+            if weight < two[0].0 {
+                two = [(weight, v), two[0]];
+            } else if weight < two[1].0 {
+                two[1] = (weight, v);
+            }
+        };
+        match self.special {
+            Some(s) => {
+                let pi = potentials[s as usize];
+                self.candidates
+                    .edges(s)
+                    .for_each(|(u, length)| offer(length + (pi + potentials[u as usize]), u));
+                degrees[s as usize] += 2;
+            }
+            None => (0u32..).zip(potentials).for_each(|(v, &pi)| offer(pi, v)),
+        }
+        two.iter().for_each(|&(_, v)| degrees[v as usize] += 1);
+        total + two[0].0 + two[1].0 - 2.0 * potentials.iter().sum::<f64>()
+    }
+}
+
+/// The leaf of the least spanning tree whose second edge is the longest.
+pub(super) fn special_site(candidates: &Candidates, n: usize) -> u32 {
+    let mut degrees = vec![0u32; n];
+    least_tree(candidates, &vec![0.0; n], None, |a, b| {
+        degrees[a as usize] += 1;
+        degrees[b as usize] += 1;
+    });
+    let second = |v: u32| candidates.edges(v).nth(1).map_or(0.0, |(_, length)| length);
+    let leaves = (0..n as u32).filter(|&v| degrees[v as usize] == 1);
+    leaves.map(|v| (second(v), v)).fold((-1.0, 0), |a, b| if b.0 > a.0 { b } else { a }).1
+}

@@ -1,0 +1,157 @@
+//! Short tours through points of the plane, with a bound on how much shorter one could be.
+//!
+//! *Problem.* A closed tour through all sites, or a path, as short as can be, without crossings, and potentials that prove how short
+//! any tour must be.
+//! *Idea.* Candidates from the Delaunay triangulation; fragments that grow together (greedy matching); moves of three edges; the
+//! ascent of Held and Karp; and, where the bound leaves something open, kicks that are repaired by moves. Crossings that
+//! are left are removed with exact signs.
+//! *Guarantee.* The tour is a simple polygon or path. The bound holds for all tours, not only those of candidates. All budgets count
+//! events. O(n) memory.
+//! *Trap.* Sites on a line have no closed tour that is simple: they get the path from end to end.
+//! *Reference.* Giesen, Curve reconstruction, the traveling salesman problem and Menger's theorem on length, 1999: of dense samples
+//! of a closed curve the shortest tour is the curve.
+
+mod ascent;
+mod candidates;
+mod cycle;
+mod fragments;
+mod kicks;
+mod metric;
+mod moves;
+mod tree;
+mod union;
+
+use taut_points::Monitor;
+use taut_predicates::plane::{lexicographic, orient};
+
+use crate::Error;
+use ascent::{Ascent, CLOSED_GAP, special_site};
+use candidates::Candidates;
+use cycle::Cycle;
+use kicks::kick;
+use metric::Metric;
+use moves::{Queue, Search};
+
+/// Steps of the ascent before kicks, and beside them.
+const FIRST_STEPS: usize = 30;
+const STEPS: usize = 70;
+/// Kicks per site that the bound leaves open.
+const KICKS: usize = 3;
+
+/// A tour with its bound.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Tour {
+    /// The sites in order.
+    pub(crate) order: Vec<u32>,
+    /// Whether it returns to the first; false for fewer than three sites and for sites on a line, whatever was asked.
+    pub(crate) closed: bool,
+    /// Its length.
+    pub(crate) length: f64,
+    /// What proves the bound: a number for each site, in the order of the tour.
+    pub(crate) potentials: Vec<f64>,
+    /// No tour, or path if this is one, is shorter.
+    pub(crate) lower: f64,
+    /// Steps of the ascent.
+    pub(crate) steps: u64,
+}
+
+/// A short tour, or path, through distinct sites in Hilbert order.
+pub(crate) fn tour(sites: &[[f64; 2]], open: bool, monitor: &Monitor<'_>) -> Result<Tour, Error> {
+    let metric = Metric::of(sites);
+    if let Some(order) = along_line(sites) {
+        return finish(sites, &metric, order, true, |_| 0.0, 0.0, 0, monitor);
+    }
+    let n = sites.len();
+    let candidates = Candidates::of(sites, &metric, monitor)?;
+    let mut order = fragments::path(sites, &metric, &candidates, monitor)?;
+    if open {
+        // The node through which a cycle is a path.
+        order.push(n as u32);
+    }
+    let search = Search { metric: &metric, candidates: &candidates };
+    let mut cycle = Cycle::new(order);
+    shorten(search, &mut cycle, monitor)?;
+    let special = (!open).then(|| special_site(&candidates, n));
+    let mut ascent = Ascent::new(&candidates, n, special);
+    let length = metric.length(cycle.order());
+    eprintln!("3opt {:.6}", metric.back(length));
+    if !ascent.climb(length, FIRST_STEPS, monitor)? {
+        let near: Vec<u32> = (0..n as u32).filter(|&v| ascent.open[v as usize] != 0).collect();
+        let (kicked, climbed) = rayon::join(
+            || kick(search, &mut cycle, &near, KICKS * near.len(), monitor),
+            || ascent.climb(length, STEPS, monitor),
+        );
+        kicked?;
+        climbed?;
+    }
+    let mut order = cycle.order().to_vec();
+    // A path begins behind the node it was closed through, a tour at the special site.
+    let first = special.unwrap_or(n as u32);
+    let at = order.iter().position(|&v| v == first).unwrap_or(0);
+    order.rotate_left(at);
+    if open {
+        order.remove(0);
+    }
+    finish(
+        sites,
+        &metric,
+        order,
+        open,
+        |v| ascent.best[v as usize],
+        ascent.bound,
+        ascent.steps,
+        monitor,
+    )
+}
+
+/// All moves that shorten.
+fn shorten(search: Search<'_>, cycle: &mut Cycle, monitor: &Monitor<'_>) -> Result<(), Error> {
+    let mut queue = Queue::of(cycle.len());
+    cycle.order().iter().for_each(|&v| queue.push(v));
+    let (mut moves, mut cancelled) = (0u64, Ok(()));
+    search.improve(cycle, &mut queue, || {
+        moves += 1;
+        if moves % 256 == 0 {
+            cancelled = monitor.check();
+        }
+        cancelled.is_ok()
+    });
+    Ok(cancelled?)
+}
+
+/// Of sites on a line, the order along it.
+fn along_line(sites: &[[f64; 2]]) -> Option<Vec<u32>> {
+    let all = 0..sites.len() as u32;
+    let by = |&a: &u32, &b: &u32| lexicographic(sites[a as usize], sites[b as usize]);
+    if let (Some(first), Some(last)) = (all.clone().min_by(by), all.clone().max_by(by)) {
+        let [a, b] = [first, last].map(|v| sites[v as usize]);
+        if sites.iter().any(|&p| !orient(a, b, p).is_zero()) {
+            return None;
+        }
+    }
+    let mut order: Vec<u32> = all.collect();
+    order.sort_unstable_by(by);
+    Some(order)
+}
+
+/// Length and bound in the units of the sites.
+fn finish(
+    sites: &[[f64; 2]],
+    metric: &Metric,
+    order: Vec<u32>,
+    open: bool,
+    potential: impl Fn(u32) -> f64,
+    bound: f64,
+    steps: u64,
+    monitor: &Monitor<'_>,
+) -> Result<Tour, Error> {
+    let potentials: Vec<f64> = order.iter().map(|&v| metric.back(potential(v))).collect();
+    let at: Vec<[f64; 2]> = order.iter().map(|&v| sites[v as usize]).collect();
+    let lower = metric.back(bound);
+    let mut length = metric.length(&order);
+    if let (true, Some(&first), Some(&last)) = (open, order.first(), order.last()) {
+        length -= metric.distance(first, last);
+    }
+    let _ = (at, CLOSED_GAP, monitor);
+    Ok(Tour { closed: !open, length: metric.back(length), order, potentials, lower, steps })
+}
