@@ -14,5 +14,5 @@ mod error;
 mod threads;
 mod tour;
 
-pub use curve::{dev, CurveMethod, CurveOptions, Ends, curve, curve_of_source};
+pub use curve::{CurveMethod, CurveOptions, Ends, curve, curve_of_source};
 pub use error::Error;

@@ -24,11 +24,11 @@ const CHAIN: usize = 3;
 
 /// Seeds in the order of a curve, tangents along it.
 #[derive(Clone, Debug)]
-pub(in crate::curve) struct Chain {
+pub(super) struct Chain {
     /// The seeds.
-    pub(in crate::curve) seeds: Vec<Seed>,
+    pub(super) seeds: Vec<Seed>,
     /// Whether the first follows the last.
-    pub(in crate::curve) closed: bool,
+    pub(super) closed: bool,
 }
 
 /// A side of a seed: 2·seed, plus 1 for the side its tangent points to.
@@ -60,7 +60,7 @@ impl Sides<'_> {
 }
 
 /// The chains of seeds, the one with the earliest seed first.
-pub(in crate::curve) fn chains(found: &[Seed], ends: Ends) -> Vec<Chain> {
+pub(super) fn chains(found: &[Seed], ends: Ends) -> Vec<Chain> {
     let order = hilbert_order(found.len(), |i| found[i].at);
     let seeds: Vec<Seed> = order.iter().map(|&i| found[i as usize]).collect();
     let places: Vec<Point> = seeds.iter().map(|seed| seed.at).collect();

@@ -10,29 +10,29 @@ type Point = [f64; 2];
 
 /// A parabola v = a + bu + cu² in a frame (u along the tangent, v to its left) at `origin`.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::curve) struct Parabola {
+pub(super) struct Parabola {
     /// Origin of the frame.
-    pub(in crate::curve) origin: Point,
+    pub(super) origin: Point,
     /// Unit vector of u.
-    pub(in crate::curve) tangent: Point,
+    pub(super) tangent: Point,
     /// a, b, c.
-    pub(in crate::curve) coefficients: [f64; 3],
+    pub(super) coefficients: [f64; 3],
     /// Mean square of the residuals of the points that count, over their number less three.
-    pub(in crate::curve) variance: f64,
+    pub(super) variance: f64,
     /// Points that count.
-    pub(in crate::curve) kept: usize,
+    pub(super) kept: usize,
 }
 
 impl Parabola {
     /// The place on the parabola at u = 0.
-    pub(in crate::curve) fn foot(&self) -> Point {
+    pub(super) fn foot(&self) -> Point {
         let [tx, ty] = self.tangent;
         let a = self.coefficients[0];
         [self.origin[0] - a * ty, self.origin[1] + a * tx]
     }
 
     /// The unit tangent there.
-    pub(in crate::curve) fn direction(&self) -> Point {
+    pub(super) fn direction(&self) -> Point {
         let [tx, ty] = self.tangent;
         let b = self.coefficients[1];
         let norm = b.hypot(1.0);
@@ -41,7 +41,7 @@ impl Parabola {
 
     /// A point in the frame.
     #[inline]
-    pub(in crate::curve) fn local(&self, point: Point) -> Point {
+    pub(super) fn local(&self, point: Point) -> Point {
         let (dx, dy) = (point[0] - self.origin[0], point[1] - self.origin[1]);
         let [tx, ty] = self.tangent;
         [dx * tx + dy * ty, dy * tx - dx * ty]
@@ -49,7 +49,7 @@ impl Parabola {
 
     /// How far a point of the frame is above the parabola.
     #[inline]
-    pub(in crate::curve) fn residual(&self, [u, v]: Point) -> f64 {
+    pub(super) fn residual(&self, [u, v]: Point) -> f64 {
         let [a, b, c] = self.coefficients;
         v - (a + u * (b + u * c))
     }
@@ -57,15 +57,15 @@ impl Parabola {
 
 /// The window fitted; scratch space that is used again.
 #[derive(Default)]
-pub(in crate::curve) struct Window {
+pub(super) struct Window {
     /// The points in the frame.
-    pub(in crate::curve) local: Vec<Point>,
+    pub(super) local: Vec<Point>,
     residuals: Vec<f64>,
 }
 
 impl Window {
     /// The parabola of a window around `origin`; none for fewer than five points, or where they do not determine one.
-    pub(in crate::curve) fn fit(
+    pub(super) fn fit(
         &mut self,
         origin: Point,
         points: impl Iterator<Item = Point> + Clone,
@@ -156,7 +156,7 @@ fn least_squares(
 }
 
 /// The solution of a positive definite system of three; none where it is not safely so.
-pub(in crate::curve) fn cholesky(m: [[f64; 3]; 3], right: [f64; 3]) -> Option<[f64; 3]> {
+pub(super) fn cholesky(m: [[f64; 3]; 3], right: [f64; 3]) -> Option<[f64; 3]> {
     let mut l = [[0.0; 3]; 3];
     for i in 0..3 {
         for j in 0..=i {

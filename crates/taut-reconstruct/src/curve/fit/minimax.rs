@@ -17,19 +17,19 @@ const GAP: f64 = 1e-10;
 
 /// The best parabola of a window.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::curve) struct Minimax {
+pub(super) struct Minimax {
     /// a, b, c.
-    pub(in crate::curve) coefficients: [f64; 3],
+    pub(super) coefficients: [f64; 3],
     /// The largest residual.
-    pub(in crate::curve) width: f64,
+    pub(super) width: f64,
     /// No parabola has a smaller one.
-    pub(in crate::curve) lower: f64,
+    pub(super) lower: f64,
     /// The four points that prove it, by ascending u.
-    pub(in crate::curve) reference: [usize; 4],
+    pub(super) reference: [usize; 4],
 }
 
 /// The minimax parabola; none for fewer than four different u.
-pub(in crate::curve) fn minimax(points: &[Point]) -> Option<Minimax> {
+pub(super) fn minimax(points: &[Point]) -> Option<Minimax> {
     let mut reference = start(points)?;
     let mut best: Option<Minimax> = None;
     for _ in 0..EXCHANGES {

@@ -1,7 +1,131 @@
 //! Curves through noisy points: connectivity first, regression along the ordered curve after it.
-pub(super) mod link;
+//!
+//! *Problem.* Points lie around unknown curves, off them by noise of unknown width; some may be outliers.
+//! *Idea.* [`seeds`] finds at which scale the points look like a band, and puts places on its middle line; [`link`] joins them to
+//! chains; [`strand`] gives each point its place along a chain, so that every neighbourhood is a range of a sorted list; [`regress`]
+//! fits the curve in windows as long as it lets them be, first by least squares, then, as [`noise`] has shown of which kind the
+//! noise is, by the least largest residual where it has an edge.
+//! *Guarantee.* The answer turns, scales and shifts with the points, to rounding. O(n log n) for windows of bounded overlap. Error
+//! O(n^(−4/5)) for noise with an edge and O(n^(−4/9)) for other noise, of smooth curves.
+//! *Trap.* Tours and crusts of noisy points run zigzag through the band: order is known only after the noise is gone.
+//! *Reference.* Cheng, Funke, Golin, Kumar, Poon and Ramos 2005, for seeds; Genovese, Perone-Pacifico, Verdinelli and Wasserman 2012,
+//! for what error can be reached.
+
+mod link;
 mod local;
 mod minimax;
-pub(super) mod regress;
-pub(super) mod seeds;
-pub(super) mod strand;
+mod noise;
+mod output;
+mod regress;
+mod seeds;
+mod strand;
+
+use taut_points::Monitor;
+
+use super::Ends;
+use super::answer::Outcome;
+use super::cloud::Cloud;
+use super::index::Index;
+use crate::Error;
+use noise::Noise;
+use strand::{Node, Strand, assign};
+
+type Point = [f64; 2];
+
+/// Within how many standard deviations of a curve a point may be, before the kind of noise is known, and where it has no edge.
+const WIDTH: f64 = 5.0;
+/// The same in edges, where noise has one.
+const EDGES: f64 = 1.5;
+/// Of noise without an edge, the half-width of its band in standard deviations.
+const BAND: f64 = 3.0;
+/// Nodes for each seed.
+const PARTS: usize = 3;
+
+/// The curves of noisy points.
+pub(super) fn fit(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Outcome, Error> {
+    let frame = Frame::of(&cloud.sites);
+    let points: Vec<Point> = cloud.sites.iter().map(|&p| frame.inward(p)).collect();
+    let index = Index::new(&points);
+    let found = seeds::seeds(&points, &index, monitor)?;
+    let mut strands: Vec<Strand> =
+        link::chains(&found, ends).into_iter().map(Strand::through).collect();
+    assign(&mut strands, &points, WIDTH);
+    monitor.check()?;
+    let refined = |strands: &[Strand], parts: usize, noise: &Noise| -> Vec<Strand> {
+        strands
+            .iter()
+            .map(|s| Strand::new(regress::regress(s, parts, noise), s.closed))
+            .collect()
+    };
+    strands = refined(&strands, PARTS, &Noise::UNKNOWN);
+    assign(&mut strands, &points, WIDTH);
+    monitor.check()?;
+    let noise = Noise::of(&strands, WIDTH);
+    strands = refined(&strands, 1, &noise);
+    let outliers = assign(&mut strands, &points, noise.edge.map_or(WIDTH, |edge| EDGES * edge));
+    monitor.check()?;
+    let width = noise.edge.unwrap_or(BAND) * typical(&strands);
+    let curves = output::curves(&strands, &frame);
+    let counters = [
+        ("seeds", found.len()),
+        ("nodes", strands.iter().map(|s| s.nodes.len()).sum()),
+        ("edged noise", usize::from(noise.edge.is_some())),
+    ];
+    Ok(Outcome {
+        method: "fit",
+        curves,
+        outliers,
+        noise: frame.length(width),
+        counters: counters.into_iter().map(|(name, n)| (name.into(), n as u64)).collect(),
+        ..Outcome::default()
+    })
+}
+
+/// The median of the standard deviation over all nodes.
+fn typical(strands: &[Strand]) -> f64 {
+    let nodes = strands.iter().flat_map(|s| &s.nodes);
+    let mut all: Vec<f64> = nodes.map(|node: &Node| node.deviation).collect();
+    all.sort_unstable_by(f64::total_cmp);
+    all.get(all.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// Moves points to around the origin and to the size of 1, and back.
+struct Frame {
+    middle: Point,
+    /// A power of two.
+    scale: f64,
+}
+
+impl Frame {
+    /// Over the box of points: its middle goes to the origin, its longer side to a length in (½, 1].
+    fn of(points: &[Point]) -> Self {
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for p in points {
+            for i in 0..2 {
+                (low[i], high[i]) = (low[i].min(p[i]), high[i].max(p[i]));
+            }
+        }
+        if points.is_empty() {
+            return Self { middle: [0.0; 2], scale: 1.0 };
+        }
+        // Halves, so that nothing overflows.
+        let extent = (0.5 * high[0] - 0.5 * low[0]).max(0.5 * high[1] - 0.5 * low[1]);
+        let exponent = if extent > 0.0 { -extent.log2().ceil() } else { 0.0 };
+        Self {
+            middle: [0.5 * low[0] + 0.5 * high[0], 0.5 * low[1] + 0.5 * high[1]],
+            scale: exponent.clamp(-1020.0, 1020.0).exp2(),
+        }
+    }
+
+    fn inward(&self, p: Point) -> Point {
+        [0, 1].map(|i| p[i] * self.scale - self.middle[i] * self.scale)
+    }
+
+    fn outward(&self, p: Point) -> Point {
+        [0, 1].map(|i| p[i] / self.scale + self.middle[i])
+    }
+
+    fn length(&self, length: f64) -> f64 {
+        length / self.scale
+    }
+}

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::local::cholesky;
 use super::minimax::{Minimax, minimax};
+use super::noise::Noise;
 use super::strand::{Member, Node, Strand, hermite};
 
 type Point = [f64; 2];
@@ -20,7 +21,7 @@ const GROWTH: f64 = 1.25;
 /// Fewest points of a window.
 const FEWEST: usize = 6;
 /// Lepski's factor: how many standard errors two windows may differ by.
-fn agree() -> f64 { std::env::var("AGREE").map_or(1.0, |s| s.parse().unwrap()) }
+const AGREE: f64 = 1.0;
 /// A window by the frame of its middle holds |u| ≤ half. Along the curve that is up to half over this, as slopes are at most [`SLOPE`].
 const WITHIN: f64 = 0.8;
 /// Largest error of a minimax parabola in its middle, in δ/m: the standard error in trials with uniform noise.
@@ -30,30 +31,21 @@ const SLOPE: f64 = 0.8;
 
 /// What windows say of one place.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::curve) struct Estimate {
+pub(super) struct Estimate {
     /// Offset from the frame's origin, along its normal.
-    pub(in crate::curve) offset: f64,
+    pub(super) offset: f64,
     /// Slope there.
-    pub(in crate::curve) slope: f64,
+    pub(super) slope: f64,
     /// Standard error of the offset.
-    pub(in crate::curve) error: f64,
+    pub(super) error: f64,
     /// Half the curvature.
-    pub(in crate::curve) bend: f64,
+    pub(super) bend: f64,
     /// Standard deviation of the residuals.
-    pub(in crate::curve) deviation: f64,
-}
-
-/// What is known about the noise.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::curve) struct Noise {
-    /// The edge of the noise in standard deviations, if it has one.
-    pub(in crate::curve) edge: Option<f64>,
-    /// Whether there are outliers beside the band.
-    pub(in crate::curve) outliers: bool,
+    pub(super) deviation: f64,
 }
 
 /// Nodes in the middle of the band, `parts` for each edge of the strand.
-pub(in crate::curve) fn regress(strand: &Strand, parts: usize, noise: &Noise) -> Vec<Node> {
+pub(super) fn regress(strand: &Strand, parts: usize, noise: &Noise) -> Vec<Node> {
     let deviations = smooth(strand);
     let places: Vec<Place> = (0..strand.edges() * parts + usize::from(!strand.closed))
         .map(|number| Place::new(strand, &deviations, number, parts))
@@ -74,8 +66,15 @@ pub(in crate::curve) fn regress(strand: &Strand, parts: usize, noise: &Noise) ->
                     tangent: place.frame.direction(found.slope),
                     reach: place.reach,
                     deviation: found.deviation,
+                    error: found.error,
                 },
-                None => Node { at: origin, tangent, reach: place.reach, deviation: place.deviation },
+                None => Node {
+                    at: origin,
+                    tangent,
+                    reach: place.reach,
+                    deviation: place.deviation,
+                    error: place.deviation,
+                },
             }
         })
         .collect()
@@ -110,7 +109,6 @@ impl Place {
 
 /// For each place the median of the halves of the places within its own half.
 fn median_around(strand: &Strand, places: &[Place], halves: &[f64]) -> Vec<f64> {
-    let q: f64 = std::env::var("QUANT").map_or(0.5, |s| s.parse().unwrap());
     let count = places.len();
     let whole = strand.length();
     (0..count)
@@ -127,14 +125,14 @@ fn median_around(strand: &Strand, places: &[Place], halves: &[f64]) -> Vec<f64> 
                     };
                     let apart = (places[j].arc - places[i].arc).abs();
                     let apart = if strand.closed { apart.min(whole - apart) } else { apart };
-                    if apart > 1.0 * halves[i] {
+                    if apart > halves[i] {
                         break;
                     }
                     around.push(halves[j]);
                 }
             }
             around.sort_unstable_by(f64::total_cmp);
-            around[((around.len() - 1) as f64 * q).round() as usize]
+            around[around.len() / 2]
         })
         .collect()
 }
@@ -158,7 +156,7 @@ fn smooth(strand: &Strand) -> Vec<f64> {
 }
 
 /// A place on a curve and the direction it has there.
-pub(in crate::curve) struct Frame {
+pub(super) struct Frame {
     origin: Point,
     tangent: Point,
 }
@@ -190,7 +188,7 @@ fn longest(strand: &Strand, place: &Place, noise: &Noise, window: &mut Vec<Point
     while half <= longest {
         if let Some(found) = measure(strand, place, half, noise, window) {
             let interval =
-                [found.offset - agree() * found.error, found.offset + agree() * found.error];
+                [found.offset - AGREE * found.error, found.offset + AGREE * found.error];
             agreed = [agreed[0].max(interval[0]), agreed[1].min(interval[1])];
             if agreed[0] > agreed[1] || found.deviation > 1.5 * place.deviation {
                 break;

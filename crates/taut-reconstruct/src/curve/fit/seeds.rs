@@ -40,19 +40,19 @@ const SPARSE: f64 = 5.0;
 
 /// A place on the curve.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::curve) struct Seed {
+pub(super) struct Seed {
     /// The place.
-    pub(in crate::curve) at: Point,
+    pub(super) at: Point,
     /// The unit tangent, either way.
-    pub(in crate::curve) tangent: Point,
+    pub(super) tangent: Point,
     /// Radius of its window.
-    pub(in crate::curve) reach: f64,
+    pub(super) reach: f64,
     /// Standard deviation of the residuals.
-    pub(in crate::curve) deviation: f64,
+    pub(super) deviation: f64,
 }
 
 /// The seeds of all curves, in the order in which they were found.
-pub(in crate::curve) fn seeds(
+pub(super) fn seeds(
     points: &[Point],
     index: &Index<'_>,
     monitor: &Monitor<'_>,

@@ -7,6 +7,8 @@
 use rayon::prelude::*;
 use taut_oblivious::hilbert_order;
 
+use super::link::Chain;
+use super::seeds::Seed;
 use crate::curve::index::Index;
 
 type Point = [f64; 2];
@@ -16,43 +18,47 @@ const PIECES: usize = 4;
 
 /// A place on the curve with its tangent.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::curve) struct Node {
+pub(super) struct Node {
     /// The place.
-    pub(in crate::curve) at: Point,
+    pub(super) at: Point,
     /// The unit tangent, along the curve.
-    pub(in crate::curve) tangent: Point,
+    pub(super) tangent: Point,
     /// How far around it points are to be looked at first.
-    pub(in crate::curve) reach: f64,
+    pub(super) reach: f64,
     /// Standard deviation of the noise there.
-    pub(in crate::curve) deviation: f64,
+    pub(super) deviation: f64,
+    /// Standard error of the place.
+    pub(super) error: f64,
 }
 
 /// One connected curve.
 #[derive(Clone, Debug, Default)]
-pub(in crate::curve) struct Strand {
+pub(super) struct Strand {
     /// Its nodes in order.
-    pub(in crate::curve) nodes: Vec<Node>,
+    pub(super) nodes: Vec<Node>,
     /// Whether the first follows the last.
-    pub(in crate::curve) closed: bool,
+    pub(super) closed: bool,
     /// The length along the curve at each node, and for a closed one, at the end, its whole length.
-    pub(in crate::curve) arc: Vec<f64>,
+    pub(super) arc: Vec<f64>,
     /// The points by their place along the curve, ascending.
-    pub(in crate::curve) members: Vec<Member>,
+    pub(super) members: Vec<Member>,
 }
 
 /// A point and its place along a strand.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::curve) struct Member {
+pub(super) struct Member {
     /// Length along the curve from its first node.
-    pub(in crate::curve) arc: f64,
+    pub(super) arc: f64,
     /// The point.
-    pub(in crate::curve) at: Point,
+    pub(super) at: Point,
     /// Its number.
-    pub(in crate::curve) site: u32,
+    pub(super) site: u32,
+    /// Its distance from the curve, in standard deviations of the noise there.
+    pub(super) share: f64,
 }
 
 /// The cubic from a to b at t ∈ [0, 1], and its derivative, for tangents as long as the chord.
-pub(in crate::curve) fn hermite(a: &Node, b: &Node, t: f64) -> (Point, Point) {
+pub(super) fn hermite(a: &Node, b: &Node, t: f64) -> (Point, Point) {
     let chord = (b.at[0] - a.at[0]).hypot(b.at[1] - a.at[1]);
     let (t2, t3) = (t * t, t * t * t);
     let (p, q) = (2.0 * t3 - 3.0 * t2 + 1.0, -2.0 * t3 + 3.0 * t2);
@@ -68,8 +74,20 @@ pub(in crate::curve) fn hermite(a: &Node, b: &Node, t: f64) -> (Point, Point) {
 }
 
 impl Strand {
+    /// A strand through the seeds of a chain, without points.
+    pub(super) fn through(chain: Chain) -> Self {
+        let node = |s: &Seed| Node {
+            at: s.at,
+            tangent: s.tangent,
+            reach: s.reach,
+            deviation: s.deviation,
+            error: s.deviation,
+        };
+        Self::new(chain.seeds.iter().map(node).collect(), chain.closed)
+    }
+
     /// A strand through nodes, without points.
-    pub(in crate::curve) fn new(nodes: Vec<Node>, closed: bool) -> Self {
+    pub(super) fn new(nodes: Vec<Node>, closed: bool) -> Self {
         let mut strand = Self { nodes, closed, arc: vec![0.0], members: Vec::new() };
         let mut sum = 0.0;
         for edge in 0..strand.edges() {
@@ -81,17 +99,17 @@ impl Strand {
     }
 
     /// Edges between nodes.
-    pub(in crate::curve) fn edges(&self) -> usize {
+    pub(super) fn edges(&self) -> usize {
         self.nodes.len() - usize::from(!self.closed)
     }
 
     /// The whole length.
-    pub(in crate::curve) fn length(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         self.arc[self.arc.len() - 1]
     }
 
     /// The nodes at both ends of an edge.
-    pub(in crate::curve) fn edge(&self, edge: usize) -> (&Node, &Node) {
+    pub(super) fn edge(&self, edge: usize) -> (&Node, &Node) {
         (&self.nodes[edge], &self.nodes[(edge + 1) % self.nodes.len()])
     }
 
@@ -111,7 +129,7 @@ struct Vertex {
 /// Gives each point that is near enough to its strand; the others are named, ascending.
 ///
 /// Near is within `width` standard deviations of the noise at the node next to it.
-pub(in crate::curve) fn assign(strands: &mut [Strand], points: &[Point], width: f64) -> Vec<u32> {
+pub(super) fn assign(strands: &mut [Strand], points: &[Point], width: f64) -> Vec<u32> {
     // The polylines, with the length along the curve at each vertex.
     let lines: Vec<Vec<(Point, f64)>> = strands.par_iter().map(polyline).collect();
     let vertices: Vec<Vertex> = lines
@@ -124,7 +142,7 @@ pub(in crate::curve) fn assign(strands: &mut [Strand], points: &[Point], width: 
     let places: Vec<Point> = order.iter().map(|&i| at(&vertices[i as usize])).collect();
     let index = Index::new(&places);
     let shared: &[Strand] = strands;
-    let found: Vec<Option<(u32, f64)>> = points
+    let found: Vec<Option<(u32, f64, f64)>> = points
         .par_iter()
         .with_min_len(1 << 10)
         .map_init(Vec::new, |nearest, &p| {
@@ -133,14 +151,18 @@ pub(in crate::curve) fn assign(strands: &mut [Strand], points: &[Point], width: 
             let strand = &shared[vertex.strand as usize];
             let (distance, arc) = project(strand, &lines[vertex.strand as usize], vertex.number as usize, p);
             let node = &strand.nodes[(vertex.number as usize).div_ceil(PIECES) % strand.nodes.len()];
-            (distance <= width * node.deviation).then_some((vertex.strand, arc))
+            (distance <= width * node.deviation).then(|| {
+                (vertex.strand, arc, distance / node.deviation.max(f64::MIN_POSITIVE))
+            })
         })
         .collect();
     let mut members: Vec<Vec<Member>> = vec![Vec::new(); strands.len()];
     let mut left = Vec::new();
     for (site, (&at, found)) in points.iter().zip(&found).enumerate() {
         match found {
-            Some((strand, arc)) => members[*strand as usize].push(Member { arc: *arc, at, site: site as u32 }),
+            &Some((strand, arc, share)) => {
+                members[strand as usize].push(Member { arc, at, site: site as u32, share });
+            }
             None => left.push(site as u32),
         }
     }

@@ -1,0 +1,60 @@
+//! What kind of noise it is: whether it has an edge, where that is, and whether there are outliers beside the band.
+//!
+//! *Idea.* Distances from the curve are measured in standard deviations of the noise around each place, and pooled over all points.
+//! Of uniform noise nine tenths lie within 1.8 times the median distance, of normal noise within 2.4 times. What lies beyond three
+//! deviations is background, as dense there as within the band, and is subtracted first.
+//! *Guarantee.* A function of the distances; O(n log n).
+
+use super::strand::Strand;
+
+/// Noise has an edge where nine tenths of it lie within so many medians: between 1.8 of uniform and 2.44 of normal noise, and below
+/// the 2.33 of a triangular one.
+const EDGED: f64 = 2.05;
+/// Fewest points to tell the kind from.
+const FEWEST: usize = 100;
+/// Standard deviations within which noise counts, and between which and twice that background does.
+const NEAR: f64 = 3.0;
+
+/// What is known about the noise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Noise {
+    /// Where noise ends, in standard deviations, if it has an edge.
+    pub(super) edge: Option<f64>,
+    /// Whether there are outliers beside the band.
+    pub(super) outliers: bool,
+}
+
+impl Noise {
+    /// Nothing is known.
+    pub(super) const UNKNOWN: Self = Self { edge: None, outliers: false };
+
+    /// Of the members of strands, whose distances go up to `width` deviations, more than [`NEAR`].
+    pub(super) fn of(strands: &[Strand], width: f64) -> Self {
+        let mut shares: Vec<f64> =
+            strands.iter().flat_map(|s| s.members.iter().map(|m| m.share)).collect();
+        shares.sort_unstable_by(f64::total_cmp);
+        let below = |z: f64| shares.partition_point(|&share| share <= z);
+        let near = below(NEAR);
+        if near < FEWEST {
+            return Self::UNKNOWN;
+        }
+        let background = (shares.len() - near) as f64 / (width - NEAR);
+        let total = near as f64 - NEAR * background;
+        // The place below which lies a share of the noise.
+        let quantile = |part: f64| {
+            let (mut low, mut high) = (0, near);
+            while low < high {
+                let middle = (low + high) / 2;
+                let inside = (middle + 1) as f64 - shares[middle] * background;
+                if inside < part * total { low = middle + 1 } else { high = middle }
+            }
+            shares[low.min(near - 1)]
+        };
+        let (median, most) = (quantile(0.5), quantile(0.9));
+        let edged = most < EDGED * median;
+        Self {
+            edge: edged.then_some(most / 0.9),
+            outliers: edged && background * NEAR > 1e-3 * total,
+        }
+    }
+}
