@@ -75,7 +75,7 @@ pub(super) fn chains(found: &[Seed], ends: Ends) -> Vec<Chain> {
     }
     if ends == Ends::Auto {
         join_ends(&mut sides, &index);
-    } 
+    }
     // Where a chain begins is told by the order in which seeds were found, which turns with the points; places do not.
     let mut rank = vec![0; seeds.len()];
     for (place, &i) in order.iter().enumerate() {
@@ -125,7 +125,11 @@ fn join_ends(sides: &mut Sides<'_>, index: &Index<'_>) {
                     && sides.along(side, j as usize) > 0.0
                     && sides.along(other, side / 2) > 0.0;
                 if facing {
-                    pairs.push((distance(sides, side / 2, j as usize), side.min(other), side.max(other)));
+                    pairs.push((
+                        distance(sides, side / 2, j as usize),
+                        side.min(other),
+                        side.max(other),
+                    ));
                 }
             }
         });

@@ -84,8 +84,7 @@ impl Window {
             self.residuals.clear();
             self.residuals.extend(self.local.iter().map(|&p| fitted.residual(p).abs()));
             let middle = self.residuals.len() / 2;
-            let (_, &mut median, _) =
-                self.residuals.select_nth_unstable_by(middle, f64::total_cmp);
+            let (_, &mut median, _) = self.residuals.select_nth_unstable_by(middle, f64::total_cmp);
             // 1.4826 times the median residual is σ for normal noise; for uniform noise the edge is at 1.35 of it.
             let next = 3.0 * 1.4826 * median;
             let squares = |p: &&Point| fitted.residual(**p).abs() <= next;
@@ -94,7 +93,8 @@ impl Window {
                 let r = fitted.residual(p);
                 (count + 1, sum + r * r)
             });
-            parabola = Parabola { variance: sum / (count.max(4) - 3) as f64, kept: count, ..fitted };
+            parabola =
+                Parabola { variance: sum / (count.max(4) - 3) as f64, kept: count, ..fitted };
             if count == self.local.len() {
                 break;
             }
@@ -123,10 +123,7 @@ fn main_direction(origin: Point, points: impl Iterator<Item = Point> + Clone) ->
 }
 
 /// The parabola of least squares through the points that count, and how many those are; none where the points do not determine it.
-fn least_squares(
-    points: &[Point],
-    counts: impl Fn(Point) -> bool,
-) -> Option<([f64; 3], usize)> {
+fn least_squares(points: &[Point], counts: impl Fn(Point) -> bool) -> Option<([f64; 3], usize)> {
     let reach = points.iter().fold(0.0, |most: f64, p| most.max(p[0].abs()));
     if reach == 0.0 {
         return None;

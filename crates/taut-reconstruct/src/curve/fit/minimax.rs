@@ -36,13 +36,7 @@ pub(super) fn minimax(points: &[Point]) -> Option<Minimax> {
         let Some((coefficients, error)) = level(points, reference) else { break };
         let [a, b, c] = coefficients;
         let residual = |p: Point| p[1] - (a + p[0] * (b + p[0] * c));
-        let (mut worst, mut width) = (reference[0], 0.0);
-        for (i, &p) in points.iter().enumerate() {
-            let r = residual(p).abs();
-            if r > width {
-                (worst, width) = (i, r);
-            }
-        }
+        let (worst, width) = farthest(points, residual);
         let lower = error.abs();
         if best.is_none_or(|best| width < best.width) {
             let lower = best.map_or(lower, |best| best.lower.max(lower));
@@ -74,6 +68,22 @@ pub(super) fn minimax(points: &[Point]) -> Option<Minimax> {
         }
     }
     best
+}
+
+/// The point of the largest residual, and that residual: the largest of each eight first, which are found side by side.
+fn farthest(points: &[Point], residual: impl Fn(Point) -> f64) -> (usize, f64) {
+    const LANES: usize = 8;
+    let (mut block, mut width) = (0, f64::NEG_INFINITY);
+    for (number, chunk) in points.chunks(LANES).enumerate() {
+        let most = chunk.iter().fold(0.0, |most: f64, &p| most.max(residual(p).abs()));
+        if most > width {
+            (block, width) = (number, most);
+        }
+    }
+    let first = block * LANES;
+    let last = points.len().min(first + LANES);
+    let worst = (first..last).find(|&i| residual(points[i]).abs() == width).unwrap_or(first);
+    (worst, width)
 }
 
 /// Four points spread over the window: next to the places where a Chebyshev polynomial alternates.

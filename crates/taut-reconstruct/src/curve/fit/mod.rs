@@ -52,10 +52,7 @@ pub(super) fn fit(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Ou
     assign(&mut strands, &points, WIDTH);
     monitor.check()?;
     let refined = |strands: &[Strand], parts: usize, noise: &Noise| -> Vec<Strand> {
-        strands
-            .iter()
-            .map(|s| Strand::new(regress::regress(s, parts, noise), s.closed))
-            .collect()
+        strands.iter().map(|s| Strand::new(regress::regress(s, parts, noise), s.closed)).collect()
     };
     strands = refined(&strands, PARTS, &Noise::UNKNOWN);
     assign(&mut strands, &points, WIDTH);

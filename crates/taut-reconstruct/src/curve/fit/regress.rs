@@ -16,6 +16,8 @@ use super::strand::{Member, Node, Strand, hermite};
 
 type Point = [f64; 2];
 
+/// Every how many places windows are grown: their length changes slowly along the curve.
+const EVERY: usize = 3;
 /// Growth of windows.
 const GROWTH: f64 = 1.25;
 /// Fewest points of a window.
@@ -24,8 +26,12 @@ const FEWEST: usize = 6;
 const AGREE: f64 = 1.0;
 /// A window by the frame of its middle holds |u| ≤ half. Along the curve that is up to half over this, as slopes are at most [`SLOPE`].
 const WITHIN: f64 = 0.8;
-/// Largest error of a minimax parabola in its middle, in δ/m: the standard error in trials with uniform noise.
+/// The least largest residual of m points has a middle that is off by so many δ/m, in trials with uniform noise.
 const MINIMAX_ERROR: f64 = 5.5;
+/// Standard error, in deviations of the noise, from which on a window has its points on one side, or next to none.
+const ONE_SIDED: f64 = 0.75;
+/// Most outliers that a window leaves out one by one.
+const PEELS: usize = 8;
 /// Greatest slope against the frame within a window.
 const SLOPE: f64 = 0.8;
 
@@ -50,15 +56,17 @@ pub(super) fn regress(strand: &Strand, parts: usize, noise: &Noise) -> Vec<Node>
     let places: Vec<Place> = (0..strand.edges() * parts + usize::from(!strand.closed))
         .map(|number| Place::new(strand, &deviations, number, parts))
         .collect();
-    let halves: Vec<f64> = places
+    let asked: Vec<&Place> = places.iter().step_by(EVERY).collect();
+    let halves: Vec<f64> = asked
         .par_iter()
-        .map_init(Vec::new, |window, place| longest(strand, place, noise, window))
+        .map_init(Window::default, |window, place| longest(strand, place, noise, window))
         .collect();
-    let halves = median_around(strand, &places, &halves);
+    let halves = median_around(strand, &asked, &halves);
     places
         .par_iter()
-        .zip(&halves)
-        .map_init(Vec::new, |window, (place, &half)| {
+        .enumerate()
+        .map_init(Window::default, |window, (number, place)| {
+            let half = between(&halves, number, strand.closed);
             let Frame { origin, tangent } = place.frame;
             match measure(strand, place, half, noise, window) {
                 Some(found) => Node {
@@ -78,6 +86,17 @@ pub(super) fn regress(strand: &Strand, parts: usize, noise: &Noise) -> Vec<Node>
             }
         })
         .collect()
+}
+
+/// The half at a place from those of the places that were asked, two of them around it.
+fn between(halves: &[f64], number: usize, closed: bool) -> f64 {
+    let (before, part) = (number / EVERY, (number % EVERY) as f64 / EVERY as f64);
+    let after = match before + 1 {
+        after if after < halves.len() => after,
+        _ if closed => 0,
+        _ => before,
+    };
+    (1.0 - part) * halves[before] + part * halves[after]
 }
 
 /// Where on a strand a node is to be.
@@ -108,7 +127,7 @@ impl Place {
 }
 
 /// For each place the median of the halves of the places within its own half.
-fn median_around(strand: &Strand, places: &[Place], halves: &[f64]) -> Vec<f64> {
+fn median_around(strand: &Strand, places: &[&Place], halves: &[f64]) -> Vec<f64> {
     let count = places.len();
     let whole = strand.length();
     (0..count)
@@ -180,15 +199,14 @@ impl Frame {
 }
 
 /// Half the length of the longest window that agrees with all shorter ones.
-fn longest(strand: &Strand, place: &Place, noise: &Noise, window: &mut Vec<Point>) -> f64 {
+fn longest(strand: &Strand, place: &Place, noise: &Noise, window: &mut Window) -> f64 {
     let longest = strand.length() / if strand.closed { 6.0 } else { 2.0 };
     let mut half = 0.5 * place.reach;
     let mut best = half;
     let mut agreed = [f64::NEG_INFINITY, f64::INFINITY];
     while half <= longest {
         if let Some(found) = measure(strand, place, half, noise, window) {
-            let interval =
-                [found.offset - AGREE * found.error, found.offset + AGREE * found.error];
+            let interval = [found.offset - AGREE * found.error, found.offset + AGREE * found.error];
             agreed = [agreed[0].max(interval[0]), agreed[1].min(interval[1])];
             if agreed[0] > agreed[1] || found.deviation > 1.5 * place.deviation {
                 break;
@@ -203,37 +221,52 @@ fn longest(strand: &Strand, place: &Place, noise: &Noise, window: &mut Vec<Point
     best
 }
 
+/// The points of a window, in the frame of a place; memory that is used again.
+#[derive(Default)]
+struct Window {
+    points: Vec<Point>,
+    /// Those near the edges of the band, by their place along the parabola and their distance from it.
+    edges: Vec<Point>,
+}
+
 /// What the window of one length says of a place; none where it holds too few points or all on one side.
 fn measure(
     strand: &Strand,
     place: &Place,
     half: f64,
     noise: &Noise,
-    window: &mut Vec<Point>,
+    window: &mut Window,
 ) -> Option<Estimate> {
-    window.clear();
-    let members = Range::around(strand, place.arc, half / WITHIN);
-    window.extend(members.map(|m| place.frame.local(m.at)).filter(|p| p[0].abs() <= half));
-    if window.len() < FEWEST {
+    window.points.clear();
+    for members in around(strand, place.arc, half / WITHIN) {
+        let local = members.iter().map(|m| place.frame.local(m.at));
+        window.points.extend(local.filter(|p| p[0].abs() <= half));
+    }
+    let count = window.points.len();
+    if count < FEWEST {
         return None;
     }
-    let found = least_squares(window, half, place.deviation)?;
-    if found.error > 0.75 * place.deviation {
+    let found = least_squares(&window.points, half, place.deviation)?;
+    if found.error > ONE_SIDED * place.deviation {
         return None;
     }
     let Some(edge) = noise.edge.map(|edge| edge * place.deviation) else { return Some(found) };
-    // The least largest residual of m points is off by some 5.5·δ/m.
-    let error = MINIMAX_ERROR * edge / window.len() as f64;
+    let error = MINIMAX_ERROR * edge / count as f64;
     if error > found.error {
         return Some(found);
     }
+    // The minimax parabola is so near to that of least squares that points further inside the band than this do not decide it. If
+    // it turns out to be farther off, all are asked. Those far beyond the edge are outliers.
+    let inside = (0.95 * edge - 6.0 * found.error).max(0.0);
     let most = 1.05 * edge + 3.0 * found.error;
-    window.retain_mut(|p| {
-        *p = straightened(*p, &found);
-        p[1].abs() < most
-    });
-    let peels = if noise.outliers { 8 } else { 0 };
-    let fitted = peeled(window, 1.05 * edge, peels)?;
+    let peels = if noise.outliers { PEELS } else { 0 };
+    let fitted = window.minimax(&found, inside, most, 1.05 * edge, peels).and_then(|fitted| {
+        let [a, b, c] = fitted.coefficients;
+        match inside + a.abs() + half * (b.abs() + half * c.abs()) <= fitted.width {
+            true => Some(fitted),
+            false => window.minimax(&found, 0.0, most, 1.05 * edge, peels),
+        }
+    })?;
     let [offset, slope, bend] = fitted.coefficients;
     Some(Estimate {
         offset: found.offset + offset * found.slope.hypot(1.0),
@@ -242,6 +275,32 @@ fn measure(
         error,
         ..found
     })
+}
+
+impl Window {
+    /// The parabola, beside the one of least squares, whose largest residual is least, of the points whose distance from the latter is
+    /// in some range.
+    fn minimax(
+        &mut self,
+        found: &Estimate,
+        inside: f64,
+        most: f64,
+        widest: f64,
+        peels: usize,
+    ) -> Option<Minimax> {
+        self.edges.clear();
+        for &[u, v] in &self.points {
+            let above = v - (found.offset + u * (found.slope + u * found.bend));
+            let rise = found.slope + 2.0 * u * found.bend;
+            if above * above >= inside * inside * (1.0 + rise * rise) {
+                let straight = straightened([u, v], found);
+                if straight[1].abs() <= most {
+                    self.edges.push(straight);
+                }
+            }
+        }
+        peeled(&mut self.edges, widest, peels)
+    }
 }
 
 /// The place of a point along a parabola, and its distance from it.
@@ -321,39 +380,15 @@ fn peeled(window: &mut Vec<Point>, widest: f64, most: usize) -> Option<Minimax> 
     Some(found)
 }
 
-/// The members of a strand within some length of a place along it.
-struct Range<'a> {
-    members: &'a [Member],
-    next: usize,
-    left: usize,
-}
-
-impl<'a> Range<'a> {
-    fn around(strand: &'a Strand, arc: f64, half: f64) -> Self {
-        let members = &strand.members[..];
-        let before = |arc: f64| members.partition_point(|m| m.arc < arc);
-        let (low, high) = (arc - half, arc + half);
-        if !strand.closed {
-            let (first, last) = (before(low), before(high));
-            return Self { members, next: first, left: last - first };
-        }
-        let whole = strand.length();
-        let (first, last) = match (low < 0.0, high > whole) {
-            (true, _) => (before(low + whole), before(high) + members.len()),
-            (_, true) => (before(low), before(high - whole) + members.len()),
-            _ => (before(low), before(high)),
-        };
-        Self { members, next: first, left: last - first }
-    }
-}
-
-impl<'a> Iterator for Range<'a> {
-    type Item = &'a Member;
-
-    fn next(&mut self) -> Option<&'a Member> {
-        self.left = self.left.checked_sub(1)?;
-        let member = &self.members[self.next % self.members.len()];
-        self.next += 1;
-        Some(member)
+/// The members of a strand within some length of a place along it: one run, or two where it goes over the seam.
+fn around(strand: &Strand, arc: f64, half: f64) -> [&[Member]; 2] {
+    let members = &strand.members[..];
+    let before = |arc: f64| members.partition_point(|m| m.arc < arc);
+    let (low, high) = (arc - half, arc + half);
+    let whole = strand.length();
+    match (strand.closed, low < 0.0, high > whole) {
+        (true, true, _) => [&members[before(low + whole)..], &members[..before(high)]],
+        (true, _, true) => [&members[before(low)..], &members[..before(high - whole)]],
+        _ => [&members[before(low)..before(high)], &[]],
     }
 }

@@ -64,12 +64,10 @@ pub(super) fn hermite(a: &Node, b: &Node, t: f64) -> (Point, Point) {
     let (p, q) = (2.0 * t3 - 3.0 * t2 + 1.0, -2.0 * t3 + 3.0 * t2);
     let (r, s) = (t3 - 2.0 * t2 + t, t3 - t2);
     let (dp, dr, ds) = (6.0 * t2 - 6.0 * t, 3.0 * t2 - 4.0 * t + 1.0, 3.0 * t2 - 2.0 * t);
-    let place = |i: usize| {
-        p * a.at[i] + q * b.at[i] + chord * (r * a.tangent[i] + s * b.tangent[i])
-    };
-    let slope = |i: usize| {
-        dp * (a.at[i] - b.at[i]) + chord * (dr * a.tangent[i] + ds * b.tangent[i])
-    };
+    let place =
+        |i: usize| p * a.at[i] + q * b.at[i] + chord * (r * a.tangent[i] + s * b.tangent[i]);
+    let slope =
+        |i: usize| dp * (a.at[i] - b.at[i]) + chord * (dr * a.tangent[i] + ds * b.tangent[i]);
     ([place(0), place(1)], [slope(0), slope(1)])
 }
 
@@ -92,7 +90,10 @@ impl Strand {
         let mut sum = 0.0;
         for edge in 0..strand.edges() {
             let places: Vec<Point> = (0..=PIECES).map(|k| strand.piece(edge, k)).collect();
-            sum += places.windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1])).sum::<f64>();
+            sum += places
+                .windows(2)
+                .map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]))
+                .sum::<f64>();
             strand.arc.push(sum);
         }
         strand
@@ -135,7 +136,9 @@ pub(super) fn assign(strands: &mut [Strand], points: &[Point], width: f64) -> Ve
     let vertices: Vec<Vertex> = lines
         .iter()
         .enumerate()
-        .flat_map(|(s, line)| (0..line.len()).map(move |k| Vertex { strand: s as u32, number: k as u32 }))
+        .flat_map(|(s, line)| {
+            (0..line.len()).map(move |k| Vertex { strand: s as u32, number: k as u32 })
+        })
         .collect();
     let at = |v: &Vertex| lines[v.strand as usize][v.number as usize].0;
     let order = hilbert_order(vertices.len(), |i| at(&vertices[i]));
@@ -149,11 +152,12 @@ pub(super) fn assign(strands: &mut [Strand], points: &[Point], width: f64) -> Ve
             index.nearest(p, 1, nearest);
             let vertex = &vertices[order[nearest.first()?.1 as usize] as usize];
             let strand = &shared[vertex.strand as usize];
-            let (distance, arc) = project(strand, &lines[vertex.strand as usize], vertex.number as usize, p);
-            let node = &strand.nodes[(vertex.number as usize).div_ceil(PIECES) % strand.nodes.len()];
-            (distance <= width * node.deviation).then(|| {
-                (vertex.strand, arc, distance / node.deviation.max(f64::MIN_POSITIVE))
-            })
+            let (distance, arc) =
+                project(strand, &lines[vertex.strand as usize], vertex.number as usize, p);
+            let node =
+                &strand.nodes[(vertex.number as usize).div_ceil(PIECES) % strand.nodes.len()];
+            (distance <= width * node.deviation)
+                .then(|| (vertex.strand, arc, distance / node.deviation.max(f64::MIN_POSITIVE)))
         })
         .collect();
     let mut members: Vec<Vec<Member>> = vec![Vec::new(); strands.len()];
@@ -206,7 +210,8 @@ fn project(strand: &Strand, line: &[(Point, f64)], vertex: usize, p: Point) -> (
         let ((a, start), (b, end)) = (line[first], line[(first + 1) % count]);
         let end = if first + 1 == count { strand.length() } else { end };
         let (ex, ey) = (b[0] - a[0], b[1] - a[1]);
-        let share = ((p[0] - a[0]) * ex + (p[1] - a[1]) * ey) / (ex * ex + ey * ey).max(f64::MIN_POSITIVE);
+        let share =
+            ((p[0] - a[0]) * ex + (p[1] - a[1]) * ey) / (ex * ex + ey * ey).max(f64::MIN_POSITIVE);
         let least = if !strand.closed && first == 0 { -4.0 } else { 0.0 };
         let most = if !strand.closed && first + 2 == count { 5.0 } else { 1.0 };
         let t = share.clamp(least, most);
