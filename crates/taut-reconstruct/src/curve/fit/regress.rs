@@ -317,7 +317,7 @@ fn straightened([u, v]: Point, parabola: &Estimate) -> Point {
         foot -= (foot - u + above * rise) / (1.0 + rise * rise + 2.0 * above * bend).max(0.25);
     }
     let above = v - (offset + foot * (slope + foot * bend));
-    [foot, (foot - u).hypot(above).copysign(above)]
+    [foot, (((foot - u) * (foot - u) + above * above).sqrt()).copysign(above)]
 }
 
 /// The parabola of least squares.

@@ -27,6 +27,10 @@ type Point = [f64; 2];
 const FLATNESS: f64 = 8.0;
 /// What the best of all windows must reach where none is flat enough.
 const FLATNESS_LEAST: f64 = 5.0;
+/// The share of the largest window within which no other is tried, where none was flat.
+const HOPELESS: f64 = 0.2;
+/// Windows end when they are so many times as long as the flattest.
+const DECLINE: f64 = 4.0;
 /// Growth of windows.
 const GROWTH: f64 = 1.2;
 /// Neighbours whose distance tells the density at a point.
@@ -78,7 +82,10 @@ pub(super) fn seeds(
         if done.value().is_some_and(|usual| spacing[i] > SPARSE * usual) {
             break;
         }
-        let Some((parabola, reach)) = search.flat(points[i], spacing[i]) else { continue };
+        let Some((parabola, reach)) = search.flat(points[i], spacing[i]) else {
+            search.give_up(points[i], &mut covered);
+            continue;
+        };
         let seed = Seed {
             at: parabola.foot(),
             tangent: parabola.direction(),
@@ -116,11 +123,11 @@ fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
 
 /// For each point the distance of its [`NEIGHBORS`]-th neighbour.
 fn spacings(points: &[Point], index: &Index<'_>) -> Vec<f64> {
-    points
-        .par_iter()
+    (0..points.len())
+        .into_par_iter()
         .with_min_len(1 << 12)
-        .map_init(Vec::new, |found, &p| {
-            index.nearest(p, NEIGHBORS + 1, found);
+        .map_init(Vec::new, |found, i| {
+            index.neighbors(i, NEIGHBORS + 1, found);
             found.last().map_or(0.0, |last| last.0.sqrt())
         })
         .collect()
@@ -175,7 +182,10 @@ impl Search<'_> {
                     best = Some((flatness, parabola, reach));
                 }
             }
-            if self.ids.len() > most.max(8) || best.is_some_and(|(_, _, r)| reach > 4.0 * r) {
+            let declined = |&(flatness, _, at): &(f64, Parabola, f64)| {
+                flatness >= FLATNESS_LEAST && reach > DECLINE * at
+            };
+            if self.ids.len() > most.max(8) || best.as_ref().is_some_and(declined) {
                 break;
             }
             reach *= GROWTH;
@@ -188,6 +198,15 @@ impl Search<'_> {
             parabola = self.fit(parabola.foot(), reach)?;
         }
         Some((parabola, reach))
+    }
+
+    /// Marks the points around one where no window is flat, up to the largest: it is the same for them.
+    ///
+    /// Without that a cloud that is no curve at all would be looked at as a whole from each of its points.
+    fn give_up(&mut self, at: Point, covered: &mut [bool]) {
+        let far2 =
+            self.window.local.iter().fold(0.0, |most: f64, p| most.max(p[0] * p[0] + p[1] * p[1]));
+        self.index.within(at, HOPELESS * HOPELESS * far2, &mut |i| covered[i as usize] = true);
     }
 
     /// Marks the points of the slab.

@@ -9,7 +9,7 @@ use taut_oblivious::hilbert_order;
 
 use super::link::Chain;
 use super::seeds::Seed;
-use crate::curve::index::Index;
+use crate::curve::index::{Index, distance2};
 
 type Point = [f64; 2];
 
@@ -148,7 +148,11 @@ pub(super) fn assign(strands: &mut [Strand], points: &[Point], width: f64) -> Ve
     let found: Vec<Option<(u32, f64, f64)>> = points
         .par_iter()
         .with_min_len(1 << 10)
-        .map_init(Vec::new, |nearest, &p| {
+        .map_init(Vec::new, |nearest: &mut Vec<(f64, u32)>, &p| {
+            // Points come in the order of a Hilbert curve: the place next to the last one is near.
+            if let Some(last) = nearest.first_mut() {
+                last.0 = distance2(places[last.1 as usize], p);
+            }
             index.nearest(p, 1, nearest);
             let vertex = &vertices[order[nearest.first()?.1 as usize] as usize];
             let strand = &shared[vertex.strand as usize];
