@@ -19,7 +19,7 @@ use taut_points::Monitor;
 
 use super::local::{Parabola, Window};
 use crate::Error;
-use crate::curve::index::Index;
+use crate::curve::index::{Index, distance2};
 
 type Point = [f64; 2];
 
@@ -31,6 +31,11 @@ const FLATNESS_LEAST: f64 = 5.0;
 const HOPELESS: f64 = 0.2;
 /// Windows end when they are so many times as long as the flattest.
 const DECLINE: f64 = 4.0;
+/// Windows of fewer points may be flat by chance, of all those that are tried.
+const CHANCE: usize = 60;
+/// How much longer the window is that has to be flat as well, and how flat.
+const CONFIRM: f64 = 1.4;
+const FLATNESS_CONFIRMED: f64 = 6.0;
 /// Growth of windows.
 const GROWTH: f64 = 1.2;
 /// Neighbours whose distance tells the density at a point.
@@ -53,6 +58,8 @@ pub(super) struct Seed {
     pub(super) reach: f64,
     /// Standard deviation of the residuals.
     pub(super) deviation: f64,
+    /// Points of its window for its length.
+    pub(super) density: f64,
 }
 
 /// The seeds of all curves, in the order in which they were found.
@@ -91,6 +98,7 @@ pub(super) fn seeds(
             tangent: parabola.direction(),
             reach,
             deviation: parabola.variance.sqrt(),
+            density: parabola.kept as f64 / reach,
         };
         search.cover(&parabola, reach, &mut covered);
         covered[i] = true;
@@ -99,7 +107,16 @@ pub(super) fn seeds(
     Ok(apart(seeds))
 }
 
-/// The seeds that are not beside an earlier one: two samples on either side of the band lead to one place.
+/// The same for points along the curve: a seed beside the curve has few.
+const DENSER: f64 = 4.0;
+/// Within so many windows most tangents are along that of a seed, to within 60°: it runs across the band by chance otherwise.
+const BESIDE: f64 = 1.5;
+const ALONG: f64 = 0.5;
+/// Windows of seeds next to each other differ by less than this factor, or the shorter one is flat by chance.
+const ALIKE: f64 = 2.5;
+
+/// The seeds that are not beside an earlier one, as two samples on either side of the band lead to one place, nor much shorter
+/// than most around them.
 fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
     let order = hilbert_order(seeds.len(), |i| seeds[i].at);
     let mut number = vec![0; seeds.len()];
@@ -115,6 +132,27 @@ fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
             let apart = 0.5 * SLAB * seed.reach;
             index.within(seed.at, apart * apart, &mut |place| beside[place as usize] = true);
             beside[number[i]] = false;
+        }
+    }
+    let mut around: Vec<u32> = Vec::new();
+    let middle = |around: &[u32], of: &dyn Fn(&Seed) -> f64| {
+        let mut values: Vec<f64> =
+            around.iter().map(|&p| of(&seeds[order[p as usize] as usize])).collect();
+        values.sort_unstable_by(f64::total_cmp);
+        values[values.len() / 2]
+    };
+    for (i, seed) in seeds.iter().enumerate() {
+        around.clear();
+        let far = ALIKE * seed.reach;
+        index.within(seed.at, far * far, &mut |place| around.push(place));
+        let reach = middle(&around, &|s| s.reach);
+        let density = middle(&around, &|s| s.density);
+        around.retain(|&p| distance2(places[p as usize], seed.at) <= (BESIDE * seed.reach).powi(2));
+        let along = middle(&around, &|s| {
+            (s.tangent[0] * seed.tangent[0] + s.tangent[1] * seed.tangent[1]).abs()
+        });
+        if seed.reach * ALIKE < reach || seed.density * DENSER < density || along < ALONG {
+            beside[number[i]] = true;
         }
     }
     let mut places = number.into_iter();
@@ -174,7 +212,7 @@ impl Search<'_> {
         loop {
             if let Some(parabola) = self.fit(start, reach) {
                 let flatness = flatness(&parabola, reach);
-                if flatness >= FLATNESS {
+                if flatness >= FLATNESS && self.stays_flat(start, reach, &parabola) {
                     best = Some((flatness, parabola, reach));
                     break;
                 }
@@ -198,6 +236,15 @@ impl Search<'_> {
             parabola = self.fit(parabola.foot(), reach)?;
         }
         Some((parabola, reach))
+    }
+
+    /// Whether a window of few points is flat not by chance: a longer one is flat too.
+    fn stays_flat(&mut self, start: Point, reach: f64, parabola: &Parabola) -> bool {
+        if parabola.kept >= CHANCE {
+            return true;
+        }
+        let longer = CONFIRM * reach;
+        self.fit(start, longer).is_some_and(|p| flatness(&p, longer) >= FLATNESS_CONFIRMED)
     }
 
     /// Marks the points around one where no window is flat, up to the largest: it is the same for them.
