@@ -26,6 +26,9 @@ pub(super) fn tour(
         rows: found.order.iter().map(|&site| cloud.row(site)).collect(),
     });
     outcome.tour = Some(TourBound { potentials: found.potentials, lower: found.lower });
-    outcome.counters.insert("ascent_steps".into(), found.steps);
+    outcome.counters.extend([
+        ("ascent_steps".into(), found.events.steps),
+        ("untangled".into(), found.events.untangled),
+    ]);
     Ok(outcome)
 }

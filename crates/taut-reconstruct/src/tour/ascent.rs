@@ -14,7 +14,7 @@
 use taut_points::Monitor;
 
 use super::candidates::Candidates;
-use super::tree::least_tree;
+use super::tree::LeastTree;
 use crate::Error;
 
 /// Share of the last direction in the next, after Volgenant and Jonker 1982 and Helsgaun 2000.
@@ -23,11 +23,12 @@ const MEMORY: f64 = 0.3;
 const PATIENCE: u32 = 4;
 const SHORTER: f64 = 0.7;
 /// The bound is as good as the tour.
-pub(super) const CLOSED_GAP: f64 = 1e-9;
+const CLOSED_GAP: f64 = 1e-7;
 
 /// An ascent in progress.
 pub(super) struct Ascent<'a> {
     candidates: &'a Candidates,
+    tree: LeastTree<'a>,
     /// The special site; none for paths.
     special: Option<u32>,
     /// Current and best.
@@ -47,6 +48,7 @@ impl<'a> Ascent<'a> {
     pub(super) fn new(candidates: &'a Candidates, n: usize, special: Option<u32>) -> Self {
         Self {
             candidates,
+            tree: LeastTree::new(candidates, n, special),
             special,
             potentials: vec![0.0; n],
             best: vec![0.0; n],
@@ -101,7 +103,7 @@ impl<'a> Ascent<'a> {
     fn one_tree(&mut self) -> f64 {
         self.degrees.fill(-2);
         let degrees = &mut self.degrees;
-        let total = least_tree(self.candidates, &self.potentials, self.special, |a, b| {
+        let total = self.tree.find(&self.potentials, |a, b| {
             degrees[a as usize] += 1;
             degrees[b as usize] += 1;
         });
@@ -132,7 +134,7 @@ impl<'a> Ascent<'a> {
 /// The leaf of the least spanning tree whose second edge is the longest.
 pub(super) fn special_site(candidates: &Candidates, n: usize) -> u32 {
     let mut degrees = vec![0u32; n];
-    least_tree(candidates, &vec![0.0; n], None, |a, b| {
+    LeastTree::new(candidates, n, None).find(&vec![0.0; n], |a, b| {
         degrees[a as usize] += 1;
         degrees[b as usize] += 1;
     });

@@ -14,6 +14,8 @@ use crate::Error;
 
 /// Longest run that a kick moves.
 const RUN: u64 = 30;
+/// Longest run that moves reverse after a kick: without a limit, rare long ones would take most of the time.
+const REACH: usize = 1000;
 
 /// Kicks near each of these nodes, again and again, so many times in all. Returns by how much the tour got shorter.
 pub(super) fn kick(
@@ -24,6 +26,7 @@ pub(super) fn kick(
     monitor: &Monitor<'_>,
 ) -> Result<f64, Error> {
     let n = cycle.len();
+    let search = Search { reach: REACH, ..search };
     if n < 8 || near.is_empty() {
         return Ok(0.0);
     }

@@ -18,25 +18,31 @@ mod fragments;
 mod kicks;
 mod metric;
 mod moves;
+mod simple;
+#[cfg(test)]
+mod tests;
 mod tree;
 mod union;
 
+use taut_certify::{tour_bound, tour_length};
 use taut_points::Monitor;
 use taut_predicates::plane::{lexicographic, orient};
 
 use crate::Error;
-use ascent::{Ascent, CLOSED_GAP, special_site};
+use ascent::{Ascent, special_site};
 use candidates::Candidates;
 use cycle::Cycle;
 use kicks::kick;
 use metric::Metric;
 use moves::{Queue, Search};
+use simple::untangle;
 
-/// Steps of the ascent before kicks, and beside them.
-const FIRST_STEPS: usize = 30;
-const STEPS: usize = 70;
+/// Steps of the ascent, a third of them before the kicks: so many, and fewer where sites times steps would be more than [`WORK`].
+const STEPS: usize = 90;
+const STEPS_MIN: usize = 30;
+const WORK: usize = 3_000_000;
 /// Kicks per site that the bound leaves open.
-const KICKS: usize = 3;
+const KICKS: usize = 2;
 
 /// A tour with its bound.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,15 +57,24 @@ pub(crate) struct Tour {
     pub(crate) potentials: Vec<f64>,
     /// No tour, or path if this is one, is shorter.
     pub(crate) lower: f64,
+    /// What it took.
+    pub(crate) events: Events,
+}
+
+/// Events worth counting.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Events {
     /// Steps of the ascent.
     pub(crate) steps: u64,
+    /// Changes that removed crossings.
+    pub(crate) untangled: u64,
 }
 
 /// A short tour, or path, through distinct sites in Hilbert order.
 pub(crate) fn tour(sites: &[[f64; 2]], open: bool, monitor: &Monitor<'_>) -> Result<Tour, Error> {
     let metric = Metric::of(sites);
     if let Some(order) = along_line(sites) {
-        return finish(sites, &metric, order, true, |_| 0.0, 0.0, 0, monitor);
+        return finish(sites, &metric, order, true, |_| 0.0, Events::default(), monitor);
     }
     let n = sites.len();
     let candidates = Candidates::of(sites, &metric, monitor)?;
@@ -68,22 +83,23 @@ pub(crate) fn tour(sites: &[[f64; 2]], open: bool, monitor: &Monitor<'_>) -> Res
         // The node through which a cycle is a path.
         order.push(n as u32);
     }
-    let search = Search { metric: &metric, candidates: &candidates };
+    let search = Search { metric: &metric, candidates: &candidates, reach: n };
     let mut cycle = Cycle::new(order);
     shorten(search, &mut cycle, monitor)?;
     let special = (!open).then(|| special_site(&candidates, n));
     let mut ascent = Ascent::new(&candidates, n, special);
     let length = metric.length(cycle.order());
-    eprintln!("3opt {:.6}", metric.back(length));
-    if !ascent.climb(length, FIRST_STEPS, monitor)? {
+    let steps = (WORK / n).clamp(STEPS_MIN, STEPS);
+    if !ascent.climb(length, steps / 3, monitor)? {
         let near: Vec<u32> = (0..n as u32).filter(|&v| ascent.open[v as usize] != 0).collect();
         let (kicked, climbed) = rayon::join(
             || kick(search, &mut cycle, &near, KICKS * near.len(), monitor),
-            || ascent.climb(length, STEPS, monitor),
+            || ascent.climb(length, steps - steps / 3, monitor),
         );
         kicked?;
         climbed?;
     }
+    let untangled = untangle(sites, &mut cycle, monitor)?;
     let mut order = cycle.order().to_vec();
     // A path begins behind the node it was closed through, a tour at the special site.
     let first = special.unwrap_or(n as u32);
@@ -92,16 +108,8 @@ pub(crate) fn tour(sites: &[[f64; 2]], open: bool, monitor: &Monitor<'_>) -> Res
     if open {
         order.remove(0);
     }
-    finish(
-        sites,
-        &metric,
-        order,
-        open,
-        |v| ascent.best[v as usize],
-        ascent.bound,
-        ascent.steps,
-        monitor,
-    )
+    let events = Events { steps: ascent.steps, untangled };
+    finish(sites, &metric, order, open, |v| ascent.best[v as usize], events, monitor)
 }
 
 /// All moves that shorten.
@@ -134,24 +142,19 @@ fn along_line(sites: &[[f64; 2]]) -> Option<Vec<u32>> {
     Some(order)
 }
 
-/// Length and bound in the units of the sites.
+/// The tour with its length, and the bound that the potentials prove for all tours.
 fn finish(
     sites: &[[f64; 2]],
     metric: &Metric,
     order: Vec<u32>,
     open: bool,
     potential: impl Fn(u32) -> f64,
-    bound: f64,
-    steps: u64,
+    events: Events,
     monitor: &Monitor<'_>,
 ) -> Result<Tour, Error> {
     let potentials: Vec<f64> = order.iter().map(|&v| metric.back(potential(v))).collect();
     let at: Vec<[f64; 2]> = order.iter().map(|&v| sites[v as usize]).collect();
-    let lower = metric.back(bound);
-    let mut length = metric.length(&order);
-    if let (true, Some(&first), Some(&last)) = (open, order.first(), order.last()) {
-        length -= metric.distance(first, last);
-    }
-    let _ = (at, CLOSED_GAP, monitor);
-    Ok(Tour { closed: !open, length: metric.back(length), order, potentials, lower, steps })
+    let lower = tour_bound(&at, &potentials, open, monitor)?;
+    let length = tour_length(&at, open);
+    Ok(Tour { closed: !open, length, order, potentials, lower, events })
 }

@@ -72,6 +72,24 @@ impl Move {
         }
     }
 
+    /// How long the runs are that it reverses, at most about.
+    fn reach(&self, cycle: &Cycle) -> usize {
+        let n = cycle.len();
+        let span = |a: u32, b: u32| {
+            let steps = cycle.place(a).abs_diff(cycle.place(b)) as usize;
+            steps.min(n - steps)
+        };
+        match *self {
+            Move::Two([_, t2, _, t4]) => span(t2, t4),
+            Move::TwoTwice([_, t2, _, t4, _, t6]) => span(t2, t4).max(span(t2, t6)),
+            Move::Exchange([t1, t2, t3, t4, t5, t6]) => {
+                let runs = [span(t2, t5), span(t6, t3), span(t4, t1)];
+                runs.iter().sum::<usize>() - runs.into_iter().max().unwrap_or(0)
+            }
+            Move::TurnBoth([_, t2, t3, _, t5, t6]) => span(t2, t6).max(span(t5, t3)),
+        }
+    }
+
     fn nodes(&self) -> &[u32] {
         match self {
             Move::Two(nodes) => nodes,
@@ -85,6 +103,8 @@ impl Move {
 pub(super) struct Search<'a> {
     pub(super) metric: &'a Metric,
     pub(super) candidates: &'a Candidates,
+    /// Moves that reverse longer runs are left out.
+    pub(super) reach: usize,
 }
 
 impl Search<'_> {
@@ -114,7 +134,7 @@ impl Search<'_> {
     fn best(&self, cycle: &Cycle, t1: u32) -> Option<(f64, Move)> {
         let mut best: Option<(f64, Move)> = None;
         let mut offer = |gain: f64, found: Move| {
-            if best.is_none_or(|(most, _)| gain > most) {
+            if best.is_none_or(|(most, _)| gain > most) && found.reach(cycle) <= self.reach {
                 best = Some((gain, found));
             }
         };

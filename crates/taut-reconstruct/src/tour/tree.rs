@@ -25,83 +25,86 @@ struct Edge {
 impl Edge {
     #[inline(always)]
     fn is_before(&self, other: &Edge) -> bool {
-        (self.weight, self.ends) < (other.weight, other.ends)
+        self.weight < other.weight || (self.weight == other.weight && self.ends < other.ends)
     }
 }
 
-/// The least spanning tree of all sites but one (`NONE`-like numbers leave out none): the sum of its weights, and each edge told.
-pub(super) fn least_tree(
-    candidates: &Candidates,
-    potentials: &[f64],
-    without: Option<u32>,
-    mut tell: impl FnMut(u32, u32),
-) -> f64 {
-    let n = potentials.len() as u32;
-    let without = without.unwrap_or(NONE);
-    let weight =
-        |v: u32, u: u32, length: f64| length + (potentials[v as usize] + potentials[u as usize]);
-    let mut union = Union::of(n as usize);
-    let mut total = 0.0;
-    let mut take = |union: &mut Union, edge: &Edge| {
-        if union.join(edge.ends[0], edge.ends[1]) {
-            total += edge.weight;
-            tell(edge.ends[0], edge.ends[1]);
-        }
-    };
-    let none = Edge { weight: f64::INFINITY, ends: [NONE; 2], of: [NONE; 2] };
-    let of_row = |v: u32| {
-        candidates.edges(v).filter(move |&(u, _)| u != without).map(move |(u, length)| Edge {
-            weight: weight(v, u, length),
-            ends: [v.min(u), v.max(u)],
-            of: [v, u],
-        })
-    };
-    for v in (0..n).filter(|&v| v != without) {
-        let mut least = none;
-        of_row(v).for_each(|edge| {
-            if edge.is_before(&least) {
-                least = edge;
-            }
-        });
-        if least.ends[0] != NONE {
-            take(&mut union, &least);
-        }
+/// A search for least trees, which keeps its memory from one to the next.
+pub(super) struct LeastTree<'a> {
+    candidates: &'a Candidates,
+    /// The site that is left out.
+    without: u32,
+    edges: Vec<Edge>,
+    /// For each component its least edge out.
+    least: Vec<Edge>,
+}
+
+const UNKNOWN: Edge = Edge { weight: f64::INFINITY, ends: [NONE; 2], of: [NONE; 2] };
+
+impl<'a> LeastTree<'a> {
+    pub(super) fn new(candidates: &'a Candidates, n: usize, without: Option<u32>) -> Self {
+        let without = without.unwrap_or(NONE);
+        Self { candidates, without, edges: Vec::new(), least: vec![UNKNOWN; n] }
     }
-    let mut edges: Vec<Edge> = Vec::new();
-    for v in (0..n).filter(|&v| v != without) {
-        let root = union.root(v);
-        for edge in of_row(v).filter(|edge| edge.ends[0] == v) {
-            let other = union.root(edge.ends[1]);
-            if root != other {
-                edges.push(Edge { of: [root, other], ..edge });
+
+    /// The sum of its weights; each edge is told.
+    pub(super) fn find(&mut self, potentials: &[f64], mut tell: impl FnMut(u32, u32)) -> f64 {
+        let Self { candidates, without, edges, least } = self;
+        let (n, without) = (potentials.len() as u32, *without);
+        let mut union = Union::of(n as usize);
+        let mut total = 0.0;
+        let mut take = |union: &mut Union, edge: &Edge| {
+            if union.join(edge.ends[0], edge.ends[1]) {
+                total += edge.weight;
+                tell(edge.ends[0], edge.ends[1]);
+            }
+        };
+        let of_row = |v: u32| {
+            let of_v = potentials[v as usize];
+            candidates.edges(v).filter(move |&(u, _)| u != without).map(move |(u, length)| Edge {
+                weight: length + (of_v + potentials[u as usize]),
+                ends: [v.min(u), v.max(u)],
+                of: [v, u],
+            })
+        };
+        for v in (0..n).filter(|&v| v != without) {
+            let first = of_row(v).fold(UNKNOWN, |a, b| if b.is_before(&a) { b } else { a });
+            if first.ends[0] != NONE {
+                take(&mut union, &first);
             }
         }
-    }
-    let mut least = vec![none; if edges.is_empty() { 0 } else { n as usize }];
-    while !edges.is_empty() {
-        for edge in &edges {
-            for component in edge.of {
-                let least = &mut least[component as usize];
-                if edge.is_before(least) {
-                    *least = *edge;
+        edges.clear();
+        for v in (0..n).filter(|&v| v != without) {
+            let root = union.root(v);
+            for edge in of_row(v).filter(|edge| edge.ends[0] == v) {
+                let other = union.root(edge.ends[1]);
+                if root != other {
+                    edges.push(Edge { of: [root, other], ..edge });
                 }
             }
         }
-        let mut taken = 0;
-        for at in 0..edges.len() {
-            for component in edges[at].of {
-                let edge = std::mem::replace(&mut least[component as usize], none);
-                if edge.ends[0] != NONE {
-                    take(&mut union, &edge);
-                    taken += 1;
+        while !edges.is_empty() {
+            for edge in edges.iter() {
+                for component in edge.of {
+                    let least = &mut least[component as usize];
+                    if edge.is_before(least) {
+                        *least = *edge;
+                    }
                 }
             }
+            for edge in edges.iter() {
+                for component in edge.of {
+                    let edge = std::mem::replace(&mut least[component as usize], UNKNOWN);
+                    if edge.ends[0] != NONE {
+                        take(&mut union, &edge);
+                    }
+                }
+            }
+            edges.retain_mut(|edge| {
+                edge.of = edge.of.map(|c| union.root(c));
+                edge.of[0] != edge.of[1]
+            });
         }
-        debug_assert!(taken > 0);
-        edges.retain_mut(|edge| {
-            edge.of = edge.of.map(|c| union.root(c));
-            edge.of[0] != edge.of[1]
-        });
+        total
     }
-    total
 }
