@@ -8,6 +8,8 @@ use taut_points::{Monitor, PointSource, PointsHash};
 use crate::json::{hash_from_hex, hash_to_hex};
 use crate::{Answer, CheckError};
 
+pub use check::tour::{tour_bound, tour_length};
+
 /// Curves through a point set of the plane: polylines that meet neither themselves nor one another.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a curve: an object with curves and noise")]

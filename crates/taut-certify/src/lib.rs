@@ -54,7 +54,9 @@ pub use ball::{Ball, BallCertificate};
 pub use centers::{
     Centers, CentersCertificate, CentersVerdict, CentersViolation, LowerBound, Placement,
 };
-pub use curve::{Curve, CurveCertificate, CurveComponent, CurveVerdict, Place, TourBound};
+pub use curve::{
+    Curve, CurveCertificate, CurveComponent, CurveVerdict, Place, TourBound, tour_bound, tour_length,
+};
 pub use ellipsoid::{
     EllipseSupport, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipse_support,
 };

@@ -1,5 +1,7 @@
 //! The checker of curves.
 
+pub(super) mod tour;
+
 use taut_points::{Monitor, PointSource, hash_points};
 
 use super::{Curve, CurveCertificate, CurveVerdict};
