@@ -56,7 +56,7 @@ pub use centers::{
 };
 pub use curve::{
     Curve, CurveCertificate, CurveComponent, CurveDoubt, CurveVerdict, CurveViolation, Place,
-    TourBound,
+    TourBound, tour_bound, tour_length,
 };
 pub use ellipsoid::{
     EllipseSupport, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipse_support,

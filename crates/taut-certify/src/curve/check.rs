@@ -20,16 +20,15 @@ mod sampling;
 mod signs;
 mod simple;
 mod structure;
-mod tour;
+pub(super) mod tour;
 mod tree;
 
 use taut_points::{BlockHash, Monitor, PointSource, PointsHash, hash_block, map_blocks};
 
 use self::edges::Edges;
+use self::tour::{tour_bound, tour_length};
 use super::{Curve, CurveCertificate, CurveVerdict, CurveViolation};
 use crate::{CheckError, Violation};
-
-pub use tour::{tour_bound, tour_length};
 
 /// How much less than found a figure may be claimed to be, relatively: φ is told up to a 64th.
 const FIGURE_SLACK: f64 = 0.05;
