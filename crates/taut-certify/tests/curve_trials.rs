@@ -204,7 +204,7 @@ fn damaged(loops: &[Loop], delta: f64, random: &mut Random) -> (&'static str, Ve
 
 #[test]
 fn no_damaged_curve_is_certified() {
-    for trial in 0..trials(400) {
+    for trial in 0..trials(100) {
         let mut random = Random(trial * 7919 + 1);
         let truth = truth(&mut random);
         let (rows, delta) = sampled(&truth, &mut random);
@@ -222,7 +222,7 @@ fn no_damaged_curve_is_certified() {
 /// Two circles so near to each other that one between them has a band that is narrow beside its own features.
 #[test]
 fn one_circle_in_place_of_two_is_not_certified() {
-    for trial in 0..trials(200) {
+    for trial in 0..trials(60) {
         let mut random = Random(trial * 104_729 + 3);
         let apart = random.between(0.02, 0.5);
         // The least feature size is half the distance.

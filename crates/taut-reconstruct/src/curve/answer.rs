@@ -41,7 +41,10 @@ pub(super) fn finish(
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Curve>, Error> {
-    let Outcome { method, curves, outliers, noise, tour, counters } = outcome;
+    let Outcome { method, curves, mut outliers, noise, tour, counters } = outcome;
+    if curves.is_empty() {
+        outliers = (0..cloud.sites.len() as u32).collect();
+    }
     let segments = Segments::of(&curves);
     let mut is_outlier = vec![false; cloud.sites.len()];
     outliers.iter().for_each(|&site| is_outlier[site as usize] = true);

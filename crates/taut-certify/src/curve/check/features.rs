@@ -27,6 +27,10 @@ const FORGIVEN: f64 = 0.25;
 /// Where offsets are forgiven: as far along the curve, over s. Strands that are farther along are others, and none is forgiven its being near.
 const NEAR: f64 = 4.0;
 
+/// An edge of the same curve counts with all its points from this many of its lengths on along the curve, else with its ends: next to a
+/// vertex a chord would seem to come near, however gently the curve turns.
+const SMOOTH: f64 = 2.0;
+
 /// R is told up to this much of it: on a circle all points are as near as each other, and to find the nearest would take all.
 const CLOSE: f64 = 1.0 / 64.0;
 
@@ -76,7 +80,14 @@ pub(super) fn features(
                     return (0.0, 0.0);
                 }
                 let near = [before(NEAR * span), after(NEAR * span)];
-                at(edges, curve, v, own, near, band, length)
+                let length_of = |k: usize| along[k + 1] - along[k];
+                // Of an edge that is long beside its distance, only the ends are points of a smooth curve.
+                let is_long = |on: usize| {
+                    let back = count - 1 - on;
+                    let off = (way(here + on) - way(here)).min(way(here) - way(here - back));
+                    off < SMOOTH * length_of((v + on) % count)
+                };
+                at(edges, curve, v, own, near, (band, length), is_long)
             };
             Ok(block.iter().map(of).collect())
         })
@@ -121,8 +132,8 @@ fn at(
     vertex: usize,
     own: [usize; 2],
     near: [usize; 2],
-    band: f64,
-    length: f64,
+    (band, length): (f64, f64),
+    is_long: impl Fn(usize) -> bool,
 ) -> (f64, f64) {
     let (first, base) = (edges.first_vertex[curve], edges.first_edge[curve]);
     let count = edges.first_edge[curve + 1] - base;
@@ -158,6 +169,12 @@ fn at(
                 }
                 if on < near[1] || back < near[0] {
                     tangent = &close;
+                }
+                if is_long(on) {
+                    for end in edges.segment(edge) {
+                        *radius = radius.min(tangent.through(minus(end, v)));
+                    }
+                    return;
                 }
             }
             *radius = radius.min(tangent.through_edge(edges.segment(edge)));

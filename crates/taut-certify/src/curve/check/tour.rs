@@ -52,9 +52,8 @@ pub fn tour_bound(
     }
     let scale = Scale::of(points);
     let at: Vec<[f64; 2]> = points.iter().map(|&p| scale.point(p)).collect();
-    let potentials: Vec<f64> = (0..n)
-        .map(|i| scale.potential(potentials.get(i).copied().unwrap_or(0.0)))
-        .collect();
+    let potentials: Vec<f64> =
+        (0..n).map(|i| scale.potential(potentials.get(i).copied().unwrap_or(0.0))).collect();
     let from = usize::from(!open);
     let mut weight = spanning_tree(&at[from..], &potentials[from..], monitor)?;
     let mut least = [f64::INFINITY; 2];
@@ -208,7 +207,8 @@ fn spanning_tree(
             let of = components[p];
             if other != NONE && least[of as usize].load(Ordering::Relaxed) == weight {
                 least[of as usize].store(i64::MIN, Ordering::Relaxed);
-                let (a, b) = (root(&mut parents, of), root(&mut parents, components[other as usize]));
+                let (a, b) =
+                    (root(&mut parents, of), root(&mut parents, components[other as usize]));
                 if a != b {
                     parents[a.max(b) as usize] = a.min(b);
                     total += i128::from(weight);

@@ -15,6 +15,8 @@ const SPAN: f64 = 3.0;
 const FORGIVEN: f64 = 0.25;
 /// How far along the curve offsets are forgiven, over the span.
 const NEAR: f64 = 4.0;
+/// An edge of the same curve counts with its ends alone up to this many of its lengths along the curve.
+const SMOOTH: f64 = 2.0;
 /// How much R may exceed the least radius: on a circle every point gives the same.
 const CLOSE: f64 = 1.0 / 64.0;
 /// Vertices of one task.
@@ -127,6 +129,14 @@ impl Tangents<'_> {
                         return;
                     }
                     touching = if number < reach { &near } else { &far };
+                    let on = (edge - of_curve.start + n - vertex) % n;
+                    let off = (way(here + on) - way(here)).min(way(here) - way(here + on + 1 - n));
+                    if off < SMOOTH * (way(here + on + 1) - way(here + on)) {
+                        for [x, y] in self.segments.ends[edge] {
+                            *radius = radius.min(touching.radius(x - v[0], y - v[1]));
+                        }
+                        return;
+                    }
                 }
                 *radius = radius.min(touching.along(&self.segments.ends[edge]));
             },

@@ -140,7 +140,8 @@ impl Boxes {
                 let middle = middle(from, to);
                 let first = (self.least_weight(2 * node + 1, at, pi), 2 * node + 1, from, middle);
                 let second = (self.least_weight(2 * node + 2, at, pi), 2 * node + 2, middle, to);
-                let (near, far) = if first.0 <= second.0 { (first, second) } else { (second, first) };
+                let (near, far) =
+                    if first.0 <= second.0 { (first, second) } else { (second, first) };
                 if far.0 < best.0 {
                     later[waiting] = far;
                     waiting += 1;
