@@ -1,13 +1,20 @@
 //! From curves to the answer with its certificate.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
-use taut_certify::{Curve, CurveCertificate, CurveComponent, Solution, Stop, TourBound, Trace};
-use taut_points::{Monitor, PointSource, hash_points};
+use rayon::prelude::*;
+use taut_certify::{
+    Curve, CurveCertificate, CurveComponent, Place, Solution, Stop, TourBound, Trace,
+};
+use taut_points::{Cancelled, Monitor, PointSource, hash_points};
 
 use super::CurveOptions;
 use super::cloud::Cloud;
+use super::evidence::{Evidence, Segments, Spot, evidence};
 use crate::Error;
+
+/// Sites of one task.
+const TASK: usize = 1 << 12;
 
 /// What a method found.
 #[derive(Clone, Debug, Default)]
@@ -30,33 +37,136 @@ pub(super) struct Outcome {
 pub(super) fn finish(
     cloud: &Cloud,
     outcome: Outcome,
-    _options: &CurveOptions,
+    options: &CurveOptions,
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Curve>, Error> {
-    let mut outliers: Vec<u64> = outcome
-        .outliers
+    let Outcome { method, curves, mut outliers, noise, tour, counters } = outcome;
+    if curves.is_empty() {
+        outliers = (0..cloud.sites.len() as u32).collect();
+    }
+    let segments = Segments::of(&curves);
+    let mut is_outlier = vec![false; cloud.sites.len()];
+    outliers.iter().for_each(|&site| is_outlier[site as usize] = true);
+    let are_sites = curves.first().is_some_and(|one| !one.rows.is_empty());
+    let spots = match are_sites {
+        true => at_vertices(&curves, &segments, &cloud.sites, &is_outlier),
+        false => next_to(&segments, &cloud.sites, &is_outlier, monitor)?,
+    };
+    let found = match tour {
+        Some(_) => Evidence::NONE,
+        None => evidence(&curves, &segments, &cloud.sites, &spots, monitor)?,
+    };
+    let band = spots.iter().flatten().fold(0.0f64, |band, spot| band.max(spot.distance));
+    let places = match options.places && segments.len() > 0 {
+        true => places(cloud, source.len() as usize, &segments, &spots),
+        false => Vec::new(),
+    };
+    let mut rows: Vec<u64> = outliers
         .iter()
         .flat_map(|&site| cloud.rows(site).iter().map(|&row| u64::from(row)))
         .collect();
-    outliers.sort_unstable();
-    let points_hash = hash_points(source, monitor)?;
-    let answer =
-        Curve { curves: outcome.curves, noise: outcome.noise, outliers, places: Vec::new() };
+    rows.sort_unstable();
     let certificate = CurveCertificate {
-        band: 0.0,
-        sampling_ratio: f64::MAX,
-        noise_ratio: f64::MAX,
-        certified: false,
-        tour: outcome.tour,
-        points_hash,
+        band: if are_sites { 0.0 } else { band_above(band, &cloud.sites, &spots, &segments) },
+        sampling_ratio: found.sampling_ratio,
+        noise_ratio: found.noise_ratio,
+        certified: found.certified,
+        tour,
+        points_hash: hash_points(source, monitor)?,
     };
     let trace = Trace {
-        method: outcome.method.into(),
+        method: method.into(),
         stop: Stop::Converged,
         passes: 1,
-        counters: outcome.counters,
+        counters,
         ..Trace::default()
     };
-    Ok(Solution { answer, certificate, trace })
+    Ok(Solution { answer: Curve { curves, noise, outliers: rows, places }, certificate, trace })
+}
+
+/// Spots of sites that are vertices.
+fn at_vertices(
+    curves: &[CurveComponent],
+    segments: &Segments,
+    sites: &[[f64; 2]],
+    is_outlier: &[bool],
+) -> Vec<Option<Spot>> {
+    let key = |p: [f64; 2]| p.map(|x| (x + 0.0).to_bits());
+    let vertices: usize = curves.iter().map(|one| one.vertices.len()).sum();
+    let mut spots = HashMap::with_capacity(vertices);
+    for (one, &first) in curves.iter().zip(&segments.first) {
+        for (vertex, &p) in one.vertices.iter().enumerate() {
+            // The last vertex of an open curve is at the end of an edge.
+            let is_end = !one.closed && vertex > 0 && vertex + 1 == one.vertices.len();
+            let (edge, share) = if is_end { (vertex - 1, 1.0) } else { (vertex, 0.0) };
+            let edge = first + edge as u32;
+            spots.insert(key(p), Spot { edge, share, distance: 0.0, left: true });
+        }
+    }
+    let spot = |(p, &is_outlier): (&[f64; 2], &bool)| match is_outlier {
+        true => None,
+        false => spots.get(&key(*p)).copied(),
+    };
+    sites.iter().zip(is_outlier).map(spot).collect()
+}
+
+/// Spots of sites next to the edges.
+fn next_to(
+    segments: &Segments,
+    sites: &[[f64; 2]],
+    is_outlier: &[bool],
+    monitor: &Monitor<'_>,
+) -> Result<Vec<Option<Spot>>, Cancelled> {
+    let mut spots = vec![None; sites.len()];
+    spots.par_chunks_mut(TASK).enumerate().try_for_each(|(task, spots)| {
+        monitor.check()?;
+        let mut guess = usize::MAX;
+        for (k, spot) in spots.iter_mut().enumerate() {
+            let site = task * TASK + k;
+            if !is_outlier[site] {
+                let p = sites[site].map(|x| x * segments.scale);
+                *spot = segments.next_to(p, guess, f64::INFINITY);
+                guess = spot.map_or(guess, |spot| spot.edge as usize);
+            }
+        }
+        Ok(())
+    })?;
+    Ok(spots)
+}
+
+/// The band in units of the input, with all roundings of its distances added, and those of a checker's.
+fn band_above(band: f64, sites: &[[f64; 2]], spots: &[Option<Spot>], segments: &Segments) -> f64 {
+    if segments.len() == 0 {
+        return 0.0;
+    }
+    // What is rounded are differences of coordinates, none larger than the boxes of sites and edges together, and the band.
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for (p, _) in sites.iter().zip(spots).filter(|(_, spot)| spot.is_some()) {
+        for k in 0..2 {
+            (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k]));
+        }
+    }
+    let width = (0..2).map(|k| ((high[k] - low[k]) * segments.scale).max(0.0)).sum::<f64>();
+    let rounding = 32.0 * f64::EPSILON * (width + segments.reach() + band);
+    ((band * (1.0 + 1e-12) + rounding) / segments.scale).next_up().min(f64::MAX)
+}
+
+/// The place of every row, of outliers too.
+fn places(cloud: &Cloud, rows: usize, segments: &Segments, spots: &[Option<Spot>]) -> Vec<Place> {
+    let mut guess = usize::MAX;
+    let mut places = vec![Place::default(); rows];
+    for (site, spot) in spots.iter().enumerate() {
+        let p = cloud.sites[site].map(|x| x * segments.scale);
+        let Some(spot) = spot.or_else(|| segments.next_to(p, guess, f64::INFINITY)) else {
+            continue;
+        };
+        guess = spot.edge as usize;
+        let curve = segments.first.partition_point(|&first| first <= spot.edge) - 1;
+        let position = f64::from(spot.edge - segments.first[curve]) + spot.share;
+        for &row in cloud.rows(site as u32) {
+            places[row as usize] = Place(curve as u32, position);
+        }
+    }
+    places
 }

@@ -5,6 +5,7 @@ mod boxes;
 mod chains;
 mod clean;
 mod cloud;
+mod evidence;
 mod fit;
 mod index;
 mod options;

@@ -1,0 +1,243 @@
+//! The place of every row next to it on the curves, and how far off it is.
+//!
+//! *Distance.* The foot of a row on an edge is found in `f64`; any number t in [0, 1] names a point of the edge, so the distance
+//! to it, with all its roundings added, is no less than that of the curve. A vector p − a is right to u of its size, and
+//! w = (p − a) − t·(b − a) to 4u of |p − a| and |b − a|.
+
+use std::collections::HashMap;
+
+use rayon::prelude::*;
+use taut_points::{Monitor, ReadError};
+
+use super::super::{Curve, CurveCertificate, CurveViolation};
+use super::edges::Edges;
+use crate::CheckError;
+use crate::arithmetic::U;
+
+/// Rows that a thread takes at once.
+const ROWS: usize = 1 << 12;
+
+/// A row next to the curve.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Foot {
+    pub(super) row: usize,
+    pub(super) edge: usize,
+    /// The share of the edge before it.
+    pub(super) t: f64,
+    /// Distance from the curve, rounded up, in scaled units; more than 0 on the left.
+    pub(super) offset: f64,
+}
+
+/// All rows.
+pub(super) struct Placed {
+    /// Distinct rows that are no outliers, ascending.
+    pub(super) inliers: Vec<Foot>,
+    /// Distinct outliers, in scaled units.
+    pub(super) outliers: Vec<(usize, [f64; 2])>,
+    /// The largest distance of an inlier, rounded up, in units of the input.
+    pub(super) band: f64,
+    /// Whether vertices are rows, so that inliers are vertices.
+    pub(super) is_exact: bool,
+}
+
+pub(super) fn place(
+    curve: &Curve,
+    certificate: &CurveCertificate,
+    edges: &Edges,
+    rows: &[[f64; 2]],
+    monitor: &Monitor<'_>,
+) -> Result<Placed, CheckError> {
+    let mut is_outlier = vec![false; rows.len()];
+    curve.outliers.iter().for_each(|&row| is_outlier[row as usize] = true);
+    let scaled = |row: usize| rows[row].map(|x| x * edges.scale);
+    let (outliers, inliers): (Vec<usize>, Vec<usize>) =
+        distinct(rows, &is_outlier).into_iter().partition(|&row| is_outlier[row]);
+    let is_exact = curve.curves.first().is_some_and(|first| !first.rows.is_empty());
+    let feet = match is_exact {
+        true => at_vertices(edges, rows, &inliers)?,
+        false => next_to(edges, &inliers, scaled, monitor)?,
+    };
+    let outside = feet.iter().find(|foot| foot.offset.abs() > certificate.band * edges.scale);
+    if let Some(foot) = outside {
+        let (row, distance) = (foot.row as u64, foot.offset.abs() / edges.scale);
+        return Err(CurveViolation::OutsideBand { row, distance, band: certificate.band }.into());
+    }
+    let widest = feet.iter().fold(0.0f64, |most, foot| most.max(foot.offset.abs()));
+    let band = (widest / edges.scale).min(certificate.band);
+    if !curve.places.is_empty() {
+        places(curve, edges, rows, monitor)?;
+    }
+    let outliers = outliers.into_iter().map(|row| (row, scaled(row))).collect();
+    Ok(Placed { inliers: feet, outliers, band, is_exact })
+}
+
+/// The rows but those that equal one before them, ascending; outliers equal outliers alone.
+fn distinct(rows: &[[f64; 2]], is_outlier: &[bool]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..rows.len()).collect();
+    // −0 equals 0.
+    let key = |row: usize| rows[row].map(|x| x + 0.0);
+    order.par_sort_unstable_by(|&i, &j| {
+        let ([a, b], [c, d]) = (key(i), key(j));
+        let by_place = a.total_cmp(&c).then(b.total_cmp(&d));
+        by_place.then(is_outlier[i].cmp(&is_outlier[j])).then(i.cmp(&j))
+    });
+    order.dedup_by_key(|row| (key(*row).map(f64::to_bits), is_outlier[*row]));
+    order.par_sort_unstable();
+    order
+}
+
+/// Rows at the vertices that they are, or are equal to.
+fn at_vertices(
+    edges: &Edges,
+    rows: &[[f64; 2]],
+    inliers: &[usize],
+) -> Result<Vec<Foot>, CurveViolation> {
+    // −0 equals 0, but is another pattern of bits.
+    let key = |p: [f64; 2]| p.map(|x| (x + 0.0).to_bits());
+    let mut vertices = HashMap::with_capacity(edges.exact.len());
+    for (vertex, &place) in edges.exact.iter().enumerate() {
+        if let Some(before) = vertices.insert(key(place), vertex) {
+            let name = |vertex: usize| {
+                let curve = edges.first_vertex.partition_point(|&first| first <= vertex) - 1;
+                (curve, vertex - edges.first_vertex[curve])
+            };
+            let ((curve, vertex), (other, other_vertex)) = (name(vertex), name(before));
+            return Err(CurveViolation::Repeated { curve, vertex, other, other_vertex });
+        }
+    }
+    let foot = |&row: &usize| {
+        let found = vertices.get(&key(rows[row])).copied();
+        let vertex = found.ok_or(CurveViolation::NoVertex { row: row as u64 })?;
+        let curve = edges.first_vertex.partition_point(|&first| first <= vertex) - 1;
+        let edge = edges.first_edge[curve] + (vertex - edges.first_vertex[curve]);
+        // The last vertex of an open curve is at the end of an edge.
+        Ok(match edge < edges.first_edge[curve + 1] {
+            true => Foot { row, edge, t: 0.0, offset: 0.0 },
+            false => Foot { row, edge: edge - 1, t: 1.0, offset: 0.0 },
+        })
+    };
+    inliers.iter().map(foot).collect()
+}
+
+/// Rows next to the edges.
+fn next_to(
+    edges: &Edges,
+    inliers: &[usize],
+    scaled: impl Fn(usize) -> [f64; 2] + Sync,
+    monitor: &Monitor<'_>,
+) -> Result<Vec<Foot>, CheckError> {
+    let blocks: Vec<Result<Vec<Foot>, CheckError>> = inliers
+        .par_chunks(ROWS)
+        .map(|block| {
+            monitor.check().map_err(ReadError::from)?;
+            let foot = |&row: &usize| {
+                let p = scaled(row);
+                let none = CurveViolation::OutsideBand {
+                    row: row as u64,
+                    distance: f64::INFINITY,
+                    band: f64::MAX,
+                };
+                let (edge, t) = nearest(edges, p, f64::INFINITY).ok_or(none)?;
+                let offset = distance(edges, p, edge, t) * side(edges, p, edge);
+                Ok(Foot { row, edge, t, offset })
+            };
+            block.iter().map(foot).collect()
+        })
+        .collect();
+    let mut feet = Vec::with_capacity(inliers.len());
+    for block in blocks {
+        feet.extend(block?);
+    }
+    Ok(feet)
+}
+
+/// The edge next to p, if one is nearer than `most`, and the share of it before the foot.
+pub(super) fn nearest(edges: &Edges, p: [f64; 2], most: f64) -> Option<(usize, f64)> {
+    let (mut best, mut found) = (most * most, None);
+    edges.tree.least(
+        &mut best,
+        |area| area.distance_squared(p),
+        |edge, best| {
+            let t = foot(edges, p, edge);
+            let [x, y] = beside(edges, p, edge, t);
+            let squared = x * x + y * y;
+            if squared < *best {
+                (*best, found) = (squared, Some((edge, t)));
+            }
+        },
+    );
+    found
+}
+
+/// The share of an edge before the foot of p.
+fn foot(edges: &Edges, p: [f64; 2], edge: usize) -> f64 {
+    let [a, b] = edges.segment(edge);
+    let (along, to) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+    let t = (along[0] * to[0] + along[1] * to[1]) / (along[0] * along[0] + along[1] * along[1]);
+    // An edge of one vertex gives NaN.
+    if t > 0.0 { t.min(1.0) } else { 0.0 }
+}
+
+/// p less the point of an edge.
+fn beside(edges: &Edges, p: [f64; 2], edge: usize, t: f64) -> [f64; 2] {
+    let [a, b] = edges.segment(edge);
+    match t {
+        1.0 => [0, 1].map(|k| p[k] - b[k]),
+        _ => [0, 1].map(|k| (p[k] - a[k]) - t * (b[k] - a[k])),
+    }
+}
+
+/// The distance from the point of an edge, rounded up.
+fn distance(edges: &Edges, p: [f64; 2], edge: usize, t: f64) -> f64 {
+    let [x, y] = beside(edges, p, edge, t);
+    let [a, b] = edges.segment(edge);
+    let sizes: f64 = match t {
+        0.0 | 1.0 => x.abs() + y.abs(),
+        _ => (0..2).map(|k| (p[k] - a[k]).abs() + (b[k] - a[k]).abs()).sum(),
+    };
+    match x == 0.0 && y == 0.0 && (t == 0.0 || t == 1.0) {
+        true => 0.0,
+        false => (x.hypot(y) * (1.0 + 8.0 * U) + 8.0 * U * sizes).next_up(),
+    }
+}
+
+/// 1 on the left of an edge, −1 on the right.
+fn side(edges: &Edges, p: [f64; 2], edge: usize) -> f64 {
+    let [a, b] = edges.segment(edge);
+    let turn = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+    if turn < 0.0 { -1.0 } else { 1.0 }
+}
+
+/// Whether places named are next to their rows, as far as rounding tells.
+fn places(
+    curve: &Curve,
+    edges: &Edges,
+    rows: &[[f64; 2]],
+    monitor: &Monitor<'_>,
+) -> Result<(), CheckError> {
+    let pairs: Vec<usize> = (0..rows.len()).collect();
+    pairs.par_chunks(ROWS).try_for_each(|block| {
+        monitor.check().map_err(ReadError::from)?;
+        block.iter().try_for_each(|&row| {
+            let (p, place) = (rows[row].map(|x| x * edges.scale), curve.places[row]);
+            let of = place.0 as usize;
+            let (first, count) =
+                (edges.first_edge[of], edges.first_edge[of + 1] - edges.first_edge[of]);
+            let edge = (place.1 as usize).min(count - 1);
+            let claimed =
+                distance(edges, p, first + edge, place.1.fract().max(place.1 - edge as f64));
+            let next =
+                nearest(edges, p, f64::INFINITY).map(|(edge, t)| distance(edges, p, edge, t));
+            let next = next.unwrap_or(f64::INFINITY);
+            let size = p[0].abs() + p[1].abs() + next;
+            match claimed <= next * (1.0 + 1e-9) + 64.0 * U * (size + 1.0 * f64::MIN_POSITIVE) {
+                true => Ok(()),
+                false => {
+                    let (distance, nearest) = (claimed / edges.scale, next / edges.scale);
+                    Err(CurveViolation::FarPlace { row: row as u64, distance, nearest })
+                }
+            }
+        })?;
+        Ok(())
+    })
+}

@@ -1,0 +1,140 @@
+//! How far apart samples are along a curve, how far off, and what lies across their band.
+
+use super::super::CurveDoubt;
+use super::band::Foot;
+use super::features::Features;
+
+/// Gaps on either side that a gap is compared with.
+const BESIDE: usize = 16;
+
+/// Rows across whose offsets an empty part is sought.
+const WINDOW: usize = 128;
+
+/// A share of the rows of a window that may lie on one side of an empty part without making it one between two bands.
+const EDGE: usize = WINDOW / 10;
+
+/// The most of the width of a band that may be empty in the middle. Of 128 numbers that are uniform in a band, two neighbours in order
+/// are so far apart once in 10¹⁸ windows.
+const EMPTY_MOST: f64 = 0.3;
+
+/// Where on a curve something is largest.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Worst {
+    pub(super) value: f64,
+    /// Vertex or row.
+    pub(super) at: usize,
+}
+
+impl Worst {
+    pub(super) const NONE: Worst = Worst { value: 0.0, at: 0 };
+
+    fn see(&mut self, value: f64, at: usize) {
+        if value > self.value {
+            *self = Worst { value, at };
+        }
+    }
+}
+
+/// A row on a curve.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sample {
+    /// The way along the curve to its place.
+    pub(super) along: f64,
+    /// The vertex before its place.
+    pub(super) vertex: usize,
+    pub(super) offset: f64,
+    pub(super) row: usize,
+}
+
+/// The samples of a curve in the order of their places.
+pub(super) fn ordered(feet: &[Foot], first_edge: usize, features: &Features) -> Vec<Sample> {
+    let mut samples: Vec<Sample> = feet
+        .iter()
+        .map(|foot| {
+            let vertex = foot.edge - first_edge;
+            let (from, to) = (features.along[vertex], features.along[vertex + 1]);
+            let along = from + foot.t * (to - from);
+            Sample { along, vertex, offset: foot.offset, row: foot.row }
+        })
+        .collect();
+    samples.sort_by(|a, b| a.along.total_cmp(&b.along).then(a.row.cmp(&b.row)));
+    samples
+}
+
+/// The largest half gap over the least φ in it, and the vertex that it begins after.
+pub(super) fn sampling_ratio(samples: &[Sample], features: &Features) -> Worst {
+    let (mut worst, count) = (Worst::NONE, features.size.len());
+    for (gap, from, to) in gaps(samples, features) {
+        let last = to + 1 + if to < from || samples.len() == 1 { count } else { 0 };
+        let least = (from..=last).map(|k| features.size[k % count]).fold(f64::INFINITY, f64::min);
+        if gap > 0.0 {
+            worst.see(gap / (2.0 * least), from);
+        }
+    }
+    worst
+}
+
+/// The gaps around the curve, each with the vertices before its two ends.
+fn gaps<'a>(
+    samples: &'a [Sample],
+    features: &'a Features,
+) -> impl Iterator<Item = (f64, usize, usize)> + 'a {
+    let length = features.along[features.size.len()];
+    samples.iter().enumerate().map(move |(k, sample)| match samples.get(k + 1) {
+        Some(next) => (next.along - sample.along, sample.vertex, next.vertex),
+        None => (samples[0].along + length - sample.along, sample.vertex, samples[0].vertex),
+    })
+}
+
+/// The lengths of all gaps.
+pub(super) fn lengths(samples: &[Sample], features: &Features) -> Vec<f64> {
+    gaps(samples, features).map(|gap| gap.0).collect()
+}
+
+/// A gap so much longer than those beside it that chance would make one in many curves sampled at random.
+pub(super) fn lacuna(curve: usize, samples: &[Sample], features: &Features) -> Option<CurveDoubt> {
+    let gaps: Vec<(f64, usize, usize)> = gaps(samples, features).collect();
+    let (count, mut worst) = (gaps.len(), Worst::NONE);
+    let beside = BESIDE.min((count - 1) / 2);
+    for (k, &(gap, vertex, _)) in gaps.iter().enumerate() {
+        let near = |step: usize| gaps[(k + step) % count].0 + gaps[(k + count - step) % count].0;
+        let mean = (1..=beside).map(near).sum::<f64>() / (2 * beside) as f64;
+        if gap > 0.0 {
+            worst.see(gap / mean, vertex);
+        }
+    }
+    // Of n exponential gaps, one in about n·(1 + t/32)⁻³² is t times as long as the mean of 32 others.
+    let most = 10.0 + 1.5 * (count as f64).ln();
+    let (vertex, times) = (worst.at, worst.value);
+    (times > most).then_some(CurveDoubt::Lacuna { curve, vertex, times })
+}
+
+/// The largest distance of a row over φ at its place, and the row.
+pub(super) fn noise_ratio(samples: &[Sample], features: &Features) -> Worst {
+    let (mut worst, count) = (Worst::NONE, features.size.len());
+    for sample in samples.iter().filter(|sample| sample.offset != 0.0) {
+        let least = features.size[sample.vertex].min(features.size[(sample.vertex + 1) % count]);
+        worst.see(sample.offset.abs() / least, sample.row);
+    }
+    worst
+}
+
+/// An empty part of the band, with rows on both sides.
+pub(super) fn split(curve: usize, samples: &[Sample]) -> Option<CurveDoubt> {
+    let mut worst = Worst::NONE;
+    let mut offsets = Vec::with_capacity(WINDOW);
+    for start in (0..samples.len()).step_by(WINDOW / 2) {
+        offsets.clear();
+        let window = samples.iter().cycle().skip(start).take(WINDOW);
+        offsets.extend(window.map(|sample| sample.offset));
+        offsets.sort_by(f64::total_cmp);
+        let width = offsets[WINDOW - 1] - offsets[0];
+        let middle = &offsets[EDGE..WINDOW - EDGE];
+        let empty = middle.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+        if empty > 0.0 {
+            worst.see(empty / width, samples[start].vertex);
+        }
+    }
+    let (vertex, share) = (worst.at, worst.value);
+    (share > EMPTY_MOST).then_some(CurveDoubt::Split { curve, vertex, share })
+}

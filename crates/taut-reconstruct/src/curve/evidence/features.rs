@@ -1,0 +1,223 @@
+//! φ at the vertices of a closed curve: the least radius of a circle that touches the curve there and meets it, or another, elsewhere,
+//! made to change no faster than the way along the curve.
+//!
+//! The definition is that of the certificate: see `CurveCertificate`. The tangent at a vertex is that of the circle through
+//! two vertices at least three bands away along the curve on either side; offsets are forgiven by a quarter of the band.
+
+use rayon::prelude::*;
+use taut_points::{Cancelled, Monitor};
+
+use super::nearest::Segments;
+
+/// How far the vertices that give a tangent are at least, over the band.
+const SPAN: f64 = 3.0;
+/// The part of the band by which offsets are forgiven.
+const FORGIVEN: f64 = 0.25;
+/// How far along the curve offsets are forgiven, over the span.
+const NEAR: f64 = 4.0;
+/// An edge of the same curve counts with its ends alone up to this many of its lengths along the curve.
+const SMOOTH: f64 = 2.0;
+/// How much R may exceed the least radius: on a circle every point gives the same.
+const CLOSE: f64 = 1.0 / 64.0;
+/// Vertices of one task.
+const TASK: usize = 1 << 10;
+
+pub(super) struct Features {
+    /// The way to each vertex, and around.
+    pub(super) way: Vec<f64>,
+    /// φ.
+    pub(super) phi: Vec<f64>,
+    /// The largest turn, in radians.
+    pub(super) turn: f64,
+}
+
+impl Features {
+    pub(super) fn of(
+        segments: &Segments,
+        curve: usize,
+        band: f64,
+        monitor: &Monitor<'_>,
+    ) -> Result<Self, Cancelled> {
+        let edges = &segments.ends[segments.of_curve(curve)];
+        let n = edges.len();
+        let mut way = Vec::with_capacity(n + 1);
+        way.push(0.0);
+        for [a, b] in edges {
+            let (x, y) = (b[0] - a[0], b[1] - a[1]);
+            way.push(way[way.len() - 1] + (x * x + y * y).sqrt());
+        }
+        let tangents = Tangents { segments, curve, edges, way: &way, band };
+        let of_task = |task: usize| -> Result<Vec<[f64; 2]>, Cancelled> {
+            monitor.check()?;
+            let end = n.min((task + 1) * TASK);
+            Ok((task * TASK..end).map(|vertex| tangents.radius_and_turn(vertex)).collect())
+        };
+        let found: Vec<Vec<[f64; 2]>> =
+            (0..n.div_ceil(TASK)).into_par_iter().map(of_task).collect::<Result<_, _>>()?;
+        let mut phi: Vec<f64> = found.iter().flatten().map(|of| of[0]).collect();
+        let turn = found.iter().flatten().fold(0.0f64, |turn, of| turn.max(of[1]));
+        // A second time around, as the least may be near the end.
+        for _ in 0..2 {
+            for k in 0..n {
+                let next = (k + 1) % n;
+                phi[next] = phi[next].min(phi[k] + (way[k + 1] - way[k]));
+            }
+            for k in (0..n).rev() {
+                let next = (k + 1) % n;
+                phi[k] = phi[k].min(phi[next] + (way[k + 1] - way[k]));
+            }
+        }
+        Ok(Self { way, phi, turn })
+    }
+
+    /// The length of the curve.
+    pub(super) fn length(&self) -> f64 {
+        self.way[self.phi.len()]
+    }
+}
+
+struct Tangents<'a> {
+    segments: &'a Segments,
+    curve: usize,
+    edges: &'a [[[f64; 2]; 2]],
+    way: &'a [f64],
+    band: f64,
+}
+
+impl Tangents<'_> {
+    /// R and the turn at a vertex; 0 and 0 where the curve is too short for its band.
+    fn radius_and_turn(&self, vertex: usize) -> [f64; 2] {
+        let (n, span) = (self.edges.len(), SPAN * self.band);
+        let length = self.way[n];
+        let way = |k: usize| self.way[k % n] + (k / n) as f64 * length;
+        let here = n + vertex;
+        let after_by = |least: f64| steps(n, |k| way(here + k) - way(here) >= least);
+        let before_by = |least: f64| steps(n, |k| way(here) - way(here - k) >= least);
+        let (before, after) = (before_by(span), after_by(span));
+        if before + after >= n {
+            return [0.0, 0.0];
+        }
+        let point = |k: usize| self.edges[k % n][0];
+        let (v, ends) = (point(here), [point(here - before), point(here + after)]);
+        let [[ax, ay], [bx, by]] = ends.map(|end| [end[0] - v[0], end[1] - v[1]]);
+        let (aa, bb) = (ax * ax + ay * ay, bx * bx + by * by);
+        if aa == 0.0 || bb == 0.0 {
+            return [0.0, 0.0];
+        }
+        let turn = (ay * bx - ax * by).atan2(-(ax * bx + ay * by)).abs();
+        let (tx, ty) = (bx / bb - ax / aa, by / bb - ay / aa);
+        let size = (tx * tx + ty * ty).sqrt();
+        let rounding = 8.0 * f64::EPSILON * (v[0].abs() + v[1].abs());
+        let far = Touching { at: v, normal: [-ty / size, tx / size], forgiven: rounding };
+        let near = Touching { forgiven: rounding.max(FORGIVEN * self.band), ..far };
+        let mut radius = length / std::f64::consts::TAU;
+        radius = radius.min(near.radius(ax, ay)).min(near.radius(bx, by));
+        // Edges between the two vertices are left out. `low` is the first that is near, counted on around the curve.
+        let (near_before, near_after) = (before_by(NEAR * span), after_by(NEAR * span));
+        let (low, reach) = ((here - near_before) % n, near_before + near_after);
+        let own = near_before - before..near_before + after;
+        let of_curve = self.segments.of_curve(self.curve);
+        self.segments.search(
+            &mut radius,
+            |area| far.least(area),
+            |edge, radius| {
+                let mut touching = &far;
+                if of_curve.contains(&edge) {
+                    // Where `near` goes around more than once, an edge has two numbers.
+                    let number = (edge - of_curve.start + n - low) % n;
+                    if own.contains(&number) || own.contains(&(number + n)) {
+                        return;
+                    }
+                    touching = if number < reach { &near } else { &far };
+                    let on = (edge - of_curve.start + n - vertex) % n;
+                    let off = (way(here + on) - way(here)).min(way(here) - way(here + on + 1 - n));
+                    if off < SMOOTH * (way(here + on + 1) - way(here + on)) {
+                        for [x, y] in self.segments.ends[edge] {
+                            *radius = radius.min(touching.radius(x - v[0], y - v[1]));
+                        }
+                        return;
+                    }
+                }
+                *radius = radius.min(touching.along(&self.segments.ends[edge]));
+            },
+        );
+        [radius, turn]
+    }
+}
+
+/// The least number of steps from 1 on after which something holds; n if it does not before.
+fn steps(n: usize, holds: impl Fn(usize) -> bool) -> usize {
+    // Mostly a few steps: double, then halve.
+    let mut high = 1;
+    while high < n && !holds(high) {
+        high *= 2;
+    }
+    let (mut low, mut high) = (high / 2 + 1, high.min(n));
+    while low < high {
+        let middle = (low + high) / 2;
+        if holds(middle) { high = middle } else { low = middle + 1 }
+    }
+    low.min(n)
+}
+
+/// Circles that touch the curve at a vertex.
+#[derive(Clone, Copy)]
+struct Touching {
+    at: [f64; 2],
+    normal: [f64; 2],
+    forgiven: f64,
+}
+
+impl Touching {
+    /// The radius of the one through `at` + (x, y).
+    fn radius(&self, x: f64, y: f64) -> f64 {
+        let offset = (self.normal[0] * x + self.normal[1] * y).abs() - self.forgiven;
+        if offset > 0.0 { (x * x + y * y) / (2.0 * offset) } else { f64::INFINITY }
+    }
+
+    /// A little more than the least radius that a point of a box may give, for few boxes to be opened.
+    fn least(&self, area: &[f64; 4]) -> f64 {
+        let from = |low: f64, high: f64, at: f64| (low - at).max(at - high).max(0.0);
+        let x = from(area[0], area[2], self.at[0]);
+        let y = from(area[1], area[3], self.at[1]);
+        let across = |i: usize, low: f64, high: f64| {
+            let (a, b) =
+                (self.normal[i] * (low - self.at[i]), self.normal[i] * (high - self.at[i]));
+            [a.min(b), a.max(b)]
+        };
+        let (u, w) = (across(0, area[0], area[2]), across(1, area[1], area[3]));
+        let offset = (u[1] + w[1]).max(-(u[0] + w[0])) - self.forgiven;
+        match offset > 0.0 {
+            true => (x * x + y * y) / (2.0 * offset) * (1.0 + CLOSE),
+            false => f64::INFINITY,
+        }
+    }
+
+    /// The least radius that a point of an edge gives.
+    ///
+    /// On either side, (|p|² + 2u·p·e + u²|e|²)/(c + u·d) has its extremes where |e|²d·u² + 2|e|²c·u + 2(p·e)c − |p|²d = 0.
+    fn along(&self, [a, b]: &[[f64; 2]; 2]) -> f64 {
+        let (px, py) = (a[0] - self.at[0], a[1] - self.at[1]);
+        let (ex, ey) = (b[0] - a[0], b[1] - a[1]);
+        let at = |u: f64| self.radius(px + u * ex, py + u * ey);
+        let mut least = at(0.0).min(at(1.0));
+        let (pp, pe, ee) = (px * px + py * py, px * ex + py * ey, ex * ex + ey * ey);
+        let offset = self.normal[0] * px + self.normal[1] * py;
+        let slope = self.normal[0] * ex + self.normal[1] * ey;
+        for (c, d) in [(offset - self.forgiven, slope), (-offset - self.forgiven, -slope)] {
+            if c <= 0.0 && c + d <= 0.0 {
+                continue;
+            }
+            let half = ee * c;
+            let rest = 2.0 * pe * c - pp * d;
+            let root = (half * half - ee * d * rest).max(0.0).sqrt();
+            let sum = if half < 0.0 { root - half } else { -root - half };
+            for u in [sum / (ee * d), rest / sum] {
+                if (0.0..1.0).contains(&u) {
+                    least = least.min(at(u));
+                }
+            }
+        }
+        least
+    }
+}

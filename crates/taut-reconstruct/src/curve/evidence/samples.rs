@@ -1,0 +1,124 @@
+//! Sites in their order along a curve: gaps, noise, and what lies across the band.
+
+use rayon::prelude::*;
+
+use super::features::Features;
+use super::nearest::{Segments, Spot};
+
+/// Gaps on either side that a gap is compared with.
+const BESIDE: usize = 16;
+/// Sites in a window across the band, and how many of them may be on one side of what is empty.
+const WINDOW: usize = 128;
+const EDGE: usize = 12;
+/// The part of the width of the band that may be empty, with some room.
+const EMPTY_MOST: f64 = 0.29;
+
+/// A site on its curve.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sample {
+    /// The way along the curve.
+    way: f64,
+    /// The vertex before it.
+    vertex: u32,
+    /// How far off, less than 0 on the right.
+    offset: f64,
+}
+
+/// Spots with their sites, by curve.
+pub(super) fn by_curve(
+    segments: &Segments,
+    spots: &[Option<Spot>],
+    curves: usize,
+) -> Vec<Vec<(u32, Spot)>> {
+    let mut of_curves = vec![Vec::new(); curves];
+    if let [one] = of_curves.as_mut_slice() {
+        one.reserve(spots.len());
+    }
+    for (site, spot) in spots.iter().enumerate() {
+        if let Some(spot) = spot {
+            let curve = segments.first.partition_point(|&first| first <= spot.edge) - 1;
+            of_curves[curve].push((site as u32, *spot));
+        }
+    }
+    of_curves
+}
+
+/// The samples of a curve in order.
+pub(super) fn along(
+    spots: Vec<(u32, Spot)>,
+    segments: &Segments,
+    curve: usize,
+    features: &Features,
+) -> Vec<Sample> {
+    let first = segments.first[curve];
+    let mut samples: Vec<(u32, Sample)> = spots
+        .into_par_iter()
+        .map(|(site, spot)| {
+            let vertex = spot.edge - first;
+            let (from, to) = (features.way[vertex as usize], features.way[vertex as usize + 1]);
+            let offset = if spot.left { spot.distance } else { -spot.distance };
+            (site, Sample { way: from + spot.share * (to - from), vertex, offset })
+        })
+        .collect();
+    samples.par_sort_unstable_by(|a, b| a.1.way.total_cmp(&b.1.way).then(a.0.cmp(&b.0)));
+    samples.into_iter().map(|sample| sample.1).collect()
+}
+
+/// The gap after sample k, around the curve.
+fn gap(samples: &[Sample], k: usize, length: f64) -> f64 {
+    match samples.get(k + 1) {
+        Some(next) => next.way - samples[k].way,
+        None => samples[0].way + length - samples[k].way,
+    }
+}
+
+/// Adds all gaps.
+pub(super) fn gaps(samples: &[Sample], length: f64, gaps: &mut Vec<f64>) {
+    gaps.extend((0..samples.len()).map(|k| gap(samples, k, length)));
+}
+
+/// The largest of half a gap over the least φ in it, and of an offset over φ beside it.
+pub(super) fn ratios(samples: &[Sample], features: &Features) -> (f64, f64) {
+    let (n, mut sampling, mut noise) = (features.phi.len(), 0.0f64, 0.0f64);
+    for (k, sample) in samples.iter().enumerate() {
+        let (from, is_last) = (sample.vertex as usize, k + 1 == samples.len());
+        let next =
+            if is_last { samples[0].vertex as usize + n } else { samples[k + 1].vertex as usize };
+        let phi = |range: std::ops::RangeInclusive<usize>| {
+            range.map(|v| features.phi[v % n]).fold(f64::INFINITY, f64::min)
+        };
+        let gap = gap(samples, k, features.length());
+        if gap > 0.0 {
+            sampling = sampling.max(gap / (2.0 * phi(from..=next + 1)));
+        }
+        if sample.offset != 0.0 {
+            noise = noise.max(sample.offset.abs() / phi(from..=from + 1));
+        }
+    }
+    (sampling, noise)
+}
+
+/// Whether no gap is much longer than those beside it, by what chance would leave at samples drawn at random.
+pub(super) fn is_even(samples: &[Sample], features: &Features) -> bool {
+    let n = samples.len();
+    let beside = BESIDE.min((n - 1) / 2);
+    let most = 9.9 + 1.5 * (n as f64).ln();
+    let gap = |k: usize| gap(samples, k % n, features.length());
+    (0..n).all(|k| {
+        let sum: f64 = (1..=beside).map(|i| gap(k + i) + gap(k + n - i)).sum();
+        gap(k) * (2 * beside) as f64 <= most * sum
+    })
+}
+
+/// Whether the band is one, not two or more with an empty part between.
+pub(super) fn is_one_band(samples: &[Sample]) -> bool {
+    let n = samples.len();
+    let starts: Vec<usize> = (0..n).step_by(WINDOW / 2).collect();
+    starts.into_par_iter().all(|start| {
+        let mut offsets: Vec<f64> =
+            (start..start + WINDOW).map(|k| samples[k % n].offset).collect();
+        offsets.sort_unstable_by(f64::total_cmp);
+        let width = offsets[WINDOW - 1] - offsets[0];
+        offsets[EDGE..WINDOW - EDGE].windows(2).all(|pair| pair[1] - pair[0] <= EMPTY_MOST * width)
+    })
+}
