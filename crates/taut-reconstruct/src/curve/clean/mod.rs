@@ -1,6 +1,7 @@
 //! Curves through samples without noise: their vertices are the samples.
 
 mod conservative_crust;
+mod corners;
 mod crust;
 mod graph;
 mod hnn_crust;
@@ -33,7 +34,7 @@ pub(super) fn solve(
     monitor: &Monitor<'_>,
 ) -> Result<Outcome, Error> {
     let sites = normalised(&cloud.sites);
-    let edges = edges(&sites, method, monitor)?;
+    let edges = edges(&sites, method, ends, monitor)?;
     monitor.check()?;
     let (edges, repairs) = repair(&sites, edges, ends, monitor)?;
     let mut lonely = vec![true; sites.len()];
@@ -61,6 +62,7 @@ pub(super) fn solve(
 fn edges(
     sites: &[[f64; 2]],
     method: CurveMethod,
+    ends: Ends,
     monitor: &Monitor<'_>,
 ) -> Result<Vec<[u32; 2]>, Error> {
     match method {
@@ -68,6 +70,10 @@ fn edges(
         CurveMethod::OneStepCrust => {
             let plane = graph::triangulate(sites, monitor)?;
             Ok(one_step_crust::edges(sites, &graph::edges(&plane)))
+        }
+        CurveMethod::Corners => {
+            let plane = graph::triangulate(sites, monitor)?;
+            corners::edges(sites, &graph::edges(&plane), ends, monitor)
         }
         CurveMethod::ConservativeCrust => conservative_crust::edges(sites, monitor),
         CurveMethod::HnnCrust => hnn_crust::edges(&Near::new(sites), monitor),
