@@ -115,7 +115,7 @@ fn bounds(sites: &[[f64; 2]], edge: [u32; 2]) -> Bounds {
 }
 
 /// Whether two different edges have more in common than an end of both.
-pub(super) fn meet(sites: &[[f64; 2]], [a, b]: [u32; 2], [c, d]: [u32; 2]) -> bool {
+fn meet(sites: &[[f64; 2]], [a, b]: [u32; 2], [c, d]: [u32; 2]) -> bool {
     let at = |site: u32| sites[site as usize];
     let shared = if a == c {
         Some((a, b, d))

@@ -34,7 +34,7 @@ pub(super) fn solve(
     monitor: &Monitor<'_>,
 ) -> Result<Outcome, Error> {
     let sites = normalised(&cloud.sites);
-    let edges = edges(&sites, method, ends, monitor)?;
+    let edges = edges(&sites, method, monitor)?;
     monitor.check()?;
     let (edges, repairs) = repair(&sites, edges, ends, monitor)?;
     let mut lonely = vec![true; sites.len()];
@@ -62,7 +62,6 @@ pub(super) fn solve(
 fn edges(
     sites: &[[f64; 2]],
     method: CurveMethod,
-    ends: Ends,
     monitor: &Monitor<'_>,
 ) -> Result<Vec<[u32; 2]>, Error> {
     match method {
@@ -73,7 +72,7 @@ fn edges(
         }
         CurveMethod::Corners => {
             let plane = graph::triangulate(sites, monitor)?;
-            corners::edges(sites, &graph::edges(&plane), ends, monitor)
+            corners::edges(sites, &graph::edges(&plane), monitor)
         }
         CurveMethod::ConservativeCrust => conservative_crust::edges(sites, monitor),
         CurveMethod::HnnCrust => hnn_crust::edges(&Near::new(sites), monitor),
