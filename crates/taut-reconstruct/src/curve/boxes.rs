@@ -52,6 +52,21 @@ impl Bounds {
         let dy = (b[1] - y).max(y - b[3]).max(0.0);
         dx * dx + dy * dy
     }
+
+    /// The squared distance of its corners.
+    pub(super) fn diagonal2(&self) -> f64 {
+        let [x, y, right, top] = self.0;
+        (right - x) * (right - x) + (top - y) * (top - y)
+    }
+
+    /// The squared distance of two boxes.
+    #[inline(always)]
+    pub(super) fn apart2(&self, other: &Self) -> f64 {
+        let (a, b) = (self.0, other.0);
+        let dx = (b[0] - a[2]).max(a[0] - b[2]).max(0.0);
+        let dy = (b[1] - a[3]).max(a[1] - b[3]).max(0.0);
+        dx * dx + dy * dy
+    }
 }
 
 /// The tree.

@@ -63,7 +63,8 @@ pub enum CurveMethod {
     ConservativeCrust,
     /// HNN-Crust of Ohrhallinger, Mitchell and Wimmer (2016), for samples without noise at ε < 0.47.
     HnnCrust,
-    /// Samples without noise of curves with corners, in the manner of Dey and Wenger (2001).
+    /// Samples without noise of curves with corners, the aim of Dey and Wenger (2001): the shortest loops a local search finds among
+    /// Delaunay edges, turns counted.
     Corners,
     /// A short tour through all points.
     Tour,

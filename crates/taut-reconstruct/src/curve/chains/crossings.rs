@@ -6,7 +6,7 @@
 use rayon::prelude::*;
 use taut_predicates::plane::{in_diametral_circle, orient};
 
-use crate::curve::boxes::{Bounds, Boxes};
+use crate::curve::boxes::{Bounds, Boxes, FAN};
 
 /// Edges with the tree over them.
 pub(super) struct EdgeTree<'a> {
@@ -36,22 +36,31 @@ impl<'a> EdgeTree<'a> {
         found
     }
 
+    /// The boxes of the edges of a leaf.
+    fn leaf_bounds(&self, leaf: usize) -> [Bounds; FAN] {
+        let mut all = [Bounds::EMPTY; FAN];
+        for (bounds_of, i) in all.iter_mut().zip(self.boxes.leaf(leaf)) {
+            *bounds_of = bounds(self.sites, self.edges[i]);
+        }
+        all
+    }
+
     /// All pairs of edges that meet but in a common end, as numbers.
     fn pairs(&self) -> Vec<[u32; 2]> {
         let around = |leaf: usize| {
-            let mut pairs = Vec::new();
+            let (mut pairs, own) = (Vec::new(), self.leaf_bounds(leaf));
             self.boxes.meeting(self.boxes.leaf_bounds(leaf), |other| {
                 // Each pair of leaves once, from the smaller one.
                 if other < leaf {
                     return;
                 }
-                for i in self.boxes.leaf(leaf) {
-                    let own = bounds(self.sites, self.edges[i]);
-                    for k in self.boxes.leaf(other) {
-                        if k > i
-                            && bounds(self.sites, self.edges[k]).meets(&own)
-                            && meet(self.sites, self.edges[i], self.edges[k])
-                        {
+                let others = if other == leaf { own } else { self.leaf_bounds(other) };
+                for (i, a) in self.boxes.leaf(leaf).zip(&own) {
+                    if !a.meets(self.boxes.leaf_bounds(other)) {
+                        continue;
+                    }
+                    for (k, b) in self.boxes.leaf(other).zip(&others) {
+                        if k > i && a.meets(b) && meet(self.sites, self.edges[i], self.edges[k]) {
                             pairs.push([i as u32, k as u32]);
                         }
                     }
@@ -106,7 +115,7 @@ fn bounds(sites: &[[f64; 2]], edge: [u32; 2]) -> Bounds {
 }
 
 /// Whether two different edges have more in common than an end of both.
-pub(super) fn meet(sites: &[[f64; 2]], [a, b]: [u32; 2], [c, d]: [u32; 2]) -> bool {
+fn meet(sites: &[[f64; 2]], [a, b]: [u32; 2], [c, d]: [u32; 2]) -> bool {
     let at = |site: u32| sites[site as usize];
     let shared = if a == c {
         Some((a, b, d))
@@ -122,6 +131,10 @@ pub(super) fn meet(sites: &[[f64; 2]], [a, b]: [u32; 2], [c, d]: [u32; 2]) -> bo
     if let Some((v, x, y)) = shared {
         // On one line, and to the same side.
         let (v, x, y) = (at(v), at(x), at(y));
+        let (along, across) = ((x[0] - v[0]) * (y[0] - v[0]), (x[1] - v[1]) * (y[1] - v[1]));
+        if along + across < -1e-15 * (along.abs() + across.abs()) {
+            return false;
+        }
         return orient(v, x, y).is_zero() && in_diametral_circle(x, y, v).is_negative();
     }
     let [p, q, r, s] = [a, b, c, d].map(at);

@@ -1,6 +1,6 @@
 //! Ends that face each other across a gap are joined.
 
-use super::crossings::{EdgeTree, meet};
+use super::crossings::{self, EdgeTree};
 use super::{NONE, links};
 use crate::curve::boxes::{Bounds, Boxes};
 
@@ -59,18 +59,17 @@ pub(super) fn join(sites: &[[f64; 2]], edges: &mut Vec<[u32; 2]>) -> u64 {
     let mut free = vec![true; ends.len()];
     let mut added: Vec<[u32; 2]> = Vec::new();
     for (_, i, k) in pairs {
+        // Ends are in the order of their sites, and i < k.
         let edge = [ends[i].site, ends[k].site];
         // Two sites that an edge joins already are a whole chain.
-        if free[i]
-            && free[k]
-            && links[edge[0] as usize][0] != edge[1]
-            && !tree.meets(edge)
-            && !added.iter().any(|&other| meet(sites, edge, other))
-        {
+        if free[i] && free[k] && links[edge[0] as usize][0] != edge[1] && !tree.meets(edge) {
             (free[i], free[k]) = (false, false);
             added.push(edge);
         }
     }
+    // None of these meets an edge from before; of those that meet each other the longer ones go.
+    added.sort_unstable();
+    crossings::remove(sites, &mut added);
     let joined = added.len() as u64;
     edges.append(&mut added);
     edges.sort_unstable();

@@ -7,37 +7,28 @@
 //! *Trap.* Looking among a fixed number of neighbours only loses edges where the density jumps; here the search has no cap.
 //! *Reference.* Ohrhallinger, Mitchell and Wimmer, Computer Graphics Forum 35(5), 2016.
 
-use rayon::prelude::*;
 use taut_points::Monitor;
 
-use super::near::{Near, distance2};
+use super::near::{NONE, Near, distance2};
 use crate::Error;
 
 pub(super) fn edges(near: &Near<'_>, monitor: &Monitor<'_>) -> Result<Vec<[u32; 2]>, Error> {
     let at = |site: u32| near.sites[site as usize];
-    let named: Vec<[Option<u32>; 2]> = (0..near.sites.len() as u32)
-        .into_par_iter()
-        .with_min_len(1 << 12)
-        .map(|p| {
-            let first = near.nearest(p, |_| true);
-            let second = first.and_then(|n| {
-                let d2 = distance2(at(p), at(n));
-                near.nearest(p, |s| {
-                    let opposite = distance2(at(n), at(s));
-                    opposite > d2 && opposite > distance2(at(p), at(s))
-                })
-            });
-            [first, second]
-        })
-        .collect();
+    let first = near.nearest(|_| true, |_, _, d2| d2, |_, _| true);
     monitor.check()?;
+    let widest = |p: u32, s: u32, d2: f64| {
+        let n = first[p as usize];
+        let opposite = distance2(at(n), at(s));
+        if opposite > distance2(at(p), at(n)).max(d2) { d2 } else { f64::INFINITY }
+    };
+    let second = near.nearest(|p| first[p as usize] != NONE, widest, |_, _| true);
+    monitor.check()?;
+    let named = |p: u32| [first[p as usize], second[p as usize]];
     let mut edges = Vec::with_capacity(near.sites.len());
-    for (p, names) in (0u32..).zip(&named) {
-        for q in names.iter().flatten().copied() {
-            if p < q && named[q as usize].contains(&Some(p)) {
-                edges.push([p, q]);
-            }
-        }
+    for p in 0..near.sites.len() as u32 {
+        // The smaller end gives the edge.
+        let mutual = |&q: &u32| q != NONE && p < q && named(q).contains(&p);
+        edges.extend(named(p).into_iter().filter(mutual).map(|q| [p, q]));
     }
     Ok(edges)
 }

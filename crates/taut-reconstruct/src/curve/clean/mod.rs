@@ -1,6 +1,7 @@
 //! Curves through samples without noise: their vertices are the samples.
 
 mod conservative_crust;
+mod corners;
 mod crust;
 mod graph;
 mod hnn_crust;
@@ -68,6 +69,10 @@ fn edges(
         CurveMethod::OneStepCrust => {
             let plane = graph::triangulate(sites, monitor)?;
             Ok(one_step_crust::edges(sites, &graph::edges(&plane)))
+        }
+        CurveMethod::Corners => {
+            let plane = graph::triangulate(sites, monitor)?;
+            corners::edges(sites, &graph::edges(&plane), monitor)
         }
         CurveMethod::ConservativeCrust => conservative_crust::edges(sites, monitor),
         CurveMethod::HnnCrust => hnn_crust::edges(&Near::new(sites), monitor),

@@ -6,7 +6,12 @@
 //! *Guarantee.* The first in the order (squared distance in double precision, then coordinates): no cap on how many candidates
 //! are looked at, and the answer does not depend on the order of the input.
 
+use rayon::prelude::*;
+
 use crate::curve::boxes::{Bounds, Boxes, FAN};
+
+/// Stands for no site.
+pub(super) const NONE: u32 = u32::MAX;
 
 /// Sites in Hilbert order with the tree over them.
 pub(super) struct Near<'a> {
@@ -26,36 +31,84 @@ impl<'a> Near<'a> {
         Self { sites, boxes: Boxes::over(sites.len(), |i| Bounds::of(sites[i])) }
     }
 
-    /// The nearest site other than `from` that is accepted.
-    #[inline(always)]
-    pub(super) fn nearest(&self, from: u32, accept: impl Fn(u32) -> bool) -> Option<u32> {
-        let p = self.sites[from as usize];
-        let (mut found, mut at) = (None, [f64::INFINITY; 2]);
-        let mut scan = |leaf: usize, mut bound: f64| {
-            for i in self.boxes.leaf(leaf) {
-                let q = self.sites[i];
-                let d2 = distance2(p, q);
-                let first = d2 < bound || d2 == bound && (found.is_none() || q < at);
-                if first && i != from as usize && accept(i as u32) {
-                    (bound, found, at) = (d2, Some(i as u32), q);
+    /// For each wanted site the nearest other one, if there is one; [`NONE`] for all others.
+    ///
+    /// `rank(p, q, d²)` is d², or infinite where q will not do for p: a choice of numbers, as a branch would be guessed wrong every
+    /// other time. `admits(p, box)` is whether the box can hold something that will do. One descent serves all sites of a leaf.
+    pub(super) fn nearest(
+        &self,
+        wanted: impl Fn(u32) -> bool + Sync,
+        rank: impl Fn(u32, u32, f64) -> f64 + Sync,
+        admits: impl Fn(u32, &Bounds) -> bool + Sync,
+    ) -> Vec<u32> {
+        let mut nearest = vec![NONE; self.sites.len()];
+        nearest.par_chunks_mut(FAN).enumerate().with_min_len(1 << 9).for_each(|(leaf, found)| {
+            let first = (leaf * FAN) as u32;
+            let mut seekers = [Seeker::default(); FAN];
+            let mut count = 0;
+            for site in first..first + found.len() as u32 {
+                if wanted(site) {
+                    seekers[count] = Seeker { site, ..Seeker::default() };
+                    count += 1;
                 }
             }
-            bound
-        };
-        let own = from as usize / FAN;
+            self.seek(leaf, &mut seekers[..count], &rank, &admits);
+            for seeker in &seekers[..count] {
+                found[(seeker.site - first) as usize] = seeker.found;
+            }
+        });
+        nearest
+    }
+
+    fn seek(
+        &self,
+        own: usize,
+        seekers: &mut [Seeker],
+        rank: &impl Fn(u32, u32, f64) -> f64,
+        admits: &impl Fn(u32, &Bounds) -> bool,
+    ) {
         let beside = own.saturating_sub(1)..(own + 2).min(self.boxes.leaves());
-        let mut bound = scan(own, f64::INFINITY);
-        for leaf in beside.clone() {
-            if leaf != own {
-                bound = scan(leaf, bound);
+        for seeker in seekers.iter_mut() {
+            for leaf in [own].into_iter().chain(beside.clone().filter(|&leaf| leaf != own)) {
+                seeker.scan(self, leaf, rank);
+            }
+        }
+        let other = |leaf: usize| !beside.contains(&leaf);
+        // A site whose bound is wide beside the leaf looks around alone: it must not send the others far.
+        let size2 = self.boxes.leaf_bounds(own).diagonal2();
+        let (mut around, mut reach2) = (Bounds::EMPTY, f64::NEG_INFINITY);
+        for seeker in seekers.iter_mut() {
+            let p = self.sites[seeker.site as usize];
+            if seeker.bound > size2 {
+                let site = seeker.site;
+                self.boxes.nearest(
+                    seeker.bound,
+                    |b| if admits(site, b) { b.distance2(p) } else { f64::NAN },
+                    |leaf, _| {
+                        if other(leaf) {
+                            seeker.scan(self, leaf, rank);
+                        }
+                        seeker.bound
+                    },
+                );
+            } else {
+                around = around.join(Bounds::of(p));
+                reach2 = reach2.max(seeker.bound);
             }
         }
         self.boxes.nearest(
-            bound,
-            |b| b.distance2(p),
-            |leaf, bound| if beside.contains(&leaf) { bound } else { scan(leaf, bound) },
+            reach2,
+            |b| b.apart2(&around),
+            |leaf, bound| {
+                for seeker in seekers.iter_mut().filter(|_| other(leaf)) {
+                    let p = self.sites[seeker.site as usize];
+                    if self.boxes.leaf_bounds(leaf).distance2(p) <= seeker.bound {
+                        seeker.scan(self, leaf, rank);
+                    }
+                }
+                bound
+            },
         );
-        found
     }
 
     /// Whether some site lies nearer to a point than the square root of `reach2`.
@@ -70,5 +123,42 @@ impl<'a> Near<'a> {
             },
         );
         found
+    }
+}
+
+/// A site and what it found so far.
+#[derive(Clone, Copy)]
+struct Seeker {
+    site: u32,
+    found: u32,
+    /// The squared distance of what was found.
+    bound: f64,
+}
+
+impl Default for Seeker {
+    fn default() -> Self {
+        Self { site: NONE, found: NONE, bound: f64::INFINITY }
+    }
+}
+
+impl Seeker {
+    /// Looks at the sites of a leaf.
+    #[inline(always)]
+    fn scan(&mut self, near: &Near<'_>, leaf: usize, rank: &impl Fn(u32, u32, f64) -> f64) {
+        let p = near.sites[self.site as usize];
+        for i in near.boxes.leaf(leaf) {
+            let q = near.sites[i];
+            let d2 = distance2(p, q);
+            if d2 > self.bound {
+                continue;
+            }
+            let d2 = rank(self.site, i as u32, d2);
+            if d2 <= self.bound && i as u32 != self.site && d2 < f64::INFINITY {
+                let first = d2 < self.bound || q < near.sites[self.found as usize];
+                if first {
+                    (self.bound, self.found) = (d2, i as u32);
+                }
+            }
+        }
     }
 }

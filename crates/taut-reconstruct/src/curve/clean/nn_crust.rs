@@ -9,25 +9,16 @@
 //! four neighbours are nearest.
 //! *Reference.* Dey and Kumar, SODA 1999.
 
-use rayon::prelude::*;
 use taut_points::Monitor;
 use taut_predicates::plane::in_diametral_circle;
 
-use super::near::Near;
+use super::near::{NONE, Near};
 use crate::Error;
-
-/// Stands for no site.
-const NONE: u32 = u32::MAX;
+use crate::curve::boxes::Bounds;
 
 pub(super) fn edges(near: &Near<'_>, monitor: &Monitor<'_>) -> Result<Vec<[u32; 2]>, Error> {
     let sites = near.sites;
-    let all = 0..sites.len() as u32;
-    let first: Vec<u32> = all
-        .clone()
-        .into_par_iter()
-        .with_min_len(1 << 12)
-        .map(|p| near.nearest(p, |_| true).unwrap_or(NONE))
-        .collect();
+    let first = near.nearest(|_| true, |_, _, d2| d2, |_, _| true);
     monitor.check()?;
     // Whether somebody else drew an edge to it.
     let mut drawn = vec![false; sites.len()];
@@ -36,24 +27,29 @@ pub(super) fn edges(near: &Near<'_>, monitor: &Monitor<'_>) -> Result<Vec<[u32; 
             drawn[q as usize] = true;
         }
     }
-    let half: Vec<u32> = all
-        .clone()
-        .into_par_iter()
-        .with_min_len(1 << 12)
-        .map(|p| {
-            let q = first[p as usize];
-            if q == NONE || drawn[p as usize] {
-                return NONE;
-            }
-            let (at, other) = (sites[p as usize], sites[q as usize]);
-            let behind = |r: u32| in_diametral_circle(other, sites[r as usize], at).is_positive();
-            near.nearest(p, behind).unwrap_or(NONE)
-        })
-        .collect();
+    let behind = |p: u32, r: u32, d2: f64| {
+        let [p, q, r] = [p, first[p as usize], r].map(|site| sites[site as usize]);
+        // Four roundings of half an ulp each; what they leave open is decided exactly.
+        let (along, across) = ((q[0] - p[0]) * (r[0] - p[0]), (q[1] - p[1]) * (r[1] - p[1]));
+        if (along + across).abs() > 1e-15 * (along.abs() + across.abs()) {
+            return if along + across < 0.0 { d2 } else { f64::INFINITY };
+        }
+        if in_diametral_circle(q, r, p).is_positive() { d2 } else { f64::INFINITY }
+    };
+    // The corner of a box that is farthest behind p.
+    let reaches_behind = |p: u32, &Bounds([x, y, right, top]): &Bounds| {
+        let [p, q] = [p, first[p as usize]].map(|site| sites[site as usize]);
+        let u = [q[0] - p[0], q[1] - p[1]];
+        let along = u[0] * (if u[0] > 0.0 { x } else { right } - p[0]);
+        let across = u[1] * (if u[1] > 0.0 { y } else { top } - p[1]);
+        along + across <= 1e-15 * (along.abs() + across.abs())
+    };
+    let half =
+        near.nearest(|p| first[p as usize] != NONE && !drawn[p as usize], behind, reaches_behind);
     monitor.check()?;
     // Each edge once: of two sites that name each other the smaller one gives it.
     let mut edges = Vec::with_capacity(sites.len() + sites.len() / 64);
-    for p in all {
+    for p in 0..sites.len() as u32 {
         for names in [&first, &half] {
             let q = names[p as usize];
             if q != NONE && (p < q || names[q as usize] != p) {
