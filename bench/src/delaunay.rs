@@ -3,7 +3,7 @@
 mod case;
 mod goals;
 pub(crate) mod one;
-mod program;
+pub(crate) mod program;
 mod rounds;
 mod sets;
 

@@ -38,6 +38,8 @@ pub(crate) fn describe() -> Value {
         "dynesty": "3.1.0",
         "highspy": "1.15.1",
         "scikit-learn-extra": "0.3.0",
+        "concorde_rs": "0.1.1",
+        "elkai": "2.0.1",
         "eigen": output("dpkg-query", &["-W", "-f=${Version}", "libeigen3-dev"]),
     })
 }

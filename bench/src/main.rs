@@ -1,13 +1,15 @@
 //! taut beside its peers: the same inputs, one run, every answer checked.
 //!
 //! `ball` runs the named cases of the minimum enclosing ball, `delaunay` those of Delaunay triangulations, `ellipsoid`
-//! those of ellipsoids; `thesis-ball` and `thesis-ellipsoid` rerun figures of the thesis.
+//! those of ellipsoids, `centers` those of k centres, `curve` what is shown of curves; `thesis-ball`, `thesis-ellipsoid` and
+//! `thesis-curve` rerun figures of the thesis.
 //! The peers are installed by `bench/setup`; one that is missing is named, never skipped in silence.
 #![forbid(unsafe_code)]
 
 mod ball;
 mod centers;
 mod context;
+mod curve;
 mod delaunay;
 mod ellipsoid;
 mod input;
@@ -44,16 +46,23 @@ enum Area {
     Ellipsoid(ellipsoid::Arguments),
     /// k centres: times, radii and nodes of proven optima, traversals and streams, with a proof of every answer.
     Centers(centers::Arguments),
+    /// Curves: connectivity, errors, times and memory of reconstructions, tours, and what certificates are worth.
+    Curve(curve::Arguments),
     /// Figures 5 to 15 of the thesis, rerun as CSV and SVG.
     ThesisBall(thesis::Arguments),
     /// Figure 18 of the thesis, core-sets of ellipsoids, rerun as CSV and SVG.
     ThesisEllipsoid(thesis::EllipsoidArguments),
+    /// Figures 2, 21 and 22 of the thesis, curves through noisy points, redrawn as SVG.
+    ThesisCurve(thesis::CurveArguments),
     /// Solves one raw file and prints seconds per pass and the peak memory of this process.
     #[command(hide = true)]
     SolveFile(ball::file::SolveArguments),
     /// Triangulates one raw file and prints what the build cost.
     #[command(hide = true)]
     OneDelaunay(delaunay::one::OneArguments),
+    /// Reconstructs the curves of one raw file and prints what that cost.
+    #[command(hide = true)]
+    OneCurve(curve::one::OneArguments),
     /// Encloses one raw file in an ellipsoid and prints passes and the peak memory of this process.
     #[command(hide = true)]
     SolveEllipsoid(ellipsoid::file::SolveArguments),
@@ -73,11 +82,14 @@ fn main() -> anyhow::Result<()> {
         Area::Delaunay(arguments) => delaunay::run(&arguments),
         Area::Ellipsoid(arguments) => ellipsoid::run(&arguments),
         Area::Centers(arguments) => centers::run(&arguments),
+        Area::Curve(arguments) => curve::run(&arguments),
         Area::ThesisBall(arguments) => thesis::run(&arguments),
         Area::ThesisEllipsoid(arguments) => thesis::run_ellipsoid(&arguments),
+        Area::ThesisCurve(arguments) => thesis::run_curve(&arguments),
         Area::SolveFile(arguments) => ball::file::solve(&arguments),
         Area::SolveEllipsoid(arguments) => ellipsoid::file::solve(&arguments),
         Area::OneDelaunay(arguments) => delaunay::one::run(&arguments),
+        Area::OneCurve(arguments) => curve::one::run(&arguments),
         Area::PeerCrate { input, center } => peer::serve_crate(&input, &center),
     }
 }

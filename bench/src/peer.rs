@@ -69,7 +69,7 @@ pub(crate) fn folder() -> PathBuf {
 ///
 /// Names: a program of `peers/build` with its build (`fgk-native`, `cgal-spheres-3-o2`), or `cyminiball`,
 /// `miniball-pypi`, `miniball-crate`, `sklearn-mcd-H`, `conic-PROBLEM`, `dynesty`, `cgal-approximate-EPSILON`, `set-cover`,
-/// `medoids`, `traversal-K`, `traversal-single-K`.
+/// `medoids`, `traversal-K`, `traversal-single-K`, `concorde`, `elkai`, `cgal-transport-TOLERANCE`.
 fn command(name: &str) -> Result<Option<Command>> {
     let python = |package: &str| {
         let interpreter = folder().join(".venv/bin/python");
@@ -102,6 +102,7 @@ fn command(name: &str) -> Result<Option<Command>> {
         "conic-ball" => script("cvxpy", "conic.py", "ball"),
         "set-cover" => script("highspy", "centers.py", "set-cover"),
         "medoids" => script("sklearn_extra.cluster", "centers.py", "medoids"),
+        "elkai" => script("elkai", "tours.py", "elkai"),
         name if name.starts_with("traversal-") => script("numpy", "centers.py", name),
         "dynesty" => python("dynesty").map(|mut command| {
             command.arg(folder().join("peers/bounding.py"));
@@ -113,9 +114,17 @@ fn command(name: &str) -> Result<Option<Command>> {
             Some(command)
         }
         name => {
-            let (program, argument) = match name.strip_prefix("cgal-approximate-") {
-                Some(epsilon) => ("cgal-approximate-ellipsoid", Some(epsilon)),
-                None => (name, None),
+            const WITH_ARGUMENT: [(&str, &str); 2] = [
+                ("cgal-approximate-", "cgal-approximate-ellipsoid"),
+                ("cgal-transport-", "cgal-transport"),
+            ];
+            let prefixed = WITH_ARGUMENT
+                .iter()
+                .find_map(|(prefix, program)| Some((*program, name.strip_prefix(prefix)?)));
+            let (program, argument) = match (prefixed, name) {
+                (Some((program, argument)), _) => (program, Some(argument)),
+                (None, "concorde") => ("tours/release/tours", None),
+                (None, name) => (name, None),
             };
             let path = folder().join("peers/build").join(program);
             path.exists().then(|| {

@@ -6,8 +6,9 @@
 //! beside them, with its support and its working set.
 //! *What differs.* The machine (the thesis had a 2.66 GHz Xeon, and for figures 14 and 15 a 1 GHz Pentium III), the
 //! conic solver, and the random points. Sizes can be compared; times only within one figure.
-//! *Figure 18* is about ellipsoids and has a command of its own.
+//! *Figure 18* is about ellipsoids and has a command of its own, as have figures 2, 21 and 22, which are about curves.
 
+mod curve;
 mod ellipsoid;
 mod figure;
 mod series;
@@ -107,6 +108,23 @@ fn show(figures: Vec<figure::Figure>, folder: &std::path::Path) -> Result<()> {
     for figure in figures {
         figure.print();
         figure.write(folder)?;
+    }
+    Ok(())
+}
+
+/// Where the pictures of curves go.
+#[derive(clap::Args)]
+pub(crate) struct CurveArguments {
+    /// Folder for the SVG files.
+    #[arg(long, default_value = "bench/thesis-curve")]
+    out: PathBuf,
+}
+
+/// Redraws figures 2, 21 and 22.
+pub(crate) fn run_curve(arguments: &CurveArguments) -> Result<()> {
+    std::fs::create_dir_all(&arguments.out)?;
+    for path in curve::write(&arguments.out)? {
+        println!("{}", path.display());
     }
     Ok(())
 }

@@ -17,44 +17,44 @@ use crate::peer::{Silence, folder};
 
 /// What one build cost and found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(super) struct Build {
+pub(crate) struct Build {
     /// Name and version of the program.
-    pub(super) program: String,
+    pub(crate) program: String,
     /// Points it read.
-    pub(super) points: u64,
-    /// Finite triangles or tetrahedra.
-    pub(super) simplices: u64,
+    pub(crate) points: u64,
+    /// Finite triangles or tetrahedra; of a curve its edges.
+    pub(crate) simplices: u64,
     /// Processor seconds, user and system, of all threads.
-    pub(super) cpu: f64,
+    pub(crate) cpu: f64,
     /// Seconds by the clock.
-    pub(super) wall: f64,
+    pub(crate) wall: f64,
     /// Bytes resident at the peak above those before the build; `None` where the system does not tell.
-    pub(super) peak: Option<u64>,
+    pub(crate) peak: Option<u64>,
     /// Share of predicates that no filter decided; peers do not tell.
     #[serde(default)]
-    pub(super) exact: Option<f64>,
+    pub(crate) exact: Option<f64>,
     /// What else taut counted.
     #[serde(default)]
-    pub(super) counters: BTreeMap<String, u64>,
+    pub(crate) counters: BTreeMap<String, u64>,
     /// What taut's checker said, where it was asked.
     #[serde(default)]
-    pub(super) judged: Option<Judged>,
+    pub(crate) judged: Option<Judged>,
 }
 
 /// A triangulation as an answer, judged from the points alone. None of it is part of the build.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Judged {
+pub(crate) struct Judged {
     /// Processor seconds from the triangulation to the answer in rows of the input, with its certificate.
-    pub(super) answer: f64,
+    pub(crate) answer: f64,
     /// Processor seconds of the check.
-    pub(super) check: f64,
+    pub(crate) check: f64,
     /// Why it was rejected, if it was.
-    pub(super) rejected: Option<String>,
+    pub(crate) rejected: Option<String>,
 }
 
 /// Who triangulates.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Program {
+pub(crate) enum Program {
     /// taut, with so many threads.
     Taut(usize),
     /// A peer, with one thread.
@@ -63,7 +63,7 @@ pub(super) enum Program {
 
 /// A peer, as cases name it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Peer {
+pub(crate) enum Peer {
     /// `Delaunay_triangulation_2` and `_3` of CGAL.
     Cgal,
     /// `bulk_load` of the crate spade, plane only.
@@ -78,7 +78,7 @@ pub(super) enum Peer {
 
 impl Program {
     /// What the tables call it until it has told its version.
-    pub(super) const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Program::Taut(_) => "taut",
             Program::Peer(Peer::Cgal) => "CGAL",
@@ -90,7 +90,7 @@ impl Program {
     }
 
     /// Threads it works with.
-    pub(super) const fn threads(self) -> usize {
+    pub(crate) const fn threads(self) -> usize {
         match self {
             Program::Taut(threads) => threads,
             Program::Peer(_) => 1,
@@ -98,7 +98,7 @@ impl Program {
     }
 
     /// Whether its predicates are exact.
-    pub(super) const fn is_exact(self) -> bool {
+    pub(crate) const fn is_exact(self) -> bool {
         !matches!(self, Program::Peer(Peer::Delaunator | Peer::Qhull))
     }
 
@@ -133,7 +133,7 @@ impl Program {
     }
 
     /// One build of the points in `file`; with `check` taut judges its answer afterwards.
-    pub(super) fn build(
+    pub(crate) fn build(
         self,
         dim: usize,
         file: &Path,
@@ -148,7 +148,7 @@ impl Program {
 }
 
 /// Runs a program to its end, or stops it after `limit`, and reads its line.
-fn run(mut command: Command, limit: Duration) -> Result<Result<Build, Silence>> {
+pub(crate) fn run(mut command: Command, limit: Duration) -> Result<Result<Build, Silence>> {
     // Libraries below Python start threads of their own, which wait by spinning.
     command.env("OMP_NUM_THREADS", "1").env("OPENBLAS_NUM_THREADS", "1");
     let mut child =

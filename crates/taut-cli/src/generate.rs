@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use anyhow::{anyhow, bail};
 use clap::builder::{PossibleValue, PossibleValuesParser};
+use taut::points::generate::curves::{CurveNoise, CurveSource, TestCurve};
 use taut::points::generate::{Parameters, RadiusLaw};
 use taut::points::{Error, GeneratedSource, ScalarKind};
 use taut::{Distribution, PointSource};
@@ -55,9 +56,16 @@ pub(crate) struct Args {
     /// How often a spiral goes around, at least 0 [default: 10]
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     turns: Option<f64>,
-    /// Standard deviation of the noise of a torus, at least 0 [default: 0.0001]
+    /// Standard deviation of the noise of a torus, at least 0 [default: 0.0001]; of a curve the largest shift off it, in units of
+    /// its least local feature size [default: 0.05]
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     noise: Option<f64>,
+    /// The curve of `curve`
+    #[arg(long, value_name = "SHAPE", value_parser = shapes())]
+    shape: Option<String>,
+    /// Share of the points of a curve that have nothing to do with it, from 0 to 1 [default: 0]
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    outliers: Option<f64>,
     /// Make balls: a last column of radii, equal:R, uniform:A:B or exponential:MEAN
     #[arg(long, value_name = "LAW")]
     radii: Option<RadiusLaw>,
@@ -76,9 +84,19 @@ pub(crate) struct Args {
     effort: Effort,
 }
 
+/// The name of samples of curves.
+const CURVE: &str = "curve";
+
 fn distributions() -> PossibleValuesParser {
+    let curve =
+        (CURVE, "near curves of the plane, denser where features are small; --shape says which");
+    let all = Distribution::NAMES.into_iter().chain([curve]);
+    PossibleValuesParser::new(all.map(|(name, help)| PossibleValue::new(name).help(help)))
+}
+
+fn shapes() -> PossibleValuesParser {
     PossibleValuesParser::new(
-        Distribution::NAMES.map(|(name, help)| PossibleValue::new(name).help(help)),
+        TestCurve::NAMES.map(|(name, help)| PossibleValue::new(name).help(help)),
     )
 }
 
@@ -87,22 +105,69 @@ impl Args {
         if self.n == 0 {
             bail!("-n is 0: expected at least 1 point");
         }
+        if self.distribution == CURVE {
+            return self.write(&self.curve()?);
+        }
+        for (name, is_given) in
+            [("shape", self.shape.is_some()), ("outliers", self.outliers.is_some())]
+        {
+            if is_given {
+                bail!("--{name} belongs to curve, not to {}: leave it out", self.distribution);
+            }
+        }
         let distribution = self.distribution().map_err(refused)?;
         let points = GeneratedSource::new(distribution, self.n, self.d, self.seed, self.scalar)
             .map_err(refused)?;
-        let watch = self.effort.start()?;
-        let format = match self.format {
-            None if writing::is_stream(&self.out) => Some(Format::Csv),
-            given => given,
-        };
         let balls = self
             .radii
             .map(|law| Balls::new(points, self.seed, law))
             .transpose()
             .map_err(refused)?;
-        let source: &dyn PointSource = match &balls {
-            Some(balls) => balls,
-            None => &points,
+        match &balls {
+            Some(balls) => self.write(balls),
+            None => self.write(&points),
+        }
+    }
+
+    /// The rows near a curve.
+    fn curve(&self) -> anyhow::Result<CurveSource> {
+        // All that other distributions take; noise is shared.
+        let foreign = [
+            ("thickness", self.thickness.is_some()),
+            ("count", self.count.is_some()),
+            ("spread", self.spread.is_some()),
+            ("vertices", self.vertices.is_some()),
+            ("side", self.side.is_some()),
+            ("angle", self.angle.is_some()),
+            ("turns", self.turns.is_some()),
+            ("radii", self.radii.is_some()),
+        ];
+        if let Some((name, _)) = foreign.iter().find(|(_, is_given)| *is_given) {
+            bail!("--{name} belongs to other distributions, not to curve: leave it out");
+        }
+        if self.d != 2 {
+            return Err(wrong_option(
+                "dim",
+                &self.d.to_string(),
+                "2: these curves are in the plane",
+            ));
+        }
+        let Some(shape) = self.shape.as_deref().and_then(TestCurve::named) else {
+            bail!("curve needs --shape: `taut generate --help` lists them");
+        };
+        let noise = CurveNoise {
+            delta: self.noise.unwrap_or(0.05),
+            outliers: self.outliers.unwrap_or(0.0),
+            ..CurveNoise::default()
+        };
+        CurveSource::new(shape.build(), self.n, noise, self.seed, self.scalar).map_err(refused)
+    }
+
+    fn write(&self, source: &dyn PointSource) -> anyhow::Result<Outcome> {
+        let watch = self.effort.start()?;
+        let format = match self.format {
+            None if writing::is_stream(&self.out) => Some(Format::Csv),
+            given => given,
         };
         let written = watch.during("writing", |monitor| {
             monitor.pass(1, source.len());

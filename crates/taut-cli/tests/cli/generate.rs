@@ -50,6 +50,33 @@ fn parameters_reach_their_distribution() {
 }
 
 #[test]
+fn curves_are_drawn_with_their_noise() {
+    let desk = Desk::new();
+    let help = desk.taut("generate --help").ends(0).out;
+    assert!(help.contains("- curve:") && help.contains("- flower5:"), "{help}");
+    let exact = "generate curve --shape circle -n 50 -d 2 --noise 0";
+    let exact = rows(&desk.taut(exact).ends(0).out);
+    assert!(exact.iter().all(|row| (row[0].hypot(row[1]) - 1.0).abs() < 1e-12));
+    let noisy = rows(&desk.taut("generate curve --shape circle -n 200 -d 2").ends(0).out);
+    let off: Vec<f64> = noisy.iter().map(|row| (row[0].hypot(row[1]) - 1.0).abs()).collect();
+    assert!(off.iter().all(|off| *off <= 0.05 + 1e-12) && off.iter().any(|off| *off > 0.03));
+    let spoiled = "generate curve --shape circle -n 200 -d 2 --outliers 0.5";
+    let far = rows(&desk.taut(spoiled).ends(0).out);
+    assert!(far.iter().filter(|row| (row[0].hypot(row[1]) - 1.0).abs() > 0.05).count() > 60);
+    for (wrong, said) in [
+        ("curve -n 2 -d 2", "--shape"),
+        ("curve --shape circle -n 2 -d 3", "`--dim` is 3"),
+        ("curve --shape circle -n 2 -d 2 --noise -1", "`--noise` is -1"),
+        ("curve --shape circle -n 2 -d 2 --outliers 2", "`--outliers` is 2"),
+        ("curve --shape circle -n 2 -d 2 --turns 2", "--turns"),
+        ("normal --shape circle -n 2 -d 2", "--shape belongs to curve"),
+    ] {
+        desk.taut(&format!("generate {wrong}")).ends(2).complains(&[said]);
+    }
+    desk.taut("generate curve --shape knot -n 2 -d 2").ends(2);
+}
+
+#[test]
 fn point_i_depends_on_the_seed_and_i_alone() {
     let desk = Desk::new();
     let few = desk.taut("generate normal -n 5 -d 3 --seed 9 --threads 1").ends(0).out;

@@ -12,11 +12,13 @@ mod feature;
 mod fourier;
 mod random;
 mod sample;
+mod source;
 
 use feature::features_of;
 use fourier::{Piece, Wave};
 
 pub use sample::{CurveNoise, CurveSample, EpsilonSample, epsilon_sample, sample_curve};
+pub use source::CurveSource;
 
 /// A set of curves given by formulas, before it is measured and scaled by [`build`](Self::build).
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! Random smooth closed curves that do not meet themselves.
 //!
-//! *Idea.* A circle and 3 to 8 harmonics whose size falls with their order; what crosses itself, or comes so near to it that its
-//! least feature is lost in its length, is drawn again.
-//! *Guarantee.* L = ∫ 1/f is at most 400: a few thousand samples are dense.
+//! *Idea.* A circle and 3 to 8 harmonics whose size falls with their order; what crosses itself, or comes so near to it or to a cusp
+//! that its least feature is lost in its length, is drawn again.
+//! *Guarantee.* The length is at most 200 least features: a few thousand points resolve all of them, and L = ∫ 1/f is less than that.
 
 use std::f64::consts::TAU;
 
@@ -13,8 +13,8 @@ use super::{Piece, TestCurve, Wave};
 
 /// Points by which a draw is judged.
 const COARSE: usize = 1024;
-/// The largest L that is kept.
-const LONGEST: f64 = 400.0;
+/// The greatest length that is kept.
+const LONGEST: f64 = 200.0;
 
 impl TestCurve {
     /// A random smooth closed curve: the same one for the same seed.
@@ -37,9 +37,7 @@ impl TestCurve {
                 waves.push(Wave { order, x: [draw(), draw()], y: [draw(), draw()] });
             }
             let curve = Self { pieces: vec![Piece::closed(waves)] };
-            if !crosses_itself(&curve.pieces[0])
-                && curve.build_with(COARSE).length_over_feature <= LONGEST
-            {
+            if !crosses_itself(&curve.pieces[0]) && curve.build_with(COARSE).length() <= LONGEST {
                 return curve;
             }
         }

@@ -54,36 +54,7 @@ pub struct EpsilonSample {
 /// assert_eq!(sample.outlier.iter().filter(|&&outlier| outlier).count(), 100);
 /// ```
 pub fn sample_curve(truth: &TruthCurves, n: usize, noise: &CurveNoise, seed: u64) -> CurveSample {
-    let mut sum = 0.0;
-    let edges: Vec<(usize, usize, f64)> = truth
-        .edges(noise.uniform_arc)
-        .map(|(curve, i, weight)| {
-            sum += weight;
-            (curve, i, sum)
-        })
-        .collect();
-    let outliers = (noise.outliers * n as f64).round() as u64;
-    let reach = noise.delta * if noise.gaussian { 3.0 } else { 1.0 };
-    let ([mut low, mut high], points) = ([truth.loops[0][0]; 2], truth.loops.iter().flatten());
-    for p in points {
-        low = [low[0].min(p[0] - reach), low[1].min(p[1] - reach)];
-        high = [high[0].max(p[0] + reach), high[1].max(p[1] + reach)];
-    }
-    let draw = |row: usize| {
-        let mut random = stream(seed, row as u64);
-        if outliers > 0 && shuffled(seed, row as u64, n as u64 - 1) < outliers {
-            let point = [0, 1].map(|k| low[k] + (high[k] - low[k]) * random.random::<f64>());
-            return (point, true);
-        }
-        let place = sum * random.random::<f64>();
-        let edge = edges.partition_point(|&(_, _, end)| end <= place).min(edges.len() - 1);
-        let (curve, i, _) = edges[edge];
-        let (p, across) = truth.on_curve(curve, i, random.random());
-        let shift =
-            if noise.gaussian { normal(&mut random) } else { 2.0 * random.random::<f64>() - 1.0 };
-        let shift = noise.delta * shift;
-        ([p[0] + shift * across[0], p[1] + shift * across[1]], false)
-    };
+    let law = Law::new(truth, n as u64, *noise, seed);
     let mut sample = CurveSample { points: vec![0.0; 2 * n], outlier: vec![false; n] };
     sample
         .points
@@ -92,13 +63,65 @@ pub fn sample_curve(truth: &TruthCurves, n: usize, noise: &CurveNoise, seed: u64
         .enumerate()
         .for_each(|(chunk, (points, outlier))| {
             let rows = points.chunks_exact_mut(2).zip(outlier);
-            for (row, (point, outlier)) in (chunk * CHUNK..).zip(rows) {
-                let drawn = draw(row);
+            for (row, (point, outlier)) in ((chunk * CHUNK) as u64..).zip(rows) {
+                let drawn = law.draw(truth, row);
                 point.copy_from_slice(&drawn.0);
                 *outlier = drawn.1;
             }
         });
     sample
+}
+
+/// What is the same for all rows.
+#[derive(Clone, Debug)]
+pub(super) struct Law {
+    /// Edges of the curves: curve, number of the first point, and weight of all up to this one.
+    edges: Vec<(usize, usize, f64)>,
+    /// Box of the curves and their noise.
+    low: [f64; 2],
+    high: [f64; 2],
+    n: u64,
+    outliers: u64,
+    noise: CurveNoise,
+    seed: u64,
+}
+
+impl Law {
+    pub(super) fn new(truth: &TruthCurves, n: u64, noise: CurveNoise, seed: u64) -> Self {
+        let mut sum = 0.0;
+        let edges = truth.edges(noise.uniform_arc).map(|(curve, i, weight)| {
+            sum += weight;
+            (curve, i, sum)
+        });
+        let edges = edges.collect();
+        let reach = noise.delta * if noise.gaussian { 3.0 } else { 1.0 };
+        let [mut low, mut high] = [truth.loops[0][0]; 2];
+        for p in truth.loops.iter().flatten() {
+            low = [low[0].min(p[0] - reach), low[1].min(p[1] - reach)];
+            high = [high[0].max(p[0] + reach), high[1].max(p[1] + reach)];
+        }
+        let outliers = (noise.outliers * n as f64).round() as u64;
+        Law { edges, low, high, n, outliers, noise, seed }
+    }
+
+    /// A row, and whether it is an outlier.
+    pub(super) fn draw(&self, truth: &TruthCurves, row: u64) -> ([f64; 2], bool) {
+        let Law { ref edges, low, high, noise, .. } = *self;
+        let mut random = stream(self.seed, row);
+        if self.outliers > 0 && shuffled(self.seed, row, self.n - 1) < self.outliers {
+            let point = [0, 1].map(|k| low[k] + (high[k] - low[k]) * random.random::<f64>());
+            return (point, true);
+        }
+        let sum = edges.last().map_or(0.0, |edge| edge.2);
+        let place = sum * random.random::<f64>();
+        let edge = edges.partition_point(|&(_, _, end)| end <= place).min(edges.len() - 1);
+        let (curve, i, _) = edges[edge];
+        let (p, across) = truth.on_curve(curve, i, random.random());
+        let shift =
+            if noise.gaussian { normal(&mut random) } else { 2.0 * random.random::<f64>() - 1.0 };
+        let shift = noise.delta * shift;
+        ([p[0] + shift * across[0], p[1] + shift * across[1]], false)
+    }
 }
 
 /// Draws points of the curves so that each point x of them has one within ε·f(x), counted along the same stretch of the curve; as

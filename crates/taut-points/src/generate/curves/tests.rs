@@ -153,11 +153,39 @@ fn random_curves_differ_and_stay_within_their_bounds() {
         .map(|seed| {
             let truth = TestCurve::random(seed).build_with(2000);
             // Twice around at the least for anything closed: a circle has 2π.
-            assert!((2.0 * PI - 1e-3..450.0).contains(&truth.length_over_feature));
+            assert!((2.0 * PI - 1e-3..210.0).contains(&truth.length_over_feature));
+            // More points change nothing: no feature was too small to be seen.
+            let fine = TestCurve::random(seed).build_with(8000).length_over_feature;
+            assert!((truth.length_over_feature / fine - 1.0).abs() < 0.02, "{seed}");
             truth.length_over_feature
         })
         .collect();
     lengths.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
     assert_eq!(lengths.len(), 10);
     assert_eq!(TestCurve::random(7), TestCurve::random(7));
+}
+
+#[test]
+fn a_source_delivers_the_rows_of_the_sample_and_refuses_what_is_no_noise() {
+    use crate::{Error, PointSource, Rows, ScalarKind, Scratch};
+    let truth = TestCurve::named("wave").unwrap().build_with(500);
+    let noise = CurveNoise { delta: 0.05, outliers: 0.1, ..CurveNoise::default() };
+    let sample = sample_curve(&truth, 100, &noise, 9);
+    let source = CurveSource::new(truth.clone(), 100, noise, 9, ScalarKind::F64).unwrap();
+    let mut scratch = Scratch::new();
+    let Rows::F64(rows) = source.read(30..70, &mut scratch).unwrap() else { panic!() };
+    assert_eq!(rows.values(), &sample.points[60..140]);
+    let single = CurveSource::new(truth.clone(), 100, noise, 9, ScalarKind::F32).unwrap();
+    let mut scratch = Scratch::new();
+    let Rows::F32(rows) = single.read(99..100, &mut scratch).unwrap() else { panic!() };
+    assert_eq!(rows.row(0)[1], sample.points[199] as f32);
+    assert!(single.read(99..101, &mut Scratch::new()).is_err());
+    for (delta, outliers) in [(-1.0, 0.0), (f64::NAN, 0.0), (f64::INFINITY, 0.0), (0.1, 1.5)] {
+        let noise = CurveNoise { delta, outliers, ..noise };
+        let refused = CurveSource::new(truth.clone(), 3, noise, 9, ScalarKind::F64);
+        assert!(matches!(refused, Err(Error::Parameter { .. })), "{delta} {outliers}");
+    }
+    let far = CurveNoise { delta: 1e300, outliers: 0.0, ..noise };
+    let source = CurveSource::new(truth, 3, far, 9, ScalarKind::F32).unwrap();
+    assert!(source.read(0..3, &mut Scratch::new()).is_err());
 }

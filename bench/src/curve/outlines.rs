@@ -1,0 +1,319 @@
+//! Outlines whose truth is known: coastlines and glyphs of `$TAUT_DATA/curve`.
+
+use std::collections::HashMap;
+use std::ops::Range;
+use std::path::Path;
+
+use anyhow::{Context as _, Result, ensure};
+use serde_json::{Value, json};
+use taut_mesh::{EdgeScore, crossings, edge_score};
+use taut_points::{Distribution, generate};
+use taut_reconstruct::{CurveMethod, CurveOptions};
+
+use super::drawn::{found_edges, found_lines, solve};
+use super::goals::Goals;
+use crate::context::Context;
+use crate::stats::seconds;
+use crate::table::Table;
+
+/// Methods beside each other; the first is the default.
+const METHODS: [CurveMethod; 5] = [
+    CurveMethod::Auto,
+    CurveMethod::Corners,
+    CurveMethod::NnCrust,
+    CurveMethod::HnnCrust,
+    CurveMethod::OneStepCrust,
+];
+
+/// A closed outline.
+type Ring = Vec<[f64; 2]>;
+
+/// The text of a file; `None`, after saying so, where `TAUT_DATA` does not hold it.
+fn read(name: &str) -> Result<Option<String>> {
+    let path = std::env::var_os("TAUT_DATA").map(|data| Path::new(&data).join("curve").join(name));
+    let Some(path) = path.filter(|path| path.exists()) else {
+        println!("left out: set TAUT_DATA to a folder with curve/{name}");
+        return Ok(None);
+    };
+    let file = std::fs::File::open(&path).with_context(|| path.display().to_string())?;
+    let text = std::io::read_to_string(liblzma::read::XzDecoder::new(file))
+        .with_context(|| path.display().to_string())?;
+    Ok(Some(text))
+}
+
+/// Vertices of rings, shuffled, with the edges between them. Vertices at one place count as one.
+struct Shuffled {
+    points: Vec<f64>,
+    edges: Vec<[u64; 2]>,
+    /// The first row at the place of each row.
+    first: Vec<u64>,
+}
+
+impl Shuffled {
+    fn new(rings: &[Ring], seed: u64) -> Result<Self> {
+        let count: usize = rings.iter().map(Vec::len).sum();
+        let lots: Vec<f64> = generate(Distribution::Uniform, count, 1, seed)?;
+        let mut order: Vec<usize> = (0..count).collect();
+        order.sort_by(|&a, &b| lots[a].total_cmp(&lots[b]));
+        let vertices: Vec<[f64; 2]> = rings.concat();
+        let points: Vec<f64> = order.iter().flat_map(|&at| vertices[at]).collect();
+        let mut rows: HashMap<[u64; 2], u64> = HashMap::new();
+        let mut first = vec![0; count];
+        let mut row_of = vec![0; count];
+        for (row, &at) in order.iter().enumerate() {
+            // 0 and −0 are one place.
+            let place = vertices[at].map(|v| (v + 0.0).to_bits());
+            first[row] = *rows.entry(place).or_insert(row as u64);
+            row_of[at] = first[row];
+        }
+        let (mut edges, mut begin) = (Vec::with_capacity(count), 0);
+        for ring in rings {
+            let row = |i: usize| row_of[begin + i % ring.len()];
+            edges.extend((0..ring.len()).map(|i| [row(i), row(i + 1)]).filter(|[a, b]| a != b));
+            begin += ring.len();
+        }
+        Ok(Shuffled { points, edges, first })
+    }
+
+    /// The edges found by a method beside the true ones, pairs of edges that cross, and the time it took.
+    fn judge(&self, options: &CurveOptions) -> Result<(EdgeScore, usize, f64)> {
+        let (found, seconds) = solve(&self.points, options)?;
+        let edges: Vec<[u64; 2]> = found_edges(&found.answer)
+            .into_iter()
+            .map(|edge| edge.map(|row| self.first[row as usize]))
+            .collect();
+        Ok((edge_score(&self.edges, &edges), crossings(&found_lines(&found.answer)), seconds))
+    }
+}
+
+/// Rings of a file of lines `ring x y`.
+fn rings(text: &str) -> Result<Vec<Ring>> {
+    let mut rings: Vec<Ring> = vec![];
+    let mut last = None;
+    for line in text.lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let [ring, x, y] = words[..] else { anyhow::bail!("`{line}` is no line of a ring") };
+        if last != Some(ring) {
+            rings.push(vec![]);
+            last = Some(ring);
+        }
+        if let Some(ring) = rings.last_mut() {
+            ring.push([x.parse()?, y.parse()?]);
+        }
+    }
+    Ok(rings)
+}
+
+/// Shares of the true edges, crossings and time.
+pub(super) fn coastlines(context: &Context, seeds: Range<u64>) -> Result<Value> {
+    let name = if context.quick { "naturalearth_land_50m" } else { "naturalearth_land_10m" };
+    let Some(text) = read(&format!("{name}.loops.txt.xz"))? else {
+        return Ok(json!({ "left_out": "no TAUT_DATA" }));
+    };
+    let input = Shuffled::new(&rings(&text)?, seeds.start)?;
+    let threads = context.threads[context.threads.len() - 1];
+    let head = ["method", "true edges found", "false", "missing", "crossings", "time"];
+    let mut table = Table::new(&head);
+    let (mut report, mut default) = (vec![], None);
+    for method in METHODS {
+        let options = CurveOptions { method, threads: Some(threads), ..CurveOptions::default() };
+        let (score, crossing, mut least) = input.judge(&options)?;
+        for _ in 1..context.runs {
+            least = least.min(solve(&input.points, &options)?.1);
+        }
+        let share = score.true_found as f64 / (score.true_found + score.missing) as f64;
+        table.push(vec![
+            method.name().to_owned(),
+            format!("{:.2} %", 100.0 * share),
+            score.false_found.to_string(),
+            score.missing.to_string(),
+            crossing.to_string(),
+            seconds(least),
+        ]);
+        report.push(json!({
+            "method": method.name(), "share": share, "true": score.true_found, "false": score.false_found,
+            "missing": score.missing, "crossings": crossing, "seconds": least,
+        }));
+        default.get_or_insert((share, crossing, least));
+    }
+    let (n, edges) = (input.points.len() / 2, input.edges.len());
+    println!("{name}, {n} points, {edges} edges, {threads} threads\n\n{table}");
+    let mut goals = Goals::default();
+    if let Some((share, crossing, least)) = default {
+        let shown = format!("{:.2} %", 100.0 * share);
+        goals.must("at least 95 % of the true edges".into(), shown.clone(), share >= 0.95);
+        goals.aim("at least 97 % of the true edges".into(), shown, share >= 0.97);
+        goals.must("no crossings".into(), crossing.to_string(), crossing == 0);
+        goals.at_most("time", Some(least), (2.0, None), seconds);
+    }
+    Ok(json!({ "input": name, "points": n, "methods": report, "goals": goals.json() }))
+}
+
+/// A glyph: its name and its outlines, sampled.
+struct Glyph {
+    name: String,
+    rings: Vec<Ring>,
+}
+
+/// Glyphs of lines `glyph NAME`, then `M x y`, `L x y`, `Q cx cy x y` and `Z`, sampled no coarser than `spacing`, with all corners.
+fn glyphs_of(text: &str, spacing: f64) -> Result<Vec<Glyph>> {
+    let mut glyphs: Vec<Glyph> = vec![];
+    let mut ring: Ring = vec![];
+    for line in text.lines() {
+        let mut words = line.split_whitespace();
+        let command = words.next().unwrap_or_default();
+        if command == "glyph" {
+            let name = words.collect::<Vec<_>>().join(" ");
+            glyphs.push(Glyph { name, rings: vec![] });
+            continue;
+        }
+        let numbers: Vec<f64> = words.map(str::parse).collect::<Result<_, _>>()?;
+        let glyph = glyphs.last_mut().context("an outline before the first glyph")?;
+        match (command, &numbers[..]) {
+            ("M", &[x, y]) => ring = vec![[x, y]],
+            ("L", &[x, y]) => append(&mut ring, None, [x, y], spacing)?,
+            ("Q", &[cx, cy, x, y]) => append(&mut ring, Some([cx, cy]), [x, y], spacing)?,
+            ("Z", []) => {
+                let first = *ring.first().context("an outline without a beginning")?;
+                if ring.last() != Some(&first) {
+                    append(&mut ring, None, first, spacing)?;
+                }
+                ring.pop();
+                glyph.rings.push(std::mem::take(&mut ring));
+            }
+            _ => anyhow::bail!("`{line}` is no line of an outline"),
+        }
+    }
+    Ok(glyphs)
+}
+
+/// Appends points of a line or of a quadratic Bézier curve from the last point to `to`, equal steps of the parameter.
+fn append(ring: &mut Ring, control: Option<[f64; 2]>, to: [f64; 2], spacing: f64) -> Result<()> {
+    let from = *ring.last().context("an outline without a beginning")?;
+    let length = |a: [f64; 2], b: [f64; 2]| (b[0] - a[0]).hypot(b[1] - a[1]);
+    let middle = control.unwrap_or([0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])]);
+    // No step is longer than twice the longer leg of the control polygon over their number.
+    let parts = (2.0 * length(from, middle).max(length(middle, to)) / spacing).ceil().max(1.0);
+    ensure!(parts < 1e6, "an outline of {parts} points between two corners");
+    for k in 1..=parts as usize {
+        let t = k as f64 / parts;
+        let bezier = |i: usize| {
+            (1.0 - t) * (1.0 - t) * from[i] + 2.0 * t * (1.0 - t) * middle[i] + t * t * to[i]
+        };
+        ring.push(if t == 1.0 { to } else { [bezier(0), bezier(1)] });
+    }
+    Ok(())
+}
+
+/// The width of the stem of the letter l: the largest step to the right that its outline makes on half its height.
+fn stem(glyphs: &[Glyph]) -> Option<f64> {
+    let letter = glyphs.iter().find(|glyph| glyph.name.starts_with("U+006C"))?;
+    let points = letter.rings.concat();
+    let high = points.iter().map(|p| p[1]).fold(f64::MIN, f64::max);
+    let crossing: Vec<f64> = letter
+        .rings
+        .iter()
+        .flat_map(|ring| (0..ring.len()).map(|i| (ring[i], ring[(i + 1) % ring.len()])))
+        .filter(|(a, b)| (a[1] < 0.5 * high) != (b[1] < 0.5 * high))
+        .map(|(a, b)| a[0] + (0.5 * high - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+        .collect();
+    let (low, high) = crossing.iter().fold((f64::MAX, f64::MIN), |(l, h), &x| (l.min(x), h.max(x)));
+    (low < high).then_some(high - low)
+}
+
+/// Glyphs whose edges are exactly the true ones.
+pub(super) fn glyphs(context: &Context, seeds: Range<u64>) -> Result<Value> {
+    let Some(text) = read("dejavu_serif_glyphs.quad.txt.xz")? else {
+        return Ok(json!({ "left_out": "no TAUT_DATA" }));
+    };
+    let coarse = glyphs_of(&text, f64::INFINITY)?;
+    let stem = stem(&coarse).context("the letter l has no stem")?;
+    let glyphs = glyphs_of(&text, stem / 8.0)?;
+    let inputs: Vec<Shuffled> = glyphs
+        .iter()
+        .map(|glyph| Shuffled::new(&glyph.rings, seeds.start))
+        .collect::<Result<_>>()?;
+    let threads = context.threads[context.threads.len() - 1];
+    let mut table =
+        Table::new(&["method", "exact", "true edges found", "false", "crossings", "time of all"]);
+    let (mut report, mut default) = (vec![], None);
+    for method in METHODS {
+        let options = CurveOptions { method, threads: Some(threads), ..CurveOptions::default() };
+        let (mut total, mut crossing, mut time, mut wrong) = (EdgeScore::default(), 0, 0.0, vec![]);
+        for (glyph, input) in glyphs.iter().zip(&inputs) {
+            let (score, crosses, seconds) = input.judge(&options)?;
+            total.true_found += score.true_found;
+            total.false_found += score.false_found;
+            total.missing += score.missing;
+            crossing += crosses;
+            time += seconds;
+            if !score.exact() {
+                wrong.push(glyph.name.as_str());
+            }
+        }
+        let exact = glyphs.len() - wrong.len();
+        let share = total.true_found as f64 / (total.true_found + total.missing) as f64;
+        table.push(vec![
+            method.name().to_owned(),
+            format!("{exact} of {}", glyphs.len()),
+            format!("{:.2} %", 100.0 * share),
+            total.false_found.to_string(),
+            crossing.to_string(),
+            seconds(time),
+        ]);
+        report.push(json!({
+            "method": method.name(), "exact": exact, "wrong": wrong, "share": share, "false": total.false_found,
+            "missing": total.missing, "crossings": crossing, "seconds": time,
+        }));
+        default.get_or_insert(exact);
+    }
+    println!(
+        "{} glyphs, a point every {:.1} units, an eighth of the stem of l\n\n{table}",
+        glyphs.len(),
+        stem / 8.0
+    );
+    let mut goals = Goals::default();
+    if let Some(exact) = default {
+        let (share, shown) =
+            (exact as f64 / glyphs.len() as f64, format!("{exact} of {}", glyphs.len()));
+        goals.must("at least 80 % of the glyphs exact".into(), shown.clone(), share >= 0.8);
+        goals.aim("at least 90 % of the glyphs exact".into(), shown, share >= 0.9);
+    }
+    Ok(
+        json!({ "glyphs": glyphs.len(), "spacing": stem / 8.0, "methods": report, "goals": goals.json() }),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const L: &str = "glyph U+006C l\nM 10 0\nL 30 0\nL 30 90\nQ 20 100 10 90\nZ\n";
+
+    #[test]
+    fn outlines_are_sampled_with_their_corners() {
+        let glyphs = glyphs_of(L, 5.0).unwrap();
+        let ring = &glyphs[0].rings[0];
+        for corner in [[10.0, 0.0], [30.0, 0.0], [30.0, 90.0], [10.0, 90.0]] {
+            assert_eq!(ring.iter().filter(|p| **p == corner).count(), 1, "{corner:?}");
+        }
+        for i in 0..ring.len() {
+            let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
+            assert!((b[0] - a[0]).hypot(b[1] - a[1]) <= 5.0 + 1e-9, "{a:?} {b:?}");
+        }
+        assert_eq!(stem(&glyphs), Some(20.0));
+        assert!(glyphs_of("M 1 2\n", 1.0).is_err() && glyphs_of("glyph a\nX 1\n", 1.0).is_err());
+    }
+
+    #[test]
+    fn vertices_at_one_place_are_one() {
+        let text = "0 0 0\n0 1 0\n0 1 1\n3 1 1\n3 2 1\n3 -0 0\n";
+        let shuffled = Shuffled::new(&rings(text).unwrap(), 7).unwrap();
+        let mut degree = HashMap::new();
+        shuffled.edges.iter().flatten().for_each(|&row| *degree.entry(row).or_insert(0) += 1);
+        let mut degrees: Vec<i32> = degree.into_values().collect();
+        degrees.sort_unstable();
+        assert_eq!(degrees, [2, 2, 4, 4]);
+        assert!(rings("0 1\n").is_err());
+    }
+}
