@@ -7,6 +7,7 @@
 
 mod ball;
 mod centers;
+mod curve;
 mod delaunay;
 mod ellipsoid;
 mod farthest_first;
@@ -30,6 +31,8 @@ mod _native {
     use crate::ball::ball;
     #[pymodule_export]
     use crate::centers::{Centers, CentersCertificate, CentersVerdict, centers};
+    #[pymodule_export]
+    use crate::curve::{Curve, CurveCertificate, CurveComponent, CurveVerdict, curve};
     #[pymodule_export]
     use crate::delaunay::delaunay;
     #[pymodule_export]

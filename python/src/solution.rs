@@ -9,6 +9,7 @@ use taut::Items;
 use taut::certify::{self, AnySolution, AnyVerdict, CheckError, Stop};
 
 use crate::centers::{Centers, CentersCertificate, CentersVerdict};
+use crate::curve::{Curve, CurveCertificate, CurveVerdict};
 use crate::ellipsoid::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, directions};
 use crate::inscribed::{InscribedCertificate, InscribedEllipsoid, InscribedVerdict};
 use crate::items::{name_of_items, words};
@@ -226,8 +227,9 @@ impl Verdict {
 /// Attributes
 /// ----------
 /// kind : str
-///     ``"ball"``, ``"ellipsoid"``, ``"inscribed-ellipsoid"``, ``"robust-ellipsoid"``, ``"centers"`` or ``"delaunay"``.
-/// answer : Ball, Ellipsoid, InscribedEllipsoid, RobustEllipsoid, Centers or Triangulation
+///     ``"ball"``, ``"ellipsoid"``, ``"inscribed-ellipsoid"``, ``"robust-ellipsoid"``, ``"centers"``,
+///     ``"curve"`` or ``"delaunay"``.
+/// answer : Ball, Ellipsoid, InscribedEllipsoid, RobustEllipsoid, Centers, Curve or Triangulation
 ///     The shape.
 /// certificate : BallCertificate, EllipsoidCertificate and so on
 ///     Its proof.
@@ -275,8 +277,10 @@ impl Solution {
                 let certificate = CentersCertificate::new(py, &found.certificate)?;
                 (answer, Py::new(py, certificate)?.into_any(), found.trace.clone())
             }
-            AnySolution::Curve(_) => {
-                return Err(PyValueError::new_err("curves cannot be shown to Python yet"));
+            AnySolution::Curve(found) => {
+                let answer = Py::new(py, Curve::new(py, &found.answer)?)?.into_any();
+                let certificate = CurveCertificate::new(&found.certificate);
+                (answer, Py::new(py, certificate)?.into_any(), found.trace.clone())
             }
             AnySolution::Triangulation(found) => {
                 let answer = Py::new(py, Triangulation::new(py, found)?)?.into_any();
@@ -452,9 +456,10 @@ impl Solution {
     ///
     /// Returns
     /// -------
-    /// Verdict, EllipsoidVerdict, InscribedVerdict, RobustVerdict, CentersVerdict or TriangulationVerdict
-    ///     Proved bounds ``lower`` and ``upper``, and their ``gap``; of a robust ellipsoid and a triangulation what was
-    ///     proved instead.
+    /// Verdict, EllipsoidVerdict, InscribedVerdict, RobustVerdict, CentersVerdict, CurveVerdict or
+    /// TriangulationVerdict
+    ///     Proved bounds ``lower`` and ``upper``, and their ``gap``; of a robust ellipsoid, of curves and of a triangulation
+    ///     what was proved instead.
     ///
     /// Raises
     /// ------
@@ -506,8 +511,8 @@ impl Solution {
             Ok(AnyVerdict::Centers(proved)) => {
                 Ok(Py::new(py, CentersVerdict::new(proved))?.into_any())
             }
-            Ok(AnyVerdict::Curve(_)) => {
-                Err(PyValueError::new_err("curves cannot be shown to Python yet"))
+            Ok(AnyVerdict::Curve(proved)) => {
+                Ok(Py::new(py, CurveVerdict::new(&proved))?.into_any())
             }
             Ok(AnyVerdict::Triangulation(proved)) => {
                 Ok(Py::new(py, TriangulationVerdict::new(&proved))?.into_any())

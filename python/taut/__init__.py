@@ -13,6 +13,7 @@ The names, options and defaults are those of the Rust library and of the command
 
 from ._ball import ball, ball_of_balls
 from ._centers import centers, farthest_first, sphere_tree
+from ._curve import curve
 from ._delaunay import delaunay
 from ._ellipsoid import ellipsoid, ellipsoids, inscribed_ellipsoid
 from ._generate import generate
@@ -22,6 +23,10 @@ from ._native import (
     Centers,
     CentersCertificate,
     CentersVerdict,
+    Curve,
+    CurveCertificate,
+    CurveComponent,
+    CurveVerdict,
     Ellipsoid,
     EllipsoidCertificate,
     EllipsoidVerdict,
@@ -53,6 +58,10 @@ __all__ = [
     "Centers",
     "CentersCertificate",
     "CentersVerdict",
+    "Curve",
+    "CurveCertificate",
+    "CurveComponent",
+    "CurveVerdict",
     "Ellipsoid",
     "EllipsoidCertificate",
     "EllipsoidVerdict",
@@ -77,6 +86,7 @@ __all__ = [
     "ball",
     "ball_of_balls",
     "centers",
+    "curve",
     "delaunay",
     "ellipsoid",
     "ellipsoids",

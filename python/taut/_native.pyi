@@ -9,6 +9,10 @@ __all__ = [
     "Centers",
     "CentersCertificate",
     "CentersVerdict",
+    "Curve",
+    "CurveCertificate",
+    "CurveComponent",
+    "CurveVerdict",
     "Ellipsoid",
     "EllipsoidCertificate",
     "EllipsoidVerdict",
@@ -32,6 +36,7 @@ __all__ = [
     "__version__",
     "ball",
     "centers",
+    "curve",
     "delaunay",
     "ellipsoid",
     "ellipsoids",
@@ -65,6 +70,15 @@ def centers(
     outliers: int,
     max_nodes: int,
     assignment: bool,
+    threads: int | None,
+) -> Solution: ...
+def curve(
+    rows: NDArray[np.float32] | NDArray[np.float64],
+    method: str,
+    open: bool,
+    rho: float,
+    omega: float,
+    places: bool,
     threads: int | None,
 ) -> Solution: ...
 def delaunay(
@@ -204,6 +218,58 @@ class CentersVerdict:
     def nodes(self) -> int: ...
     @property
     def cover_nodes(self) -> int | None: ...
+
+@final
+class Curve:
+    @property
+    def curves(self) -> tuple[CurveComponent, ...]: ...
+    @property
+    def noise(self) -> float: ...
+    @property
+    def outliers(self) -> NDArray[np.int64]: ...
+    @property
+    def places(self) -> NDArray[np.float64] | None: ...
+
+@final
+class CurveComponent:
+    @property
+    def vertices(self) -> NDArray[np.float64]: ...
+    @property
+    def closed(self) -> bool: ...
+    @property
+    def rows(self) -> NDArray[np.int64] | None: ...
+
+@final
+class CurveCertificate:
+    @property
+    def band(self) -> float: ...
+    @property
+    def sampling_ratio(self) -> float: ...
+    @property
+    def noise_ratio(self) -> float: ...
+    @property
+    def certified(self) -> bool: ...
+    @property
+    def tour_lower(self) -> float | None: ...
+    @property
+    def points_hash(self) -> str: ...
+
+@final
+class CurveVerdict:
+    @property
+    def band(self) -> float: ...
+    @property
+    def simple(self) -> bool: ...
+    @property
+    def sampling_ratio(self) -> float: ...
+    @property
+    def noise_ratio(self) -> float: ...
+    @property
+    def certified(self) -> bool: ...
+    @property
+    def doubt(self) -> str | None: ...
+    @property
+    def tour_gap(self) -> float | None: ...
 
 @final
 class FarthestFirst:

@@ -6,6 +6,7 @@ from numpy.typing import ArrayLike
 
 from ._native import (
     CentersVerdict,
+    CurveVerdict,
     EllipsoidVerdict,
     InscribedVerdict,
     RobustVerdict,
@@ -20,6 +21,7 @@ AnyVerdict = (
     | InscribedVerdict
     | RobustVerdict
     | CentersVerdict
+    | CurveVerdict
     | TriangulationVerdict
 )
 
@@ -52,9 +54,9 @@ def verify(
 
     Returns
     -------
-    Verdict, EllipsoidVerdict, InscribedVerdict, RobustVerdict, CentersVerdict or TriangulationVerdict
-        Proved bounds ``lower`` and ``upper``, and their ``gap``; of a robust ellipsoid and a triangulation what was
-        proved instead.
+    Verdict, EllipsoidVerdict, InscribedVerdict, RobustVerdict, CentersVerdict, CurveVerdict or TriangulationVerdict
+        Proved bounds ``lower`` and ``upper``, and their ``gap``; of a robust ellipsoid, of curves and of a triangulation what
+        was proved instead.
 
     Raises
     ------

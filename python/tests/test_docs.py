@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 import taut
-from taut import _ball, _centers, _delaunay, _ellipsoid, _generate, _robust, _verify
+from taut import _ball, _centers, _curve, _delaunay, _ellipsoid, _generate, _robust, _verify
 
 
 FLAGS = doctest.ELLIPSIS | doctest.IGNORE_EXCEPTION_DETAIL
 
 
-MODULES = [taut, _ball, _centers, _delaunay, _ellipsoid, _generate, _robust, _verify]
+MODULES = [taut, _ball, _centers, _curve, _delaunay, _ellipsoid, _generate, _robust, _verify]
 
 
 @pytest.mark.parametrize("module", MODULES, ids=lambda m: m.__name__)
@@ -37,7 +37,7 @@ def test_everything_public_is_documented(name):
                 assert inspect.getdoc(member), attribute
 
 
-PAGES = ["README.md", *(f"docs/{page}.md" for page in ("ball", "centers", "delaunay", "ellipsoid", "robust"))]
+PAGES = ["README.md", *(f"docs/{page}.md" for page in ("ball", "centers", "curve", "delaunay", "ellipsoid", "robust"))]
 
 
 @pytest.mark.parametrize("page", PAGES)

@@ -4,8 +4,8 @@ use clap::{Parser, Subcommand};
 
 use crate::exit::Outcome;
 use crate::{
-    ball, centers, completions, delaunay, draw, ellipsoid, formats, generate, inscribe, man, tour,
-    verify,
+    ball, centers, completions, curve, delaunay, draw, ellipsoid, formats, generate, inscribe, man,
+    tour, verify,
 };
 
 /// Tight shapes around, through and inside point sets, with proof.
@@ -27,6 +27,7 @@ enum Command {
     Ellipsoid(ellipsoid::Args),
     Centers(centers::Args),
     Delaunay(delaunay::Args),
+    Curve(curve::Args),
     Inscribe(inscribe::Args),
     Verify(verify::Args),
     Draw(draw::Args),
@@ -44,6 +45,7 @@ impl Cli {
             Command::Ellipsoid(args) => args.run(),
             Command::Centers(args) => args.run(),
             Command::Delaunay(args) => args.run(),
+            Command::Curve(args) => args.run(),
             Command::Inscribe(args) => args.run(),
             Command::Verify(args) => args.run(),
             Command::Draw(args) => args.run(),

@@ -54,9 +54,7 @@ impl Args {
             AnySolution::Inscribed(found) => self.drawing(found, &points, &watch)?,
             AnySolution::Robust(found) => self.drawing(found, &points, &watch)?,
             AnySolution::Centers(found) => self.drawing(found, &points, &watch)?,
-            AnySolution::Curve(_) => {
-                anyhow::bail!("{}: there are no pictures of curves yet", shown(&self.answer))
-            }
+            AnySolution::Curve(found) => self.drawing(found, &points, &watch)?,
             AnySolution::Triangulation(found) => self.drawing(found, &points, &watch)?,
         };
         match drawing {

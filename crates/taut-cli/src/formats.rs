@@ -1,11 +1,11 @@
 //! `taut formats`: what can be read and written.
 
-use taut_io::{Compression, Format, MeshFormat};
+use taut_io::{Compression, Format, MeshFormat, PolylineFormat};
 
 use crate::exit::Outcome;
 use crate::writing;
 
-/// List the formats of points and meshes, with what this build reads and writes.
+/// List the formats of points, meshes and curves, with what this build reads and writes.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example: taut formats")]
 pub(crate) struct Args {}
@@ -50,6 +50,10 @@ fn table() -> String {
     );
     text += "\nMeshes of triangulations, compressed likewise:\n";
     for format in MeshFormat::ALL.into_iter().filter(|format| format.is_built()) {
+        text += &format!("{:<9}{}\n", format.name(), format.description());
+    }
+    text += "\nCurves alone, compressed likewise:\n";
+    for format in PolylineFormat::ALL {
         text += &format!("{:<9}{}\n", format.name(), format.description());
     }
     text += "\nAnswers are written as json, pictures as svg, png and html.\n";

@@ -12,6 +12,8 @@ mod centers_report;
 mod cli;
 mod clock;
 mod completions;
+mod curve;
+mod curve_report;
 mod delaunay;
 mod delivery;
 mod draw;

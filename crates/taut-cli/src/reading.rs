@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::certify::{CentersViolation, MeshViolation};
+use taut::certify::{CentersViolation, CurveViolation, MeshViolation};
 use taut::delaunay::Error as DelaunayError;
 use taut::enclose::Error as SolveError;
 use taut::points::{ReadError, ScalarKind};
+use taut::reconstruct::Error as CurveError;
 use taut::{PointSource, Violation};
 use taut_io::{Columns, Format, Header, Input, RawLayout, ReadOptions};
 
@@ -221,6 +222,24 @@ impl Opened {
         }
     }
 
+    /// The same of curves.
+    pub(crate) fn explain_curve(&self, error: CurveError) -> anyhow::Error {
+        match error {
+            CurveError::NonFinite { row, column, value } => self.not_finite(row, column, value),
+            CurveError::Dimension { dim } => anyhow!(
+                "{}: points have {dim} coordinate{}: expected 2, as curves are sought in the plane; choose them with \
+                 --columns",
+                self.name(),
+                if dim == 1 { "" } else { "s" }
+            ),
+            CurveError::Option { name, value, expected } => wrong_option(name, &value, expected),
+            CurveError::Read(error) => self.reading_failed(error),
+            CurveError::Triangulation(error) => self.explain_delaunay(error),
+            CurveError::Cancelled(_) => error.into(),
+            other => anyhow!("{}: {other}", self.name()),
+        }
+    }
+
     /// A coordinate that is NaN or infinite.
     pub(crate) fn not_finite(&self, row: u64, column: usize, value: f64) -> anyhow::Error {
         anyhow!(
@@ -254,6 +273,16 @@ impl Opened {
                 let (from, to) = (format!("row {row}"), format!("point {row} (row {place})"));
                 format!("{points}: {}", violation.to_string().replacen(&from, &to, 1))
             }
+            Violation::Curve(
+                CurveViolation::OutsideBand { row, .. }
+                | CurveViolation::NoVertex { row }
+                | CurveViolation::NoPlace { row, .. }
+                | CurveViolation::FarPlace { row, .. },
+            ) => {
+                let place = self.input.describe_cell(row, 0).row;
+                let (from, to) = (format!("row {row}"), format!("point {row} (row {place})"));
+                format!("{points}: {}", violation.to_string().replacen(&from, &to, 1))
+            }
             Violation::OutsideHalfSpace { row, .. } => {
                 let (side, place) =
                     (format!("half-space {row}"), self.input.describe_cell(row, 0).row);
@@ -268,6 +297,7 @@ impl Opened {
             | Violation::Centers(
                 CentersViolation::Dimension { .. } | CentersViolation::NoWeight { .. },
             )
+            | Violation::Curve(CurveViolation::Plane { .. })
             | Violation::Mesh(MeshViolation::Dimension { .. } | MeshViolation::Id { .. }) => {
                 format!("{points} does not belong to {answer}: {violation}")
             }

@@ -10,10 +10,10 @@ use std::time::Instant;
 use anyhow::{anyhow, bail};
 use taut::certify::{CentersViolation, NO_NEIGHBOR};
 use taut::{
-    Answer, BallOptions, CentersOptions, DelaunayOptions, Ellipsoid, EllipsoidOptions,
-    InscribedOptions, Items, RobustOptions, Solution, Triangulation, Violation, ball_of_source,
-    centers_of_source, delaunay_of_source, ellipsoid_of_source, inscribed_ellipsoid_of_source,
-    robust_ellipsoid_of_source,
+    Answer, BallOptions, CentersOptions, CurveOptions, DelaunayOptions, Ellipsoid,
+    EllipsoidOptions, InscribedOptions, Items, RobustOptions, Solution, Triangulation, Violation,
+    ball_of_source, centers_of_source, curve_of_source, delaunay_of_source, ellipsoid_of_source,
+    inscribed_ellipsoid_of_source, robust_ellipsoid_of_source,
 };
 use taut_draw::{Fact, Page, Section, to_html};
 
@@ -126,6 +126,7 @@ fn visit(station: &Station, watch: &Watch) -> anyhow::Result<Stop> {
         Tool::Inscribed => inscribed(station, &points, watch),
         Tool::Centers(k) => centers(station, k, &points, watch),
         Tool::Delaunay => triangulation(station, &points, watch),
+        Tool::Curve => curves(station, &points, watch),
     }
 }
 
@@ -259,6 +260,28 @@ fn triangulation(station: &Station, points: &Opened, watch: &Watch) -> anyhow::R
     })
 }
 
+fn curves(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result<Stop> {
+    let options = CurveOptions::default();
+    let found = watch
+        .during("solving", |monitor| curve_of_source(points.source(), &options, monitor))
+        .map_err(|error| points.explain_curve(error))?;
+    let doctor = || {
+        let mut doctored = found.clone();
+        // Onto another vertex of the same curve: its edges then cross, or a point lies outside the band.
+        for curve in doctored.answer.curves.iter_mut().take(1) {
+            let across = curve.vertices.len() / 2;
+            curve.vertices[0] = curve.vertices[across];
+        }
+        doctored
+    };
+    told(station, &found, points, watch, ("a vertex moved", &doctor), |verdict| {
+        let closed = found.answer.curves.iter().filter(|curve| curve.closed).count();
+        let band = verdict.map_or(found.certificate.band, |proved| proved.band);
+        let curves = count(found.answer.curves.len() as u64);
+        format!("{curves} curves, {closed} of them closed, band {}", short(band))
+    })
+}
+
 /// The triangulation with the other diagonal in the first two triangles that share an edge.
 fn with_an_edge_turned(found: &Solution<Triangulation>) -> Solution<Triangulation> {
     let mut doctored = found.clone();
@@ -342,7 +365,8 @@ fn page(sections: Vec<Section>) -> String {
                 sample, the command that does the same, and what was found.\n\n\
                 Verified means: a checker that shares no code with the solver read the points again and proved the \
                 answer from its certificate: every point is inside and no smaller shape of its kind, and no eight smaller \
-                discs, could hold them all, or none larger could fit; the triangles are those of Delaunay and there are no others. Of \
+                discs, could hold them all, or none larger could fit; the triangles are those of Delaunay and there are no others; the curves meet nowhere and no point but the outliers \
+                leaves their band. Of \
                 outliers it proves all but that no other half of the points lies closer together."
             .to_owned(),
         sections,

@@ -4,13 +4,14 @@ use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
-use taut::certify::{CentersViolation, CheckError, CurveVerdict, JsonError, check_simplices};
+use taut::certify::{CentersViolation, CheckError, JsonError, check_simplices};
 use taut::enclose::Error as SolveError;
 use taut::points::{Blocks, Scratch};
 use taut::{Answer, AnySolution, Solution, Verdict, Violation};
 use taut_io::{Mesh, MeshFormat, open_mesh};
 
 use crate::centers_report::proved_of_centers;
+use crate::curve_report::{curves_of, proved_of_curve};
 use crate::effort::Effort;
 use crate::ellipsoid_report::proved_of_ellipsoid;
 use crate::exit::Outcome;
@@ -98,16 +99,10 @@ impl Args {
                 within(verdict.gap, what, proved_of_centers(found, points.source(), &verdict))
             }),
             AnySolution::Curve(found) => judge(found, &points, &watch)?.map(|verdict| {
-                let (count, noun) = match found.answer.curves.len() {
-                    1 => ("1".into(), "curve"),
-                    curves => (count(curves as u64), "curves"),
-                };
+                let (what, facts) = (curves_of(found), proved_of_curve(&verdict));
                 match verdict.tour_gap {
-                    Some(gap) => within(gap, "tour".into(), proved_of_curve(&verdict)),
-                    None => {
-                        let title = format!("Verified: {count} {noun}");
-                        (Outcome::Done, report::text(&title, &proved_of_curve(&verdict)))
-                    }
+                    Some(gap) => within(gap, what, facts),
+                    None => (Outcome::Done, report::text(&format!("Verified: {what}"), &facts)),
                 }
             }),
             AnySolution::Triangulation(found) => judge(found, &points, &watch)?.map(|verdict| {
@@ -269,18 +264,4 @@ fn facts(verdict: &Verdict) -> Vec<Fact> {
         Fact::new("bracket", bracket),
         Fact::new("gap", gap(verdict.gap)).remark("relative, proved from the points alone"),
     ]
-}
-
-fn proved_of_curve(verdict: &CurveVerdict) -> Vec<Fact> {
-    let mut facts = vec![
-        Fact::new("band", exact(verdict.band)).remark("no row but outliers is farther off"),
-        Fact::new("simple", if verdict.is_simple { "yes" } else { "no" }.to_owned())
-            .remark("no two edges meet, by exact predicates"),
-    ];
-    facts.push(match verdict.doubt {
-        None => Fact::new("certified", "yes".to_owned())
-            .remark("sampled densely enough to be homeomorphic"),
-        Some(doubt) => Fact::new("certified", "no".to_owned()).remark(doubt.to_string()),
-    });
-    facts
 }

@@ -9,6 +9,7 @@
 //! | a robust ellipsoid and its points | [`robust_figures`] | the same with outliers apart, and the distance of each point |
 //! | an ellipsoid in a polytope, and its half-spaces | [`inscribed_figures`] | scenes of the plane or of space, cuts through the centre, and plots |
 //! | a triangulation and its points | [`delaunay_figures`] | scenes of the plane or of space, and the Voronoi diagram |
+//! | curves and their points | [`curve_figures`] | scenes of the plane, with the band of noise, outliers and ends |
 //! | a [`Figure`] | [`to_svg`] | SVG text, with a title and a description for screen readers |
 //! | a [`Figure`] | `to_png` (feature `png`) | PNG bytes, the same on every machine: the font is bundled |
 //! | a [`Page`] of figures | [`to_html`] | one file: no network, no library; light, dark and print |
@@ -34,6 +35,7 @@
 mod axes;
 mod ball;
 mod centers;
+mod curve;
 mod delaunay;
 mod ellipsoid;
 mod error;
@@ -57,6 +59,7 @@ mod text;
 
 pub use ball::ball_figures;
 pub use centers::{ElbowStep, centers_figures, elbow_figure};
+pub use curve::curve_figures;
 pub use delaunay::delaunay_figures;
 pub use ellipsoid::{ellipsoid_figures, robust_figures};
 pub use error::Error;

@@ -507,6 +507,14 @@ pub enum Error {
         /// The file.
         path: String,
     },
+    /// The name of a file does not tell which format of curves it has.
+    #[error(
+        "{path}: the format of the curves cannot be told from the name; name it .csv, .geojson or .svg"
+    )]
+    UnknownPolylines {
+        /// The file.
+        path: String,
+    },
     /// No format of meshes has this name.
     #[error("`{name}` is no format of meshes; these are {}", meshes(|_| true))]
     MeshFormatName {

@@ -6,6 +6,7 @@
 //! | points of bytes in memory | [`open_bytes`] | the same |
 //! | a file | [`create`] | the earlier file stays as it was until [`AtomicFile::commit`] |
 //! | points as a file | [`write_points`] | block by block, so the points may be larger than memory |
+//! | curves of the plane as a file | [`write_polylines`] | loops within loops are holes where a format knows them |
 //! | a mesh on points as a file | [`write_mesh`] | every point is a vertex, in input order |
 //! | a mesh of a file | [`open_mesh`] | every simplex, or an error that names file and line or element |
 //!
@@ -34,6 +35,7 @@ mod format;
 mod input;
 mod mesh;
 mod options;
+mod polylines;
 mod read;
 mod sink;
 mod write;
@@ -45,4 +47,6 @@ pub use format::{Compression, Format};
 pub use input::{Input, open, open_bytes};
 pub use mesh::{Mesh, MeshFormat, mesh_file, open_mesh, open_mesh_bytes, write_mesh};
 pub use options::{Header, RawLayout, ReadOptions};
+pub use polylines::{PolylineFormat, polylines_file, write_polylines};
+pub use taut_mesh::Polyline;
 pub use write::write_points;

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | how good a found curve is beside the true one | [`compare`] | O(n) where edges are alike in length |
 //! | where edges meet that should not | [`crossings`] | the same, and exact |
+//! | which loops lie within which | [`parents`] | O(n log n), and for each loop the edges on its level; exact |
 //! | how many of the true edges were found | [`edge_score`] | O(n log n) |
 //!
 //! ```
@@ -25,10 +26,12 @@ mod connectivity;
 mod crossing;
 mod edges;
 mod grid;
+mod nesting;
 mod quality;
 
 pub use crossing::crossings;
 pub use edges::{EdgeScore, edge_score};
+pub use nesting::{is_counter_clockwise, parents};
 pub use quality::{Quality, compare};
 
 /// A chain of straight edges in the plane, borrowed.

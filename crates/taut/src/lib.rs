@@ -19,6 +19,8 @@
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`Plane`], [`Space`] | the same | [mod@delaunay] |
 //! | edges that must be there | [`Plane::constrained`] | exact, Delaunay as far as they let it be | [mod@delaunay] |
+//! | the curves that noisy points were sampled from | [`curve()`] | no crossings; each point within the band told or named as an outlier; whether sampling was dense enough | [mod@reconstruct] |
+//! | the curves through points without noise, a short tour through points | [`curve()`] with a [`CurveMethod`] | what each is known for, a bound beside the tour | [mod@reconstruct] |
 //! | a second opinion on any answer | [`Solution::check`] | a proved bracket, or the first violation | [`certify`] |
 //! | an answer of yesterday | [`AnySolution::from_json`] | the same bits | [`certify`] |
 //! | points to try with | [`generate()`] | point i depends on the seed and i alone | [`points`] |
@@ -83,6 +85,22 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! Curves through points come with what is known about them:
+//!
+//! ```
+//! let on_a_circle: Vec<f64> = (0..40)
+//!     .map(|i| std::f64::consts::TAU * f64::from(i) / 40.0)
+//!     .flat_map(|t| [t.cos(), t.sin()])
+//!     .collect();
+//! let points = taut::Points::new(&on_a_circle, 2)?;
+//! let options = taut::CurveOptions { method: taut::CurveMethod::HnnCrust, ..Default::default() };
+//! let found = taut::curve(&points, &options)?;
+//! assert!(found.answer.curves.len() == 1 && found.answer.curves[0].closed);
+//! assert_eq!(found.answer.curves[0].vertices.len(), 40);
+//! assert!(found.check(&points)?.is_simple);                              // no two edges meet, by exact signs
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! Nothing but names lives here; each crate behind the door can be used on its own. Files are read and written by
 //! `taut-io`, pictures drawn by `taut-draw`, and the command `taut` is the crate `taut-cli`.
 //!
@@ -91,11 +109,12 @@
 
 pub use taut_certify as certify;
 pub use taut_certify::{
-    Answer, AnySolution, Ball, BallCertificate, Centers, CentersCertificate, CentersVerdict,
-    EllipseSupport, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, InscribedCertificate,
-    InscribedEllipsoid, InscribedVerdict, Items, LowerBound, Placement, RobustCertificate,
-    RobustEllipsoid, RobustMethod, RobustVerdict, Solution, Trace, Triangulation,
-    TriangulationCertificate, Verdict, Violation, ellipse_support,
+    Answer, AnySolution, Ball, BallCertificate, Centers, CentersCertificate, CentersVerdict, Curve,
+    CurveCertificate, CurveComponent, CurveDoubt, CurveVerdict, EllipseSupport, Ellipsoid,
+    EllipsoidCertificate, EllipsoidVerdict, InscribedCertificate, InscribedEllipsoid,
+    InscribedVerdict, Items, LowerBound, Placement, RobustCertificate, RobustEllipsoid,
+    RobustMethod, RobustVerdict, Solution, Trace, Triangulation, TriangulationCertificate, Verdict,
+    Violation, ellipse_support,
 };
 pub use taut_delaunay as delaunay;
 pub use taut_delaunay::{
@@ -115,6 +134,9 @@ pub use taut_enclose::{
 pub use taut_points as points;
 pub use taut_points::{Distribution, Monitor, PointSource, Points, generate};
 
+pub use taut_reconstruct as reconstruct;
+pub use taut_reconstruct::{CurveMethod, CurveOptions, Ends, curve, curve_of_source};
+
 /// The Rust in the pages for people, compiled and run with the tests.
 #[cfg(doctest)]
 mod pages {
@@ -124,6 +146,8 @@ mod pages {
     struct Ball;
     #[doc = include_str!("../../../docs/centers.md")]
     struct Centers;
+    #[doc = include_str!("../../../docs/curve.md")]
+    struct Curve;
     #[doc = include_str!("../../../docs/delaunay.md")]
     struct Delaunay;
     #[doc = include_str!("../../../docs/ellipsoid.md")]

@@ -17,6 +17,8 @@ pub(super) enum Tool {
     Centers(usize),
     /// The Delaunay triangulation.
     Delaunay,
+    /// The curves that points were sampled from.
+    Curve,
 }
 
 /// A sample, what is to be seen in it, and the command that shows the same.
@@ -166,5 +168,18 @@ pub(super) const STATIONS: &[Station] = &[
         tool: Tool::Delaunay,
         command: "taut delaunay knot.xyz -o knot.vtu --draw knot-hull.html",
         doctored: false,
+    },
+    Station {
+        heading: "Along the points: curves",
+        text: "Points near four curves, three of which are closed, two of them within the third, and a few points that belong to \
+               none. Which curves were they? The dashed lines are the band of noise, as estimated from the points.\n\n\
+               The checker measures how far each point is from the curves, makes sure by exact signs that they meet nowhere, and \
+               says whether points are dense enough beside the features of the curves to be sure of their connectivity; where it \
+               cannot, it says why. Shown the same answer with one vertex moved, it names what is wrong.",
+        file: "loops.csv",
+        bytes: include_bytes!("../../samples/loops.csv"),
+        tool: Tool::Curve,
+        command: "taut curve loops.csv --draw loops.html",
+        doctored: true,
     },
 ];

@@ -3,6 +3,7 @@
 mod bad_input;
 mod ball;
 mod centers;
+mod curve;
 mod delaunay;
 mod desk;
 mod ellipsoid;

@@ -1,0 +1,350 @@
+//! `taut curve`: the summary, the files, what is refused, and how runs end.
+
+use serde_json::Value;
+
+use crate::desk::Desk;
+
+/// Points of circles, each with a centre, a radius and a number.
+fn circles(list: &[([f64; 2], f64, usize)]) -> String {
+    let mut text = String::from("x,y\n");
+    for &([x, y], r, n) in list {
+        for i in 0..n {
+            let t = std::f64::consts::TAU * i as f64 / n as f64;
+            text += &format!("{},{}\n", x + r * t.cos(), y + r * t.sin());
+        }
+    }
+    text
+}
+
+/// An island with two lakes, one of which has an islet, and an island beside it.
+fn islands() -> String {
+    circles(&[
+        ([0.0, 0.0], 8.0, 160),
+        ([-4.0, 0.0], 2.0, 80),
+        ([3.0, 0.0], 3.0, 90),
+        ([3.0, 0.0], 1.0, 60),
+        ([20.0, 0.0], 4.0, 100),
+    ])
+}
+
+fn desk() -> Desk {
+    let desk = Desk::new();
+    desk.put("islands.csv", islands());
+    desk
+}
+
+fn document(text: &str) -> Value {
+    serde_json::from_str(text).unwrap()
+}
+
+#[test]
+fn the_summary_names_every_number() {
+    let run = desk().taut("curve islands.csv --method hnn-crust").ends(0).says(&[
+        "490 points in the plane: 5 curves\n",
+        "\n  curves    5; 5 closed, 0 open\n",
+        "\n  vertices  490; each is a point of the input\n",
+        "\n  band      0; no point is farther from the curves\n",
+        "\n  certified yes; sampled at ε = 0.",
+        "\n  verified  yes; no two edges meet, and the band holds\n",
+        "\n  method    hnn-crust\n",
+        "s; reading ",
+        ", checking ",
+    ]);
+    assert_eq!(run.err, "");
+}
+
+#[test]
+fn the_json_is_one_document_with_the_names_at_the_door() {
+    let desk = desk();
+    let line = "curve islands.csv --method nn-crust --places";
+    let run = desk.taut(&format!("{line} --json -o curve.json")).ends(0);
+    let found = run.json();
+    assert_eq!(found["kind"], "curve");
+    let curves = found["answer"]["curves"].as_array().unwrap();
+    assert_eq!(curves.len(), 5);
+    for curve in curves {
+        assert_eq!(curve["closed"], true);
+        assert_eq!(
+            curve["vertices"].as_array().unwrap().len(),
+            curve["rows"].as_array().unwrap().len()
+        );
+    }
+    assert_eq!(found["answer"]["noise"], 0.0);
+    assert_eq!(found["answer"]["places"].as_array().unwrap().len(), 490);
+    assert_eq!(desk.text("curve.json"), run.out);
+    for option in ["-o -", "--json --threads 1", "--json --threads 3"] {
+        assert_eq!(desk.taut(&format!("{line} {option}")).ends(0).out, run.out, "{option}");
+    }
+    let quiet = desk.taut(&format!("{line} --quiet -o quiet.json")).ends(0);
+    assert_eq!((quiet.out.as_str(), quiet.err.as_str()), ("", ""));
+    assert_eq!(desk.text("quiet.json"), run.out);
+    let run = desk.taut("curve islands.csv --method nn-crust --no-verify").ends(0);
+    assert!(run.out.contains("not checked"), "{}", run.out);
+}
+
+#[test]
+fn answers_are_verified_and_lies_rejected() {
+    let desk = desk();
+    desk.taut("curve islands.csv --method nn-crust -o curve.json").ends(0);
+    desk.taut("verify curve.json islands.csv").ends(0).says(&[
+        "Verified: 5 curves\n",
+        "\n  band      0; no point but outliers is farther off\n",
+        "\n  simple    yes; no two edges meet, by exact predicates\n",
+        "\n  certified yes; sampled at ε = 0.",
+    ]);
+    let sound = document(&desk.text("curve.json"));
+    let lie = |change: &dyn Fn(&mut Value)| {
+        let mut found = sound.clone();
+        change(&mut found);
+        desk.put("lie.json", found.to_string());
+        desk.taut("verify lie.json islands.csv").ends(1).says(&["Rejected: "]);
+    };
+    lie(&|found| found["answer"]["curves"][0]["vertices"][0][0] = 0.25.into());
+    lie(&|found| {
+        let vertices = found["answer"]["curves"][1]["vertices"].as_array_mut().unwrap();
+        vertices.swap(3, 20);
+        let rows = found["answer"]["curves"][1]["rows"].as_array_mut().unwrap();
+        rows.swap(3, 20);
+    });
+    lie(&|found| {
+        found["answer"]["curves"].as_array_mut().unwrap().pop();
+    });
+    lie(&|found| found["answer"]["outliers"] = serde_json::json!([0]));
+    lie(&|found| found["certificate"]["sampling_ratio"] = 1e-6.into());
+    let mut open = sound.clone();
+    open["answer"]["curves"][0]["closed"] = false.into();
+    desk.put("lie.json", open.to_string());
+    desk.taut("verify lie.json islands.csv").ends(1).says(&["claimed to be certified", "has ends"]);
+    desk.put("other.csv", islands().replace("8,0", "8,0.25"));
+    desk.taut("verify curve.json other.csv").ends(1).says(&["Rejected: other.csv", "hash"]);
+    desk.put("space.csv", "0,0,0\n1,1,1\n");
+    desk.taut("verify curve.json space.csv").ends(1).says(&["space.csv does not belong to"]);
+}
+
+/// Half a circle has ends, so nothing can be certified, which is no failure.
+#[test]
+fn what_is_not_certified_says_why() {
+    let desk = Desk::new();
+    let mut half = String::new();
+    for i in 0..=60 {
+        let t = std::f64::consts::PI * f64::from(i) / 60.0;
+        half += &format!("{},{}\n", t.cos(), t.sin());
+    }
+    desk.put("half.csv", half);
+    for ends in ["", " --open"] {
+        desk.taut(&format!("curve half.csv --method nn-crust{ends} -o half.json")).ends(0).says(&[
+            "\n  curves    1; open\n",
+            "\n  certified no; curve 0 has ends, which may be those of a gap\n",
+        ]);
+        desk.taut("verify half.json half.csv").ends(0).says(&["certified no; curve 0 has ends"]);
+    }
+}
+
+#[test]
+fn tours_come_with_a_bound() {
+    let desk = desk();
+    desk.taut("curve islands.csv --method tour -o tour.json").ends(0).says(&[
+        "490 points in the plane: a tour\n",
+        "\n  tour gap  ",
+        "length over its lower bound, less 1\n",
+    ]);
+    desk.taut("verify tour.json islands.csv --epsilon 0.1").ends(0).says(&[": a tour\n"]);
+    desk.taut("verify tour.json islands.csv --epsilon 1e-9").ends(1).says(&["a gap of "]);
+    desk.taut("curve islands.csv --method tour --open").ends(0).says(&["in the plane: a path\n"]);
+}
+
+#[test]
+fn geojson_has_holes_and_turns_by_the_right_hand_rule() {
+    let desk = desk();
+    desk.taut("curve islands.csv --method hnn-crust -o islands.geojson").ends(0);
+    let found = document(&desk.text("islands.geojson"));
+    assert_eq!(found["type"], "FeatureCollection");
+    let features = found["features"].as_array().unwrap();
+    let mut rings_of: Vec<usize> = Vec::new();
+    for feature in features {
+        assert_eq!(feature["geometry"]["type"], "Polygon");
+        let rings = feature["geometry"]["coordinates"].as_array().unwrap();
+        assert_eq!(feature["properties"]["curves"].as_array().unwrap().len(), rings.len());
+        for (place, ring) in rings.iter().enumerate() {
+            let ring: Vec<[f64; 2]> = serde_json::from_value(ring.clone()).unwrap();
+            assert_eq!(ring.first(), ring.last());
+            let area: f64 = ring.windows(2).map(|w| w[0][0] * w[1][1] - w[1][0] * w[0][1]).sum();
+            assert_eq!(area > 0.0, place == 0, "ring {place} turns the wrong way");
+        }
+        rings_of.push(rings.len());
+    }
+    rings_of.sort_unstable();
+    // The island with its lakes, the islet in one of them, and the other island.
+    assert_eq!(rings_of, [1, 1, 3]);
+}
+
+/// The vertices in the csv and in the path are those of the JSON, to the last bit.
+#[test]
+fn files_of_curves_hold_the_vertices() {
+    let desk = desk();
+    desk.put("line.csv", "0,0.1\n1,0.2\n2,1e-7\n3,0.1\n");
+    for (points, method) in [("islands.csv", "nn-crust"), ("line.csv", "nn-crust")] {
+        let line = format!("curve {points} --method {method}");
+        desk.taut(&format!("{line} -o a.json --path a.svg")).ends(0);
+        desk.taut(&format!("{line} -o a.csv")).ends(0);
+        desk.taut(&format!("{line} -o a.csv.gz")).ends(0);
+        let found = document(&desk.text("a.json"));
+        let mut rows: Vec<[f64; 4]> = Vec::new();
+        for (number, curve) in found["answer"]["curves"].as_array().unwrap().iter().enumerate() {
+            let closed = f64::from(u8::from(curve["closed"] == true));
+            for at in curve["vertices"].as_array().unwrap() {
+                let [x, y] = [0, 1].map(|k| at[k].as_f64().unwrap());
+                rows.push([number as f64, closed, x, y]);
+            }
+        }
+        let numbers: Vec<f64> = rows.iter().flat_map(|&[_, _, x, y]| [x, y]).collect();
+        let text = desk.text("a.csv");
+        assert_eq!(text.lines().next(), Some("curve,closed,x,y"));
+        let parsed =
+            |line: &str| -> Vec<f64> { line.split(',').map(|x| x.parse().unwrap()).collect() };
+        let read: Vec<Vec<f64>> = text.lines().skip(1).map(parsed).collect();
+        assert_eq!(read, rows);
+        assert!(desk.bytes("a.csv.gz").starts_with(&[0x1f, 0x8b]));
+        let svg = desk.text("a.svg");
+        let path = svg.split(" d=\"").nth(1).unwrap().split('"').next().unwrap();
+        let drawn: Vec<f64> = path
+            .split(|c: char| c.is_whitespace() || "MLZ".contains(c))
+            .filter(|word| !word.is_empty())
+            .map(|word| word.parse().unwrap())
+            .collect();
+        assert_eq!(drawn, numbers);
+        let closed = found["answer"]["curves"].as_array().unwrap().iter();
+        let closed = closed.filter(|curve| curve["closed"] == true).count();
+        assert_eq!(path.matches('Z').count(), closed);
+    }
+    desk.taut("curve line.csv --method nn-crust -o line.geojson").ends(0);
+    assert!(desk.text("line.geojson").contains("\"LineString\""));
+    // Curves are points again.
+    desk.taut("ball a.csv --columns x,y").ends(0);
+}
+
+#[test]
+fn pictures_are_drawn_now_and_later() {
+    let desk = desk();
+    desk.taut("curve islands.csv --method corners -o a.json --draw a.svg").ends(0);
+    desk.taut("draw a.json islands.csv -o b.svg").ends(0);
+    assert_eq!(desk.text("a.svg"), desk.text("b.svg"));
+    assert!(desk.text("a.svg").contains("5 closed curves"));
+    desk.taut("draw a.json islands.csv -o b.html").ends(0);
+    assert!(desk.text("b.html").contains("curves"));
+}
+
+#[test]
+fn few_points_are_no_error() {
+    let desk = Desk::new();
+    for (name, points) in [
+        ("one.csv", "1,2\n"),
+        ("copies.csv", "1,2\n1,2\n1,2\n"),
+        ("two.csv", "0,0\n1,0\n"),
+        ("three.csv", "0,0\n1,0\n0,1\n"),
+        ("line.csv", "0,0\n3,3\n1,1\n2,2\n"),
+        ("far.csv", "0,0\n1e150,0\n0,1e150\n1e150,1e150\n"),
+    ] {
+        desk.put(name, points);
+        for method in [
+            "auto",
+            "crust",
+            "one-step-crust",
+            "nn-crust",
+            "conservative-crust",
+            "hnn-crust",
+            "corners",
+            "tour",
+        ] {
+            for extension in ["json", "csv", "geojson"] {
+                let out = format!("out.{extension}");
+                desk.taut(&format!("curve {name} --method {method} -o {out} --path p.svg")).ends(0);
+            }
+            desk.taut(&format!("curve {name} --method {method} --draw p.svg")).ends(0);
+        }
+    }
+}
+
+#[test]
+fn what_is_wrong_is_named() {
+    let desk = desk();
+    desk.put("nan.csv", "x,y\n0,0\n1,nan\n");
+    desk.put("space.csv", "0,0,0\n1,1,1\n");
+    desk.put("one.csv", "0\n1\n");
+    desk.put("none.csv", "x,y\n");
+    for (line, parts) in [
+        ("curve nan.csv", &["nan.csv, row 3, column `y`", "must be finite"][..]),
+        ("curve space.csv", &["space.csv: points have 3 coordinates: expected 2", "--columns"]),
+        ("curve one.csv", &["one.csv: points have 1 coordinate: expected 2"]),
+        ("curve none.csv", &["none.csv"]),
+        ("curve missing.csv", &["missing.csv: no such file"]),
+        (
+            "curve islands.csv --rho 0.5",
+            &["option `--rho` is 0.5: expected a number of at least 1"],
+        ),
+        ("curve islands.csv --omega 0", &["option `--omega` is 0: expected a number above 0"]),
+        ("curve islands.csv --omega -inf", &["option `--omega`"]),
+        ("curve islands.csv -o a.svg", &["a.svg", "--draw a.svg", "--path a.svg"]),
+        ("curve islands.csv -o a.png", &["a.png", "--draw a.png"]),
+        ("curve islands.csv -o a.ply", &["a.ply: -o writes .json, .csv or .geojson"]),
+        ("curve islands.csv --path a.csv", &["a.csv: --path writes SVG"]),
+        ("curve islands.csv -o islands.csv", &["islands.csv` is the input"]),
+        ("curve islands.csv --draw a.svg --path a.svg", &["named for two outputs"]),
+        ("curve islands.csv -o nowhere/a.json", &["nowhere/a.json"]),
+    ] {
+        let before = desk.files();
+        desk.taut(line).ends(2).complains(parts);
+        assert_eq!(desk.files(), before, "{line}");
+    }
+    let run = desk.taut("curve islands.csv --method splines").ends(2);
+    assert!(run.err.contains("splines") && run.err.contains("hnn-crust"), "{}", run.err);
+    let run = desk.taut("curve").ends(2);
+    assert!(run.err.contains("POINTS"), "{}", run.err);
+}
+
+#[test]
+fn threads_and_the_order_of_rows_change_nothing() {
+    let desk = desk();
+    let mut rows: Vec<String> = islands().lines().skip(1).map(str::to_owned).collect();
+    rows.reverse();
+    rows.rotate_left(123);
+    desk.put("other.csv", format!("x,y\n{}\n", rows.join("\n")));
+    for method in ["hnn-crust", "corners", "tour"] {
+        let write = |input: &str, threads: usize| {
+            desk.taut(&format!("curve {input} --method {method} --threads {threads} -o a.csv"))
+                .ends(0);
+            desk.text("a.csv")
+        };
+        let one = write("islands.csv", 1);
+        assert_eq!(write("islands.csv", 3), one, "{method}");
+        assert_eq!(write("other.csv", 2), one, "{method}");
+    }
+}
+
+/// The sample of the tour: three loops, two of them within the third, and an open wave, with noise.
+#[test]
+fn the_sample_has_four_curves() {
+    let desk = Desk::new();
+    desk.put("loops.csv", include_bytes!("../../samples/loops.csv"));
+    desk.taut("curve loops.csv -o loops.json --draw loops.html").ends(0).says(&[
+        "1068 points in the plane: 4 curves\n",
+        "\n  curves    4; 3 closed, 1 open\n",
+        "half the width of its band, as estimated\n",
+    ]);
+    desk.taut("verify loops.json loops.csv").ends(0).says(&["Verified: 4 curves\n"]);
+    desk.taut("curve loops.csv -o loops.geojson").ends(0);
+    let found = document(&desk.text("loops.geojson"));
+    let kinds: Vec<(&str, usize)> = found["features"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|feature| {
+            let geometry = &feature["geometry"];
+            let parts = geometry["coordinates"].as_array().unwrap().len();
+            let kind = geometry["type"].as_str().unwrap();
+            (kind, if kind == "Polygon" { parts } else { 0 })
+        })
+        .collect();
+    assert_eq!(kinds.len(), 2, "{kinds:?}");
+    assert!(kinds.contains(&("Polygon", 3)) && kinds.contains(&("LineString", 0)), "{kinds:?}");
+}
