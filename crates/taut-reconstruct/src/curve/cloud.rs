@@ -46,6 +46,11 @@ impl Cloud {
         })
     }
 
+    /// The cloud of finite points that a method made.
+    pub(super) fn of(points: &[[f64; 2]]) -> Self {
+        Self::sorted(points.len(), |i| points[i].map(|x| x + 0.0))
+    }
+
     fn sorted(len: usize, at: impl Fn(usize) -> [f64; 2] + Sync) -> Self {
         let rows = hilbert_order(len, &at);
         let (mut sites, mut starts) = (Vec::with_capacity(len), Vec::with_capacity(len + 1));

@@ -9,6 +9,7 @@ mod evidence;
 mod fit;
 mod index;
 mod options;
+mod thesis;
 mod tour;
 
 use taut_certify::{Curve, Solution};
@@ -49,6 +50,9 @@ pub fn curve_of_source(
     if !(options.omega > 0.0 && options.omega.is_finite()) {
         return Err(wrong("omega", options.omega, "a number above 0"));
     }
+    if let Some(feature) = options.feature.filter(|&f| !(f > 0.0 && f.is_finite())) {
+        return Err(wrong("feature", feature, "a number above 0"));
+    }
     on_threads(options.threads, || {
         let cloud = Cloud::read(source, monitor)?;
         let outcome = solve(&cloud, options, monitor)?;
@@ -66,6 +70,7 @@ fn solve(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result
         | CurveMethod::ConservativeCrust
         | CurveMethod::HnnCrust
         | CurveMethod::Corners => clean::solve(cloud, options.method, options.ends, monitor)?,
+        CurveMethod::Thesis => thesis::thesis(cloud, options, monitor)?,
         CurveMethod::Tour => tour::tour(cloud, options, monitor)?,
         CurveMethod::Fit => fit::fit(cloud, options.ends, monitor)?,
         _ => outcome,

@@ -11,6 +11,9 @@ pub struct CurveOptions {
     pub rho: f64,
     /// Of the methods of the thesis, ω: the first disk of a sample holds (ln n)^(1 + ω) points. More than 0, default 0.1.
     pub omega: f64,
+    /// Of the methods of the thesis, the least local feature size: the least distance of the curves from their medial axis, in the
+    /// units of the coordinates. More than 0; default `None`, which estimates it.
+    pub feature: Option<f64>,
     /// Whether the answer tells the place of each row on the curves; default false.
     pub places: bool,
     /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
@@ -24,6 +27,7 @@ impl Default for CurveOptions {
             ends: Ends::Auto,
             rho: 4.0,
             omega: 0.1,
+            feature: None,
             places: false,
             threads: None,
         }
