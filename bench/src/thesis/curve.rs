@@ -28,7 +28,7 @@ struct Picture {
 fn star(n: usize, noise: f64) -> Result<Vec<f64>> {
     let corner = |k: usize| {
         let (sin, cos) = (std::f64::consts::PI * k as f64 / 5.0).sin_cos();
-        let radius = if k % 2 == 0 { 10.0 } else { 4.5 };
+        let radius = if k.is_multiple_of(2) { 10.0 } else { 4.5 };
         [-radius * sin, radius * cos]
     };
     let lots: Vec<f64> = generate(Distribution::Uniform, n, 3, SEED)?;
