@@ -107,7 +107,11 @@ fn of_many_points_an_even_sample_is_drawn_and_counted() {
     let scene = plane(&drawn[0]);
     let Some(Shape2::Points(others)) = shape(scene, "points") else { panic!("points") };
     assert_eq!(others.len(), 100);
-    assert!(scene.caption.contains("40 points are outliers, 25 of them drawn."), "{}", scene.caption);
+    assert!(
+        scene.caption.contains("40 points are outliers, 25 of them drawn."),
+        "{}",
+        scene.caption
+    );
     assert!(scene.caption.contains("of 5,000 points are drawn"), "{}", scene.caption);
     let Some(Shape2::Polygons(rings)) = shape(scene, "closed curves") else { panic!("a ring") };
     assert!((500..5000).contains(&rings[0].len()), "{}", rings[0].len());
