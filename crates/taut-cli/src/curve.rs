@@ -55,8 +55,8 @@ pub(crate) struct Args {
     #[arg(long, help_heading = "Writing")]
     json: bool,
     /// Write the curves as one path of SVG, in coordinates of the input, with nothing else in the file
-    #[arg(long, value_name = "FILE", help_heading = "Writing")]
-    path: Option<PathBuf>,
+    #[arg(long = "path", value_name = "FILE", help_heading = "Writing")]
+    svg_path: Option<PathBuf>,
     /// Draw the curves with their points; .svg and .png show one picture, .html all
     #[arg(long, value_name = "FILE", help_heading = "Writing")]
     draw: Option<PathBuf>,
@@ -96,13 +96,16 @@ impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
         let lines = self.line_format()?;
-        if let Some(path) = &self.path
+        if let Some(path) = &self.svg_path
             && PolylineFormat::of_path(path).0 != Some(PolylineFormat::Svg)
         {
             bail!("{}: --path writes SVG; name it .svg", path.display());
         }
-        let outputs: Vec<&Path> =
-            [&self.out, &self.path, &self.draw].into_iter().flatten().map(|path| &**path).collect();
+        let outputs: Vec<&Path> = [&self.out, &self.svg_path, &self.draw]
+            .into_iter()
+            .flatten()
+            .map(|path| &**path)
+            .collect();
         writing::look_at(&outputs, &[&self.points.path])?;
         let watch = self.effort.start()?;
         let mut clock = Clock::start();
@@ -189,7 +192,7 @@ impl Args {
             Some(out) => outputs.add_json(out, found)?,
             None => {}
         }
-        if let Some(path) = &self.path {
+        if let Some(path) = &self.svg_path {
             outputs.hold(polylines_file(&curves, path, Some(PolylineFormat::Svg))?);
         }
         Ok(())

@@ -114,7 +114,9 @@ fn answers_are_verified_and_lies_rejected() {
     let mut open = sound.clone();
     open["answer"]["curves"][0]["closed"] = false.into();
     desk.put("lie.json", open.to_string());
-    desk.taut("verify lie.json islands.csv").ends(1).says(&["claimed to be certified", "has ends"]);
+    desk.taut("verify lie.json islands.csv")
+        .ends(1)
+        .says(&["Rejected: lie.json: the sampling ratio"]);
     desk.put("other.csv", islands().replace("8,0", "8,0.25"));
     desk.taut("verify curve.json other.csv").ends(1).says(&["Rejected: other.csv", "hash"]);
     desk.put("space.csv", "0,0,0\n1,1,1\n");
@@ -273,7 +275,7 @@ fn what_is_wrong_is_named() {
     desk.put("one.csv", "0\n1\n");
     desk.put("none.csv", "x,y\n");
     for (line, parts) in [
-        ("curve nan.csv", &["nan.csv, row 3, column `y`", "must be finite"][..]),
+        ("curve nan.csv", &["nan.csv: row 2 (line 3), column 1 (`y`)", "must be finite"][..]),
         ("curve space.csv", &["space.csv: points have 3 coordinates: expected 2", "--columns"]),
         ("curve one.csv", &["one.csv: points have 1 coordinate: expected 2"]),
         ("curve none.csv", &["none.csv"]),

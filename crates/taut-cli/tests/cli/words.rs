@@ -2,11 +2,12 @@
 
 use crate::desk::Desk;
 
-const COMMANDS: [&str; 12] = [
+const COMMANDS: [&str; 13] = [
     "ball",
     "ellipsoid",
     "centers",
     "delaunay",
+    "curve",
     "inscribe",
     "verify",
     "draw",
@@ -46,7 +47,7 @@ fn formats_lists_what_is_read_and_written() {
         assert_eq!(words[1..3], ["yes", if format == "tsplib" { "no" } else { "yes" }], "{format}");
     }
     assert!(run.out.contains("gz, xz, zst"));
-    for format in ["ply", "obj", "off", "vtu"] {
+    for format in ["ply", "obj", "off", "vtu", "geojson", "svg"] {
         assert!(run.out.contains(&format!("\n{format} ")), "{format}");
     }
 }

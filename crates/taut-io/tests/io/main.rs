@@ -10,6 +10,7 @@ mod damaged;
 mod data;
 mod mesh;
 mod parsers;
+mod polylines;
 mod round_trip;
 mod text;
 
