@@ -72,7 +72,17 @@ fn solve(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result
         | CurveMethod::Corners => clean::solve(cloud, options.method, options.ends, monitor)?,
         CurveMethod::Thesis => thesis::thesis(cloud, options, monitor)?,
         CurveMethod::Tour => tour::tour(cloud, options, monitor)?,
-        CurveMethod::Fit => fit::fit(cloud, options.ends, monitor)?,
+        CurveMethod::Fit => fit::fit(cloud, options.ends, monitor)?.outcome,
+        CurveMethod::Auto => auto(cloud, options, monitor)?,
         _ => outcome,
     })
+}
+
+/// A fit where points are noisy, else vertices that are points.
+fn auto(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result<Outcome, Error> {
+    let fitted = fit::fit(cloud, options.ends, monitor)?;
+    if fitted.is_noisy && fitted.shows_curves {
+        return Ok(fitted.outcome);
+    }
+    clean::solve(cloud, CurveMethod::Corners, options.ends, monitor)
 }

@@ -41,8 +41,20 @@ const BAND: f64 = 3.0;
 /// Nodes for each seed.
 const PARTS: usize = 3;
 
+/// Points off a curve by less than this share of their spacing along it are taken for its vertices.
+const CLEAN: f64 = 0.1;
+
+/// The curves, and whether they are a good answer.
+pub(super) struct Fitted {
+    pub(super) outcome: Outcome,
+    /// Whether points are off the curve by a length that shows beside their spacing.
+    pub(super) is_noisy: bool,
+    /// Whether most points lie on curves.
+    pub(super) shows_curves: bool,
+}
+
 /// The curves of noisy points.
-pub(super) fn fit(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Outcome, Error> {
+pub(super) fn fit(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Fitted, Error> {
     let frame = Frame::of(&cloud.sites);
     let points: Vec<Point> = cloud.sites.iter().map(|&p| frame.inward(p)).collect();
     let index = Index::new(&points);
@@ -61,21 +73,27 @@ pub(super) fn fit(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Ou
     strands = refined(&strands, 1, &noise);
     let outliers = assign(&mut strands, &points, noise.edge.map_or(WIDTH, |edge| EDGES * edge));
     monitor.check()?;
-    let width = noise.edge.unwrap_or(BAND) * typical(&strands);
-    let curves = output::curves(&strands, &frame);
+    let deviation = typical(&strands);
+    let (curves, crossed) = output::curves(&strands, &frame, ends, monitor)?;
     let counters = [
         ("seeds", found.len()),
         ("nodes", strands.iter().map(|s| s.nodes.len()).sum()),
-        ("edged noise", usize::from(noise.edge.is_some())),
+        ("edged_noise", usize::from(noise.edge.is_some())),
+        ("edges_crossed", crossed as usize),
     ];
-    Ok(Outcome {
+    let length: f64 = strands.iter().map(Strand::length).sum();
+    let members: usize = strands.iter().map(|s| s.members.len()).sum();
+    let is_noisy = deviation > CLEAN * length / members.max(1) as f64;
+    let shows_curves = 2 * outliers.len() < points.len() && !curves.is_empty();
+    let outcome = Outcome {
         method: "fit",
         curves,
         outliers,
-        noise: frame.length(width),
+        noise: frame.length(noise.edge.unwrap_or(BAND) * deviation),
         counters: counters.into_iter().map(|(name, n)| (name.into(), n as u64)).collect(),
         ..Outcome::default()
-    })
+    };
+    Ok(Fitted { outcome, is_noisy, shows_curves })
 }
 
 /// The median of the standard deviation over all nodes.

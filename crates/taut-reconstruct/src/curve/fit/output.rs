@@ -1,20 +1,74 @@
 //! Polylines through the nodes of strands, with as many vertices between them as their error asks for.
 
 use taut_certify::CurveComponent;
+use taut_oblivious::hilbert_order;
+use taut_points::Monitor;
 
 use super::Frame;
 use super::strand::{Node, Strand, hermite};
+use crate::Error;
+use crate::curve::Ends;
+use crate::curve::chains::{chains, repair};
 
 /// Most edges between two nodes.
 const MOST: f64 = 16.0;
 
-/// One polyline for each strand that has points.
-pub(super) fn curves(strands: &[Strand], frame: &Frame) -> Vec<CurveComponent> {
-    strands.iter().filter(|s| !s.members.is_empty()).map(|s| polyline(s, frame)).collect()
+/// Fewest vertices of a piece that is left where edges crossed.
+const PIECE: usize = 8;
+
+/// One polyline for each strand that has points, unless some cross: then fewer edges, and how many are gone.
+pub(super) fn curves(
+    strands: &[Strand],
+    frame: &Frame,
+    ends: Ends,
+    monitor: &Monitor<'_>,
+) -> Result<(Vec<CurveComponent>, u64), Error> {
+    let curves: Vec<CurveComponent> =
+        strands.iter().filter(|s| !s.members.is_empty()).map(|s| polyline(s, frame)).collect();
+    let curves: Vec<CurveComponent> =
+        curves.into_iter().filter(|c| c.vertices.len() > 1 + usize::from(c.closed)).collect();
+    let vertices: Vec<[f64; 2]> = curves.iter().flat_map(|c| c.vertices.iter().copied()).collect();
+    let order = hilbert_order(vertices.len(), |i| vertices[i]);
+    let mut number = vec![0u32; vertices.len()];
+    for (place, &i) in order.iter().enumerate() {
+        number[i as usize] = place as u32;
+    }
+    let sites: Vec<[f64; 2]> = order.iter().map(|&i| vertices[i as usize]).collect();
+    let mut edges = Vec::with_capacity(vertices.len());
+    let mut first = 0;
+    for curve in &curves {
+        let count = curve.vertices.len();
+        for k in 0..count - usize::from(!curve.closed) {
+            edges.push([number[first + k], number[first + (k + 1) % count]]);
+        }
+        first += count;
+    }
+    let (edges, repairs) = repair(&sites, edges, Ends::Open, monitor)?;
+    if repairs.crossed == 0 {
+        return Ok((curves, 0));
+    }
+    let (edges, _) = repair(&sites, edges, ends, monitor)?;
+    let pieces = chains(sites.len(), &edges).into_iter().filter(|c| c.sites.len() >= PIECE);
+    let curves = pieces.map(|chain| CurveComponent {
+        vertices: chain.sites.iter().map(|&site| sites[site as usize]).collect(),
+        closed: chain.closed,
+        rows: Vec::new(),
+    });
+    Ok((curves.collect(), repairs.crossed))
 }
 
 fn polyline(strand: &Strand, frame: &Frame) -> CurveComponent {
     let mut vertices = Vec::new();
+    // An open curve goes on along its ends, to the last points there.
+    let beyond = |node: &Node, length: f64| {
+        frame
+            .outward([node.at[0] + length * node.tangent[0], node.at[1] + length * node.tangent[1]])
+    };
+    if let (false, Some(first)) = (strand.closed, strand.members.first())
+        && first.arc < 0.0
+    {
+        vertices.push(beyond(&strand.nodes[0], first.arc));
+    }
     for edge in 0..strand.edges() {
         let (a, b) = strand.edge(edge);
         let pieces = pieces(a, b);
@@ -24,6 +78,10 @@ fn polyline(strand: &Strand, frame: &Frame) -> CurveComponent {
     }
     if let Some(last) = strand.nodes.last().filter(|_| !strand.closed) {
         vertices.push(frame.outward(last.at));
+        let farthest = strand.members.last().map_or(0.0, |m| m.arc - strand.length());
+        if farthest > 0.0 {
+            vertices.push(beyond(last, farthest));
+        }
     }
     vertices.dedup();
     CurveComponent { vertices, closed: strand.closed, rows: Vec::new() }

@@ -71,7 +71,8 @@ pub(super) fn seeds(
     let spacing = spacings(points, index);
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
     order.par_sort_unstable_by(|&i, &j| {
-        spacing[i as usize].total_cmp(&spacing[j as usize]).then(i.cmp(&j))
+        let ((a, all_a), (b, all_b)) = (spacing[i as usize], spacing[j as usize]);
+        a.total_cmp(&b).then(all_a.total_cmp(&all_b)).then(i.cmp(&j))
     });
     let mut covered = vec![false; points.len()];
     let mut search = Search { points, index, window: Window::default(), ids: Vec::new() };
@@ -83,13 +84,13 @@ pub(super) fn seeds(
             monitor.check()?;
         }
         if covered[i] {
-            done.push(spacing[i]);
+            done.push(spacing[i].0);
             continue;
         }
-        if done.value().is_some_and(|usual| spacing[i] > SPARSE * usual) {
+        if done.value().is_some_and(|usual| spacing[i].0 > SPARSE * usual) {
             break;
         }
-        let Some((parabola, reach)) = search.flat(points[i], spacing[i]) else {
+        let Some((parabola, reach)) = search.flat(points[i], spacing[i].0) else {
             search.give_up(points[i], &mut covered);
             continue;
         };
@@ -159,14 +160,17 @@ fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
     seeds.into_iter().filter(|_| places.next().is_some_and(|place| !beside[place])).collect()
 }
 
-/// For each point the distance of its [`NEIGHBORS`]-th neighbour.
-fn spacings(points: &[Point], index: &Index<'_>) -> Vec<f64> {
+/// For each point the distance of its [`NEIGHBORS`]-th neighbour, and the sum of the squared distances of all.
+///
+/// Two points are often the eighth of each other. Then the sum decides which is denser: numbers of points turn with nothing.
+fn spacings(points: &[Point], index: &Index<'_>) -> Vec<(f64, f64)> {
     (0..points.len())
         .into_par_iter()
         .with_min_len(1 << 12)
         .map_init(Vec::new, |found, i| {
             index.neighbors(i, NEIGHBORS + 1, found);
-            found.last().map_or(0.0, |last| last.0.sqrt())
+            let last = found.last().map_or(0.0, |last| last.0.sqrt());
+            (last, found.iter().map(|near| near.0).sum())
         })
         .collect()
 }
@@ -206,8 +210,9 @@ impl Search<'_> {
 
     /// The first window that is flat, centred on its parabola; or the flattest, where none is flat enough.
     fn flat(&mut self, start: Point, spacing: f64) -> Option<(Parabola, f64)> {
-        let most = self.points.len() / 3;
-        let mut reach = spacing;
+        let most = (self.points.len() / 3).max(NEIGHBORS);
+        // Not the spacing itself, at which the last neighbour is inside or outside as rounding will have it.
+        let mut reach = GROWTH * spacing;
         let mut best: Option<(f64, Parabola, f64)> = None;
         loop {
             if let Some(parabola) = self.fit(start, reach) {
@@ -223,7 +228,8 @@ impl Search<'_> {
             let declined = |&(flatness, _, at): &(f64, Parabola, f64)| {
                 flatness >= FLATNESS_LEAST && reach > DECLINE * at
             };
-            if self.ids.len() > most.max(8) || best.as_ref().is_some_and(declined) {
+            let seen = self.ids.len();
+            if seen > most || seen == self.points.len() || best.as_ref().is_some_and(declined) {
                 break;
             }
             reach *= GROWTH;

@@ -1,0 +1,225 @@
+//! Curves of noisy points: laws, accuracy, connectivity, degenerate inputs.
+
+use taut_certify::{Curve, Solution};
+use taut_mesh::{Polyline, Quality, compare};
+use taut_points::Points;
+use taut_points::generate::curves::{CurveNoise, TestCurve, TruthCurves, sample_curve};
+use taut_reconstruct::{CurveMethod, CurveOptions, curve};
+
+fn fitted(points: &[f64]) -> Solution<Curve> {
+    let points = Points::new(points, 2).expect("pairs");
+    let options = CurveOptions { method: CurveMethod::Fit, ..Default::default() };
+    let found = curve(&points, &options).expect("finite points of the plane");
+    found.check(&points).expect("the checker agrees");
+    found
+}
+
+fn quality(truth: &TruthCurves, found: &Curve) -> Quality {
+    let line = |(vertices, &closed)| Polyline { vertices, closed };
+    let truth: Vec<Polyline<'_>> =
+        truth.loops.iter().map(|l| &l[..]).zip(&truth.closed).map(line).collect();
+    let found: Vec<Polyline<'_>> =
+        found.curves.iter().map(|c| line((&c.vertices[..], &c.closed))).collect();
+    compare(&truth, &found)
+}
+
+fn sampled(
+    name: &str,
+    n: usize,
+    outliers: f64,
+    gaussian: bool,
+    seed: u64,
+) -> (TruthCurves, Vec<f64>) {
+    let truth = TestCurve::named(name).expect("a test curve").build();
+    let noise = CurveNoise { delta: 0.05, outliers, gaussian, ..Default::default() };
+    let points = sample_curve(&truth, n, &noise, seed).points;
+    (truth, points)
+}
+
+/// The rms that FitConnect reaches on 2000 points at noise 0.05, as measured for the bench.
+#[test]
+fn two_thousand_points_of_each_test_curve() {
+    for (name, most) in [
+        ("circle", 0.0133),
+        ("ellipse3", 0.0214),
+        ("flower5", 0.0226),
+        ("bumpy", 0.0224),
+        ("gear20", 0.0217),
+        ("multi4", 0.0217),
+    ] {
+        let (truth, points) = sampled(name, 2000, 0.0, false, 7);
+        let found = quality(&truth, &fitted(&points).answer);
+        assert!(found.topology_right(), "{name}: {found:?}");
+        assert!(found.vertex_rms < 0.8 * most, "{name}: {found:?}");
+    }
+}
+
+/// Uniform noise has an edge, and the error falls faster than that of any average: at least as n^(−0.6) here.
+#[test]
+fn the_error_falls_with_the_number_of_points() {
+    let rms = |n: usize| -> f64 {
+        let sum: f64 = (1..=3)
+            .map(|seed| {
+                let (truth, points) = sampled("circle", n, 0.0, false, seed);
+                quality(&truth, &fitted(&points).answer).vertex_rms.ln()
+            })
+            .sum();
+        sum / 3.0
+    };
+    let slope = (rms(16_000) - rms(1000)) / 16f64.ln();
+    assert!(slope < -0.6, "{slope}");
+}
+
+#[test]
+fn outliers_and_normal_noise_leave_the_curve_where_it_is() {
+    let (truth, points) = sampled("ellipse3", 8000, 0.1, false, 3);
+    let found = fitted(&points);
+    assert!((600..1000).contains(&found.answer.outliers.len()), "{}", found.answer.outliers.len());
+    let found = quality(&truth, &found.answer);
+    assert!(found.topology_right() && found.vertex_rms < 0.005, "{found:?}");
+
+    let (truth, points) = sampled("ellipse3", 8000, 0.0, true, 3);
+    let found = fitted(&points);
+    assert!((found.answer.noise - 0.15).abs() < 0.015, "three deviations: {}", found.answer.noise);
+    let found = quality(&truth, &found.answer);
+    assert!(found.topology_right() && found.vertex_rms < 0.012, "{found:?}");
+}
+
+#[test]
+fn the_noise_is_told() {
+    let (_, points) = sampled("ellipse3", 8000, 0.0, false, 5);
+    let noise = fitted(&points).answer.noise;
+    assert!((noise - 0.05).abs() < 0.003, "{noise}");
+}
+
+/// Scaled by 10^±6, turned, shifted by a thousand diameters, shuffled: the same curves, to 1e-6 of their size.
+#[test]
+fn curves_turn_scale_and_shift_with_the_points() {
+    for (name, n, outliers, seed) in [
+        ("circle", 3000, 0.0, 1),
+        ("flower5", 4000, 0.1, 2),
+        ("multi4", 6000, 0.0, 3),
+        ("gear20", 2500, 0.0, 4),
+    ] {
+        let (_, points) = sampled(name, n, outliers, false, seed);
+        let size = points.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let original = fitted(&points).answer;
+        let (sin, cos) = 0.7_f64.sin_cos();
+        for (scale, turned, shift) in [
+            (1e6, false, 0.0),
+            (1e-6, false, 0.0),
+            (1.0, true, 0.0),
+            (1.0, false, 2e3 * size),
+            (1e3, true, 7.0),
+        ] {
+            let there = |[x, y]: [f64; 2]| {
+                let [x, y] = if turned { [cos * x - sin * y, sin * x + cos * y] } else { [x, y] };
+                [scale * (x + shift), scale * (y - shift)]
+            };
+            // Backwards, too: the order of rows means nothing.
+            let moved: Vec<f64> =
+                points.chunks(2).rev().flat_map(|p| there([p[0], p[1]])).collect();
+            let found = fitted(&moved).answer;
+            assert_eq!(found.curves.len(), original.curves.len(), "{name}");
+            assert_eq!(found.outliers.len(), original.outliers.len(), "{name}");
+            let tolerance = 1e-6 * scale * size;
+            for wanted in &original.curves {
+                let near = |c: &taut_certify::CurveComponent| {
+                    is_the_same_cycle(&c.vertices, &wanted.vertices, there, tolerance)
+                };
+                assert!(found.curves.iter().any(near), "{name} {scale} {turned} {shift}");
+            }
+        }
+    }
+}
+
+/// Whether `found` is `wanted` moved, from any start and either way round.
+fn is_the_same_cycle(
+    found: &[[f64; 2]],
+    wanted: &[[f64; 2]],
+    there: impl Fn([f64; 2]) -> [f64; 2],
+    tolerance: f64,
+) -> bool {
+    let count = wanted.len();
+    let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) <= tolerance;
+    found.len() == count
+        && (0..count).any(|start| {
+            near(found[start], there(wanted[0]))
+                && [1, count - 1].into_iter().any(|step| {
+                    (0..count).all(|k| near(found[(start + k * step) % count], there(wanted[k])))
+                })
+        })
+}
+
+#[test]
+fn threads_and_order_change_no_bit() {
+    let (_, points) = sampled("multi4", 5000, 0.05, false, 9);
+    let json = |points: &[f64], threads: usize| {
+        let points = Points::new(points, 2).expect("pairs");
+        let options =
+            CurveOptions { method: CurveMethod::Fit, threads: Some(threads), ..Default::default() };
+        let found = curve(&points, &options).expect("finite");
+        (found.to_json(), found.answer.curves)
+    };
+    let (one, curves) = json(&points, 1);
+    for threads in [2, 3, 8] {
+        assert_eq!(json(&points, threads).0, one);
+    }
+    let backwards: Vec<f64> = points.chunks(2).rev().flatten().copied().collect();
+    assert_eq!(json(&backwards, 2).1, curves);
+}
+
+/// An arc stays open, up to its last points.
+#[test]
+fn ends_stay_ends() {
+    let (truth, points) = sampled("arc", 3000, 0.0, false, 2);
+    let found = fitted(&points).answer;
+    assert_eq!(found.curves.len(), 1);
+    assert!(!found.curves[0].closed);
+    let found = quality(&truth, &found);
+    assert!(found.topology_right() && found.hausdorff < 0.1, "{found:?}");
+}
+
+#[test]
+fn few_equal_collinear_and_huge_points() {
+    let cloud: Vec<f64> = (0..400u32)
+        .map(|i| f64::from(i.wrapping_mul(2_654_435_761) >> 8) / f64::from(1 << 24))
+        .collect();
+    let line: Vec<f64> = (0..200).flat_map(|i| [f64::from(i), 3.0 * f64::from(i)]).collect();
+    let grid: Vec<f64> = (0..400).flat_map(|i| [f64::from(i % 20), f64::from(i / 20)]).collect();
+    let mut inputs = vec![vec![], vec![1.0, 2.0].repeat(50), cloud, line, grid];
+    for n in 1..5 {
+        inputs.push((0..2 * n).map(|i| f64::from(i * i % 7)).collect());
+    }
+    for points in inputs {
+        for scale in [1.0, 1e300, 1e-300] {
+            let scaled: Vec<f64> = points.iter().map(|x| x * scale).collect();
+            for method in [CurveMethod::Fit, CurveMethod::Auto] {
+                let points = Points::new(&scaled, 2).expect("pairs");
+                let options = CurveOptions { method, ..Default::default() };
+                let found = curve(&points, &options).expect("finite points");
+                found.check(&points).expect("the checker agrees");
+            }
+        }
+    }
+}
+
+/// Without noise the vertices are the points.
+#[test]
+fn auto_interpolates_clean_points_and_fits_noisy_ones() {
+    let circle: Vec<f64> = (0..200)
+        .flat_map(|i| {
+            let (sin, cos) = (f64::from(i) * std::f64::consts::TAU / 200.0).sin_cos();
+            [cos, sin]
+        })
+        .collect();
+    let of = |points: &[f64]| {
+        curve(&Points::new(points, 2).expect("pairs"), &CurveOptions::default()).expect("finite")
+    };
+    let found = of(&circle);
+    assert_eq!(found.answer.curves.len(), 1);
+    assert_eq!(found.answer.curves[0].rows.len(), 200);
+    assert_eq!(found.answer.noise, 0.0);
+    let (_, points) = sampled("ellipse3", 3000, 0.0, false, 1);
+    assert_eq!(of(&points).trace.method, "fit");
+}
