@@ -23,7 +23,9 @@ struct Random(u64);
 impl Random {
     fn of(seed: u64) -> Self {
         let mut random = Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(11));
-        (0..4).for_each(|_| drop(random.next()));
+        for _ in 0..4 {
+            random.next();
+        }
         random
     }
 
@@ -249,13 +251,17 @@ fn dense_noisy_samples_are_certified() {
         let truth = TestCurve::named(name).unwrap().build_with(3000);
         let n = (1000.0 * truth.length_over_feature) as usize;
         for seed in 0..trials(1) {
-            let noise = CurveNoise { delta: 0.05, outliers: outliers.unwrap_or(0.0), ..Default::default() };
+            let noise =
+                CurveNoise { delta: 0.05, outliers: outliers.unwrap_or(0.0), ..Default::default() };
             let rows = sample_curve(&truth, n, &noise, seed).points;
             let (loops, closed) = (truth.loops.clone(), truth.closed.clone());
             let sample = Sample { kind: name, loops, closed, rows };
             let (found, verdict) = checked(&sample.rows, CurveMethod::Fit);
             let is_right = is_right(&sample, &found);
-            println!("{name} {seed}, {n} rows, right {is_right}, claimed {}, verdict {verdict:?}", found.certificate.certified);
+            println!(
+                "{name} {seed}, {n} rows, right {is_right}, claimed {}, verdict {verdict:?}",
+                found.certificate.certified
+            );
             certified += u32::from(found.certificate.certified && is_right);
             all += 1;
         }

@@ -67,6 +67,11 @@ pub(super) fn repair(
     Ok((edges, repairs))
 }
 
+/// All pairs of edges, as numbers, that meet but in a common end.
+pub(super) fn meeting_edges(sites: &[[f64; 2]], edges: &[[u32; 2]]) -> Vec<[u32; 2]> {
+    if edges.is_empty() { Vec::new() } else { crossings::EdgeTree::new(sites, edges).pairs() }
+}
+
 /// For each site its neighbours by edges of degree at most two; the smaller one first.
 fn links(sites: usize, edges: &[[u32; 2]]) -> Vec<[u32; 2]> {
     let mut links = vec![[NONE; 2]; sites];

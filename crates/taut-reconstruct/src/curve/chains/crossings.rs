@@ -46,7 +46,7 @@ impl<'a> EdgeTree<'a> {
     }
 
     /// All pairs of edges that meet but in a common end, as numbers.
-    fn pairs(&self) -> Vec<[u32; 2]> {
+    pub(super) fn pairs(&self) -> Vec<[u32; 2]> {
         let around = |leaf: usize| {
             let (mut pairs, own) = (Vec::new(), self.leaf_bounds(leaf));
             self.boxes.meeting(self.boxes.leaf_bounds(leaf), |other| {

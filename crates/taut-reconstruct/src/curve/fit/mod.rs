@@ -4,7 +4,7 @@
 //! *Idea.* [`seeds`] finds at which scale the points look like a band, and puts places on its middle line; [`link`] joins them to
 //! chains; [`strand`] gives each point its place along a chain, so that every neighbourhood is a range of a sorted list; [`regress`]
 //! fits the curve in windows as long as it lets them be, first by least squares, then, as [`noise`] has shown of which kind the
-//! noise is, by the least largest residual where it has an edge.
+//! noise is, by the least largest residual where it has an edge; [`untangle`] cuts what would cross.
 //! *Guarantee.* The answer turns, scales and shifts with the points, to rounding. O(n log n) for windows of bounded overlap. Error
 //! O(n^(−4/5)) for noise with an edge and O(n^(−4/9)) for other noise, of smooth curves.
 //! *Trap.* Tours and crusts of noisy points run zigzag through the band: order is known only after the noise is gone.
@@ -19,6 +19,7 @@ mod output;
 mod regress;
 mod seeds;
 mod strand;
+mod untangle;
 
 use taut_points::Monitor;
 
@@ -59,10 +60,17 @@ pub(super) fn fit(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Ou
     monitor.check()?;
     let noise = Noise::of(&strands, WIDTH);
     strands = refined(&strands, 1, &noise);
-    let outliers = assign(&mut strands, &points, noise.edge.map_or(WIDTH, |edge| EDGES * edge));
+    let mut outliers = assign(&mut strands, &points, noise.edge.map_or(WIDTH, |edge| EDGES * edge));
     monitor.check()?;
     let width = noise.edge.unwrap_or(BAND) * typical(&strands);
-    let curves = output::curves(&strands, &frame);
+    strands.retain(|strand| !strand.members.is_empty());
+    let mut curves = output::curves(&strands, &frame);
+    untangle::untangle(&mut curves, monitor)?;
+    for (strand, _) in strands.iter().zip(&curves).filter(|(_, one)| one.vertices.is_empty()) {
+        outliers.extend(strand.members.iter().map(|member| member.site));
+    }
+    outliers.sort_unstable();
+    curves.retain(|one| !one.vertices.is_empty());
     let counters = [
         ("seeds", found.len()),
         ("nodes", strands.iter().map(|s| s.nodes.len()).sum()),

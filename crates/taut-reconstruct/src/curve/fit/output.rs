@@ -8,9 +8,9 @@ use super::strand::{Node, Strand, hermite};
 /// Most edges between two nodes.
 const MOST: f64 = 16.0;
 
-/// One polyline for each strand that has points.
+/// One polyline for each strand.
 pub(super) fn curves(strands: &[Strand], frame: &Frame) -> Vec<CurveComponent> {
-    strands.iter().filter(|s| !s.members.is_empty()).map(|s| polyline(s, frame)).collect()
+    strands.iter().map(|s| polyline(s, frame)).collect()
 }
 
 fn polyline(strand: &Strand, frame: &Frame) -> CurveComponent {
@@ -26,6 +26,9 @@ fn polyline(strand: &Strand, frame: &Frame) -> CurveComponent {
         vertices.push(frame.outward(last.at));
     }
     vertices.dedup();
+    if strand.closed && vertices.len() > 1 && vertices.first() == vertices.last() {
+        vertices.pop();
+    }
     CurveComponent { vertices, closed: strand.closed, rows: Vec::new() }
 }
 

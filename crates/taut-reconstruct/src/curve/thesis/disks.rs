@@ -89,9 +89,7 @@ impl<'a> Growing<'a> {
             near.clear();
             disks.within(*center, self.fetched, |i| near.push(relative(*center, disks.samples[i])));
             near.sort_unstable_by(|a, b| {
-                a.0.total_cmp(&b.0)
-                    .then(a.1[0].total_cmp(&b.1[0]))
-                    .then(a.1[1].total_cmp(&b.1[1]))
+                a.0.total_cmp(&b.0).then(a.1[0].total_cmp(&b.1[0])).then(a.1[1].total_cmp(&b.1[1]))
             });
         }
         &self.near[..self.near.partition_point(|sample| sample.0 <= radius * radius)]

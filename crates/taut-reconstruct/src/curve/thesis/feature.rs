@@ -57,7 +57,14 @@ pub(super) fn least(
     found.sort_by(f64::total_cmp);
     if std::env::var("DBG").is_ok() {
         let q = |f: f64| found[((found.len() - 1) as f64 * f) as usize];
-        eprintln!("feature q0 {:.3} q.01 {:.3} q.05 {:.3} q.1 {:.3} q.5 {:.3}", q(0.), q(0.01), q(0.05), q(0.1), q(0.5));
+        eprintln!(
+            "feature q0 {:.3} q.01 {:.3} q.05 {:.3} q.1 {:.3} q.5 {:.3}",
+            q(0.),
+            q(0.01),
+            q(0.05),
+            q(0.1),
+            q(0.5)
+        );
     }
     Ok(found.get(found.len() / 100).copied().unwrap_or(0.0))
 }
