@@ -1,6 +1,6 @@
 //! From curves to the answer with its certificate.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 use taut_certify::{
@@ -50,7 +50,7 @@ pub(super) fn finish(
     outliers.iter().for_each(|&site| is_outlier[site as usize] = true);
     let are_sites = curves.first().is_some_and(|one| !one.rows.is_empty());
     let spots = match are_sites {
-        true => at_vertices(&curves, &segments, &cloud.sites, &is_outlier),
+        true => at_vertices(&curves, &segments, cloud, &is_outlier),
         false => next_to(&segments, &cloud.sites, &is_outlier, monitor)?,
     };
     let found = match tour {
@@ -89,26 +89,22 @@ pub(super) fn finish(
 fn at_vertices(
     curves: &[CurveComponent],
     segments: &Segments,
-    sites: &[[f64; 2]],
+    cloud: &Cloud,
     is_outlier: &[bool],
 ) -> Vec<Option<Spot>> {
-    let key = |p: [f64; 2]| p.map(|x| (x + 0.0).to_bits());
-    let vertices: usize = curves.iter().map(|one| one.vertices.len()).sum();
-    let mut spots = HashMap::with_capacity(vertices);
+    let site_of_row = cloud.site_of_row();
+    let mut spots = vec![None; cloud.sites.len()];
     for (one, &first) in curves.iter().zip(&segments.first) {
-        for (vertex, &p) in one.vertices.iter().enumerate() {
+        for (vertex, &row) in one.rows.iter().enumerate() {
             // The last vertex of an open curve is at the end of an edge.
             let is_end = !one.closed && vertex > 0 && vertex + 1 == one.vertices.len();
             let (edge, share) = if is_end { (vertex - 1, 1.0) } else { (vertex, 0.0) };
-            let edge = first + edge as u32;
-            spots.insert(key(p), Spot { edge, share, distance: 0.0, left: true });
+            let site = site_of_row[row as usize] as usize;
+            let spot = Spot { edge: first + edge as u32, share, distance: 0.0, left: true };
+            spots[site] = (!is_outlier[site]).then_some(spot);
         }
     }
-    let spot = |(p, &is_outlier): (&[f64; 2], &bool)| match is_outlier {
-        true => None,
-        false => spots.get(&key(*p)).copied(),
-    };
-    sites.iter().zip(is_outlier).map(spot).collect()
+    spots
 }
 
 /// Spots of sites next to the edges.

@@ -74,4 +74,13 @@ impl Cloud {
     pub(super) fn rows(&self, site: u32) -> &[u32] {
         &self.rows[self.starts[site as usize] as usize..self.starts[site as usize + 1] as usize]
     }
+
+    /// For each row its site.
+    pub(super) fn site_of_row(&self) -> Vec<u32> {
+        let mut sites = vec![0; self.rows.len()];
+        for site in 0..self.sites.len() as u32 {
+            self.rows(site).iter().for_each(|&row| sites[row as usize] = site);
+        }
+        sites
+    }
 }

@@ -103,10 +103,11 @@ pub(super) fn is_even(samples: &[Sample], features: &Features) -> bool {
     let n = samples.len();
     let beside = BESIDE.min((n - 1) / 2);
     let most = 9.9 + 1.5 * (n as f64).ln();
-    let gap = |k: usize| gap(samples, k % n, features.length());
-    (0..n).all(|k| {
-        let sum: f64 = (1..=beside).map(|i| gap(k + i) + gap(k + n - i)).sum();
-        gap(k) * (2 * beside) as f64 <= most * sum
+    let length = features.length();
+    let way = |k: usize| samples[k % n].way + (k / n) as f64 * length;
+    (n..2 * n).all(|k| {
+        let sum = (way(k) - way(k - beside)) + (way(k + 1 + beside) - way(k + 1));
+        gap(samples, k - n, length) * (2 * beside) as f64 <= most * sum
     })
 }
 
