@@ -20,12 +20,7 @@ pub(super) struct Coarse {
 }
 
 /// The coarse neighbourhood that grows from a radius `initial`, if its radius is at most `limit`.
-pub(super) fn coarse(
-    disk: &mut Growing<'_>,
-    initial: f64,
-    limit: f64,
-    rho: f64,
-) -> Option<Coarse> {
+pub(super) fn coarse(disk: &mut Growing<'_>, initial: f64, limit: f64, rho: f64) -> Option<Coarse> {
     let (mut radius, mut taken, mut hull) = (initial, 0, Vec::new());
     loop {
         let near = disk.within(radius);
