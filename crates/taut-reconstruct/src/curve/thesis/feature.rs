@@ -38,7 +38,11 @@ pub(super) fn least_feature(
     let n = radii.len();
     let extent = spread(disks.samples);
     let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&a, &b| radii[a].total_cmp(&radii[b]));
+    // In single precision: of two samples, each the K-th nearest of the other, rounding may put either first.
+    order.sort_by(|&a, &b| {
+        let nearest = || disks.radius(a, 2).total_cmp(&disks.radius(b, 2));
+        (radii[a] as f32).total_cmp(&(radii[b] as f32)).then_with(nearest)
+    });
     let looks: Vec<usize> = order.into_iter().step_by(n.div_ceil(LOOKS).max(1)).collect();
     let mut found = each(looks.len(), monitor, |i| look(disks, looks[i], radii[looks[i]], extent))?;
     found.sort_by(f64::total_cmp);

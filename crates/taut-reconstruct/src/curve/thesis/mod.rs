@@ -131,7 +131,7 @@ pub(super) fn thesis(
     })?;
     let centers: Vec<[f64; 2]> = estimates.iter().map(|found| found.center).collect();
     let reach = |i: usize| (estimates[i].width * unit * unit).cbrt();
-    let selected = pruning::select(&centers, |i| estimates[i].width, reach);
+    let selected = pruning::select(&centers, |i| [estimates[i].width, estimates[i].height], reach);
     monitor.check()?;
     let selected: Vec<Estimate> = selected.into_iter().map(|i| estimates[i]).collect();
     let left = Cloud::of(&start.up(&selected));
