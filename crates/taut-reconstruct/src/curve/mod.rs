@@ -71,6 +71,7 @@ fn solve(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result
         | CurveMethod::HnnCrust
         | CurveMethod::Corners => clean::solve(cloud, options.method, options.ends, monitor)?,
         CurveMethod::Thesis => thesis::thesis(cloud, options, monitor)?,
+        CurveMethod::ThesisCrude => thesis::thesis_crude(cloud, options, monitor)?,
         CurveMethod::Tour => tour::tour(cloud, options, monitor)?,
         CurveMethod::Fit => fit::fit(cloud, options.ends, monitor)?.outcome,
         CurveMethod::Auto => auto(cloud, options, monitor)?,

@@ -81,16 +81,22 @@ impl<'a> Growing<'a> {
         Self { disks, center: disks.samples[sample], fetched: -1.0, near: Vec::new() }
     }
 
-    /// The samples within a distance, by distance.
+    /// The samples within a distance; what a smaller distance gave, or would give, comes first.
     pub(super) fn within(&mut self, radius: f64) -> &[Sample] {
         if radius > self.fetched {
             self.fetched = if self.fetched < 0.0 { radius } else { radius.max(2.0 * self.fetched) };
             let Self { disks, center, near, .. } = self;
             near.clear();
             disks.within(*center, self.fetched, |i| near.push(relative(*center, disks.samples[i])));
-            near.sort_unstable_by(|a, b| {
-                a.0.total_cmp(&b.0).then(a.1[0].total_cmp(&b.1[0])).then(a.1[1].total_cmp(&b.1[1]))
-            });
+            if self.fetched > radius {
+                near.sort_unstable_by(|a, b| {
+                    let places = a.1[0].total_cmp(&b.1[0]).then(a.1[1].total_cmp(&b.1[1]));
+                    a.0.total_cmp(&b.0).then(places)
+                });
+            }
+        }
+        if radius == self.fetched {
+            return &self.near;
         }
         &self.near[..self.near.partition_point(|sample| sample.0 <= radius * radius)]
     }

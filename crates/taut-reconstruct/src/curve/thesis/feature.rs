@@ -1,70 +1,72 @@
+//! The least local feature size, estimated from samples: the unit in which the formulas of the thesis hold.
+//!
+//! *Problem.* √radius(D) and W^(1/3) are lengths only if the least distance of the curve from its medial axis is 1. Nobody tells
+//! that unit, and an answer must follow its input when that is scaled, turned or moved.
+//! *Idea.* Around a sample the samples within r fill a strip of width w(r) = 2δ + r²/(2R) where the curve bends with radius R. The
+//! flatness r/w is greatest at r = 2√(δR), where w = 4δ: there R = r²/w. Another part of the curve, at a distance of 2f, ends the
+//! flatness as soon as r reaches it. So each look at a sample gives min(r²/w at the flattest r, half of the r at which the
+//! samples are round); of looks at samples spread evenly over the order by radius(D), which turns with the input, a low quantile
+//! is the estimate.
+//! *Guarantee.* On the test curves at δ = 1/144 of it: between 0.6 and 1.3 of the true one. No promise in general; the option
+//! `feature` replaces it.
+//! *Trap.* Within r < δ samples are a round blob: roundness counts only after flatness. Where the noise is so large that a look never
+//! becomes flat it says nothing, and an estimate from the other looks alone is too large.
+
 use taut_points::Monitor;
 
 use super::disks::{Disks, Growing};
-use super::each;
 use super::strip::{least_strip, reduce_to_hull};
+use super::{each, spread};
 use crate::Error;
 
-const MOST: usize = 1 << 16;
-const LOOKS: usize = 512;
+/// Looks taken; the estimate is their quantile 1/`QUANTILE`.
+const LOOKS: usize = 256;
+const QUANTILE: usize = 100;
+/// Each disk of a look is so much larger than the one before.
 const STEP: f64 = 1.15;
+/// Radius by width from which samples are flat: half of what δ = 1/144 gives, 1/(2√δ) = 6.
+const FLAT: f64 = 3.0;
+/// And below which they are round; an arc as long as its radius has 2, two parallel lines a little more than 1.
+const ROUND: f64 = 1.25;
 
-/// An estimate of the least local feature size.
-pub(super) fn least(
-    samples: &[[f64; 2]],
+/// The estimate; without a bend in sight it is the extent of the samples, and 0 only if there is none.
+pub(super) fn least_feature(
+    disks: &Disks<'_>,
     radii: &[f64],
     monitor: &Monitor<'_>,
 ) -> Result<f64, Error> {
-    let n = samples.len();
-    let mut order: Vec<u32> = (0..n as u32).collect();
-    order.sort_by(|&a, &b| radii[a as usize].total_cmp(&radii[b as usize]));
-    let mut thinned: Vec<u32> = order.iter().step_by(n.div_ceil(MOST).max(1)).copied().collect();
-    let mut looks: Vec<u32> = order.iter().step_by(n.div_ceil(LOOKS).max(1)).copied().collect();
-    thinned.sort_unstable();
-    looks.sort_unstable();
-    let _ = thinned;
-    let disks = Disks::over(samples);
-    let mut low = [f64::INFINITY; 2];
-    let mut high = [f64::NEG_INFINITY; 2];
-    for s in samples {
-        for k in 0..2 {
-            low[k] = low[k].min(s[k]);
-            high[k] = high[k].max(s[k]);
-        }
-    }
-    let diameter = if n == 0 { 0.0 } else { (high[0] - low[0]).hypot(high[1] - low[1]) };
-    let mut found = each(looks.len(), monitor, |i| {
-        let s = looks[i] as usize;
-        let mut disk = Growing::around(&disks, s);
-        let (mut radius, mut taken, mut hull) = (radii[s], 0, Vec::new());
-        let (mut best, mut size) = (0.0, diameter);
-        while radius > 0.0 && radius < 2.0 * diameter {
-            let near = disk.within(radius);
-            hull.extend(near[taken..].iter().map(|sample| sample.1));
-            taken = near.len();
-            reduce_to_hull(&mut hull);
-            let width = least_strip(&hull).width;
-            let flat = radius / width;
-            if flat > best {
-                (best, size) = (flat, (flat * radius).min(diameter));
-            } else if flat < 1.25 {
-                return size.min(radius / 2.0);
-            }
-            radius *= STEP;
-        }
-        size
-    })?;
+    let n = radii.len();
+    let extent = spread(disks.samples);
+    let mut order: Vec<usize> = (0..n).collect();
+    // In single precision: of two samples, each the K-th nearest of the other, rounding may put either first.
+    order.sort_by(|&a, &b| {
+        let nearest = || disks.radius(a, 2).total_cmp(&disks.radius(b, 2));
+        (radii[a] as f32).total_cmp(&(radii[b] as f32)).then_with(nearest)
+    });
+    let looks: Vec<usize> = order.into_iter().step_by(n.div_ceil(LOOKS).max(1)).collect();
+    let mut found = each(looks.len(), monitor, |i| look(disks, looks[i], radii[looks[i]], extent))?;
     found.sort_by(f64::total_cmp);
-    if std::env::var("DBG").is_ok() {
-        let q = |f: f64| found[((found.len() - 1) as f64 * f) as usize];
-        eprintln!(
-            "feature q0 {:.3} q.01 {:.3} q.05 {:.3} q.1 {:.3} q.5 {:.3}",
-            q(0.),
-            q(0.01),
-            q(0.05),
-            q(0.1),
-            q(0.5)
-        );
+    Ok(found.get(found.len() / QUANTILE).copied().unwrap_or(0.0))
+}
+
+/// What one sample sees, in disks from a radius on.
+fn look(disks: &Disks<'_>, sample: usize, start: f64, extent: f64) -> f64 {
+    let mut disk = Growing::around(disks, sample);
+    let (mut radius, mut taken, mut hull) = (start, 0, Vec::new());
+    let (mut flattest, mut feature) = (0.0, extent);
+    while radius > 0.0 && radius < 2.0 * extent {
+        let near = disk.within(radius);
+        hull.extend(near[taken..].iter().map(|sample| sample.1));
+        taken = near.len();
+        reduce_to_hull(&mut hull);
+        let flatness = radius / least_strip(&hull).width;
+        if flatness > flattest {
+            (flattest, feature) = (flatness, (flatness * radius).min(extent));
+        }
+        if flattest >= FLAT && (flatness < ROUND || radius >= 2.0 * feature) {
+            return feature.min(0.5 * radius);
+        }
+        radius *= STEP;
     }
-    Ok(found.get(found.len() / 100).copied().unwrap_or(0.0))
+    if flattest >= FLAT { feature } else { extent }
 }

@@ -1,28 +1,118 @@
+//! Curves through noisy samples by the algorithm of the thesis, and by its crude form.
+//!
+//! *Problem.* Samples of disjoint smooth closed curves, each moved along the normal by at most δ; neither δ nor the curves are known.
+//! *Idea.* (1) D holds K = ⌈(ln n)^(1+ω)⌉ samples around s, and initial(s) has radius √radius(D). (2) coarse(s) grows from it until
+//! radius / width(strip(s)) ≥ ρ ([`coarse`]). (3) refined(s), a slab across it of width W = min(√radius(initial), radius(coarse)/3),
+//! is turned until the rectangle around its samples is lowest; s* is the centre of that ([`refined`]). (4) By decreasing W, each
+//! centre deletes those within W^(1/3) of it ([`pruning`]). (5) NN-Crust of the centres left.
+//! *Guarantee.* For δ ≤ 1/(9ρ²) of the least local feature size and ρ ≥ 4: the curves are those sampled, and the answer tends to
+//! them, with a probability that tends to 1 as n grows. No answer crosses itself.
+//! *Trap.* Gaps of the text, and how they are closed: lengths are in units of the least local feature size, so that it is an option, or
+//! estimated ([`feature`]); the slab keeps to samples of the coarse disk; a disk that does not hold D (samples too sparse for √ to
+//! enlarge it), or that grew beyond the unit (it may then hold the whole curve and call it flat), is none, and its sample is set
+//! aside as an outlier; edges that NN-Crust leaves crossing are repaired.
+//! *Reference.* Section 4.1 of the thesis: Cheng, Funke, Golin, Kumar, Poon and Ramos, SCG 2003 and Computational Geometry 31, 2005.
+
 mod coarse;
+mod crude;
 mod disks;
 mod feature;
 mod pruning;
 mod refined;
 mod strip;
+#[cfg(test)]
+mod tests;
 
 use rayon::prelude::*;
 use taut_points::Monitor;
 
 use super::answer::Outcome;
-use super::clean;
 use super::cloud::Cloud;
-use super::{CurveMethod, CurveOptions};
+use super::{CurveMethod, CurveOptions, clean, tour};
 use crate::Error;
 use coarse::coarse;
+use crude::crude;
 use disks::{Disks, Growing};
 use refined::refined;
 
 /// What is known of a sample.
 #[derive(Clone, Copy, Debug)]
 struct Estimate {
+    /// s*.
     center: [f64; 2],
+    /// W, the width of the slab; 0 in the crude form.
     width: f64,
+    /// The height of the rectangle.
     height: f64,
+}
+
+/// The samples in units that are safe to square, the unit of the formulas, and the first disks.
+struct Start {
+    scale: Scale,
+    samples: Vec<[f64; 2]>,
+    unit: f64,
+    /// radius(initial(s)), where that disk holds D.
+    initial: Vec<Option<f64>>,
+}
+
+impl Start {
+    fn of(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result<Self, Error> {
+        let scale = Scale::of(&cloud.sites);
+        let samples: Vec<[f64; 2]> =
+            cloud.sites.iter().map(|site| site.map(|x| scale.down(x))).collect();
+        let disks = Disks::over(&samples);
+        let count = first_count(samples.len(), options.omega);
+        let radii = each(samples.len(), monitor, |s| disks.radius(s, count))?;
+        let unit = match options.feature {
+            Some(feature) => scale.down(feature),
+            None => feature::least_feature(&disks, &radii, monitor)?,
+        };
+        let initial = radii.iter().map(|radius| {
+            let initial = (radius * unit).sqrt();
+            (initial >= *radius).then_some(initial)
+        });
+        Ok(Self { scale, initial: initial.collect(), unit, samples })
+    }
+
+    /// For each sample with a first disk, the centre and the height that something makes of it; the others are outliers.
+    fn estimates(
+        &self,
+        monitor: &Monitor<'_>,
+        of: impl Fn(&mut Growing<'_>, f64) -> Option<Estimate> + Sync,
+    ) -> Result<(Vec<Estimate>, Vec<u32>), Error> {
+        let disks = Disks::over(&self.samples);
+        let found = each(self.samples.len(), monitor, |s| {
+            let found = of(&mut Growing::around(&disks, s), self.initial[s]?)?;
+            let ([x, y], [dx, dy]) = (self.samples[s], found.center);
+            Some(Estimate { center: [x + dx, y + dy], ..found })
+        })?;
+        let outliers = (0u32..).zip(&found).filter(|(_, found)| found.is_none());
+        let outliers = outliers.map(|(s, _)| s).collect();
+        Ok((found.into_iter().flatten().collect(), outliers))
+    }
+
+    /// Centres in the units of the input.
+    fn up(&self, estimates: &[Estimate]) -> Vec<[f64; 2]> {
+        estimates.iter().map(|found| found.center.map(|x| self.scale.up(x))).collect()
+    }
+
+    /// The outcome of what was made of the centres.
+    fn finish(
+        &self,
+        mut outcome: Outcome,
+        estimates: &[Estimate],
+        outliers: Vec<u32>,
+        method: CurveMethod,
+    ) -> Outcome {
+        outcome.curves.iter_mut().for_each(|curve| curve.rows.clear());
+        let all = || (0..self.samples.len() as u32).collect();
+        outcome.outliers = if outcome.curves.is_empty() { all() } else { outliers };
+        let mut heights: Vec<f64> = estimates.iter().map(|found| found.height).collect();
+        outcome.noise = self.scale.up(0.5 * median(&mut heights));
+        outcome.method = method.name();
+        outcome.counters.insert("centers".into(), estimates.len() as u64);
+        outcome
+    }
 }
 
 /// The curve through pruned centres.
@@ -31,55 +121,39 @@ pub(super) fn thesis(
     options: &CurveOptions,
     monitor: &Monitor<'_>,
 ) -> Result<Outcome, Error> {
-    let scale = Scale::of(&cloud.sites);
-    let samples = scale.down(&cloud.sites);
-    let disks = Disks::over(&samples);
-    let count = first_count(samples.len(), options.omega);
-    let radii = first_radii(&disks, count, monitor)?;
-    let unit = match options.feature {
-        Some(feature) => scale.down_length(feature),
-        None => feature::least(&samples, &radii, monitor)?,
-    };
-    let estimates = each(samples.len(), monitor, |s| {
-        let initial = (radii[s] * unit).sqrt();
-        if initial < radii[s] {
-            return None;
-        }
-        let mut disk = Growing::around(&disks, s);
-        let coarse = coarse(&mut disk, initial, initial.max(unit), options.rho)?;
+    let start = Start::of(cloud, options, monitor)?;
+    let unit = start.unit;
+    let (estimates, outliers) = start.estimates(monitor, |disk, initial| {
+        let coarse = coarse(disk, initial, initial.max(unit), options.rho)?;
         let width = (initial * unit).sqrt().min(coarse.radius / 3.0);
         let rectangle = refined(disk.within(coarse.radius), coarse.strip, width);
-        let [x, y] = samples[s];
-        let center = [x + rectangle.center[0], y + rectangle.center[1]];
-        Some(Estimate { center, width, height: rectangle.height })
+        Some(Estimate { center: rectangle.center, width, height: rectangle.height })
     })?;
-    let outliers =
-        (0u32..).zip(&estimates).filter(|(_, found)| found.is_none()).map(|(s, _)| s).collect();
-    let estimates: Vec<Estimate> = estimates.into_iter().flatten().collect();
     let centers: Vec<[f64; 2]> = estimates.iter().map(|found| found.center).collect();
     let reach = |i: usize| (estimates[i].width * unit * unit).cbrt();
-    let selected = pruning::select(&centers, |i| estimates[i].width, reach);
+    let selected = pruning::select(&centers, |i| [estimates[i].width, estimates[i].height], reach);
     monitor.check()?;
-    let selected: Vec<[f64; 2]> = selected.into_iter().map(|i| centers[i]).collect();
-    let mut outcome =
-        clean::solve(&Cloud::of(&selected), CurveMethod::NnCrust, options.ends, monitor)?;
-    let mut heights: Vec<f64> = estimates.iter().map(|found| found.height).collect();
-    finish(&mut outcome, cloud, outliers, scale);
-    outcome.method = options.method.name();
-    outcome.noise = scale.up(0.5 * median(&mut heights));
-    outcome.counters.insert("centers".into(), centers.len() as u64);
+    let selected: Vec<Estimate> = selected.into_iter().map(|i| estimates[i]).collect();
+    let left = Cloud::of(&start.up(&selected));
+    let outcome = clean::solve(&left, CurveMethod::NnCrust, options.ends, monitor)?;
+    let mut outcome = start.finish(outcome, &estimates, outliers, options.method);
     outcome.counters.insert("centers_selected".into(), selected.len() as u64);
     Ok(outcome)
 }
 
-/// Back to the units of the input.
-fn finish(outcome: &mut Outcome, cloud: &Cloud, outliers: Vec<u32>, scale: Scale) {
-    for curve in &mut outcome.curves {
-        curve.rows.clear();
-        curve.vertices.iter_mut().flatten().for_each(|v| *v = scale.up(*v));
-    }
-    outcome.outliers =
-        if outcome.curves.is_empty() { (0..cloud.sites.len() as u32).collect() } else { outliers };
+/// The tour through all crude centres.
+pub(super) fn thesis_crude(
+    cloud: &Cloud,
+    options: &CurveOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Outcome, Error> {
+    let start = Start::of(cloud, options, monitor)?;
+    let (estimates, outliers) = start.estimates(monitor, |disk, initial| {
+        let found = crude(disk, initial, initial.max(start.unit), options.rho)?;
+        Some(Estimate { center: found.center, width: 0.0, height: found.height })
+    })?;
+    let outcome = tour::tour(&Cloud::of(&start.up(&estimates)), options, monitor)?;
+    Ok(start.finish(outcome, &estimates, outliers, options.method))
 }
 
 /// K = ⌈(ln n)^(1 + ω)⌉, at least 2 and at most n.
@@ -88,9 +162,14 @@ fn first_count(n: usize, omega: f64) -> usize {
     (count as usize).max(2).min(n.max(1))
 }
 
-/// radius(D) of each sample.
-fn first_radii(disks: &Disks<'_>, count: usize, monitor: &Monitor<'_>) -> Result<Vec<f64>, Error> {
-    each(disks.samples.len(), monitor, |s| disks.radius(s, count))
+/// The diagonal of the box around points.
+fn spread(points: &[[f64; 2]]) -> f64 {
+    let mut sides = [0, 1].map(|k| {
+        let of = points.iter().map(|p| p[k]);
+        of.clone().fold(f64::NEG_INFINITY, f64::max) - of.fold(f64::INFINITY, f64::min)
+    });
+    sides.iter_mut().for_each(|side| *side = side.max(0.0));
+    sides[0].hypot(sides[1])
 }
 
 /// Samples between two looks at the monitor.
@@ -131,11 +210,7 @@ impl Scale {
         Self { exponent: if largest > 0.0 { largest.log2().floor() as i32 } else { 0 } }
     }
 
-    fn down(self, sites: &[[f64; 2]]) -> Vec<[f64; 2]> {
-        sites.iter().map(|site| site.map(|x| self.down_length(x))).collect()
-    }
-
-    fn down_length(self, x: f64) -> f64 {
+    fn down(self, x: f64) -> f64 {
         times(x, -self.exponent)
     }
 

@@ -15,7 +15,7 @@ use super::strip::Strip;
 /// The slab turns by this much to either side.
 const TURN: f64 = PI / 10.0;
 /// Angles to either side of the best one that are tried at each level.
-const ANGLES: i32 = 12;
+const ANGLES: i32 = 8;
 /// Levels; each is as much finer as there are angles.
 const LEVELS: usize = 3;
 
@@ -32,20 +32,19 @@ pub(super) struct Rectangle {
 pub(super) fn refined(near: &[Sample], strip: Strip, width: f64) -> Rectangle {
     let half = 0.5 * width;
     let ([x, y], (sin, cos)) = (strip.along, TURN.sin_cos());
-    // In the frame of the strip; those that are in no turned slab are left out, with a margin for rounding.
-    let candidates: Vec<[f64; 2]> = near
-        .iter()
-        .map(|&(_, [dx, dy])| [x * dx + y * dy, x * dy - y * dx])
-        .filter(|&[u, v]| cos * u.abs() <= 1.000_001 * half + sin * v.abs())
-        .collect();
-    let (mut best_angle, mut least) = (0.0, enclose(&candidates, half, 0.0));
+    let candidates = Candidates::of(near.iter().filter_map(|&(_, [dx, dy])| {
+        // In the frame of the strip; those that are in no turned slab are left out, with a margin for rounding.
+        let (u, v) = (x * dx + y * dy, x * dy - y * dx);
+        (cos * u.abs() <= 1.000_001 * half + sin * v.abs()).then_some([u, v])
+    }));
+    let (mut best_angle, mut least) = (0.0, candidates.enclose(half, 0.0));
     let mut step = TURN / f64::from(ANGLES);
     for _ in 0..LEVELS {
         let middle = best_angle;
         for k in (1..=ANGLES).flat_map(|k| [-k, k]) {
             let angle = middle + f64::from(k) * step;
             if angle.abs() <= 1.000_001 * TURN {
-                let found = enclose(&candidates, half, angle);
+                let found = candidates.enclose(half, angle);
                 if found.1 - found.0 < least.1 - least.0 {
                     (best_angle, least) = (angle, found);
                 }
@@ -60,16 +59,37 @@ pub(super) fn refined(near: &[Sample], strip: Strip, width: f64) -> Rectangle {
     Rectangle { height: least.1 - least.0, center: [x * u - y * v, y * u + x * v] }
 }
 
-/// How low and how high the samples reach in the slab turned by an angle.
-fn enclose(samples: &[[f64; 2]], half: f64, angle: f64) -> (f64, f64) {
-    let (sin, cos) = angle.sin_cos();
-    let (mut low, mut high) = (0.0f64, 0.0f64);
-    for &[u, v] in samples {
-        let (along, across) = (cos * u + sin * v, cos * v - sin * u);
-        // The sample itself is in the slab at offset 0, which makes 0 a neutral value for the others.
-        let across = if along.abs() <= half { across } else { 0.0 };
-        low = low.min(across);
-        high = high.max(across);
+/// Samples in groups of four, which vector instructions take at once. What is left of the last group is the sample in the middle.
+struct Candidates(Vec<([f64; 4], [f64; 4])>);
+
+impl Candidates {
+    fn of(samples: impl Iterator<Item = [f64; 2]>) -> Self {
+        let mut groups: Vec<([f64; 4], [f64; 4])> = Vec::new();
+        for (i, [u, v]) in samples.enumerate() {
+            if i % 4 == 0 {
+                groups.push(([0.0; 4], [0.0; 4]));
+            }
+            if let Some((us, vs)) = groups.last_mut() {
+                (us[i % 4], vs[i % 4]) = (u, v);
+            }
+        }
+        Self(groups)
     }
-    (low, high)
+
+    /// How low and how high the samples reach in the slab turned by an angle.
+    fn enclose(&self, half: f64, angle: f64) -> (f64, f64) {
+        let (sin, cos) = angle.sin_cos();
+        let (mut low, mut high) = ([0.0f64; 4], [0.0f64; 4]);
+        for (us, vs) in &self.0 {
+            for lane in 0..4 {
+                let (u, v) = (us[lane], vs[lane]);
+                let (along, across) = (cos * u + sin * v, cos * v - sin * u);
+                // The sample in the middle is in the slab, at 0, which makes 0 neutral for the others.
+                let across = if along.abs() <= half { across } else { 0.0 };
+                low[lane] = if across < low[lane] { across } else { low[lane] };
+                high[lane] = if across > high[lane] { across } else { high[lane] };
+            }
+        }
+        (low.into_iter().fold(0.0, f64::min), high.into_iter().fold(0.0, f64::max))
+    }
 }
