@@ -67,8 +67,8 @@ pub enum CurveMethod {
     ConservativeCrust,
     /// HNN-Crust of Ohrhallinger, Mitchell and Wimmer (2016), for samples without noise at ε < 0.47.
     HnnCrust,
-    /// Samples without noise of curves with corners, the aim of Dey and Wenger (2001): the shortest loops a local search finds among
-    /// Delaunay edges, turns counted.
+    /// Samples without noise of curves with corners, the aim of Dey and Wenger (2001): loops of Delaunay edges that are likely
+    /// where short ones with few turns are.
     Corners,
     /// A short tour through all points.
     Tour,

@@ -3,44 +3,96 @@
 //! *Problem.* At a sharp corner no sampling is dense enough for the crusts: the samples on both sides of it are nearer to each other
 //! than to it, and it is cut off.
 //! *Idea.* Where samples are dense beside what lies across, the curve is the shortest way to give each of them two edges, turns
-//! counted: a site with edges a and b that turn by α costs (w(a) + w(b))(2 − cos α) / 2, w the length to the power ¾. Short
-//! Delaunay edges first, as far as degrees allow; then, as Lin and Kernighan do with tours, exchanges of two or three edges that
-//! lower the sum. Loops may be many, so each exchange is allowed that keeps the degrees. A missing edge costs as much as one of a few
-//! spacings, so that curves may end.
+//! counted. How probable each Delaunay edge is then, over all such ways, comes from messages between neighbours ([`belief`]); sought
+//! are the loops of least doubt, an edge of probability p counting 1 − p. Likely edges first, as far as degrees allow; then, as Lin
+//! and Kernighan do with tours, exchanges of two or three edges that lower the sum. Loops may be many, so each exchange is allowed
+//! that keeps the degrees. A missing edge costs nearly as much as a wrong one at each end, so that curves may end.
 //! *Guarantee.* No two edges cross, as all are Delaunay edges. None on being the curve that was sampled: measured on outlines of
 //! letters and on coastlines.
 //! *Trap.* By length alone a corner of less than 38° is cut off: its last three samples become a triangle of their own.
 //! *Trap.* Both neighbours of t₃ are tried as t₄: in a tour one of them would cut it in two, here loops may part.
+//! *Trap.* Coastlines are often finer than their samples: of every hundred of their edges between one and two are no Delaunay edges,
+//! and no choice among these finds more.
 //! *Reference.* The aim is that of Dey and Wenger, Computational Geometry 19, 2001; shortest tours as curves: Giesen 1999; the
 //! exchanges: Lin and Kernighan 1973.
 
 use taut_points::Monitor;
 
+use super::belief;
 use super::graph::Edge;
 use super::near::NONE;
 use crate::Error;
 
-/// What a missing edge costs, in units of the edge to the second nearest Delaunay neighbour. At 1.5 the ends of strokes of letters
-/// come apart; at 20 coastlines lose a few edges in a hundred.
-const MISSING: f64 = 4.0;
+/// What a missing edge costs, where an edge of probability p costs 1 − p.
+const MISSING: f64 = 0.9;
 
-/// What an edge counts by its length: the power ¾. Long edges where samples are sparse then cost less beside short ones; of the powers
-/// 0.5, 0.7 and 1, at 1 and 2 times the cost of turning, the middle one was best on coastlines, by up to one edge in a hundred.
-fn weight(length: f64) -> f64 {
-    let root = length.sqrt();
-    root * root.sqrt()
+/// The Delaunay neighbours of all sites.
+pub(super) struct Graph {
+    /// Where the neighbours of each site begin.
+    starts: Vec<u32>,
+    /// Neighbours with the lengths of the edges, near ones first.
+    neighbors: Vec<(f64, u32)>,
+}
+
+impl Graph {
+    fn new(sites: &[[f64; 2]], edges: &[Edge]) -> Self {
+        let mut starts = vec![0u32; sites.len() + 1];
+        edges.iter().flat_map(|edge| edge.ends).for_each(|site| starts[site as usize + 1] += 1);
+        for site in 0..sites.len() {
+            starts[site + 1] += starts[site];
+        }
+        let mut next = starts.clone();
+        let mut neighbors = vec![(0.0, 0); 2 * edges.len()];
+        for edge in edges {
+            let [[x, y], [u, v]] = edge.ends.map(|site| sites[site as usize]);
+            let length = (u - x).hypot(v - y);
+            for (from, to) in [(0, 1), (1, 0)] {
+                let place = &mut next[edge.ends[from] as usize];
+                neighbors[*place as usize] = (length, edge.ends[to]);
+                *place += 1;
+            }
+        }
+        let mut graph = Self { starts, neighbors };
+        graph.sort();
+        graph
+    }
+
+    fn sort(&mut self) {
+        for range in self.starts.windows(2) {
+            let around = &mut self.neighbors[range[0] as usize..range[1] as usize];
+            around.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        }
+    }
+
+    pub(super) fn sites(&self) -> std::ops::Range<u32> {
+        0..self.starts.len() as u32 - 1
+    }
+
+    /// Where the neighbours of a site begin in the list of all.
+    pub(super) fn first(&self, site: u32) -> usize {
+        self.starts[site as usize] as usize
+    }
+
+    pub(super) fn around(&self, site: u32) -> &[(f64, u32)] {
+        &self.neighbors[self.first(site)..self.first(site + 1)]
+    }
+
+    /// The same, with 1 − p for lengths; likely ones first.
+    fn doubts(mut self, sites: &[[f64; 2]], monitor: &Monitor<'_>) -> Result<Self, Error> {
+        let probabilities = belief::probabilities(sites, &self, monitor)?;
+        for (near, probability) in self.neighbors.iter_mut().zip(probabilities) {
+            near.0 = 1.0 - probability;
+        }
+        self.sort();
+        Ok(self)
+    }
 }
 
 /// The search: edges as links of sites, a missing one as a link to [`NONE`].
-struct Search<'a> {
-    sites: &'a [[f64; 2]],
-    /// Where the neighbours of each site begin in `neighbors`.
-    starts: Vec<u32>,
-    /// Delaunay neighbours with the weights of the edges, near ones first.
-    neighbors: Vec<(f64, u32)>,
+struct Search {
+    /// Neighbours by doubt.
+    graph: Graph,
     links: Vec<[u32; 2]>,
-    /// What a missing edge costs at each site.
-    missing: Vec<f64>,
     /// What each site costs as it is.
     costs: Vec<f64>,
     /// Sites to start from.
@@ -62,7 +114,8 @@ pub(super) fn edges(
     graph: &[Edge],
     monitor: &Monitor<'_>,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    let mut search = Search::new(sites, graph);
+    let mut search = Search::new(Graph::new(sites, graph).doubts(sites, monitor)?);
+    monitor.check()?;
     search.greedy();
     monitor.check()?;
     search.improve(monitor)?;
@@ -73,50 +126,20 @@ pub(super) fn edges(
         .collect())
 }
 
-impl<'a> Search<'a> {
-    fn new(sites: &'a [[f64; 2]], graph: &[Edge]) -> Self {
-        let mut starts = vec![0u32; sites.len() + 1];
-        graph.iter().flat_map(|edge| edge.ends).for_each(|site| starts[site as usize + 1] += 1);
-        for site in 0..sites.len() {
-            starts[site + 1] += starts[site];
-        }
-        let mut next = starts.clone();
-        let mut neighbors = vec![(0.0, 0); 2 * graph.len()];
-        for edge in graph {
-            let [[x, y], [u, v]] = edge.ends.map(|site| sites[site as usize]);
-            let length = ((u - x) * (u - x) + (v - y) * (v - y)).sqrt();
-            for (from, to) in [(0, 1), (1, 0)] {
-                let place = &mut next[edge.ends[from] as usize];
-                neighbors[*place as usize] = (weight(length), edge.ends[to]);
-                *place += 1;
-            }
-        }
-        let mut search = Self {
-            sites,
+impl Search {
+    fn new(graph: Graph) -> Self {
+        let count = graph.sites().len();
+        Self {
+            links: vec![[NONE; 2]; count],
             costs: Vec::new(),
-            starts,
-            neighbors,
-            links: vec![[NONE; 2]; sites.len()],
-            missing: Vec::new(),
-            queue: (0..sites.len() as u32).collect(),
-            queued: vec![true; sites.len()],
-        };
-        for site in 0..sites.len() {
-            let range = search.starts[site] as usize..search.starts[site + 1] as usize;
-            let around = &mut search.neighbors[range];
-            around.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            search.missing.push(match around {
-                [] => 0.0,
-                [only] => MISSING * only.0,
-                [_, second, ..] => MISSING * second.0,
-            });
+            queue: graph.sites().collect(),
+            queued: vec![true; count],
+            graph,
         }
-        search
     }
 
     fn around(&self, site: u32) -> &[(f64, u32)] {
-        let [first, end] = [site, site + 1].map(|i| self.starts[i as usize] as usize);
-        &self.neighbors[first..end]
+        self.graph.around(site)
     }
 
     /// Whether an edge may be there: a Delaunay edge, or a missing one.
@@ -124,24 +147,13 @@ impl<'a> Search<'a> {
         a == NONE || b == NONE || self.around(a).iter().any(|near| near.1 == b)
     }
 
-    /// What a site costs with these two links.
-    fn cost(&self, site: u32, [a, b]: [u32; 2]) -> f64 {
-        let missing = self.missing[site as usize];
-        let [x, y] = self.sites[site as usize];
-        let spoke = |to: u32| {
-            let [u, v] = self.sites[to as usize];
-            let (u, v) = (u - x, v - y);
-            (u, v, (u * u + v * v).sqrt())
+    /// What a site costs with these two links: half of what they do, as the other half is their other ends'.
+    fn cost(&self, site: u32, links: [u32; 2]) -> f64 {
+        let doubt = |to: u32| {
+            let near = self.around(site).iter().find(|near| near.1 == to);
+            near.map_or(MISSING, |near| near.0 / 2.0)
         };
-        match (a, b) {
-            (NONE, NONE) => 2.0 * missing,
-            (NONE, to) | (to, NONE) => missing + weight(spoke(to).2) / 2.0,
-            (a, b) => {
-                let (a, b) = (spoke(a), spoke(b));
-                let cosine = (a.0 * b.0 + a.1 * b.1) / (a.2 * b.2);
-                (weight(a.2) + weight(b.2)) / 2.0 * (2.0 + cosine)
-            }
-        }
+        doubt(links[0]) + doubt(links[1])
     }
 
     /// By how much an exchange lowers the costs of the sites in it.

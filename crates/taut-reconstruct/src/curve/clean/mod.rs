@@ -1,5 +1,6 @@
 //! Curves through samples without noise: their vertices are the samples.
 
+mod belief;
 mod conservative_crust;
 mod corners;
 mod crust;
