@@ -9,7 +9,7 @@ use taut::reconstruct::Error;
 use taut::{CurveMethod, CurveOptions, Ends, curve_of_source};
 
 use crate::numbers::{float, whole};
-use crate::rows::{Rows, numbers, table};
+use crate::rows::{Rows, table};
 use crate::solution::{Solution, row_numbers};
 use crate::work::interruptible;
 
@@ -22,6 +22,7 @@ pub(crate) fn curve(
     open: bool,
     rho: f64,
     omega: f64,
+    feature: Option<f64>,
     places: bool,
     threads: &Bound<'_, PyAny>,
 ) -> PyResult<Solution> {
@@ -34,6 +35,7 @@ pub(crate) fn curve(
         ends: if open { Ends::Open } else { Ends::Auto },
         rho,
         omega,
+        feature,
         places,
         threads: whole("threads", threads, "at least 1, or None")?,
     };

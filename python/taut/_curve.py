@@ -32,6 +32,7 @@ def curve(
     open: bool = False,  # noqa: A002, the name at the door
     rho: float = 4.0,
     omega: float = 0.1,
+    feature: float | None = None,
     places: bool = False,
     threads: int | None = None,
 ) -> Solution:
@@ -53,6 +54,8 @@ def curve(
         Of "thesis" and "thesis-crude": how much longer than wide the coarse disk of a point must be.
     omega : float > 0, default 0.1
         Of "thesis" and "thesis-crude": the first disk of a point holds (ln n)^(1 + omega) points.
+    feature : float > 0, optional
+        Of "thesis" and "thesis-crude": the least distance of the curves from their medial axis. Estimated if not given.
     places : bool, default False
         Whether the answer is to tell the place of each row on the curves.
     threads : int >= 1, optional
@@ -103,4 +106,4 @@ def curve(
     >>> tour.check([[0, 0], [3, 0], [3, 4], [0, 4]]).tour_gap < 0.01
     True
     """
-    return _native.curve(as_rows(points), method, open, rho, omega, places, threads)
+    return _native.curve(as_rows(points), method, open, rho, omega, feature, places, threads)

@@ -78,6 +78,7 @@ def curve(
     open: bool,
     rho: float,
     omega: float,
+    feature: float | None,
     places: bool,
     threads: int | None,
 ) -> Solution: ...

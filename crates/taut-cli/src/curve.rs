@@ -41,6 +41,10 @@ pub(crate) struct Args {
     /// Of thesis and thesis-crude, ω: the first disk of a point holds (ln n)^(1 + ω) points; above 0
     #[arg(long, value_name = "REAL", default_value_t = CurveOptions::default().omega, allow_negative_numbers = true)]
     omega: f64,
+    /// Of thesis and thesis-crude, the least distance of the curves from their medial axis, in the unit of the points; by default
+    /// it is estimated
+    #[arg(long, value_name = "REAL", allow_negative_numbers = true)]
+    feature: Option<f64>,
     /// Say for each point in the JSON which place on the curves is next to it
     #[arg(long)]
     places: bool,
@@ -204,6 +208,7 @@ impl Args {
             ends: if self.open { Ends::Open } else { Ends::Auto },
             rho: self.rho,
             omega: self.omega,
+            feature: self.feature,
             places: self.places,
             threads: None, // those of the pool, which reading and checking use as well
         }

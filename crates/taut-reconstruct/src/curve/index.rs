@@ -167,10 +167,8 @@ impl<'a> Index<'a> {
 /// Puts a candidate in its place among the k best.
 #[inline]
 fn insert(found: &mut Vec<(f64, u32)>, k: usize, candidate: (f64, u32)) {
-    if found.len() == k {
-        if candidate >= found[k - 1] {
-            return;
-        }
+    if found.len() == k && candidate >= found[k - 1] {
+        return;
     }
     let place = found.iter().rposition(|kept| *kept <= candidate).map_or(0, |p| p + 1);
     // Candidates may come twice.

@@ -62,7 +62,6 @@ pub fn curve_of_source(
 
 /// The curves by the method chosen.
 fn solve(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result<Outcome, Error> {
-    let outcome = Outcome { method: options.method.name(), ..Outcome::default() };
     Ok(match options.method {
         CurveMethod::Crust
         | CurveMethod::OneStepCrust
@@ -75,7 +74,6 @@ fn solve(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result
         CurveMethod::Tour => tour::tour(cloud, options, monitor)?,
         CurveMethod::Fit => fit::fit(cloud, options.ends, monitor)?.outcome,
         CurveMethod::Auto => auto(cloud, options, monitor)?,
-        _ => outcome,
     })
 }
 

@@ -241,7 +241,7 @@ impl Search {
         let mut best = None;
         for edges in [2, 3] {
             for t1 in self.links[t2 as usize] {
-                self.from_edge(&mut best, edges, t1, t2);
+                self.leave_edge(&mut best, edges, t1, t2);
             }
             if best.is_some() {
                 break;
@@ -255,7 +255,7 @@ impl Search {
         if site == NONE { 0.0 } else { self.costs[site as usize] }
     }
 
-    fn from_edge(&self, best: &mut Option<Exchange>, edges: usize, t1: u32, t2: u32) {
+    fn leave_edge(&self, best: &mut Option<Exchange>, edges: usize, t1: u32, t2: u32) {
         // More than this is not to be had by dropping edges here: a bound of the search, not of what is possible.
         let budget = self.slack(t1).max(self.slack(t2));
         for &(added, t3) in self.around(t2) {

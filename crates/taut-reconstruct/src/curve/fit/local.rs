@@ -162,8 +162,7 @@ pub(super) fn cholesky(m: [[f64; 3]; 3], right: [f64; 3]) -> Option<[f64; 3]> {
                 sum -= l[i][k] * l[j][k];
             }
             if i == j {
-                // Written so that NaN is refused too.
-                if !(sum > 1e-12 * m[i][i]) {
+                if sum.is_nan() || sum <= 1e-12 * m[i][i] {
                     return None;
                 }
                 l[i][i] = sum.sqrt();

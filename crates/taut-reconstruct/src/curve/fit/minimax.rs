@@ -46,7 +46,7 @@ pub(super) fn minimax(points: &[Point]) -> Option<Minimax> {
             break;
         }
         // Signs at the reference are +E, −E, +E, −E.
-        let side = |place: usize| if place % 2 == 0 { error > 0.0 } else { error < 0.0 };
+        let side = |place: usize| if place.is_multiple_of(2) { error > 0.0 } else { error < 0.0 };
         let above = residual(points[worst]) > 0.0;
         let u = points[worst][0];
         let after = reference.iter().filter(|&&i| points[i][0] < u).count();
@@ -128,7 +128,7 @@ fn level(points: &[Point], reference: [usize; 4]) -> Option<([f64; 3], f64)> {
     }
     // The weight of the last point is positive, so those of the first are negative, positive, negative.
     let error = -sum / size;
-    let value = |i: usize| p[i][1] - if i % 2 == 0 { error } else { -error };
+    let value = |i: usize| p[i][1] - if i.is_multiple_of(2) { error } else { -error };
     // Newton's form through the first three.
     let (u0, u1, u2) = (p[0][0], p[1][0], p[2][0]);
     let d01 = (value(1) - value(0)) / (u1 - u0);
