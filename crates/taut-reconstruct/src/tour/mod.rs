@@ -3,8 +3,8 @@
 //! *Problem.* A closed tour through all sites, or a path, as short as can be, without crossings, and potentials that prove how short
 //! any tour must be.
 //! *Idea.* Candidates from the Delaunay triangulation; fragments that grow together (greedy matching); moves of three edges; the
-//! ascent of Held and Karp, from potentials read off the tour; and, where the bound leaves something open, kicks that are repaired by moves. Crossings that
-//! are left are removed with exact signs.
+//! ascent of Held and Karp, from potentials read off the tour; and, where the bound leaves something open, kicks that are repaired by
+//! moves. Crossings that are left are removed with exact signs.
 //! *Guarantee.* The tour is a simple polygon or path. The bound holds for all tours, not only those of candidates. All budgets count
 //! events. O(n) memory.
 //! *Trap.* Sites on a line have no closed tour that is simple: they get the path from end to end.
