@@ -30,7 +30,7 @@ pub(super) struct Ascent<'a> {
     candidates: &'a Candidates,
     tree: LeastTree<'a>,
     /// The special site; none for paths.
-    special: Option<u32>,
+    pub(super) special: Option<u32>,
     /// Current and best.
     potentials: Vec<f64>,
     pub(super) best: Vec<f64>,
@@ -45,12 +45,18 @@ pub(super) struct Ascent<'a> {
 }
 
 impl<'a> Ascent<'a> {
-    pub(super) fn new(candidates: &'a Candidates, n: usize, special: Option<u32>) -> Self {
+    /// From potentials, one for each site.
+    pub(super) fn new(
+        candidates: &'a Candidates,
+        special: Option<u32>,
+        potentials: Vec<f64>,
+    ) -> Self {
+        let n = potentials.len();
         Self {
             candidates,
             tree: LeastTree::new(candidates, n, special),
             special,
-            potentials: vec![0.0; n],
+            potentials,
             best: vec![0.0; n],
             bound: f64::NEG_INFINITY,
             open: vec![0; n],

@@ -3,8 +3,8 @@
 //! *Problem.* A closed tour through all sites, or a path, as short as can be, without crossings, and potentials that prove how short
 //! any tour must be.
 //! *Idea.* Candidates from the Delaunay triangulation; fragments that grow together (greedy matching); moves of three edges; the
-//! ascent of Held and Karp; and, where the bound leaves something open, kicks that are repaired by moves. Crossings that
-//! are left are removed with exact signs.
+//! ascent of Held and Karp, from potentials read off the tour; and, where the bound leaves something open, kicks that are repaired by
+//! moves. Crossings that are left are removed with exact signs.
 //! *Guarantee.* The tour is a simple polygon or path. The bound holds for all tours, not only those of candidates. All budgets count
 //! events. O(n) memory.
 //! *Trap.* Sites on a line have no closed tour that is simple: they get the path from end to end.
@@ -19,6 +19,7 @@ mod kicks;
 mod metric;
 mod moves;
 mod simple;
+mod start;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -86,11 +87,11 @@ pub(crate) fn tour(sites: &[[f64; 2]], open: bool, monitor: &Monitor<'_>) -> Res
     let search = Search { metric: &metric, candidates: &candidates, reach: n };
     let mut cycle = Cycle::new(order);
     shorten(search, &mut cycle, monitor)?;
-    let special = (!open).then(|| special_site(&candidates, n));
-    let mut ascent = Ascent::new(&candidates, n, special);
     let length = metric.length(cycle.order());
     let steps = (WORK / n).clamp(STEPS_MIN, STEPS);
-    if !ascent.climb(length, steps / 3, monitor)? {
+    let (mut ascent, mut closed) = begin(&metric, &candidates, &cycle, length, open, monitor)?;
+    closed = closed || ascent.climb(length, steps / 3, monitor)?;
+    if !closed {
         let near: Vec<u32> = (0..n as u32).filter(|&v| ascent.open[v as usize] != 0).collect();
         let (kicked, climbed) = rayon::join(
             || kick(search, &mut cycle, &near, KICKS * near.len(), monitor),
@@ -102,7 +103,7 @@ pub(crate) fn tour(sites: &[[f64; 2]], open: bool, monitor: &Monitor<'_>) -> Res
     let untangled = untangle(sites, &mut cycle, monitor)?;
     let mut order = cycle.order().to_vec();
     // A path begins behind the node it was closed through, a tour at the special site.
-    let first = special.unwrap_or(n as u32);
+    let first = ascent.special.unwrap_or(n as u32);
     let at = order.iter().position(|&v| v == first).unwrap_or(0);
     order.rotate_left(at);
     if open {
@@ -110,6 +111,33 @@ pub(crate) fn tour(sites: &[[f64; 2]], open: bool, monitor: &Monitor<'_>) -> Res
     }
     let events = Events { steps: ascent.steps, untangled };
     finish(sites, &metric, order, open, |v| ascent.best[v as usize], events, monitor)
+}
+
+/// The first step of the ascent, for a closed tour of two that begin differently the better one; true if that is all.
+fn begin<'a>(
+    metric: &Metric,
+    candidates: &'a Candidates,
+    cycle: &Cycle,
+    length: f64,
+    open: bool,
+    monitor: &Monitor<'_>,
+) -> Result<(Ascent<'a>, bool), Error> {
+    let n = metric.sites();
+    let step = |special: Option<u32>, potentials: Vec<f64>| {
+        let mut ascent = Ascent::new(candidates, special, potentials);
+        let closed = ascent.climb(length, 1, monitor)?;
+        Ok::<_, Error>((ascent, closed))
+    };
+    if open {
+        return step(None, vec![0.0; n]);
+    }
+    let (special, potentials) = start::of_cycle(metric, cycle.order());
+    let told = step(Some(special), potentials)?;
+    if told.1 {
+        return Ok(told);
+    }
+    let plain = step(Some(special_site(candidates, n)), vec![0.0; n])?;
+    Ok(if told.0.bound > plain.0.bound { told } else { plain })
 }
 
 /// All moves that shorten.

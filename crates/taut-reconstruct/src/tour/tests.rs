@@ -133,6 +133,24 @@ fn dense_samples_of_a_curve_give_the_curve_with_a_closed_bound() {
     }
 }
 
+/// Random samples have gaps that the least tree leaves out; potentials read off the tour prove them at once.
+#[test]
+fn random_samples_of_a_curve_are_proved_in_a_few_steps() {
+    for seed in 0..6 {
+        let mut random = numbers(seed);
+        let n = 3000u32;
+        let mut angles: Vec<f64> = (0..n).map(|_| std::f64::consts::TAU * random()).collect();
+        angles.sort_by(f64::total_cmp);
+        let at = |&t: &f64| [(3.0 + (5.0 * t).cos()) * t.cos(), (3.0 + (5.0 * t).cos()) * t.sin()];
+        let sites: Vec<[f64; 2]> = angles.iter().map(at).collect();
+        let found = find(&sites, false);
+        let step = |w: &[u32]| (w[0] + 1) % n == w[1] || (w[1] + 1) % n == w[0];
+        assert!(found.order.windows(2).all(step), "{seed}");
+        assert!(found.events.steps <= 12, "{seed}: {}", found.events.steps);
+        assert!(found.length <= found.lower * (1.0 + 3e-7), "{} {}", found.length, found.lower);
+    }
+}
+
 #[test]
 fn uniform_points_are_within_five_percent_of_their_bound_and_threads_change_nothing() {
     let mut random = numbers(5);
