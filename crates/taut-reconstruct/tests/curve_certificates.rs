@@ -89,16 +89,16 @@ fn smooth(random: &mut Random) -> Sample {
     let (kind, truth) = match random.below(8) {
         0 | 1 => {
             let name = NAMES[random.below(6)];
-            (name, TestCurve::named(name).unwrap().build_with(1500))
+            (name, TestCurve::named(name).unwrap().build_with(800))
         }
         2 => {
             let name = ["arc", "wave"][random.below(2)];
-            (name, TestCurve::named(name).unwrap().build_with(1500))
+            (name, TestCurve::named(name).unwrap().build_with(800))
         }
-        _ => ("random", TestCurve::random((random.next() * 1e6) as u64).build_with(1000)),
+        _ => ("random", TestCurve::random((random.next() * 1e6) as u64).build_with(600)),
     };
     let density = 500f64.powf(random.next());
-    let n = ((density * truth.length_over_feature) as usize).clamp(3, 12_000);
+    let n = ((density * truth.length_over_feature) as usize).clamp(3, 5_000);
     let noise = CurveNoise {
         delta: [0.0, random.next().powi(2) / 3.0][random.below(2)],
         gaussian: random.below(4) == 0,
@@ -134,13 +134,13 @@ fn circles(random: &mut Random) -> Sample {
         disks.truncate(1);
     }
     let kind = if gap > 0.0 { "open circle" } else { kind };
-    let n = (20.0 * 300f64.powf(random.next())) as usize;
+    let n = (20.0 * 200f64.powf(random.next())) as usize;
     let places = |k: usize, ([x, y], r): ([f64; 2], f64)| -> Vec<[f64; 2]> {
         let count = k + usize::from(gap > 0.0);
         let turn = |i: usize| (TAU - gap) * i as f64 / k as f64;
         (0..count).map(|i| [x + r * turn(i).cos(), y + r * turn(i).sin()]).collect()
     };
-    let loops: Vec<_> = disks.iter().map(|&disk| places(1500, disk)).collect();
+    let loops: Vec<_> = disks.iter().map(|&disk| places(800, disk)).collect();
     let closed = vec![gap == 0.0; loops.len()];
     let outliers = random.or_none(0.2);
     let mut rows = Vec::new();

@@ -156,7 +156,7 @@ pub(super) fn nearest(edges: &Edges, p: [f64; 2], most: f64) -> Option<(usize, f
     let (mut best, mut found) = (most * most, None);
     edges.tree.least(
         &mut best,
-        |area| area.distance_squared(p),
+        |area, _| area.distance_squared(p),
         |edge, best| {
             let t = foot(edges, p, edge);
             let [x, y] = beside(edges, p, edge, t);

@@ -157,7 +157,20 @@ fn at(
     }
     edges.tree.least(
         &mut radius,
-        |area| far.least(area),
+        |area, [start, last]| {
+            if start < base || last >= base + count {
+                return far.least(area);
+            }
+            // All of the box in the part before the vertex, or in that after it.
+            let steps = |edge: usize| (edge - base + count - vertex) % count;
+            let (on, end) = (steps(start), steps(last));
+            let is_in = |part: [usize; 2]| on <= end && (end < part[1] || count - 1 - on < part[0]);
+            match (is_in(own), is_in(near)) {
+                (true, _) => f64::INFINITY,
+                (_, true) => close.least(area),
+                _ => far.least(area),
+            }
+        },
         |edge, radius| {
             let mut tangent = &far;
             if base <= edge && edge < base + count {

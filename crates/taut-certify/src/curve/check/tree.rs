@@ -58,12 +58,12 @@ impl Tree {
         Tree { areas, leaves, edges }
     }
 
-    /// Calls `look` for edges in leaves whose least value, as `least` tells it of a box, is below `best`, the lesser child
-    /// first; `look` lowers `best`.
+    /// Calls `look` for edges in leaves whose least value, as `least` tells it of a box and the first and last edge in it, is below
+    /// `best`, the lesser child first; `look` lowers `best`.
     pub(super) fn least(
         &self,
         best: &mut f64,
-        least: impl Fn(&Area) -> f64,
+        least: impl Fn(&Area, [usize; 2]) -> f64,
         mut look: impl FnMut(usize, &mut f64),
     ) {
         if self.edges == 0 {
@@ -71,7 +71,15 @@ impl Tree {
         }
         let mut open = [(0usize, 0.0f64); 64];
         let mut count = 1;
-        open[0] = (1, least(&self.areas[1]));
+        let value = |node: usize| {
+            let size = LEAF * (self.leaves >> node.ilog2());
+            let first = (node - (1 << node.ilog2())) * size;
+            match first < self.edges {
+                true => least(&self.areas[node], [first, (first + size).min(self.edges) - 1]),
+                false => f64::INFINITY,
+            }
+        };
+        open[0] = (1, value(1));
         while count > 0 {
             count -= 1;
             let (node, bound) = open[count];
@@ -83,8 +91,7 @@ impl Tree {
                 (first..(first + LEAF).min(self.edges)).for_each(|edge| look(edge, best));
                 continue;
             }
-            let [one, other] =
-                [2 * node, 2 * node + 1].map(|child| (child, least(&self.areas[child])));
+            let [one, other] = [2 * node, 2 * node + 1].map(|child| (child, value(child)));
             let (near, far) = if other.1 < one.1 { (other, one) } else { (one, other) };
             open[count] = far;
             open[count + 1] = near;

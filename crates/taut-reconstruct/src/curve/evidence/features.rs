@@ -119,7 +119,21 @@ impl Tangents<'_> {
         let of_curve = self.segments.of_curve(self.curve);
         self.segments.search(
             &mut radius,
-            |area| far.least(area),
+            |area, edges| {
+                // What forgives more bounds more of what is near, and what is left out needs no look.
+                if edges.start < of_curve.start || edges.end > of_curve.end {
+                    return far.least(area);
+                }
+                let on = (edges.start - of_curve.start + n - vertex) % n;
+                let is_within = |before: usize, after: usize| {
+                    on + edges.len() <= after || on + edges.len() <= n && on + before >= n
+                };
+                match () {
+                    () if is_within(before, after) => f64::INFINITY,
+                    () if is_within(near_before, near_after) => near.least(area),
+                    () => far.least(area),
+                }
+            },
             |edge, radius| {
                 let mut touching = &far;
                 if of_curve.contains(&edge) {

@@ -145,28 +145,32 @@ impl Segments {
         best.1.map(|spot| Spot { distance: best.0.sqrt(), ..spot })
     }
 
-    /// Calls `see` for each edge in boxes whose value is below `best`, which `see` lowers.
+    /// Calls `see` for each edge in boxes whose value is below `best`, which `see` lowers. A box comes with the edges in it.
     pub(super) fn search(
         &self,
         best: &mut f64,
-        value: impl Fn(&[f64; 4]) -> f64,
+        value: impl Fn(&[f64; 4], std::ops::Range<usize>) -> f64,
         mut see: impl FnMut(usize, &mut f64),
     ) {
+        let edges_of = |level: usize, node: usize| {
+            let size = FAN.pow(level as u32 + 1);
+            node * size..((node + 1) * size).min(self.len())
+        };
         let mut open = Vec::with_capacity(64);
         open.push((self.levels.len() - 1, 0, 0.0));
         while let Some((level, node, bound)) = open.pop() {
             if bound >= *best {
                 continue;
             }
-            let from = node * FAN;
             if level == 0 {
-                (from..(from + FAN).min(self.len())).for_each(|edge| see(edge, best));
+                edges_of(0, node).for_each(|edge| see(edge, best));
                 continue;
             }
+            let from = node * FAN;
             let below = &self.levels[level - 1];
             let start = open.len();
             let children = (from..(from + FAN).min(below.len()))
-                .map(|node| (level - 1, node, value(&below[node])));
+                .map(|node| (level - 1, node, value(&below[node], edges_of(level - 1, node))));
             open.extend(children.filter(|child| child.2 < *best));
             open[start..].sort_unstable_by(|a, b| b.2.total_cmp(&a.2));
         }
