@@ -167,7 +167,8 @@ fn is_right(sample: &Sample, found: &Solution<Curve>) -> bool {
 
 fn checked(rows: &[f64], method: CurveMethod) -> (Solution<Curve>, CurveVerdict) {
     let points = Points::new(rows, 2).unwrap();
-    let options = CurveOptions { method, places: rows.len() % 4 == 0, ..Default::default() };
+    let options =
+        CurveOptions { method, places: rows.len().is_multiple_of(4), ..Default::default() };
     let found = curve(&points, &options).unwrap();
     let verdict = found.check(&points).unwrap_or_else(|e| panic!("{method:?}: {e}"));
     (found, verdict)

@@ -48,6 +48,7 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
         places: wish & 2 != 0,
         rho: if wish & 4 == 0 { 4.0 } else { 1.0 },
         omega: if wish & 8 == 0 { 0.1 } else { 1.0 },
+        feature: if wish & 16 == 0 { None } else { Some(0.25) },
         threads: None,
     };
     let forth: Vec<_> =
