@@ -55,8 +55,8 @@ pub struct Place(pub u32, pub f64);
 /// measured by φ, at each vertex the radius of the smallest ball that touches the curve there and meets it elsewhere, on either
 /// side, made 1-Lipschitz along the curve; it is at least the local feature size, the distance to the medial axis. For
 /// vertices that are rows this is the reasoning behind the theorem on NN-Crust (Dey and Kumar 1999): closed smooth curves with the same
-/// sample, at ε ≤ 1/3 for each, have the same polygon. For noise there is no such theorem; thresholds stand a good way below
-/// those where trials with known curves first failed.
+/// sample, at ε ≤ 1/3 for each, have the same polygon. For noise there is no such theorem; the thresholds are
+/// choices, tried on known curves.
 ///
 /// It is evidence, not proof, for points cannot tell of what was not sampled. What deceives it: a curve with features smaller than the gaps
 /// between its samples; a curve open by less than such a gap; two strands nearer to each other than the noise is wide, with

@@ -116,25 +116,28 @@ fn smooth(random: &mut Random) -> Sample {
     Sample { kind, loops, closed, rows }
 }
 
-/// Two circles, nested or side by side, with little room between, noise up to it and beyond, or one with an arc missing.
+/// Two circles, nested or side by side, with little room between, and noise up to what the certificate supposes, a third of their
+/// feature size; or one with an arc missing, longer than gaps that chance makes.
 fn circles(random: &mut Random) -> Sample {
     let room = 0.6 * random.next().powi(2);
-    let noise = random.or_none(1.2 * room);
     let gaussian = random.below(4) == 0;
+    // The feature size is half the room between; normal noise is three times as wide as its deviation.
+    let noise = random.or_none(room / if gaussian { 18.0 } else { 6.0 });
     let (kind, mut disks) = match random.below(3) {
         0 => ("nested", vec![([0.0; 2], 1.0), ([0.0; 2], 1.0 - room)]),
         1 => ("side by side", vec![([0.0; 2], 1.0), ([1.5 + room, 0.0], 0.5)]),
         _ => ("nearly nested", vec![([0.0; 2], 1.0), ([0.3, 0.0], 0.7 - room)]),
     };
+    let n = (20.0 * 200f64.powf(random.next())) as usize;
+    let chance = 1.5 * (10.0 + 1.5 * (n as f64).ln()) * TAU / n as f64;
     let gap = match random.below(3) {
-        0 => TAU * random.next().powi(3),
+        0 => (TAU * random.next().powi(3)).max(chance).min(0.9 * TAU),
         _ => 0.0,
     };
     if gap > 0.0 {
         disks.truncate(1);
     }
     let kind = if gap > 0.0 { "open circle" } else { kind };
-    let n = (20.0 * 200f64.powf(random.next())) as usize;
     let places = |k: usize, ([x, y], r): ([f64; 2], f64)| -> Vec<[f64; 2]> {
         let count = k + usize::from(gap > 0.0);
         let turn = |i: usize| (TAU - gap) * i as f64 / k as f64;

@@ -187,7 +187,7 @@ fn few_equal_collinear_and_huge_points() {
         .collect();
     let line: Vec<f64> = (0..200).flat_map(|i| [f64::from(i), 3.0 * f64::from(i)]).collect();
     let grid: Vec<f64> = (0..400).flat_map(|i| [f64::from(i % 20), f64::from(i / 20)]).collect();
-    let mut inputs = vec![vec![], vec![1.0, 2.0].repeat(50), cloud, line, grid];
+    let mut inputs = vec![vec![], [1.0, 2.0].repeat(50), cloud, line, grid];
     for n in 1..5 {
         inputs.push((0..2 * n).map(|i| f64::from(i * i % 7)).collect());
     }
