@@ -15,6 +15,7 @@ use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::radii::Balls;
 use crate::reading::{formats, scalar, wrong_option};
+use crate::watch::Watch;
 use crate::writing;
 
 /// Generate a seeded point set; point i depends on the seed and i alone.
@@ -105,8 +106,10 @@ impl Args {
         if self.n == 0 {
             bail!("-n is 0: expected at least 1 point");
         }
+        // Before a curve is made, which takes threads.
+        let watch = self.effort.start()?;
         if self.distribution == CURVE {
-            return self.write(&self.curve()?);
+            return self.write(&watch, &self.curve()?);
         }
         for (name, is_given) in
             [("shape", self.shape.is_some()), ("outliers", self.outliers.is_some())]
@@ -124,8 +127,8 @@ impl Args {
             .transpose()
             .map_err(refused)?;
         match &balls {
-            Some(balls) => self.write(balls),
-            None => self.write(&points),
+            Some(balls) => self.write(&watch, balls),
+            None => self.write(&watch, &points),
         }
     }
 
@@ -163,8 +166,7 @@ impl Args {
         CurveSource::new(shape.build(), self.n, noise, self.seed, self.scalar).map_err(refused)
     }
 
-    fn write(&self, source: &dyn PointSource) -> anyhow::Result<Outcome> {
-        let watch = self.effort.start()?;
+    fn write(&self, watch: &Watch, source: &dyn PointSource) -> anyhow::Result<Outcome> {
         let format = match self.format {
             None if writing::is_stream(&self.out) => Some(Format::Csv),
             given => given,
