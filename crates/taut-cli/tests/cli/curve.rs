@@ -117,7 +117,7 @@ fn answers_are_verified_and_lies_rejected() {
     desk.taut("verify lie.json islands.csv")
         .ends(1)
         .says(&["Rejected: lie.json: the sampling ratio"]);
-    desk.put("other.csv", islands().replace("8,0", "8,0.25"));
+    desk.put("other.csv", islands() + "9,9\n");
     desk.taut("verify curve.json other.csv").ends(1).says(&["Rejected: other.csv", "hash"]);
     desk.put("space.csv", "0,0,0\n1,1,1\n");
     desk.taut("verify curve.json space.csv").ends(1).says(&["space.csv does not belong to"]);
@@ -285,7 +285,7 @@ fn what_is_wrong_is_named() {
             &["option `--rho` is 0.5: expected a number of at least 1"],
         ),
         ("curve islands.csv --omega 0", &["option `--omega` is 0: expected a number above 0"]),
-        ("curve islands.csv --omega -inf", &["option `--omega`"]),
+        ("curve islands.csv --omega=-inf", &["option `--omega`"]),
         ("curve islands.csv -o a.svg", &["a.svg", "--draw a.svg", "--path a.svg"]),
         ("curve islands.csv -o a.png", &["a.png", "--draw a.png"]),
         ("curve islands.csv -o a.ply", &["a.ply: -o writes .json, .csv or .geojson"]),

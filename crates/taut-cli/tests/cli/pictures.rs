@@ -99,7 +99,7 @@ fn the_tour_shows_and_verifies_every_tool() {
     ] {
         assert!(page.contains(part), "no {part}");
     }
-    assert_eq!(page.matches("verified</th><td>yes</td>").count(), 12);
+    assert_eq!(page.matches("verified</th><td>yes</td>").count(), 13);
     // Each command of the page does what it says.
     for tool in ["ball", "ellipsoid", "centers", "inscribe ellipsoid", "delaunay"] {
         for line in page.lines().filter_map(|line| line.split(&format!("taut {tool} ")).nth(1)) {

@@ -39,7 +39,7 @@ fn csv_is_read_back_to_the_same_bits() {
     let rows: Vec<&str> = text.lines().collect();
     assert_eq!(rows[3], "0,1,2,0.30000000000000004");
     assert_eq!(rows[4], "1,0,-1,1e-300");
-    assert_eq!(rows[5], "1,0,0,1e300");
+    assert_eq!(rows[5], "1,0,0,1e+300");
     assert_eq!(rows[10], "3,1,9,9");
 }
 
@@ -49,7 +49,7 @@ fn geojson_turns_rings_and_finds_holes() {
         written(&curves(), "curves.geojson"),
         "{\"type\": \"FeatureCollection\", \"features\": [\n\
          {\"type\": \"Feature\", \"properties\": {\"curves\": [1]}, \"geometry\": {\"type\": \"LineString\", \
-         \"coordinates\": [[-1, 1e-300], [0, 1e300]]}},\n\
+         \"coordinates\": [[-1, 1e-300], [0, 1e+300]]}},\n\
          {\"type\": \"Feature\", \"properties\": {\"curves\": [2, 0]}, \"geometry\": {\"type\": \"Polygon\", \
          \"coordinates\": [[[0, 0], [8, 0], [8, 8], [0, 8], [0, 0]], \
          [[1, 1], [3, 1.5], [2, 0.30000000000000004], [1, 1]]]}},\n\

@@ -208,13 +208,14 @@ fn side(edges: &Edges, p: [f64; 2], edge: usize) -> f64 {
     if turn < 0.0 { -1.0 } else { 1.0 }
 }
 
-/// Whether places named are next to their rows, as far as rounding tells.
+/// Whether places named are next to their rows, as far as rounding of coordinates as large as the largest tells.
 fn places(
     curve: &Curve,
     edges: &Edges,
     rows: &[[f64; 2]],
     monitor: &Monitor<'_>,
 ) -> Result<(), CheckError> {
+    let largest = rows.iter().flatten().fold(0.0, |most: f64, x| most.max((x * edges.scale).abs()));
     let pairs: Vec<usize> = (0..rows.len()).collect();
     pairs.par_chunks(ROWS).try_for_each(|block| {
         monitor.check().map_err(ReadError::from)?;
@@ -229,8 +230,8 @@ fn places(
             let next =
                 nearest(edges, p, f64::INFINITY).map(|(edge, t)| distance(edges, p, edge, t));
             let next = next.unwrap_or(f64::INFINITY);
-            let size = p[0].abs() + p[1].abs() + next;
-            match claimed <= next * (1.0 + 1e-9) + 64.0 * U * (size + 1.0 * f64::MIN_POSITIVE) {
+            let size = 2.0 * largest + next + f64::MIN_POSITIVE;
+            match claimed <= next * (1.0 + 1e-9) + 64.0 * U * size {
                 true => Ok(()),
                 false => {
                     let (distance, nearest) = (claimed / edges.scale, next / edges.scale);
