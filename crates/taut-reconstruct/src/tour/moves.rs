@@ -170,7 +170,8 @@ impl Search<'_> {
     ) {
         let metric = self.metric;
         let t4 = cycle.ahead(t3, !forward);
-        let sum = g1 + metric.between(t3, t4);
+        let second = metric.between(t3, t4);
+        let (sum, least) = (g1 + second, least + ROUNDING * second);
         let gain = sum - metric.between(t4, t1);
         if gain > least {
             offer(gain, Move::Two([t1, t2, t3, t4]));
@@ -186,8 +187,9 @@ impl Search<'_> {
             }
             let turned = cycle.steps(t2, t5, forward) < i;
             let t6 = cycle.ahead(t5, forward == turned);
-            let gain = g2 + metric.between(t5, t6) - metric.between(t6, t1);
-            if gain > least {
+            let third = metric.between(t5, t6);
+            let gain = g2 + third - metric.between(t6, t1);
+            if gain > least + ROUNDING * third {
                 offer(gain, Move::TwoTwice([t1, t2, t3, t4, t5, t6]));
             }
         }
@@ -206,7 +208,8 @@ impl Search<'_> {
     ) {
         let metric = self.metric;
         let t4 = cycle.ahead(t3, forward);
-        let sum = g1 + metric.between(t3, t4);
+        let second = metric.between(t3, t4);
+        let (sum, least) = (g1 + second, least + ROUNDING * second);
         let i = cycle.steps(t2, t3, forward);
         for (t5, added) in self.tried(t4) {
             let g2 = sum - added;
@@ -217,14 +220,16 @@ impl Search<'_> {
                 continue;
             }
             let t6 = cycle.ahead(t5, forward);
-            let gain = g2 + metric.between(t5, t6) - metric.between(t6, t1);
-            if gain > least {
+            let third = metric.between(t5, t6);
+            let gain = g2 + third - metric.between(t6, t1);
+            if gain > least + ROUNDING * third {
                 offer(gain, Move::Exchange([t1, t2, t3, t4, t5, t6]));
             }
             if t5 != t2 {
                 let t6 = cycle.ahead(t5, !forward);
-                let gain = g2 + metric.between(t5, t6) - metric.between(t6, t1);
-                if gain > least {
+                let third = metric.between(t5, t6);
+                let gain = g2 + third - metric.between(t6, t1);
+                if gain > least + ROUNDING * third {
                     offer(gain, Move::TurnBoth([t1, t2, t3, t4, t5, t6]));
                 }
             }
