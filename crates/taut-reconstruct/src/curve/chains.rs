@@ -67,6 +67,13 @@ pub(super) fn repair(
     Ok((edges, repairs))
 }
 
+/// Drops edges until no two meet but in a common end, and says how many.
+///
+/// For sites whose scaled copies [`repair`] was given: what is exact there need not be so here.
+pub(super) fn remove_crossings(sites: &[[f64; 2]], edges: &mut Vec<[u32; 2]>) -> u64 {
+    crossings::remove(sites, edges)
+}
+
 /// For each site its neighbours by edges of degree at most two; the smaller one first.
 fn links(sites: usize, edges: &[[u32; 2]]) -> Vec<[u32; 2]> {
     let mut links = vec![[NONE; 2]; sites];

@@ -18,7 +18,7 @@ use taut_certify::CurveComponent;
 use taut_points::Monitor;
 
 use super::answer::Outcome;
-use super::chains::{chains, repair};
+use super::chains::{chains, remove_crossings, repair};
 use super::cloud::Cloud;
 use super::options::{CurveMethod, Ends};
 use crate::Error;
@@ -37,7 +37,10 @@ pub(super) fn solve(
     let sites = normalised(&cloud.sites);
     let edges = edges(&sites, method, monitor)?;
     monitor.check()?;
-    let (edges, repairs) = repair(&sites, edges, ends, monitor)?;
+    let (mut edges, mut repairs) = repair(&sites, edges, ends, monitor)?;
+    if let Cow::Owned(_) = sites {
+        repairs.crossed += remove_crossings(&cloud.sites, &mut edges);
+    }
     let mut lonely = vec![true; sites.len()];
     edges.iter().flatten().for_each(|&site| lonely[site as usize] = false);
     let curves = chains(sites.len(), &edges).into_iter().map(|chain| CurveComponent {
