@@ -53,8 +53,8 @@ pub struct Place(pub u32, pub f64);
 /// The rows that are not outliers sample the answer itself so densely, and lie so near to it, beside its own features, that a
 /// closed smooth curve that they sample as well is homeomorphic to the answer and passes by them in the same order. The features are
 /// measured by φ, at each vertex the radius of the smallest ball that touches the curve there and meets it elsewhere, on either
-/// side, made 1-Lipschitz along the curve; it is at least the local feature size, the distance to the medial axis. For
-/// vertices that are rows this is the reasoning behind the theorem on NN-Crust (Dey and Kumar 1999): closed smooth curves with the same
+/// side, made 1-Lipschitz along the curve; it is at least the local feature size, the distance to the medial axis. Where vertices are rows,
+/// balls are looked for up to eight times the gaps beside them only, as ε is not told below 1/16. For vertices that are rows this is the reasoning behind the theorem on NN-Crust (Dey and Kumar 1999): closed smooth curves with the same
 /// sample, at ε ≤ 1/3 for each, have the same polygon. For noise there is no such theorem; the thresholds are
 /// choices, tried on known curves.
 ///
@@ -70,7 +70,7 @@ pub struct CurveCertificate {
     /// No row but the outliers is farther than this from the curve; 0 where vertices are rows, as each row then is a vertex.
     pub band: f64,
     /// ε: over all gaps between places of rows that follow each other along a curve, the largest of half the gap over φ.
-    /// [`f64::MAX`] where it is not known, or larger.
+    /// [`f64::MAX`] where it is not known, or larger. Where vertices are rows, 1/16 says that it may be less.
     pub sampling_ratio: f64,
     /// Over all rows but the outliers, the largest of the distance from the curve over φ next to it. [`f64::MAX`] where it is not known.
     pub noise_ratio: f64,

@@ -20,6 +20,7 @@ mod sampling;
 mod signs;
 mod simple;
 mod structure;
+mod tangent;
 pub(super) mod tour;
 mod tree;
 

@@ -10,7 +10,9 @@
 mod clusters;
 mod features;
 mod nearest;
+mod quick;
 mod samples;
+mod sight;
 
 use taut_certify::CurveComponent;
 use taut_points::{Cancelled, Monitor};
@@ -66,7 +68,7 @@ pub(super) fn evidence(
     let mut evidence = Evidence { sampling_ratio: 0.0, noise_ratio: 0.0, certified: true };
     let mut gaps = Vec::with_capacity(sites.len());
     for (curve, spots) in by_curve.into_iter().enumerate() {
-        let features = Features::of(segments, curve, band, monitor)?;
+        let features = Features::of(segments, curve, band, are_sites, monitor)?;
         let samples: Vec<Sample> = samples::along(spots, segments, curve, &features);
         let (sampling, noise) = samples::ratios(&samples, &features);
         evidence.sampling_ratio = evidence.sampling_ratio.max(sampling);

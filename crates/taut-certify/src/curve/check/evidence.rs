@@ -74,7 +74,7 @@ pub(super) fn judge(
     let (mut sampling_ratio, mut noise_ratio) = (0.0f64, 0.0f64);
     let (mut doubts, mut gaps) = (Doubts::default(), vec![]);
     for (curve, feet) in feet.iter().enumerate() {
-        let features = features::features(edges, curve, band, monitor)?;
+        let features = features::features(edges, curve, band, placed.is_exact, monitor)?;
         let samples = sampling::ordered(feet, edges.first_edge[curve], &features);
         let (vertex, turn) = features.corner;
         if turn > TURN_MOST {

@@ -3,11 +3,17 @@
 //!
 //! The definition is that of the certificate: see `CurveCertificate`. The tangent at a vertex is that of the circle through
 //! two vertices at least three bands away along the curve on either side; offsets are forgiven by a quarter of the band.
+//! Where vertices are points, φ is sought up to what `sight` says, a few times the gaps: most circles of that size have nothing in
+//! them but the vertices beside theirs, which `quick` finds for a row of vertices at once.
+
+use std::f64::consts::TAU;
 
 use rayon::prelude::*;
 use taut_points::{Cancelled, Monitor};
 
 use super::nearest::Segments;
+use super::quick::Row;
+use super::sight::sight;
 
 /// How far the vertices that give a tangent are at least, over the band.
 const SPAN: f64 = 3.0;
@@ -21,6 +27,8 @@ const SMOOTH: f64 = 2.0;
 const CLOSE: f64 = 1.0 / 64.0;
 /// Vertices of one task.
 const TASK: usize = 1 << 10;
+/// Vertices that are looked at together.
+const ROW: usize = 1 << 5;
 
 pub(super) struct Features {
     /// The way to each vertex, and around.
@@ -36,6 +44,7 @@ impl Features {
         segments: &Segments,
         curve: usize,
         band: f64,
+        are_points: bool,
         monitor: &Monitor<'_>,
     ) -> Result<Self, Cancelled> {
         let edges = &segments.ends[segments.of_curve(curve)];
@@ -47,10 +56,24 @@ impl Features {
             way.push(way[way.len() - 1] + (x * x + y * y).sqrt());
         }
         let tangents = Tangents { segments, curve, edges, way: &way, band };
+        let sight = if are_points { sight(&way) } else { vec![way[n] / TAU; n] };
         let of_task = |task: usize| -> Result<Vec<[f64; 2]>, Cancelled> {
             monitor.check()?;
             let end = n.min((task + 1) * TASK);
-            Ok((task * TASK..end).map(|vertex| tangents.radius_and_turn(vertex)).collect())
+            let mut found = Vec::with_capacity(TASK);
+            for first in (task * TASK..end).step_by(ROW) {
+                let row = first..end.min(first + ROW);
+                let quick = if are_points {
+                    Row::of(segments, curve, &way, &sight, row.clone())
+                } else {
+                    None
+                };
+                found.extend(row.map(|vertex| {
+                    let told = quick.as_ref().and_then(|quick| quick.radius_and_turn(vertex));
+                    told.unwrap_or_else(|| tangents.radius_and_turn(vertex, sight[vertex]))
+                }));
+            }
+            Ok(found)
         };
         let found: Vec<Vec<[f64; 2]>> =
             (0..n.div_ceil(TASK)).into_par_iter().map(of_task).collect::<Result<_, _>>()?;
@@ -85,8 +108,8 @@ struct Tangents<'a> {
 }
 
 impl Tangents<'_> {
-    /// R and the turn at a vertex; 0 and 0 where the curve is too short for its band.
-    fn radius_and_turn(&self, vertex: usize) -> [f64; 2] {
+    /// R, if it is below `most`, and the turn at a vertex; 0 and 0 where the curve is too short for its band.
+    fn radius_and_turn(&self, vertex: usize, most: f64) -> [f64; 2] {
         let (n, span) = (self.edges.len(), SPAN * self.band);
         let length = self.way[n];
         let way = |k: usize| self.way[k % n] + (k / n) as f64 * length;
@@ -110,7 +133,7 @@ impl Tangents<'_> {
         let rounding = 8.0 * f64::EPSILON * (v[0].abs() + v[1].abs());
         let far = Touching { at: v, normal: [-ty / size, tx / size], forgiven: rounding };
         let near = Touching { forgiven: rounding.max(FORGIVEN * self.band), ..far };
-        let mut radius = length / std::f64::consts::TAU;
+        let mut radius = most;
         radius = radius.min(near.radius(ax, ay)).min(near.radius(bx, by));
         // Edges between the two vertices are left out. `low` is the first that is near, counted on around the curve.
         let (near_before, near_after) = (before_by(NEAR * span), after_by(NEAR * span));

@@ -145,6 +145,46 @@ impl Segments {
         best.1.map(|spot| Spot { distance: best.0.sqrt(), ..spot })
     }
 
+    /// Whether the box of an edge is within a distance of p; parts of the range of edges that are `left_out` do not count.
+    pub(super) fn meets(
+        &self,
+        p: [f64; 2],
+        distance: f64,
+        left_out: impl Fn(&std::ops::Range<usize>) -> bool,
+    ) -> bool {
+        let is_far = |area: &[f64; 4]| {
+            let x = (area[0] - p[0]).max(p[0] - area[2]).max(0.0);
+            let y = (area[1] - p[1]).max(p[1] - area[3]).max(0.0);
+            x * x + y * y > distance * distance
+        };
+        let mut open = vec![(self.levels.len() - 1, 0)];
+        while let Some((level, node)) = open.pop() {
+            let edges = self.edges_of(level, node);
+            if is_far(&self.levels[level][node]) || left_out(&edges) {
+                continue;
+            }
+            if level > 0 {
+                let children = node * FAN..((node + 1) * FAN).min(self.levels[level - 1].len());
+                open.extend(children.map(|child| (level - 1, child)));
+                continue;
+            }
+            for edge in edges {
+                let [a, b] = self.ends[edge];
+                let area = [a[0].min(b[0]), a[1].min(b[1]), a[0].max(b[0]), a[1].max(b[1])];
+                if !left_out(&(edge..edge + 1)) && !is_far(&area) {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// The edges below a box.
+    fn edges_of(&self, level: usize, node: usize) -> std::ops::Range<usize> {
+        let size = FAN.pow(level as u32 + 1);
+        node * size..((node + 1) * size).min(self.len())
+    }
+
     /// Calls `see` for each edge in boxes whose value is below `best`, which `see` lowers. A box comes with the edges in it.
     pub(super) fn search(
         &self,
@@ -152,10 +192,6 @@ impl Segments {
         value: impl Fn(&[f64; 4], std::ops::Range<usize>) -> f64,
         mut see: impl FnMut(usize, &mut f64),
     ) {
-        let edges_of = |level: usize, node: usize| {
-            let size = FAN.pow(level as u32 + 1);
-            node * size..((node + 1) * size).min(self.len())
-        };
         let mut open = Vec::with_capacity(64);
         open.push((self.levels.len() - 1, 0, 0.0));
         while let Some((level, node, bound)) = open.pop() {
@@ -163,14 +199,14 @@ impl Segments {
                 continue;
             }
             if level == 0 {
-                edges_of(0, node).for_each(|edge| see(edge, best));
+                self.edges_of(0, node).for_each(|edge| see(edge, best));
                 continue;
             }
             let from = node * FAN;
             let below = &self.levels[level - 1];
             let start = open.len();
             let children = (from..(from + FAN).min(below.len()))
-                .map(|node| (level - 1, node, value(&below[node], edges_of(level - 1, node))));
+                .map(|node| (level - 1, node, value(&below[node], self.edges_of(level - 1, node))));
             open.extend(children.filter(|child| child.2 < *best));
             open[start..].sort_unstable_by(|a, b| b.2.total_cmp(&a.2));
         }

@@ -1,0 +1,44 @@
+//! How far around a vertex φ is sought: several times the gaps near it.
+//!
+//! What ε is asked for needs no more, and circles that have a thousand vertices on their border would take as long for each vertex.
+
+/// The sight over a gap beside it: no ε below 1/16 is told.
+const SIGHT: f64 = 9.0;
+
+/// For vertices at `way` along a closed curve, with the way around as the last entry: the largest, over all gaps, of so many times the
+/// gap less the way there, and no more than the radius of a circle as long as the curve.
+pub(super) fn sight(way: &[f64]) -> Vec<f64> {
+    let n = way.len() - 1;
+    let (gap, most) = (|k: usize| way[k + 1] - way[k], way[n] / std::f64::consts::TAU);
+    let of = |k: usize| (SIGHT * gap(k).max(gap((k + n - 1) % n))).min(most);
+    let mut sight: Vec<f64> = (0..n).map(of).collect();
+    // A second time around, as the largest may be near the end.
+    for _ in 0..2 {
+        for k in 0..n {
+            let next = (k + 1) % n;
+            sight[next] = sight[next].max(sight[k] - gap(k));
+        }
+        for k in (0..n).rev() {
+            sight[k] = sight[k].max(sight[(k + 1) % n] - gap(k));
+        }
+    }
+    sight
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_long_gap_is_seen_from_around() {
+        // 100 gaps of 1, one of 7.
+        let mut way: Vec<f64> = (0..=100).map(f64::from).collect();
+        way.push(107.0);
+        let found = sight(&way);
+        let most = 107.0 / std::f64::consts::TAU;
+        for (k, &sight) in found.iter().enumerate() {
+            let away = (100 - k).min(k) as f64;
+            assert_eq!(sight, (most - away).max(8.0), "{k}");
+        }
+    }
+}
