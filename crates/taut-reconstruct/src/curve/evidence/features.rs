@@ -22,7 +22,7 @@ const FORGIVEN: f64 = 0.25;
 /// How far along the curve offsets are forgiven, over the span.
 const NEAR: f64 = 4.0;
 /// An edge of the same curve counts with its ends alone up to this many of its lengths along the curve.
-const SMOOTH: f64 = 2.0;
+pub(super) const SMOOTH: f64 = 2.0;
 /// How much R may exceed the least radius: on a circle every point gives the same.
 const CLOSE: f64 = 1.0 / 64.0;
 /// Vertices of one task.
@@ -68,9 +68,9 @@ impl Features {
                 } else {
                     None
                 };
-                found.extend(row.map(|vertex| {
-                    let told = quick.as_ref().and_then(|quick| quick.radius_and_turn(vertex));
-                    told.unwrap_or_else(|| tangents.radius_and_turn(vertex, sight[vertex]))
+                found.extend(row.map(|vertex| match &quick {
+                    Some(quick) => quick.radius_and_turn(vertex),
+                    None => tangents.radius_and_turn(vertex, sight[vertex]),
                 }));
             }
             Ok(found)
@@ -122,19 +122,14 @@ impl Tangents<'_> {
         }
         let point = |k: usize| self.edges[k % n][0];
         let (v, ends) = (point(here), [point(here - before), point(here + after)]);
-        let [[ax, ay], [bx, by]] = ends.map(|end| [end[0] - v[0], end[1] - v[1]]);
-        let (aa, bb) = (ax * ax + ay * ay, bx * bx + by * by);
-        if aa == 0.0 || bb == 0.0 {
+        let Some((far, turn)) = Touching::at_vertex(ends[0], v, ends[1]) else {
             return [0.0, 0.0];
-        }
-        let turn = (ay * bx - ax * by).atan2(-(ax * bx + ay * by)).abs();
-        let (tx, ty) = (bx / bb - ax / aa, by / bb - ay / aa);
-        let size = (tx * tx + ty * ty).sqrt();
-        let rounding = 8.0 * f64::EPSILON * (v[0].abs() + v[1].abs());
-        let far = Touching { at: v, normal: [-ty / size, tx / size], forgiven: rounding };
-        let near = Touching { forgiven: rounding.max(FORGIVEN * self.band), ..far };
+        };
+        let near = Touching { forgiven: far.forgiven.max(FORGIVEN * self.band), ..far };
         let mut radius = most;
-        radius = radius.min(near.radius(ax, ay)).min(near.radius(bx, by));
+        for [x, y] in ends {
+            radius = radius.min(near.radius(x - v[0], y - v[1]));
+        }
         // Edges between the two vertices are left out. `low` is the first that is near, counted on around the curve.
         let (near_before, near_after) = (before_by(NEAR * span), after_by(NEAR * span));
         let (low, reach) = ((here - near_before) % n, near_before + near_after);
@@ -199,15 +194,29 @@ fn steps(n: usize, holds: impl Fn(usize) -> bool) -> usize {
 
 /// Circles that touch the curve at a vertex.
 #[derive(Clone, Copy)]
-struct Touching {
+pub(super) struct Touching {
     at: [f64; 2],
-    normal: [f64; 2],
+    pub(super) normal: [f64; 2],
     forgiven: f64,
 }
 
 impl Touching {
+    /// Those that touch the circle through a, v and b at v, and the turn from a by v to b. Roundings are forgiven.
+    pub(super) fn at_vertex(a: [f64; 2], v: [f64; 2], b: [f64; 2]) -> Option<(Self, f64)> {
+        let [[ax, ay], [bx, by]] = [a, b].map(|end| [end[0] - v[0], end[1] - v[1]]);
+        let (aa, bb) = (ax * ax + ay * ay, bx * bx + by * by);
+        if aa == 0.0 || bb == 0.0 {
+            return None;
+        }
+        let turn = (ay * bx - ax * by).atan2(-(ax * bx + ay * by)).abs();
+        let (tx, ty) = (bx / bb - ax / aa, by / bb - ay / aa);
+        let size = (tx * tx + ty * ty).sqrt();
+        let forgiven = 8.0 * f64::EPSILON * (v[0].abs() + v[1].abs());
+        Some((Self { at: v, normal: [-ty / size, tx / size], forgiven }, turn))
+    }
+
     /// The radius of the one through `at` + (x, y).
-    fn radius(&self, x: f64, y: f64) -> f64 {
+    pub(super) fn radius(&self, x: f64, y: f64) -> f64 {
         let offset = (self.normal[0] * x + self.normal[1] * y).abs() - self.forgiven;
         if offset > 0.0 { (x * x + y * y) / (2.0 * offset) } else { f64::INFINITY }
     }
@@ -233,7 +242,7 @@ impl Touching {
     /// The least radius that a point of an edge gives.
     ///
     /// On either side, (|p|² + 2u·p·e + u²|e|²)/(c + u·d) has its extremes where |e|²d·u² + 2|e|²c·u + 2(p·e)c − |p|²d = 0.
-    fn along(&self, [a, b]: &[[f64; 2]; 2]) -> f64 {
+    pub(super) fn along(&self, [a, b]: &[[f64; 2]; 2]) -> f64 {
         let (px, py) = (a[0] - self.at[0], a[1] - self.at[1]);
         let (ex, ey) = (b[0] - a[0], b[1] - a[1]);
         let at = |u: f64| self.radius(px + u * ex, py + u * ey);

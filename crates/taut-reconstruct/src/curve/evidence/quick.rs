@@ -4,14 +4,18 @@
 //! the ends of edges of length g are all above g²/4, no edge meets a circle: what is left of a chord's ends is at most half of it. That is
 //! a loop over the vertices near the row, in their order, without a search. Other strands are sought once for the row: where there is none
 //! within reach, as nearly always, the sight is the radius.
-//! *Guarantee.* What is told here is what the search would find; where it is not clear, nothing is told.
+//! *Guarantee.* What is told here is what the search would find.
 
 use std::ops::Range;
 
+use super::features::{SMOOTH, Touching};
 use super::nearest::Segments;
 
 /// How much more of the curve is its own than circles are wide.
 const TURNING: f64 = 1.125;
+
+/// Vertices on either side that are looked at one by one.
+const BESIDE: usize = 6;
 
 /// The neighbours that a row looks at, and the row.
 pub(super) struct Row<'a> {
@@ -19,8 +23,12 @@ pub(super) struct Row<'a> {
     sight: &'a [f64],
     /// The number of the first vertex of `near`, from n on.
     first: usize,
-    /// Vertices along the curve, the row in the middle: x, y, and a quarter of the squared length of the longer edge beside it.
-    near: Vec<[f64; 3]>,
+    /// Vertices along the curve, the row in the middle: coordinates apart, as several are taken at once.
+    x: Vec<f64>,
+    y: Vec<f64>,
+    /// A quarter of the squared length of the longer edge beside each.
+    quarter: Vec<f64>,
+    way: Vec<f64>,
 }
 
 impl<'a> Row<'a> {
@@ -71,35 +79,65 @@ impl<'a> Row<'a> {
             let (x, y) = (b[0] - a[0], b[1] - a[1]);
             x * x + y * y
         };
-        let mut before = square(first + n - 1);
-        let near = (first..=last).map(|k| {
-            let after = square(k);
-            let longer = before.max(after);
-            before = after;
-            let [x, y] = edges[k % n][0];
-            [x, y, longer / 4.0]
-        });
-        Some(Self { edges, sight, first, near: near.collect() })
+        let squares: Vec<f64> = (first + n - 1..=last + n).map(square).collect();
+        let of = |coordinate: usize| (first..=last).map(|k| edges[k % n][0][coordinate]).collect();
+        Some(Self {
+            edges,
+            sight,
+            first,
+            x: of(0),
+            y: of(1),
+            quarter: squares.windows(2).map(|two| two[0].max(two[1]) / 4.0).collect(),
+            way: (first..=last).map(at).collect(),
+        })
     }
 
-    /// R and the turn at a vertex of the row, if R is clearly above the sight.
-    pub(super) fn radius_and_turn(&self, vertex: usize) -> Option<[f64; 2]> {
+    /// R, no more than the sight, and the turn at a vertex of the row.
+    pub(super) fn radius_and_turn(&self, vertex: usize) -> [f64; 2] {
         let here = self.edges.len() + vertex - self.first;
-        let [a, v, b] = [here - 1, here, here + 1].map(|k| self.near[k]);
-        let ([ax, ay], [bx, by]) = ([a[0] - v[0], a[1] - v[1]], [b[0] - v[0], b[1] - v[1]]);
-        let (aa, bb) = (ax * ax + ay * ay, bx * bx + by * by);
-        let (tx, ty) = (bx / bb - ax / aa, by / bb - ay / aa);
-        let size = (tx * tx + ty * ty).sqrt();
-        let twice = 2.0 * self.sight[vertex] / size;
-        let (nx, ny) = (-ty * twice, tx * twice);
-        let is_clear = |p: &[f64; 3]| {
-            let (x, y) = (p[0] - v[0], p[1] - v[1]);
-            x * x + y * y - (nx * x + ny * y).abs() >= p[2]
+        let at = |k: usize| [self.x[k], self.y[k]];
+        let [a, v, b] = [here - 1, here, here + 1].map(at);
+        let Some((touching, turn)) = Touching::at_vertex(a, v, b) else {
+            return [0.0, 0.0];
         };
-        // No jump out of the loop, so that several are done at once. NaN is not clear.
-        let all = |part: &[[f64; 3]]| part.iter().fold(true, |all, p| all & is_clear(p));
-        let clear = all(&self.near[..here]) && all(&self.near[here + 1..]);
-        let turn = (ay * bx - ax * by).atan2(-(ax * bx + ay * by)).abs();
-        clear.then_some([self.sight[vertex], turn])
+        let mut radius = self.sight[vertex];
+        let from_v = |p: [f64; 2]| [p[0] - v[0], p[1] - v[1]];
+        for [x, y] in [from_v(a), from_v(b)] {
+            radius = radius.min(touching.radius(x, y));
+        }
+        let [nx, ny] = touching.normal.map(|n| 2.0 * radius * n);
+        let power = |x: f64, y: f64| {
+            let (x, y) = (x - v[0], y - v[1]);
+            x * x + y * y - (nx * x + ny * y).abs()
+        };
+        // No jump out of the loop, so that several are done at once.
+        let is_clear = |part: Range<usize>| {
+            let (x, y, quarter) =
+                (&self.x[part.clone()], &self.y[part.clone()], &self.quarter[part]);
+            let bad = x.iter().zip(y).zip(quarter).map(|((&x, &y), &q)| u64::from(power(x, y) < q));
+            bad.sum::<u64>() == 0
+        };
+        // Next to the vertex, short edges beside long ones are looked at one by one; elsewhere only where something is not clear.
+        let (first, end) = (here.saturating_sub(BESIDE), self.x.len().min(here + 1 + BESIDE));
+        let edges = match is_clear(0..first) && is_clear(end..self.x.len()) {
+            true => first..end - 1,
+            false => 0..self.x.len() - 1,
+        };
+        for k in edges.filter(|&k| k != here && k + 1 != here) {
+            let ends = [at(k), at(k + 1)];
+            if (0..2).all(|end| power(ends[end][0], ends[end][1]) >= self.quarter[k + end]) {
+                continue;
+            }
+            let way = |k: usize| self.way[k];
+            let off = if k > here { way(k) - way(here) } else { way(here) - way(k + 1) };
+            radius = match off < SMOOTH * (way(k + 1) - way(k)) {
+                true => {
+                    let radii = ends.map(from_v).map(|[x, y]| touching.radius(x, y));
+                    radius.min(radii[0]).min(radii[1])
+                }
+                false => radius.min(touching.along(&ends)),
+            };
+        }
+        [radius, turn]
     }
 }
