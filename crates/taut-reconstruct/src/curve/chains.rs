@@ -11,6 +11,7 @@ mod crossings;
 mod degrees;
 mod gaps;
 
+use rayon::prelude::*;
 use taut_points::Monitor;
 
 use super::Ends;
@@ -54,7 +55,7 @@ pub(super) fn repair(
         }
     }
     if !edges.is_sorted() {
-        edges.sort_unstable();
+        edges.par_sort_unstable();
     }
     edges.dedup();
     repairs.cut = degrees::limit(sites, &mut edges);

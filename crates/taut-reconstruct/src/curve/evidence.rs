@@ -60,8 +60,12 @@ pub(super) fn evidence(
     if curves.is_empty() || curves.iter().any(|one| !one.closed) {
         return Ok(Evidence::NONE);
     }
-    let by_curve = samples::by_curve(segments, spots, curves.len());
-    if by_curve.iter().any(|spots| spots.len() < LEAST[kind]) {
+    let by_curve = match are_sites {
+        true => vec![Vec::new(); curves.len()],
+        false => samples::by_curve(segments, spots, curves.len()),
+    };
+    let sites_of = |(one, spots): (&CurveComponent, &Vec<_>)| spots.len().max(one.rows.len());
+    if curves.iter().zip(&by_curve).map(sites_of).any(|sites| sites < LEAST[kind]) {
         return Ok(Evidence::NONE);
     }
     let band = spots.iter().flatten().fold(0.0f64, |band, spot| band.max(spot.distance));
@@ -69,7 +73,10 @@ pub(super) fn evidence(
     let mut gaps = Vec::with_capacity(sites.len());
     for (curve, spots) in by_curve.into_iter().enumerate() {
         let features = Features::of(segments, curve, band, are_sites, monitor)?;
-        let samples: Vec<Sample> = samples::along(spots, segments, curve, &features);
+        let samples: Vec<Sample> = match are_sites {
+            true => samples::at_vertices(&features),
+            false => samples::along(spots, segments, curve, &features),
+        };
         let (sampling, noise) = samples::ratios(&samples, &features);
         evidence.sampling_ratio = evidence.sampling_ratio.max(sampling);
         evidence.noise_ratio = evidence.noise_ratio.max(noise);

@@ -47,6 +47,26 @@ impl Features {
         are_points: bool,
         monitor: &Monitor<'_>,
     ) -> Result<Self, Cancelled> {
+        Self::found(segments, curve, band, [are_points; 2], monitor)
+    }
+
+    /// Of points, without rows.
+    #[cfg(test)]
+    pub(super) fn searched(
+        segments: &Segments,
+        curve: usize,
+        monitor: &Monitor<'_>,
+    ) -> Result<Self, Cancelled> {
+        Self::found(segments, curve, 0.0, [true, false], monitor)
+    }
+
+    fn found(
+        segments: &Segments,
+        curve: usize,
+        band: f64,
+        [are_points, by_rows]: [bool; 2],
+        monitor: &Monitor<'_>,
+    ) -> Result<Self, Cancelled> {
         let edges = &segments.ends[segments.of_curve(curve)];
         let n = edges.len();
         let mut way = Vec::with_capacity(n + 1);
@@ -63,7 +83,7 @@ impl Features {
             let mut found = Vec::with_capacity(TASK);
             for first in (task * TASK..end).step_by(ROW) {
                 let row = first..end.min(first + ROW);
-                let quick = if are_points {
+                let quick = if by_rows {
                     Row::of(segments, curve, &way, &sight, row.clone())
                 } else {
                     None
@@ -79,17 +99,13 @@ impl Features {
             (0..n.div_ceil(TASK)).into_par_iter().map(of_task).collect::<Result<_, _>>()?;
         let mut phi: Vec<f64> = found.iter().flatten().map(|of| of[0]).collect();
         let turn = found.iter().flatten().fold(0.0f64, |turn, of| turn.max(of[1]));
-        // A second time around, as the least may be near the end.
-        for _ in 0..2 {
-            for k in 0..n {
-                let next = (k + 1) % n;
-                phi[next] = phi[next].min(phi[k] + (way[k + 1] - way[k]));
+        around(&way, |from, to, gap| {
+            let is_less = phi[from] + gap < phi[to];
+            if is_less {
+                phi[to] = phi[from] + gap;
             }
-            for k in (0..n).rev() {
-                let next = (k + 1) % n;
-                phi[k] = phi[k].min(phi[next] + (way[k + 1] - way[k]));
-            }
-        }
+            is_less
+        });
         Ok(Self { way, phi, turn })
     }
 
@@ -175,6 +191,18 @@ impl Tangents<'_> {
         );
         [radius, turn]
     }
+}
+
+/// Calls `pass` for all pairs of neighbours along a closed curve with their gap, around it in either direction, and on for as long as it
+/// says that something changed.
+pub(super) fn around(way: &[f64], mut pass: impl FnMut(usize, usize, f64) -> bool) {
+    let n = way.len() - 1;
+    let next = |k: usize| if k + 1 == n { 0 } else { k + 1 };
+    let gap = |k: usize| way[k + 1] - way[k];
+    (0..n).for_each(|k| _ = pass(k, next(k), gap(k)));
+    (0..n).all(|k| pass(k, next(k), gap(k)));
+    (0..n).rev().for_each(|k| _ = pass(next(k), k, gap(k)));
+    (0..n).rev().all(|k| pass(next(k), k, gap(k)));
 }
 
 /// The least number of steps from 1 on after which something holds; n if it does not before.

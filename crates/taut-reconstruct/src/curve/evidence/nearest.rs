@@ -1,9 +1,12 @@
 //! The edge next to a point: a hierarchy of boxes over the edges of all curves, searched from a good first guess.
 
+use rayon::prelude::*;
 use taut_certify::CurveComponent;
 
 /// Edges in a box of the lowest level, and boxes in a box of the next.
 const FAN: usize = 4;
+/// Edges of one task.
+const TASK: usize = 1 << 14;
 
 /// Where a site lies beside the curves.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -42,7 +45,7 @@ impl Segments {
             let count = one.vertices.len();
             let to = if one.closed || count == 1 { count } else { count.saturating_sub(1) };
             let at = |k: usize| one.vertices[k % count].map(|x| x * scale);
-            ends.extend((0..to).map(|k| [at(k), at(k + 1)]));
+            ends.par_extend((0..to).into_par_iter().with_min_len(TASK).map(|k| [at(k), at(k + 1)]));
             first.push(ends.len() as u32);
         }
         let join = |boxes: &[[f64; 4]]| {
@@ -54,8 +57,9 @@ impl Segments {
         let of_edge = |[a, b]: &[[f64; 2]; 2]| {
             [a[0].min(b[0]), a[1].min(b[1]), a[0].max(b[0]), a[1].max(b[1])]
         };
-        let lowest: Vec<[f64; 4]> = ends.iter().map(of_edge).collect();
-        let mut levels: Vec<Vec<[f64; 4]>> = vec![lowest.chunks(FAN).map(join).collect()];
+        let lowest: Vec<[f64; 4]> = ends.par_iter().with_min_len(TASK).map(of_edge).collect();
+        let mut levels: Vec<Vec<[f64; 4]>> =
+            vec![lowest.par_chunks(FAN).with_min_len(TASK).map(join).collect()];
         while let Some(below) = levels.last().filter(|below| below.len() > 1) {
             levels.push(below.chunks(FAN).map(join).collect());
         }

@@ -64,6 +64,12 @@ pub(super) fn along(
     samples.into_iter().map(|sample| sample.1).collect()
 }
 
+/// The samples of a curve whose vertices they are.
+pub(super) fn at_vertices(features: &Features) -> Vec<Sample> {
+    let ways = features.way[..features.phi.len()].iter();
+    (0u32..).zip(ways).map(|(vertex, &way)| Sample { way, vertex, offset: 0.0 }).collect()
+}
+
 /// The gap after sample k, around the curve.
 fn gap(samples: &[Sample], k: usize, length: f64) -> f64 {
     match samples.get(k + 1) {

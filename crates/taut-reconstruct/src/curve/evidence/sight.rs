@@ -2,6 +2,8 @@
 //!
 //! What ε is asked for needs no more, and circles that have a thousand vertices on their border would take as long for each vertex.
 
+use super::features::around;
+
 /// The sight over a gap beside it: no ε below 1/16 is told.
 const SIGHT: f64 = 9.0;
 
@@ -12,16 +14,13 @@ pub(super) fn sight(way: &[f64]) -> Vec<f64> {
     let (gap, most) = (|k: usize| way[k + 1] - way[k], way[n] / std::f64::consts::TAU);
     let of = |k: usize| (SIGHT * gap(k).max(gap((k + n - 1) % n))).min(most);
     let mut sight: Vec<f64> = (0..n).map(of).collect();
-    // A second time around, as the largest may be near the end.
-    for _ in 0..2 {
-        for k in 0..n {
-            let next = (k + 1) % n;
-            sight[next] = sight[next].max(sight[k] - gap(k));
+    around(way, |from, to, gap| {
+        let is_more = sight[from] - gap > sight[to];
+        if is_more {
+            sight[to] = sight[from] - gap;
         }
-        for k in (0..n).rev() {
-            sight[k] = sight[k].max(sight[(k + 1) % n] - gap(k));
-        }
-    }
+        is_more
+    });
     sight
 }
 
