@@ -10,9 +10,6 @@ use rayon::prelude::*;
 
 use crate::curve::boxes::{Bounds, Boxes, FAN};
 
-/// Leaves that a group of sites looks at together.
-const AROUND: usize = 4 * FAN;
-
 /// Stands for no site.
 pub(super) const NONE: u32 = u32::MAX;
 
@@ -37,7 +34,7 @@ impl<'a> Near<'a> {
     /// For each wanted site the nearest other one, if there is one; [`NONE`] for all others.
     ///
     /// `rank(p, q, d²)` is d², or infinite where q will not do for p: a choice of numbers, as a branch would be guessed wrong every
-    /// other time. `admits(p, box)` is whether the box can hold something that will do. One descent serves the sites of eight leaves.
+    /// other time. `admits(p, box)` is whether the box can hold something that will do. One descent serves all sites of a leaf.
     pub(super) fn nearest(
         &self,
         wanted: impl Fn(u32) -> bool + Sync,
@@ -45,85 +42,73 @@ impl<'a> Near<'a> {
         admits: impl Fn(u32, &Bounds) -> bool + Sync,
     ) -> Vec<u32> {
         let mut nearest = vec![NONE; self.sites.len()];
-        const GROUP: usize = FAN * FAN;
-        nearest.par_chunks_mut(GROUP).enumerate().with_min_len(1 << 6).for_each(
-            |(group, found)| {
-                let first = group * GROUP;
-                let mut seekers = [Seeker::default(); GROUP];
-                let mut count = 0;
-                for site in first..first + found.len() {
-                    if wanted(site as u32) {
-                        seekers[count] = Seeker { site: site as u32, ..Seeker::default() };
-                        count += 1;
-                    }
+        nearest.par_chunks_mut(FAN).enumerate().with_min_len(1 << 9).for_each(|(leaf, found)| {
+            let first = (leaf * FAN) as u32;
+            let mut seekers = [Seeker::default(); FAN];
+            let mut count = 0;
+            for site in first..first + found.len() as u32 {
+                if wanted(site) {
+                    seekers[count] = Seeker { site, ..Seeker::default() };
+                    count += 1;
                 }
-                self.seek(&mut seekers[..count], &rank, &admits);
-                for seeker in &seekers[..count] {
-                    found[seeker.site as usize - first] = seeker.found;
-                }
-            },
-        );
+            }
+            self.seek(leaf, &mut seekers[..count], &rank, &admits);
+            for seeker in &seekers[..count] {
+                found[(seeker.site - first) as usize] = seeker.found;
+            }
+        });
         nearest
     }
 
     fn seek(
         &self,
+        own: usize,
         seekers: &mut [Seeker],
         rank: &impl Fn(u32, u32, f64) -> f64,
         admits: &impl Fn(u32, &Bounds) -> bool,
     ) {
-        let beside = |seeker: &Seeker| {
-            let own = seeker.site as usize / FAN;
-            own.saturating_sub(1)..(own + 2).min(self.boxes.leaves())
-        };
-        // A site whose bound is wide beside its leaf looks around alone: it must not send the others far.
-        let is_wide = |seeker: &Seeker| {
-            seeker.bound > self.boxes.leaf_bounds(seeker.site as usize / FAN).diagonal2()
-        };
-        let (mut around, mut reach2) = (Bounds::EMPTY, f64::NEG_INFINITY);
+        let beside = own.saturating_sub(1)..(own + 2).min(self.boxes.leaves());
         for seeker in seekers.iter_mut() {
-            for leaf in beside(seeker) {
+            for leaf in [own].into_iter().chain(beside.clone().filter(|&leaf| leaf != own)) {
                 seeker.scan(self, leaf, rank);
             }
-            if !is_wide(seeker) {
-                around = around.join(Bounds::of(self.sites[seeker.site as usize]));
-                reach2 = reach2.max(seeker.bound);
-            }
         }
-        let (mut leaves, mut count) = ([0; AROUND], 0);
-        self.boxes.nearest(
-            reach2,
-            |b| b.apart2(&around),
-            |leaf, bound| {
-                if count < AROUND {
-                    leaves[count] = leaf;
-                }
-                count += 1;
-                bound
-            },
-        );
-        for seeker in seekers {
-            let (p, near) = (self.sites[seeker.site as usize], beside(seeker));
-            for &leaf in &leaves[..count.min(AROUND)] {
-                let is_near = self.boxes.leaf_bounds(leaf).distance2(p) <= seeker.bound;
-                if is_near && !near.contains(&leaf) {
-                    seeker.scan(self, leaf, rank);
-                }
-            }
-            if count > AROUND || is_wide(seeker) {
+        let other = |leaf: usize| !beside.contains(&leaf);
+        // A site whose bound is wide beside the leaf looks around alone: it must not send the others far.
+        let size2 = self.boxes.leaf_bounds(own).diagonal2();
+        let (mut around, mut reach2) = (Bounds::EMPTY, f64::NEG_INFINITY);
+        for seeker in seekers.iter_mut() {
+            let p = self.sites[seeker.site as usize];
+            if seeker.bound > size2 {
                 let site = seeker.site;
                 self.boxes.nearest(
                     seeker.bound,
                     |b| if admits(site, b) { b.distance2(p) } else { f64::NAN },
                     |leaf, _| {
-                        if !near.contains(&leaf) {
+                        if other(leaf) {
                             seeker.scan(self, leaf, rank);
                         }
                         seeker.bound
                     },
                 );
+            } else {
+                around = around.join(Bounds::of(p));
+                reach2 = reach2.max(seeker.bound);
             }
         }
+        self.boxes.nearest(
+            reach2,
+            |b| b.apart2(&around),
+            |leaf, bound| {
+                for seeker in seekers.iter_mut().filter(|_| other(leaf)) {
+                    let p = self.sites[seeker.site as usize];
+                    if self.boxes.leaf_bounds(leaf).distance2(p) <= seeker.bound {
+                        seeker.scan(self, leaf, rank);
+                    }
+                }
+                bound
+            },
+        );
     }
 
     /// Whether some site lies nearer to a point than the square root of `reach2`.
@@ -157,22 +142,35 @@ impl Default for Seeker {
 }
 
 impl Seeker {
-    /// Looks at the sites of a leaf.
+    /// Looks at the sites of a leaf. Which of them is nearer than all before is guessed wrong often: it is chosen, not branched on.
     #[inline(always)]
     fn scan(&mut self, near: &Near<'_>, leaf: usize, rank: &impl Fn(u32, u32, f64) -> f64) {
         let p = near.sites[self.site as usize];
+        let (mut best, mut found, mut is_tie) = (self.bound, self.found, false);
         for i in near.boxes.leaf(leaf) {
+            let d2 = rank(self.site, i as u32, distance2(p, near.sites[i]));
+            let d2 = if i as u32 == self.site { f64::INFINITY } else { d2 };
+            is_tie |= d2 == best && d2 < f64::INFINITY;
+            let is_nearer = d2 < best;
+            best = if is_nearer { d2 } else { best };
+            found = if is_nearer { i as u32 } else { found };
+        }
+        (self.bound, self.found) = (best, found);
+        if is_tie {
+            self.scan_ties(near, leaf, rank);
+        }
+    }
+
+    /// Of what is as near as what was found, the first by coordinates.
+    #[cold]
+    fn scan_ties(&mut self, near: &Near<'_>, leaf: usize, rank: &impl Fn(u32, u32, f64) -> f64) {
+        let p = near.sites[self.site as usize];
+        for i in near.boxes.leaf(leaf).filter(|&i| i as u32 != self.site) {
             let q = near.sites[i];
-            let d2 = distance2(p, q);
-            if d2 > self.bound {
-                continue;
-            }
-            let d2 = rank(self.site, i as u32, d2);
-            if d2 <= self.bound && i as u32 != self.site && d2 < f64::INFINITY {
-                let first = d2 < self.bound || q < near.sites[self.found as usize];
-                if first {
-                    (self.bound, self.found) = (d2, i as u32);
-                }
+            if rank(self.site, i as u32, distance2(p, q)) == self.bound
+                && q < near.sites[self.found as usize]
+            {
+                self.found = i as u32;
             }
         }
     }
