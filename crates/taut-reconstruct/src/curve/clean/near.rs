@@ -142,35 +142,22 @@ impl Default for Seeker {
 }
 
 impl Seeker {
-    /// Looks at the sites of a leaf. Which of them is nearer than all before is guessed wrong often: it is chosen, not branched on.
+    /// Looks at the sites of a leaf.
     #[inline(always)]
     fn scan(&mut self, near: &Near<'_>, leaf: usize, rank: &impl Fn(u32, u32, f64) -> f64) {
         let p = near.sites[self.site as usize];
-        let (mut best, mut found, mut is_tie) = (self.bound, self.found, false);
         for i in near.boxes.leaf(leaf) {
-            let d2 = rank(self.site, i as u32, distance2(p, near.sites[i]));
-            let d2 = if i as u32 == self.site { f64::INFINITY } else { d2 };
-            is_tie |= d2 == best && d2 < f64::INFINITY;
-            let is_nearer = d2 < best;
-            best = if is_nearer { d2 } else { best };
-            found = if is_nearer { i as u32 } else { found };
-        }
-        (self.bound, self.found) = (best, found);
-        if is_tie {
-            self.scan_ties(near, leaf, rank);
-        }
-    }
-
-    /// Of what is as near as what was found, the first by coordinates.
-    #[cold]
-    fn scan_ties(&mut self, near: &Near<'_>, leaf: usize, rank: &impl Fn(u32, u32, f64) -> f64) {
-        let p = near.sites[self.site as usize];
-        for i in near.boxes.leaf(leaf).filter(|&i| i as u32 != self.site) {
             let q = near.sites[i];
-            if rank(self.site, i as u32, distance2(p, q)) == self.bound
-                && q < near.sites[self.found as usize]
-            {
-                self.found = i as u32;
+            let d2 = distance2(p, q);
+            if d2 > self.bound {
+                continue;
+            }
+            let d2 = rank(self.site, i as u32, d2);
+            if d2 <= self.bound && i as u32 != self.site && d2 < f64::INFINITY {
+                let first = d2 < self.bound || q < near.sites[self.found as usize];
+                if first {
+                    (self.bound, self.found) = (d2, i as u32);
+                }
             }
         }
     }
