@@ -53,8 +53,9 @@ pub struct Place(pub u32, pub f64);
 /// The rows that are not outliers sample the answer itself so densely, and lie so near to it, beside its own features, that a
 /// closed smooth curve that they sample as well is homeomorphic to the answer and passes by them in the same order. The features are
 /// measured by φ, at each vertex the radius of the smallest ball that touches the curve there and meets it elsewhere, on either
-/// side, made 1-Lipschitz along the curve; it is at least the local feature size, the distance to the medial axis. Where vertices are rows,
-/// balls are looked for up to eight times the gaps beside them only, as ε is not told below 1/16. For vertices that are rows this is the reasoning behind the theorem on NN-Crust (Dey and Kumar 1999): closed smooth curves with the same
+/// side, made 1-Lipschitz along the curve; it is at least the local feature size, the distance to the medial axis. Where vertices
+/// are rows, larger balls than nine times the gaps beside the vertex are not looked for, and no ε below 1/16 is told. For vertices
+/// that are rows this is the reasoning behind the theorem on NN-Crust (Dey and Kumar 1999): closed smooth curves with the same
 /// sample, at ε ≤ 1/3 for each, have the same polygon. For noise there is no such theorem; the thresholds are
 /// choices, tried on known curves.
 ///

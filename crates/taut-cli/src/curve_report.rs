@@ -104,7 +104,7 @@ pub(crate) fn proved_of_curve(verdict: &CurveVerdict) -> Vec<Fact> {
 fn judged(verdict: &CurveVerdict) -> Vec<Fact> {
     let mut facts = vec![match &verdict.doubt {
         None => Fact::new("certified", "yes").remark(format!(
-            "sampled at ε = {}, noise at {} of the feature size",
+            "sampled at ε ≤ {}, noise at {} of the feature size",
             short_ratio(verdict.sampling_ratio),
             short_ratio(verdict.noise_ratio)
         )),

@@ -93,6 +93,18 @@ pub enum CurveDoubt {
         /// The widest empty part over the width of the band.
         share: f64,
     },
+    /// Rows lie off the curve to the side their neighbours lie on, as samples of a curve that winds about it would.
+    #[error(
+        "the rows beside curve {curve}, after vertex {vertex}, follow each other about it: differences of neighbours make {share:.2} of what chance would"
+    )]
+    Winding {
+        /// Curve, from 0.
+        curve: usize,
+        /// The vertex after which they lie, from 0.
+        vertex: usize,
+        /// Mean squared difference of neighbours over twice the variance.
+        share: f64,
+    },
     /// Too many rows are said to be outliers.
     #[error("{outliers} of {rows} rows are outliers")]
     Outliers {

@@ -44,7 +44,7 @@ fn the_summary_names_every_number() {
         "\n  curves    5; 5 closed, 0 open\n",
         "\n  vertices  490; each is a point of the input\n",
         "\n  band      0; no point is farther from the curves\n",
-        "\n  certified yes; sampled at ε = 0.",
+        "\n  certified yes; sampled at ε ≤ 0.",
         "\n  verified  yes; no two edges meet, and the band holds\n",
         "\n  method    hnn-crust\n",
         "s; reading ",
@@ -90,7 +90,7 @@ fn answers_are_verified_and_lies_rejected() {
         "Verified: 5 curves\n",
         "\n  band      0; no point but outliers is farther off\n",
         "\n  simple    yes; no two edges meet, by exact predicates\n",
-        "\n  certified yes; sampled at ε = 0.",
+        "\n  certified yes; sampled at ε ≤ 0.",
     ]);
     let sound = document(&desk.text("curve.json"));
     let lie = |change: &dyn Fn(&mut Value)| {

@@ -82,7 +82,7 @@ pub(super) fn evidence(
         evidence.noise_ratio = evidence.noise_ratio.max(noise);
         evidence.certified &= features.turn <= ROOM * TURN_MOST
             && samples::is_even(&samples, &features)
-            && (are_sites || samples::is_one_band(&samples));
+            && (are_sites || samples::is_one_band(&samples) && samples::are_by_chance(&samples));
         samples::gaps(&samples, features.length(), &mut gaps);
     }
     evidence.certified &= evidence.sampling_ratio <= ROOM * SAMPLING_MOST[kind]

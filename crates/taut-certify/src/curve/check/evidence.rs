@@ -96,15 +96,17 @@ pub(super) fn judge(
         doubts.lacuna = doubts.lacuna.or_else(|| sampling::lacuna(curve, &samples, &features));
         if !placed.is_exact {
             doubts.split = doubts.split.or_else(|| sampling::split(curve, &samples));
+            doubts.winding = doubts.winding.or_else(|| sampling::winding(curve, &samples));
         }
         gaps.extend(sampling::lengths(&samples, &features));
     }
-    let Doubts { corner, sparse, lacuna, noisy, split } = doubts;
+    let Doubts { corner, sparse, lacuna, noisy, split, winding } = doubts;
     let doubt = corner
         .or(sparse)
         .or(noisy)
         .or(lacuna)
         .or(split)
+        .or(winding)
         .or_else(|| outliers::doubt(edges, placed, gaps, band));
     Ok(Evidence { sampling_ratio, noise_ratio, doubt })
 }
@@ -117,4 +119,5 @@ struct Doubts {
     lacuna: Option<CurveDoubt>,
     noisy: Option<CurveDoubt>,
     split: Option<CurveDoubt>,
+    winding: Option<CurveDoubt>,
 }

@@ -17,6 +17,10 @@ const EDGE: usize = WINDOW / 10;
 /// are so far apart once in 10¹⁸ windows.
 const EMPTY_MOST: f64 = 0.3;
 
+/// The least that squared differences of neighbours may be on average, over twice the variance. Of 128 numbers that chance orders it is
+/// 1 ± 0.09, normal or uniform: less than this once in 10⁸ windows.
+const WINDING_LEAST: f64 = 0.5;
+
 /// Where on a curve something is largest.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Worst {
@@ -137,4 +141,25 @@ pub(super) fn split(curve: usize, samples: &[Sample]) -> Option<CurveDoubt> {
     }
     let (vertex, share) = (worst.at, worst.value);
     (share > EMPTY_MOST).then_some(CurveDoubt::Split { curve, vertex, share })
+}
+
+/// Rows that lie off the curve together with their neighbours.
+pub(super) fn winding(curve: usize, samples: &[Sample]) -> Option<CurveDoubt> {
+    let mut places: Vec<(f64, f64, usize)> =
+        samples.iter().map(|sample| (sample.along, sample.offset, sample.vertex)).collect();
+    // Rows that are the same point are one.
+    places.dedup_by(|b, a| (a.0, a.1) == (b.0, b.1));
+    let mut worst = (1.0f64, 0);
+    for start in (0..places.len()).step_by(WINDOW / 2) {
+        let at = |k: usize| places[(start + k) % places.len()].1;
+        let mean = (0..WINDOW).map(at).sum::<f64>() / WINDOW as f64;
+        let variance: f64 = (0..WINDOW).map(|k| (at(k) - mean).powi(2)).sum();
+        let steps: f64 = (1..WINDOW).map(|k| (at(k) - at(k - 1)).powi(2)).sum();
+        let share = steps / (2.0 * variance);
+        if share < worst.0 {
+            worst = (share, places[start].2);
+        }
+    }
+    let (share, vertex) = worst;
+    (share < WINDING_LEAST).then_some(CurveDoubt::Winding { curve, vertex, share })
 }

@@ -12,6 +12,8 @@ const WINDOW: usize = 128;
 const EDGE: usize = 12;
 /// The part of the width of the band that may be empty, with some room.
 const EMPTY_MOST: f64 = 0.29;
+/// The least mean squared difference of neighbours, over twice the variance, with some room: chance makes it 1 ± 0.09.
+const WINDING_LEAST: f64 = 0.52;
 
 /// A site on its curve.
 #[derive(Clone, Copy, Debug)]
@@ -114,6 +116,21 @@ pub(super) fn is_even(samples: &[Sample], features: &Features) -> bool {
     (n..2 * n).all(|k| {
         let sum = (way(k) - way(k - beside)) + (way(k + 1 + beside) - way(k + 1));
         gap(samples, k - n, length) * (2 * beside) as f64 <= most * sum
+    })
+}
+
+/// Whether offsets follow each other no more than chance would have it: else the curve that was sampled winds about this one.
+pub(super) fn are_by_chance(samples: &[Sample]) -> bool {
+    let n = samples.len();
+    let starts: Vec<usize> = (0..n).step_by(WINDOW / 2).collect();
+    starts.into_par_iter().all(|start| {
+        let offset = |k: usize| samples[k % n].offset;
+        let window = start..start + WINDOW;
+        let mean = window.clone().map(offset).sum::<f64>() / WINDOW as f64;
+        let square = |x: f64| x * x;
+        let variance: f64 = window.clone().map(|k| square(offset(k) - mean)).sum();
+        let steps: f64 = window.skip(1).map(|k| square(offset(k) - offset(k - 1))).sum();
+        steps >= WINDING_LEAST * 2.0 * variance
     })
 }
 
