@@ -54,6 +54,22 @@ fn two_thousand_points_of_each_test_curve() {
     }
 }
 
+/// Samples in which some windows are flat by chance, within the band or across it: no vertex is to be at one.
+#[test]
+fn what_is_flat_by_chance_is_no_part_of_the_curve() {
+    for (name, n, outliers, seed) in [
+        ("circle", 6283, 0.0, 10),
+        ("circle", 6283, 0.1, 11),
+        ("ellipse3", 20_194, 0.0, 7),
+        ("ellipse3", 20_194, 0.1, 8),
+        ("ellipse3", 20_194, 0.1, 28),
+    ] {
+        let (truth, points) = sampled(name, n, outliers, false, seed);
+        let found = quality(&truth, &fitted(&points).answer);
+        assert!(found.topology_right() && found.hausdorff < 0.012, "{name} {seed}: {found:?}");
+    }
+}
+
 /// Uniform noise has an edge, and the error falls faster than that of any average: at least as n^(−0.6) here.
 #[test]
 fn the_error_falls_with_the_number_of_points() {

@@ -9,7 +9,9 @@
 //! *Guarantee.* A function of the point set that turns and scales with it; every point of the slab of a seed is accounted for,
 //! so a curve without gaps gets seeds without gaps. O(n) work in windows beside the search for neighbours.
 //! *Trap.* Windows around a sample, not around the middle line, are askew by up to the noise. A window that may grow without
-//! end swallows the whole curve, which is flat beside its own size: it stops at the first that is flat enough.
+//! end swallows the whole curve, which is flat beside its own size: it stops at the first that is flat enough, its residuals must
+//! look like noise, and what is much wider than the windows within it is dropped. Of a hundred thousand windows some of a few points
+//! are flat by chance: they must stay so when they are longer, and those that longer ones hold are no seeds.
 //! *Reference.* The coarse disk of Cheng, Funke, Golin, Kumar, Poon and Ramos, with a parabola in place of the strip, so that it
 //! needs no feature size to be 1.
 
@@ -29,13 +31,19 @@ const FLATNESS: f64 = 8.0;
 const FLATNESS_LEAST: f64 = 5.0;
 /// The share of the largest window within which no other is tried, where none was flat.
 const HOPELESS: f64 = 0.2;
+/// How many points may be looked at in vain before that, for each point there is.
+const MOST_VAIN: usize = 8;
+/// A window is coarse whose deviation is so many times the median of those within it.
+const COARSE: f64 = 3.0;
 /// Windows end when they are so many times as long as the flattest.
 const DECLINE: f64 = 4.0;
 /// Windows of fewer points may be flat by chance, of all those that are tried.
 const CHANCE: usize = 60;
-/// How much longer the window is that has to be flat as well, and how flat.
+/// How much longer the window is that has to be flat as well, and which share of the flatness it must have.
 const CONFIRM: f64 = 1.4;
-const FLATNESS_CONFIRMED: f64 = 6.0;
+const CONFIRMED: f64 = 0.75;
+/// Least ratio of the mean square of successive differences to twice the variance of residuals that are noise.
+const FILLED: f64 = 0.5;
 /// Growth of windows.
 const GROWTH: f64 = 1.2;
 /// Neighbours whose distance tells the density at a point.
@@ -46,6 +54,11 @@ const SLAB: f64 = 0.45;
 const SLAB_WIDTH: f64 = 4.0;
 /// The density of outliers is less than that of nine tenths of the curve by the square of this.
 const SPARSE: f64 = 5.0;
+
+/// Stands for no seed.
+const NONE: u32 = u32::MAX;
+/// Stands for no seed that could be found.
+const VAIN: u32 = NONE - 1;
 
 /// A place on the curve.
 #[derive(Clone, Copy, Debug)]
@@ -74,38 +87,15 @@ pub(super) fn seeds(
         let ((a, all_a), (b, all_b)) = (spacing[i as usize], spacing[j as usize]);
         a.total_cmp(&b).then(all_a.total_cmp(&all_b)).then(i.cmp(&j))
     });
-    let mut covered = vec![false; points.len()];
-    let mut search = Search { points, index, window: Window::default(), ids: Vec::new() };
-    let mut seeds: Vec<Seed> = Vec::new();
-    let mut done = Quantile::default();
-    for (count, &i) in order.iter().enumerate() {
-        let i = i as usize;
-        if count % 4096 == 0 {
-            monitor.check()?;
-        }
-        if covered[i] {
-            done.push(spacing[i].0);
-            continue;
-        }
-        if done.value().is_some_and(|usual| spacing[i].0 > SPARSE * usual) {
+    let mut search = Search::new(points, index);
+    for round in 0..2 {
+        search.round(&order, &spacing, monitor)?;
+        // Once more for what windows account for that turned out to be coarse, now that the width of the band is known.
+        if round > 0 || !search.drop_coarse() {
             break;
         }
-        let Some((parabola, reach)) = search.flat(points[i], spacing[i].0) else {
-            search.give_up(points[i], &mut covered);
-            continue;
-        };
-        let seed = Seed {
-            at: parabola.foot(),
-            tangent: parabola.direction(),
-            reach,
-            deviation: parabola.variance.sqrt(),
-            density: parabola.kept as f64 / reach,
-        };
-        search.cover(&parabola, reach, &mut covered);
-        covered[i] = true;
-        seeds.push(seed);
     }
-    Ok(apart(seeds))
+    Ok(apart(search.seeds.into_iter().flatten().collect()))
 }
 
 /// The same for points along the curve: a seed beside the curve has few.
@@ -135,6 +125,19 @@ fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
             beside[number[i]] = false;
         }
     }
+    // How many slabs a seed lies in, its own among them, and how many of those are much longer than its own.
+    let mut slabs = vec![[0u32; 2]; seeds.len()];
+    for seed in &seeds {
+        let [tx, ty] = seed.tangent;
+        index.within(seed.at, seed.reach * seed.reach, &mut |place| {
+            let (other, at) = (&seeds[order[place as usize] as usize], places[place as usize]);
+            let across = (at[1] - seed.at[1]) * tx - (at[0] - seed.at[0]) * ty;
+            if across.abs() <= SLAB_WIDTH * seed.deviation {
+                slabs[place as usize][0] += 1;
+                slabs[place as usize][1] += u32::from(seed.reach > ALIKE * other.reach);
+            }
+        });
+    }
     let mut around: Vec<u32> = Vec::new();
     let middle = |around: &[u32], of: &dyn Fn(&Seed) -> f64| {
         let mut values: Vec<f64> =
@@ -146,13 +149,13 @@ fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
         around.clear();
         let far = ALIKE * seed.reach;
         index.within(seed.at, far * far, &mut |place| around.push(place));
-        let reach = middle(&around, &|s| s.reach);
         let density = middle(&around, &|s| s.density);
         around.retain(|&p| distance2(places[p as usize], seed.at) <= (BESIDE * seed.reach).powi(2));
         let along = middle(&around, &|s| {
             (s.tangent[0] * seed.tangent[0] + s.tangent[1] * seed.tangent[1]).abs()
         });
-        if seed.reach * ALIKE < reach || seed.density * DENSER < density || along < ALONG {
+        let [slabs, longer] = slabs[number[i]];
+        if 2 * longer >= slabs || seed.density * DENSER < density || along < ALONG {
             beside[number[i]] = true;
         }
     }
@@ -195,11 +198,98 @@ impl Quantile {
 struct Search<'a> {
     points: &'a [Point],
     index: &'a Index<'a>,
+    /// The seeds found, none where one was dropped again.
+    seeds: Vec<Option<Seed>>,
+    /// For each point the seed that accounts for it, [`NONE`] or [`VAIN`].
+    covered: Vec<u32>,
     window: Window,
     ids: Vec<u32>,
+    /// Places along a parabola and residuals.
+    along: Vec<Point>,
+    /// Points of the largest windows where none was flat.
+    vain: usize,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    fn new(points: &'a [Point], index: &'a Index<'a>) -> Self {
+        let covered = vec![NONE; points.len()];
+        let (seeds, ids, along) = (Vec::new(), Vec::new(), Vec::new());
+        Self { points, index, seeds, covered, window: Window::default(), ids, along, vain: 0 }
+    }
+
+    /// Seeds until all points are accounted for but those that are too sparse.
+    fn round(
+        &mut self,
+        order: &[u32],
+        spacing: &[(f64, f64)],
+        monitor: &Monitor<'_>,
+    ) -> Result<(), Error> {
+        let mut done = Quantile::default();
+        for (count, &i) in order.iter().enumerate() {
+            let i = i as usize;
+            if count % 4096 == 0 {
+                monitor.check()?;
+            }
+            if self.covered[i] != NONE {
+                done.push(spacing[i].0);
+                continue;
+            }
+            if done.value().is_some_and(|usual| spacing[i].0 > SPARSE * usual) {
+                break;
+            }
+            let Some((parabola, reach)) = self.flat(self.points[i], spacing[i].0) else {
+                self.give_up(i);
+                continue;
+            };
+            self.cover(&parabola, reach);
+            self.covered[i] = self.seeds.len() as u32;
+            self.seeds.push(Some(Seed {
+                at: parabola.foot(),
+                tangent: parabola.direction(),
+                reach,
+                deviation: parabola.variance.sqrt(),
+                density: parabola.kept as f64 / reach,
+            }));
+        }
+        Ok(())
+    }
+
+    /// Drops seeds of windows that hold many others of much less deviation: curves wind within them. Says whether there are any.
+    fn drop_coarse(&mut self) -> bool {
+        let seeds = &mut self.seeds;
+        let places: Vec<Point> = seeds.iter().flatten().map(|seed| seed.at).collect();
+        let order = hilbert_order(places.len(), |i| places[i]);
+        let places: Vec<Point> = order.iter().map(|&i| places[i as usize]).collect();
+        let index = Index::new(&places);
+        let deviations: Vec<f64> = seeds.iter().flatten().map(|seed| seed.deviation).collect();
+        let mut within = Vec::new();
+        let mut dropped = false;
+        for seed in seeds.iter_mut() {
+            let Some(Seed { at, reach, deviation, .. }) = *seed else { continue };
+            within.clear();
+            index.within(at, reach * reach, &mut |place| {
+                within.push(deviations[order[place as usize] as usize]);
+            });
+            if deviation > COARSE * median(&mut within) {
+                (*seed, dropped) = (None, true);
+            }
+        }
+        for seed in &mut self.covered {
+            if *seed != NONE && self.seeds.get(*seed as usize).is_none_or(Option::is_none) {
+                *seed = NONE;
+            }
+        }
+        dropped
+    }
+
+    /// Whether the window just fitted is wide beside the band of the points in it that seeds account for, if those are many.
+    fn is_coarse(&mut self, parabola: &Parabola) -> bool {
+        let known =
+            self.ids.iter().filter_map(|&i| self.seeds.get(self.covered[i as usize] as usize));
+        let mut known: Vec<f64> = known.flatten().map(|seed| seed.deviation).collect();
+        known.len() * 4 > self.ids.len() && parabola.variance.sqrt() > COARSE * median(&mut known)
+    }
+
     fn fit(&mut self, at: Point, reach: f64) -> Option<Parabola> {
         let ids = &mut self.ids;
         ids.clear();
@@ -214,63 +304,93 @@ impl Search<'_> {
         // Not the spacing itself, at which the last neighbour is inside or outside as rounding will have it.
         let mut reach = GROWTH * spacing;
         let mut best: Option<(f64, Parabola, f64)> = None;
+        let mut longest = f64::INFINITY;
         loop {
             if let Some(parabola) = self.fit(start, reach) {
                 let flatness = flatness(&parabola, reach);
-                if flatness >= FLATNESS && self.stays_flat(start, reach, &parabola) {
+                let least = best.map_or(FLATNESS_LEAST, |(most, ..)| most);
+                if flatness >= least && (!self.is_filled(&parabola) || self.is_coarse(&parabola)) {
+                    longest = longest.min(DECLINE * reach);
+                } else if flatness >= least && self.stays_flat(start, reach, &parabola, flatness) {
                     best = Some((flatness, parabola, reach));
-                    break;
-                }
-                if best.is_none_or(|(most, ..)| flatness > most) {
-                    best = Some((flatness, parabola, reach));
+                    if flatness >= FLATNESS {
+                        break;
+                    }
+                    longest = DECLINE * reach;
                 }
             }
-            let declined = |&(flatness, _, at): &(f64, Parabola, f64)| {
-                flatness >= FLATNESS_LEAST && reach > DECLINE * at
-            };
             let seen = self.ids.len();
-            if seen > most || seen == self.points.len() || best.as_ref().is_some_and(declined) {
+            if seen > most || seen == self.points.len() || reach > longest {
                 break;
             }
             reach *= GROWTH;
         }
-        let (flatness, mut parabola, reach) = best?;
-        if flatness < FLATNESS_LEAST {
-            return None;
-        }
+        let (_, mut parabola, reach) = best?;
         for _ in 0..2 {
             parabola = self.fit(parabola.foot(), reach)?;
         }
-        Some((parabola, reach))
+        let foot = parabola.foot();
+        (distance2(foot, start) <= (0.5 * reach).powi(2) && self.is_filled(&parabola))
+            .then_some((parabola, reach))
     }
 
-    /// Whether a window of few points is flat not by chance: a longer one is flat too.
-    fn stays_flat(&mut self, start: Point, reach: f64, parabola: &Parabola) -> bool {
-        if parabola.kept >= CHANCE {
+    /// Whether residuals are noise: those next to each other along the parabola differ as any two do.
+    ///
+    /// Where the curve winds or bends within the window they do not, as its own course is what they show. The mean square of
+    /// their differences is twice their variance where they are noise (von Neumann 1941).
+    fn is_filled(&mut self, parabola: &Parabola) -> bool {
+        let most = SLAB_WIDTH * parabola.variance.sqrt();
+        let along = &mut self.along;
+        along.clear();
+        along.extend(self.window.local.iter().map(|&p| [p[0], parabola.residual(p)]));
+        along.retain(|p| p[1].abs() <= most);
+        along.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+        let squares: f64 = along.iter().map(|p| p[1] * p[1]).sum();
+        let steps: f64 = along.windows(2).map(|p| (p[1][1] - p[0][1]).powi(2)).sum();
+        steps >= 2.0 * FILLED * squares
+    }
+
+    /// Whether a window of few points is as flat as it is not by chance: a longer one is nearly so.
+    fn stays_flat(&mut self, start: Point, reach: f64, found: &Parabola, as_flat: f64) -> bool {
+        if found.kept >= CHANCE {
             return true;
         }
         let longer = CONFIRM * reach;
-        self.fit(start, longer).is_some_and(|p| flatness(&p, longer) >= FLATNESS_CONFIRMED)
+        let least = CONFIRMED * as_flat.min(FLATNESS);
+        self.fit(start, longer).is_some_and(|p| flatness(&p, longer) >= least)
     }
 
-    /// Marks the points around one where no window is flat, up to the largest: it is the same for them.
+    /// Marks a point where no window is flat.
     ///
-    /// Without that a cloud that is no curve at all would be looked at as a whole from each of its points.
-    fn give_up(&mut self, at: Point, covered: &mut [bool]) {
-        let far2 =
-            self.window.local.iter().fold(0.0, |most: f64, p| most.max(p[0] * p[0] + p[1] * p[1]));
-        self.index.within(at, HOPELESS * HOPELESS * far2, &mut |i| covered[i as usize] = true);
+    /// After some of these the points around it, too, up to a share of the largest window, which is much the same for them: a cloud
+    /// that is no curve at all would be looked at as a whole from each of its points.
+    fn give_up(&mut self, i: usize) {
+        let covered = &mut self.covered;
+        covered[i] = VAIN;
+        self.vain += self.ids.len();
+        if self.vain > MOST_VAIN * self.points.len() {
+            let far = |most: f64, p: &Point| most.max(p[0] * p[0] + p[1] * p[1]);
+            let far2 = self.window.local.iter().fold(0.0, far);
+            let near2 = HOPELESS * HOPELESS * far2;
+            self.index.within(self.points[i], near2, &mut |i| covered[i as usize] = VAIN);
+        }
     }
 
-    /// Marks the points of the slab.
-    fn cover(&mut self, parabola: &Parabola, reach: f64, covered: &mut [bool]) {
+    /// Marks the points of the slab for the next seed.
+    fn cover(&mut self, parabola: &Parabola, reach: f64) {
         let width = SLAB_WIDTH * parabola.variance.sqrt();
         for (&i, &local) in self.ids.iter().zip(&self.window.local) {
             if local[0].abs() <= SLAB * reach && parabola.residual(local).abs() <= width {
-                covered[i as usize] = true;
+                self.covered[i as usize] = self.seeds.len() as u32;
             }
         }
     }
+}
+
+/// The value in the middle of some, at least one.
+fn median(values: &mut [f64]) -> f64 {
+    let middle = values.len() / 2;
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 /// Length over width, with the width that noise has at most but for one chance in a hundred.
