@@ -68,7 +68,7 @@ def test_tours_have_a_bound(rings):
     assert tour.closed and sorted(tour.rows) == list(range(len(rings)))
     length = np.hypot(*np.diff(np.r_[tour.vertices, tour.vertices[:1]], axis=0).T).sum()
     verdict = found.check(rings)
-    assert 0 <= verdict.tour_gap < 0.1
+    assert 0 <= verdict.tour_gap < 0.02
     assert found.certificate.tour_lower <= length * (1 + 1e-12)
     path = taut.curve(rings, method="tour", open=True)
     assert not path.answer.curves[0].closed

@@ -3,7 +3,7 @@
 //! *Problem.* Potentials π for which the least 1-tree under |ij| + πᵢ + πⱼ, less 2Σπ, is as heavy as can be. No tour is shorter.
 //! *Idea.* A 1-tree is a spanning tree of all sites but one and the two least edges of that one; tours are the 1-trees in which all
 //! degrees are 2. Potentials rise where the degree is above 2 and fall where it is 1, by Polyak's step towards the length
-//! of the tour that is known. Of paths: a spanning tree and two ends.
+//! of the tour that is known; after some steps in coordinates of [`super::moats`]. Of paths: a spanning tree and two ends.
 //! *Guarantee.* The best of all steps is kept. If the 1-tree becomes a tour, that tour is the shortest of the candidates.
 //! *Trap.* The bound is one of tours of candidates. What holds for all tours is found from the potentials afterwards. Without a good
 //! special site the 1-tree of a dense sample of a curve lacks its longest edge: the special site is the leaf of the least
@@ -14,6 +14,7 @@
 use taut_points::Monitor;
 
 use super::candidates::Candidates;
+use super::moats::Moats;
 use super::tree::LeastTree;
 use crate::Error;
 
@@ -22,6 +23,10 @@ const MEMORY: f64 = 0.3;
 /// Without a better bound for so many steps, steps get shorter by this factor.
 const PATIENCE: u32 = 4;
 const SHORTER: f64 = 0.7;
+/// So many steps without moats: on samples of one curve they are all it takes.
+const PLAIN: u64 = 5;
+/// The length of steps after a restart, against the first.
+const RESTART: f64 = 0.3;
 /// The bound is as good as the tour.
 const CLOSED_GAP: f64 = 1e-7;
 
@@ -36,8 +41,12 @@ pub(super) struct Ascent<'a> {
     pub(super) best: Vec<f64>,
     pub(super) bound: f64,
     /// Degrees less 2 of the best 1-tree.
-    pub(super) open: Vec<i32>,
+    open: Vec<i32>,
     direction: Vec<f64>,
+    /// That of the last step alone.
+    latest: Vec<f64>,
+    /// Built when they are needed.
+    moats: Option<Moats>,
     degrees: Vec<i32>,
     factor: f64,
     waited: u32,
@@ -61,11 +70,26 @@ impl<'a> Ascent<'a> {
             bound: f64::NEG_INFINITY,
             open: vec![0; n],
             direction: vec![0.0; n],
+            latest: vec![0.0; n],
+            moats: None,
             degrees: vec![0; n],
             factor: 1.0,
             waited: 0,
             steps: 0,
         }
+    }
+
+    /// The sites at which the best 1-tree is no tour.
+    pub(super) fn open_sites(&self) -> Vec<u32> {
+        (0..).zip(&self.open).filter(|&(_, &degree)| degree != 0).map(|(v, _)| v).collect()
+    }
+
+    /// Goes on from the best potentials, with longer steps again.
+    pub(super) fn restart(&mut self) {
+        self.potentials.copy_from_slice(&self.best);
+        self.direction.fill(0.0);
+        self.factor = RESTART;
+        self.waited = 0;
     }
 
     /// Takes at most so many steps towards the length of a tour that is known; true if the bound reached it.
@@ -91,18 +115,38 @@ impl<'a> Ascent<'a> {
                     self.factor *= SHORTER;
                 }
             }
-            let square: f64 = self.degrees.iter().map(|&d| f64::from(d * d)).sum();
+            let square = self.slope();
             if square == 0.0 || target - self.bound <= CLOSED_GAP * target {
                 return Ok(true);
             }
             let step = self.factor * (target - bound) / square;
             for v in 0..self.degrees.len() {
                 let along = &mut self.direction[v];
-                *along = (1.0 - MEMORY) * f64::from(self.degrees[v]) + MEMORY * *along;
+                *along = (1.0 - MEMORY) * self.latest[v] + MEMORY * *along;
                 self.potentials[v] += step * *along;
             }
         }
         Ok(false)
+    }
+
+    /// The direction of steepest ascent, in coordinates of sites at first and then of moats; its square, 0 at a tour.
+    fn slope(&mut self) -> f64 {
+        if self.steps <= PLAIN {
+            let mut square = 0.0;
+            for (along, &degree) in self.latest.iter_mut().zip(&self.degrees) {
+                *along = f64::from(degree);
+                square += *along * *along;
+            }
+            return square;
+        }
+        let Self { moats, candidates, degrees, direction, potentials, best, .. } = self;
+        let moats = moats.get_or_insert_with(|| {
+            // What there is of a direction is in other units.
+            direction.fill(0.0);
+            potentials.copy_from_slice(best);
+            Moats::of(candidates, degrees.len())
+        });
+        moats.direct(degrees, &mut self.latest)
     }
 
     /// The least 1-tree: what it bounds, and its degrees less 2.

@@ -107,6 +107,11 @@ impl Candidates {
         self.neighbors[range.clone()].iter().copied().zip(self.lengths[range].iter().copied())
     }
 
+    /// The length of an edge.
+    pub(super) fn length(&self, v: u32, u: u32) -> f64 {
+        self.edges(v).find(|&(w, _)| w == u).map_or(0.0, |(_, length)| length)
+    }
+
     /// Those that moves try.
     #[inline(always)]
     pub(super) fn tried(&self, v: u32) -> impl Iterator<Item = (u32, f64)> {

@@ -3,7 +3,7 @@
 //! *Idea.* Three short runs near a node that the bound leaves open change their order (a double bridge, which moves of three edges
 //! cannot undo), the eight nodes at the cuts are queued, and moves do the rest. All that takes place within some dozens of
 //! nodes, so a kick costs microseconds whatever n.
-//! *Guarantee.* The tour never gets longer. The random numbers depend on n alone.
+//! *Guarantee.* The tour never gets longer. The random numbers depend on n and the round alone.
 //! *Reference.* Johnson and McGeoch 1997, iterated 3-opt with segment lengths bounded by 50.
 
 use taut_points::Monitor;
@@ -17,12 +17,13 @@ const RUN: u64 = 30;
 /// Longest run that moves reverse after a kick: without a limit, rare long ones would take most of the time.
 const REACH: usize = 1000;
 
-/// Kicks near each of these nodes, again and again, so many times in all. Returns by how much the tour got shorter.
+/// Kicks near each of these nodes, again and again, so many times in all; each round has random numbers of its own. Returns by how much the tour got shorter.
 pub(super) fn kick(
     search: Search<'_>,
     cycle: &mut Cycle,
     near: &[u32],
     kicks: usize,
+    round: u64,
     monitor: &Monitor<'_>,
 ) -> Result<f64, Error> {
     let n = cycle.len();
@@ -31,7 +32,7 @@ pub(super) fn kick(
         return Ok(0.0);
     }
     let longest = RUN.min((n as u64 - 2) / 3);
-    let mut random = SplitMix { state: n as u64 };
+    let mut random = SplitMix { state: n as u64 + (round << 32) };
     let mut queue = Queue::of(n);
     let mut total = 0.0;
     for turn in 0..kicks {

@@ -3,7 +3,7 @@
 //! *Problem.* A closed tour through all sites, or a path, as short as can be, without crossings, and potentials that prove how short
 //! any tour must be.
 //! *Idea.* Candidates from the Delaunay triangulation; fragments that grow together (greedy matching); moves of three edges; the
-//! ascent of Held and Karp, from potentials read off the tour; and, where the bound leaves something open, kicks that are repaired by
+//! ascent of Held and Karp, from potentials read off the tour, later with moats around clusters; and, where the bound leaves something open, kicks that are repaired by
 //! moves. Crossings that are left are removed with exact signs.
 //! *Guarantee.* The tour is a simple polygon or path. The bound holds for all tours, not only those of candidates. All budgets count
 //! events. O(n) memory.
@@ -17,6 +17,7 @@ mod cycle;
 mod fragments;
 mod kicks;
 mod metric;
+mod moats;
 mod moves;
 mod simple;
 mod start;
@@ -44,6 +45,12 @@ const STEPS_MIN: usize = 30;
 const WORK: usize = 3_000_000;
 /// Kicks per site that the bound leaves open.
 const KICKS: usize = 2;
+/// Few sites afford more of both, in rounds, until the tour is within [`GAP`] of its bound: so many, and fewer where sites times
+/// rounds would be more than [`ROUNDS_WORK`]. A round takes [`STEPS`], and as many kicks per site of the tour.
+const ROUNDS: usize = 12;
+const ROUNDS_WORK: usize = 1500;
+const ROUND_KICKS: usize = 4;
+const GAP: f64 = 0.01;
 
 /// A tour with its bound.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -92,13 +99,14 @@ pub(crate) fn tour(sites: &[[f64; 2]], open: bool, monitor: &Monitor<'_>) -> Res
     let (mut ascent, mut closed) = begin(&metric, &candidates, &cycle, length, open, monitor)?;
     closed = closed || ascent.climb(length, steps / 3, monitor)?;
     if !closed {
-        let near: Vec<u32> = (0..n as u32).filter(|&v| ascent.open[v as usize] != 0).collect();
+        let near = ascent.open_sites();
         let (kicked, climbed) = rayon::join(
-            || kick(search, &mut cycle, &near, KICKS * near.len(), monitor),
+            || kick(search, &mut cycle, &near, KICKS * near.len(), 0, monitor),
             || ascent.climb(length, steps - steps / 3, monitor),
         );
         kicked?;
         climbed?;
+        again(search, &mut cycle, &mut ascent, monitor)?;
     }
     let untangled = untangle(sites, &mut cycle, monitor)?;
     let mut order = cycle.order().to_vec();
@@ -138,6 +146,28 @@ fn begin<'a>(
     }
     let plain = step(Some(special_site(candidates, n)), vec![0.0; n])?;
     Ok(if told.0.bound > plain.0.bound { told } else { plain })
+}
+
+/// Kicks and steps by turns, for few sites whose tour the bound leaves open.
+fn again(
+    search: Search<'_>,
+    cycle: &mut Cycle,
+    ascent: &mut Ascent<'_>,
+    monitor: &Monitor<'_>,
+) -> Result<(), Error> {
+    let n = search.metric.sites();
+    for round in 1..=ROUNDS.min(ROUNDS_WORK / n) {
+        let length = search.metric.length(cycle.order());
+        if length <= (1.0 + GAP) * ascent.bound {
+            break;
+        }
+        kick(search, cycle, &ascent.open_sites(), ROUND_KICKS * n, round as u64, monitor)?;
+        ascent.restart();
+        if ascent.climb(search.metric.length(cycle.order()), STEPS, monitor)? {
+            break;
+        }
+    }
+    Ok(())
 }
 
 /// All moves that shorten.
