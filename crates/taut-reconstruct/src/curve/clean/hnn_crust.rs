@@ -11,17 +11,20 @@ use taut_points::Monitor;
 
 use super::near::{NONE, Near, distance2};
 use crate::Error;
+use crate::curve::boxes::Bounds;
 
 pub(super) fn edges(near: &Near<'_>, monitor: &Monitor<'_>) -> Result<Vec<[u32; 2]>, Error> {
     let at = |site: u32| near.sites[site as usize];
-    let first = near.nearest(|_| true, |_, _, d2| d2, |_, _| true);
+    let first = near.nearest(|_| true, |_| |_, d2| d2, |_| |_: &Bounds| true);
     monitor.check()?;
-    let widest = |p: u32, s: u32, d2: f64| {
-        let n = first[p as usize];
-        let opposite = distance2(at(n), at(s));
-        if opposite > distance2(at(p), at(n)).max(d2) { d2 } else { f64::INFINITY }
+    let widest = |p: u32| {
+        let [p, n] = [p, first[p as usize]].map(at);
+        let apart = distance2(p, n);
+        move |s: [f64; 2], d2: f64| {
+            if distance2(n, s) > apart.max(d2) { d2 } else { f64::INFINITY }
+        }
     };
-    let second = near.nearest(|p| first[p as usize] != NONE, widest, |_, _| true);
+    let second = near.nearest(|p| first[p as usize] != NONE, widest, |_| |_: &Bounds| true);
     monitor.check()?;
     let named = |p: u32| [first[p as usize], second[p as usize]];
     let mut edges = Vec::with_capacity(near.sites.len());

@@ -33,14 +33,18 @@ impl<'a> Near<'a> {
 
     /// For each wanted site the nearest other one, if there is one; [`NONE`] for all others.
     ///
-    /// `rank(p, q, d²)` is d², or infinite where q will not do for p: a choice of numbers, as a branch would be guessed wrong every
-    /// other time. `admits(p, box)` is whether the box can hold something that will do. One descent serves all sites of a leaf.
-    pub(super) fn nearest(
+    /// `rank(p)(q, d²)` is d², or infinite where q will not do for p: a choice of numbers, as a branch would be guessed wrong every
+    /// other time. `admits(p)(box)` is whether the box can hold something that will do. One descent serves all sites of a leaf.
+    pub(super) fn nearest<R, A>(
         &self,
         wanted: impl Fn(u32) -> bool + Sync,
-        rank: impl Fn(u32, u32, f64) -> f64 + Sync,
-        admits: impl Fn(u32, &Bounds) -> bool + Sync,
-    ) -> Vec<u32> {
+        rank: impl Fn(u32) -> R + Sync,
+        admits: impl Fn(u32) -> A + Sync,
+    ) -> Vec<u32>
+    where
+        R: Fn([f64; 2], f64) -> f64,
+        A: Fn(&Bounds) -> bool,
+    {
         let mut nearest = vec![NONE; self.sites.len()];
         nearest.par_chunks_mut(FAN).enumerate().with_min_len(1 << 9).for_each(|(leaf, found)| {
             let first = (leaf * FAN) as u32;
@@ -60,17 +64,21 @@ impl<'a> Near<'a> {
         nearest
     }
 
-    fn seek(
+    fn seek<R, A>(
         &self,
         own: usize,
         seekers: &mut [Seeker],
-        rank: &impl Fn(u32, u32, f64) -> f64,
-        admits: &impl Fn(u32, &Bounds) -> bool,
-    ) {
+        rank: &impl Fn(u32) -> R,
+        admits: &impl Fn(u32) -> A,
+    ) where
+        R: Fn([f64; 2], f64) -> f64,
+        A: Fn(&Bounds) -> bool,
+    {
         let beside = own.saturating_sub(1)..(own + 2).min(self.boxes.leaves());
         for seeker in seekers.iter_mut() {
+            let rank = rank(seeker.site);
             for leaf in [own].into_iter().chain(beside.clone().filter(|&leaf| leaf != own)) {
-                seeker.scan(self, leaf, rank);
+                seeker.scan(self, leaf, &rank);
             }
         }
         let other = |leaf: usize| !beside.contains(&leaf);
@@ -80,13 +88,13 @@ impl<'a> Near<'a> {
         for seeker in seekers.iter_mut() {
             let p = self.sites[seeker.site as usize];
             if seeker.bound > size2 {
-                let site = seeker.site;
+                let (rank, admits) = (rank(seeker.site), admits(seeker.site));
                 self.boxes.nearest(
                     seeker.bound,
-                    |b| if admits(site, b) { b.distance2(p) } else { f64::NAN },
+                    |b| if admits(b) { b.distance2(p) } else { f64::NAN },
                     |leaf, _| {
                         if other(leaf) {
-                            seeker.scan(self, leaf, rank);
+                            seeker.scan(self, leaf, &rank);
                         }
                         seeker.bound
                     },
@@ -103,7 +111,7 @@ impl<'a> Near<'a> {
                 for seeker in seekers.iter_mut().filter(|_| other(leaf)) {
                     let p = self.sites[seeker.site as usize];
                     if self.boxes.leaf_bounds(leaf).distance2(p) <= seeker.bound {
-                        seeker.scan(self, leaf, rank);
+                        seeker.scan(self, leaf, &rank(seeker.site));
                     }
                 }
                 bound
@@ -144,7 +152,7 @@ impl Default for Seeker {
 impl Seeker {
     /// Looks at the sites of a leaf.
     #[inline(always)]
-    fn scan(&mut self, near: &Near<'_>, leaf: usize, rank: &impl Fn(u32, u32, f64) -> f64) {
+    fn scan(&mut self, near: &Near<'_>, leaf: usize, rank: &impl Fn([f64; 2], f64) -> f64) {
         let p = near.sites[self.site as usize];
         for i in near.boxes.leaf(leaf) {
             let q = near.sites[i];
@@ -152,7 +160,7 @@ impl Seeker {
             if d2 > self.bound {
                 continue;
             }
-            let d2 = rank(self.site, i as u32, d2);
+            let d2 = rank(q, d2);
             if d2 <= self.bound && i as u32 != self.site && d2 < f64::INFINITY {
                 let first = d2 < self.bound || q < near.sites[self.found as usize];
                 if first {

@@ -18,7 +18,7 @@ use crate::curve::boxes::Bounds;
 
 pub(super) fn edges(near: &Near<'_>, monitor: &Monitor<'_>) -> Result<Vec<[u32; 2]>, Error> {
     let sites = near.sites;
-    let first = near.nearest(|_| true, |_, _, d2| d2, |_, _| true);
+    let first = near.nearest(|_| true, |_| |_, d2| d2, |_| |_: &Bounds| true);
     monitor.check()?;
     // Whether somebody else drew an edge to it.
     let mut drawn = vec![false; sites.len()];
@@ -27,22 +27,30 @@ pub(super) fn edges(near: &Near<'_>, monitor: &Monitor<'_>) -> Result<Vec<[u32; 
             drawn[q as usize] = true;
         }
     }
-    let behind = |p: u32, r: u32, d2: f64| {
-        let [p, q, r] = [p, first[p as usize], r].map(|site| sites[site as usize]);
-        // Four roundings of half an ulp each; what they leave open is decided exactly.
-        let (along, across) = ((q[0] - p[0]) * (r[0] - p[0]), (q[1] - p[1]) * (r[1] - p[1]));
-        if (along + across).abs() > 1e-15 * (along.abs() + across.abs()) {
-            return if along + across < 0.0 { d2 } else { f64::INFINITY };
+    // From p to its neighbour.
+    let ray = |p: u32| {
+        let [p, q] = [p, first[p as usize]].map(|site| sites[site as usize]);
+        (p, q, [q[0] - p[0], q[1] - p[1]])
+    };
+    let behind = |p: u32| {
+        let (p, q, u) = ray(p);
+        move |r: [f64; 2], d2: f64| {
+            // Four roundings of half an ulp each; what they leave open is decided exactly.
+            let (along, across) = (u[0] * (r[0] - p[0]), u[1] * (r[1] - p[1]));
+            if (along + across).abs() > 1e-15 * (along.abs() + across.abs()) {
+                return if along + across < 0.0 { d2 } else { f64::INFINITY };
+            }
+            if in_diametral_circle(q, r, p).is_positive() { d2 } else { f64::INFINITY }
         }
-        if in_diametral_circle(q, r, p).is_positive() { d2 } else { f64::INFINITY }
     };
     // The corner of a box that is farthest behind p.
-    let reaches_behind = |p: u32, &Bounds([x, y, right, top]): &Bounds| {
-        let [p, q] = [p, first[p as usize]].map(|site| sites[site as usize]);
-        let u = [q[0] - p[0], q[1] - p[1]];
-        let along = u[0] * (if u[0] > 0.0 { x } else { right } - p[0]);
-        let across = u[1] * (if u[1] > 0.0 { y } else { top } - p[1]);
-        along + across <= 1e-15 * (along.abs() + across.abs())
+    let reaches_behind = |p: u32| {
+        let (p, _, u) = ray(p);
+        move |&Bounds([x, y, right, top]): &Bounds| {
+            let along = u[0] * (if u[0] > 0.0 { x } else { right } - p[0]);
+            let across = u[1] * (if u[1] > 0.0 { y } else { top } - p[1]);
+            along + across <= 1e-15 * (along.abs() + across.abs())
+        }
     };
     let half =
         near.nearest(|p| first[p as usize] != NONE && !drawn[p as usize], behind, reaches_behind);
