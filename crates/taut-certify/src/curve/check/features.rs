@@ -4,11 +4,11 @@
 //! Where vertices are rows, s = 0 and they are the neighbours. Else s is a few times the band: below that, the curve is known no
 //! better than the noise let it be.
 //! *Radius.* R(v) is the least radius of a circle that is tangent to the curve at v, on either side, and passes through another
-//! point q of any curve: |q − v|²/2(|n·(q − v)| − τ), over the two points and all edges but those between them. τ, a
-//! part of the band, forgives offsets that noise explains, of points up to 4s along the curve; else it is 0. On its inner side a closed curve of length L leaves no room for more than
-//! L/2π, by the isoperimetric inequality. Where vertices are rows, R(v) is looked for up to the sight σ(v) only, and counts as that much
-//! where it is larger: σ(v) is the largest over all gaps between rows of the curve of nine times the gap less the way to it, so
-//! no ε below 1/16 is told.
+//! point q of any curve: |q − v|²/2(|n·(q − v)| − τ), over the two points and all edges but those between them. τ, a part of the
+//! band, forgives offsets that noise explains, of points up to 4s along the curve; else it is 0. On its inner side a closed curve
+//! of length L leaves no room for more than L/2π, by the isoperimetric inequality.
+//! *Sight.* Where vertices are rows, R(v) is looked for up to σ(v) only, and counts as that much where it is larger: the largest,
+//! over all gaps between rows of the curve, of nine times the gap less the way to it. No ε below 1/16 is told then.
 //! *φ.* The largest function below R that changes by no more than the length of the way along a curve.
 
 use std::f64::consts::TAU;
