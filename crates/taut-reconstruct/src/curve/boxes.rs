@@ -162,6 +162,34 @@ impl Boxes {
         }
     }
 
+    /// Visits leaves in their order, those whose boxes, and the boxes above them, are wanted.
+    pub(super) fn in_order(
+        &self,
+        wanted: &impl Fn(&Bounds) -> bool,
+        visit: &mut impl FnMut(usize),
+    ) {
+        if self.items > 0 {
+            self.walk(self.levels.len() - 1, 0, wanted, visit);
+        }
+    }
+
+    fn walk(
+        &self,
+        level: usize,
+        node: usize,
+        wanted: &impl Fn(&Bounds) -> bool,
+        visit: &mut impl FnMut(usize),
+    ) {
+        match level {
+            _ if !wanted(&self.levels[level][node]) => (),
+            0 => visit(node),
+            _ => {
+                let children = node * FAN..self.levels[level - 1].len().min((node + 1) * FAN);
+                children.for_each(|child| self.walk(level - 1, child, wanted, visit));
+            }
+        }
+    }
+
     /// Visits the leaves whose box meets the given one.
     pub(super) fn meeting(&self, bounds: &Bounds, mut visit: impl FnMut(usize)) {
         let lower = |b: &Bounds| if b.meets(bounds) { 0.0 } else { f64::INFINITY };
