@@ -196,6 +196,46 @@ fn ends_stay_ends() {
     assert!(found.topology_right() && found.hausdorff < 0.1, "{found:?}");
 }
 
+/// Six hundred points of a wave, as dense everywhere: its crests hold eight for each unit of their radius.
+#[test]
+fn sparse_crests_are_followed_and_the_noise_is_told() {
+    let n = 600;
+    for name in ["arc", "wave"] {
+        let truth = TestCurve::named(name).expect("a test curve").build();
+        let noise = CurveNoise { delta: 0.05, uniform_arc: true, ..Default::default() };
+        let mut wrong_noise = 0;
+        for seed in 0..8 {
+            let points = sample_curve(&truth, n, &noise, seed).points;
+            let found = fitted(&points).answer;
+            assert!(found.outliers.len() <= n / 50, "{name} {seed}: {:?}", found.outliers);
+            wrong_noise += usize::from((found.noise - 0.05).abs() > 0.015);
+            let found = quality(&truth, &found);
+            assert!(found.topology_right() && found.vertex_rms < 0.05, "{name} {seed}: {found:?}");
+        }
+        assert!(wrong_noise <= 2, "{name}: {wrong_noise}");
+    }
+}
+
+/// A flower, a circle, an ellipse and a wave of three crests, whose least radius is three deviations of the noise; and eight points
+/// anywhere.
+#[test]
+fn three_loops_and_a_wave() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../taut-cli/samples/loops.csv");
+    let text = std::fs::read_to_string(file).expect("the sample of the command");
+    let points: Vec<f64> = text
+        .lines()
+        .filter_map(|line| line.split_once(','))
+        .filter_map(|(x, y)| Some([x.trim().parse::<f64>().ok()?, y.trim().parse::<f64>().ok()?]))
+        .flatten()
+        .collect();
+    let found = fitted(&points).answer;
+    let mut closed: Vec<bool> = found.curves.iter().map(|c| c.closed).collect();
+    closed.sort_unstable();
+    assert_eq!(closed, [false, true, true, true]);
+    assert!((4..=16).contains(&found.outliers.len()), "{:?}", found.outliers);
+    assert!((found.noise - 0.09).abs() < 0.025, "{}", found.noise);
+}
+
 #[test]
 fn few_equal_collinear_and_huge_points() {
     let cloud: Vec<f64> = (0..400u32)

@@ -9,7 +9,7 @@ use super::strand::Strand;
 
 /// Noise has an edge where nine tenths of it lie within so many medians: between 1.8 of uniform and 2.44 of normal noise, and below
 /// the 2.33 of a triangular one.
-const EDGED: f64 = 2.05;
+const EDGED: f64 = 2.13;
 /// Fewest points to tell the kind from.
 const FEWEST: usize = 100;
 /// Standard deviations within which noise counts, and between which and twice that background does.

@@ -34,6 +34,8 @@ const ONE_SIDED: f64 = 0.75;
 const PEELS: usize = 8;
 /// Greatest slope against the frame within a window.
 const SLOPE: f64 = 0.8;
+/// Greatest deviation of the residuals of a window, in those of the noise.
+const SPREAD: f64 = 1.5;
 
 /// What windows say of one place.
 #[derive(Clone, Copy, Debug)]
@@ -68,7 +70,7 @@ pub(super) fn regress(strand: &Strand, parts: usize, noise: &Noise) -> Vec<Node>
         .map_init(Window::default, |window, (number, place)| {
             let half = between(&halves, number, strand.closed);
             let Frame { origin, tangent } = place.frame;
-            match measure(strand, place, half, noise, window) {
+            match narrow(strand, place, half, noise, window) {
                 Some(found) => Node {
                     at: place.frame.place(found.offset),
                     tangent: place.frame.direction(found.slope),
@@ -208,7 +210,7 @@ fn longest(strand: &Strand, place: &Place, noise: &Noise, window: &mut Window) -
         if let Some(found) = measure(strand, place, half, noise, window) {
             let interval = [found.offset - AGREE * found.error, found.offset + AGREE * found.error];
             agreed = [agreed[0].max(interval[0]), agreed[1].min(interval[1])];
-            if agreed[0] > agreed[1] || found.deviation > 1.5 * place.deviation {
+            if agreed[0] > agreed[1] || found.deviation > SPREAD * place.deviation {
                 break;
             }
             best = half;
@@ -219,6 +221,25 @@ fn longest(strand: &Strand, place: &Place, noise: &Noise, window: &mut Window) -
         half *= GROWTH;
     }
     best
+}
+
+/// What the window of a length says, or the longest of those it holds in which residuals are as small as noise is.
+///
+/// Lengths come from the places around, and where few points lie around a bend, none of those may be there.
+fn narrow(
+    strand: &Strand,
+    place: &Place,
+    mut half: f64,
+    noise: &Noise,
+    window: &mut Window,
+) -> Option<Estimate> {
+    let mut found = measure(strand, place, half, noise, window)?;
+    while found.deviation > SPREAD * place.deviation {
+        half /= GROWTH;
+        let Some(shorter) = measure(strand, place, half, noise, window) else { break };
+        found = shorter;
+    }
+    Some(found)
 }
 
 /// The points of a window, in the frame of a place; memory that is used again.
