@@ -3,8 +3,8 @@
 //! *Problem.* A closed tour through all sites, or a path, as short as can be, without crossings, and potentials that prove how short
 //! any tour must be.
 //! *Idea.* Candidates from the Delaunay triangulation; fragments that grow together (greedy matching); moves of three edges; the
-//! ascent of Held and Karp, from potentials read off the tour, later with moats around clusters; and, where the bound leaves something open, kicks that are repaired by
-//! moves. Crossings that are left are removed with exact signs.
+//! ascent of Held and Karp, from potentials read off the tour, later with moats around clusters; and, where the bound leaves something
+//! open, kicks that are repaired by moves. Crossings that are left are removed with exact signs.
 //! *Guarantee.* The tour is a simple polygon or path. The bound holds for all tours, not only those of candidates. All budgets count
 //! events. O(n) memory.
 //! *Trap.* Sites on a line have no closed tour that is simple: they get the path from end to end.
@@ -51,6 +51,8 @@ const ROUNDS: usize = 12;
 const ROUNDS_WORK: usize = 1500;
 const ROUND_KICKS: usize = 4;
 const GAP: f64 = 0.01;
+/// A round is the last if it left more than this share of the gap.
+const WORTHWHILE: f64 = 0.95;
 
 /// A tour with its bound.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -156,11 +158,14 @@ fn again(
     monitor: &Monitor<'_>,
 ) -> Result<(), Error> {
     let n = search.metric.sites();
+    let mut before = f64::INFINITY;
     for round in 1..=ROUNDS.min(ROUNDS_WORK / n) {
         let length = search.metric.length(cycle.order());
-        if length <= (1.0 + GAP) * ascent.bound {
+        let gap = length - ascent.bound;
+        if gap <= GAP * length || gap > WORTHWHILE * before {
             break;
         }
+        before = gap;
         kick(search, cycle, &ascent.open_sites(), ROUND_KICKS * n, round as u64, monitor)?;
         ascent.restart();
         if ascent.climb(search.metric.length(cycle.order()), STEPS, monitor)? {
