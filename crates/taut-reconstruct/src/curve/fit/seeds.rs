@@ -81,7 +81,7 @@ pub(super) fn seeds(
     index: &Index<'_>,
     monitor: &Monitor<'_>,
 ) -> Result<Vec<Seed>, Error> {
-    let spacing = spacings(points, index);
+    let spacing = spacings(index);
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
     order.par_sort_unstable_by(|&i, &j| {
         let ((a, all_a), (b, all_b)) = (spacing[i as usize], spacing[j as usize]);
@@ -166,16 +166,11 @@ fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
 /// For each point the distance of its [`NEIGHBORS`]-th neighbour, and the sum of the squared distances of all.
 ///
 /// Two points are often the eighth of each other. Then the sum decides which is denser: numbers of points turn with nothing.
-fn spacings(points: &[Point], index: &Index<'_>) -> Vec<(f64, f64)> {
-    (0..points.len())
-        .into_par_iter()
-        .with_min_len(1 << 12)
-        .map_init(Vec::new, |found, i| {
-            index.neighbors(i, NEIGHBORS + 1, found);
-            let last = found.last().map_or(0.0, |last| last.0.sqrt());
-            (last, found.iter().map(|near| near.0).sum())
-        })
-        .collect()
+fn spacings(index: &Index<'_>) -> Vec<(f64, f64)> {
+    index.neighbors_of_all(NEIGHBORS + 1, |found| {
+        let last = found.last().map_or(0.0, |last| last.0.sqrt());
+        (last, found.iter().map(|near| near.0).sum())
+    })
 }
 
 /// The value that nine tenths of ascending numbers do not exceed.

@@ -9,10 +9,12 @@ use taut_oblivious::hilbert_order;
 
 use super::link::Chain;
 use super::seeds::Seed;
-use crate::curve::index::{Index, distance2};
+use crate::curve::index::{Index, Nearest};
 
 type Point = [f64; 2];
 
+/// Points whose nearest places are sought together.
+const RUN: usize = 16;
 /// Pieces of the polyline between two nodes.
 const PIECES: usize = 4;
 
@@ -145,25 +147,23 @@ pub(super) fn assign(strands: &mut [Strand], points: &[Point], width: f64) -> Ve
     let places: Vec<Point> = order.iter().map(|&i| at(&vertices[i as usize])).collect();
     let index = Index::new(&places);
     let shared: &[Strand] = strands;
-    let found: Vec<Option<(u32, f64, f64)>> = points
-        .par_iter()
-        .with_min_len(1 << 10)
-        .map_init(Vec::new, |nearest: &mut Vec<(f64, u32)>, &p| {
-            // Points come in the order of a Hilbert curve: the place next to the last one is near.
-            if let Some(last) = nearest.first_mut() {
-                last.0 = distance2(places[last.1 as usize], p);
-            }
-            index.nearest(p, 1, nearest);
-            let vertex = &vertices[order[nearest.first()?.1 as usize] as usize];
-            let strand = &shared[vertex.strand as usize];
-            let (distance, arc) =
-                project(strand, &lines[vertex.strand as usize], vertex.number as usize, p);
-            let node =
-                &strand.nodes[(vertex.number as usize).div_ceil(PIECES) % strand.nodes.len()];
-            (distance <= width * node.deviation)
-                .then(|| (vertex.strand, arc, distance / node.deviation.max(f64::MIN_POSITIVE)))
-        })
-        .collect();
+    let place_of = |p: Point, nearest: u32| {
+        let vertex = &vertices[order[nearest as usize] as usize];
+        let strand = &shared[vertex.strand as usize];
+        let (distance, arc) =
+            project(strand, &lines[vertex.strand as usize], vertex.number as usize, p);
+        let node = &strand.nodes[(vertex.number as usize).div_ceil(PIECES) % strand.nodes.len()];
+        (distance <= width * node.deviation)
+            .then(|| (vertex.strand, arc, distance / node.deviation.max(f64::MIN_POSITIVE)))
+    };
+    // Points come in the order of a Hilbert curve: a run of them is in one place, as a rule.
+    let mut found: Vec<Option<(u32, f64, f64)>> = vec![None; points.len()];
+    points.par_chunks(RUN).zip(found.par_chunks_mut(RUN)).with_min_len(1 << 6).for_each_init(
+        Nearest::default,
+        |nearest, (points, found)| {
+            index.nearest_to_each(points, nearest, |k, at| found[k] = place_of(points[k], at));
+        },
+    );
     let mut members: Vec<Vec<Member>> = vec![Vec::new(); strands.len()];
     let mut left = Vec::new();
     for (site, (&at, found)) in points.iter().zip(&found).enumerate() {
