@@ -10,6 +10,9 @@ use super::boxes::{Bounds, Boxes, FAN};
 
 type Point = [f64; 2];
 
+/// The squares of distances with the numbers of points, ascending.
+type Found = Vec<(f64, u32)>;
+
 /// Points in the order of a Hilbert curve with the tree of boxes over them.
 #[derive(Clone, Debug)]
 pub(super) struct Index<'a> {
@@ -27,7 +30,7 @@ pub(super) fn distance2(a: Point, b: Point) -> f64 {
 /// Memory of [`Index::nearest_to_each`] that is used again.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Nearest {
-    best: Vec<(f64, u32)>,
+    best: Found,
     candidates: Vec<u32>,
 }
 
@@ -51,7 +54,7 @@ impl<'a> Index<'a> {
 
     /// The `k` points nearest to a place with the squares of their distances, nearest first, in `found`; fewer where there are no
     /// more. What is in `found` already is taken as candidates: points near the place save most of the search.
-    pub(super) fn nearest(&self, at: Point, k: usize, found: &mut Vec<(f64, u32)>) {
+    pub(super) fn nearest(&self, at: Point, k: usize, found: &mut Found) {
         let bound = |found: &[(f64, u32)]| match found.len() == k {
             true => found[k - 1].0,
             false => f64::INFINITY,
@@ -81,7 +84,7 @@ impl<'a> Index<'a> {
         k: usize,
         of: impl Fn(&[(f64, u32)]) -> T + Sync,
     ) -> Vec<T> {
-        let of_leaf = |(found, leaves): &mut (Vec<Vec<(f64, u32)>>, Vec<u32>), leaf: usize| {
+        let of_leaf = |(found, leaves): &mut (Vec<Found>, Vec<u32>), leaf: usize| {
             let points = self.boxes.leaf(leaf);
             found.resize(FAN, Vec::new());
             let mut far2 = 0.0f64;
@@ -119,7 +122,7 @@ impl<'a> Index<'a> {
 
     /// Puts points in their places among the k best.
     #[inline]
-    fn insert_all(&self, points: Range<usize>, at: Point, k: usize, found: &mut Vec<(f64, u32)>) {
+    fn insert_all(&self, points: Range<usize>, at: Point, k: usize, found: &mut Found) {
         let mut most = if found.len() < k { f64::INFINITY } else { found[k - 1].0 };
         for (number, &point) in points.clone().zip(&self.points[points]) {
             let distance2 = distance2(point, at);
@@ -169,7 +172,7 @@ impl<'a> Index<'a> {
 
 /// Puts a candidate in its place among the k best.
 #[inline]
-fn insert(found: &mut Vec<(f64, u32)>, k: usize, candidate: (f64, u32)) {
+fn insert(found: &mut Found, k: usize, candidate: (f64, u32)) {
     if found.len() == k && candidate >= found[k - 1] {
         return;
     }
