@@ -96,6 +96,16 @@ fn nothing_is_too_few_and_a_line_is_a_path() {
     }
 }
 
+/// In units of the extent the first coordinates are infinite.
+#[test]
+fn a_short_line_far_from_the_origin_is_a_path() {
+    let sites = [0.0, 1e-300, 3e-300].map(|y| [1e300, y]);
+    let found = find_any(&sites);
+    assert_eq!((found.closed, &found.order[..]), (false, &[0, 1, 2][..]));
+    assert!((found.length - 3e-300).abs() <= 1e-312, "{}", found.length);
+    assert!((found.lower - 3e-300).abs() <= 1e-312, "{}", found.lower);
+}
+
 /// Without the comparison of lengths, which may be beyond the largest number.
 fn find_any(sites: &[[f64; 2]]) -> Tour {
     tour(sites, false, &Monitor::silent()).expect("not stopped")

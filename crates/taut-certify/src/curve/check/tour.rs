@@ -122,8 +122,9 @@ impl Scale {
         Self { to: power(-exponent), back: power(exponent) }
     }
 
+    /// A coordinate that is beyond all numbers in this scale is the same for all points: it may as well be 0.
     fn point(&self, p: [f64; 2]) -> [f64; 2] {
-        p.map(|x| x * self.to[0] * self.to[1])
+        p.map(|x| x * self.to[0] * self.to[1]).map(|x| if x.is_finite() { x } else { 0.0 })
     }
 
     /// A potential in whole units.

@@ -75,6 +75,9 @@ pub(super) struct Seed {
     pub(super) density: f64,
 }
 
+/// A window's least length, in units in which all points are near 1: the square of a shorter one may be 0, and 0 never grows.
+const REACH_MIN: f64 = 1e-150;
+
 /// The seeds of all curves, in the order in which they were found.
 pub(super) fn seeds(
     points: &[Point],
@@ -297,7 +300,7 @@ impl<'a> Search<'a> {
     fn flat(&mut self, start: Point, spacing: f64) -> Option<(Parabola, f64)> {
         let most = (self.points.len() / 3).max(NEIGHBORS);
         // Not the spacing itself, at which the last neighbour is inside or outside as rounding will have it.
-        let mut reach = GROWTH * spacing;
+        let mut reach = (GROWTH * spacing).max(REACH_MIN);
         let mut best: Option<(f64, Parabola, f64)> = None;
         let mut longest = f64::INFINITY;
         loop {
