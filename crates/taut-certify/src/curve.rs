@@ -71,7 +71,7 @@ pub struct CurveCertificate {
     /// No row but the outliers is farther than this from the curve; 0 where vertices are rows, as each row then is a vertex.
     pub band: f64,
     /// ε: over all gaps between places of rows that follow each other along a curve, the largest of half the gap over φ.
-    /// [`f64::MAX`] where it is not known, or larger. Where vertices are rows, 1/16 says that it may be less.
+    /// [`f64::MAX`] where it is not known; the solver does not tell it of curves that are not certified. Where vertices are rows, 1/16 says that it may be less.
     pub sampling_ratio: f64,
     /// Over all rows but the outliers, the largest of the distance from the curve over φ next to it. [`f64::MAX`] where it is not known.
     pub noise_ratio: f64,

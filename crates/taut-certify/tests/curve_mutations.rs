@@ -268,7 +268,12 @@ const DAMAGE: [Damage; 22] = [
         },
         |v| {
             curve_violation(v, |v| {
-                matches!(v, CurveViolation::NotCertified { .. } | CurveViolation::Figure { .. })
+                let is_vertex = matches!(v, CurveViolation::Row { .. });
+                is_vertex
+                    || matches!(
+                        v,
+                        CurveViolation::NotCertified { .. } | CurveViolation::Figure { .. }
+                    )
             })
         },
     ),

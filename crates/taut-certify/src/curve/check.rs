@@ -34,7 +34,7 @@ use crate::{CheckError, Violation};
 /// How much less than found a figure may be claimed to be, relatively: φ is told up to a 64th.
 const FIGURE_SLACK: f64 = 0.05;
 
-/// How much more than proved a lower bound may be claimed to be, relatively: a solver sums in an order of its own. The gap in
+/// How much more than proved a lower bound may be claimed to be, relatively, for those who sum in an order of their own. The gap in
 /// the verdict is that of the lesser.
 const BOUND_SLACK: f64 = 1e-9;
 
@@ -55,7 +55,8 @@ pub(super) fn check(
         return Err(CurveViolation::Crossing { curve, edge, other, other_edge }.into());
     }
     let placed = band::place(curve, certificate, &edges, &rows, monitor)?;
-    let evidence = evidence::judge(curve, &edges, crossing, &placed, monitor)?;
+    let evidence =
+        evidence::judge(curve, certificate.tour.is_some(), &edges, crossing, &placed, monitor)?;
     claims(certificate, &evidence)?;
     let tour_gap = tour_gap(curve, certificate, &edges, monitor)?;
     Ok(CurveVerdict {

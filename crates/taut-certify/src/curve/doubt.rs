@@ -43,7 +43,7 @@ pub enum CurveDoubt {
     },
     /// Samples are too far apart beside the features of the curve.
     #[error(
-        "a gap between samples of curve {curve}, after vertex {vertex}, is {ratio:.3} of the feature size there, twice; at most {most} would do"
+        "half the gap between samples of curve {curve}, after vertex {vertex}, is {ratio:.3} of the feature size there; at most {most} would do"
     )]
     Sparse {
         /// Curve, from 0.
@@ -113,6 +113,27 @@ pub enum CurveDoubt {
         /// Rows there are.
         rows: u64,
     },
+    /// Too many outliers are as near to the curve as other rows.
+    #[error("{outliers} outliers are no farther from the curves than other rows")]
+    Inside {
+        /// How many.
+        outliers: u64,
+    },
+    /// Outliers lie nearer to each other than chance would put them.
+    #[error(
+        "{rows} outliers, row {row} among them, lie nearer to each other than chance would put them: {near:.2} of that on average"
+    )]
+    Gathered {
+        /// One of those that have the most others around them.
+        row: u64,
+        /// How many outliers there are.
+        rows: usize,
+        /// Their mean distance from the next, over what chance makes it.
+        near: f64,
+    },
+    /// The answer is a tour: it passes all points, from whatever curves they are.
+    #[error("a tour passes all points, of whatever curves they are")]
+    Tour,
     /// Outliers lie as near to each other as samples of a curve.
     #[error(
         "{rows} outliers, row {row} among them, lie as near to each other as the samples of a curve"

@@ -145,7 +145,9 @@ fn band_above(band: f64, sites: &[[f64; 2]], spots: &[Option<Spot>], segments: &
     }
     let width = (0..2).map(|k| ((high[k] - low[k]) * segments.scale).max(0.0)).sum::<f64>();
     let rounding = 32.0 * f64::EPSILON * (width + segments.reach() + band);
-    ((band * (1.0 + 1e-12) + rounding) / segments.scale).next_up().min(f64::MAX)
+    // Below the smallest normal number nothing is relative.
+    let least = 32.0 * f64::from_bits(1);
+    ((band * (1.0 + 1e-12) + rounding) / segments.scale + least).next_up().min(f64::MAX)
 }
 
 /// The place of every row, of outliers too.

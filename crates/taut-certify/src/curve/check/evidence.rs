@@ -38,6 +38,7 @@ pub(super) struct Evidence {
 
 pub(super) fn judge(
     curve: &Curve,
+    is_tour: bool,
     edges: &Edges,
     crossing: Option<[usize; 2]>,
     placed: &Placed,
@@ -54,6 +55,9 @@ pub(super) fn judge(
     if let Some([one, _]) = crossing {
         let (curve, edge) = edges.name(one);
         return Ok(unknown(CurveDoubt::Crossing { curve, edge }));
+    }
+    if is_tour {
+        return Ok(unknown(CurveDoubt::Tour));
     }
     if let Some(curve) = curve.curves.iter().position(|one| !one.closed) {
         return Ok(unknown(CurveDoubt::Open { curve }));

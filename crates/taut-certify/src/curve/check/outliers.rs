@@ -1,6 +1,7 @@
 //! Whether outliers could be the samples of a curve that was missed.
 
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 
 use super::super::CurveDoubt;
 use super::band::{Placed, nearest};
@@ -14,6 +15,18 @@ const CLUSTER_MOST: usize = 9;
 
 /// How near outliers must be to each other to be linked, over the gap that 95 of 100 samples have at most to the next.
 const LINK: f64 = 1.5;
+
+/// Fewest outliers of which it is asked whether they are spread as chance would, and how near they may be to each other on average, over
+/// what chance makes it.
+const FEWEST: usize = 8;
+const NEAR_LEAST: f64 = 0.75;
+
+/// Outliers with so many others around them, where chance would put half a one, and how many of those there may be.
+const CROWD: usize = 8;
+const CROWDED_MOST: usize = 3;
+
+/// One of so many rows may be said to be an outlier though it is no farther from the curve than others are.
+const INSIDE: usize = 50;
 
 /// Outliers nearer to the curve than this times the band are its own: noise has tails.
 const OWN: f64 = 2.0;
@@ -39,7 +52,71 @@ pub(super) fn doubt(
         .filter(|(_, place)| nearest(edges, *place, OWN * band).is_none())
         .copied()
         .collect();
-    cluster(&far, link)
+    let inside =
+        placed.outliers.iter().filter(|(_, place)| nearest(edges, *place, band).is_some()).count();
+    if inside > FEWEST.max(rows / INSIDE) {
+        return Some(CurveDoubt::Inside { outliers: inside as u64 });
+    }
+    cluster(&far, link).or_else(|| gathered(edges, placed, &far, band))
+}
+
+/// Whether outliers lie nearer to each other than chance would put as many of them in the room around all rows that no band takes up
+/// (Clark and Evans 1954), on average or somewhere.
+fn gathered(
+    edges: &Edges,
+    placed: &Placed,
+    far: &[(usize, [f64; 2])],
+    band: f64,
+) -> Option<CurveDoubt> {
+    let many = far.len() as f64;
+    if far.len() < FEWEST {
+        return None;
+    }
+    let (mut low, mut high, mut length) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2], 0.0);
+    let segments = (0..edges.ends.len()).map(|edge| edges.segment(edge));
+    for [a, b] in segments.chain(placed.outliers.iter().map(|&(_, place)| [place; 2])) {
+        length += (b[0] - a[0]).hypot(b[1] - a[1]);
+        for k in 0..2 {
+            (low[k], high[k]) = (low[k].min(a[k]).min(b[k]), high[k].max(a[k]).max(b[k]));
+        }
+    }
+    let all = (high[0] - low[0]) * (high[1] - low[1]);
+    let area = (all - 2.0 * OWN * band * length).max(all / 4.0);
+    let reach = (area / (2.0 * PI * many)).sqrt();
+    let usual = 0.5 * (area / many).sqrt();
+    // Cells as wide as the reach; the nearest of all is sought no farther than four times what is usual.
+    let cell = |p: [f64; 2]| [0, 1].map(|k| ((p[k] - low[k]) / reach).floor() as i64);
+    let mut cells: BTreeMap<[i64; 2], Vec<[f64; 2]>> = BTreeMap::new();
+    far.iter().for_each(|&(_, p)| cells.entry(cell(p)).or_default().push(p));
+    let (mut sum, mut crowded, mut first) = (0.0, 0, far[0].0);
+    for &(row, p) in far {
+        let [x, y] = cell(p);
+        let (mut next, mut count) = (4.0 * usual, 0);
+        for (i, j) in (-5..=5).flat_map(|i| (-5..=5).map(move |j| (i, j))) {
+            for q in cells.get(&[x + i, y + j]).into_iter().flatten() {
+                let apart = (p[0] - q[0]).hypot(p[1] - q[1]);
+                if apart > 0.0 {
+                    next = next.min(apart);
+                    count += usize::from(apart <= reach);
+                }
+            }
+        }
+        sum += next;
+        if count >= CROWD {
+            if crowded == 0 {
+                first = row;
+            }
+            crowded += 1;
+        }
+    }
+    let near = sum / many / usual;
+    // The mean of so many distances is off by 0.52/√n of itself, by four times that hardly ever.
+    let is_gathered = near < NEAR_LEAST.min(1.0 - 4.0 * 0.52 / many.sqrt());
+    (is_gathered || crowded > CROWDED_MOST).then_some(CurveDoubt::Gathered {
+        row: first as u64,
+        rows: far.len(),
+        near,
+    })
 }
 
 /// The first cluster of too many points that are linked one by one.

@@ -7,15 +7,18 @@ use super::features::Features;
 /// Gaps on either side that a gap is compared with.
 const BESIDE: usize = 16;
 
-/// Rows across whose offsets an empty part is sought.
-const WINDOW: usize = 128;
+/// Rows across whose offsets an empty part is sought: short windows follow the curve, long ones find thin gaps.
+const WINDOWS: [usize; 3] = [128, 512, 2048];
 
-/// A share of the rows of a window that may lie on one side of an empty part without making it one between two bands.
-const EDGE: usize = WINDOW / 10;
+/// Rows of a window along which neighbours are compared.
+const WINDOW: usize = WINDOWS[0];
 
-/// The most of the width of a band that may be empty in the middle. Of 128 numbers that are uniform in a band, two neighbours in order
-/// are so far apart once in 10¹⁸ windows.
-const EMPTY_MOST: f64 = 0.3;
+/// One of so many rows of a window may lie on one side of an empty part without making it one between two bands.
+const EDGE: usize = 10;
+
+/// ln of how seldom chance may leave such a part: of m numbers that are uniform in a band, two neighbours in order are the share x
+/// of its width apart in m·exp(−m·x) of all windows.
+const SELDOM: f64 = 18.0;
 
 /// The least that squared differences of neighbours may be on average, over twice the variance. Of 128 numbers that chance orders it is
 /// 1 ± 0.09, normal or uniform: less than this once in 10⁸ windows.
@@ -95,22 +98,31 @@ pub(super) fn lengths(samples: &[Sample], features: &Features) -> Vec<f64> {
     gaps(samples, features).map(|gap| gap.0).collect()
 }
 
-/// A gap so much longer than those beside it that chance would make one in many curves sampled at random.
+/// The least coefficient of variation of gaps that is supposed, where they are more even.
+const EVEN: f64 = 0.1;
+
+/// A gap so much longer than those beside it that chance would make one in many curves sampled as these are.
 pub(super) fn lacuna(curve: usize, samples: &[Sample], features: &Features) -> Option<CurveDoubt> {
     let gaps: Vec<(f64, usize, usize)> = gaps(samples, features).collect();
     let (count, mut worst) = (gaps.len(), Worst::NONE);
     let beside = BESIDE.min((count - 1) / 2);
     for (k, &(gap, vertex, _)) in gaps.iter().enumerate() {
-        let near = |step: usize| gaps[(k + step) % count].0 + gaps[(k + count - step) % count].0;
-        let mean = (1..=beside).map(near).sum::<f64>() / (2 * beside) as f64;
-        if gap > 0.0 {
+        let near = || {
+            let steps = (1..=beside).flat_map(|step| [k + step, k + count - step]);
+            steps.map(|k| gaps[k % count].0)
+        };
+        let many = (2 * beside) as f64;
+        let mean = near().sum::<f64>() / many;
+        let variance = near().map(|gap| (gap - mean).powi(2)).sum::<f64>() / many;
+        // Of n exponential gaps, one in about n·(1 + t/32)⁻³² is t times as long as the mean of 32 others. Even gaps leave less to chance.
+        let varied = (variance.sqrt() / mean).clamp(EVEN, 1.0);
+        let most = 1.0 + (9.0 + 1.5 * (count as f64).ln()) * varied;
+        if gap > 0.0 && gap > most * mean {
             worst.see(gap / mean, vertex);
         }
     }
-    // Of n exponential gaps, one in about n·(1 + t/32)⁻³² is t times as long as the mean of 32 others.
-    let most = 10.0 + 1.5 * (count as f64).ln();
     let (vertex, times) = (worst.at, worst.value);
-    (times > most).then_some(CurveDoubt::Lacuna { curve, vertex, times })
+    (times > 0.0).then_some(CurveDoubt::Lacuna { curve, vertex, times })
 }
 
 /// The largest distance of a row over φ at its place, and the row.
@@ -125,22 +137,27 @@ pub(super) fn noise_ratio(samples: &[Sample], features: &Features) -> Worst {
 
 /// An empty part of the band, with rows on both sides.
 pub(super) fn split(curve: usize, samples: &[Sample]) -> Option<CurveDoubt> {
-    let mut worst = Worst::NONE;
-    let mut offsets = Vec::with_capacity(WINDOW);
-    for start in (0..samples.len()).step_by(WINDOW / 2) {
-        offsets.clear();
-        let window = samples.iter().cycle().skip(start).take(WINDOW);
-        offsets.extend(window.map(|sample| sample.offset));
-        offsets.sort_by(f64::total_cmp);
-        let width = offsets[WINDOW - 1] - offsets[0];
-        let middle = &offsets[EDGE..WINDOW - EDGE];
-        let empty = middle.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-        if empty > 0.0 {
-            worst.see(empty / width, samples[start].vertex);
+    for window in WINDOWS.into_iter().filter(|&window| window <= samples.len()) {
+        let (mut worst, edge, m) = (Worst::NONE, window / EDGE, window as f64);
+        let mut offsets = Vec::with_capacity(window);
+        for start in (0..samples.len()).step_by(window / 2) {
+            offsets.clear();
+            let around = samples.iter().cycle().skip(start).take(window);
+            offsets.extend(around.map(|sample| sample.offset));
+            offsets.sort_by(f64::total_cmp);
+            let width = offsets[window - 1] - offsets[0];
+            let middle = &offsets[edge..window - edge];
+            let empty = middle.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+            if empty > 0.0 {
+                worst.see(empty / width, samples[start].vertex);
+            }
+        }
+        let (vertex, share) = (worst.at, worst.value);
+        if share > (m.ln() + SELDOM) / m {
+            return Some(CurveDoubt::Split { curve, vertex, share });
         }
     }
-    let (vertex, share) = (worst.at, worst.value);
-    (share > EMPTY_MOST).then_some(CurveDoubt::Split { curve, vertex, share })
+    None
 }
 
 /// Rows that lie off the curve together with their neighbours.

@@ -74,9 +74,18 @@ fn vertices(curve: &Curve) -> Result<(), Violation> {
 }
 
 fn lists(curve: &Curve, n: usize) -> Result<(), Violation> {
+    if curve.noise != 0.0 && curve.curves.iter().any(|one| !one.rows.is_empty()) {
+        let (what, value) = ("the noise".to_owned(), curve.noise);
+        return Err(Violation::Number { what, value, expected: "0, as vertices are rows" });
+    }
     for (number, one) in curve.curves.iter().enumerate() {
         if let Some(vertex) = one.rows.iter().position(|&row| row >= n as u64) {
             let (row, problem) = (one.rows[vertex], "but there are not so many");
+            return Err(CurveViolation::Row { curve: number, vertex, row, problem }.into());
+        }
+        let is_outlier = |row: &u64| curve.outliers.binary_search(row).is_ok();
+        if let Some(vertex) = one.rows.iter().position(is_outlier) {
+            let (row, problem) = (one.rows[vertex], "but that is an outlier");
             return Err(CurveViolation::Row { curve: number, vertex, row, problem }.into());
         }
     }

@@ -13,6 +13,16 @@ const LINK: f64 = 1.55;
 /// Outliers this near, over the band, belong to the noise of the curve; a little less than twice.
 const OWN: f64 = 1.99;
 
+/// Outliers of the band itself: so many, or one in so many sites.
+const INSIDE_LEAST: usize = 7;
+const INSIDE: usize = 51;
+/// From so many outliers on it is asked how they are scattered: their mean distance from the next over that of chance, a little more than
+/// what the checker asks for; how many others make a crowd; and how many crowds there may be.
+const SCATTERED_FROM: usize = 8;
+const NEAR_LEAST: f64 = 0.76;
+const CROWD: usize = 8;
+const CROWDED_MOST: usize = 2;
+
 pub(super) fn are_harmless(
     segments: &Segments,
     sites: &[[f64; 2]],
@@ -32,9 +42,64 @@ pub(super) fn are_harmless(
     let link = (band * 1.01).max(LINK * usual);
     let scaled = |site: usize| sites[site].map(|x| x * segments.scale);
     let none = (0..sites.len()).filter(|&site| spots[site].is_none()).map(scaled);
-    let far: Vec<[f64; 2]> =
-        none.filter(|p| segments.next_to(*p, usize::MAX, OWN * band).is_none()).collect();
-    are_apart(&far, link)
+    let (mut far, mut inside) = (Vec::new(), 0);
+    for p in none {
+        match segments.next_to(p, usize::MAX, OWN * band) {
+            None => far.push(p),
+            Some(spot) => inside += usize::from(spot.distance <= 1.001 * band),
+        }
+    }
+    inside <= INSIDE_LEAST.max(sites.len() / INSIDE)
+        && are_apart(&far, link)
+        && are_scattered(
+            segments,
+            &far,
+            (0..sites.len()).filter(|&s| spots[s].is_none()).map(scaled),
+            band,
+        )
+}
+
+/// Whether points are as far from each other as chance would put them in the box of curves and outliers, less the band: on average, and
+/// with no more than half a point in a circle of which many have eight.
+fn are_scattered(
+    segments: &Segments,
+    far: &[[f64; 2]],
+    outliers: impl Iterator<Item = [f64; 2]>,
+    band: f64,
+) -> bool {
+    if far.len() < SCATTERED_FROM {
+        return true;
+    }
+    let ends = || segments.ends.iter();
+    let length: f64 = ends().map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1])).sum();
+    let mut area = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+    for [x, y] in ends().flatten().copied().chain(outliers) {
+        area = [area[0].min(x), area[1].min(y), area[2].max(x), area[3].max(y)];
+    }
+    let whole = (area[2] - area[0]) * (area[3] - area[1]);
+    let each = (whole - 4.0 * band * length).max(0.25 * whole) / far.len() as f64;
+    let (usual, reach) = (0.5 * each.sqrt(), (each / std::f64::consts::TAU).sqrt());
+    // By x: the neighbours of a point are a stretch of the list, less those that are too high or low.
+    let mut sorted = far.to_vec();
+    sorted.sort_unstable_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
+    sorted.dedup();
+    let most = 4.0 * usual;
+    let (mut sum, mut crowded) = (0.0, 0);
+    for (k, p) in sorted.iter().enumerate() {
+        let (mut least, mut count) = (most, 0);
+        let before = sorted[..k].iter().rev().take_while(|q| p[0] - q[0] <= most);
+        let after = sorted[k + 1..].iter().take_while(|q| q[0] - p[0] <= most);
+        for q in before.chain(after).filter(|q| (q[1] - p[1]).abs() <= most) {
+            let apart = (q[0] - p[0]).hypot(q[1] - p[1]);
+            least = least.min(apart);
+            count += usize::from(apart <= 1.001 * reach);
+        }
+        sum += least;
+        crowded += usize::from(count >= CROWD);
+    }
+    let many = sorted.len() as f64;
+    let needed = NEAR_LEAST.min(1.01 - 4.0 * 0.52 / many.sqrt());
+    sum / many >= needed * usual && crowded <= CROWDED_MOST
 }
 
 /// Whether no more than a few points are linked one by one.

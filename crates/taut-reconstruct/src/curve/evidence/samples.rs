@@ -7,11 +7,14 @@ use super::nearest::{Segments, Spot};
 
 /// Gaps on either side that a gap is compared with.
 const BESIDE: usize = 16;
-/// Sites in a window across the band, and how many of them may be on one side of what is empty.
-const WINDOW: usize = 128;
-const EDGE: usize = 12;
-/// The part of the width of the band that may be empty, with some room.
-const EMPTY_MOST: f64 = 0.29;
+/// Sites in windows across the band, and one in how many of them may be on one side of what is empty.
+const WINDOWS: [usize; 3] = [128, 512, 2048];
+const WINDOW: usize = WINDOWS[0];
+const EDGE: usize = 10;
+/// ln of how seldom chance may leave a part of the band empty, with some room: m sites leave the share x in m·exp(−m·x) of all windows.
+const SELDOM: f64 = 17.5;
+/// The least coefficient of variation of gaps, with some room.
+const EVEN: f64 = 0.099;
 /// The least mean squared difference of neighbours, over twice the variance, with some room: chance makes it 1 ± 0.09.
 const WINDING_LEAST: f64 = 0.52;
 
@@ -110,12 +113,23 @@ pub(super) fn ratios(samples: &[Sample], features: &Features) -> (f64, f64) {
 pub(super) fn is_even(samples: &[Sample], features: &Features) -> bool {
     let n = samples.len();
     let beside = BESIDE.min((n - 1) / 2);
-    let most = 9.9 + 1.5 * (n as f64).ln();
+    let chance = 8.9 + 1.5 * (n as f64).ln();
     let length = features.length();
     let way = |k: usize| samples[k % n].way + (k / n) as f64 * length;
     (n..2 * n).all(|k| {
-        let sum = (way(k) - way(k - beside)) + (way(k + 1 + beside) - way(k + 1));
-        gap(samples, k - n, length) * (2 * beside) as f64 <= most * sum
+        let gap_at = |k: usize| gap(samples, k % n, length);
+        let around = || (k - beside..=k + beside).filter(|&other| other != k).map(gap_at);
+        let many = (2 * beside) as f64;
+        let mean = ((way(k) - way(k - beside)) + (way(k + 1 + beside) - way(k + 1))) / many;
+        let gap = gap_at(k);
+        // Most are short beside others however even those are.
+        if gap <= (1.0 + chance * EVEN) * mean {
+            return true;
+        }
+        let square = |x: f64| x * x;
+        let variance = around().map(|other| square(other - mean)).sum::<f64>() / many;
+        let varied = (variance.sqrt() / mean).clamp(EVEN, 1.0);
+        gap <= (1.0 + chance * varied) * mean
     })
 }
 
@@ -137,12 +151,17 @@ pub(super) fn are_by_chance(samples: &[Sample]) -> bool {
 /// Whether the band is one, not two or more with an empty part between.
 pub(super) fn is_one_band(samples: &[Sample]) -> bool {
     let n = samples.len();
-    let starts: Vec<usize> = (0..n).step_by(WINDOW / 2).collect();
-    starts.into_par_iter().all(|start| {
-        let mut offsets: Vec<f64> =
-            (start..start + WINDOW).map(|k| samples[k % n].offset).collect();
-        offsets.sort_unstable_by(f64::total_cmp);
-        let width = offsets[WINDOW - 1] - offsets[0];
-        offsets[EDGE..WINDOW - EDGE].windows(2).all(|pair| pair[1] - pair[0] <= EMPTY_MOST * width)
+    WINDOWS.into_iter().filter(|&window| window <= n).all(|window| {
+        let (edge, m) = (window / EDGE, window as f64);
+        let most = (m.ln() + SELDOM) / m;
+        let starts: Vec<usize> = (0..n).step_by(window / 2).collect();
+        starts.into_par_iter().all(|start| {
+            let mut offsets: Vec<f64> =
+                (start..start + window).map(|k| samples[k % n].offset).collect();
+            offsets.sort_unstable_by(f64::total_cmp);
+            let width = offsets[window - 1] - offsets[0];
+            let mut middle = offsets[edge..window - edge].windows(2);
+            middle.all(|pair| pair[1] - pair[0] <= most * width)
+        })
     })
 }

@@ -112,7 +112,8 @@ struct Frame {
 }
 
 impl Frame {
-    /// Over the box of points: its middle goes to the origin, its longer side to a length in (½, 1].
+    /// The median of each coordinate goes to the origin, half the longer side of the box to a length in (½, 1]. The middle of the box would
+    /// lose all digits of a curve that has a single point very far away.
     fn of(points: &[Point]) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for p in points {
@@ -126,10 +127,11 @@ impl Frame {
         // Halves, so that nothing overflows.
         let extent = (0.5 * high[0] - 0.5 * low[0]).max(0.5 * high[1] - 0.5 * low[1]);
         let exponent = if extent > 0.0 { -extent.log2().ceil() } else { 0.0 };
-        Self {
-            middle: [0.5 * low[0] + 0.5 * high[0], 0.5 * low[1] + 0.5 * high[1]],
-            scale: exponent.clamp(-1020.0, 1020.0).exp2(),
-        }
+        let median = |i: usize| {
+            let mut all: Vec<f64> = points.iter().map(|p| p[i]).collect();
+            *all.select_nth_unstable_by(points.len() / 2, f64::total_cmp).1
+        };
+        Self { middle: [0, 1].map(median), scale: exponent.clamp(-1020.0, 1020.0).exp2() }
     }
 
     fn inward(&self, p: Point) -> Point {

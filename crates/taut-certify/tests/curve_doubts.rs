@@ -1,0 +1,159 @@
+//! Curves that are right beside their rows, but not certified, each for its reason; and beside each the one that is.
+
+use std::f64::consts::TAU;
+
+use taut_certify::{
+    CheckError, Curve, CurveCertificate, CurveComponent, CurveDoubt, CurveVerdict, Solution, Trace,
+};
+use taut_points::{Monitor, Points, hash_points};
+
+type Loop = Vec<[f64; 2]>;
+
+/// The k-th of some numbers in [0, 1) that fill it evenly, in an order of their own for each `seed`.
+fn random(seed: u64, k: u64) -> f64 {
+    let mut x = (seed << 40 ^ k).wrapping_add(0x9E37_79B9_7F4A_7C15);
+    for factor in [0xBF58_476D_1CE4_E5B9, 0x94D0_49BB_1331_11EB] {
+        x = (x ^ x >> 30).wrapping_mul(factor);
+        x ^= x >> 27;
+    }
+    (x >> 11) as f64 / 2f64.powi(53)
+}
+
+fn at(radius: f64, turn: f64) -> [f64; 2] {
+    [radius * (TAU * turn).cos(), radius * (TAU * turn).sin()]
+}
+
+/// Rows at random around a circle, off it by up to `noise`.
+fn ring(radius: f64, noise: f64, rows: u64, seed: u64) -> Loop {
+    let off = |k| radius + noise * (2.0 * random(seed, 2 * k) - 1.0);
+    (0..rows).map(|k| at(off(k), random(seed, 2 * k + 1))).collect()
+}
+
+fn circle(radius: f64, vertices: usize) -> Loop {
+    (0..vertices).map(|k| at(radius, k as f64 / vertices as f64)).collect()
+}
+
+/// A closed curve; rows farther off than `band` are outliers, and those after the first `kept`.
+fn judged(
+    curve: Loop,
+    rows: &[[f64; 2]],
+    band: f64,
+    kept: usize,
+) -> Result<CurveVerdict, CheckError> {
+    let points = Points::new(rows.as_flattened(), 2).unwrap();
+    let is_exact = curve.len() == kept;
+    let outliers = (0u64..).zip(rows).filter(|(k, p)| {
+        let off = (p[0].hypot(p[1]) - 1.0).abs();
+        *k >= kept as u64 || off > band + 1e-3
+    });
+    let answer = Curve {
+        outliers: outliers.map(|(row, _)| row).collect(),
+        curves: vec![CurveComponent {
+            rows: if is_exact { (0..kept as u64).collect() } else { vec![] },
+            vertices: curve,
+            closed: true,
+        }],
+        noise: if is_exact { 0.0 } else { band },
+        places: vec![],
+    };
+    let certificate = CurveCertificate {
+        band: if is_exact { 0.0 } else { band + 2e-3 },
+        sampling_ratio: f64::MAX,
+        noise_ratio: f64::MAX,
+        certified: false,
+        tour: None,
+        points_hash: hash_points(&points, &Monitor::silent()).unwrap(),
+    };
+    Solution { answer, certificate, trace: Trace::default() }.check(&points)
+}
+
+/// Many rings with gaps between them, the middle one found: thin gaps need long windows.
+#[test]
+fn rings_beside_each_other_are_no_band() {
+    for (rings, share) in [(2, 0.6), (2, 0.8), (3, 0.6), (6, 0.6), (6, 0.3)] {
+        let apart = 0.16 / f64::from(rings - 1);
+        let radius = |ring: i32| 1.0 + apart * (f64::from(ring) - 0.5 * f64::from(rings - 1));
+        let noise = 0.5 * share * apart;
+        let all = |ring_of: i32| ring(radius(ring_of), noise, 3000, ring_of as u64 + 1);
+        let rows: Loop = (0..rings).flat_map(all).collect();
+        let verdict = judged(circle(1.0, 300), &rows, 0.08 + noise, rows.len()).unwrap();
+        let doubt = verdict.doubt;
+        assert!(matches!(doubt, Some(CurveDoubt::Split { .. })), "{rings} {share}: {doubt:?}");
+    }
+    let one = ring(1.0, 0.1, 18_000, 9);
+    assert_eq!(judged(circle(1.0, 300), &one, 0.1, one.len()).unwrap().doubt, None);
+}
+
+/// Rows of a curve that is missed are no outliers, however sparse or far; rows at random are.
+#[test]
+fn a_curve_among_the_outliers_is_noticed() {
+    let base = || ring(1.0, 0.02, 20_000, 1);
+    let missed = [ring(5.0, 0.05, 1000, 2), ring(1.1, 0.01, 400, 3), ring(0.4, 0.01, 60, 4)];
+    for (k, missed) in missed.into_iter().enumerate() {
+        let rows: Loop = base().into_iter().chain(missed).collect();
+        let verdict = judged(circle(1.0, 300), &rows, 0.02, 20_000).unwrap();
+        let is_right = |doubt: CurveDoubt| {
+            matches!(doubt, CurveDoubt::Gathered { .. } | CurveDoubt::Cluster { .. })
+        };
+        assert!(verdict.doubt.is_some_and(is_right), "{k}: {:?}", verdict.doubt);
+    }
+    for (clutter, size) in [(20, 3.0), (300, 3.0), (2000, 8.0)] {
+        let some = |k: u64| [0, 1].map(|c| size * (random(7, 2 * k + c) - 0.5));
+        let far = |p: &[f64; 2]| (p[0].hypot(p[1]) - 1.0).abs() > 0.05;
+        let rows: Loop = base().into_iter().chain((0..clutter).map(some).filter(far)).collect();
+        assert_eq!(judged(circle(1.0, 300), &rows, 0.02, 20_000).unwrap().doubt, None, "{clutter}");
+    }
+}
+
+#[test]
+fn rows_within_the_band_are_no_outliers() {
+    let rows = ring(1.0, 0.02, 10_000, 1);
+    let verdict = judged(circle(1.0, 300), &rows, 0.02, 9000).unwrap();
+    assert_eq!(verdict.doubt, Some(CurveDoubt::Inside { outliers: 1000 }));
+}
+
+/// Evenly spaced rows with some left out, the gap closed by an edge.
+#[test]
+fn a_gap_in_even_samples_is_noticed() {
+    for (left_out, is_open) in [(0, false), (1, false), (4, true), (10, true)] {
+        let rows: Loop = circle(1.0, 1000).into_iter().skip(left_out).collect();
+        let verdict = judged(rows.clone(), &rows, 0.0, rows.len()).unwrap();
+        let is_noticed = matches!(verdict.doubt, Some(CurveDoubt::Lacuna { .. }));
+        assert_eq!(is_noticed, is_open, "{left_out}: {:?}", verdict.doubt);
+        assert_eq!(verdict.certified, !is_open);
+    }
+}
+
+/// A wave about the circle that was found.
+#[test]
+fn rows_that_wind_about_the_curve_are_noticed() {
+    let wave = |k: u64| {
+        let turn = random(5, 2 * k);
+        at(1.0 + 0.05 * (40.0 * TAU * turn).sin() + 0.005 * random(5, 2 * k + 1), turn)
+    };
+    let rows: Loop = (0..4000).map(wave).collect();
+    let doubt = judged(circle(1.0, 300), &rows, 0.056, rows.len()).unwrap().doubt;
+    assert!(matches!(doubt, Some(CurveDoubt::Winding { .. })), "{doubt:?}");
+}
+
+#[test]
+fn vertices_that_are_rows_have_no_noise_and_are_no_outliers() {
+    let rows = circle(1.0, 100);
+    let points = Points::new(rows.as_flattened(), 2).unwrap();
+    let check = |noise: f64, outliers: Vec<u64>| {
+        let one = CurveComponent { vertices: rows.clone(), closed: true, rows: (0..100).collect() };
+        let certificate = CurveCertificate {
+            band: 0.0,
+            sampling_ratio: f64::MAX,
+            noise_ratio: f64::MAX,
+            certified: false,
+            tour: None,
+            points_hash: hash_points(&points, &Monitor::silent()).unwrap(),
+        };
+        let answer = Curve { curves: vec![one], noise, outliers, places: vec![] };
+        Solution { answer, certificate, trace: Trace::default() }.check(&points)
+    };
+    assert!(check(0.0, vec![]).is_ok());
+    assert!(matches!(check(0.1, vec![]), Err(CheckError::Rejected(_))));
+    assert!(matches!(check(0.0, vec![3]), Err(CheckError::Rejected(_))));
+}
