@@ -84,20 +84,39 @@ impl Trials {
         options: &CurveOptions,
         seeds: Range<u64>,
     ) -> Result<Self> {
-        let lines = true_lines(truth);
-        let trials = pool.install(|| {
-            let seeds: Vec<u64> = seeds.collect();
-            seeds
-                .into_par_iter()
-                .map(|seed| {
-                    let sample = sample_curve(truth, n, noise, seed);
-                    let (found, seconds) = solve(&sample.points, options)?;
-                    let quality = compare(&lines, &found_lines(&found.answer));
-                    Ok(Trial { seed, quality, seconds, noise: found.answer.noise })
-                })
-                .collect::<Result<Vec<_>>>()
-        })?;
+        let trial = Self::trial(truth, n, noise, options);
+        let seeds: Vec<u64> = seeds.collect();
+        let trials = pool.install(|| seeds.into_par_iter().map(trial).collect::<Result<_>>())?;
         Ok(Trials { n, trials })
+    }
+
+    /// The same one after the other. Beside each other a thread that waits for its draw works on another one, whose time it is told.
+    pub(super) fn timed(
+        pool: &rayon::ThreadPool,
+        truth: &TruthCurves,
+        n: usize,
+        noise: &CurveNoise,
+        options: &CurveOptions,
+        seeds: Range<u64>,
+    ) -> Result<Self> {
+        let trial = Self::trial(truth, n, noise, options);
+        let trials = pool.install(|| seeds.map(trial).collect::<Result<_>>())?;
+        Ok(Trials { n, trials })
+    }
+
+    fn trial<'a>(
+        truth: &'a TruthCurves,
+        n: usize,
+        noise: &'a CurveNoise,
+        options: &'a CurveOptions,
+    ) -> impl Fn(u64) -> Result<Trial> + Sync + 'a {
+        let lines = true_lines(truth);
+        move |seed| {
+            let sample = sample_curve(truth, n, noise, seed);
+            let (found, seconds) = solve(&sample.points, options)?;
+            let quality = compare(&lines, &found_lines(&found.answer));
+            Ok(Trial { seed, quality, seconds, noise: found.answer.noise })
+        }
     }
 
     /// How many are right in connectivity and without crossings.

@@ -45,7 +45,7 @@ pub(super) fn run(context: &Context, seeds: Range<u64>) -> Result<Value> {
     let mut rows = vec![];
     for (name, their_rms, their_hausdorff, their_seconds) in FITCONNECT {
         let truth = truth(name, TestCurve::VERTICES)?;
-        let trials = Trials::run(&pool, &truth, N, &NOISE, &options, seeds.clone())?;
+        let trials = Trials::timed(&pool, &truth, N, &NOISE, &options, seeds.clone())?;
         let rms = trials.rms();
         let worst = trials.trials.iter().map(|trial| trial.seconds).fold(0.0, f64::max);
         let (right, all) = (trials.right(), trials.trials.len());

@@ -60,8 +60,9 @@ pub struct Place(pub u32, pub f64);
 /// choices, tried on known curves.
 ///
 /// It is evidence, not proof, for points cannot tell of what was not sampled. What deceives it: a curve with features smaller than the gaps
-/// between its samples; a curve open by less than such a gap; two strands nearer to each other than the noise is wide, with
-/// samples all over the room between; a curve that has a few samples only, taken for outliers.
+/// between its samples; a curve open by less than gaps vary, three times the usual one even where samples are evenly spaced; two
+/// strands nearer to each other than the noise is wide, with samples all over the room between; a curve of samples as sparse as
+/// the outliers among which it lies.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,
