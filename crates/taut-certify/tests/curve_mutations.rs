@@ -121,6 +121,24 @@ fn curves_by_hand_are_accepted() {
     assert!((ratio / (std::f64::consts::PI / 40.0) - 1.0).abs() < 0.05, "{ratio}");
 }
 
+/// Behind many short edges a long one: the number of its vertex takes digits of the share.
+#[test]
+fn places_on_long_edges_far_along_are_accepted() {
+    let arc = |k: u32| [f64::from(k) * 1e-4, -1e-9 * f64::from(k * k)];
+    let mut vertices: Loop = (0..5000).map(arc).collect();
+    vertices.push([0.3, 1.0]);
+    let on = |share: f64| [0.3 * (1.0 - share), 1.0 - share];
+    let rows: Loop = (1..400).map(|k| on(f64::from(k) / 400.1)).collect();
+    let case = |rows: Loop, moved: f64| {
+        let mut case = Case::of(vec![component(vertices.clone(), true, None)], rows, vec![], 1e-9);
+        let share = |k: u32| 5000.0 + f64::from(k) / 400.1 + moved;
+        case.solution.answer.places = (1..400).map(|k| Place(0, share(k))).collect();
+        case
+    };
+    case(rows.clone(), 0.0).check().unwrap();
+    assert!(case(rows, 1e-11).check().is_err());
+}
+
 #[test]
 fn degenerate_inputs_are_judged() {
     let none = Case::of(vec![], vec![], vec![], 0.0);

@@ -231,7 +231,10 @@ fn places(
                 nearest(edges, p, f64::INFINITY).map(|(edge, t)| distance(edges, p, edge, t));
             let next = next.unwrap_or(f64::INFINITY);
             let size = 2.0 * largest + next + f64::MIN_POSITIVE;
-            match claimed <= next * (1.0 + 1e-9) + 64.0 * U * size {
+            // The sum of a vertex' number and a share has fewer digits than the share.
+            let [a, b] = edges.segment(first + edge);
+            let moved = place.1 * (b[0] - a[0]).hypot(b[1] - a[1]);
+            match claimed <= next * (1.0 + 1e-9) + 64.0 * U * size + 4.0 * U * moved {
                 true => Ok(()),
                 false => {
                     let (distance, nearest) = (claimed / edges.scale, next / edges.scale);
