@@ -4,13 +4,14 @@
 //! *Idea.* [`seeds`] finds at which scale the points look like a band, and puts places on its middle line; [`link`] joins them to
 //! chains; [`strand`] gives each point its place along a chain, so that every neighbourhood is a range of a sorted list; [`regress`]
 //! fits the curve in windows as long as it lets them be, first by least squares, then, as [`noise`] has shown of which kind the
-//! noise is, by the least largest residual where it has an edge.
+//! noise is, by the least largest residual where it has an edge. Where windows followed outliers, [`kinks`] puts the curve straight.
 //! *Guarantee.* The answer turns, scales and shifts with the points, to rounding. O(n log n) for windows of bounded overlap. Error
 //! O(n^(−4/5)) for noise with an edge and O(n^(−4/9)) for other noise, of smooth curves.
 //! *Trap.* Tours and crusts of noisy points run zigzag through the band: order is known only after the noise is gone.
 //! *Reference.* Cheng, Funke, Golin, Kumar, Poon and Ramos 2005, for seeds; Genovese, Perone-Pacifico, Verdinelli and Wasserman 2012,
 //! for what error can be reached.
 
+mod kinks;
 mod link;
 mod local;
 mod minimax;
@@ -28,7 +29,7 @@ use super::cloud::Cloud;
 use super::index::Index;
 use crate::Error;
 use noise::Noise;
-use strand::{Node, Strand, assign};
+use strand::{AROUND, Node, Strand, assign};
 
 type Point = [f64; 2];
 
@@ -63,8 +64,14 @@ pub(super) fn fit(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Fi
         link::chains(&found, ends).into_iter().map(Strand::through).collect();
     assign(&mut strands, &points, WIDTH);
     monitor.check()?;
-    let refined = |strands: &[Strand], parts: usize, noise: &Noise| -> Vec<Strand> {
-        strands.iter().map(|s| Strand::new(regress::regress(s, parts, noise), s.closed)).collect()
+    let mut straightened = 0;
+    let mut refined = |strands: &[Strand], parts: usize, noise: &Noise| -> Vec<Strand> {
+        let one = |s: &Strand| {
+            let mut nodes = regress::regress(s, parts, noise);
+            straightened += kinks::straighten(&mut nodes, s.closed);
+            Strand::new(nodes, s.closed, AROUND * PARTS)
+        };
+        strands.iter().map(one).collect()
     };
     strands = refined(&strands, PARTS, &Noise::UNKNOWN);
     assign(&mut strands, &points, WIDTH);
@@ -78,6 +85,7 @@ pub(super) fn fit(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Fi
     let counters = [
         ("seeds", found.len()),
         ("nodes", strands.iter().map(|s| s.nodes.len()).sum()),
+        ("nodes_straightened", straightened),
         ("edged_noise", usize::from(noise.edge.is_some())),
         ("edges_crossed", crossed as usize),
     ];

@@ -54,9 +54,8 @@ pub(super) struct Estimate {
 
 /// Nodes in the middle of the band, `parts` for each edge of the strand.
 pub(super) fn regress(strand: &Strand, parts: usize, noise: &Noise) -> Vec<Node> {
-    let deviations = smooth(strand);
     let places: Vec<Place> = (0..strand.edges() * parts + usize::from(!strand.closed))
-        .map(|number| Place::new(strand, &deviations, number, parts))
+        .map(|number| Place::new(strand, number, parts))
         .collect();
     let asked: Vec<&Place> = places.iter().step_by(EVERY).collect();
     let halves: Vec<f64> = asked
@@ -110,7 +109,7 @@ struct Place {
 }
 
 impl Place {
-    fn new(strand: &Strand, deviations: &[f64], number: usize, parts: usize) -> Self {
+    fn new(strand: &Strand, number: usize, parts: usize) -> Self {
         let (edge, t) = match number / parts {
             edge if edge < strand.edges() => (edge, (number % parts) as f64 / parts as f64),
             edge => (edge - 1, 1.0),
@@ -123,7 +122,7 @@ impl Place {
             frame: Frame { origin, tangent: [slope[0] / norm, slope[1] / norm] },
             arc: between(strand.arc[edge], strand.arc[edge + 1]),
             reach: between(a.reach, b.reach),
-            deviation: between(deviations[edge], deviations[(edge + 1) % deviations.len()]),
+            deviation: between(a.deviation, b.deviation),
         }
     }
 }
@@ -154,24 +153,6 @@ fn median_around(strand: &Strand, places: &[&Place], halves: &[f64]) -> Vec<f64>
             }
             around.sort_unstable_by(f64::total_cmp);
             around[around.len() / 2]
-        })
-        .collect()
-}
-
-/// The noise at each node: the median of that of the nodes around it.
-fn smooth(strand: &Strand) -> Vec<f64> {
-    const AROUND: usize = 7;
-    let count = strand.nodes.len();
-    (0..count)
-        .map(|i| {
-            let at = |k: usize| match strand.closed {
-                true => (i + count + k - AROUND.min(count)) % count,
-                false => (i + k).saturating_sub(AROUND).min(count - 1),
-            };
-            let mut around: Vec<f64> =
-                (0..=2 * AROUND).map(|k| strand.nodes[at(k)].deviation).collect();
-            around.sort_unstable_by(f64::total_cmp);
-            around[AROUND]
         })
         .collect()
 }

@@ -75,6 +75,13 @@ pub(super) struct Seed {
     pub(super) density: f64,
 }
 
+impl Seed {
+    /// Whether its window shows that another one is flat by chance.
+    fn is_longer(&self, other: &Seed) -> bool {
+        self.reach > ALIKE * other.reach && self.deviation > AS_WIDE * other.deviation
+    }
+}
+
 /// A window's least length, in units in which all points are near 1: the square of a shorter one may be 0, and 0 never grows.
 const REACH_MIN: f64 = 1e-150;
 
@@ -106,11 +113,12 @@ const DENSER: f64 = 4.0;
 /// Within so many windows most tangents are along that of a seed, to within 60°: it runs across the band by chance otherwise.
 const BESIDE: f64 = 1.5;
 const ALONG: f64 = 0.5;
-/// Windows of seeds next to each other differ by less than this factor, or the shorter one is flat by chance.
+/// A window that others exceed by these factors, in length and in deviation, is flat by chance. In length alone they do where
+/// points are sparse, or where outliers hid the band.
 const ALIKE: f64 = 2.5;
+const AS_WIDE: f64 = 1.5;
 
-/// The seeds that are not beside an earlier one, as two samples on either side of the band lead to one place, nor much shorter
-/// than most around them.
+/// The seeds that are not beside an earlier one, as two samples on either side of the band lead to one place, nor flat by chance.
 fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
     let order = hilbert_order(seeds.len(), |i| seeds[i].at);
     let mut number = vec![0; seeds.len()];
@@ -128,7 +136,7 @@ fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
             beside[number[i]] = false;
         }
     }
-    // How many slabs a seed lies in, its own among them, and how many of those are much longer than its own.
+    // How many slabs a seed lies in, its own among them, and how many of those show that it is flat by chance.
     let mut slabs = vec![[0u32; 2]; seeds.len()];
     for seed in &seeds {
         let [tx, ty] = seed.tangent;
@@ -137,7 +145,7 @@ fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
             let across = (at[1] - seed.at[1]) * tx - (at[0] - seed.at[0]) * ty;
             if across.abs() <= SLAB_WIDTH * seed.deviation {
                 slabs[place as usize][0] += 1;
-                slabs[place as usize][1] += u32::from(seed.reach > ALIKE * other.reach);
+                slabs[place as usize][1] += u32::from(seed.is_longer(other));
             }
         });
     }

@@ -15,6 +15,8 @@ type Point = [f64; 2];
 
 /// Points whose nearest places are sought together.
 const RUN: usize = 16;
+/// Seeds on either side of one that tell the noise there.
+pub(super) const AROUND: usize = 2;
 /// Pieces of the polyline between two nodes.
 const PIECES: usize = 4;
 
@@ -83,11 +85,14 @@ impl Strand {
             deviation: s.deviation,
             error: s.deviation,
         };
-        Self::new(chain.seeds.iter().map(node).collect(), chain.closed)
+        Self::new(chain.seeds.iter().map(node).collect(), chain.closed, AROUND)
     }
 
-    /// A strand through nodes, without points.
-    pub(super) fn new(nodes: Vec<Node>, closed: bool) -> Self {
+    /// A strand through nodes, without points. The noise at each is the median of what so many nodes on either side say: an outlier
+    /// in a window makes it look wide, and points in a row by chance narrow, and either would decide what the next window holds.
+    pub(super) fn new(mut nodes: Vec<Node>, closed: bool, around: usize) -> Self {
+        let deviations = medians(&nodes, closed, around);
+        nodes.iter_mut().zip(deviations).for_each(|(node, deviation)| node.deviation = deviation);
         let mut strand = Self { nodes, closed, arc: vec![0.0], members: Vec::new() };
         let mut sum = 0.0;
         for edge in 0..strand.edges() {
@@ -120,6 +125,21 @@ impl Strand {
         let (a, b) = self.edge(edge);
         hermite(a, b, k as f64 / PIECES as f64).0
     }
+}
+
+/// The medians of deviations over each node and so many on either side.
+fn medians(nodes: &[Node], closed: bool, around: usize) -> Vec<f64> {
+    let count = nodes.len();
+    let median = |i: usize| {
+        let at = |k: usize| match closed {
+            true => (i + count + k - around.min(count)) % count,
+            false => (i + k).saturating_sub(around).min(count - 1),
+        };
+        let mut values: Vec<f64> = (0..=2 * around).map(|k| nodes[at(k)].deviation).collect();
+        values.sort_unstable_by(f64::total_cmp);
+        values[around]
+    };
+    (0..count).map(median).collect()
 }
 
 /// A vertex of the fine polylines of all strands.
