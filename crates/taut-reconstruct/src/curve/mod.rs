@@ -72,16 +72,15 @@ fn solve(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result
         CurveMethod::Thesis => thesis::thesis(cloud, options, monitor)?,
         CurveMethod::ThesisCrude => thesis::thesis_crude(cloud, options, monitor)?,
         CurveMethod::Tour => tour::tour(cloud, options, monitor)?,
-        CurveMethod::Fit => fit::fit(cloud, options.ends, monitor)?.outcome,
+        CurveMethod::Fit => fit::fit(cloud, options.ends, monitor)?,
         CurveMethod::Auto => auto(cloud, options, monitor)?,
     })
 }
 
 /// A fit where points are noisy, else vertices that are points.
 fn auto(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result<Outcome, Error> {
-    let fitted = fit::fit(cloud, options.ends, monitor)?;
-    if fitted.is_noisy && fitted.shows_curves {
-        return Ok(fitted.outcome);
+    match fit::fit_if_noisy(cloud, options.ends, monitor)? {
+        Some(outcome) => Ok(outcome),
+        None => clean::solve(cloud, CurveMethod::Corners, options.ends, monitor),
     }
-    clean::solve(cloud, CurveMethod::Corners, options.ends, monitor)
 }

@@ -11,6 +11,7 @@
 //! *Reference.* Cheng, Funke, Golin, Kumar, Poon and Ramos 2005, for seeds; Genovese, Perone-Pacifico, Verdinelli and Wasserman 2012,
 //! for what error can be reached.
 
+mod clean;
 mod kinks;
 mod link;
 mod local;
@@ -45,24 +46,50 @@ const PARTS: usize = 3;
 /// Points off a curve by less than this share of their spacing along it are taken for its vertices.
 const CLEAN: f64 = 0.1;
 
-/// The curves, and whether they are a good answer.
-pub(super) struct Fitted {
-    pub(super) outcome: Outcome,
-    /// Whether points are off the curve by a length that shows beside their spacing.
-    pub(super) is_noisy: bool,
-    /// Whether most points lie on curves.
-    pub(super) shows_curves: bool,
+/// The curves of points, noisy or not.
+pub(super) fn fit(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Outcome, Error> {
+    let frame = Frame::of(&cloud.sites);
+    let points = frame.all_inward(&cloud.sites);
+    Ok(fit_within(&frame, &points, &Index::new(&points), ends, monitor)?.outcome)
 }
 
-/// The curves of noisy points.
-pub(super) fn fit(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Fitted, Error> {
+/// The curves of noisy points; none where points are not off curves by a length that shows beside their spacing, or show no curves.
+pub(super) fn fit_if_noisy(
+    cloud: &Cloud,
+    ends: Ends,
+    monitor: &Monitor<'_>,
+) -> Result<Option<Outcome>, Error> {
     let frame = Frame::of(&cloud.sites);
-    let points: Vec<Point> = cloud.sites.iter().map(|&p| frame.inward(p)).collect();
+    let points = frame.all_inward(&cloud.sites);
     let index = Index::new(&points);
-    let found = seeds::seeds(&points, &index, monitor)?;
+    if clean::are_vertices(&points, &index) {
+        return Ok(None);
+    }
+    let fitted = fit_within(&frame, &points, &index, ends, monitor)?;
+    Ok((fitted.is_noisy && fitted.shows_curves).then_some(fitted.outcome))
+}
+
+/// The curves, and whether they are a good answer.
+struct Fitted {
+    outcome: Outcome,
+    /// Whether points are off the curve by a length that shows beside their spacing.
+    is_noisy: bool,
+    /// Whether most points lie on curves.
+    shows_curves: bool,
+}
+
+/// The curves of points in a frame.
+fn fit_within(
+    frame: &Frame,
+    points: &[Point],
+    index: &Index<'_>,
+    ends: Ends,
+    monitor: &Monitor<'_>,
+) -> Result<Fitted, Error> {
+    let found = seeds::seeds(points, index, monitor)?;
     let mut strands: Vec<Strand> =
         link::chains(&found, ends).into_iter().map(Strand::through).collect();
-    assign(&mut strands, &points, WIDTH);
+    assign(&mut strands, points, WIDTH);
     monitor.check()?;
     let mut straightened = 0;
     let mut refined = |strands: &[Strand], parts: usize, noise: &Noise| -> Vec<Strand> {
@@ -74,14 +101,14 @@ pub(super) fn fit(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Fi
         strands.iter().map(one).collect()
     };
     strands = refined(&strands, PARTS, &Noise::UNKNOWN);
-    assign(&mut strands, &points, WIDTH);
+    assign(&mut strands, points, WIDTH);
     monitor.check()?;
     let noise = Noise::of(&strands, WIDTH);
     strands = refined(&strands, 1, &noise);
-    let outliers = assign(&mut strands, &points, noise.edge.map_or(WIDTH, |edge| EDGES * edge));
+    let outliers = assign(&mut strands, points, noise.edge.map_or(WIDTH, |edge| EDGES * edge));
     monitor.check()?;
     let deviation = typical(&strands);
-    let (curves, crossed) = output::curves(&strands, &frame, ends, monitor)?;
+    let (curves, crossed) = output::curves(&strands, frame, ends, monitor)?;
     let counters = [
         ("seeds", found.len()),
         ("nodes", strands.iter().map(|s| s.nodes.len()).sum()),
@@ -144,6 +171,10 @@ impl Frame {
 
     fn inward(&self, p: Point) -> Point {
         [0, 1].map(|i| p[i] * self.scale - self.middle[i] * self.scale)
+    }
+
+    fn all_inward(&self, points: &[Point]) -> Vec<Point> {
+        points.iter().map(|&p| self.inward(p)).collect()
     }
 
     fn outward(&self, p: Point) -> Point {
