@@ -2,8 +2,8 @@
 
 use taut_certify::{Curve, Solution};
 use taut_mesh::{Polyline, Quality, compare};
-use taut_points::Points;
 use taut_points::generate::curves::{CurveNoise, TestCurve, TruthCurves, sample_curve};
+use taut_points::{Distribution, Points, generate};
 use taut_reconstruct::{CurveMethod, CurveOptions, curve};
 
 fn fitted(points: &[f64]) -> Solution<Curve> {
@@ -186,6 +186,77 @@ fn threads_and_order_change_no_bit() {
 }
 
 /// An arc stays open, up to its last points.
+/// A polygon's outline with uniform noise across it.
+fn around_polygon(corners: &[[f64; 2]], n: usize, noise: f64, seed: u64) -> Vec<f64> {
+    let places: Vec<f64> = generate(Distribution::Uniform, n, 2, seed).expect("numbers");
+    let sides: Vec<([f64; 2], [f64; 2])> =
+        corners.iter().copied().zip(corners.iter().copied().cycle().skip(1)).collect();
+    let length = |(a, b): &([f64; 2], [f64; 2])| (b[0] - a[0]).hypot(b[1] - a[1]);
+    let whole: f64 = sides.iter().map(length).sum();
+    let place = |lots: &[f64]| {
+        let mut along = lots[0] * whole;
+        let on = |side: &&([f64; 2], [f64; 2])| {
+            let fits = along < length(side);
+            along -= if fits { 0.0 } else { length(side) };
+            fits
+        };
+        let &(a, b) = sides.iter().find(on).unwrap_or(&sides[0]);
+        let (t, off) = (along / length(&(a, b)), noise * (2.0 * lots[1] - 1.0) / length(&(a, b)));
+        [
+            a[0] + t * (b[0] - a[0]) - off * (b[1] - a[1]),
+            a[1] + t * (b[1] - a[1]) + off * (b[0] - a[0]),
+        ]
+    };
+    places.chunks_exact(2).flat_map(place).collect()
+}
+
+/// Corners of up to a right angle lie within the noise from where they are, and nowhere else does the curve turn so much. Two thousand
+/// points show right angles; those of a hexagon are within the noise of a bend.
+#[test]
+fn corners_are_kept() {
+    let hexagon: Vec<[f64; 2]> = (0..6)
+        .map(|k| (f64::from(k) * 60f64.to_radians()).sin_cos())
+        .map(|(s, c)| [c, s])
+        .collect();
+    let square = vec![[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+    let angle = vec![[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    for (polygon, n, noise, seed) in [
+        (&hexagon, 10_000, 0.03, 2),
+        (&hexagon, 10_000, 0.05, 3),
+        (&square, 2000, 0.03, 1),
+        (&square, 10_000, 0.05, 3),
+        (&angle, 2000, 0.03, 1),
+        (&angle, 10_000, 0.03, 2),
+    ] {
+        let found = fitted(&around_polygon(polygon, n, noise, seed)).answer;
+        let [curve] = &found.curves[..] else { panic!("{n}: {}", found.curves.len()) };
+        let count = curve.vertices.len();
+        let turn = |i: usize| {
+            let [a, b, c] = [i + count - 1, i, i + 1].map(|k| curve.vertices[k % count]);
+            let (p, q) = ([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
+            (p[0] * q[1] - p[1] * q[0]).atan2(p[0] * q[0] + p[1] * q[1]).abs().to_degrees()
+        };
+        let sharp: Vec<[f64; 2]> =
+            (0..count).filter(|&i| turn(i) > 45.0).map(|i| curve.vertices[i]).collect();
+        assert!(curve.closed && sharp.len() == polygon.len(), "{n} {noise}: {sharp:?}");
+        for corner in polygon {
+            let off = |p: &[f64; 2]| (p[0] - corner[0]).hypot(p[1] - corner[1]);
+            assert!(sharp.iter().map(off).any(|off| off <= noise), "{n} {noise}: {sharp:?}");
+        }
+    }
+}
+
+/// A bend of any radius that the noise lets be seen is no corner.
+#[test]
+fn bends_are_no_corners() {
+    for (name, noise) in [("ellipse3", 0.05), ("ellipse3", 0.3), ("flower5", 0.3), ("bumpy", 0.2)] {
+        let truth = TestCurve::named(name).expect("a test curve").build();
+        let noise = CurveNoise { delta: noise, ..Default::default() };
+        let found = fitted(&sample_curve(&truth, 20_000, &noise, 5).points);
+        assert!(found.trace.counters.get("corners") == Some(&0), "{name}");
+    }
+}
+
 #[test]
 fn ends_stay_ends() {
     let (truth, points) = sampled("arc", 3000, 0.0, false, 2);

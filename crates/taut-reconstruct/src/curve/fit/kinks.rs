@@ -13,6 +13,8 @@ use super::strand::{Node, hermite};
 const ALONG: f64 = 0.5;
 /// Rounds at the end of which a strand that is still not in order is left as it was.
 const ROUNDS: usize = 50;
+/// Nodes of the longest kink: where more are out of order, it is the order that is wrong, and the points there would be lost.
+const LONGEST: usize = 9;
 /// Fewest nodes that must be in order: three are a closed curve whatever their tangents.
 const FEWEST: usize = 4;
 
@@ -22,6 +24,7 @@ pub(super) fn straighten(nodes: &mut Vec<Node>, closed: bool) -> usize {
     for _ in 0..ROUNDS {
         let askew = askew(nodes, &kept, closed);
         if !askew.contains(&true) {
+            restore(&mut kept, nodes.len(), closed);
             let moved = nodes.len() - kept.len();
             if moved > 0 {
                 put_between(nodes, &kept, closed);
@@ -37,6 +40,24 @@ pub(super) fn straighten(nodes: &mut Vec<Node>, closed: bool) -> usize {
     0
 }
 
+/// Puts the numbers back that are missing in runs longer than [`LONGEST`].
+fn restore(kept: &mut Vec<usize>, count: usize, closed: bool) {
+    let mut whole = Vec::with_capacity(count);
+    for (k, &first) in kept.iter().enumerate() {
+        whole.push(first);
+        let next = match kept.get(k + 1) {
+            Some(&next) => next,
+            None if closed => kept[0] + count,
+            None => break,
+        };
+        if next - first - 1 > LONGEST {
+            whole.extend((first + 1..next).map(|i| i % count));
+        }
+    }
+    whole.sort_unstable();
+    *kept = whole;
+}
+
 /// Which of the nodes kept are at an end of a way that is off its tangents, and no less askew than the other end.
 fn askew(nodes: &[Node], kept: &[usize], closed: bool) -> Vec<bool> {
     let count = kept.len();
@@ -46,7 +67,7 @@ fn askew(nodes: &[Node], kept: &[usize], closed: bool) -> Vec<bool> {
         .map(|k| {
             let (a, b) = (&nodes[kept[k]], &nodes[kept[(k + 1) % count]]);
             let (dx, dy) = (b.at[0] - a.at[0], b.at[1] - a.at[1]);
-            [a, b].map(|n| (dx * n.tangent[0] + dy * n.tangent[1]) / dx.hypot(dy))
+            [a.leaving, b.tangent].map(|t| (dx * t[0] + dy * t[1]) / dx.hypot(dy))
         })
         .collect();
     // The mean of those at each node, of one at the ends of an open strand.
@@ -88,9 +109,11 @@ fn put_between(nodes: &mut Vec<Node>, kept: &[usize], closed: bool) {
             let (at, slope) = hermite(&a, &b, t);
             let norm = slope[0].hypot(slope[1]);
             let mix = |a: f64, b: f64| (1.0 - t) * a + t * b;
+            let tangent = slope.map(|x| x / norm);
             nodes[between % count] = Node {
                 at,
-                tangent: slope.map(|x| x / norm),
+                tangent,
+                leaving: tangent,
                 reach: mix(a.reach, b.reach),
                 deviation: mix(a.deviation, b.deviation),
                 error: a.error.max(b.error),
@@ -110,7 +133,8 @@ mod tests {
     /// Nodes on the unit circle, at so many degrees.
     fn at(degrees: f64) -> Node {
         let (sin, cos) = degrees.to_radians().sin_cos();
-        Node { at: [cos, sin], tangent: [-sin, cos], reach: 0.1, deviation: 0.01, error: 0.01 }
+        let (at, tangent) = ([cos, sin], [-sin, cos]);
+        Node { at, tangent, leaving: tangent, reach: 0.1, deviation: 0.01, error: 0.01 }
     }
 
     fn circle(count: usize) -> Vec<Node> {
@@ -159,7 +183,7 @@ mod tests {
     #[test]
     fn ends_askew_are_cut_off() {
         let mut nodes: Vec<Node> = circle(72)[..40].to_vec();
-        nodes[0].tangent = [1.0, 0.0];
+        nodes[0].leaving = [1.0, 0.0];
         nodes[39].at = [0.0, 0.0];
         assert_eq!(straighten(&mut nodes, false), 2);
         assert_eq!(nodes.len(), 38);

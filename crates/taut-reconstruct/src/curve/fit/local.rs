@@ -39,6 +39,33 @@ impl Parabola {
         [(tx - b * ty) / norm, (ty + b * tx) / norm]
     }
 
+    /// The place on the parabola at u.
+    pub(super) fn place(&self, u: f64) -> Point {
+        let ([tx, ty], [a, b, c]) = (self.tangent, self.coefficients);
+        let v = a + u * (b + u * c);
+        [self.origin[0] + u * tx - v * ty, self.origin[1] + u * ty + v * tx]
+    }
+
+    /// The derivative of the place by u.
+    pub(super) fn derivative(&self, u: f64) -> Point {
+        let ([tx, ty], [_, b, c]) = (self.tangent, self.coefficients);
+        let slope = b + 2.0 * u * c;
+        [tx - slope * ty, ty + slope * tx]
+    }
+
+    /// The unit tangent at u.
+    pub(super) fn direction_at(&self, u: f64) -> Point {
+        let derivative = self.derivative(u);
+        let norm = derivative[0].hypot(derivative[1]);
+        derivative.map(|x| x / norm)
+    }
+
+    /// The same with u the other way.
+    pub(super) fn reversed(&self) -> Self {
+        let [a, b, c] = self.coefficients;
+        Self { tangent: self.tangent.map(|x| -x), coefficients: [-a, b, -c], ..*self }
+    }
+
     /// A point in the frame.
     #[inline]
     pub(super) fn local(&self, point: Point) -> Point {

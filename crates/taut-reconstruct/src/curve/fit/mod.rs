@@ -12,6 +12,7 @@
 //! for what error can be reached.
 
 mod clean;
+mod corners;
 mod kinks;
 mod link;
 mod local;
@@ -91,10 +92,15 @@ fn fit_within(
         link::chains(&found, ends).into_iter().map(Strand::through).collect();
     assign(&mut strands, points, WIDTH);
     monitor.check()?;
-    let mut straightened = 0;
+    let (mut straightened, mut cornered) = (0, 0);
     let mut refined = |strands: &[Strand], parts: usize, noise: &Noise| -> Vec<Strand> {
         let one = |s: &Strand| {
             let mut nodes = regress::regress(s, parts, noise);
+            if parts == 1 {
+                let found = corners::corners(s);
+                cornered += found.len();
+                corners::insert(&mut nodes, s, &found);
+            }
             straightened += kinks::straighten(&mut nodes, s.closed);
             Strand::new(nodes, s.closed, AROUND * PARTS)
         };
@@ -112,6 +118,7 @@ fn fit_within(
     let counters = [
         ("seeds", found.len()),
         ("nodes", strands.iter().map(|s| s.nodes.len()).sum()),
+        ("corners", cornered),
         ("nodes_straightened", straightened),
         ("edged_noise", usize::from(noise.edge.is_some())),
         ("edges_crossed", crossed as usize),

@@ -91,7 +91,7 @@ fn polyline(strand: &Strand, frame: &Frame) -> CurveComponent {
 fn pieces(a: &Node, b: &Node) -> u32 {
     // Of a cubic with these ends the sagitta of the chord is chord/8 times the turn, to first order.
     let chord = (b.at[0] - a.at[0]).hypot(b.at[1] - a.at[1]);
-    let turn = (a.tangent[0] * b.tangent[1] - a.tangent[1] * b.tangent[0]).abs();
+    let turn = (a.leaving[0] * b.tangent[1] - a.leaving[1] * b.tangent[0]).abs();
     let sagitta = chord * turn / 8.0;
     let allowed = 0.5 * a.error.max(b.error);
     let wanted = (sagitta / allowed).sqrt().ceil();

@@ -73,6 +73,7 @@ pub(super) fn regress(strand: &Strand, parts: usize, noise: &Noise) -> Vec<Node>
                 Some(found) => Node {
                     at: place.frame.place(found.offset),
                     tangent: place.frame.direction(found.slope),
+                    leaving: place.frame.direction(found.slope),
                     reach: place.reach,
                     deviation: found.deviation,
                     error: found.error,
@@ -80,6 +81,7 @@ pub(super) fn regress(strand: &Strand, parts: usize, noise: &Noise) -> Vec<Node>
                 None => Node {
                     at: origin,
                     tangent,
+                    leaving: tangent,
                     reach: place.reach,
                     deviation: place.deviation,
                     error: place.deviation,
@@ -383,7 +385,7 @@ fn peeled(window: &mut Vec<Point>, widest: f64, most: usize) -> Option<Minimax> 
 }
 
 /// The members of a strand within some length of a place along it: one run, or two where it goes over the seam.
-fn around(strand: &Strand, arc: f64, half: f64) -> [&[Member]; 2] {
+pub(super) fn around(strand: &Strand, arc: f64, half: f64) -> [&[Member]; 2] {
     let members = &strand.members[..];
     let before = |arc: f64| members.partition_point(|m| m.arc < arc);
     let (low, high) = (arc - half, arc + half);

@@ -25,8 +25,10 @@ const PIECES: usize = 4;
 pub(super) struct Node {
     /// The place.
     pub(super) at: Point,
-    /// The unit tangent, along the curve.
+    /// The unit tangent, along the curve; at a corner, that with which the curve arrives.
     pub(super) tangent: Point,
+    /// The unit tangent with which the curve leaves: the same but at a corner.
+    pub(super) leaving: Point,
     /// How far around it points are to be looked at first.
     pub(super) reach: f64,
     /// Standard deviation of the noise there.
@@ -69,9 +71,9 @@ pub(super) fn hermite(a: &Node, b: &Node, t: f64) -> (Point, Point) {
     let (r, s) = (t3 - 2.0 * t2 + t, t3 - t2);
     let (dp, dr, ds) = (6.0 * t2 - 6.0 * t, 3.0 * t2 - 4.0 * t + 1.0, 3.0 * t2 - 2.0 * t);
     let place =
-        |i: usize| p * a.at[i] + q * b.at[i] + chord * (r * a.tangent[i] + s * b.tangent[i]);
+        |i: usize| p * a.at[i] + q * b.at[i] + chord * (r * a.leaving[i] + s * b.tangent[i]);
     let slope =
-        |i: usize| dp * (a.at[i] - b.at[i]) + chord * (dr * a.tangent[i] + ds * b.tangent[i]);
+        |i: usize| dp * (a.at[i] - b.at[i]) + chord * (dr * a.leaving[i] + ds * b.tangent[i]);
     ([place(0), place(1)], [slope(0), slope(1)])
 }
 
@@ -81,6 +83,7 @@ impl Strand {
         let node = |s: &Seed| Node {
             at: s.at,
             tangent: s.tangent,
+            leaving: s.tangent,
             reach: s.reach,
             deviation: s.deviation,
             error: s.deviation,
@@ -119,6 +122,14 @@ impl Strand {
     /// The nodes at both ends of an edge.
     pub(super) fn edge(&self, edge: usize) -> (&Node, &Node) {
         (&self.nodes[edge], &self.nodes[(edge + 1) % self.nodes.len()])
+    }
+
+    /// The place at some length along the curve, within it, and the direction there.
+    pub(super) fn place(&self, arc: f64) -> (Point, Point) {
+        let edge = self.arc.partition_point(|&a| a <= arc).clamp(1, self.edges()) - 1;
+        let (a, b) = self.edge(edge);
+        let span = self.arc[edge + 1] - self.arc[edge];
+        hermite(a, b, if span > 0.0 { (arc - self.arc[edge]) / span } else { 0.0 })
     }
 
     fn piece(&self, edge: usize, k: usize) -> Point {
