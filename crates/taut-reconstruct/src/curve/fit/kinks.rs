@@ -4,8 +4,11 @@
 //! *Idea.* Along a curve the way from one node to the next is along the tangents of both. Of two nodes between which it is not, the
 //! one that is askew to more of its surroundings is taken out, until all is in order; then those taken out are put in again, on
 //! the cubic between the nodes beside them.
-//! *Guarantee.* No way is left that is more than 60° off a tangent, unless hardly a node would be left. A function of the nodes that turns
-//! and scales with them; O(n) for each round, of which there are as many as kinks are long, at most [`ROUNDS`].
+//! *Guarantee.* No way is left that is more than 60° off a tangent but in stretches of more than [`LONGEST`] nodes, which stay as they were.
+//! A function of the nodes that turns and scales with them; O(n) for each round, of which there are as many as kinks are long, at
+//! most [`ROUNDS`].
+
+use std::cmp::Ordering;
 
 use super::strand::{Node, hermite};
 
@@ -43,6 +46,10 @@ pub(super) fn straighten(nodes: &mut Vec<Node>, closed: bool) -> usize {
 /// Puts the numbers back that are missing in runs longer than [`LONGEST`].
 fn restore(kept: &mut Vec<usize>, count: usize, closed: bool) {
     let mut whole = Vec::with_capacity(count);
+    if let (false, [first, .., last]) = (closed, &kept[..]) {
+        whole.extend(0..if *first > LONGEST { *first } else { 0 });
+        whole.extend(if count - 1 - last > LONGEST { last + 1 } else { count }..count);
+    }
     for (k, &first) in kept.iter().enumerate() {
         whole.push(first);
         let next = match kept.get(k + 1) {
@@ -87,8 +94,9 @@ fn askew(nodes: &[Node], kept: &[usize], closed: bool) -> Vec<bool> {
         // Nodes in one place make no way: their cosines are not numbers.
         if !(cosines[0] >= ALONG && cosines[1] >= ALONG) {
             let (a, b) = (k, (k + 1) % count);
-            askew[a] |= !(along[a] > along[b]);
-            askew[b] |= !(along[b] > along[a]);
+            let order = along[a].partial_cmp(&along[b]);
+            askew[a] |= order != Some(Ordering::Greater);
+            askew[b] |= order != Some(Ordering::Less);
         }
     }
     askew
