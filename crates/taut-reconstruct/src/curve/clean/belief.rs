@@ -32,7 +32,7 @@ fn weight(length: f64) -> f64 {
 }
 
 /// Typical distances of neighbours around each site.
-fn spacings(graph: &Graph) -> Vec<f64> {
+pub(super) fn spacings(graph: &Graph) -> Vec<f64> {
     let own = |site: u32| match graph.around(site) {
         [] => 1.0,
         [only] => only.0,
@@ -54,9 +54,9 @@ fn spacings(graph: &Graph) -> Vec<f64> {
 pub(super) fn probabilities(
     sites: &[[f64; 2]],
     graph: &Graph,
+    spacings: &[f64],
     monitor: &Monitor<'_>,
 ) -> Result<Vec<f64>, Error> {
-    let spacings = spacings(graph);
     let mut twins = Vec::new();
     let mut priors = Vec::new();
     let mut turns: Vec<f32> = Vec::new();

@@ -75,8 +75,9 @@ fn edges(
             Ok(one_step_crust::edges(sites, &graph::edges(&plane)))
         }
         CurveMethod::Corners => {
-            let plane = graph::triangulate(sites, monitor)?;
-            corners::edges(sites, &graph::edges(&plane), monitor)
+            // The triangulation is gone before the search, which needs as much memory again.
+            let edges = graph::edges(&graph::triangulate(sites, monitor)?);
+            corners::edges(sites, edges, monitor)
         }
         CurveMethod::ConservativeCrust => conservative_crust::edges(sites, monitor),
         CurveMethod::HnnCrust => hnn_crust::edges(&Near::new(sites), monitor),
