@@ -350,3 +350,27 @@ fn auto_interpolates_clean_points_and_fits_noisy_ones() {
     let (_, points) = sampled("ellipse3", 3000, 0.0, false, 1);
     assert_eq!(of(&points).trace.method, "fit");
 }
+
+/// Clean points at random places, whose gaps differ by any factor, are one certified curve: NN-Crust asks for density alone. The corners of
+/// a square, which no sample is dense enough for, take the other method.
+#[test]
+fn auto_takes_uneven_samples_and_corners_as_they_come() {
+    let lots: Vec<f64> = generate(Distribution::Uniform, 20_000, 1, 5).expect("numbers");
+    let place = |t: &f64| <[f64; 2]>::from((t * std::f64::consts::TAU).sin_cos());
+    let circle: Vec<f64> = lots.iter().flat_map(place).collect();
+    let of = |points: &[f64]| {
+        curve(&Points::new(points, 2).expect("pairs"), &CurveOptions::default()).expect("finite")
+    };
+    let found = of(&circle);
+    assert_eq!((found.answer.curves.len(), found.certificate.certified), (1, true));
+    assert_eq!(found.trace.method, "nn-crust");
+    let square: Vec<f64> = (0..400)
+        .flat_map(|i| {
+            let (side, t) = (i / 100, f64::from(i % 100) / 100.0);
+            [[t, 0.0], [1.0, t], [1.0 - t, 1.0], [0.0, 1.0 - t]][side as usize]
+        })
+        .collect();
+    let found = of(&square);
+    assert_eq!((found.answer.curves.len(), found.certificate.certified), (1, false));
+    assert_eq!((found.answer.curves[0].rows.len(), &found.trace.method[..]), (400, "corners"));
+}

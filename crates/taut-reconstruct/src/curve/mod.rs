@@ -55,32 +55,47 @@ pub fn curve_of_source(
     }
     on_threads(options.threads, || {
         let cloud = Cloud::read(source, monitor)?;
-        let outcome = solve(&cloud, options, monitor)?;
-        finish(&cloud, outcome, options, source, monitor)
+        let finish = |outcome| finish(&cloud, outcome, options, source, monitor);
+        match options.method {
+            CurveMethod::Auto => auto(&cloud, options, finish, monitor),
+            _ => finish(solve(&cloud, options, monitor)?),
+        }
     })
 }
 
-/// The curves by the method chosen.
+/// The curves by the method chosen; without one, by that for corners.
 fn solve(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result<Outcome, Error> {
     Ok(match options.method {
         CurveMethod::Crust
         | CurveMethod::OneStepCrust
         | CurveMethod::NnCrust
         | CurveMethod::ConservativeCrust
-        | CurveMethod::HnnCrust
-        | CurveMethod::Corners => clean::solve(cloud, options.method, options.ends, monitor)?,
+        | CurveMethod::HnnCrust => clean::solve(cloud, options.method, options.ends, monitor)?,
+        CurveMethod::Corners | CurveMethod::Auto => {
+            clean::solve(cloud, CurveMethod::Corners, options.ends, monitor)?
+        }
         CurveMethod::Thesis => thesis::thesis(cloud, options, monitor)?,
         CurveMethod::ThesisCrude => thesis::thesis_crude(cloud, options, monitor)?,
         CurveMethod::Tour => tour::tour(cloud, options, monitor)?,
         CurveMethod::Fit => fit::fit(cloud, options.ends, monitor)?,
-        CurveMethod::Auto => auto(cloud, options, monitor)?,
     })
 }
 
-/// A fit where points are noisy, else vertices that are points.
-fn auto(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result<Outcome, Error> {
-    match fit::fit_if_noisy(cloud, options.ends, monitor)? {
-        Some(outcome) => Ok(outcome),
-        None => clean::solve(cloud, CurveMethod::Corners, options.ends, monitor),
+/// A fit where points are noisy, else vertices that are points: by NN-Crust where samples are so dense that it can be certified, which
+/// it is however uneven they are, else as corners ask for.
+fn auto(
+    cloud: &Cloud,
+    options: &CurveOptions,
+    finish: impl Fn(Outcome) -> Result<Solution<Curve>, Error>,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Curve>, Error> {
+    if let Some(outcome) = fit::fit_if_noisy(cloud, options.ends, monitor)? {
+        return finish(outcome);
     }
+    let dense = finish(clean::solve(cloud, CurveMethod::NnCrust, options.ends, monitor)?)?;
+    if dense.certificate.certified {
+        return Ok(dense);
+    }
+    drop(dense);
+    finish(solve(cloud, options, monitor)?)
 }

@@ -22,6 +22,8 @@ const SPAN: f64 = 6.0;
 const TURN: f64 = FRAC_PI_6;
 /// The shortest and the longest side, in deviations.
 const SIDE: [f64; 2] = [12.0, 60.0];
+/// Nodes are two deviations and more apart, so there are about ten within that and what corners spoil; more than this are not looked at.
+const MOST: usize = 50;
 /// Growth of sides, and the deviation from its parabola, in those of the noise, at which a side is too long.
 const GROWTH: f64 = 1.3;
 const SPREAD: f64 = 1.3;
@@ -70,21 +72,18 @@ pub(super) fn insert(nodes: &mut Vec<Node>, strand: &Strand, corners: &[Corner])
         return;
     }
     let mut put = vec![false; corners.len()];
-    let mut number = 0..;
     let mut kept = Vec::with_capacity(nodes.len());
-    for &node in &*nodes {
-        let Some(i) = number.next() else { break };
-        let near = (0..corners.len())
-            .map(|c| (along(strand, strand.arc[i], corners[c].arc), c))
-            .min_by(|a, b| a.0.total_cmp(&b.0));
-        match near {
-            Some((away, c)) if away < corners[c].half => {
-                if !std::mem::replace(&mut put[c], true) {
-                    let Corner { at, arrives, leaves, .. } = corners[c];
-                    kept.push(Node { at, tangent: arrives, leaving: leaves, ..node });
-                }
-            }
-            _ => kept.push(node),
+    for (&node, &arc) in nodes.iter().zip(&strand.arc) {
+        // Corners come in order: the nearest is the one before or after, or across the seam.
+        let after = corners.partition_point(|corner| corner.arc < arc);
+        let near = [after.checked_sub(1).unwrap_or(corners.len() - 1), after % corners.len()]
+            .map(|c| (along(strand, arc, corners[c].arc), c));
+        let (away, c) = if near[0].0 < near[1].0 { near[0] } else { near[1] };
+        if away >= corners[c].half {
+            kept.push(node);
+        } else if !std::mem::replace(&mut put[c], true) {
+            let Corner { at, arrives, leaves, .. } = corners[c];
+            kept.push(Node { at, tangent: arrives, leaving: leaves, ..node });
         }
     }
     *nodes = kept;
@@ -131,6 +130,9 @@ fn angle(a: Point, b: Point) -> f64 {
 fn is_sharpest(strand: &Strand, turns: &[f64], i: usize) -> bool {
     let count = turns.len();
     let own = turns[i].abs();
+    if own < TURN {
+        return false;
+    }
     // Between corners that are nearer to each other no side would be long enough.
     let span = (SIDE[0] + 2.0 * SPAN) * strand.nodes[i].deviation;
     let sharper = |forward: bool| {
@@ -141,10 +143,11 @@ fn is_sharpest(strand: &Strand, turns: &[f64], i: usize) -> bool {
                 (true, false) => (i + k < count).then_some(i + k),
                 (false, false) => i.checked_sub(k),
             })
+            .take(MOST)
             .take_while(|&j| apart(strand, i, j) <= span)
             .any(|j| turns[j].abs() > own || (turns[j].abs() == own && j < i))
     };
-    own >= TURN && !sharper(true) && !sharper(false)
+    !sharper(true) && !sharper(false)
 }
 
 /// The corner at a node, if it is one; `room` is how far the next ones are.
