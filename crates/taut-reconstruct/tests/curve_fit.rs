@@ -149,6 +149,39 @@ fn curves_turn_scale_and_shift_with_the_points() {
     }
 }
 
+/// Each vertex is where the turn takes it, and the first is the first: nothing goes by the order of rows or by how the plane lies.
+#[test]
+fn curves_turn_with_the_points_vertex_by_vertex() {
+    let noise = CurveNoise { delta: 0.2, outliers: 0.02, ..Default::default() };
+    let blob = |seed: u64| {
+        let truth = TestCurve::random(seed).build_with(3000);
+        sample_curve(&truth, 1500 + 500 * (seed % 6) as usize, &noise, seed).points
+    };
+    let square = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+    let mut sets: Vec<Vec<f64>> = (0..16).map(blob).collect();
+    sets.extend((0..6).map(|seed| around_polygon(&square, 1500, 0.05, seed)));
+    sets.extend((0..4).map(|seed| sampled("wave", 2000, 0.0, false, seed).1));
+    for (set, points) in sets.iter().enumerate() {
+        let original = fitted(points).answer;
+        let size = points.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        for (cos, sin) in [(0.0, 1.0), (-1.0, 0.0), (1.1_f64.cos(), 1.1_f64.sin())] {
+            let turned = |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
+            let moved: Vec<f64> = points.chunks(2).flat_map(|p| turned([p[0], p[1]])).collect();
+            let found = fitted(&moved).answer;
+            assert_eq!(found.outliers, original.outliers, "{set} {sin}");
+            assert_eq!(found.curves.len(), original.curves.len(), "{set} {sin}");
+            for (found, wanted) in found.curves.iter().zip(&original.curves) {
+                assert_eq!(found.vertices.len(), wanted.vertices.len(), "{set} {sin}");
+                for (&a, &b) in found.vertices.iter().zip(&wanted.vertices) {
+                    let b = turned(b);
+                    let off = (a[0] - b[0]).hypot(a[1] - b[1]);
+                    assert!(off <= 1e-6 * size, "{set} {sin}: {a:?} {b:?}");
+                }
+            }
+        }
+    }
+}
+
 /// Whether `found` is `wanted` moved, from any start and either way round.
 fn is_the_same_cycle(
     found: &[[f64; 2]],
@@ -185,7 +218,6 @@ fn threads_and_order_change_no_bit() {
     assert_eq!(json(&backwards, 2).1, curves);
 }
 
-/// An arc stays open, up to its last points.
 /// A polygon's outline with uniform noise across it.
 fn around_polygon(corners: &[[f64; 2]], n: usize, noise: f64, seed: u64) -> Vec<f64> {
     let places: Vec<f64> = generate(Distribution::Uniform, n, 2, seed).expect("numbers");
@@ -257,6 +289,7 @@ fn bends_are_no_corners() {
     }
 }
 
+/// An arc stays open, up to its last points.
 #[test]
 fn ends_stay_ends() {
     let (truth, points) = sampled("arc", 3000, 0.0, false, 2);

@@ -20,6 +20,8 @@ type Point = [f64; 2];
 const SPAN: f64 = 6.0;
 /// The least angle of a corner.
 const TURN: f64 = FRAC_PI_6;
+/// The share of it by which the strand turns at least, as windows round corners off.
+const SEEN: f64 = 0.6;
 /// The shortest and the longest side, in deviations.
 const SIDE: [f64; 2] = [12.0, 60.0];
 /// Nodes are two deviations and more apart, so there are about ten within that and what corners spoil; more than this are not looked at.
@@ -28,11 +30,13 @@ const MOST: usize = 50;
 const GROWTH: f64 = 1.3;
 const SPREAD: f64 = 1.3;
 /// Fewest points of a side, and between.
-const FEWEST: u32 = 12;
-/// The mean square distance of the points between from the corner, in that of the noise, and beside that from the curve. At the corners of
-/// polygons it is 0.6 to 0.9 of the latter, at bends more than 1.5 times as much.
+const FEWEST: u32 = 8;
+/// The mean square distance of the points between from the corner, in that of the noise.
 const FITS: f64 = 1.4;
-const AS_NEAR: f64 = 1.1;
+/// By how much of itself it may exceed that from the curve that goes around, times the root of the number of points: by chance. Of 200
+/// smooth curves with bends of two to ten widths of the band some passed for corners with twice this; at the corners of polygons
+/// it is 0.5 to 0.9 of that from the curve, where points are many.
+const AS_NEAR: f64 = 1.5;
 
 /// A corner of a strand.
 #[derive(Clone, Copy, Debug)]
@@ -104,8 +108,7 @@ fn turns(strand: &Strand) -> Vec<f64> {
     let tangent = |arc: f64| {
         let whole = strand.length();
         let arc = if strand.closed { arc.rem_euclid(whole) } else { arc };
-        let next = strand.arc.partition_point(|&a| a < arc);
-        (0.0..=whole).contains(&arc).then(|| strand.nodes[next % strand.nodes.len()].tangent)
+        (0.0..=whole).contains(&arc).then(|| strand.place(arc).1)
     };
     strand
         .nodes
@@ -130,7 +133,7 @@ fn angle(a: Point, b: Point) -> f64 {
 fn is_sharpest(strand: &Strand, turns: &[f64], i: usize) -> bool {
     let count = turns.len();
     let own = turns[i].abs();
-    if own < TURN {
+    if own < SEEN * TURN {
         return false;
     }
     // Between corners that are nearer to each other no side would be long enough.
@@ -163,15 +166,17 @@ fn measure(strand: &Strand, i: usize, room: [f64; 2], window: &mut Window) -> Op
         return None;
     }
     let ends = [before.place(u.min(0.0) - half), after.place(v.max(0.0) + half)];
-    let (mut count, mut corner, mut curve) = (0, 0.0, 0.0);
+    let (mut count, mut corner, mut curve) = (0u32, 0.0, 0.0);
     for member in around(strand, arc, half).into_iter().flatten() {
         let distance = to_segment(member.at, ends[0], at).min(to_segment(member.at, at, ends[1]));
         count += 1;
         corner += distance * distance;
         curve += (member.share * node.deviation).powi(2);
     }
-    let noise = f64::from(count) * node.deviation * node.deviation;
-    let fits = count >= FEWEST && corner <= FITS * noise && corner <= AS_NEAR * curve;
+    let count = f64::from(count);
+    let noise = count * node.deviation * node.deviation;
+    let chance = 1.0 + AS_NEAR / count.sqrt();
+    let fits = count >= f64::from(FEWEST) && corner <= FITS * noise && corner <= chance * curve;
     fits.then_some(Corner { arc, half, at, arrives, leaves })
 }
 

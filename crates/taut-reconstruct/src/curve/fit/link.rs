@@ -31,6 +31,27 @@ pub(super) struct Chain {
     pub(super) closed: bool,
 }
 
+impl Chain {
+    /// The other way around; a closed one from the same seed on.
+    fn reverse(&mut self) {
+        self.seeds.reverse();
+        if self.closed {
+            self.seeds.rotate_right(1);
+        }
+        self.seeds.iter_mut().for_each(|seed| seed.tangent = seed.tangent.map(|x| -x));
+    }
+}
+
+/// Twice the area that seeds go around, counted from the first; below 0 where they go around clockwise.
+fn area(seeds: &[Seed]) -> f64 {
+    let from = |seed: &Seed| [seed.at[0] - seeds[0].at[0], seed.at[1] - seeds[0].at[1]];
+    let cross = |pair: &[Seed]| {
+        let (p, q) = (from(&pair[0]), from(&pair[1]));
+        p[0] * q[1] - p[1] * q[0]
+    };
+    seeds.windows(2).map(cross).sum()
+}
+
 /// A side of a seed: 2·seed, plus 1 for the side its tangent points to.
 type Side = usize;
 
@@ -142,7 +163,8 @@ fn join_ends(sides: &mut Sides<'_>, index: &Index<'_>) {
     }
 }
 
-/// Follows partners from side to side.
+/// Follows partners from side to side. Closed chains run counterclockwise, open ones from the end that was found first: what comes after
+/// goes along them, and would not turn with the points otherwise.
 fn trace(sides: &Sides<'_>, rank: &[u32]) -> Vec<Chain> {
     let mut starts: Vec<usize> = (0..sides.seeds.len()).collect();
     starts.sort_unstable_by_key(|&i| rank[i]);
@@ -162,7 +184,7 @@ fn trace(sides: &Sides<'_>, rank: &[u32]) -> Vec<Chain> {
                 break;
             }
         }
-        let mut seeds = Vec::new();
+        let (first, mut seeds) = (entry / 2, Vec::new());
         loop {
             let seed = sides.seeds[entry / 2];
             seen[entry / 2] = true;
@@ -175,7 +197,16 @@ fn trace(sides: &Sides<'_>, rank: &[u32]) -> Vec<Chain> {
             }
         }
         if seeds.len() >= CHAIN {
-            chains.push(Chain { seeds, closed });
+            let mut chain = Chain { seeds, closed };
+            let last = entry / 2;
+            let is_backward = match closed {
+                true => area(&chain.seeds) < 0.0,
+                false => rank[last] < rank[first],
+            };
+            if is_backward {
+                chain.reverse();
+            }
+            chains.push(chain);
         }
     }
     chains

@@ -11,7 +11,6 @@
 //! *Reference.* Cheng, Funke, Golin, Kumar, Poon and Ramos 2005, for seeds; Genovese, Perone-Pacifico, Verdinelli and Wasserman 2012,
 //! for what error can be reached.
 
-mod clean;
 mod corners;
 mod kinks;
 mod link;
@@ -22,6 +21,7 @@ mod output;
 mod regress;
 mod seeds;
 mod strand;
+mod vertices;
 
 use taut_points::Monitor;
 
@@ -31,7 +31,7 @@ use super::cloud::Cloud;
 use super::index::Index;
 use crate::Error;
 use noise::Noise;
-use strand::{AROUND, Node, Strand, assign};
+use strand::{AROUND, Strand, assign};
 
 type Point = [f64; 2];
 
@@ -44,8 +44,8 @@ const BAND: f64 = 3.0;
 /// Nodes for each seed.
 const PARTS: usize = 3;
 
-/// Points off a curve by less than this share of their spacing along it are taken for its vertices.
-const CLEAN: f64 = 0.1;
+/// Points off a curve by more than this share of their spacing along it are not its vertices.
+const NOISY: f64 = 0.1;
 
 /// The curves of points, noisy or not.
 pub(super) fn fit(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Outcome, Error> {
@@ -63,7 +63,7 @@ pub(super) fn fit_if_noisy(
     let frame = Frame::of(&cloud.sites);
     let points = frame.all_inward(&cloud.sites);
     let index = Index::new(&points);
-    if clean::are_vertices(&points, &index) {
+    if vertices::are_vertices(&points, &index) {
         return Ok(None);
     }
     let fitted = fit_within(&frame, &points, &index, ends, monitor)?;
@@ -93,10 +93,10 @@ fn fit_within(
     assign(&mut strands, points, WIDTH);
     monitor.check()?;
     let (mut straightened, mut cornered) = (0, 0);
-    let mut refined = |strands: &[Strand], parts: usize, noise: &Noise| -> Vec<Strand> {
+    let mut refined = |strands: &[Strand], parts: usize, noise: &Noise, is_last: bool| {
         let one = |s: &Strand| {
             let mut nodes = regress::regress(s, parts, noise);
-            if parts == 1 {
+            if is_last {
                 let found = corners::corners(s);
                 cornered += found.len();
                 corners::insert(&mut nodes, s, &found);
@@ -104,16 +104,17 @@ fn fit_within(
             straightened += kinks::straighten(&mut nodes, s.closed);
             Strand::new(nodes, s.closed, AROUND * PARTS)
         };
-        strands.iter().map(one).collect()
+        strands.iter().map(one).collect::<Vec<Strand>>()
     };
-    strands = refined(&strands, PARTS, &Noise::UNKNOWN);
+    strands = refined(&strands, PARTS, &Noise::UNKNOWN, false);
     assign(&mut strands, points, WIDTH);
     monitor.check()?;
     let noise = Noise::of(&strands, WIDTH);
-    strands = refined(&strands, 1, &noise);
+    strands = refined(&strands, 1, &noise, true);
     let outliers = assign(&mut strands, points, noise.edge.map_or(WIDTH, |edge| EDGES * edge));
     monitor.check()?;
-    let deviation = typical(&strands);
+    let deviation = typical(&strands, |_| 1.0);
+    let is_noisy = typical(&strands, |s| s.members.len() as f64 / s.length()) > NOISY;
     let (curves, crossed) = output::curves(&strands, frame, ends, monitor)?;
     let counters = [
         ("seeds", found.len()),
@@ -123,9 +124,6 @@ fn fit_within(
         ("edged_noise", usize::from(noise.edge.is_some())),
         ("edges_crossed", crossed as usize),
     ];
-    let length: f64 = strands.iter().map(Strand::length).sum();
-    let members: usize = strands.iter().map(|s| s.members.len()).sum();
-    let is_noisy = deviation > CLEAN * length / members.max(1) as f64;
     let shows_curves = 2 * outliers.len() < points.len() && !curves.is_empty();
     let outcome = Outcome {
         method: "fit",
@@ -138,12 +136,28 @@ fn fit_within(
     Ok(Fitted { outcome, is_noisy, shows_curves })
 }
 
-/// The median of the standard deviation over all nodes.
-fn typical(strands: &[Strand]) -> f64 {
-    let nodes = strands.iter().flat_map(|s| &s.nodes);
-    let mut all: Vec<f64> = nodes.map(|node: &Node| node.deviation).collect();
-    all.sort_unstable_by(f64::total_cmp);
-    all.get(all.len() / 2).copied().unwrap_or(0.0)
+/// The median over all points of the standard deviation of the noise there, times a factor of their strand.
+fn typical(strands: &[Strand], factor: impl Fn(&Strand) -> f64) -> f64 {
+    let mut all: Vec<(f64, usize)> = Vec::new();
+    for strand in strands {
+        let factor = factor(strand);
+        let mut left = &strand.members[..];
+        for (edge, node) in strand.nodes.iter().enumerate() {
+            // Beyond the last node of an open strand, all that are left.
+            let end = strand.arc.get(edge + 1).copied().unwrap_or(f64::INFINITY);
+            let (here, after) = left.split_at(left.partition_point(|m| m.arc < end));
+            all.push((factor * node.deviation, here.len()));
+            left = after;
+        }
+    }
+    all.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let total: usize = all.iter().map(|&(_, points)| points).sum();
+    let mut before = 0;
+    let middle = all.iter().find(|&&(_, points)| {
+        before += points;
+        2 * before > total
+    });
+    middle.map_or(0.0, |&(deviation, _)| deviation)
 }
 
 /// Moves points to around the origin and to the size of 1, and back.

@@ -100,7 +100,9 @@ pub(super) fn seeds(
         let ((a, all_a), (b, all_b)) = (spacing[i as usize], spacing[j as usize]);
         a.total_cmp(&b).then(all_a.total_cmp(&all_b)).then(i.cmp(&j))
     });
-    let mut search = Search::new(points, index);
+    let mut rank = vec![0; points.len()];
+    order.iter().zip(0..).for_each(|(&i, place)| rank[i as usize] = place);
+    let mut search = Search::new(points, index, &rank);
     for round in 0..2 {
         search.round(&order, &spacing, monitor)?;
         // Once more for what windows account for that turned out to be coarse, now that the width of the band is known.
@@ -207,6 +209,8 @@ impl Quantile {
 struct Search<'a> {
     points: &'a [Point],
     index: &'a Index<'a>,
+    /// The place of each point in the order of density.
+    rank: &'a [u32],
     /// The seeds found, none where one was dropped again.
     seeds: Vec<Option<Seed>>,
     /// For each point the seed that accounts for it, [`NONE`] or [`VAIN`].
@@ -220,10 +224,10 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    fn new(points: &'a [Point], index: &'a Index<'a>) -> Self {
+    fn new(points: &'a [Point], index: &'a Index<'a>, rank: &'a [u32]) -> Self {
         let covered = vec![NONE; points.len()];
         let (seeds, ids, along) = (Vec::new(), Vec::new(), Vec::new());
-        Self { points, index, seeds, covered, window: Window::default(), ids, along, vain: 0 }
+        Self { points, index, rank, seeds, covered, window: Window::default(), ids, along, vain: 0 }
     }
 
     /// Seeds until all points are accounted for but those that are too sparse.
@@ -318,9 +322,11 @@ impl<'a> Search<'a> {
     fn fit_if_flat(&mut self, at: Point, reach: f64, least: f64) -> Option<Parabola> {
         self.look(at, reach);
         let points = self.points;
-        let step = self.ids.len() / SAMPLE;
+        let step = (self.ids.len() / SAMPLE) as u32;
         if step > 1 {
-            let sample = self.ids.iter().step_by(step).map(|&i| points[i as usize]);
+            // Every so many in the order of density: that is the same however the points are turned.
+            let in_sample = |i: &&u32| self.rank[**i as usize].is_multiple_of(step);
+            let sample = self.ids.iter().filter(in_sample).map(|&i| points[i as usize]);
             let sampled = self.window.fit(at, sample)?;
             if flatness(&sampled, reach) < DOUBTFUL * least {
                 return None;
