@@ -84,6 +84,44 @@ fn rings_beside_each_other_are_no_band() {
     assert_eq!(judged(circle(1.0, 300), &one, 0.1, one.len()).unwrap().doubt, None);
 }
 
+/// A few hundred rows of two rings a third as far apart as those are wide, or of normal noise with centres five deviations apart.
+#[test]
+fn few_rows_of_two_rings_are_no_band() {
+    let normal = |radius: f64, seed: u64| -> Loop {
+        let off = |k: u64| (0..12).map(|i| random(seed, 100 * k + i)).sum::<f64>() - 6.0;
+        (0..150).map(|k| at(radius + 0.012 * off(k), random(seed, 100 * k + 50))).collect()
+    };
+    for seed in 1..20 {
+        let rows = [ring(0.97, 0.023, 150, seed), ring(1.03, 0.023, 150, seed + 50)].concat();
+        let verdict = judged(circle(1.0, 200), &rows, 0.054, rows.len()).unwrap();
+        assert!(matches!(verdict.doubt, Some(CurveDoubt::Split { .. })), "{:?}", verdict.doubt);
+        let rows = [normal(0.97, seed), normal(1.03, seed + 50)].concat();
+        let verdict = judged(circle(1.0, 200), &rows, 0.1, rows.len()).unwrap();
+        assert!(matches!(verdict.doubt, Some(CurveDoubt::Split { .. })), "{:?}", verdict.doubt);
+        let rows = [normal(1.0, seed), normal(1.0, seed + 50)].concat();
+        let verdict = judged(circle(1.0, 200), &rows, 0.1, rows.len()).unwrap();
+        assert!(!matches!(verdict.doubt, Some(CurveDoubt::Split { .. })), "{:?}", verdict.doubt);
+    }
+}
+
+/// A small ring of rows among outliers that are twice as many, but not so near to each other.
+#[test]
+fn a_small_curve_among_outliers_is_noticed() {
+    let base = ring(1.0, 0.004, 1700, 1);
+    let some = |k: u64| [0, 1].map(|c| 2.4 * (random(7, 2 * k + c) - 0.5));
+    let far = |p: &[f64; 2]| (p[0].hypot(p[1]) - 1.0).abs() > 0.02;
+    let clutter: Loop = (0..90).map(some).filter(far).collect();
+    for (rows, radius) in [(40, 0.24), (30, 0.2), (20, 0.1)] {
+        let moved = |p: &[f64; 2]| [p[0] + 0.3, p[1] - 0.2];
+        let missed: Loop = ring(radius, 0.004, rows, 3).iter().map(moved).collect();
+        let rows = [base.clone(), clutter.clone(), missed].concat();
+        let doubt = judged(circle(1.0, 300), &rows, 0.004, 1700).unwrap().doubt;
+        assert!(matches!(doubt, Some(CurveDoubt::Gathered { .. })), "{radius}: {doubt:?}");
+    }
+    let rows = [base, clutter].concat();
+    assert_eq!(judged(circle(1.0, 300), &rows, 0.004, 1700).unwrap().doubt, None);
+}
+
 /// Rows of a curve that is missed are no outliers, however sparse or far; rows at random are.
 #[test]
 fn a_curve_among_the_outliers_is_noticed() {

@@ -23,6 +23,7 @@ mod structure;
 mod tangent;
 pub(super) mod tour;
 mod tree;
+mod valley;
 
 use taut_points::{BlockHash, Monitor, PointSource, PointsHash, hash_block, map_blocks};
 

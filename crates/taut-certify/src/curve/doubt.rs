@@ -83,14 +83,14 @@ pub enum CurveDoubt {
     },
     /// Rows lie in two or more bands beside each other, as the samples of two curves would.
     #[error(
-        "the rows beside curve {curve}, after vertex {vertex}, lie in bands with {share:.2} of their width empty between"
+        "the rows beside curve {curve}, after vertex {vertex}, lie in bands: between them they are {share:.2} times as dense"
     )]
     Split {
         /// Curve, from 0.
         curve: usize,
         /// The vertex after which they lie, from 0.
         vertex: usize,
-        /// The widest empty part over the width of the band.
+        /// How dense they are between two bands, over the sparser of those.
         share: f64,
     },
     /// Rows lie off the curve to the side their neighbours lie on, as samples of a curve that winds about it would.

@@ -10,6 +10,7 @@
 mod clusters;
 mod features;
 mod nearest;
+mod peaks;
 mod quick;
 mod samples;
 mod sight;

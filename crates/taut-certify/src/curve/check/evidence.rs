@@ -109,8 +109,8 @@ pub(super) fn judge(
         .or(sparse)
         .or(noisy)
         .or(lacuna)
-        .or(split)
         .or(winding)
+        .or(split)
         .or_else(|| outliers::doubt(edges, placed, gaps, band));
     Ok(Evidence { sampling_ratio, noise_ratio, doubt })
 }

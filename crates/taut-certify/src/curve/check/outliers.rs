@@ -21,9 +21,11 @@ const LINK: f64 = 1.5;
 const FEWEST: usize = 8;
 const NEAR_LEAST: f64 = 0.75;
 
-/// Outliers with so many others around them, where chance would put half a one, and how many of those there may be.
-const CROWD: usize = 8;
-const CROWDED_MOST: usize = 3;
+/// In circles around outliers, in which chance puts so many others, those that there are are counted.
+const EXPECTED: [f64; 7] = [0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
+
+/// ln of how seldom chance may fill any of these circles so.
+const SELDOM: f64 = 6.0;
 
 /// One of so many rows may be said to be an outlier though it is no farther from the curve than others are.
 const INSIDE: usize = 50;
@@ -82,41 +84,55 @@ fn gathered(
     }
     let all = (high[0] - low[0]) * (high[1] - low[1]);
     let area = (all - 2.0 * OWN * band * length).max(all / 4.0);
-    let reach = (area / (2.0 * PI * many)).sqrt();
     let usual = 0.5 * (area / many).sqrt();
-    // Cells as wide as the reach; the nearest of all is sought no farther than four times what is usual.
-    let cell = |p: [f64; 2]| [0, 1].map(|k| ((p[k] - low[k]) / reach).floor() as i64);
+    let reaches = EXPECTED.map(|expected| (expected * area / (PI * many)).sqrt());
+    let most = (many * EXPECTED.len() as f64).ln() + SELDOM;
+    // Chernoff's bound of the tail of a Poisson distribution.
+    let is_crowd = |count: f64, expected: f64| {
+        count > expected && count * (count / expected).ln() - (count - expected) > most
+    };
+    let gathered = |row: usize, near: f64| {
+        Some(CurveDoubt::Gathered { row: row as u64, rows: far.len(), near })
+    };
+    // Cells as wide as the largest circles. Four of those around points of a cell hold all that are in it: where there are so many that one
+    // of them is a crowd, it would take long to look through.
+    let side = reaches[EXPECTED.len() - 1];
+    let cell = |p: [f64; 2]| [0, 1].map(|k| ((p[k] - low[k]) / side).floor() as i64);
     let mut cells: BTreeMap<[i64; 2], Vec<[f64; 2]>> = BTreeMap::new();
     far.iter().for_each(|&(_, p)| cells.entry(cell(p)).or_default().push(p));
-    let (mut sum, mut crowded, mut first) = (0.0, 0, far[0].0);
+    let is_full = |p: [f64; 2]| {
+        let in_one = (cells[&cell(p)].len() as f64 / 4.0).floor() - 1.0;
+        is_crowd(in_one, EXPECTED[EXPECTED.len() - 1])
+    };
+    if let Some(&(row, _)) = far.iter().find(|(_, p)| is_full(*p)) {
+        return gathered(row, 0.0);
+    }
+    let (mut sum, mut crowded) = (0.0, None);
     for &(row, p) in far {
         let [x, y] = cell(p);
-        let (mut next, mut count) = (4.0 * usual, 0);
-        for (i, j) in (-5..=5).flat_map(|i| (-5..=5).map(move |j| (i, j))) {
+        let (mut next, mut counts) = (4.0 * usual, [0.0; EXPECTED.len()]);
+        for (i, j) in (-1..=1).flat_map(|i| (-1..=1).map(move |j| (i, j))) {
             for q in cells.get(&[x + i, y + j]).into_iter().flatten() {
                 let apart = (p[0] - q[0]).hypot(p[1] - q[1]);
                 if apart > 0.0 {
                     next = next.min(apart);
-                    count += usize::from(apart <= reach);
+                    let first = reaches.partition_point(|&reach| reach < apart);
+                    counts[first..].iter_mut().for_each(|count| *count += 1.0);
                 }
             }
         }
         sum += next;
-        if count >= CROWD {
-            if crowded == 0 {
-                first = row;
-            }
-            crowded += 1;
+        if crowded.is_none() && (0..EXPECTED.len()).any(|k| is_crowd(counts[k], EXPECTED[k])) {
+            crowded = Some(row);
         }
     }
     let near = sum / many / usual;
     // The mean of so many distances is off by 0.52/√n of itself, by four times that hardly ever.
     let is_gathered = near < NEAR_LEAST.min(1.0 - 4.0 * 0.52 / many.sqrt());
-    (is_gathered || crowded > CROWDED_MOST).then_some(CurveDoubt::Gathered {
-        row: first as u64,
-        rows: far.len(),
-        near,
-    })
+    match crowded.or(is_gathered.then_some(far[0].0)) {
+        Some(row) => gathered(row, near),
+        None => None,
+    }
 }
 
 /// The first cluster of too many points that are linked one by one.

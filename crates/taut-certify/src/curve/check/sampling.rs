@@ -3,22 +3,19 @@
 use super::super::CurveDoubt;
 use super::band::Foot;
 use super::features::Features;
+use super::valley::valley;
 
 /// Gaps on either side that a gap is compared with.
 const BESIDE: usize = 16;
 
-/// Rows across whose offsets an empty part is sought: short windows follow the curve, long ones find thin gaps.
-const WINDOWS: [usize; 3] = [128, 512, 2048];
+/// Rows across whose offsets bands are sought: short windows follow the curve, long ones find thin gaps. The last is all rows.
+const WINDOWS: [usize; 5] = [64, 128, 512, 2048, usize::MAX];
 
 /// Rows of a window along which neighbours are compared.
-const WINDOW: usize = WINDOWS[0];
+const WINDOW: usize = 128;
 
-/// One of so many rows of a window may lie on one side of an empty part without making it one between two bands.
-const EDGE: usize = 10;
-
-/// ln of how seldom chance may leave such a part: of m numbers that are uniform in a band, two neighbours in order are the share x
-/// of its width apart in m·exp(−m·x) of all windows.
-const SELDOM: f64 = 18.0;
+/// ln of how seldom chance may leave any of the windows of a curve with so few rows between two bands.
+const SELDOM: f64 = 4.0;
 
 /// The least that squared differences of neighbours may be on average, over twice the variance. Of 128 numbers that chance orders it is
 /// 1 ± 0.09, normal or uniform: less than this once in 10⁸ windows.
@@ -135,26 +132,25 @@ pub(super) fn noise_ratio(samples: &[Sample], features: &Features) -> Worst {
     worst
 }
 
-/// An empty part of the band, with rows on both sides.
+/// Two bands with fewer rows between them than either holds, more so than chance would have it.
 pub(super) fn split(curve: usize, samples: &[Sample]) -> Option<CurveDoubt> {
-    for window in WINDOWS.into_iter().filter(|&window| window <= samples.len()) {
-        let (mut worst, edge, m) = (Worst::NONE, window / EDGE, window as f64);
-        let mut offsets = Vec::with_capacity(window);
-        for start in (0..samples.len()).step_by(window / 2) {
+    let most = (samples.len() as f64).ln() + SELDOM;
+    let mut offsets = Vec::new();
+    for window in WINDOWS.map(|window| window.min(samples.len())) {
+        let (mut worst, mut share) = (Worst::NONE, 0.0);
+        for start in (0..samples.len()).step_by(window.div_ceil(2)) {
             offsets.clear();
-            let around = samples.iter().cycle().skip(start).take(window);
-            offsets.extend(around.map(|sample| sample.offset));
+            let around = start..start + window;
+            offsets.extend(around.map(|k| samples[k % samples.len()].offset));
             offsets.sort_by(f64::total_cmp);
-            let width = offsets[window - 1] - offsets[0];
-            let middle = &offsets[edge..window - edge];
-            let empty = middle.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-            if empty > 0.0 {
-                worst.see(empty / width, samples[start].vertex);
+            let valley = valley(&offsets);
+            if valley.evidence > worst.value {
+                share = valley.density;
             }
+            worst.see(valley.evidence, samples[start].vertex);
         }
-        let (vertex, share) = (worst.at, worst.value);
-        if share > (m.ln() + SELDOM) / m {
-            return Some(CurveDoubt::Split { curve, vertex, share });
+        if worst.value > most {
+            return Some(CurveDoubt::Split { curve, vertex: worst.at, share });
         }
     }
     None

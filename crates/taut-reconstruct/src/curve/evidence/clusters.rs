@@ -2,7 +2,10 @@
 
 use std::collections::HashMap;
 
+use taut_oblivious::hilbert_order;
+
 use super::nearest::{Segments, Spot};
+use crate::curve::index::Index;
 
 /// The share of the sites that may be outliers.
 const MOST: f64 = 0.2;
@@ -17,11 +20,13 @@ const OWN: f64 = 1.99;
 const INSIDE_LEAST: usize = 7;
 const INSIDE: usize = 51;
 /// From so many outliers on it is asked how they are scattered: their mean distance from the next over that of chance, a little more than
-/// what the checker asks for; how many others make a crowd; and how many crowds there may be.
+/// what the checker asks for.
 const SCATTERED_FROM: usize = 8;
 const NEAR_LEAST: f64 = 0.76;
-const CROWD: usize = 8;
-const CROWDED_MOST: usize = 2;
+/// How many others chance puts into the circles around outliers in which they are counted, and ln of how seldom it may put more than there
+/// are, with some room.
+const BY_CHANCE: [f64; 7] = [0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
+const SELDOM: f64 = 5.5;
 
 pub(super) fn are_harmless(
     segments: &Segments,
@@ -60,7 +65,7 @@ pub(super) fn are_harmless(
 }
 
 /// Whether points are as far from each other as chance would put them in the box of curves and outliers, less the band: on average, and
-/// with no more than half a point in a circle of which many have eight.
+/// in no circle more than chance puts there.
 fn are_scattered(
     segments: &Segments,
     far: &[[f64; 2]],
@@ -78,28 +83,39 @@ fn are_scattered(
     }
     let whole = (area[2] - area[0]) * (area[3] - area[1]);
     let each = (whole - 4.0 * band * length).max(0.25 * whole) / far.len() as f64;
-    let (usual, reach) = (0.5 * each.sqrt(), (each / std::f64::consts::TAU).sqrt());
-    // By x: the neighbours of a point are a stretch of the list, less those that are too high or low.
-    let mut sorted = far.to_vec();
-    sorted.sort_unstable_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
-    sorted.dedup();
-    let most = 4.0 * usual;
-    let (mut sum, mut crowded) = (0.0, 0);
-    for (k, p) in sorted.iter().enumerate() {
-        let (mut least, mut count) = (most, 0);
-        let before = sorted[..k].iter().rev().take_while(|q| p[0] - q[0] <= most);
-        let after = sorted[k + 1..].iter().take_while(|q| q[0] - p[0] <= most);
-        for q in before.chain(after).filter(|q| (q[1] - p[1]).abs() <= most) {
-            let apart = (q[0] - p[0]).hypot(q[1] - p[1]);
-            least = least.min(apart);
-            count += usize::from(apart <= 1.001 * reach);
+    let usual = 0.5 * each.sqrt();
+    let mut places = far.to_vec();
+    places.sort_unstable_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
+    places.dedup();
+    let order = hilbert_order(places.len(), |i| places[i]);
+    let places: Vec<[f64; 2]> = order.iter().map(|&i| places[i as usize]).collect();
+    let index = Index::new(&places);
+    let many = places.len() as f64;
+    let most = (far.len() as f64 * BY_CHANCE.len() as f64).ln() + SELDOM;
+    let mut sum = 0.0;
+    for &p in &places {
+        let mut least = 4.0 * usual;
+        // Smaller circles first: one that is full already is the end.
+        for (k, by_chance) in BY_CHANCE.into_iter().enumerate() {
+            let square = 1.001 * by_chance * each / std::f64::consts::PI;
+            let mut count = -1.0;
+            index.within(p, square, &mut |place| {
+                count += 1.0;
+                let [x, y] = places[place as usize];
+                let apart = (x - p[0]).hypot(y - p[1]);
+                // The widest circle holds all that are as near as that.
+                if k + 1 == BY_CHANCE.len() && apart > 0.0 {
+                    least = least.min(apart);
+                }
+            });
+            if count > by_chance && count * (count / by_chance).ln() - (count - by_chance) > most {
+                return false;
+            }
         }
         sum += least;
-        crowded += usize::from(count >= CROWD);
     }
-    let many = sorted.len() as f64;
     let needed = NEAR_LEAST.min(1.01 - 4.0 * 0.52 / many.sqrt());
-    sum / many >= needed * usual && crowded <= CROWDED_MOST
+    sum / many >= needed * usual
 }
 
 /// Whether no more than a few points are linked one by one.

@@ -4,15 +4,15 @@ use rayon::prelude::*;
 
 use super::features::Features;
 use super::nearest::{Segments, Spot};
+use super::peaks::has_one_peak;
 
 /// Gaps on either side that a gap is compared with.
 const BESIDE: usize = 16;
-/// Sites in windows across the band, and one in how many of them may be on one side of what is empty.
-const WINDOWS: [usize; 3] = [128, 512, 2048];
-const WINDOW: usize = WINDOWS[0];
-const EDGE: usize = 10;
-/// ln of how seldom chance may leave a part of the band empty, with some room: m sites leave the share x in m·exp(−m·x) of all windows.
-const SELDOM: f64 = 17.5;
+/// Sites in windows along which neighbours are compared, and in those across the band; the last is all sites.
+const WINDOW: usize = 128;
+const WINDOWS: [usize; 5] = [64, WINDOW, 512, 2048, usize::MAX];
+/// ln of how seldom chance may leave so few sites between two bands, with some room.
+const SELDOM: f64 = 3.5;
 /// The least coefficient of variation of gaps, with some room.
 const EVEN: f64 = 0.099;
 /// The least mean squared difference of neighbours, over twice the variance, with some room: chance makes it 1 ± 0.09.
@@ -148,20 +148,17 @@ pub(super) fn are_by_chance(samples: &[Sample]) -> bool {
     })
 }
 
-/// Whether the band is one, not two or more with an empty part between.
+/// Whether the band is one, not two or more with fewer sites between.
 pub(super) fn is_one_band(samples: &[Sample]) -> bool {
     let n = samples.len();
-    WINDOWS.into_iter().filter(|&window| window <= n).all(|window| {
-        let (edge, m) = (window / EDGE, window as f64);
-        let most = (m.ln() + SELDOM) / m;
-        let starts: Vec<usize> = (0..n).step_by(window / 2).collect();
-        starts.into_par_iter().all(|start| {
+    let most = (n as f64).ln() + SELDOM;
+    WINDOWS.into_iter().map(|window| window.min(n)).all(|window| {
+        let starts: Vec<usize> = (0..n).step_by(window.div_ceil(2)).collect();
+        starts.into_par_iter().with_min_len(16).all(|start| {
             let mut offsets: Vec<f64> =
                 (start..start + window).map(|k| samples[k % n].offset).collect();
             offsets.sort_unstable_by(f64::total_cmp);
-            let width = offsets[window - 1] - offsets[0];
-            let mut middle = offsets[edge..window - edge].windows(2);
-            middle.all(|pair| pair[1] - pair[0] <= most * width)
+            has_one_peak(&offsets, most)
         })
     })
 }

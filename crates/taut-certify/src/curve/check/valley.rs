@@ -1,0 +1,121 @@
+//! Whether numbers come from a density with one peak, or a valley lies between two.
+
+/// One of so many numbers at either end is not looked at: noise has tails.
+const EDGE: usize = 25;
+
+/// In how many parts of the range numbers are counted: so many that each holds eight, within bounds.
+const EIGHT: usize = 8;
+const PARTS: [usize; 2] = [8, 32];
+
+/// A valley is sparser than all numbers by this factor.
+const SPARSER: f64 = 0.5;
+
+/// A part of a range with fewer numbers than on either side.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Valley {
+    /// −ln of the most that chance could make of it, were the density to have one peak.
+    pub(super) evidence: f64,
+    /// How dense numbers are in it, over the sparser side.
+    pub(super) density: f64,
+}
+
+/// The valley of ascending numbers for which there is most evidence.
+///
+/// A density with one peak falls from it to both sides, so on one side of any part it is no greater than within. Of the numbers
+/// in the part and on that side the share in the part is then no less than its share in the width, but by chance.
+pub(super) fn valley(numbers: &[f64]) -> Valley {
+    let mut deepest = Valley { evidence: 0.0, density: 1.0 };
+    let (count, edge) = (numbers.len(), numbers.len() / EDGE);
+    let (low, high) = (numbers[edge], numbers[count - 1 - edge]);
+    let parts = (count / EIGHT).clamp(PARTS[0], PARTS[1]);
+    let border = |part: usize| low + (high - low) * part as f64 / parts as f64;
+    let below: Vec<usize> =
+        (0..=parts).map(|part| numbers.partition_point(|&x| x < border(part))).collect();
+    let within = |from: usize, to: usize| (below[to] - below[from]) as f64;
+    let most = SPARSER * within(0, parts) / parts as f64;
+    for from in 1..parts {
+        for to in from + 1..parts {
+            let (inside, width) = (within(from, to), (to - from) as f64);
+            if inside > most * width {
+                continue;
+            }
+            // Sides as wide as the part, twice that, and so on: the best of each.
+            let best = |side: &dyn Fn(usize) -> [usize; 2]| {
+                let of = |doublings: usize| {
+                    let [start, end] = side((to - from) << doublings);
+                    let (beside, wide) = (within(start, end), (end - start) as f64);
+                    (evidence([inside, beside], [width, wide]), beside / wide)
+                };
+                (0..6).map(of).fold((0.0, 1.0), |best, one| if one.0 > best.0 { one } else { best })
+            };
+            let left = best(&|wide| [from.saturating_sub(wide), from]);
+            let right = best(&|wide| [to, parts.min(to + wide)]);
+            if left.0.min(right.0) > deepest.evidence {
+                deepest = Valley {
+                    evidence: left.0.min(right.0),
+                    density: inside / width / left.1.min(right.1),
+                };
+            }
+        }
+    }
+    deepest
+}
+
+/// −ln of the most that chance would make of so few of all numbers in the first of two intervals, if they were as dense there as in the
+/// second (Chernoff's bound for binomial distributions).
+fn evidence(counts: [f64; 2], widths: [f64; 2]) -> f64 {
+    let (all, width) = (counts[0] + counts[1], widths[0] + widths[1]);
+    let expected = widths.map(|part| all * part / width);
+    if counts[0] >= expected[0] {
+        return 0.0;
+    }
+    let term = |k: usize| match counts[k] > 0.0 {
+        true => counts[k] * (counts[k] / expected[k]).ln(),
+        false => 0.0,
+    };
+    term(0) + term(1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers at even quantiles of densities.
+    fn spread(count: usize, quantile: impl Fn(f64) -> f64) -> Vec<f64> {
+        (0..count).map(|k| quantile((k as f64 + 0.5) / count as f64)).collect()
+    }
+
+    #[test]
+    fn densities_with_one_peak_have_no_valley() {
+        let triangle =
+            |q: f64| if q < 0.5 { (2.0 * q).sqrt() } else { 2.0 - (2.0 - 2.0 * q).sqrt() };
+        for count in [64, 130, 5000] {
+            for quantile in [&|q| q, &triangle as &dyn Fn(f64) -> f64, &|q| q * q * q] {
+                let found = valley(&spread(count, quantile));
+                assert!(found.evidence < 0.5, "{count}: {found:?}");
+            }
+        }
+        assert_eq!(valley(&[1.0; 64]).evidence, 0.0);
+    }
+
+    #[test]
+    fn an_empty_tenth_is_a_valley_by_as_much_as_numbers_are_many() {
+        let bands = |q: f64| if q < 0.5 { q } else { q + 0.1 };
+        let found = [100, 200, 400, 800].map(|count| valley(&spread(count, bands)));
+        assert!(found.iter().all(|valley| valley.density < 0.4), "{found:?}");
+        assert!(found[0].evidence > 3.0 && found[3].evidence > 40.0, "{found:?}");
+        assert!(
+            found.windows(2).all(|pair| pair[1].evidence > 1.4 * pair[0].evidence),
+            "{found:?}"
+        );
+    }
+
+    /// Of 20 numbers none fall within the half of the width: 2⁻²⁰.
+    #[test]
+    fn chance_is_that_of_coins() {
+        let found = evidence([0.0, 20.0], [1.0, 1.0]);
+        assert!((found - 20.0 * 2f64.ln()).abs() < 1e-12);
+        assert_eq!(evidence([5.0, 5.0], [1.0, 1.0]), 0.0);
+        assert_eq!(evidence([0.0, 0.0], [1.0, 1.0]), 0.0);
+    }
+}
