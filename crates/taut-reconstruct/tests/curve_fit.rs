@@ -242,6 +242,14 @@ fn around_polygon(corners: &[[f64; 2]], n: usize, noise: f64, seed: u64) -> Vec<
     places.chunks_exact(2).flat_map(place).collect()
 }
 
+/// The angle by which a closed polyline turns at a vertex, in degrees.
+fn turn(vertices: &[[f64; 2]], i: usize) -> f64 {
+    let count = vertices.len();
+    let [a, b, c] = [i + count - 1, i, i + 1].map(|k| vertices[k % count]);
+    let (p, q) = ([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
+    (p[0] * q[1] - p[1] * q[0]).atan2(p[0] * q[0] + p[1] * q[1]).abs().to_degrees()
+}
+
 /// Corners of up to a right angle lie within the noise from where they are, and nowhere else does the curve turn so much. Two thousand
 /// points show right angles; those of a hexagon are within the noise of a bend.
 #[test]
@@ -262,14 +270,8 @@ fn corners_are_kept() {
     ] {
         let found = fitted(&around_polygon(polygon, n, noise, seed)).answer;
         let [curve] = &found.curves[..] else { panic!("{n}: {}", found.curves.len()) };
-        let count = curve.vertices.len();
-        let turn = |i: usize| {
-            let [a, b, c] = [i + count - 1, i, i + 1].map(|k| curve.vertices[k % count]);
-            let (p, q) = ([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
-            (p[0] * q[1] - p[1] * q[0]).atan2(p[0] * q[0] + p[1] * q[1]).abs().to_degrees()
-        };
-        let sharp: Vec<[f64; 2]> =
-            (0..count).filter(|&i| turn(i) > 45.0).map(|i| curve.vertices[i]).collect();
+        let sharp = (0..curve.vertices.len()).filter(|&i| turn(&curve.vertices, i) > 45.0);
+        let sharp: Vec<[f64; 2]> = sharp.map(|i| curve.vertices[i]).collect();
         assert!(curve.closed && sharp.len() == polygon.len(), "{n} {noise}: {sharp:?}");
         for corner in polygon {
             let off = |p: &[f64; 2]| (p[0] - corner[0]).hypot(p[1] - corner[1]);
@@ -278,14 +280,24 @@ fn corners_are_kept() {
     }
 }
 
-/// A bend of any radius that the noise lets be seen is no corner.
+/// A bend of any radius that the noise lets be seen is no corner, and no vertex turns as one would.
 #[test]
 fn bends_are_no_corners() {
-    for (name, noise) in [("ellipse3", 0.05), ("ellipse3", 0.3), ("flower5", 0.3), ("bumpy", 0.2)] {
+    for (name, delta) in [("ellipse3", 0.05), ("ellipse3", 0.3), ("flower5", 0.3), ("bumpy", 0.2)] {
         let truth = TestCurve::named(name).expect("a test curve").build();
-        let noise = CurveNoise { delta: noise, ..Default::default() };
+        let noise = CurveNoise { delta, ..Default::default() };
         let found = fitted(&sample_curve(&truth, 20_000, &noise, 5).points);
         assert!(found.trace.counters.get("corners") == Some(&0), "{name}");
+        let quality = quality(&truth, &found.answer);
+        assert!(
+            quality.topology_right() && quality.hausdorff < 0.01 + 0.15 * delta,
+            "{name}: {quality:?}"
+        );
+        for curve in &found.answer.curves {
+            let sharpest =
+                (0..curve.vertices.len()).map(|i| turn(&curve.vertices, i)).fold(0.0, f64::max);
+            assert!(sharpest < 25.0, "{name}: {sharpest}");
+        }
     }
 }
 

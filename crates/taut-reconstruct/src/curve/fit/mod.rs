@@ -92,13 +92,12 @@ fn fit_within(
         link::chains(&found, ends).into_iter().map(Strand::through).collect();
     assign(&mut strands, points, WIDTH);
     monitor.check()?;
-    let (mut straightened, mut cornered) = (0, 0);
+    let mut straightened = 0;
     let mut refined = |strands: &[Strand], parts: usize, noise: &Noise, is_last: bool| {
         let one = |s: &Strand| {
             let mut nodes = regress::regress(s, parts, noise);
             if is_last {
                 let found = corners::corners(s);
-                cornered += found.len();
                 corners::insert(&mut nodes, s, &found);
             }
             straightened += kinks::straighten(&mut nodes, s.closed);
@@ -119,7 +118,7 @@ fn fit_within(
     let counters = [
         ("seeds", found.len()),
         ("nodes", strands.iter().map(|s| s.nodes.len()).sum()),
-        ("corners", cornered),
+        ("corners", strands.iter().map(Strand::corners).sum()),
         ("nodes_straightened", straightened),
         ("edged_noise", usize::from(noise.edge.is_some())),
         ("edges_crossed", crossed as usize),

@@ -93,8 +93,8 @@ impl Strand {
 
     /// A strand through nodes, without points. The noise at each is the median of what so many nodes on either side say: an outlier
     /// in a window makes it look wide, and points in a row by chance narrow, and either would decide what the next window holds.
-    pub(super) fn new(mut nodes: Vec<Node>, closed: bool, around: usize) -> Self {
-        let deviations = medians(&nodes, closed, around);
+    pub(super) fn new(mut nodes: Vec<Node>, closed: bool, span: usize) -> Self {
+        let deviations = medians(&nodes, closed, span);
         nodes.iter_mut().zip(deviations).for_each(|(node, deviation)| node.deviation = deviation);
         let mut strand = Self { nodes, closed, arc: vec![0.0], members: Vec::new() };
         let mut sum = 0.0;
@@ -112,6 +112,11 @@ impl Strand {
     /// Edges between nodes.
     pub(super) fn edges(&self) -> usize {
         self.nodes.len() - usize::from(!self.closed)
+    }
+
+    /// Nodes that are corners.
+    pub(super) fn corners(&self) -> usize {
+        self.nodes.iter().filter(|node| node.tangent != node.leaving).count()
     }
 
     /// The whole length.
@@ -139,16 +144,16 @@ impl Strand {
 }
 
 /// The medians of deviations over each node and so many on either side.
-fn medians(nodes: &[Node], closed: bool, around: usize) -> Vec<f64> {
+fn medians(nodes: &[Node], closed: bool, span: usize) -> Vec<f64> {
     let count = nodes.len();
     let median = |i: usize| {
         let at = |k: usize| match closed {
-            true => (i + count + k - around.min(count)) % count,
-            false => (i + k).saturating_sub(around).min(count - 1),
+            true => (i + count + k - span.min(count)) % count,
+            false => (i + k).saturating_sub(span).min(count - 1),
         };
-        let mut values: Vec<f64> = (0..=2 * around).map(|k| nodes[at(k)].deviation).collect();
+        let mut values: Vec<f64> = (0..=2 * span).map(|k| nodes[at(k)].deviation).collect();
         values.sort_unstable_by(f64::total_cmp);
-        values[around]
+        values[span]
     };
     (0..count).map(median).collect()
 }

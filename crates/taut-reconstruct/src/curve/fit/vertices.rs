@@ -4,14 +4,15 @@
 //! *Idea.* Where points are off a parabola through a few of them by next to nothing beside their spacing, they are vertices. Where they
 //! are off it by about their spacing, they are a blob within a band, whose residuals grow as the square root of the number of points;
 //! if they grow faster it is the curve itself that is rugged, such as a coastline. Between the two only a fit can tell.
-//! *Guarantee.* A median over [`PLACES`] places, so O(log n) beside the index.
+//! *Guarantee.* Medians over [`PLACES`] places at most, and half as many at least where there are so many points; O(log n) beside the index.
+//! A few windows of points are fitted at once, and not judged.
 
 use super::local::Window;
 use crate::curve::index::Index;
 
 type Point = [f64; 2];
 
-/// Places that are looked at.
+/// Most places that are looked at.
 const PLACES: usize = 1000;
 /// Points of a short window and of a long one, with the one in the middle.
 const SHORT: usize = 9;
@@ -43,7 +44,8 @@ pub(super) fn are_vertices(points: &[Point], index: &Index<'_>) -> bool {
         if let (Some((short, spacing)), Some((long, _))) = (deviation_of(SHORT), deviation_of(LONG))
         {
             shares.push(short / spacing);
-            growths.push(long / short);
+            // Points on a parabola are vertices, whatever the longer window says.
+            growths.push(if short > 0.0 { long / short } else { 0.0 });
         }
     }
     let Some(share) = median(&mut shares) else { return false };
