@@ -61,8 +61,8 @@ pub struct Place(pub u32, pub f64);
 ///
 /// It is evidence, not proof, for points cannot tell of what was not sampled. What deceives it: a curve with features smaller than the gaps
 /// between its samples; a curve open by less than gaps vary, three times the usual one even where samples are evenly spaced; two
-/// strands nearer to each other than the noise is wide, with samples all over the room between; a curve of samples as sparse as
-/// the outliers among which it lies.
+/// strands nearer to each other than the noise is wide, with samples all over the room between, or so few that chance could leave it
+/// as empty; a curve of samples as sparse as the outliers among which it lies, or of ten or so.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,

@@ -332,6 +332,54 @@ fn sparse_crests_are_followed_and_the_noise_is_told() {
     }
 }
 
+/// Two circles, the noise of each as wide as two fifths of the room between them: windows on one reach into the other.
+#[test]
+fn circles_side_by_side_are_closed_and_two() {
+    for (n, seed) in [(5000, 1), (20_000, 2), (50_000, 3)] {
+        let lots: Vec<f64> = generate(Distribution::Uniform, n, 2, seed).expect("numbers");
+        let place = |(k, lots): (usize, &[f64])| {
+            let radius = [1.0, 0.6][k % 2] + 0.08 * (2.0 * lots[0] - 1.0);
+            let (sin, cos) = (std::f64::consts::TAU * lots[1]).sin_cos();
+            [radius * cos, radius * sin]
+        };
+        let points: Vec<f64> = lots.chunks_exact(2).enumerate().flat_map(place).collect();
+        let found = fitted(&points).answer;
+        assert!(found.curves.len() == 2 && found.curves.iter().all(|c| c.closed), "{n}");
+        for curve in &found.curves {
+            let off =
+                |p: &[f64; 2]| (p[0].hypot(p[1]) - 1.0).abs().min((p[0].hypot(p[1]) - 0.6).abs());
+            assert!(curve.vertices.iter().map(off).fold(0.0, f64::max) < 0.03, "{n}");
+        }
+    }
+}
+
+/// A few exact points beside many noisy ones change neither the method nor what the noise is said to be.
+#[test]
+fn exact_points_beside_noisy_ones_are_fitted_too() {
+    let circle = |radius: f64, middle: f64, off: f64, n: usize, seed: u64| -> Vec<f64> {
+        let lots: Vec<f64> = generate(Distribution::Uniform, n, 2, seed).expect("numbers");
+        let place = |lots: &[f64]| {
+            let radius = radius + off * (2.0 * lots[0] - 1.0);
+            let (sin, cos) = (std::f64::consts::TAU * lots[1]).sin_cos();
+            [middle + radius * cos, radius * sin]
+        };
+        lots.chunks_exact(2).flat_map(place).collect()
+    };
+    for exact in [300, 1000] {
+        let points = [circle(1.0, 0.0, 0.05, 3000, 1), circle(1.0, 3.0, 0.0, exact, 2)].concat();
+        let points = Points::new(&points, 2).expect("pairs");
+        let found = curve(&points, &CurveOptions::default()).expect("finite points").answer;
+        assert!(
+            found.curves.len() == 2 && found.curves.iter().all(|c| c.closed),
+            "{exact}: {}",
+            found.curves.len()
+        );
+        assert!((found.noise - 0.05).abs() < 0.005, "{exact}: {}", found.noise);
+        let vertices: usize = found.curves.iter().map(|c| c.vertices.len()).sum();
+        assert!(vertices < 3 * exact, "{vertices}");
+    }
+}
+
 /// A flower, a circle, an ellipse and a wave of three crests, whose least radius is three deviations of the noise; and eight points
 /// anywhere.
 #[test]

@@ -46,6 +46,8 @@ const CONFIRMED: f64 = 0.75;
 const FILLED: f64 = 0.5;
 /// Growth of windows.
 const GROWTH: f64 = 1.2;
+/// How many lengths of a window are tried around the curve.
+const SHORTER: usize = 4;
 /// Points of a window that tell whether it is worth a fit, and how much flatter than they show it may be: so many tell the width to 3 %,
 /// but where few of the window lie in a band.
 const SAMPLE: usize = 512;
@@ -363,13 +365,27 @@ impl<'a> Search<'a> {
             }
             reach *= GROWTH;
         }
-        let (_, mut parabola, reach) = best?;
+        let (as_flat, mut parabola, mut reach) = best?;
         for _ in 0..2 {
-            parabola = self.fit(parabola.foot(), reach)?;
+            parabola = self.centered(parabola.foot(), &mut reach, CONFIRMED * as_flat)?;
         }
         let foot = parabola.foot();
         (distance2(foot, start) <= (0.5 * reach).powi(2) && self.is_filled(&parabola))
             .then_some((parabola, reach))
+    }
+
+    /// The window around a place that is as flat as `least`, shorter if need be.
+    ///
+    /// What was left out of the window around a sample as off its curve, such as part of another one, may be within that around the curve.
+    fn centered(&mut self, at: Point, reach: &mut f64, least: f64) -> Option<Parabola> {
+        for _ in 0..SHORTER {
+            let parabola = self.fit(at, *reach)?;
+            if flatness(&parabola, *reach) >= least {
+                return Some(parabola);
+            }
+            *reach /= GROWTH;
+        }
+        None
     }
 
     /// Whether residuals are noise: those next to each other along the parabola differ as any two do.

@@ -4,8 +4,8 @@
 //! *Idea.* Where points are off a parabola through a few of them by next to nothing beside their spacing, they are vertices. Where they
 //! are off it by about their spacing, they are a blob within a band, whose residuals grow as the square root of the number of points;
 //! if they grow faster it is the curve itself that is rugged, such as a coastline. Between the two only a fit can tell.
-//! *Guarantee.* Medians over [`PLACES`] places at most, and half as many at least where there are so many points; O(log n) beside the index.
-//! A few windows of points are fitted at once, and not judged.
+//! *Guarantee.* What most of [`PLACES`] places say, or of half as many at least where there are more points; O(log n) beside the index. Points
+//! that are fewer than those of four long windows are not judged, as a fit is soon done.
 
 use super::local::Window;
 use crate::curve::index::Index;
@@ -32,7 +32,7 @@ pub(super) fn are_vertices(points: &[Point], index: &Index<'_>) -> bool {
         return false;
     }
     let (mut window, mut near) = (Window::default(), Vec::new());
-    let (mut shares, mut growths) = (Vec::new(), Vec::new());
+    let (mut looked_at, mut smooth, mut growths) = (0, 0, Vec::new());
     for &at in points.iter().step_by(points.len().div_ceil(PLACES)) {
         near.clear();
         let mut deviation_of = |count: usize| {
@@ -43,19 +43,18 @@ pub(super) fn are_vertices(points: &[Point], index: &Index<'_>) -> bool {
         };
         if let (Some((short, spacing)), Some((long, _))) = (deviation_of(SHORT), deviation_of(LONG))
         {
-            shares.push(short / spacing);
-            // Points on a parabola are vertices, whatever the longer window says.
-            growths.push(if short > 0.0 { long / short } else { 0.0 });
+            let share = short / spacing;
+            looked_at += 1;
+            smooth += usize::from(share < SMOOTH);
+            if share > ROUGH {
+                growths.push(long / short);
+            }
         }
     }
-    let Some(share) = median(&mut shares) else { return false };
-    let Some(growth) = median(&mut growths) else { return false };
-    share < SMOOTH || share > ROUGH && growth > GROWTH
-}
-
-fn median(values: &mut [f64]) -> Option<f64> {
-    values.sort_unstable_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
+    let is_most = |places: usize| 2 * places > looked_at;
+    growths.sort_unstable_by(f64::total_cmp);
+    is_most(smooth)
+        || is_most(growths.len()) && growths.get(growths.len() / 2).is_some_and(|&g| g > GROWTH)
 }
 
 #[cfg(test)]
