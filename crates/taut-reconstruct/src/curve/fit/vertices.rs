@@ -32,7 +32,7 @@ pub(super) fn are_vertices(points: &[Point], index: &Index<'_>) -> bool {
         return false;
     }
     let (mut window, mut near) = (Window::default(), Vec::new());
-    let (mut looked_at, mut smooth, mut growths) = (0, 0, Vec::new());
+    let (mut looked_at, mut smooth, mut rough, mut growths) = (0, 0, 0, Vec::new());
     for &at in points.iter().step_by(points.len().div_ceil(PLACES)) {
         near.clear();
         let mut deviation_of = |count: usize| {
@@ -45,16 +45,18 @@ pub(super) fn are_vertices(points: &[Point], index: &Index<'_>) -> bool {
         {
             let share = short / spacing;
             looked_at += 1;
-            smooth += usize::from(share < SMOOTH);
-            if share > ROUGH {
+            rough += usize::from(share > ROUGH);
+            // Where points are vertices, it is the bend of the curve that grows.
+            if share < SMOOTH {
+                smooth += 1;
+            } else {
                 growths.push(long / short);
             }
         }
     }
     let is_most = |places: usize| 2 * places > looked_at;
     growths.sort_unstable_by(f64::total_cmp);
-    is_most(smooth)
-        || is_most(growths.len()) && growths.get(growths.len() / 2).is_some_and(|&g| g > GROWTH)
+    is_most(smooth) || is_most(rough) && growths.get(growths.len() / 2).is_some_and(|&g| g > GROWTH)
 }
 
 #[cfg(test)]
