@@ -104,6 +104,18 @@ fn few_rows_of_two_rings_are_no_band() {
     }
 }
 
+/// A thin ring beside a wide band: said to be outliers, or taken in as one row in thirty of the band.
+#[test]
+fn a_ring_close_to_a_band_is_noticed() {
+    let base = ring(1.0, 0.05, 10_000, 1);
+    let rows = [base.clone(), ring(1.095, 0.001, 500, 2)].concat();
+    let doubt = judged(circle(1.0, 300), &rows, 0.05, 10_000).unwrap().doubt;
+    assert!(matches!(doubt, Some(CurveDoubt::Beside { outliers: 500 })), "{doubt:?}");
+    let rows = [base, ring(1.075, 0.001, 300, 2)].concat();
+    let doubt = judged(circle(1.0, 300), &rows, 0.077, rows.len()).unwrap().doubt;
+    assert!(matches!(doubt, Some(CurveDoubt::Split { .. })), "{doubt:?}");
+}
+
 /// A small ring of rows among outliers that are twice as many, but not so near to each other.
 #[test]
 fn a_small_curve_among_outliers_is_noticed() {

@@ -119,6 +119,14 @@ pub enum CurveDoubt {
         /// How many.
         outliers: u64,
     },
+    /// Outliers lie just beside the band of other rows, more of them than chance puts there.
+    #[error(
+        "{outliers} outliers lie just beside the band of other rows, more than chance puts there"
+    )]
+    Beside {
+        /// How many.
+        outliers: u64,
+    },
     /// Outliers lie nearer to each other than chance would put them.
     #[error(
         "{rows} outliers, row {row} among them, lie nearer to each other than chance would put them: {near:.2} of that on average"

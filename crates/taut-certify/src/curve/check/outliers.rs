@@ -30,8 +30,9 @@ const SELDOM: f64 = 6.0;
 /// One of so many rows may be said to be an outlier though it is no farther from the curve than others are.
 const INSIDE: usize = 50;
 
-/// Outliers nearer to the curve than this times the band are its own: noise has tails.
+/// Outliers nearer to the curve than this times the band are its own: noise has tails. One of so many rows may be.
 const OWN: f64 = 2.0;
+const TAIL: usize = 200;
 
 /// The first reason to think that outliers are more than that, `gaps` being those between samples and `band` that of the noise.
 pub(super) fn doubt(
@@ -48,42 +49,61 @@ pub(super) fn doubt(
     gaps.sort_by(f64::total_cmp);
     let usual = gaps.get(gaps.len() * 19 / 20).copied().unwrap_or(0.0);
     let link = band.max(LINK * usual);
-    let far: Vec<(usize, [f64; 2])> = placed
-        .outliers
-        .iter()
-        .filter(|(_, place)| nearest(edges, *place, OWN * band).is_none())
-        .copied()
-        .collect();
-    let inside =
-        placed.outliers.iter().filter(|(_, place)| nearest(edges, *place, band).is_some()).count();
+    let (mut far, mut inside, mut beside) = (vec![], 0, 0u32);
+    for &(row, place) in &placed.outliers {
+        if nearest(edges, place, OWN * band).is_none() {
+            far.push((row, place));
+        } else if nearest(edges, place, band).is_some() {
+            inside += 1;
+        } else {
+            beside += 1;
+        }
+    }
     if inside > FEWEST.max(rows / INSIDE) {
         return Some(CurveDoubt::Inside { outliers: inside as u64 });
     }
-    cluster(&far, link).or_else(|| gathered(edges, placed, &far, band))
+    let room = Room::of(edges, placed, band);
+    // Those that chance puts there, as dense as farther off, four deviations more, and tails.
+    let expected = far.len() as f64 * room.beside / room.far;
+    let most = expected + 4.0 * expected.sqrt() + FEWEST.max(rows / TAIL) as f64;
+    if f64::from(beside) > most {
+        return Some(CurveDoubt::Beside { outliers: u64::from(beside) });
+    }
+    cluster(&far, link).or_else(|| gathered(&room, &far))
+}
+
+/// The box around curves and outliers.
+struct Room {
+    low: [f64; 2],
+    /// The area that no curve's own outliers take up.
+    far: f64,
+    /// That of those beyond the band.
+    beside: f64,
+}
+
+impl Room {
+    fn of(edges: &Edges, placed: &Placed, band: f64) -> Self {
+        let (mut low, mut high, mut length) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2], 0.0);
+        let segments = (0..edges.ends.len()).map(|edge| edges.segment(edge));
+        for [a, b] in segments.chain(placed.outliers.iter().map(|&(_, place)| [place; 2])) {
+            length += (b[0] - a[0]).hypot(b[1] - a[1]);
+            for k in 0..2 {
+                (low[k], high[k]) = (low[k].min(a[k]).min(b[k]), high[k].max(a[k]).max(b[k]));
+            }
+        }
+        let all = (high[0] - low[0]) * (high[1] - low[1]);
+        let far = (all - 2.0 * OWN * band * length).max(all / 4.0);
+        Self { low, far, beside: 2.0 * (OWN - 1.0) * band * length }
+    }
 }
 
 /// Whether outliers lie nearer to each other than chance would put as many of them in the room around all rows that no band takes up
 /// (Clark and Evans 1954), on average or somewhere.
-fn gathered(
-    edges: &Edges,
-    placed: &Placed,
-    far: &[(usize, [f64; 2])],
-    band: f64,
-) -> Option<CurveDoubt> {
-    let many = far.len() as f64;
+fn gathered(room: &Room, far: &[(usize, [f64; 2])]) -> Option<CurveDoubt> {
+    let (many, area, low) = (far.len() as f64, room.far, room.low);
     if far.len() < FEWEST {
         return None;
     }
-    let (mut low, mut high, mut length) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2], 0.0);
-    let segments = (0..edges.ends.len()).map(|edge| edges.segment(edge));
-    for [a, b] in segments.chain(placed.outliers.iter().map(|&(_, place)| [place; 2])) {
-        length += (b[0] - a[0]).hypot(b[1] - a[1]);
-        for k in 0..2 {
-            (low[k], high[k]) = (low[k].min(a[k]).min(b[k]), high[k].max(a[k]).max(b[k]));
-        }
-    }
-    let all = (high[0] - low[0]) * (high[1] - low[1]);
-    let area = (all - 2.0 * OWN * band * length).max(all / 4.0);
     let usual = 0.5 * (area / many).sqrt();
     let reaches = EXPECTED.map(|expected| (expected * area / (PI * many)).sqrt());
     let most = (many * EXPECTED.len() as f64).ln() + SELDOM;

@@ -61,7 +61,11 @@ pub(super) fn ordered(feet: &[Foot], first_edge: usize, features: &Features) -> 
             Sample { along, vertex, offset: foot.offset, row: foot.row }
         })
         .collect();
-    samples.sort_by(|a, b| a.along.total_cmp(&b.along).then(a.row.cmp(&b.row)));
+    // Many have one foot, a vertex.
+    samples.sort_by(|a, b| {
+        let by_place = a.along.total_cmp(&b.along).then(a.offset.total_cmp(&b.offset));
+        by_place.then(a.row.cmp(&b.row))
+    });
     samples
 }
 

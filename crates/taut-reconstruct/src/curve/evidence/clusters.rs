@@ -13,8 +13,12 @@ const MOST: f64 = 0.2;
 const LINKED_MOST: usize = 9;
 /// The length of a link, over the gap that 95 of 100 samples have at most, with some room.
 const LINK: f64 = 1.55;
-/// Outliers this near, over the band, belong to the noise of the curve; a little less than twice.
-const OWN: f64 = 1.99;
+/// Outliers this near, over the band, belong to the noise of the curve. Nothing is claimed where roundings decide of one.
+const OWN: f64 = 2.0;
+const ROUNDING: f64 = 1e-9;
+/// One in so many sites may be that near, and some more by chance: so many deviations.
+const TAIL: usize = 205;
+const BESIDE: f64 = 3.9;
 
 /// Outliers of the band itself: so many, or one in so many sites.
 const INSIDE_LEAST: usize = 7;
@@ -46,43 +50,40 @@ pub(super) fn are_harmless(
     };
     let link = (band * 1.01).max(LINK * usual);
     let scaled = |site: usize| sites[site].map(|x| x * segments.scale);
-    let none = (0..sites.len()).filter(|&site| spots[site].is_none()).map(scaled);
-    let (mut far, mut inside) = (Vec::new(), 0);
-    for p in none {
-        match segments.next_to(p, usize::MAX, OWN * band) {
+    let none = || (0..sites.len()).filter(|&site| spots[site].is_none()).map(scaled);
+    let (mut far, mut inside, mut beside) = (Vec::new(), 0, 0);
+    for p in none() {
+        match segments.next_to(p, usize::MAX, (OWN + ROUNDING) * band) {
             None => far.push(p),
-            Some(spot) => inside += usize::from(spot.distance <= 1.001 * band),
+            Some(spot) if spot.distance >= (OWN - ROUNDING) * band => return false,
+            Some(spot) if spot.distance <= 1.001 * band => inside += 1,
+            Some(_) => beside += 1,
         }
     }
+    let lengths = segments.ends.iter().map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]));
+    let around = 2.0 * band * lengths.sum::<f64>();
+    let mut frame = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+    for [x, y] in segments.ends.iter().flatten().copied().chain(none()) {
+        frame = [frame[0].min(x), frame[1].min(y), frame[2].max(x), frame[3].max(y)];
+    }
+    let whole = (frame[2] - frame[0]) * (frame[3] - frame[1]);
+    let area = (whole - OWN * around).max(0.25 * whole);
+    let by_chance = far.len() as f64 * (OWN - 1.0) * around / area;
+    let beside_most =
+        by_chance + BESIDE * by_chance.sqrt() + INSIDE_LEAST.max(sites.len() / TAIL) as f64;
     inside <= INSIDE_LEAST.max(sites.len() / INSIDE)
+        && f64::from(beside) <= beside_most
         && are_apart(&far, link)
-        && are_scattered(
-            segments,
-            &far,
-            (0..sites.len()).filter(|&s| spots[s].is_none()).map(scaled),
-            band,
-        )
+        && are_scattered(&far, area)
 }
 
-/// Whether points are as far from each other as chance would put them in the box of curves and outliers, less the band: on average, and
-/// in no circle more than chance puts there.
-fn are_scattered(
-    segments: &Segments,
-    far: &[[f64; 2]],
-    outliers: impl Iterator<Item = [f64; 2]>,
-    band: f64,
-) -> bool {
+/// Whether points are as far from each other as chance would put them in an area: on average, and in no circle more than chance puts
+/// there.
+fn are_scattered(far: &[[f64; 2]], area: f64) -> bool {
     if far.len() < SCATTERED_FROM {
         return true;
     }
-    let ends = || segments.ends.iter();
-    let length: f64 = ends().map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1])).sum();
-    let mut area = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
-    for [x, y] in ends().flatten().copied().chain(outliers) {
-        area = [area[0].min(x), area[1].min(y), area[2].max(x), area[3].max(y)];
-    }
-    let whole = (area[2] - area[0]) * (area[3] - area[1]);
-    let each = (whole - 4.0 * band * length).max(0.25 * whole) / far.len() as f64;
+    let each = area / far.len() as f64;
     let usual = 0.5 * each.sqrt();
     let mut places = far.to_vec();
     places.sort_unstable_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));

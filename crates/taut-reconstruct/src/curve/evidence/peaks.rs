@@ -5,11 +5,13 @@
 //! *Guarantee.* The definition is that of the checker: the claim keeps some room to its threshold.
 
 /// One in so many offsets is left out at either end.
-const TAIL: usize = 25;
+const TAIL: usize = 128;
 /// Fewest and most bins, of eight offsets each between those.
-const BINS: [usize; 2] = [8, 32];
+const BINS: [usize; 2] = [8, 48];
 /// Runs this sparse beside all bins, or denser, are no valleys. The checker asks for half.
 const SPARSE: f64 = 0.501;
+/// Roundings of an offset, in widths of the band.
+const ROUNDING: f64 = 1e-9;
 /// Most doublings of a run that make a side.
 const DOUBLINGS: usize = 6;
 
@@ -18,27 +20,31 @@ pub(super) fn has_one_peak(offsets: &[f64], most: f64) -> bool {
     let tail = offsets.len() / TAIL;
     let (first, last) = (offsets[tail], offsets[offsets.len() - 1 - tail]);
     let bins = (offsets.len() / 8).clamp(BINS[0], BINS[1]);
-    // The borders are those of the checker to the last bit, as an offset may lie on one.
-    let mut below = [0u32; BINS[1] + 1];
-    let mut at = 0;
-    for (bin, below) in below.iter_mut().enumerate().take(bins + 1) {
-        let border = first + (last - first) * bin as f64 / bins as f64;
-        while at < offsets.len() && offsets[at] < border {
-            at += 1;
+    // Offsets of the checker differ by roundings: what lies on a border of bins may lie on either side, so a run holds what is surely in
+    // it, and its sides what may be in them.
+    let mut below = [[0u32; BINS[1] + 1]; 2];
+    for (below, room) in below.iter_mut().zip([-ROUNDING, ROUNDING]) {
+        let mut at = 0;
+        for (bin, below) in below.iter_mut().enumerate().take(bins + 1) {
+            let border = first + (last - first) * (bin as f64 / bins as f64 + room);
+            while at < offsets.len() && offsets[at] < border {
+                at += 1;
+            }
+            *below = at as u32;
         }
-        *below = at as u32;
     }
-    let count = |from: usize, to: usize| f64::from(below[to] - below[from]);
-    let dense = SPARSE * count(0, bins) / bins as f64;
+    let surely = |from: usize, to: usize| f64::from(below[0][to].saturating_sub(below[1][from]));
+    let maybe = |from: usize, to: usize| f64::from(below[1][to] - below[0][from]);
+    let dense = SPARSE * maybe(0, bins) / bins as f64;
     for length in 1..bins - 1 {
         for from in 1..bins - length {
             let (to, wide) = (from + length, length as f64);
-            let inside = count(from, to);
+            let inside = surely(from, to);
             if inside > dense * wide {
                 continue;
             }
             let stands_out = |side: usize, is_left: bool| {
-                let beside = if is_left { count(from - side, from) } else { count(to, to + side) };
+                let beside = if is_left { maybe(from - side, from) } else { maybe(to, to + side) };
                 against_one_peak(inside, beside, wide / (wide + side as f64)) > most
             };
             let any = |room: usize, is_left: bool| {

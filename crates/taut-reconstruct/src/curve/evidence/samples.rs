@@ -65,7 +65,11 @@ pub(super) fn along(
             (site, Sample { way: from + spot.share * (to - from), vertex, offset })
         })
         .collect();
-    samples.par_sort_unstable_by(|a, b| a.1.way.total_cmp(&b.1.way).then(a.0.cmp(&b.0)));
+    // Many have one foot, a vertex.
+    samples.par_sort_unstable_by(|a, b| {
+        let by_place = a.1.way.total_cmp(&b.1.way).then(a.1.offset.total_cmp(&b.1.offset));
+        by_place.then(a.0.cmp(&b.0))
+    });
     samples.into_iter().map(|sample| sample.1).collect()
 }
 
