@@ -74,7 +74,7 @@ pub(crate) struct Args {
 fn methods() -> impl TypedValueParser<Value = CurveMethod> {
     let explained = CurveMethod::NAMES.map(|(name, method)| {
         PossibleValue::new(name).help(match method {
-            CurveMethod::Auto => "fit where the points are noisy, else nn-crust where that is certified, else corners",
+            CurveMethod::Auto => "fit where the points are noisy, else nn-crust or fit where that is certified, else corners",
             CurveMethod::Fit => "for noise: neighbours first, then a fit along the order they have",
             CurveMethod::Thesis => "for noise: slabs and centre points, step by step",
             CurveMethod::ThesisCrude => "for noise: centres along eigenvectors, and a tour",

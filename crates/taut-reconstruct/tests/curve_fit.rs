@@ -375,9 +375,44 @@ fn exact_points_beside_noisy_ones_are_fitted_too() {
             found.curves.len()
         );
         assert!((found.noise - 0.05).abs() < 0.005, "{exact}: {}", found.noise);
+        assert!(found.outliers.len() <= exact / 50, "{exact}: {}", found.outliers.len());
         let vertices: usize = found.curves.iter().map(|c| c.vertices.len()).sum();
         assert!(vertices < 3 * exact, "{vertices}");
     }
+}
+
+/// Outliers about as far off as the checker stops to count them as the curve's own: whoever is right, it is no contradiction.
+#[test]
+fn claims_hold_where_roundings_decide() {
+    for seed in 0..60 {
+        let lots: Vec<f64> = generate(Distribution::Uniform, 2000, 2, seed).expect("numbers");
+        let place = |(k, lots): (usize, &[f64])| {
+            let off = 2.0 * lots[0] - 1.0;
+            let off = if k % 100 == 0 { 2.0 + 0.01 * off } else { off };
+            let (sin, cos) = (std::f64::consts::TAU * lots[1]).sin_cos();
+            [(1.0 + 0.03 * off) * cos, (1.0 + 0.03 * off) * sin]
+        };
+        let points: Vec<f64> = lots.chunks_exact(2).enumerate().flat_map(place).collect();
+        assert_eq!(fitted(&points).answer.curves.len(), 1, "{seed}");
+    }
+}
+
+/// Fifty rows in one place, as of a sensor that is stuck, beside a circle.
+#[test]
+fn a_clump_hides_no_curve() {
+    let lots: Vec<f64> = generate(Distribution::Uniform, 2050, 2, 4).expect("numbers");
+    let place = |(k, lots): (usize, &[f64])| {
+        let off = [2.0 * lots[0] - 1.0, 2.0 * lots[1] - 1.0];
+        let (sin, cos) = (std::f64::consts::TAU * lots[1]).sin_cos();
+        match k < 50 {
+            true => [0.3 + 1e-3 * off[0], 0.2 + 1e-3 * off[1]],
+            false => [(1.0 + 0.03 * off[0]) * cos, (1.0 + 0.03 * off[0]) * sin],
+        }
+    };
+    let points: Vec<f64> = lots.chunks_exact(2).enumerate().flat_map(place).collect();
+    let found = fitted(&points).answer;
+    assert!(found.curves.len() == 1 && found.curves[0].closed, "{:?}", found.curves.len());
+    assert_eq!(found.outliers, (0..50).collect::<Vec<u64>>());
 }
 
 /// A flower, a circle, an ellipse and a wave of three crests, whose least radius is three deviations of the noise; and eight points

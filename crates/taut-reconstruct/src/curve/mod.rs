@@ -82,20 +82,28 @@ fn solve(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result
 }
 
 /// A fit where points are noisy, else vertices that are points: by NN-Crust where samples are so dense that it can be certified, which
-/// it is however uneven they are, else as corners ask for.
+/// it is however uneven they are; else a fit where that can be certified; else as corners ask for.
 fn auto(
     cloud: &Cloud,
     options: &CurveOptions,
     finish: impl Fn(Outcome) -> Result<Solution<Curve>, Error>,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Curve>, Error> {
-    if let Some(outcome) = fit::fit_if_noisy(cloud, options.ends, monitor)? {
-        return finish(outcome);
-    }
+    let fitted = match fit::fit_unless_vertices(cloud, options.ends, monitor)? {
+        Some((outcome, true)) => return finish(outcome),
+        Some((outcome, false)) => Some(outcome),
+        None => None,
+    };
     let dense = finish(clean::solve(cloud, CurveMethod::NnCrust, options.ends, monitor)?)?;
     if dense.certificate.certified {
         return Ok(dense);
     }
     drop(dense);
+    if let Some(outcome) = fitted {
+        let fitted = finish(outcome)?;
+        if fitted.certificate.certified {
+            return Ok(fitted);
+        }
+    }
     finish(solve(cloud, options, monitor)?)
 }

@@ -48,8 +48,8 @@ pub enum Ends {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CurveMethod {
-    /// [`Fit`](Self::Fit) where the points are noisy; else [`NnCrust`](Self::NnCrust) where what it finds is certified, else
-    /// [`Corners`](Self::Corners).
+    /// [`Fit`](Self::Fit) where most points are noisy; else [`NnCrust`](Self::NnCrust) or [`Fit`](Self::Fit) where what it finds is
+    /// certified; else [`Corners`](Self::Corners).
     #[default]
     Auto,
     /// For noisy points: which neighbours belong together is decided first, and then the curve is fitted along the order they have.

@@ -32,7 +32,7 @@ const INSIDE: usize = 50;
 
 /// Outliers nearer to the curve than this times the band are its own: noise has tails. One of so many rows may be.
 const OWN: f64 = 2.0;
-const TAIL: usize = 200;
+const TAIL: usize = 1000;
 
 /// The first reason to think that outliers are more than that, `gaps` being those between samples and `band` that of the noise.
 pub(super) fn doubt(

@@ -7,8 +7,11 @@ const EDGE: usize = 128;
 const EIGHT: usize = 8;
 const PARTS: [usize; 2] = [8, 48];
 
-/// A valley is sparser than all numbers by this factor.
-const SPARSER: f64 = 0.5;
+/// A valley is sparser than all numbers by this factor: less says little, and takes long to look at.
+const SPARSER: f64 = 0.75;
+
+/// A side is at most so many times doubled as wide as the part: all parts, at the least.
+const DOUBLINGS: usize = 6;
 
 /// A part of a range with fewer numbers than on either side.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +49,9 @@ pub(super) fn valley(numbers: &[f64]) -> Valley {
                     let (beside, wide) = (within(start, end), (end - start) as f64);
                     (evidence([inside, beside], [width, wide]), beside / wide)
                 };
-                (0..6).map(of).fold((0.0, 1.0), |best, one| if one.0 > best.0 { one } else { best })
+                (0..DOUBLINGS)
+                    .map(of)
+                    .fold((0.0, 1.0), |best, one| if one.0 > best.0 { one } else { best })
             };
             let left = best(&|wide| [from.saturating_sub(wide), from]);
             let right = best(&|wide| [to, parts.min(to + wide)]);

@@ -17,7 +17,7 @@ const LINK: f64 = 1.55;
 const OWN: f64 = 2.0;
 const ROUNDING: f64 = 1e-9;
 /// One in so many sites may be that near, and some more by chance: so many deviations.
-const TAIL: usize = 205;
+const TAIL: usize = 1010;
 const BESIDE: f64 = 3.9;
 
 /// Outliers of the band itself: so many, or one in so many sites.

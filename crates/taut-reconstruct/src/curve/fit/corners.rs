@@ -135,7 +135,7 @@ fn angle(a: Point, b: Point) -> f64 {
     (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
 }
 
-/// Whether the strand turns by [`TURN`] at a node, and by more nowhere so near to it that it could be another corner.
+/// Whether the strand turns by [`SEEN`]·[`TURN`] at a node, and by more nowhere so near to it that it could be another corner.
 fn is_sharpest(strand: &Strand, turns: &[f64], i: usize) -> bool {
     let count = turns.len();
     let own = turns[i].abs();

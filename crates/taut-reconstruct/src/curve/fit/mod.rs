@@ -54,12 +54,13 @@ pub(super) fn fit(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Ou
     Ok(fit_within(&frame, &points, &Index::new(&points), ends, monitor)?.outcome)
 }
 
-/// The curves of noisy points; none where points are not off curves by a length that shows beside their spacing, or show no curves.
-pub(super) fn fit_if_noisy(
+/// The curves of points that are not plainly vertices, and whether they are to be preferred to those through vertices: they are where
+/// points are off them by a length that shows beside their spacing. None where they show no curves.
+pub(super) fn fit_unless_vertices(
     cloud: &Cloud,
     ends: Ends,
     monitor: &Monitor<'_>,
-) -> Result<Option<Outcome>, Error> {
+) -> Result<Option<(Outcome, bool)>, Error> {
     let frame = Frame::of(&cloud.sites);
     let points = frame.all_inward(&cloud.sites);
     let index = Index::new(&points);
@@ -67,7 +68,7 @@ pub(super) fn fit_if_noisy(
         return Ok(None);
     }
     let fitted = fit_within(&frame, &points, &index, ends, monitor)?;
-    Ok((fitted.is_noisy && fitted.shows_curves).then_some(fitted.outcome))
+    Ok(fitted.shows_curves.then_some((fitted.outcome, fitted.is_noisy)))
 }
 
 /// The curves, and whether they are a good answer.
@@ -108,12 +109,14 @@ fn fit_within(
     strands = refined(&strands, PARTS, &Noise::UNKNOWN, false);
     assign(&mut strands, points, WIDTH);
     monitor.check()?;
-    let noise = Noise::of(&strands, WIDTH);
+    // Of a strand without noise, distances are those of polylines.
+    let noisy = || strands.iter().filter(|s| noisiness(std::slice::from_ref(s)) > NOISY);
+    let noise = Noise::of(noisy(), WIDTH);
     strands = refined(&strands, 1, &noise, true);
     let outliers = assign(&mut strands, points, noise.edge.map_or(WIDTH, |edge| EDGES * edge));
     monitor.check()?;
     let deviation = typical(&strands, |_| 1.0);
-    let is_noisy = typical(&strands, |s| s.members.len() as f64 / s.length()) > NOISY;
+    let is_noisy = noisiness(&strands) > NOISY;
     let (curves, crossed) = output::curves(&strands, frame, ends, monitor)?;
     let counters = [
         ("seeds", found.len()),
@@ -133,6 +136,11 @@ fn fit_within(
         ..Outcome::default()
     };
     Ok(Fitted { outcome, is_noisy, shows_curves })
+}
+
+/// How far most points are off, beside their spacing along their strand.
+fn noisiness(strands: &[Strand]) -> f64 {
+    typical(strands, |s| s.members.len() as f64 / s.length())
 }
 
 /// The median over all points of the standard deviation of the noise there, times a factor of their strand.

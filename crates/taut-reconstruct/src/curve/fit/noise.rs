@@ -29,9 +29,9 @@ impl Noise {
     pub(super) const UNKNOWN: Self = Self { edge: None, outliers: false };
 
     /// Of the members of strands, whose distances go up to `width` deviations, more than [`NEAR`].
-    pub(super) fn of(strands: &[Strand], width: f64) -> Self {
+    pub(super) fn of<'a>(strands: impl Iterator<Item = &'a Strand>, width: f64) -> Self {
         let mut shares: Vec<f64> =
-            strands.iter().flat_map(|s| s.members.iter().map(|m| m.share)).collect();
+            strands.flat_map(|s| s.members.iter().map(|m| m.share)).collect();
         shares.sort_unstable_by(f64::total_cmp);
         let below = |z: f64| shares.partition_point(|&share| share <= z);
         let near = below(NEAR);

@@ -10,9 +10,8 @@ use crate::Error;
 use crate::curve::Ends;
 use crate::curve::chains::{chains, repair};
 
-/// Most edges between two nodes; and of a curve without noise, whose nodes have no error, no more than points and this many.
-const MOST: usize = 16;
-const FEW: usize = 2;
+/// Most edges between two nodes.
+const MOST: f64 = 16.0;
 
 /// Fewest vertices of a piece that is left where edges crossed.
 const PIECE: usize = 8;
@@ -70,10 +69,9 @@ fn polyline(strand: &Strand, frame: &Frame) -> CurveComponent {
     {
         vertices.push(beyond(&strand.nodes[0], first.arc));
     }
-    let most = (strand.members.len() / strand.edges()).clamp(FEW, MOST);
     for edge in 0..strand.edges() {
         let (a, b) = strand.edge(edge);
-        let pieces = pieces(a, b).min(most as u32);
+        let pieces = pieces(a, b);
         for k in 0..pieces {
             vertices.push(frame.outward(hermite(a, b, f64::from(k) / f64::from(pieces)).0));
         }
@@ -98,5 +96,5 @@ fn pieces(a: &Node, b: &Node) -> u32 {
     let allowed = 0.5 * a.error.max(b.error);
     let wanted = (sagitta / allowed).sqrt().ceil();
     // NaN, of no error and no sagitta, gives one piece.
-    if wanted > 1.0 { wanted.min(MOST as f64) as u32 } else { 1 }
+    if wanted > 1.0 { wanted.min(MOST) as u32 } else { 1 }
 }

@@ -60,6 +60,8 @@ const SLAB: f64 = 0.45;
 const SLAB_WIDTH: f64 = 4.0;
 /// The density of outliers is less than that of nine tenths of the curve by the square of this.
 const SPARSE: f64 = 5.0;
+/// One of so many points is on curves at least: fewer, such as a clump in one place, do not tell how dense those are.
+const OF_CURVES: usize = 8;
 
 /// Stands for no seed.
 const NONE: u32 = u32::MAX;
@@ -203,9 +205,9 @@ impl Quantile {
         self.values.push(value);
     }
 
-    /// None for fewer than thirty numbers.
-    fn value(&self) -> Option<f64> {
-        (self.values.len() >= 30).then(|| self.values[self.values.len() * 9 / 10])
+    /// None for fewer than so many numbers.
+    fn value(&self, fewest: usize) -> Option<f64> {
+        (self.values.len() >= fewest).then(|| self.values[self.values.len() * 9 / 10])
     }
 }
 
@@ -241,16 +243,20 @@ impl<'a> Search<'a> {
         monitor: &Monitor<'_>,
     ) -> Result<(), Error> {
         let mut done = Quantile::default();
+        let fewest = (order.len() / OF_CURVES).max(30);
         for (count, &i) in order.iter().enumerate() {
             let i = i as usize;
             if count % 4096 == 0 {
                 monitor.check()?;
             }
             if self.covered[i] != NONE {
-                done.push(spacing[i].0);
+                // Many in one place are no curve, and do not tell how dense curves are.
+                if self.covered[i] != VAIN {
+                    done.push(spacing[i].0);
+                }
                 continue;
             }
-            if done.value().is_some_and(|usual| spacing[i].0 > SPARSE * usual) {
+            if done.value(fewest).is_some_and(|usual| spacing[i].0 > SPARSE * usual) {
                 break;
             }
             let Some((parabola, reach)) = self.flat(self.points[i], spacing[i].0) else {

@@ -17,6 +17,9 @@ type Point = [f64; 2];
 const RUN: usize = 16;
 /// Seeds on either side of one that tell the noise there.
 pub(super) const AROUND: usize = 2;
+/// The least deviation, in windows: of points without noise it would be that of roundings, and most would be farther off than that, as
+/// polylines and parabolas are. A window is eight deviations of noise and more long, and holds five points and more.
+const LEAST: f64 = 0.002;
 /// Pieces of the polyline between two nodes.
 const PIECES: usize = 4;
 
@@ -95,7 +98,9 @@ impl Strand {
     /// in a window makes it look wide, and points in a row by chance narrow, and either would decide what the next window holds.
     pub(super) fn new(mut nodes: Vec<Node>, closed: bool, span: usize) -> Self {
         let deviations = medians(&nodes, closed, span);
-        nodes.iter_mut().zip(deviations).for_each(|(node, deviation)| node.deviation = deviation);
+        for (node, deviation) in nodes.iter_mut().zip(deviations) {
+            node.deviation = deviation.max(LEAST * node.reach);
+        }
         let mut strand = Self { nodes, closed, arc: vec![0.0], members: Vec::new() };
         let mut sum = 0.0;
         for edge in 0..strand.edges() {
