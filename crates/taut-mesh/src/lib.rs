@@ -1,11 +1,15 @@
-//! Polylines of the plane, and how far apart two sets of them are.
+//! Polylines of the plane and triangle meshes of space: what is wrong with them, and how far apart two are.
 //!
-//! | you want | call | cost, n edges |
+//! | of polylines you want | call | cost, n edges |
 //! |---|---|---|
 //! | how good a found curve is beside the true one | [`compare`] | O(n) where edges are alike in length |
 //! | where edges meet that should not | [`crossings`] | the same, and exact |
 //! | which loops lie within which | [`parents`] | O(n log n), and for each loop the edges on its level; exact |
 //! | how many of the true edges were found | [`edge_score`] | O(n log n) |
+//!
+//! | of a mesh you want | call | cost, n triangles |
+//! |---|---|---|
+//! | edges, borders, components, handles, and what is no surface | [`topology()`] | O(n log n) |
 //!
 //! ```
 //! use taut_mesh::{Polyline, compare};
@@ -19,20 +23,37 @@
 //! assert!((quality.vertex_max - 0.1).abs() < 1e-15);
 //! ```
 //!
-//! Not for: coordinates that are not finite.
+//! ```
+//! use taut_mesh::{TriangleMesh, topology};
+//! let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+//! let mesh = TriangleMesh::new(&corners, &[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])?;
+//! assert_eq!(topology(&mesh).genus, Some(0));
+//! # Ok::<(), taut_mesh::Error>(())
+//! ```
+//!
+//! Not for: coordinates that are not finite. [`TriangleMesh`] refuses them, polylines are not checked.
 #![forbid(unsafe_code)]
 
 mod connectivity;
 mod crossing;
 mod edges;
+mod error;
 mod grid;
+mod mesh;
 mod nesting;
 mod quality;
+#[cfg(test)]
+mod shapes;
+mod topology;
+mod union_find;
 
 pub use crossing::crossings;
 pub use edges::{EdgeScore, edge_score};
+pub use error::Error;
+pub use mesh::TriangleMesh;
 pub use nesting::{is_counter_clockwise, parents};
 pub use quality::{Quality, compare};
+pub use topology::{BoundaryLoop, Component, Topology, topology};
 
 /// A chain of straight edges in the plane, borrowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
