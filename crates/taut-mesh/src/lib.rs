@@ -10,6 +10,7 @@
 //! | of a mesh you want | call | cost, n triangles |
 //! |---|---|---|
 //! | edges, borders, components, handles, and what is no surface | [`topology()`] | O(n log n) |
+//! | where it meets itself | [`self_intersections`] | O(n log n) and O(log n) for each pair of boxes that meet; exact |
 //!
 //! ```
 //! use taut_mesh::{Polyline, compare};
@@ -24,16 +25,18 @@
 //! ```
 //!
 //! ```
-//! use taut_mesh::{TriangleMesh, topology};
+//! use taut_mesh::{TriangleMesh, self_intersections, topology};
 //! let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 //! let mesh = TriangleMesh::new(&corners, &[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])?;
 //! assert_eq!(topology(&mesh).genus, Some(0));
+//! assert!(self_intersections(&mesh).is_embedded());
 //! # Ok::<(), taut_mesh::Error>(())
 //! ```
 //!
 //! Not for: coordinates that are not finite. [`TriangleMesh`] refuses them, polylines are not checked.
 #![forbid(unsafe_code)]
 
+mod bvh;
 mod connectivity;
 mod crossing;
 mod edges;
@@ -42,6 +45,7 @@ mod grid;
 mod mesh;
 mod nesting;
 mod quality;
+mod self_intersection;
 #[cfg(test)]
 mod shapes;
 mod topology;
@@ -53,6 +57,7 @@ pub use error::Error;
 pub use mesh::TriangleMesh;
 pub use nesting::{is_counter_clockwise, parents};
 pub use quality::{Quality, compare};
+pub use self_intersection::{SelfIntersections, self_intersections};
 pub use topology::{BoundaryLoop, Component, Topology, topology};
 
 /// A chain of straight edges in the plane, borrowed.

@@ -58,6 +58,11 @@ impl<'a> TriangleMesh<'a> {
     pub fn triangles(&self) -> &'a [[u32; 3]] {
         self.triangles
     }
+
+    /// The three corners of a triangle.
+    pub(crate) fn corners(&self, triangle: u32) -> [[f64; 3]; 3] {
+        self.triangles[triangle as usize].map(|index| self.vertices[index as usize])
+    }
 }
 
 /// Whether a triangle names a vertex twice.

@@ -28,6 +28,11 @@ impl Shape {
         self
     }
 
+    pub(crate) fn moved(mut self, by: [f64; 3]) -> Self {
+        self.map(|p| [p[0] + by[0], p[1] + by[1], p[2] + by[2]]);
+        self
+    }
+
     pub(crate) fn scaled(mut self, factor: f64) -> Self {
         self.map(|p| p.map(|x| factor * x));
         self
