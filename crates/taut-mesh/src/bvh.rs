@@ -1,4 +1,4 @@
-//! A tree of boxes over triangles: which triangles may meet.
+//! A tree of boxes over triangles: which triangles may meet, and which is next to a point.
 //!
 //! *Problem.* Of n triangles, list the pairs whose boxes, with sides along the axes, have a point in common.
 //! *Idea.* Halve the triangles at the median of the centres of their boxes along the axis in which these spread most, until
@@ -8,6 +8,10 @@
 //! on the coordinates and the order of the triangles alone.
 //! *Trap.* Medians of equal centres fall where they may: ties go by number, so that they always fall the same way.
 //! *Reference.* Ericson, Real-Time Collision Detection, 2005, chapter 6: trees of boxes built from the top.
+
+mod nearest;
+
+pub(crate) use nearest::normal;
 
 /// Most triangles of a leaf.
 const LEAF: usize = 4;
@@ -39,6 +43,12 @@ impl Bounds {
 
     fn meets(&self, other: &Self) -> bool {
         (0..3).all(|k| self.low[k] <= other.high[k] && other.low[k] <= self.high[k])
+    }
+
+    /// The length of its diagonal, if it is around something.
+    pub(crate) fn diagonal(&self) -> f64 {
+        let [x, y, z] = std::array::from_fn(|k| self.high[k] - self.low[k]);
+        f64::hypot(x, y).hypot(z)
     }
 
     /// Its centre; halves are added, as a sum could be too large.

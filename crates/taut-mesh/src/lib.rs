@@ -11,6 +11,7 @@
 //! |---|---|---|
 //! | edges, borders, components, handles, and what is no surface | [`topology()`] | O(n log n) |
 //! | where it meets itself | [`self_intersections`] | O(n log n) and O(log n) for each pair of boxes that meet; exact |
+//! | how far it is from another one, and what they share | [`compare_surfaces`] | O(n log n) and O(log n) for each sample |
 //!
 //! ```
 //! use taut_mesh::{Polyline, compare};
@@ -48,6 +49,7 @@ mod quality;
 mod self_intersection;
 #[cfg(test)]
 mod shapes;
+mod surface;
 mod topology;
 mod union_find;
 
@@ -58,6 +60,7 @@ pub use mesh::TriangleMesh;
 pub use nesting::{is_counter_clockwise, parents};
 pub use quality::{Quality, compare};
 pub use self_intersection::{SelfIntersections, self_intersections};
+pub use surface::{Shared, SurfaceDistance, SurfaceOptions, SurfaceQuality, compare_surfaces};
 pub use topology::{BoundaryLoop, Component, Topology, topology};
 
 /// A chain of straight edges in the plane, borrowed.
