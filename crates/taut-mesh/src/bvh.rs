@@ -13,8 +13,9 @@ mod nearest;
 
 pub(crate) use nearest::normal;
 
-/// Most triangles of a leaf.
-const LEAF: usize = 4;
+/// Most triangles of a leaf. Of 2, 4, 8 and 16, 8 is the fastest, by 1 to 7 %, for the pairs and for the nearest triangles of
+/// tori of 200 000 triangles.
+const LEAF: usize = 8;
 
 /// A box with sides along the axes, its faces included.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -123,6 +123,28 @@ fn a_mesh_is_next_to_itself_whatever_its_names() {
     assert_eq!((quality.triangles.of_reference(), quality.triangles.of_result()), (1.0, 1.0));
 }
 
+/// Samples ride on their triangles, so that all distances stay when both meshes are turned and moved.
+#[test]
+fn turning_and_moving_both_changes_nothing() {
+    let (mut one, mut other) = (sphere(3), torus(14, 9).scaled(0.5));
+    let before = few(&one, &other, 2000);
+    let (s, c) = 1.1f64.sin_cos();
+    for shape in [&mut one, &mut other] {
+        shape.map(|[x, y, z]| [c * x - s * y, s * x + c * y, z]);
+        shape.map(|[x, y, z]| [x + 5.0, c * y - s * z - 3.0, s * y + c * z + 1.0]);
+    }
+    let after = few(&one, &other, 2000);
+    for (a, b) in [
+        (before.reference_to_result, after.reference_to_result),
+        (before.result_to_reference, after.result_to_reference),
+    ] {
+        near(a.hausdorff, b.hausdorff, 1e-13);
+        near(a.mean, b.mean, 1e-13);
+        // Where two triangles are nearest, either may be found.
+        near(a.normal_consistency.unwrap(), b.normal_consistency.unwrap(), 1e-3);
+    }
+}
+
 #[test]
 fn common_edges_and_triangles_are_counted_by_place() {
     let corners = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
