@@ -59,6 +59,10 @@ impl Lines {
                     false => break,
                 }
             }
+            // The mark that some editors put before UTF-8.
+            if self.number == 1 && self.line.starts_with(b"\xef\xbb\xbf") {
+                self.line.drain(..3);
+            }
             match self.line.last() {
                 None => return Ok(false),
                 Some(b'\n') => {}

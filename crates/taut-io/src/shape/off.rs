@@ -29,7 +29,11 @@ pub(super) fn read(shape: &mut Building<'_>, stream: Box<dyn BufRead>) -> Result
     let word = rest.next().unwrap_or_default();
     let letters = letters(shape, at, word)?;
     // Some programs write the counts on the first line.
-    let mut counts: Vec<Option<i64>> = rest.map(whole).collect();
+    let rest: Vec<&[u8]> = rest.collect();
+    if rest == [b"BINARY"] {
+        return Err(shape.kind(at, "it is binary"));
+    }
+    let mut counts: Vec<Option<i64>> = rest.into_iter().map(whole).collect();
     let mut place = at;
     if counts.is_empty() {
         let (at, line) = next(&mut lines, shape, || "its counts".into())?;

@@ -73,6 +73,7 @@ pub(super) fn read(
 }
 
 fn is_text(head: &[u8]) -> bool {
+    let head = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
     let first = head.trim_ascii_start().get(..5).unwrap_or_default();
     let printed = |&byte: &u8| byte >= b' ' || byte.is_ascii_whitespace();
     first.eq_ignore_ascii_case(b"solid") && head.iter().all(printed)
@@ -199,6 +200,7 @@ mod tests {
     fn a_binary_file_may_call_itself_solid() {
         assert!(is_text(b"solid\nfacet normal 0 0 1\n"));
         assert!(is_text(b" \r\n\tSOLID caf\xc3\xa9"));
+        assert!(is_text(b"\xef\xbb\xbfsolid\n"));
         assert!(!is_text(b"solid\0\0\0"));
         assert!(!is_text(b"soli"));
         let mut binary = [b' '; 84];

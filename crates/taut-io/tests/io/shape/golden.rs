@@ -274,3 +274,12 @@ fn pov() {
          face_indices { 2,\n<0,1,2>,\n<0,2,3>\n}\n}\n"
     );
 }
+
+#[test]
+fn a_byte_order_mark_is_no_word() {
+    for name in ["s.obj", "s.off", "s.stl"] {
+        let text = format!("\u{feff}{}", text_of(&bare(), name));
+        assert_eq!(read(name, text).unwrap(), bare(), "{name}");
+    }
+    assert_eq!(read("s.xyz", "\u{feff}1 2 3\n").unwrap().vertices, [[1.0, 2.0, 3.0]]);
+}

@@ -59,7 +59,7 @@ fn text_is_refused_with_its_line() {
         ("s.obj", "# 1 vertices, 0 simplices\nv 0 0 0".into(), "its last line has no end"),
         ("s.off", "OF\n".into(), "line 1: the first word is `OF`, not `OFF`"),
         ("s.off", "4OFF\n".into(), "line 1: it begins with `4OFF`, which is not read: write the shape as text, of polygons in space"),
-        ("s.off", "OFF BINARY\n".into(), "line 1: it does not count vertices, faces and edges"),
+        ("s.off", "OFF BINARY\n".into(), "line 1: it is binary, which is not read: write the shape as text"),
         ("s.off", "OFF\n-1 0 0\n".into(), "line 2: it does not count"),
         ("s.off", "OFF\n".into(), "it ends before its counts"),
         ("s.off", "OFF\n2 0 0\n0 0 0\n".into(), "it ends before vertex 1 of 2"),
