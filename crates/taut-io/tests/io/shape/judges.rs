@@ -1,4 +1,4 @@
-//! Readers by others read what we write.
+//! Programs by others read what we write, and write what we read.
 
 use std::io::Cursor;
 
@@ -6,7 +6,7 @@ use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{DefaultElement, Property};
 use taut_io::{Encoding, Shape};
 
-use super::{ENCODINGS, bytes_of, single, with};
+use super::{ENCODINGS, bytes_of, read, single, with};
 
 #[test]
 fn ply_is_read_by_others() {
@@ -36,6 +36,63 @@ fn ply_is_read_by_others() {
             assert_eq!(face["vertex_indices"], Property::ListInt(wanted));
         }
     }
+}
+
+#[test]
+fn ply_of_others_is_read() {
+    use ply_rs_bw::ply::{
+        Addable, ElementDef, Encoding, Ply, PropertyDef, PropertyType, ScalarType,
+    };
+    use ply_rs_bw::writer::Writer;
+    for encoding in [Encoding::Ascii, Encoding::BinaryLittleEndian, Encoding::BinaryBigEndian] {
+        let mut ply = Ply::<DefaultElement>::new();
+        ply.header.encoding = encoding;
+        let mut vertex = ElementDef::new("vertex".to_string());
+        for axis in ["x", "y", "z"] {
+            let kind = PropertyType::Scalar(ScalarType::Double);
+            vertex.properties.add(PropertyDef::new(axis.to_string(), kind));
+        }
+        ply.header.elements.add(vertex);
+        let mut face = ElementDef::new("face".to_string());
+        let kind = PropertyType::List(ScalarType::UChar, ScalarType::UInt);
+        face.properties.add(PropertyDef::new("vertex_indices".to_string(), kind));
+        ply.header.elements.add(face);
+        let shape = single();
+        let vertices = shape.vertices.iter().map(|at| {
+            let mut vertex = DefaultElement::new();
+            for (axis, &value) in ["x", "y", "z"].into_iter().zip(at) {
+                vertex.insert(axis.to_string(), Property::Double(value));
+            }
+            vertex
+        });
+        ply.payload.insert("vertex".to_string(), vertices.collect());
+        let faces = shape.triangles.iter().map(|ids| {
+            let mut face = DefaultElement::new();
+            face.insert("vertex_indices".to_string(), Property::ListUInt(ids.to_vec()));
+            face
+        });
+        ply.payload.insert("face".to_string(), faces.collect());
+        let mut bytes = Vec::new();
+        Writer::new().write_ply(&mut bytes, &mut ply).unwrap();
+        assert_eq!(read("s.ply", bytes).unwrap(), shape, "{encoding:?}");
+    }
+}
+
+#[test]
+fn stl_of_others_is_read() {
+    let shape = single();
+    let corner = |id: u32| stl_io::Vertex::new(shape.vertices[id as usize].map(|x| x as f32));
+    let facets: Vec<_> = shape
+        .triangles
+        .iter()
+        .map(|ids| stl_io::Triangle {
+            normal: stl_io::Normal::new([0.0; 3]),
+            vertices: ids.map(corner),
+        })
+        .collect();
+    let mut bytes = Vec::new();
+    stl_io::write_stl(&mut bytes, facets.iter()).unwrap();
+    assert_eq!(read("s.stl", bytes).unwrap(), shape);
 }
 
 #[test]
