@@ -3,6 +3,7 @@
 use super::colors::Colors;
 use super::{Shape, ShapeFormat};
 use crate::error::Refuse;
+use crate::ply::printable;
 use crate::{Error, MeshPlace};
 
 /// Most triangles, so that the number of a corner fits into 32 bits: the same as of a mesh.
@@ -138,6 +139,14 @@ impl<'a> Building<'a> {
             triangles: self.triangles,
             normals: Some(self.normals).filter(|normals| normals.len() == n),
             colors: Some(colors).filter(|colors| colors.len() == n),
+        })
+    }
+
+    /// A word as a number.
+    pub(super) fn number(&self, place: MeshPlace, word: &[u8]) -> Result<f64, Error> {
+        fast_float2::parse(word).map_err(|_| {
+            let word = printable(&String::from_utf8_lossy(word));
+            self.damaged(place, format!("`{word}` is no number"))
         })
     }
 

@@ -125,10 +125,7 @@ fn numbers<'a>(
 ) -> Result<(), Error> {
     values.clear();
     for word in words {
-        values.push(fast_float2::parse(word).map_err(|_| {
-            let word = printable(&String::from_utf8_lossy(word));
-            shape.damaged(at, format!("`{word}` is no number"))
-        })?);
+        values.push(shape.number(at, word)?);
     }
     Ok(())
 }

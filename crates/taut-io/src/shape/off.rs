@@ -117,12 +117,8 @@ fn read_vertex(
     let (base, end) = (3 + 3 * usize::from(letters.normal), 2 * usize::from(letters.texture));
     let mut fraction = false;
     for word in words(line) {
-        let value = fast_float2::parse(word).map_err(|_| {
-            let word = printable(&String::from_utf8_lossy(word));
-            shape.damaged(at, format!("`{word}` is no number"))
-        })?;
         fraction |= values.len() >= base && word.contains(&b'.');
-        values.push(value);
+        values.push(shape.number(at, word)?);
     }
     let color = match values.len().checked_sub(base + end) {
         Some(0) if !letters.color => false,

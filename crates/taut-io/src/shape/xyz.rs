@@ -11,7 +11,6 @@ use std::path::Path;
 use super::building::Building;
 use super::normal::unit;
 use crate::error::Refuse;
-use crate::ply::printable;
 use crate::words::{Lines, whole, words};
 use crate::{Compression, Error, MeshPlace};
 
@@ -52,7 +51,7 @@ pub(super) fn read(
         let at = line.at;
         row.clear();
         for word in words(line.words) {
-            row.push((number(shape, at, word)?, word.contains(&b'.')));
+            row.push((shape.number(at, word)?, word.contains(&b'.')));
         }
         let expected = *width.get_or_insert(row.len());
         if row.len() != expected {
@@ -87,13 +86,6 @@ pub(super) fn read(
         .into_iter()
         .filter(|columns| !columns.values.is_empty())
         .try_for_each(|columns| take(shape, columns, told))
-}
-
-fn number(shape: &Building<'_>, at: MeshPlace, word: &[u8]) -> Result<f64, Error> {
-    fast_float2::parse(word).map_err(|_| {
-        let word = printable(&String::from_utf8_lossy(word));
-        shape.damaged(at, format!("`{word}` is no number"))
-    })
 }
 
 /// Gives columns to the shape as what they are; of two alike, the second is refused.

@@ -214,6 +214,9 @@ fn xyz_in_every_order_of_columns() {
             assert_eq!(read(name, text.clone()).unwrap(), wanted, "{text}");
         }
     }
+    // Few digits are enough for a normal.
+    let rounded = read("s.xyz", rows([".577 .577 -.577", "0 0.707 0.707"])).unwrap().normals;
+    assert_eq!(rounded, Some(vec![[0.577, 0.577, -0.577], [0.0, 0.707, 0.707]]));
     // The extension decides what the values leave open.
     let red = rows(["1 0 0", "0 0 1"]);
     let axes = Some(vec![[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);

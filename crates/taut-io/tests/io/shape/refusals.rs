@@ -196,6 +196,8 @@ fn folders_and_missing_files_are_named() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("none.ply");
     assert!(matches!(taut_io::open_shape(&path, None), Err(Error::NotFound { .. })));
+    let refused = message(taut_io::open_shape(std::path::Path::new("-"), None));
+    assert!(refused.starts_with("standard input: the format of the shape cannot"), "{refused}");
     let format = Some(ShapeFormat::Ply);
     assert!(matches!(taut_io::open_shape(folder.path(), format), Err(Error::Directory { .. })));
     let mesh = single();
