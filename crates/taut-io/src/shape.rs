@@ -1,20 +1,8 @@
 //! Shapes: triangles on vertices, or vertices alone, with the normals and colours that vertices have.
 //!
-//! | format | read | written | normals, colours | coordinates |
-//! |---|---|---|---|---|
-//! | ply, text or binary of either byte order | yes | text, binary little-endian | both | exact |
-//! | obj | yes | yes | both | exact |
-//! | off | yes | yes | both | exact |
-//! | stl | text, binary | text, binary | neither | text exact, binary in single precision |
-//! | xyz, pts | yes | no: see [`write_points`](crate::write_points) | both | exact |
-//! | glb, gltf | no | yes | both | single precision |
-//! | dxf, of release 12 | no | yes | neither | exact |
-//! | vrml 2.0 | no | yes | both | exact |
-//! | pov, as `mesh2` | no | yes | normals | exact |
-//!
 //! *Idea.* A reader hands what it finds to one builder, which checks it: coordinates are finite, corners are vertices.
 //! Vertices keep their order, used or not. A polygon of more than three corners becomes the fan of triangles around its
-//! first corner, which is right where the polygon is convex.
+//! first corner. What each format keeps is in the table of [`ShapeFormat`].
 //! *Guarantee.* What a file says of its own length is compared with what is there and never trusted: memory grows with
 //! what was read. A file that breaks its promises is refused with line or element, whatever its bytes.
 //! *Trap.* Formats of polygons also hold what is no part of a shape (edges, textures, materials, groups, colours of faces,
@@ -43,6 +31,8 @@ pub use reading::{open_shape, open_shape_bytes};
 pub use writing::{Encoding, ShapeOptions, shape_file, write_shape};
 
 /// Triangles on vertices, or vertices alone, as files hold them.
+///
+/// A shape that was read is sound: all coordinates and normals are finite, and all corners are vertices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shape {
     /// The vertices, used or not, in the order of the file.

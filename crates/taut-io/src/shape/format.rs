@@ -7,6 +7,21 @@ use std::str::FromStr;
 use crate::{Compression, Error};
 
 /// A file format of triangles and of points with normals and colours.
+///
+/// | format | read | written | normals, colours | coordinates |
+/// |---|---|---|---|---|
+/// | ply, text or binary of either byte order | yes | text, binary little-endian | both | exact |
+/// | obj | yes | yes | both | exact |
+/// | off | yes | yes | both | exact |
+/// | stl | text, binary | text, binary | neither | text exact, binary in single precision |
+/// | xyz, pts | yes | no: see [`write_points`](crate::write_points) | both | exact |
+/// | glb, gltf | no | yes | both | single precision |
+/// | dxf, of release 12 | no | yes | neither | exact |
+/// | vrml 2.0 | no | yes | both | exact |
+/// | pov, as `mesh2` | no | yes | normals | exact |
+///
+/// Exact is what reads back to the same bits. A binary stl file, glb and gltf round coordinates to single precision, which can
+/// make one place of two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ShapeFormat {
     /// Stanford PLY.

@@ -14,6 +14,11 @@ use crate::{Compression, Error, compress};
 /// Reads the shape of `path` in the given format, or in that of the extension; `-` is standard input. What is compressed is
 /// told by the extension or by the first bytes.
 ///
+/// Vertices keep their order, used or not; of stl, corners with equal coordinates are one vertex. A polygon of more than three
+/// corners becomes the fan of triangles around its first corner, which is right where the polygon is convex. Normals and
+/// colours are kept where each vertex has one, and only one; all else that files hold of edges, faces, textures, materials
+/// and opacity is passed over. Colours that are full at 1 are brought to 255.
+///
 /// # Errors
 /// [`Error::UnknownShape`] and [`Error::ShapeNotReadable`] of the format; [`Error::Shape`] and [`Error::ShapeKind`], with
 /// line or element, of what the file holds; [`Error::NoVertices`]; and those of opening a file.
