@@ -126,14 +126,12 @@ impl<'a> Building<'a> {
     }
 
     /// The shape. Normals and colours that not each vertex has are left out.
-    ///
-    /// `whole` says that colours without a fraction are full at 255.
-    pub(super) fn finish(self, whole: bool) -> Result<Shape, Error> {
+    pub(super) fn finish(self) -> Result<Shape, Error> {
         let n = self.vertices.len();
         if n == 0 {
             return Err(Error::NoVertices { path: self.path.to_owned() });
         }
-        let colors = self.colors.finish(whole);
+        let colors = self.colors.finish();
         Ok(Shape {
             vertices: self.vertices,
             triangles: self.triangles,

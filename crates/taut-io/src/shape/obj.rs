@@ -136,6 +136,7 @@ fn read_vertex(shape: &mut Building<'_>, at: MeshPlace, values: &[f64]) -> Resul
         [x, y, z] | [x, y, z, _] => shape.vertex(at, [x, y, z]),
         [x, y, z, r, g, b] | [x, y, z, r, g, b, _] => {
             shape.vertex(at, [x, y, z])?;
+            // Fractions, whatever the numbers look like.
             shape.color(at, [r, g, b], true)
         }
         _ => {

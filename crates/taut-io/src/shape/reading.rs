@@ -87,6 +87,5 @@ fn read(
         ShapeFormat::Xyz => xyz::read(&mut shape, stream, name)?,
         _ => return Err(Error::ShapeNotReadable { path: path(), format }),
     }
-    // Obj alone means fractions of 1, whatever the numbers look like.
-    shape.finish(format != ShapeFormat::Obj)
+    shape.finish()
 }
