@@ -115,6 +115,7 @@ fn normals_of_obj_are_kept_where_corners_agree() {
     assert_eq!(normals("vn 0 0 1\nvn 0 0 -1\nf 1//1 2//1 3//1\nf 1//2 2//2 3//2\n"), None);
     assert_eq!(normals("vn 0 0 1\nf 1//1 2//1 3\n"), None);
     assert_eq!(normals("vn 0 0 1\nvn 0 0 1\n"), None);
+    assert_eq!(normals(&format!("{by_number}vn 0 0 1\nf 1//1 1//1 1//1\n")), None);
 }
 
 #[test]
