@@ -1,114 +1,21 @@
 //! What can be wrong with a file, said so that a person can mend it: file, row, column, value, remedy.
 
-use std::fmt;
+mod place;
+mod refuse;
+mod shown;
+
 use std::io;
-use std::path::Path;
 
 use taut_points::ReadError;
 
-use crate::{Compression, Format, MeshFormat};
+use crate::{Compression, Format, MeshFormat, ShapeFormat};
 
-/// Where a value stands in a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
-    /// The file as shown to people.
-    pub path: String,
-    /// Number of the row of data, from 1; a header is not counted.
-    pub row: u64,
-    /// Line of a text file, from 1, where known.
-    pub line: Option<u64>,
-    /// Number of the column in the file, from 0 as in [`Columns`](crate::Columns).
-    pub column: usize,
-    /// Its name, where the file has names.
-    pub name: Option<String>,
-}
+pub use place::{MeshPlace, Place};
+pub(crate) use refuse::Refuse;
+pub(crate) use shown::shown_path;
 
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}, column {}", self.path, Row(self.row, self.line), self.column)?;
-        match &self.name {
-            Some(name) => write!(f, " (`{}`)", Clean(name)),
-            None => write!(f, " (counted from 0)"),
-        }
-    }
-}
-
-/// A row with its line, for messages.
-struct Row(u64, Option<u64>);
-
-impl fmt::Display for Row {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.1 {
-            Some(line) => write!(f, "row {} (line {line})", self.0),
-            None => write!(f, "row {}", self.0),
-        }
-    }
-}
-
-/// Where in a file of a mesh something stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MeshPlace {
-    /// Nowhere in particular.
-    File,
-    /// A line of text, from 1.
-    Line(u64),
-    /// An element of a binary file: its kind, and its number from 0.
-    Element(&'static str, u64),
-}
-
-impl fmt::Display for MeshPlace {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            MeshPlace::File => Ok(()),
-            MeshPlace::Line(line) => write!(f, "line {line}: "),
-            MeshPlace::Element(kind, number) => write!(f, "{kind} {number}: "),
-        }
-    }
-}
-
-/// The names of the formats of meshes that `usable` says.
-fn meshes(usable: impl Fn(MeshFormat) -> bool) -> String {
-    let names = MeshFormat::ALL.into_iter().filter(|&format| usable(format)).map(MeshFormat::name);
-    names.collect::<Vec<_>>().join(", ")
-}
-
-/// A path as messages show it: control characters are escaped, so that no name of a file can speak to a terminal.
-pub(crate) fn shown_path(path: &Path) -> String {
-    Clean(&path.display().to_string()).to_string()
-}
-
-/// Text of a file without its control characters.
-struct Clean<'a>(&'a str);
-
-impl fmt::Display for Clean<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.chars().try_for_each(|c| match c.is_control() {
-            true => write!(f, "{}", c.escape_default()),
-            false => write!(f, "{c}"),
-        })
-    }
-}
-
-/// So many columns.
-fn columns(count: usize) -> String {
-    format!("{count} column{}", if count == 1 { "" } else { "s" })
-}
-
-/// The first few of a list.
-struct Few<'a>(&'a [String]);
-
-impl fmt::Display for Few<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        const SHOWN: usize = 8;
-        for (i, item) in self.0.iter().take(SHOWN).enumerate() {
-            write!(f, "{}`{}`", if i == 0 { "" } else { ", " }, Clean(item))?;
-        }
-        match self.0.len() {
-            n if n > SHOWN => write!(f, " and {} more", n - SHOWN),
-            _ => Ok(()),
-        }
-    }
-}
+use place::Row;
+use shown::{Clean, Few, columns, meshes, shapes};
 
 /// Why points could not be read or a file could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -578,6 +485,126 @@ pub enum Error {
     /// There is no simplex in a file of a mesh.
     #[error("{path} holds no simplex")]
     NoSimplices {
+        /// The file.
+        path: String,
+    },
+    /// The name of a file does not tell which format of shapes it has.
+    #[error("{path}: the format of the shape cannot be told from the name; name it (one of {})", shapes(|_| true))]
+    UnknownShape {
+        /// The file.
+        path: String,
+    },
+    /// No format of shapes has this name.
+    #[error("`{name}` is no format of shapes; these are {}", shapes(|_| true))]
+    ShapeFormatName {
+        /// What was asked for.
+        name: String,
+    },
+    /// The format can be written, not read.
+    #[error(
+        "{path}: {format} files are written, not read; read one of {}",
+        shapes(ShapeFormat::can_read)
+    )]
+    ShapeNotReadable {
+        /// The file.
+        path: String,
+        /// The format.
+        format: ShapeFormat,
+    },
+    /// The format can be read, not written.
+    #[error(
+        "{path}: {format} files are read, not written, as shapes; write one of {}",
+        shapes(ShapeFormat::can_write)
+    )]
+    ShapeNotWritable {
+        /// The file.
+        path: String,
+        /// The format.
+        format: ShapeFormat,
+    },
+    /// A file is not the shape that its format demands.
+    #[error("{path} is damaged or no {format} file: {place}{problem}")]
+    Shape {
+        /// The file.
+        path: String,
+        /// The format.
+        format: ShapeFormat,
+        /// Where.
+        place: MeshPlace,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A file of a shape is of a kind that is not read.
+    #[error("{path}: {place}{problem}, which is not read: write the shape {remedy}")]
+    ShapeKind {
+        /// The file.
+        path: String,
+        /// Where.
+        place: MeshPlace,
+        /// What it is.
+        problem: String,
+        /// How to write it instead.
+        remedy: &'static str,
+    },
+    /// There is no vertex in a file of a shape.
+    #[error("{path} holds no vertex")]
+    NoVertices {
+        /// The file.
+        path: String,
+    },
+    /// Normals or colours for another number of vertices.
+    #[error("{path}: {found} {what} were given for {vertices} vertices: give one for each")]
+    ShapeAttributes {
+        /// The file.
+        path: String,
+        /// What was given.
+        what: &'static str,
+        /// How many of them.
+        found: usize,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// A normal is not finite.
+    #[error(
+        "{path}: coordinate {column} of normal {vertex}, both counted from 0, is {value}: all must be finite"
+    )]
+    ShapeNormal {
+        /// The file.
+        path: String,
+        /// The vertex, from 0.
+        vertex: usize,
+        /// The coordinate: 0, 1 or 2.
+        column: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// The format has no place for vertices without triangles, or there are not even vertices.
+    #[error("{path}: there is no triangle to write; vertices alone are written as {}", shapes(|f| f.holds_points() && f.can_write()))]
+    ShapePoints {
+        /// The file.
+        path: String,
+        /// The format.
+        format: ShapeFormat,
+    },
+    /// A coordinate does not fit into the single precision of the format.
+    #[error(
+        "{path}: coordinate {column} of vertex {vertex}, both counted from 0, is {value:?}, too large for the single precision of {format}: scale the shape, or write ply, obj or off"
+    )]
+    ShapeRange {
+        /// The file.
+        path: String,
+        /// The format.
+        format: ShapeFormat,
+        /// The vertex, from 0.
+        vertex: usize,
+        /// The coordinate: 0, 1 or 2.
+        column: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// A binary file of glTF would be longer than its header can say.
+    #[error("{path}: glb files hold 4 GiB at most, and this shape takes more: write it as ply")]
+    ShapeTooLarge {
         /// The file.
         path: String,
     },

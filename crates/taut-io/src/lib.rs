@@ -9,6 +9,8 @@
 //! | curves of the plane as a file | [`write_polylines`] | loops within loops are holes where a format knows them |
 //! | a mesh on points as a file | [`write_mesh`] | every point is a vertex, in input order |
 //! | a mesh of a file | [`open_mesh`] | every simplex, or an error that names file and line or element |
+//! | triangles, or points with normals and colours, as a file | [`write_shape`] | every bit, where the format has room |
+//! | such a shape of a file, whoever wrote it | [`open_shape`] | every vertex and triangle, or an error as above |
 //!
 //! ```
 //! use taut_io::{ReadOptions, open_bytes};
@@ -23,21 +25,28 @@
 //! Everything else is decoded once, to memory or, when it outgrows [`ReadOptions::memory`], to a temporary file of
 //! raw values. The names `.gz`, `.xz` and `.zst` compress any format.
 //!
-//! Not for: points of differing dimension, meshes of polygons or with colours, images.
+//! A *mesh* is simplices of any one dimension on given points, as triangulations are; a *shape* is triangles in space on
+//! vertices of its own, as surfaces and scans are.
+//!
+//! Not for: points of differing dimension, polygons that stay polygons, textures, images.
 
 #![forbid(unsafe_code)]
 
 mod columns;
 mod compress;
 mod create;
+mod cursor;
 mod error;
 mod format;
 mod input;
 mod mesh;
 mod options;
+mod ply;
 mod polylines;
 mod read;
+mod shape;
 mod sink;
+mod words;
 mod write;
 
 pub use columns::Columns;
@@ -48,5 +57,9 @@ pub use input::{Input, open, open_bytes};
 pub use mesh::{Mesh, MeshFormat, mesh_file, open_mesh, open_mesh_bytes, write_mesh};
 pub use options::{Header, RawLayout, ReadOptions};
 pub use polylines::{PolylineFormat, polylines_file, write_polylines};
+pub use shape::{
+    Encoding, Shape, ShapeFormat, ShapeOptions, ShapeView, open_shape, open_shape_bytes,
+    shape_file, write_shape,
+};
 pub use taut_mesh::Polyline;
 pub use write::write_points;

@@ -6,15 +6,13 @@
 //! *Guarantee.* Coordinates and ids are read back to the same bits. What is read names no vertex that is not there.
 //! *Trap.* A face of four corners is a quadrilateral in obj and off, never a tetrahedron: these two hold none.
 
-mod cursor;
 mod format;
-mod obj;
+pub(crate) mod obj;
 mod off;
 #[cfg(feature = "arrow")]
 mod parquet;
 mod ply;
 mod reading;
-mod text;
 mod vtu;
 mod writing;
 

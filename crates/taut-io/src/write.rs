@@ -18,6 +18,9 @@ use crate::create::{AtomicFile, create};
 use crate::error::shown_path;
 use crate::{Compression, Error, Format};
 
+/// Bytes gathered before they are written.
+const PIECE: usize = 1 << 18;
+
 /// Writes `source` to `path` in the given format, or in that of the extension; `-` is standard output (CSV).
 ///
 /// `columns` names the coordinates; empty means no names (parquet and arrow then call them `x0`, `x1`, …). A header
@@ -119,6 +122,23 @@ impl<'a> Out<'a> {
     /// Ends the compressed stream, if there is one.
     pub(crate) fn finish(self) -> Result<AtomicFile, Error> {
         self.to.finish().map_err(|source| (self.failure)(self.path, source))
+    }
+
+    /// Writes what `write` makes of each item, many at a time.
+    pub(crate) fn each<T>(
+        &mut self,
+        items: impl IntoIterator<Item = T>,
+        mut write: impl FnMut(T, &mut Vec<u8>),
+    ) -> Result<(), Error> {
+        let mut bytes = Vec::new();
+        for item in items {
+            write(item, &mut bytes);
+            if bytes.len() >= PIECE {
+                self.put(&bytes)?;
+                bytes.clear();
+            }
+        }
+        self.put(&bytes)
     }
 
     pub(crate) fn put(&mut self, bytes: &[u8]) -> Result<(), Error> {

@@ -78,7 +78,7 @@ fn folds((a, b): Segment, (_, c): Segment) -> bool {
 }
 
 /// Whether two segments have a point in common.
-fn meet((a, b): Segment, (c, d): Segment) -> bool {
+pub(crate) fn meet((a, b): Segment, (c, d): Segment) -> bool {
     if (0..2).any(|k| a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k])) {
         return false;
     }

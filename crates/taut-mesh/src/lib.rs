@@ -1,11 +1,17 @@
-//! Polylines of the plane, and how far apart two sets of them are.
+//! Polylines of the plane and triangle meshes of space: what is wrong with them, and how far apart two are.
 //!
-//! | you want | call | cost, n edges |
+//! | of polylines you want | call | cost, n edges |
 //! |---|---|---|
 //! | how good a found curve is beside the true one | [`compare`] | O(n) where edges are alike in length |
 //! | where edges meet that should not | [`crossings`] | the same, and exact |
 //! | which loops lie within which | [`parents`] | O(n log n), and for each loop the edges on its level; exact |
 //! | how many of the true edges were found | [`edge_score`] | O(n log n) |
+//!
+//! | of a mesh you want | call | cost, n triangles |
+//! |---|---|---|
+//! | edges, borders, components, handles, and what is no surface | [`topology()`] | O(n log n) |
+//! | where it meets itself | [`self_intersections`] | O(n log n) and O(log n) for each pair of boxes that meet; exact |
+//! | how far it is from another one, and what they share | [`compare_surfaces`] | O(n log n) and O(log n) for each sample |
 //!
 //! ```
 //! use taut_mesh::{Polyline, compare};
@@ -19,20 +25,43 @@
 //! assert!((quality.vertex_max - 0.1).abs() < 1e-15);
 //! ```
 //!
-//! Not for: coordinates that are not finite.
+//! ```
+//! use taut_mesh::{TriangleMesh, self_intersections, topology};
+//! let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+//! let mesh = TriangleMesh::new(&corners, &[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])?;
+//! assert_eq!(topology(&mesh).genus, Some(0));
+//! assert!(self_intersections(&mesh).is_embedded());
+//! # Ok::<(), taut_mesh::Error>(())
+//! ```
+//!
+//! Not for: coordinates that are not finite. [`TriangleMesh`] refuses them, polylines are not checked.
 #![forbid(unsafe_code)]
 
+mod bvh;
 mod connectivity;
 mod crossing;
 mod edges;
+mod error;
 mod grid;
+mod mesh;
 mod nesting;
 mod quality;
+mod self_intersection;
+#[cfg(test)]
+mod shapes;
+mod surface;
+mod topology;
+mod union_find;
 
 pub use crossing::crossings;
 pub use edges::{EdgeScore, edge_score};
+pub use error::Error;
+pub use mesh::TriangleMesh;
 pub use nesting::{is_counter_clockwise, parents};
 pub use quality::{Quality, compare};
+pub use self_intersection::{SelfIntersections, self_intersections};
+pub use surface::{Shared, SurfaceDistance, SurfaceOptions, SurfaceQuality, compare_surfaces};
+pub use topology::{BoundaryLoop, Component, Topology, topology};
 
 /// A chain of straight edges in the plane, borrowed.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,9 +6,10 @@
 use std::io::BufRead;
 
 use super::reading::Building;
-use super::text::{Line, Lines, place, put_ids, put_place, whole, words};
 use super::writing::Job;
 use crate::Error;
+use crate::error::Refuse;
+use crate::words::{Line, Lines, place, put_ids, put_place, whole, words};
 use crate::write::Out;
 
 /// The keyword for simplices of so many vertices.
@@ -78,8 +79,8 @@ pub(super) fn read(mesh: &mut Building<'_>, stream: Box<dyn BufRead>) -> Result<
     }
 }
 
-/// What our comment promises.
-fn counts(comment: &[u8]) -> Option<(u64, u64)> {
+/// What our comment promises: vertices and simplices.
+pub(crate) fn counts(comment: &[u8]) -> Option<(u64, u64)> {
     let text = std::str::from_utf8(comment).ok()?;
     let (vertices, simplices) = text.strip_prefix("# ")?.split_once(" vertices, ")?;
     Some((vertices.parse().ok()?, simplices.strip_suffix(" simplices")?.parse().ok()?))

@@ -3,8 +3,9 @@
 use std::io::BufRead;
 
 use super::reading::Building;
-use super::text::{Lines, place, put_ids, put_place, whole, words};
 use super::writing::Job;
+use crate::error::Refuse;
+use crate::words::{Lines, place, put_ids, put_place, whole, words};
 use crate::write::Out;
 use crate::{Error, MeshPlace};
 

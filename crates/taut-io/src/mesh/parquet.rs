@@ -15,6 +15,7 @@ use parquet::file::reader::ChunkReader;
 
 use super::reading::Building;
 use super::writing::Job;
+use crate::error::Refuse;
 use crate::input::{self, Medium};
 use crate::read::{Seekable, first_line, quiet};
 use crate::write::Out;

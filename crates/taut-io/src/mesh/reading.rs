@@ -4,9 +4,9 @@ use std::fs::{self, File};
 use std::io::BufReader;
 use std::path::Path;
 
-use super::cursor::Cursor;
 use super::{MeshFormat, obj, off, ply, vtu};
-use crate::error::shown_path;
+use crate::cursor::Cursor;
+use crate::error::{Refuse, shown_path};
 use crate::input::Medium;
 use crate::{Compression, Error, MeshPlace, compress};
 
@@ -100,6 +100,17 @@ pub(super) struct Building<'a> {
     simplices: Vec<u32>,
 }
 
+impl Refuse for Building<'_> {
+    fn path(&self) -> &str {
+        self.path
+    }
+
+    fn damaged(&self, place: MeshPlace, problem: impl Into<String>) -> Error {
+        let (path, format) = (self.path.to_owned(), self.format);
+        Error::Mesh { path, format, place, problem: problem.into() }
+    }
+}
+
 impl Building<'_> {
     /// Number of simplices so far.
     pub(super) fn len(&self) -> u64 {
@@ -153,11 +164,6 @@ impl Building<'_> {
                 Err(self.damaged(MeshPlace::File, problem))
             }
         }
-    }
-
-    pub(super) fn damaged(&self, place: MeshPlace, problem: impl Into<String>) -> Error {
-        let (path, format) = (self.path.to_owned(), self.format);
-        Error::Mesh { path, format, place, problem: problem.into() }
     }
 
     /// What is no damage, but not read either.

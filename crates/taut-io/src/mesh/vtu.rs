@@ -3,9 +3,10 @@
 //! *Trap.* Raw bytes within XML are no XML, although VTK and ParaView write and read them so: only what stands before
 //! the underscore that begins them is read as tags.
 
-use super::cursor::{Cursor, Kind};
 use super::reading::Building;
 use super::writing::Job;
+use crate::cursor::{Cursor, Kind};
+use crate::error::Refuse;
 use crate::write::Out;
 use crate::{Error, MeshPlace};
 

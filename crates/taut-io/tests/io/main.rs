@@ -12,6 +12,7 @@ mod mesh;
 mod parsers;
 mod polylines;
 mod round_trip;
+mod shape;
 mod text;
 
 use std::path::Path;

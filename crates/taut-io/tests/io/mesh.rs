@@ -134,7 +134,7 @@ fn refusals_name_file_and_place() {
         ("m.off", "COFF\n", "line 1: the first line is not `OFF`"),
         (
             "m.ply",
-            "ply\nformat ascii 1.0\n",
+            "ply\nformat ascii 1.0\nend_header\n",
             "m.ply: line 2: the format is `ascii`, which is not read",
         ),
         ("m.ply", "plX\n", "line 1: the first line is not `ply`"),

@@ -3,13 +3,15 @@
 //! Each panics when a promise is broken: points that are not finite, names that do not fit, two ways to read the
 //! same bytes that differ.
 
-use taut_io::{Format, Header, Input, RawLayout, ReadOptions, open_bytes, open_mesh_bytes};
+use taut_io::{
+    Format, Header, Input, RawLayout, ReadOptions, open_bytes, open_mesh_bytes, open_shape_bytes,
+};
 use taut_points::{Monitor, ScalarKind, Scratch, hash_points};
 
 type Parser = (&'static str, fn(&[u8]));
 
 /// Every parser by the name of its fuzz target.
-pub(crate) const ALL: [Parser; 13] = [
+pub(crate) const ALL: [Parser; 18] = [
     ("csv", csv),
     ("npy", npy),
     ("parquet", parquet),
@@ -23,6 +25,11 @@ pub(crate) const ALL: [Parser; 13] = [
     ("off", off),
     ("vtu", vtu),
     ("mesh_parquet", mesh_parquet),
+    ("shape_ply", shape_ply),
+    ("shape_obj", shape_obj),
+    ("shape_off", shape_off),
+    ("shape_stl", shape_stl),
+    ("shape_xyz", shape_xyz),
 ];
 
 /// Comma, tab and space; with all columns and with some.
@@ -113,6 +120,40 @@ fn mesh(bytes: &[u8], name: &str) {
             if let Some(vertices) = mesh.vertices {
                 assert!(mesh.simplices.iter().all(|&id| (id as usize) < vertices.len()));
                 assert!(vertices.iter().flatten().all(|x| x.is_finite()));
+            }
+        }
+        Err(refused) => assert!(!refused.to_string().is_empty()),
+    }
+}
+
+pub(crate) fn shape_ply(bytes: &[u8]) {
+    shape(bytes, "fuzz.ply");
+}
+
+pub(crate) fn shape_obj(bytes: &[u8]) {
+    shape(bytes, "fuzz.obj");
+}
+
+pub(crate) fn shape_off(bytes: &[u8]) {
+    shape(bytes, "fuzz.off");
+}
+
+pub(crate) fn shape_stl(bytes: &[u8]) {
+    shape(bytes, "fuzz.stl");
+}
+
+pub(crate) fn shape_xyz(bytes: &[u8]) {
+    shape(bytes, "fuzz.xyz");
+}
+
+fn shape(bytes: &[u8], name: &str) {
+    match open_shape_bytes(bytes.to_vec(), name, None) {
+        Ok(shape) => {
+            let n = shape.vertices.len();
+            assert!(n > 0 && shape.view().is_ok());
+            assert!(shape.colors.is_none_or(|colors| colors.len() == n));
+            if let Some(normals) = shape.normals {
+                assert!(normals.len() == n && normals.iter().flatten().all(|x| x.is_finite()));
             }
         }
         Err(refused) => assert!(!refused.to_string().is_empty()),

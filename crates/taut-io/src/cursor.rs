@@ -1,24 +1,25 @@
-//! Bytes and numbers of a binary stream, little-endian, with the error of a file that ends too early.
+//! Bytes and numbers of a binary stream, with the error of a file that ends too early.
 
 use std::io::{BufRead, ErrorKind, Read};
 
+use crate::error::Refuse;
 use crate::{Error, MeshPlace};
-
-use super::reading::Building;
 
 /// The longest line of a header that is text.
 const LONGEST_LINE: u64 = 1 << 16;
 
-pub(super) struct Cursor<'a> {
+pub(crate) struct Cursor<'a> {
     stream: Box<dyn BufRead>,
     path: &'a str,
     /// Bytes read.
-    pub(super) at: u64,
+    pub(crate) at: u64,
+    /// Whether the first byte of a number is its highest.
+    pub(crate) big_endian: bool,
 }
 
 /// How a number is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(crate) enum Kind {
     I8,
     U8,
     I16,
@@ -33,7 +34,7 @@ pub(super) enum Kind {
 
 impl Kind {
     /// Bytes of a number.
-    pub(super) fn size(self) -> usize {
+    pub(crate) fn size(self) -> usize {
         match self {
             Kind::I8 | Kind::U8 => 1,
             Kind::I16 | Kind::U16 => 2,
@@ -44,15 +45,20 @@ impl Kind {
 }
 
 impl<'a> Cursor<'a> {
-    pub(super) fn new(stream: Box<dyn BufRead>, path: &'a str) -> Self {
-        Cursor { stream, path, at: 0 }
+    pub(crate) fn new(stream: Box<dyn BufRead>, path: &'a str) -> Self {
+        Cursor { stream, path, at: 0, big_endian: false }
+    }
+
+    /// What has not been read.
+    pub(crate) fn into_stream(self) -> Box<dyn BufRead> {
+        self.stream
     }
 
     /// Fills `bytes`; `place` and `mesh` say what was expected.
-    pub(super) fn fill(
+    pub(crate) fn fill(
         &mut self,
         bytes: &mut [u8],
-        mesh: &Building<'_>,
+        mesh: &impl Refuse,
         place: MeshPlace,
     ) -> Result<(), Error> {
         self.stream.read_exact(bytes).map_err(|source| match source.kind() {
@@ -64,17 +70,21 @@ impl<'a> Cursor<'a> {
     }
 
     /// A number as it is stored, in the lowest bytes.
-    fn raw(&mut self, kind: Kind, mesh: &Building<'_>, place: MeshPlace) -> Result<[u8; 8], Error> {
+    fn raw(&mut self, kind: Kind, mesh: &impl Refuse, place: MeshPlace) -> Result<[u8; 8], Error> {
         let mut bytes = [0; 8];
-        self.fill(&mut bytes[..kind.size()], mesh, place)?;
+        let stored = &mut bytes[..kind.size()];
+        self.fill(stored, mesh, place)?;
+        if self.big_endian {
+            stored.reverse();
+        }
         Ok(bytes)
     }
 
     /// A number as a coordinate.
-    pub(super) fn real(
+    pub(crate) fn real(
         &mut self,
         kind: Kind,
-        mesh: &Building<'_>,
+        mesh: &impl Refuse,
         place: MeshPlace,
     ) -> Result<f64, Error> {
         let raw = self.raw(kind, mesh, place)?;
@@ -86,10 +96,10 @@ impl<'a> Cursor<'a> {
     }
 
     /// A number as an id or a count; one that is no integer of 63 bits is −1, which is neither.
-    pub(super) fn whole(
+    pub(crate) fn whole(
         &mut self,
         kind: Kind,
-        mesh: &Building<'_>,
+        mesh: &impl Refuse,
         place: MeshPlace,
     ) -> Result<i64, Error> {
         let raw = self.raw(kind, mesh, place)?;
@@ -100,10 +110,10 @@ impl<'a> Cursor<'a> {
     }
 
     /// Steps over `count` bytes.
-    pub(super) fn skip(
+    pub(crate) fn skip(
         &mut self,
         count: u64,
-        mesh: &Building<'_>,
+        mesh: &impl Refuse,
         place: MeshPlace,
     ) -> Result<(), Error> {
         let skipped = std::io::copy(&mut (&mut self.stream).take(count), &mut std::io::sink())
@@ -116,7 +126,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// A line of text without its end; `None` at the end of the stream or where a line does not end.
-    pub(super) fn line(&mut self) -> Result<Option<String>, Error> {
+    pub(crate) fn line(&mut self) -> Result<Option<String>, Error> {
         let mut line = Vec::new();
         (&mut self.stream)
             .take(LONGEST_LINE)
@@ -128,7 +138,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// All text up to the byte `end`, without it; `None` if it does not come within `most` bytes.
-    pub(super) fn text_before(&mut self, end: u8, most: u64) -> Result<Option<String>, Error> {
+    pub(crate) fn text_before(&mut self, end: u8, most: u64) -> Result<Option<String>, Error> {
         let mut text = Vec::new();
         (&mut self.stream)
             .take(most)
@@ -142,7 +152,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// What is left, up to `most` bytes.
-    pub(super) fn rest(&mut self, most: u64) -> Result<Vec<u8>, Error> {
+    pub(crate) fn rest(&mut self, most: u64) -> Result<Vec<u8>, Error> {
         let mut rest = Vec::new();
         (&mut self.stream)
             .take(most)

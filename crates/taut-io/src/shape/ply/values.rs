@@ -1,0 +1,152 @@
+//! The values of elements, in binary or, an element to a line, as words.
+
+use crate::cursor::{Cursor, Kind};
+use crate::error::Refuse;
+use crate::ply::{self, Encoding, Header, Property};
+use crate::words::{Lines, whole};
+use crate::{Error, MeshPlace};
+
+use super::super::building::Building;
+
+pub(super) enum Values<'a> {
+    Binary(Cursor<'a>),
+    /// Lines, and where in the last one the next word begins.
+    Text(Lines, usize),
+}
+
+impl<'a> Values<'a> {
+    /// The values that follow the header.
+    pub(super) fn new(mut cursor: Cursor<'a>, header: &Header) -> Self {
+        match header.encoding {
+            Encoding::Ascii => {
+                Values::Text(Lines::open_ended(cursor.into_stream(), header.lines), 0)
+            }
+            encoding => {
+                cursor.big_endian = encoding == Encoding::BigEndian;
+                Values::Binary(cursor)
+            }
+        }
+    }
+
+    /// Goes to the next element, and says where it is.
+    pub(super) fn begin(
+        &mut self,
+        shape: &Building<'_>,
+        name: &'static str,
+        number: u64,
+    ) -> Result<MeshPlace, Error> {
+        match self {
+            Values::Binary(_) => Ok(MeshPlace::Element(name, number)),
+            Values::Text(lines, at) => {
+                *at = 0;
+                match lines.advance(shape)? {
+                    true => Ok(lines.place()),
+                    false => {
+                        let problem = format!("it ends before {name} {number}");
+                        Err(shape.damaged(MeshPlace::File, problem))
+                    }
+                }
+            }
+        }
+    }
+
+    /// A coordinate or a colour.
+    pub(super) fn real(
+        &mut self,
+        shape: &Building<'_>,
+        kind: Kind,
+        place: MeshPlace,
+    ) -> Result<f64, Error> {
+        match self {
+            Values::Binary(cursor) => cursor.real(kind, shape, place),
+            Values::Text(lines, at) => {
+                let word = next_word(lines.bytes(), at).ok_or_else(|| too_few(shape, place))?;
+                fast_float2::parse(word).map_err(|_| no_number(shape, place, word))
+            }
+        }
+    }
+
+    /// An id.
+    pub(super) fn whole(
+        &mut self,
+        shape: &Building<'_>,
+        kind: Kind,
+        place: MeshPlace,
+    ) -> Result<i64, Error> {
+        match self {
+            Values::Binary(cursor) => cursor.whole(kind, shape, place),
+            Values::Text(lines, at) => {
+                let word = next_word(lines.bytes(), at).ok_or_else(|| too_few(shape, place))?;
+                whole(word).ok_or_else(|| no_number(shape, place, word))
+            }
+        }
+    }
+
+    /// The length of a list.
+    pub(super) fn count(
+        &mut self,
+        shape: &Building<'_>,
+        kind: Kind,
+        place: MeshPlace,
+    ) -> Result<u64, Error> {
+        let count = self.whole(shape, kind, place)?;
+        u64::try_from(count)
+            .map_err(|_| shape.damaged(place, format!("a list has the length {count}")))
+    }
+
+    /// Steps over a value, or over a list of them.
+    pub(super) fn skip(
+        &mut self,
+        shape: &Building<'_>,
+        property: &Property,
+        place: MeshPlace,
+    ) -> Result<(), Error> {
+        if let Values::Binary(cursor) = self {
+            return ply::skip(shape, cursor, property, place);
+        }
+        let count = match property.length {
+            None => 1,
+            Some(length) => self.count(shape, length, place)?,
+        };
+        (0..count).try_for_each(|_| self.real(shape, property.kind, place).map(drop))
+    }
+
+    /// Refuses an element that is longer than declared.
+    pub(super) fn end(&self, shape: &Building<'_>, place: MeshPlace) -> Result<(), Error> {
+        match self {
+            Values::Text(lines, at) if !lines.bytes()[*at..].trim_ascii().is_empty() => {
+                Err(shape.damaged(place, "it has more values than the header declares"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Refuses a file that goes on.
+    pub(super) fn finish(self, shape: &Building<'_>) -> Result<(), Error> {
+        let (more, place) = match self {
+            Values::Binary(mut cursor) => (!cursor.rest(1)?.is_empty(), MeshPlace::File),
+            Values::Text(mut lines, _) => (lines.advance(shape)?, lines.place()),
+        };
+        match more {
+            false => Ok(()),
+            true => Err(shape.damaged(place, "it goes on after its last element")),
+        }
+    }
+}
+
+/// The word at or after `at`, which moves behind it.
+fn next_word<'a>(line: &'a [u8], at: &mut usize) -> Option<&'a [u8]> {
+    let start = *at + line[*at..].iter().position(|byte| !byte.is_ascii_whitespace())?;
+    let length = line[start..].iter().position(u8::is_ascii_whitespace);
+    *at = length.map_or(line.len(), |length| start + length);
+    Some(&line[start..*at])
+}
+
+fn too_few(shape: &Building<'_>, place: MeshPlace) -> Error {
+    shape.damaged(place, "it has fewer values than the header declares")
+}
+
+fn no_number(shape: &Building<'_>, place: MeshPlace, word: &[u8]) -> Error {
+    let word = ply::printable(&String::from_utf8_lossy(word));
+    shape.damaged(place, format!("`{word}` is no number of the declared type"))
+}

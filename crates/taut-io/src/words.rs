@@ -1,0 +1,182 @@
+//! Lines of words, and numbers as text, with the errors of a text that is cut short.
+
+use std::io::BufRead;
+
+use crate::error::Refuse;
+use crate::{Error, MeshPlace};
+
+/// A line, its comment, and where it stands.
+pub(crate) struct Line<'a> {
+    pub(crate) at: MeshPlace,
+    /// Without blanks around it; may be empty where there is a comment.
+    pub(crate) words: &'a [u8],
+    pub(crate) comment: &'a [u8],
+}
+
+/// Lines that hold more than blanks and a comment, numbered from 1.
+pub(crate) struct Lines {
+    stream: Box<dyn BufRead>,
+    line: Vec<u8>,
+    number: u64,
+    /// Whether a last line without its end is a line.
+    open: bool,
+    /// Whether a backslash at the end of a line joins the next one to it.
+    joined: bool,
+    /// Whether the last line has no end.
+    cut: bool,
+}
+
+impl Lines {
+    pub(crate) fn new(stream: Box<dyn BufRead>) -> Self {
+        Lines { stream, line: Vec::new(), number: 0, open: false, joined: false, cut: false }
+    }
+
+    /// Lines after the first `number`, the last of which may lack its end, as editors leave it.
+    pub(crate) fn open_ended(stream: Box<dyn BufRead>, number: u64) -> Self {
+        Lines { number, open: true, ..Lines::new(stream) }
+    }
+
+    /// As [`open_ended`](Self::open_ended), and a backslash at the end of a line joins the next one to it.
+    pub(crate) fn joined(stream: Box<dyn BufRead>) -> Self {
+        Lines { joined: true, ..Lines::open_ended(stream, 0) }
+    }
+
+    /// Goes to the next line that is not blank; false where there is none.
+    ///
+    /// A last line without its end is refused, unless the lines are open-ended: a file that was cut within a number
+    /// could look whole.
+    pub(crate) fn advance(&mut self, mesh: &impl Refuse) -> Result<bool, Error> {
+        loop {
+            self.line.clear();
+            loop {
+                self.number += 1;
+                self.stream
+                    .read_until(b'\n', &mut self.line)
+                    .map_err(|source| Error::reading(mesh.path(), source))?;
+                let words = self.line.trim_ascii_end();
+                match self.joined && self.line.ends_with(b"\n") && words.ends_with(b"\\") {
+                    true => self.line.truncate(words.len() - 1),
+                    false => break,
+                }
+            }
+            // The mark that some editors put before UTF-8.
+            if self.number == 1 && self.line.starts_with(b"\xef\xbb\xbf") {
+                self.line.drain(..3);
+            }
+            match self.line.last() {
+                None => return Ok(false),
+                Some(b'\n') => {}
+                Some(_) if self.open => self.cut = true,
+                Some(_) => {
+                    let problem = "it does not end with a line feed, as if the file were cut short";
+                    return Err(mesh.damaged(MeshPlace::Line(self.number), problem));
+                }
+            }
+            if !self.line.trim_ascii().is_empty() {
+                return Ok(true);
+            }
+        }
+    }
+
+    /// Whether the last line was one without its end.
+    pub(crate) fn cut(&self) -> bool {
+        self.cut
+    }
+
+    /// Where the line last gone to stands.
+    pub(crate) fn place(&self) -> MeshPlace {
+        MeshPlace::Line(self.number)
+    }
+
+    /// The line last gone to, with all its bytes.
+    pub(crate) fn bytes(&self) -> &[u8] {
+        &self.line
+    }
+
+    /// Goes to the next line that holds words.
+    pub(crate) fn skip_comments(&mut self, mesh: &impl Refuse) -> Result<(), Error> {
+        while self.advance(mesh)? && self.line.trim_ascii_start().starts_with(b"#") {}
+        Ok(())
+    }
+
+    /// The line last gone to; `None` at the end.
+    pub(crate) fn current(&self) -> Option<Line<'_>> {
+        let end = memchr::memchr(b'#', &self.line).unwrap_or(self.line.len());
+        let (words, comment) = self.line.split_at(end);
+        let at = MeshPlace::Line(self.number);
+        let line = Line { at, words: words.trim_ascii(), comment: comment.trim_ascii() };
+        (!self.line.is_empty()).then_some(line)
+    }
+}
+
+/// The words of a line.
+pub(crate) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
+    line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
+}
+
+/// A whole number.
+pub(crate) fn whole(word: &[u8]) -> Option<i64> {
+    std::str::from_utf8(word).ok()?.parse().ok()
+}
+
+/// Words of at least three coordinates; further ones are colours or weights.
+pub(crate) fn place<'a>(words: impl Iterator<Item = &'a [u8]>) -> Option<[f64; 3]> {
+    let mut at = [0.0; 3];
+    let mut count = 0;
+    for word in words {
+        let value = fast_float2::parse(word).ok()?;
+        if let Some(slot) = at.get_mut(count) {
+            *slot = value;
+        }
+        count += 1;
+    }
+    (count >= 3).then_some(at)
+}
+
+/// Writes three coordinates as [`put_number`], with blanks between them, and ends the line.
+pub(crate) fn put_place(at: [f64; 3], out: &mut Vec<u8>) {
+    put_numbers(at, b" ", out);
+    out.push(b'\n');
+}
+
+/// Writes numbers as [`put_number`], with `between` them.
+pub(crate) fn put_numbers<const N: usize>(values: [f64; N], between: &[u8], out: &mut Vec<u8>) {
+    for (j, value) in values.into_iter().enumerate() {
+        if j > 0 {
+            out.extend_from_slice(between);
+        }
+        put_number(value, out);
+    }
+}
+
+/// Writes the shortest decimals that read back to the same bits.
+pub(crate) fn put_number(value: f64, out: &mut Vec<u8>) {
+    let mut buffer = zmij::Buffer::new();
+    let digits = buffer.format(value);
+    out.extend_from_slice(digits.strip_suffix(".0").unwrap_or(digits).as_bytes());
+}
+
+/// Writes ids, each with `first` added and a blank before it, and ends the line.
+pub(crate) fn put_ids(ids: &[u32], first: u64, out: &mut Vec<u8>) {
+    for &id in ids {
+        out.push(b' ');
+        put_whole(u64::from(id) + first, out);
+    }
+    out.push(b'\n');
+}
+
+/// Writes a whole number.
+pub(crate) fn put_whole(value: u64, out: &mut Vec<u8>) {
+    let mut digits = [0; 20];
+    let mut rest = value;
+    let mut at = digits.len();
+    loop {
+        at -= 1;
+        digits[at] = b'0' + (rest % 10) as u8;
+        rest /= 10;
+        if rest == 0 {
+            break;
+        }
+    }
+    out.extend_from_slice(&digits[at..]);
+}
