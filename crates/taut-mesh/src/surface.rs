@@ -73,7 +73,7 @@ pub struct SurfaceDistance {
     /// The mean distance over the same.
     pub mean_relative: f64,
     /// The mean of |n·n′| over the samples, n and n′ being the unit normals of the triangle of the sample and of the triangle
-    /// next to it: 1 where surfaces are parallel, however turned. Samples next to a triangle without area are left out;
+    /// next to it: 1 where surfaces are parallel, however turned. Where the nearest place is on an edge, roundings choose one of its triangles. Samples next to a triangle without area are left out;
     /// `None` if no sample is left.
     pub normal_consistency: Option<f64>,
     /// Number of samples: as many as were asked for, or none if the mesh has no area.

@@ -140,8 +140,8 @@ fn turning_and_moving_both_changes_nothing() {
     ] {
         near(a.hausdorff, b.hausdorff, 1e-13);
         near(a.mean, b.mean, 1e-13);
-        // Where two triangles are nearest, either may be found.
-        near(a.normal_consistency.unwrap(), b.normal_consistency.unwrap(), 1e-3);
+        // From outside, the nearest place is an edge for many samples: of its two triangles roundings choose one, and normals differ.
+        near(a.normal_consistency.unwrap(), b.normal_consistency.unwrap(), 1e-2);
     }
 }
 
