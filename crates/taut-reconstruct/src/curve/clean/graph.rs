@@ -20,15 +20,21 @@ pub(super) fn triangulate(sites: &[[f64; 2]], monitor: &Monitor<'_>) -> Result<P
 
 /// All edges, in an order that depends on how the triangulation was built. Sites on a line are joined along it.
 pub(super) fn edges(plane: &Plane) -> Vec<Edge> {
+    let mut edges = Vec::with_capacity(3 * plane.site_count());
+    visit_edges(plane, |edge| edges.push(edge));
+    edges
+}
+
+/// The same, one at a time.
+pub(super) fn visit_edges(plane: &Plane, mut visit: impl FnMut(Edge)) {
     let row = |site: u32| plane.row(site);
     if let Complex::Line(sites) = plane.complex() {
-        let pairs = sites.windows(2);
-        return pairs
-            .map(|pair| Edge { ends: [row(pair[0]), row(pair[1])], apexes: [None; 2] })
-            .collect();
+        for pair in sites.windows(2) {
+            visit(Edge { ends: [row(pair[0]), row(pair[1])], apexes: [None; 2] });
+        }
+        return;
     }
     let slots = plane.slots();
-    let mut edges = Vec::with_capacity(3 * plane.site_count());
     for (number, triangle) in (0u32..).zip(slots.iter()).filter(|(_, t)| t.is_live()) {
         for i in 0..3 {
             let (neighbor, facet) = decode(triangle.neighbors[i]);
@@ -36,11 +42,10 @@ pub(super) fn edges(plane: &Plane) -> Vec<Edge> {
             if number < neighbor && a != GHOST && b != GHOST {
                 let apexes = [triangle.vertices[i], slots[neighbor as usize].vertices[facet]];
                 let apexes = apexes.map(|v| (v != GHOST).then(|| row(v)));
-                edges.push(Edge { ends: [row(a), row(b)], apexes });
+                visit(Edge { ends: [row(a), row(b)], apexes });
             }
         }
     }
-    edges
 }
 
 /// The circumcentres of all triangles, the Voronoi vertices, to rounding. Left out are those that are not finite or farther than

@@ -71,8 +71,7 @@ fn edges(
     match method {
         CurveMethod::Crust => crust::edges(sites, monitor),
         CurveMethod::OneStepCrust => {
-            let plane = graph::triangulate(sites, monitor)?;
-            Ok(one_step_crust::edges(sites, &graph::edges(&plane)))
+            Ok(one_step_crust::edges(sites, &graph::triangulate(sites, monitor)?))
         }
         CurveMethod::Corners => {
             // The triangulation is gone before the search, which needs as much memory again.

@@ -119,6 +119,25 @@ impl<'a> Near<'a> {
         );
     }
 
+    /// The site nearest to a point, if it is nearer than the square root of `reach2`.
+    pub(super) fn nearest_within(&self, point: [f64; 2], reach2: f64) -> Option<u32> {
+        let mut found = None;
+        self.boxes.nearest(
+            reach2,
+            |b| b.distance2(point),
+            |leaf, mut bound| {
+                for i in self.boxes.leaf(leaf) {
+                    let d2 = distance2(point, self.sites[i]);
+                    if d2 < bound {
+                        (bound, found) = (d2, Some(i as u32));
+                    }
+                }
+                bound
+            },
+        );
+        found
+    }
+
     /// Whether some site lies nearer to a point than the square root of `reach2`.
     pub(super) fn any_within(&self, point: [f64; 2], reach2: f64) -> bool {
         let mut found = false;

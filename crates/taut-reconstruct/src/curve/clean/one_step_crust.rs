@@ -9,14 +9,22 @@
 //! factor.
 //! *Reference.* Gold and Snoeyink, Algorithmica 30, 2001.
 
-use super::graph::Edge;
+use taut_delaunay::Plane;
 
-pub(super) fn edges(sites: &[[f64; 2]], graph: &[Edge]) -> Vec<[u32; 2]> {
-    graph.iter().filter(|edge| is_crust(sites, edge)).map(|edge| edge.ends).collect()
+use super::graph::{Edge, visit_edges};
+
+pub(super) fn edges(sites: &[[f64; 2]], plane: &Plane) -> Vec<[u32; 2]> {
+    let mut edges = Vec::with_capacity(sites.len() + sites.len() / 2);
+    visit_edges(plane, |edge| {
+        if is_crust(sites, &edge) {
+            edges.push(edge.ends);
+        }
+    });
+    edges
 }
 
 /// Whether the angles across an edge are at most 90° together.
-fn is_crust(sites: &[[f64; 2]], edge: &Edge) -> bool {
+pub(super) fn is_crust(sites: &[[f64; 2]], edge: &Edge) -> bool {
     let [p, q] = edge.ends.map(|v| sites[v as usize]);
     // Cosine and sine of the angle across, up to a common positive factor.
     let [[cos_a, sin_a], [cos_b, sin_b]] = edge.apexes.map(|apex| {

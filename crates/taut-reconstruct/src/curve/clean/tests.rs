@@ -233,3 +233,50 @@ fn neighbours_are_those_of_brute_force() {
         assert_eq!(sorted(found), sorted(mutual.collect()));
     }
 }
+
+/// The crust by its definition: edges between sites in the triangulation of sites and Voronoi vertices.
+fn crust_by_triangulation(sites: &[[f64; 2]]) -> Vec<[u32; 2]> {
+    let silent = Monitor::silent();
+    let plane = graph::triangulate(sites, &silent).expect("nobody cancels");
+    let mut both = sites.to_vec();
+    both.extend(graph::voronoi_vertices(&plane, sites, 1e6));
+    let refined = graph::triangulate(&both, &silent).expect("nobody cancels");
+    let ends = graph::edges(&refined).into_iter().map(|edge| edge.ends);
+    sorted(ends.filter(|ends| ends.iter().all(|&v| (v as usize) < sites.len())).collect())
+}
+
+/// Each edge from its smaller end, by ends.
+fn sorted(mut edges: Vec<[u32; 2]>) -> Vec<[u32; 2]> {
+    edges.iter_mut().for_each(|ends| ends.sort_unstable());
+    edges.sort_unstable();
+    edges
+}
+
+#[test]
+fn the_crust_is_that_of_its_definition() {
+    let mut draw = Draw(23);
+    let mut fewer = 0;
+    for round in 0..120 {
+        let n = 3 + (round * 7) % 300;
+        let points: Vec<[f64; 2]> = match round % 3 {
+            0 => (0..n).map(|_| [draw.next(), draw.next()]).collect(),
+            // A curve with bends, sampled now well and now badly.
+            1 => (0..n)
+                .map(|_| {
+                    let angle = std::f64::consts::TAU * draw.next();
+                    let radius = 1.0 + 0.4 * (5.0 * angle).cos();
+                    [radius * angle.cos(), radius * angle.sin()]
+                })
+                .collect(),
+            // Flat, so that circles are wide.
+            _ => (0..n).map(|_| [draw.next(), 1e-4 * draw.next()]).collect(),
+        };
+        let sites = cloud(&points).sites;
+        let silent = Monitor::silent();
+        let found = sorted(crust::edges(&sites, &silent).expect("nobody cancels"));
+        assert_eq!(found, crust_by_triangulation(&sites), "{round}: {n} points");
+        let plane = graph::triangulate(&sites, &silent).expect("nobody cancels");
+        fewer += one_step_crust::edges(&sites, &plane).len() - found.len();
+    }
+    assert!(fewer > 30, "the search rules out {fewer} edges of the one-step crust in all");
+}

@@ -1,7 +1,7 @@
 //! Curves through noisy samples by the algorithm of the thesis, and by its crude form.
 //!
 //! *Problem.* Samples of disjoint smooth closed curves, each moved along the normal by at most δ; neither δ nor the curves are known.
-//! *Idea.* (1) D holds K = ⌈(ln n)^(1+ω)⌉ samples around s, and initial(s) has radius √radius(D). (2) coarse(s) grows from it until
+//! *Idea.* (1) D holds s and K = ⌈(ln n)^(1+ω)⌉ samples around it, and initial(s) has radius √radius(D). (2) coarse(s) grows from it until
 //! radius / width(strip(s)) ≥ ρ ([`coarse`]). (3) refined(s), a slab across it of width W = min(√radius(initial), radius(coarse)/3),
 //! is turned until the rectangle around its samples is lowest; s* is the centre of that ([`refined`]). (4) By decreasing W, each
 //! centre deletes those within W^(1/3) of it ([`pruning`]). (5) NN-Crust of the centres left.
@@ -158,10 +158,10 @@ pub(super) fn thesis_crude(
     Ok(start.finish(outcome, &estimates, outliers, options.method))
 }
 
-/// K = ⌈(ln n)^(1 + ω)⌉, at least 2 and at most n.
+/// K + 1 for K = ⌈(ln n)^(1 + ω)⌉: a sample counts among those around it. At least 2 and at most n.
 fn first_count(n: usize, omega: f64) -> usize {
     let count = (n.max(1) as f64).ln().powf(1.0 + omega).ceil();
-    (count as usize).max(2).min(n.max(1))
+    (count as usize).saturating_add(1).max(2).min(n.max(1))
 }
 
 /// The diagonal of the box around points.
