@@ -69,7 +69,7 @@ pub(crate) fn folder() -> PathBuf {
 ///
 /// Names: a program of `peers/build` with its build (`fgk-native`, `cgal-spheres-3-o2`), or `cyminiball`,
 /// `miniball-pypi`, `miniball-crate`, `sklearn-mcd-H`, `conic-PROBLEM`, `dynesty`, `cgal-approximate-EPSILON`, `set-cover`,
-/// `medoids`, `traversal-K`, `traversal-single-K`, `concorde`, `elkai`, `cgal-transport-TOLERANCE`.
+/// `medoids`, `traversal-K`, `traversal-single-K`, `concorde`, `elkai`, `plain-curve`, `cgal-transport-TOLERANCE`.
 fn command(name: &str) -> Result<Option<Command>> {
     let python = |package: &str| {
         let interpreter = folder().join(".venv/bin/python");
@@ -103,6 +103,7 @@ fn command(name: &str) -> Result<Option<Command>> {
         "set-cover" => script("highspy", "centers.py", "set-cover"),
         "medoids" => script("sklearn_extra.cluster", "centers.py", "medoids"),
         "elkai" => script("elkai", "tours.py", "elkai"),
+        "plain-curve" => script("scipy", "plain_curve.py", "4"),
         name if name.starts_with("traversal-") => script("numpy", "centers.py", name),
         "dynesty" => python("dynesty").map(|mut command| {
             command.arg(folder().join("peers/bounding.py"));

@@ -38,10 +38,15 @@ pub(super) fn least_feature(
     let n = radii.len();
     let extent = spread(disks.samples);
     let mut order: Vec<usize> = (0..n).collect();
-    // In single precision: of two samples, each the K-th nearest of the other, rounding may put either first.
+    // In single precision: of two samples, each the K-th nearest of the other, rounding may put either first. They may be each other's
+    // nearest, too, but then the next ones differ.
     order.sort_by(|&a, &b| {
-        let nearest = || disks.radius(a, 2).total_cmp(&disks.radius(b, 2));
-        (radii[a] as f32).total_cmp(&(radii[b] as f32)).then_with(nearest)
+        let nearest = |count| {
+            let [a, b] = [a, b].map(|sample| disks.radius(sample, count) as f32);
+            a.total_cmp(&b)
+        };
+        let first = (radii[a] as f32).total_cmp(&(radii[b] as f32));
+        (2..=4).fold(first, |order, count| order.then_with(|| nearest(count)))
     });
     let looks: Vec<usize> = order.into_iter().step_by(n.div_ceil(LOOKS).max(1)).collect();
     let mut found = each(looks.len(), monitor, |i| look(disks, looks[i], radii[looks[i]], extent))?;
@@ -52,7 +57,8 @@ pub(super) fn least_feature(
 /// What one sample sees, in disks from a radius on.
 fn look(disks: &Disks<'_>, sample: usize, start: f64, extent: f64) -> f64 {
     let mut disk = Growing::around(disks, sample);
-    let (mut radius, mut taken, mut hull) = (start, 0, Vec::new());
+    // Beyond `start` lies a sample, and rounding may put it within or without.
+    let (mut radius, mut taken, mut hull) = (STEP * start, 0, Vec::new());
     let (mut flattest, mut feature) = (0.0, extent);
     while radius > 0.0 && radius < 2.0 * extent {
         let near = disk.within(radius);

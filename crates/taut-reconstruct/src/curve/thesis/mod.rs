@@ -44,6 +44,8 @@ struct Estimate {
     width: f64,
     /// The height of the rectangle.
     height: f64,
+    /// The distance of s from s*.
+    way: f64,
 }
 
 /// The samples in units that are safe to square, the unit of the formulas, and the first disks.
@@ -84,7 +86,7 @@ impl Start {
         let found = each(self.samples.len(), monitor, |s| {
             let found = of(&mut Growing::around(&disks, s), self.initial[s]?)?;
             let ([x, y], [dx, dy]) = (self.samples[s], found.center);
-            Some(Estimate { center: [x + dx, y + dy], ..found })
+            Some(Estimate { center: [x + dx, y + dy], way: dx.hypot(dy), ..found })
         })?;
         let outliers = (0u32..).zip(&found).filter(|(_, found)| found.is_none());
         let outliers = outliers.map(|(s, _)| s).collect();
@@ -127,11 +129,18 @@ pub(super) fn thesis(
         let coarse = coarse(disk, initial, initial.max(unit), options.rho)?;
         let width = (initial * unit).sqrt().min(coarse.radius / 3.0);
         let rectangle = refined(disk.within(coarse.radius), coarse.strip, width);
-        Some(Estimate { center: rectangle.center, width, height: rectangle.height })
+        Some(Estimate { center: rectangle.center, width, height: rectangle.height, way: 0.0 })
     })?;
     let centers: Vec<[f64; 2]> = estimates.iter().map(|found| found.center).collect();
     let reach = |i: usize| (estimates[i].width * unit * unit).cbrt();
-    let selected = pruning::select(&centers, |i| [estimates[i].width, estimates[i].height], reach);
+    let selected = pruning::select(
+        &centers,
+        |i| {
+            let found = &estimates[i];
+            [found.width, found.height, found.way]
+        },
+        reach,
+    );
     monitor.check()?;
     let selected: Vec<Estimate> = selected.into_iter().map(|i| estimates[i]).collect();
     let left = Cloud::of(&start.up(&selected));
@@ -150,7 +159,7 @@ pub(super) fn thesis_crude(
     let start = Start::of(cloud, options, monitor)?;
     let (estimates, outliers) = start.estimates(monitor, |disk, initial| {
         let found = crude(disk, initial, initial.max(start.unit), options.rho)?;
-        Some(Estimate { center: found.center, width: 0.0, height: found.height })
+        Some(Estimate { center: found.center, width: 0.0, height: found.height, way: 0.0 })
     })?;
     let mut outcome = tour::tour(&Cloud::of(&start.up(&estimates)), options, monitor)?;
     // The bound is about tours of centres, which are no rows: nobody could check it.

@@ -6,21 +6,26 @@
 //! *Guarantee.* Those selected are farther apart than the larger of their radii, and each centre is within the radius of a selected
 //! one.
 //! *Trap.* Of two samples that are each the K-th nearest of the other the widths are equal, and by rounding either may be the
-//! larger: widths are compared in single precision, and then heights, which turn with the input.
+//! larger; their rectangles may be the same ones, too. Widths, heights and ways from sample to centre are compared one after the other, in single
+//! precision, as they turn with the input.
+
+use std::cmp::Ordering;
 
 use super::disks::Disks;
 
-/// The numbers of the centres selected, in that order; `size` is the width and height of each, and `reach` its radius.
+/// The numbers of the centres selected, in that order; `size` is the width and height of each and its way from the sample, and
+/// `reach` its radius.
 pub(super) fn select(
     centers: &[[f64; 2]],
-    size: impl Fn(usize) -> [f64; 2],
+    size: impl Fn(usize) -> [f64; 3],
     reach: impl Fn(usize) -> f64,
 ) -> Vec<usize> {
     let disks = Disks::over(centers);
     let mut order: Vec<usize> = (0..centers.len()).collect();
     order.sort_by(|&a, &b| {
-        let ([wa, ha], [wb, hb]) = (size(a), size(b));
-        (wb as f32).total_cmp(&(wa as f32)).then(hb.total_cmp(&ha))
+        let [a, b] = [a, b].map(|center| size(center).map(|x| x as f32));
+        let pairs = b.iter().zip(&a);
+        pairs.fold(Ordering::Equal, |order, (b, a)| order.then(b.total_cmp(a)))
     });
     let mut deleted = vec![false; centers.len()];
     let mut selected = Vec::new();
