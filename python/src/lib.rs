@@ -19,6 +19,7 @@ mod robust;
 mod rows;
 mod solution;
 mod sphere_tree;
+mod surface;
 mod triangulation;
 mod work;
 
@@ -53,6 +54,8 @@ mod _native {
     use crate::solution::{Ball, BallCertificate, PassBounds, Solution, Trace, Verdict, Violation};
     #[pymodule_export]
     use crate::sphere_tree::{SphereTree, sphere_tree};
+    #[pymodule_export]
+    use crate::surface::{Surface, SurfaceCertificate, SurfaceComponent, SurfaceVerdict, surface};
     #[pymodule_export]
     use crate::triangulation::{Triangulation, TriangulationCertificate, TriangulationVerdict};
 

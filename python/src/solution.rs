@@ -16,6 +16,7 @@ use crate::items::{name_of_items, words};
 use crate::numbers::float;
 use crate::robust::{RobustCertificate, RobustEllipsoid, RobustVerdict};
 use crate::rows::{Rows, numbers};
+use crate::surface::{Surface, SurfaceCertificate, SurfaceVerdict};
 use crate::triangulation::{Triangulation, TriangulationCertificate, TriangulationVerdict};
 use crate::work::interruptible;
 
@@ -228,8 +229,8 @@ impl Verdict {
 /// ----------
 /// kind : str
 ///     ``"ball"``, ``"ellipsoid"``, ``"inscribed-ellipsoid"``, ``"robust-ellipsoid"``, ``"centers"``,
-///     ``"curve"`` or ``"delaunay"``.
-/// answer : Ball, Ellipsoid, InscribedEllipsoid, RobustEllipsoid, Centers, Curve or Triangulation
+///     ``"curve"``, ``"surface"`` or ``"delaunay"``.
+/// answer : Ball, Ellipsoid, InscribedEllipsoid, RobustEllipsoid, Centers, Curve, Surface or Triangulation
 ///     The shape.
 /// certificate : BallCertificate, EllipsoidCertificate and so on
 ///     Its proof.
@@ -282,6 +283,11 @@ impl Solution {
                 let certificate = CurveCertificate::new(&found.certificate);
                 (answer, Py::new(py, certificate)?.into_any(), found.trace.clone())
             }
+            AnySolution::Surface(found) => {
+                let answer = Py::new(py, Surface::new(py, &found.answer)?)?.into_any();
+                let certificate = SurfaceCertificate::new(py, &found.certificate)?;
+                (answer, Py::new(py, certificate)?.into_any(), found.trace.clone())
+            }
             AnySolution::Triangulation(found) => {
                 let answer = Py::new(py, Triangulation::new(py, found)?)?.into_any();
                 let certificate = TriangulationCertificate::new(&found.certificate);
@@ -306,7 +312,8 @@ impl Solution {
             | AnySolution::Inscribed(_)
             | AnySolution::Robust(_)
             | AnySolution::Centers(_)
-            | AnySolution::Curve(_) => {
+            | AnySolution::Curve(_)
+            | AnySolution::Surface(_) => {
                 let kind = self.kind();
                 let holder = match kind {
                     "centers" => "centers have".to_owned(),
@@ -330,7 +337,9 @@ impl Solution {
             (AnySolution::Inscribed(_), _) => ("lies in half-spaces", "offsets"),
             (_, Some(Items::Balls)) => ("encloses balls", "radii"),
             (_, Some(Items::Ellipsoids)) => ("encloses ellipsoids", "shapes"),
-            (AnySolution::Robust(_) | AnySolution::Curve(_), _) => ("speaks of points", ""),
+            (AnySolution::Robust(_) | AnySolution::Curve(_) | AnySolution::Surface(_), _) => {
+                ("speaks of points", "")
+            }
             (_, Some(Items::Points)) => ("encloses points", ""),
             (_, None) => ("joins points", ""),
         };
@@ -353,7 +362,7 @@ impl Solution {
             AnySolution::Ellipsoid(found) => Some(found.certificate.items),
             AnySolution::Robust(_) => Some(Items::Points),
             AnySolution::Centers(found) => Some(found.certificate.items),
-            AnySolution::Curve(_) => Some(Items::Points),
+            AnySolution::Curve(_) | AnySolution::Surface(_) => Some(Items::Points),
             AnySolution::Inscribed(_) | AnySolution::Triangulation(_) => None,
         }
     }
@@ -404,6 +413,7 @@ impl Solution {
             AnySolution::Robust(_) => "robust-ellipsoid",
             AnySolution::Centers(_) => "centers",
             AnySolution::Curve(_) => "curve",
+            AnySolution::Surface(_) => "surface",
             AnySolution::Triangulation(_) => "delaunay",
         }
     }
@@ -456,7 +466,7 @@ impl Solution {
     ///
     /// Returns
     /// -------
-    /// Verdict, EllipsoidVerdict, InscribedVerdict, RobustVerdict, CentersVerdict, CurveVerdict or
+    /// Verdict, EllipsoidVerdict, InscribedVerdict, RobustVerdict, CentersVerdict, CurveVerdict, SurfaceVerdict or
     /// TriangulationVerdict
     ///     Proved bounds ``lower`` and ``upper``, and their ``gap``; of a robust ellipsoid, of curves and of a triangulation
     ///     what was proved instead.
@@ -513,6 +523,9 @@ impl Solution {
             }
             Ok(AnyVerdict::Curve(proved)) => {
                 Ok(Py::new(py, CurveVerdict::new(&proved))?.into_any())
+            }
+            Ok(AnyVerdict::Surface(proved)) => {
+                Ok(Py::new(py, SurfaceVerdict::new(&proved))?.into_any())
             }
             Ok(AnyVerdict::Triangulation(proved)) => {
                 Ok(Py::new(py, TriangulationVerdict::new(&proved))?.into_any())
@@ -597,6 +610,11 @@ impl Solution {
             AnySolution::Curve(found) => {
                 let curves = found.answer.curves.len();
                 format!("Solution(kind='{kind}', curves={curves})")
+            }
+            AnySolution::Surface(found) => {
+                let (triangles, parts) =
+                    (found.answer.triangles.len(), found.answer.topology.components.len());
+                format!("Solution(kind='{kind}', triangles={triangles}, components={parts})")
             }
             AnySolution::Triangulation(found) => {
                 let certify::TriangulationCounts { sites, simplices, hull } =

@@ -41,6 +41,10 @@ from ._native import (
     RobustVerdict,
     Solution,
     SphereTree,
+    Surface,
+    SurfaceCertificate,
+    SurfaceComponent,
+    SurfaceVerdict,
     Trace,
     Triangulation,
     TriangulationCertificate,
@@ -50,6 +54,7 @@ from ._native import (
     __version__,
 )
 from ._robust import robust_ellipsoid
+from ._surface import surface
 from ._verify import verify
 
 __all__ = [
@@ -76,6 +81,10 @@ __all__ = [
     "RobustVerdict",
     "Solution",
     "SphereTree",
+    "Surface",
+    "SurfaceCertificate",
+    "SurfaceComponent",
+    "SurfaceVerdict",
     "Trace",
     "Triangulation",
     "TriangulationCertificate",
@@ -95,5 +104,6 @@ __all__ = [
     "inscribed_ellipsoid",
     "robust_ellipsoid",
     "sphere_tree",
+    "surface",
     "verify",
 ]

@@ -11,6 +11,7 @@ from ._native import (
     InscribedVerdict,
     RobustVerdict,
     Solution,
+    SurfaceVerdict,
     TriangulationVerdict,
     Verdict,
 )
@@ -22,6 +23,7 @@ AnyVerdict = (
     | RobustVerdict
     | CentersVerdict
     | CurveVerdict
+    | SurfaceVerdict
     | TriangulationVerdict
 )
 
@@ -54,9 +56,10 @@ def verify(
 
     Returns
     -------
-    Verdict, EllipsoidVerdict, InscribedVerdict, RobustVerdict, CentersVerdict, CurveVerdict or TriangulationVerdict
-        Proved bounds ``lower`` and ``upper``, and their ``gap``; of a robust ellipsoid, of curves and of a triangulation what
-        was proved instead.
+    Verdict, EllipsoidVerdict, InscribedVerdict, RobustVerdict, CentersVerdict, CurveVerdict, SurfaceVerdict or
+    TriangulationVerdict
+        Proved bounds ``lower`` and ``upper``, and their ``gap``; of a robust ellipsoid, of curves, of a
+        surface and of a triangulation what was proved instead.
 
     Raises
     ------

@@ -8,7 +8,7 @@ use taut_points::{Monitor, PointSource, PointsHash};
 
 use crate::{
     Answer, AnyVerdict, Ball, Centers, CheckError, Curve, Ellipsoid, InscribedEllipsoid,
-    RobustEllipsoid, Solution, Trace, Triangulation,
+    RobustEllipsoid, Solution, Surface, Trace, Triangulation,
 };
 
 /// Version of the document; it grows by one when a reader of the old one would misread the new.
@@ -196,6 +196,8 @@ pub enum AnySolution {
     Centers(Solution<Centers>),
     /// Curves of the plane.
     Curve(Solution<Curve>),
+    /// A surface through points of space.
+    Surface(Solution<Surface>),
     /// A Delaunay triangulation.
     Triangulation(Solution<Triangulation>),
 }
@@ -229,6 +231,7 @@ impl AnySolution {
             RobustEllipsoid::KIND => Ok(AnySolution::Robust(Box::new(parse(text)?))),
             Centers::KIND => Ok(AnySolution::Centers(parse(text)?)),
             Curve::KIND => Ok(AnySolution::Curve(parse(text)?)),
+            Surface::KIND => Ok(AnySolution::Surface(parse(text)?)),
             Triangulation::KIND => Ok(AnySolution::Triangulation(parse(text)?)),
             _ => Err(JsonError::Kind { found: head.kind }),
         }
@@ -243,6 +246,7 @@ impl AnySolution {
             AnySolution::Robust(found) => found.to_json(),
             AnySolution::Centers(found) => found.to_json(),
             AnySolution::Curve(found) => found.to_json(),
+            AnySolution::Surface(found) => found.to_json(),
             AnySolution::Triangulation(found) => found.to_json(),
         }
     }
@@ -274,6 +278,9 @@ impl AnySolution {
             }
             AnySolution::Curve(found) => {
                 found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Curve)
+            }
+            AnySolution::Surface(found) => {
+                found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Surface)
             }
             AnySolution::Triangulation(found) => found
                 .answer

@@ -8,6 +8,7 @@
 //! | [`InscribedEllipsoid`] | [`InscribedCertificate`] | it lies in every half-space; no ellipsoid in the polytope has a log-volume larger by more than the gap |
 //! | [`Centers`] | [`CentersCertificate`] | every item that counts is within the radius of a centre; no k equal balls much smaller hold the core-set |
 //! | [`Curve`] | [`CurveCertificate`] | it meets neither itself nor others; every point but the outliers is within the band; whether sampling was dense enough |
+//! | [`Surface`] | [`SurfaceCertificate`] | which rows it uses and why not the others; its topology; it meets itself nowhere; each triangle has an empty ball; it faces outwards |
 //! | [`Triangulation`] | [`TriangulationCertificate`] | the simplices are *the* Delaunay triangulation of the points |
 //!
 //! A [`Solution`] is an answer, its certificate and a trace of counters. [`Solution::check`] reads the points again
@@ -47,6 +48,7 @@ mod items;
 mod json;
 mod robust;
 mod solution;
+mod surface;
 mod triangulation;
 mod verdict;
 
@@ -69,6 +71,10 @@ pub use robust::{
     Unweighted,
 };
 pub use solution::{Answer, PassBounds, Solution, Stop, Trace};
+pub use surface::{
+    Apex, Surface, SurfaceCertificate, SurfaceComponent, SurfaceDoubt, SurfaceMethod, SurfaceMode,
+    SurfaceTopology, SurfaceVerdict, SurfaceViolation, Unused,
+};
 pub use triangulation::{
     Fingerprint, FingerprintFormError, MeshViolation, NO_NEIGHBOR, SiteHash, Triangulation,
     TriangulationCertificate, TriangulationCounts, TriangulationVerdict, check_simplices,

@@ -4,7 +4,8 @@ use taut_points::ReadError;
 
 use crate::{
     CentersVerdict, CentersViolation, CurveVerdict, CurveViolation, EllipsoidVerdict,
-    InscribedVerdict, MeshViolation, RobustVerdict, TriangulationVerdict,
+    InscribedVerdict, MeshViolation, RobustVerdict, SurfaceVerdict, SurfaceViolation,
+    TriangulationVerdict,
 };
 
 /// What was proved of an answer of any kind.
@@ -22,6 +23,8 @@ pub enum AnyVerdict {
     Centers(CentersVerdict),
     /// Of curves.
     Curve(CurveVerdict),
+    /// Of a surface.
+    Surface(SurfaceVerdict),
     /// Of a Delaunay triangulation.
     Triangulation(TriangulationVerdict),
 }
@@ -372,6 +375,9 @@ pub enum Violation {
     /// Something is wrong with a curve.
     #[error(transparent)]
     Curve(#[from] CurveViolation),
+    /// Something is wrong with a surface.
+    #[error(transparent)]
+    Surface(#[from] SurfaceViolation),
     /// Something is wrong with a triangulation.
     #[error(transparent)]
     Mesh(#[from] MeshViolation),
@@ -407,6 +413,12 @@ impl From<CentersViolation> for CheckError {
 
 impl From<CurveViolation> for CheckError {
     fn from(violation: CurveViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
+}
+
+impl From<SurfaceViolation> for CheckError {
+    fn from(violation: SurfaceViolation) -> Self {
         CheckError::Rejected(violation.into())
     }
 }

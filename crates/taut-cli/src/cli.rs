@@ -5,7 +5,7 @@ use clap::{Parser, Subcommand};
 use crate::exit::Outcome;
 use crate::{
     ball, centers, completions, curve, delaunay, draw, ellipsoid, formats, generate, inscribe, man,
-    tour, verify,
+    surface, tour, verify,
 };
 
 /// Tight shapes around, through and inside point sets, with proof.
@@ -28,6 +28,7 @@ enum Command {
     Centers(centers::Args),
     Delaunay(delaunay::Args),
     Curve(curve::Args),
+    Surface(surface::Args),
     Inscribe(inscribe::Args),
     Verify(verify::Args),
     Draw(draw::Args),
@@ -46,6 +47,7 @@ impl Cli {
             Command::Centers(args) => args.run(),
             Command::Delaunay(args) => args.run(),
             Command::Curve(args) => args.run(),
+            Command::Surface(args) => args.run(),
             Command::Inscribe(args) => args.run(),
             Command::Verify(args) => args.run(),
             Command::Draw(args) => args.run(),

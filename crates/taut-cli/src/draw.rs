@@ -55,6 +55,7 @@ impl Args {
             AnySolution::Robust(found) => self.drawing(found, &points, &watch)?,
             AnySolution::Centers(found) => self.drawing(found, &points, &watch)?,
             AnySolution::Curve(found) => self.drawing(found, &points, &watch)?,
+            AnySolution::Surface(found) => self.drawing(found, &points, &watch)?,
             AnySolution::Triangulation(found) => self.drawing(found, &points, &watch)?,
         };
         match drawing {

@@ -1,6 +1,6 @@
 //! `taut formats`: what can be read and written.
 
-use taut_io::{Compression, Format, MeshFormat, PolylineFormat};
+use taut_io::{Compression, Format, MeshFormat, PolylineFormat, ShapeFormat};
 
 use crate::exit::Outcome;
 use crate::writing;
@@ -54,6 +54,10 @@ fn table() -> String {
     }
     text += "\nCurves alone, compressed likewise:\n";
     for format in PolylineFormat::ALL {
+        text += &format!("{:<9}{}\n", format.name(), format.description());
+    }
+    text += "\nSurfaces alone, compressed likewise:\n";
+    for format in ShapeFormat::ALL.into_iter().filter(|format| format.can_write()) {
         text += &format!("{:<9}{}\n", format.name(), format.description());
     }
     text += "\nAnswers are written as json, pictures as svg, png and html.\n";

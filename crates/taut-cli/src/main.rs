@@ -35,6 +35,8 @@ mod report;
 mod robust;
 mod robust_report;
 mod size;
+mod surface;
+mod surface_report;
 mod tour;
 mod triangulation;
 mod verify;

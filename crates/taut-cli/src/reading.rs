@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::certify::{CentersViolation, CurveViolation, MeshViolation};
+use taut::certify::{CentersViolation, CurveViolation, MeshViolation, SurfaceViolation};
 use taut::delaunay::Error as DelaunayError;
 use taut::enclose::Error as SolveError;
 use taut::points::{ReadError, ScalarKind};
@@ -240,6 +240,18 @@ impl Opened {
         }
     }
 
+    pub(crate) fn explain_surface(&self, error: CurveError) -> anyhow::Error {
+        match error {
+            CurveError::SpaceDimension { dim } => anyhow!(
+                "{}: points have {dim} coordinate{}: expected 3, as surfaces are sought in space; choose them with \
+                 --columns",
+                self.name(),
+                if dim == 1 { "" } else { "s" }
+            ),
+            other => self.explain_curve(other),
+        }
+    }
+
     /// A coordinate that is NaN or infinite.
     pub(crate) fn not_finite(&self, row: u64, column: usize, value: f64) -> anyhow::Error {
         anyhow!(
@@ -283,6 +295,16 @@ impl Opened {
                 let (from, to) = (format!("row {row}"), format!("point {row} (row {place})"));
                 format!("{points}: {}", violation.to_string().replacen(&from, &to, 1))
             }
+            Violation::Surface(
+                SurfaceViolation::Missing { row }
+                | SurfaceViolation::MissingDuplicate { row, .. }
+                | SurfaceViolation::Interior { row, .. }
+                | SurfaceViolation::Ball { row, .. },
+            ) => {
+                let place = self.input.describe_cell(u64::from(row), 0).row;
+                let (from, to) = (format!("row {row}"), format!("point {row} (row {place})"));
+                format!("{points}: {}", violation.to_string().replacen(&from, &to, 1))
+            }
             Violation::OutsideHalfSpace { row, .. } => {
                 let (side, place) =
                     (format!("half-space {row}"), self.input.describe_cell(row, 0).row);
@@ -298,6 +320,7 @@ impl Opened {
                 CentersViolation::Dimension { .. } | CentersViolation::NoWeight { .. },
             )
             | Violation::Curve(CurveViolation::Plane { .. })
+            | Violation::Surface(SurfaceViolation::Space { .. })
             | Violation::Mesh(MeshViolation::Dimension { .. } | MeshViolation::Id { .. }) => {
                 format!("{points} does not belong to {answer}: {violation}")
             }

@@ -11,9 +11,10 @@ use anyhow::{anyhow, bail};
 use taut::certify::{CentersViolation, NO_NEIGHBOR};
 use taut::{
     Answer, BallOptions, CentersOptions, CurveOptions, DelaunayOptions, Ellipsoid,
-    EllipsoidOptions, InscribedOptions, Items, RobustOptions, Solution, Triangulation, Violation,
-    ball_of_source, centers_of_source, curve_of_source, delaunay_of_source, ellipsoid_of_source,
-    inscribed_ellipsoid_of_source, robust_ellipsoid_of_source,
+    EllipsoidOptions, InscribedOptions, Items, RobustOptions, Solution, SurfaceOptions,
+    Triangulation, Violation, ball_of_source, centers_of_source, curve_of_source,
+    delaunay_of_source, ellipsoid_of_source, inscribed_ellipsoid_of_source,
+    robust_ellipsoid_of_source, surface_of_source,
 };
 use taut_draw::{Fact, Page, Section, to_html};
 
@@ -23,6 +24,7 @@ use crate::numbers::{count, exact, gap, seconds, short};
 use crate::picture::{Look, telling};
 use crate::reading::Opened;
 use crate::report::{Report, Tell};
+use crate::surface_report::surface_of;
 use crate::verify::judge;
 use crate::watch::Watch;
 use crate::writing::{self, Outputs};
@@ -127,6 +129,7 @@ fn visit(station: &Station, watch: &Watch) -> anyhow::Result<Stop> {
         Tool::Centers(k) => centers(station, k, &points, watch),
         Tool::Delaunay => triangulation(station, &points, watch),
         Tool::Curve => curves(station, &points, watch),
+        Tool::Surface => surfaces(station, &points, watch),
     }
 }
 
@@ -282,6 +285,22 @@ fn curves(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result<S
     })
 }
 
+fn surfaces(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result<Stop> {
+    let options = SurfaceOptions::default();
+    let found = watch
+        .during("solving", |monitor| surface_of_source(points.source(), &options, monitor))
+        .map_err(|error| points.explain_surface(error))?;
+    let doctor = || {
+        let mut doctored = found.clone();
+        doctored.answer.triangles.iter_mut().take(1).for_each(|triangle| triangle.swap(0, 1));
+        doctored
+    };
+    told(station, &found, points, watch, ("a triangle turned over", &doctor), |_| {
+        let triangles = count(found.answer.triangles.len() as u64);
+        format!("{triangles} triangles: {}", surface_of(&found))
+    })
+}
+
 /// The triangulation with the other diagonal in the first two triangles that share an edge.
 fn with_an_edge_turned(found: &Solution<Triangulation>) -> Solution<Triangulation> {
     let mut doctored = found.clone();
@@ -366,7 +385,7 @@ fn page(sections: Vec<Section>) -> String {
                 Verified means: a checker that shares no code with the solver read the points again and proved the \
                 answer from its certificate: every point is inside and no smaller shape of its kind, and no eight smaller \
                 discs, could hold them all, or none larger could fit; the triangles are those of Delaunay and there are no others; the curves meet nowhere and no point but the outliers \
-                leaves their band. Of \
+                leaves their band; the surface has the parts and handles that are told and meets itself nowhere. Of \
                 outliers it proves all but that no other half of the points lies closer together."
             .to_owned(),
         sections,

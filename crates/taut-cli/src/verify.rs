@@ -20,6 +20,7 @@ use crate::numbers::{count, exact, gap};
 use crate::reading::{Opened, Points, Reading};
 use crate::report::{self, Fact};
 use crate::robust_report::proved_of_robust;
+use crate::surface_report::{proved_of_surface, surface_of};
 use crate::triangulation::proved;
 use crate::watch::Watch;
 use crate::writing;
@@ -104,6 +105,10 @@ impl Args {
                     Some(gap) => within(gap, what, facts),
                     None => (Outcome::Done, report::text(&format!("Verified: {what}"), &facts)),
                 }
+            }),
+            AnySolution::Surface(found) => judge(found, &points, &watch)?.map(|verdict| {
+                let title = format!("Verified: {}", surface_of(found));
+                (Outcome::Done, report::text(&title, &proved_of_surface(&verdict)))
             }),
             AnySolution::Triangulation(found) => judge(found, &points, &watch)?.map(|verdict| {
                 let title = triangulation(points.source().dim());

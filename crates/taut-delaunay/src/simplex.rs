@@ -64,6 +64,14 @@ impl<const V: usize> Slots<V> {
         self.len() == 0
     }
 
+    /// All slots in one array, which numbers them as before.
+    pub(crate) fn into_array(mut self) -> Vec<Simplex<V>> {
+        match self.parts.len() {
+            1 => self.parts.swap_remove(0),
+            _ => self.parts.concat(),
+        }
+    }
+
     /// All slots in order.
     pub fn iter(&self) -> impl Iterator<Item = &Simplex<V>> {
         self.parts.iter().flatten()

@@ -8,7 +8,7 @@ use crate::flat::star_of_apex;
 use crate::kernel::{Counters, Kernel, Settings};
 use crate::plane::constrained::{Constrained, ConstraintError, Segment, constrain};
 use crate::rounds::insert_all;
-use crate::simplex::{GHOST, Slots, decode};
+use crate::simplex::{GHOST, Simplex, Slots, decode};
 use crate::sites::{Scale, Sites};
 use crate::{DelaunayOptions, Error};
 
@@ -288,6 +288,11 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
     /// no simplex: [`simplices`](Self::simplices) and [`ghosts`](Self::ghosts) tell which do.
     pub fn slots(&self) -> &Slots<V> {
         &self.slots
+    }
+
+    /// The [`slots`](Self::slots) alone, in one array in which neighbours are found by their numbers. All else is given back.
+    pub fn into_slots(self) -> Vec<Simplex<V>> {
+        self.slots.into_array()
     }
 
     /// The numbers of the finite simplices; none if the sites do not span all dimensions.

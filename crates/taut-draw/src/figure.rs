@@ -1,6 +1,6 @@
-//! The three kinds of picture, so that renderers are written once.
+//! The kinds of picture, so that renderers are written once.
 
-use crate::{Plot, Scene2, Scene3};
+use crate::{Plot, Scene2, Scene3, Views};
 
 /// A picture as data; [`to_svg`](crate::to_svg) and its siblings draw it.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,6 +9,8 @@ pub enum Figure {
     Plane(Scene2),
     /// Space: a fixed view in SVG and PNG, to be turned by hand in HTML.
     Space(Scene3),
+    /// Space from several fixed directions, for paper.
+    Views(Views),
     /// A line chart or histogram.
     Plot(Plot),
 }
@@ -19,6 +21,7 @@ impl Figure {
         match self {
             Figure::Plane(scene) => &scene.title,
             Figure::Space(scene) => &scene.title,
+            Figure::Views(views) => &views.scene.title,
             Figure::Plot(plot) => &plot.title,
         }
     }
@@ -28,6 +31,7 @@ impl Figure {
         match self {
             Figure::Plane(scene) => &scene.caption,
             Figure::Space(scene) => &scene.caption,
+            Figure::Views(views) => &views.scene.caption,
             Figure::Plot(plot) => &plot.caption,
         }
     }

@@ -10,6 +10,7 @@
 //! | an ellipsoid in a polytope, and its half-spaces | [`inscribed_figures`] | scenes of the plane or of space, cuts through the centre, and plots |
 //! | a triangulation and its points | [`delaunay_figures`] | scenes of the plane or of space, and the Voronoi diagram |
 //! | curves and their points | [`curve_figures`] | scenes of the plane, with the band of noise, outliers and ends |
+//! | a surface and its points, or bare triangles | [`surface_figures`], [`surface_scene`] | a scene to turn, with fronts, backs, boundary and unused points, and fixed views |
 //! | a [`Figure`] | [`to_svg`] | SVG text, with a title and a description for screen readers |
 //! | a [`Figure`] | `to_png` (feature `png`) | PNG bytes, the same on every machine: the font is bundled |
 //! | a [`Page`] of figures | [`to_html`] | one file: no network, no library; light, dark and print |
@@ -29,11 +30,12 @@
 //! ```
 //!
 //! Not for: maps, animation, or charts in general; pictures of millions of points (they are thinned, and the
-//! caption says so).
+//! caption says so; triangles never are).
 #![forbid(unsafe_code)]
 
 mod axes;
 mod ball;
+mod base64;
 mod centers;
 mod curve;
 mod delaunay;
@@ -50,9 +52,11 @@ mod plot;
 #[cfg(feature = "png")]
 mod png;
 mod project;
+mod raster;
 mod scene2;
 mod scene3;
 mod style;
+mod surface;
 mod survey;
 mod svg;
 mod text;
@@ -71,6 +75,9 @@ pub use plot::{Bar, Level, Plot, Scale, Series, SeriesLook};
 #[cfg(feature = "png")]
 pub use png::to_png;
 pub use scene2::{Aspect, Axis, Circle2, Layer2, Point2, Scene2, Shape2, Text2};
-pub use scene3::{Layer3, Mesh3, Point3, Projection, Scene3, Shape3, Sphere3};
+pub use scene3::{
+    Layer3, Mesh3, Point3, Projection, Scene3, Shading, Shape3, Sphere3, Surface3, View, Views,
+};
 pub use style::{Look, Style, Theme, Tone};
+pub use surface::{SurfaceView, UnusedPoints, surface_figures, surface_scene};
 pub use svg::to_svg;

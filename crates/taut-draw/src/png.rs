@@ -1,5 +1,7 @@
 //! Figures as PNG, through their SVG.
 //!
+//! *Idea.* The renderer has no decoders of images, which are most of what such a renderer is built from: images of surfaces are
+//! laid, pixel on pixel, between a document under them and one over them.
 //! *Guarantee.* The same figure gives the same bytes on every machine: the only fonts are two faces of Inter that
 //! are part of this crate (`assets/`, under the SIL Open Font License); no font of the system is read.
 //! *Trap.* The faces hold Latin, Greek and mathematical signs; letters of other scripts show as empty boxes.
@@ -8,7 +10,8 @@ use std::sync::{Arc, OnceLock};
 
 use resvg::usvg::{self, fontdb};
 
-use crate::{Error, Figure, Style, to_svg};
+use crate::svg::{Laid, layers};
+use crate::{Error, Figure, Style};
 
 /// Largest number of pixels of a picture: about 256 MiB while it is drawn.
 const MAX_PIXELS: f64 = 67_108_864.0;
@@ -28,9 +31,11 @@ pub fn to_png(figure: &Figure, style: &Style, scale: f32) -> Result<Vec<u8>, Err
     let wrong = |reason: String| Error::Png { reason };
     let options =
         usvg::Options { font_family: "Inter".into(), fontdb: fonts(), ..usvg::Options::default() };
+    let layers = layers(figure, style, f64::from(scale));
     let tree =
-        usvg::Tree::from_str(&to_svg(figure, style), &options).map_err(|e| wrong(e.to_string()))?;
-    let [width, height] = [tree.size().width(), tree.size().height()].map(|s| (s * scale).ceil());
+        |document: &str| usvg::Tree::from_str(document, &options).map_err(|e| wrong(e.to_string()));
+    let (under, over) = (tree(&layers.under)?, tree(&layers.over)?);
+    let [width, height] = [under.size().width(), under.size().height()].map(|s| (s * scale).ceil());
     if f64::from(width) * f64::from(height) > MAX_PIXELS {
         return Err(wrong(format!(
             "{width} × {height} pixels are more than 67,108,864; ask for a smaller scale"
@@ -38,8 +43,37 @@ pub fn to_png(figure: &Figure, style: &Style, scale: f32) -> Result<Vec<u8>, Err
     }
     let mut pixels = tiny_skia::Pixmap::new(width as u32, height as u32)
         .ok_or_else(|| wrong(format!("{width} × {height} pixels cannot be held")))?;
-    resvg::render(&tree, tiny_skia::Transform::from_scale(scale, scale), &mut pixels.as_mut());
+    let zoom = tiny_skia::Transform::from_scale(scale, scale);
+    resvg::render(&under, zoom, &mut pixels.as_mut());
+    for laid in &layers.images {
+        lay(laid, zoom, &mut pixels).ok_or_else(|| wrong("an image has no pixels".into()))?;
+    }
+    resvg::render(&over, zoom, &mut pixels.as_mut());
     pixels.encode_png().map_err(|e| wrong(e.to_string()))
+}
+
+/// Draws an image in its place.
+fn lay(laid: &Laid, zoom: tiny_skia::Transform, onto: &mut tiny_skia::Pixmap) -> Option<()> {
+    let (width, height) = (laid.image.width, laid.image.height);
+    let mut pixels = tiny_skia::Pixmap::new(width as u32, height as u32)?;
+    for (pixel, &[r, g, b, a]) in pixels.pixels_mut().iter_mut().zip(&laid.image.pixels) {
+        *pixel = tiny_skia::ColorU8::from_rgba(r, g, b, a).premultiply();
+    }
+    let [sx, sy] = [laid.size[0] / width as f64, laid.size[1] / height as f64];
+    let place = tiny_skia::Transform::from_row(
+        sx as f32,
+        0.0,
+        0.0,
+        sy as f32,
+        laid.at[0] as f32,
+        laid.at[1] as f32,
+    );
+    let paint = tiny_skia::PixmapPaint {
+        quality: tiny_skia::FilterQuality::Bilinear,
+        ..tiny_skia::PixmapPaint::default()
+    };
+    onto.draw_pixmap(0, 0, pixels.as_ref(), &paint, place.post_concat(zoom), None);
+    Some(())
 }
 
 fn fonts() -> Arc<fontdb::Database> {

@@ -61,8 +61,10 @@ pub enum Shape3 {
     Spheres(Vec<Sphere3>),
     /// Open chains of segments.
     Polylines(Vec<Vec<[f64; 3]>>),
-    /// A surface of triangles.
+    /// A translucent surface of triangles.
     Mesh(Mesh3),
+    /// An opaque surface of triangles: what is behind it is hidden, or pale where it is a line or a point.
+    Surface(Surface3),
 }
 
 /// A point as a disc.
@@ -96,4 +98,48 @@ pub struct Mesh3 {
     pub vertices: Vec<[f64; 3]>,
     /// Three corners each, counter-clockwise from outside. A triangle that names a missing corner is not drawn.
     pub triangles: Vec<[usize; 3]>,
+}
+
+/// An opaque surface of triangles with two sides of different tints; the tone of the layer is that of the front.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface3 {
+    /// The corners.
+    pub vertices: Vec<[f64; 3]>,
+    /// Three corners each, counter-clockwise from the front. A triangle that names a missing corner, or one that is not finite, is
+    /// not drawn.
+    pub triangles: Vec<[u32; 3]>,
+    /// The tone of the side from which triangles run clockwise.
+    pub back: Tone,
+    /// How light falls on it.
+    pub shading: Shading,
+}
+
+/// How light falls on a surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Shading {
+    /// Each triangle has one shade, so that triangles can be told apart. In SVG few of them are polygons.
+    #[default]
+    Flat,
+    /// Shades flow over edges, except over sharp ones. In SVG the surface is an image.
+    Smooth,
+}
+
+/// One scene seen from several fixed directions, panel by panel; azimuth and elevation of the scene itself are not used.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Views {
+    /// What is seen; its width and height are those of all panels together.
+    pub scene: Scene3,
+    /// From where, in reading order.
+    pub views: Vec<View>,
+}
+
+/// A direction from which a scene is seen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct View {
+    /// What to call it; stands above the panel.
+    pub name: String,
+    /// Turn of the view around the third axis, degrees.
+    pub azimuth: f64,
+    /// Height of the eye above the plane of the first two axes, degrees, −90 to 90.
+    pub elevation: f64,
 }

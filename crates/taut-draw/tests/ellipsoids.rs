@@ -110,7 +110,7 @@ fn each_dimension_has_its_figures() {
             .map(|figure| match figure {
                 Figure::Plane(_) => 'P',
                 Figure::Space(_) => 'S',
-                Figure::Plot(_) => '.',
+                Figure::Plot(_) | Figure::Views(_) => '.',
             })
             .collect();
         assert_eq!(kinds, wanted, "d = {dim}");

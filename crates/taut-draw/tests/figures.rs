@@ -157,7 +157,7 @@ fn each_dimension_has_its_figures() {
             .map(|f| match f {
                 Figure::Plane(_) => 'P',
                 Figure::Space(_) => 'S',
-                Figure::Plot(_) => '.',
+                Figure::Plot(_) | Figure::Views(_) => '.',
             })
             .collect();
         assert_eq!(kinds, wanted, "d = {dim}");
@@ -212,7 +212,7 @@ fn thinning_keeps_the_support_and_says_how_many() {
                 };
                 [marks(taut_draw::Tone::Point), marks(taut_draw::Tone::Support)]
             }
-            Figure::Plot(_) => panic!(),
+            Figure::Plot(_) | Figure::Views(_) => panic!(),
         };
         assert_eq!(drawn, [298, 2], "d = {dim}");
     }

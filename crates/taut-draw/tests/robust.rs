@@ -167,7 +167,7 @@ fn every_dimension_has_its_picture() {
                     let Shape3::Points(points) = &layer.unwrap().shape else { panic!("no points") };
                     assert_eq!(points.len(), 3);
                 }
-                Figure::Plot(_) => panic!("a plot first"),
+                Figure::Plot(_) | Figure::Views(_) => panic!("a plot first"),
             }
             assert!(matches!(figures.last(), Some(Figure::Plot(_))));
         }

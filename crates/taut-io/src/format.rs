@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-use crate::Error;
+use crate::{Error, ShapeFormat};
 
 /// A file format of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -25,13 +25,21 @@ pub enum Format {
     Tsplib,
     /// Three coordinates per line, with or without element symbols and a count line.
     Xyz,
+    /// The vertices of a Stanford PLY file.
+    Ply,
+    /// The vertices of a Wavefront OBJ file.
+    Obj,
+    /// The vertices of an Object File Format file.
+    Off,
+    /// The corners of a stereolithography file, equal ones once.
+    Stl,
     /// Little-endian values without a header.
     Raw,
 }
 
 impl Format {
     /// Every format.
-    pub const ALL: [Format; 9] = [
+    pub const ALL: [Format; 13] = [
         Format::Csv,
         Format::Tsv,
         Format::Whitespace,
@@ -40,6 +48,10 @@ impl Format {
         Format::Arrow,
         Format::Tsplib,
         Format::Xyz,
+        Format::Ply,
+        Format::Obj,
+        Format::Off,
+        Format::Stl,
         Format::Raw,
     ];
 
@@ -54,6 +66,10 @@ impl Format {
             Format::Arrow => "arrow",
             Format::Tsplib => "tsplib",
             Format::Xyz => "xyz",
+            Format::Ply => "ply",
+            Format::Obj => "obj",
+            Format::Off => "off",
+            Format::Stl => "stl",
             Format::Raw => "raw",
         }
     }
@@ -69,6 +85,10 @@ impl Format {
             Format::Arrow => &["arrow", "arrows", "feather", "ipc"],
             Format::Tsplib => &["tsp"],
             Format::Xyz => &["xyz", "pts"],
+            Format::Ply => &["ply"],
+            Format::Obj => &["obj"],
+            Format::Off => &["off"],
+            Format::Stl => &["stl"],
             Format::Raw => &["raw", "bin", "f32", "f64"],
         }
     }
@@ -88,6 +108,10 @@ impl Format {
             Format::Xyz => {
                 "x y z per line, optional element symbol, optional count and comment lines"
             }
+            Format::Ply => "Stanford PLY, text or binary: its vertices",
+            Format::Obj => "Wavefront OBJ, text: its vertices",
+            Format::Off => "Object File Format, text: its vertices",
+            Format::Stl => "stereolithography, text or binary: its corners, equal ones once",
             Format::Raw => "little-endian f32 or f64 without a header; needs dimension and type",
         }
     }
@@ -99,7 +123,19 @@ impl Format {
 
     /// Whether [`write_points`](crate::write_points) writes it in this build.
     pub fn can_write(self) -> bool {
-        self != Format::Tsplib && self.can_read()
+        let shape = self.shape().is_some();
+        !shape && self != Format::Tsplib && self.can_read()
+    }
+
+    /// Of a format of shapes, which.
+    pub(crate) fn shape(self) -> Option<ShapeFormat> {
+        match self {
+            Format::Ply => Some(ShapeFormat::Ply),
+            Format::Obj => Some(ShapeFormat::Obj),
+            Format::Off => Some(ShapeFormat::Off),
+            Format::Stl => Some(ShapeFormat::Stl),
+            _ => None,
+        }
     }
 
     /// The format and compression that the name of a file tells: `points.csv.gz` is CSV and gzip.

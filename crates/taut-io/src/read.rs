@@ -14,6 +14,7 @@ mod parquet;
 pub(crate) mod quiet;
 mod raw;
 mod rows;
+mod shapes;
 mod tsplib;
 mod xyz;
 
@@ -28,7 +29,7 @@ use std::path::Path;
 use taut_points::{FileSource, MappedSource, PointSource, ScalarKind};
 
 use crate::input::{Job, Medium};
-use crate::{Error, Format};
+use crate::{Error, Format, ShapeFormat};
 
 /// Points, and what the file says of them.
 pub(crate) struct Decoded {
@@ -41,8 +42,14 @@ pub(crate) struct Decoded {
 
 /// The format whose files begin with these bytes.
 pub(crate) fn format_of_magic(bytes: &[u8]) -> Option<Format> {
-    const MAGIC: [(&[u8], Format); 3] =
-        [(npy::MAGIC, Format::Npy), (b"PAR1", Format::Parquet), (b"ARROW1", Format::Arrow)];
+    const MAGIC: [(&[u8], Format); 6] = [
+        (npy::MAGIC, Format::Npy),
+        (b"PAR1", Format::Parquet),
+        (b"ARROW1", Format::Arrow),
+        (b"ply\n", Format::Ply),
+        (b"ply\r\n", Format::Ply),
+        (b"OFF", Format::Off),
+    ];
     if let Some((_, format)) = MAGIC.into_iter().find(|(magic, _)| bytes.starts_with(magic)) {
         return Some(format);
     }
@@ -56,6 +63,10 @@ pub(crate) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
         Format::Csv | Format::Tsv | Format::Whitespace => delimited::read(job, medium.stream()),
         Format::Tsplib => tsplib::read(job, medium.stream()),
         Format::Xyz => xyz::read(job, medium.stream()),
+        Format::Ply => shapes::read(job, medium, ShapeFormat::Ply),
+        Format::Obj => shapes::read(job, medium, ShapeFormat::Obj),
+        Format::Off => shapes::read(job, medium, ShapeFormat::Off),
+        Format::Stl => shapes::read(job, medium, ShapeFormat::Stl),
         Format::Npy => read_npy(job, medium),
         Format::Raw => read_raw(job, medium),
         #[cfg(feature = "arrow")]

@@ -27,6 +27,7 @@ mod xyz;
 use taut_mesh::TriangleMesh;
 
 pub use format::ShapeFormat;
+pub(crate) use reading::read_stream;
 pub use reading::{open_shape, open_shape_bytes};
 pub use writing::{Encoding, ShapeOptions, shape_file, write_shape};
 

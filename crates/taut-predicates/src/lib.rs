@@ -6,6 +6,7 @@
 //! | inside the circle, the sphere | [`plane::in_circle`], [`space::in_sphere`] | [`Sign`] |
 //! | the same, never undecided | [`plane::conflict`], [`space::conflict`] | `bool` |
 //! | inside the smallest ball of an edge, a facet | [`plane::in_diametral_circle`], [`space::in_equatorial_sphere`] | [`Sign`] |
+//! | how large the smallest sphere of a facet, or that of a simplex, is beside a given one | [`space::equatorial_radius`], [`space::sphere_radius`] | [`Sign`] |
 //! | where a circumcentre lies | [`plane::circumcenter_side`], [`plane::circumcenter_nearer`] | [`Sign`] |
 //!
 //! ```

@@ -5,6 +5,7 @@ mod circumcenter;
 pub(crate) mod exact;
 mod filter;
 mod polynomials;
+mod radii;
 
 use std::cmp::Ordering;
 
@@ -16,6 +17,7 @@ pub use balls::{in_diametral_sphere, in_equatorial_sphere, shrunk_sphere};
 pub use circumcenter::{circumcenter_nearer, circumcenter_side};
 pub use exact::{conflict_exact, in_sphere_exact, orient_exact};
 pub use filter::{IN_SPHERE_ERROR, ORIENT_ERROR, TINY, in_sphere_filter, orient_filter};
+pub use radii::{equatorial_radius, sphere_radius};
 
 /// A point of space.
 pub type Point = [f64; 3];

@@ -8,6 +8,7 @@ mod cases;
 mod errors;
 mod oracle;
 mod plane;
+mod radii;
 mod space;
 
 /// Splitmix64: Steele, Lea & Flood, Fast splittable pseudorandom number generators, OOPSLA 2014.

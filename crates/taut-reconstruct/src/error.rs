@@ -2,7 +2,7 @@
 
 use taut_points::{Cancelled, ReadError};
 
-/// Why there is no curve.
+/// Why there is no curve or surface.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -11,6 +11,20 @@ pub enum Error {
     Dimension {
         /// Coordinates of a point.
         dim: usize,
+    },
+    /// Points are not of space.
+    #[error("points have {dim} coordinates: surfaces are sought in space, which has 3")]
+    SpaceDimension {
+        /// Coordinates of a point.
+        dim: usize,
+    },
+    /// The points have no volume, so there is no surface around it.
+    #[error("the {points} points {span}: a surface needs four that are on no common plane")]
+    Flat {
+        /// How many there are.
+        points: u64,
+        /// What they have instead.
+        span: Span,
     },
     /// A coordinate is NaN or infinite.
     #[error("coordinate {column} of point {row} is {value}: all coordinates must be finite")]
@@ -49,4 +63,28 @@ pub enum Error {
     /// The caller asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+/// What points without a volume are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Span {
+    /// There is none.
+    Nothing,
+    /// All are equal.
+    Point,
+    /// They are on one line.
+    Line,
+    /// They are on one plane.
+    Plane,
+}
+
+impl std::fmt::Display for Span {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Nothing => "are none",
+            Self::Point => "are all equal",
+            Self::Line => "are on one line",
+            Self::Plane => "are on one plane",
+        })
+    }
 }

@@ -113,8 +113,9 @@ pub use taut_certify::{
     CurveCertificate, CurveComponent, CurveDoubt, CurveVerdict, EllipseSupport, Ellipsoid,
     EllipsoidCertificate, EllipsoidVerdict, InscribedCertificate, InscribedEllipsoid,
     InscribedVerdict, Items, LowerBound, Placement, RobustCertificate, RobustEllipsoid,
-    RobustMethod, RobustVerdict, Solution, Trace, Triangulation, TriangulationCertificate, Verdict,
-    Violation, ellipse_support,
+    RobustMethod, RobustVerdict, Solution, Surface, SurfaceCertificate, SurfaceComponent,
+    SurfaceDoubt, SurfaceTopology, SurfaceVerdict, Trace, Triangulation, TriangulationCertificate,
+    Verdict, Violation, ellipse_support,
 };
 pub use taut_delaunay as delaunay;
 pub use taut_delaunay::{
@@ -135,7 +136,10 @@ pub use taut_points as points;
 pub use taut_points::{Distribution, Monitor, PointSource, Points, generate};
 
 pub use taut_reconstruct as reconstruct;
-pub use taut_reconstruct::{CurveMethod, CurveOptions, Ends, curve, curve_of_source};
+pub use taut_reconstruct::{
+    CurveMethod, CurveOptions, Denoise, Ends, Positions, SurfaceMethod, SurfaceMode,
+    SurfaceOptions, curve, curve_of_source, looks_one_sided, surface, surface_of_source,
+};
 
 /// The Rust in the pages for people, compiled and run with the tests.
 #[cfg(doctest)]
@@ -154,4 +158,6 @@ mod pages {
     struct Ellipsoid;
     #[doc = include_str!("../../../docs/robust.md")]
     struct Robust;
+    #[doc = include_str!("../../../docs/surface.md")]
+    struct Surface;
 }

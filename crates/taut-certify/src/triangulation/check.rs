@@ -64,7 +64,6 @@ mod sites;
 
 use taut_points::{Monitor, PointSource, Scratch};
 
-use self::input::Input;
 use self::prove::Claim;
 use super::{
     MeshViolation, Triangulation, TriangulationCertificate, TriangulationCounts,
@@ -72,6 +71,9 @@ use super::{
 };
 use crate::{CheckError, Violation};
 
+pub(crate) use self::geometry::{Gabriel, Geometry, Lifted, Tetrahedra, cross};
+pub(crate) use self::input::{Input, turn};
+pub(crate) use self::signs::{Signs, UNDERFLOW};
 pub use plain::check_simplices;
 
 pub(super) fn check(

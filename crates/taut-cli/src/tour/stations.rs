@@ -19,6 +19,8 @@ pub(super) enum Tool {
     Delaunay,
     /// The curves that points were sampled from.
     Curve,
+    /// The surface that points were sampled from.
+    Surface,
 }
 
 /// A sample, what is to be seen in it, and the command that shows the same.
@@ -180,6 +182,19 @@ pub(super) const STATIONS: &[Station] = &[
         bytes: include_bytes!("../../samples/loops.csv"),
         tool: Tool::Curve,
         command: "taut curve loops.csv --draw loops.html",
+        doctored: true,
+    },
+    Station {
+        heading: "Over the points: a surface",
+        text: "The knot a last time, and at last as what it is: a tube. All space is labelled as inside or outside by how the spheres \
+               of neighbouring tetrahedra meet, and the surface is the border between the two. One handle, no hole, every point used.\n\n\
+               The checker counts parts, handles and holes, makes sure by exact signs that no two triangles meet where they should \
+               not and that the ball of each triangle is empty, and finds out which side is outside. Shown the same surface with \
+               one triangle turned over, it names what is wrong.",
+        file: "knot.xyz",
+        bytes: include_bytes!("../../samples/knot.xyz"),
+        tool: Tool::Surface,
+        command: "taut surface knot.xyz -o knot.ply --draw knot-surface.html",
         doctored: true,
     },
 ];

@@ -15,6 +15,7 @@ mod pictures;
 mod places;
 mod robust;
 mod shapes;
+mod surface;
 mod threads;
 mod usps;
 mod verify;

@@ -68,7 +68,7 @@ fn the_tour_shows_and_verifies_every_tool() {
     let desk = Desk::new();
     let run = desk.taut("tour --samples samples").ends(0).says(&["verified yes", "tour.html"]);
     let stations = run.out.lines().filter(|line| line.contains(" verified yes ")).count();
-    assert_eq!(stations, 13, "{}", run.out);
+    assert_eq!(stations, 14, "{}", run.out);
     assert_eq!(desk.files(), ["samples", "tour.html"]);
     let page = desk.text("tour.html");
     for part in [
@@ -96,12 +96,13 @@ fn the_tour_shows_and_verifies_every_tool() {
         "Through the points",
         "Voronoi diagram of 432 points",
         "an edge turned",
+        "a triangle turned over",
     ] {
         assert!(page.contains(part), "no {part}");
     }
-    assert_eq!(page.matches("verified</th><td>yes</td>").count(), 13);
+    assert_eq!(page.matches("verified</th><td>yes</td>").count(), 14);
     // Each command of the page does what it says.
-    for tool in ["ball", "ellipsoid", "centers", "inscribe ellipsoid", "delaunay"] {
+    for tool in ["ball", "ellipsoid", "centers", "inscribe ellipsoid", "delaunay", "surface"] {
         for line in page.lines().filter_map(|line| line.split(&format!("taut {tool} ")).nth(1)) {
             let words = line.split('<').next().unwrap().trim();
             desk.taut(&format!("{tool} samples/{words} --quiet")).ends(0);

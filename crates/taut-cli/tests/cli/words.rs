@@ -2,12 +2,13 @@
 
 use crate::desk::Desk;
 
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 14] = [
     "ball",
     "ellipsoid",
     "centers",
     "delaunay",
     "curve",
+    "surface",
     "inscribe",
     "verify",
     "draw",

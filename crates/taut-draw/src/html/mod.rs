@@ -14,7 +14,7 @@ use crate::number::px;
 use crate::style::classes;
 use crate::svg::{Chrome, Hover, draw, legend};
 use crate::text::{escape, json};
-use crate::{Figure, Theme};
+use crate::{Figure, Theme, Views};
 
 /// A report: what [`to_html`] writes as one file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -76,7 +76,7 @@ pub fn to_html(page: &Page) -> String {
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta name=\"color-scheme\" content=\"light dark\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; \
-         script-src 'unsafe-inline'; font-src data:\">\n\
+         script-src 'unsafe-inline'; font-src data:; img-src data:\">\n\
          <title>{title}</title>\n<style>\n{}:root{{{light}}}\n\
          @media screen and (prefers-color-scheme: dark){{:root{{{dark}}}}}\n{}{}\n</style>\n</head>\n<body>\n\
          <header>\n<h1>{title}</h1>\n{}</header>\n<main>\n",
@@ -95,7 +95,7 @@ pub fn to_html(page: &Page) -> String {
     let _ = write!(
         out,
         "<div id=\"tip\" role=\"status\"></div>\n<script>\n{}</script>\n</body>\n</html>\n",
-        include_str!("viewer.js")
+        concat!(include_str!("raster.js"), include_str!("viewer.js"))
     );
     out
 }
@@ -124,7 +124,9 @@ fn section(out: &mut String, part: &Section) {
     out.push_str(&paragraphs(&part.text));
     let words = !part.facts.is_empty() || !part.command.is_empty();
     let (lead, rest) = match part.figures.split_first() {
-        Some((lead @ (Figure::Plane(_) | Figure::Space(_)), rest)) => (Some(lead), rest),
+        Some((lead @ (Figure::Plane(_) | Figure::Space(_) | Figure::Views(_)), rest)) => {
+            (Some(lead), rest)
+        }
         _ => (None, &part.figures[..]),
     };
     if words || lead.is_some() {
@@ -172,6 +174,10 @@ fn figure(out: &mut String, figure: &Figure, [width, height]: [f64; 2]) {
                 (width, (scene.height / scene.width * width).clamp(200.0, height));
         }
         Figure::Space(scene) => (scene.width, scene.height) = (width, height),
+        // Panels side by side and one above the other are as high as they are wide.
+        Figure::Views(Views { scene, .. }) => {
+            (scene.width, scene.height) = (width, 0.9 * width);
+        }
         Figure::Plot(plot) => (plot.width, plot.height) = (width, height.min(BESIDE[1])),
     }
     let (title, caption) = (escape(figure.title()), escape(figure.caption()));
@@ -193,6 +199,10 @@ fn figure(out: &mut String, figure: &Figure, [width, height]: [f64; 2]) {
             );
         }
         Figure::Plane(scene) => flat(out, &svg, &[&scene.x.name, &scene.y.name], &hovers),
+        Figure::Views(Views { scene, .. }) => {
+            let names = [&scene.axes[0].name, &scene.axes[1].name, &scene.axes[2].name];
+            flat(out, &svg, &names.map(String::as_str), &hovers);
+        }
         Figure::Plot(plot) => flat(out, &svg, &[&plot.x.name, &plot.y.name], &hovers),
     }
     let _ = writeln!(out, "<figcaption>{caption}</figcaption>\n</figure>");

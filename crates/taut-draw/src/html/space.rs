@@ -1,9 +1,10 @@
 //! A scene of space as the data of the page's viewer.
 
+use crate::base64::base64;
 use crate::number::short;
 use crate::svg::{EYE, Stage, WIRED, finite, stage};
 use crate::text::json;
-use crate::{Layer3, Look, Projection, Scene3, Shape3};
+use crate::{Layer3, Look, Projection, Scene3, Shading, Shape3};
 
 /// The scene as JSON: places in the unit ball of the view, words as they are to be shown.
 pub(super) fn data(scene: &Scene3) -> String {
@@ -97,6 +98,26 @@ fn layer(layer: &Layer3, stage: &Stage) -> String {
                 triangles.join(",")
             );
             "mesh"
+        }
+        Shape3::Surface(surface) => {
+            let drawable = |t: &&[u32; 3]| {
+                t.iter().all(|&i| surface.vertices.get(i as usize).is_some_and(finite))
+            };
+            let places = surface.vertices.iter().flat_map(|p| stage.place(p));
+            // A corner that is not finite is of no triangle; JSON and the viewer get a 0.
+            let places = places.map(|x| if x.is_finite() { x as f32 } else { 0.0 });
+            let vertices: Vec<u8> = places.flat_map(f32::to_le_bytes).collect();
+            let triangles: Vec<u8> = (surface.triangles.iter().filter(drawable))
+                .flat_map(|t| t.iter().flat_map(|i| i.to_le_bytes()))
+                .collect();
+            more = format!(
+                ",\"back\":\"{}\",\"smooth\":{},\"vertices\":\"{}\",\"triangles\":\"{}\"",
+                surface.back.name(),
+                surface.shading == Shading::Smooth,
+                base64(&vertices),
+                base64(&triangles)
+            );
+            "surface"
         }
     };
     format!(

@@ -56,7 +56,8 @@
   const view = (figure) => {
     const scene = data(figure), canvas = figure.querySelector("canvas"), pen = canvas.getContext("2d");
     const eye = scene.eye, perspective = scene.perspective, count = scene.layers.reduce((n, l) => n + l.marks.length, 0);
-    let azimuth = scene.azimuth, elevation = scene.elevation, zoom = 1, marks = [], queued = false;
+    let azimuth = scene.azimuth, elevation = scene.elevation, zoom = 1, marks = [], queued = false, moving = false, rest = 0;
+    const solids = scene.layers.filter((l) => l.kind === "surface").map(surfaces.decode), sheet = document.createElement("canvas");
 
     const draw = () => {
       queued = false;
@@ -120,29 +121,53 @@
         }
       }
 
+      // Surfaces are coarse while they move and finer than the screen at rest.
+      const fine = moving ? 1 : Math.min(2 * dpr, Math.sqrt(6e6 / (w * h))), reach = Math.ceil(fine * .75);
+      let seen = null;
+      if (solids.length) {
+        const [across, down] = [w, h].map((side) => Math.max(1, Math.round(side * fine)));
+        const camera = { frame, middle: [w / 2 * fine, h / 2 * fine], scale: scale * fine, eye: perspective ? eye : 0 };
+        seen = surfaces.draw(solids, camera, across, down, color);
+        sheet.width = across; sheet.height = down;
+        sheet.getContext("2d").putImageData(new ImageData(seen.paint(Math.ceil(fine / 2)), across, down), 0, 0);
+        pen.globalAlpha = 1; pen.imageSmoothingQuality = "high";
+        pen.drawImage(sheet, 0, 0, across / fine, down / fine);
+      }
+      const hidden = (v, at) => seen !== null && seen.hides(at[0] * fine, at[1] * fine, perspective ? grow(v[2]) : 1 + v[2] / eye, reach);
+
       const pieces = [];
       for (const layer of scene.layers) {
         if (layer.kind === "points" || layer.kind === "crosses") for (const m of layer.marks) {
           const v = turned(m.at), at = pixel(v);
-          pieces.push({ z: v[2], layer, at, size: m.size * grow(v[2]) * Math.sqrt(zoom) });
+          pieces.push({ z: v[2], layer, at, hidden: hidden(v, at), size: m.size * grow(v[2]) * Math.sqrt(zoom) });
           if (layer.kind === "points") marks.push({ at, id: m.id, words: m.words });
         }
         for (const chain of layer.chains || []) for (let i = 1; i < chain.length; i++) {
           const a = turned(chain[i - 1]), b = turned(chain[i]);
-          pieces.push({ z: (a[2] + b[2]) / 2, layer, chain: [pixel(a), pixel(b)] });
+          const ends = [pixel(a), pixel(b)];
+          const steps = seen ? Math.min(4000, Math.max(1, Math.ceil(Math.hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]) / 1.5))) : 1;
+          let begun = a, before = null;
+          for (let j = 0; j <= steps; j++) {
+            const v = along(a, along(b, a, -1), Math.min(1, (j + .5) / steps)), now = j < steps ? hidden(v, pixel(v)) : null;
+            if (before === null) before = now;
+            if (now === before) continue;
+            const end = j < steps ? along(a, along(b, a, -1), j / steps) : b;
+            pieces.push({ z: (begun[2] + end[2]) / 2, layer, hidden: before, chain: [pixel(begun), pixel(end)] });
+            begun = end; before = now;
+          }
         }
-        for (const t of layer.triangles || []) {
+        if (layer.kind === "mesh") for (const t of layer.triangles) {
           const [a, b, c] = t.map((i) => turned(layer.vertices[i])), n = cross(along(b, a, -1), along(c, a, -1)), size = Math.sqrt(dot(n, n));
           const light = size > 0 ? Math.abs(dot(n, [-.3, .5, .81])) / size : 0;
           pieces.push({ z: (a[2] + b[2] + c[2]) / 3, layer, face: [pixel(a), pixel(b), pixel(c)], light });
         }
       }
       pieces.sort((a, b) => a.z - b.z);
-      const many = count > 2000, inks = {}, ground = color("ground");
+      const many = count > 2000, rimless = seen !== null && count > 50, inks = {}, ground = color("ground");
       for (const p of pieces) {
         const tone = p.layer.tone, ink = inks[tone] || (inks[tone] = color(tone)), bulk = tone === "point";
         const low = bulk ? (many ? .12 : .25) : .6, high = bulk && many ? .6 : .95;
-        pen.globalAlpha = low + (high - low) * Math.min(1, Math.max(0, (p.z + 1) / 2));
+        pen.globalAlpha = p.hidden ? .2 : low + (high - low) * Math.min(1, Math.max(0, (p.z + 1) / 2));
         pen.fillStyle = pen.strokeStyle = ink;
         if (p.face) { pen.globalAlpha = .25 + .5 * p.light; path(p.face, true); pen.fill(); pen.lineWidth = .4; pen.stroke(); }
         else if (p.chain) { pen.lineWidth = p.layer.look === "thin" ? .8 : 2; pen.setLineDash(p.layer.look === "dashed" ? [6, 5] : []); path(p.chain, false); pen.stroke(); pen.setLineDash([]); }
@@ -152,7 +177,7 @@
           pen.stroke();
         } else {
           pen.beginPath(); pen.arc(p.at[0], p.at[1], p.size, 0, 2 * Math.PI); pen.fill();
-          if (!bulk) { pen.strokeStyle = ground; pen.lineWidth = 1.4; pen.stroke(); }
+          if (!bulk && !p.hidden && !rimless) { pen.strokeStyle = ground; pen.lineWidth = 1.4; pen.stroke(); }
         }
       }
 
@@ -165,10 +190,14 @@
       });
     };
     const redraw = () => { if (!queued) { queued = true; requestAnimationFrame(draw); } };
-    const rotate = (dx, dy) => {
-      azimuth = (azimuth - dx) % 360; elevation = Math.min(90, Math.max(-90, elevation + dy)); redraw();
+    const move = () => {
+      if (solids.length) { moving = true; clearTimeout(rest); rest = setTimeout(() => { moving = false; redraw(); }, 160); }
+      redraw();
     };
-    const enlarge = (factor) => { zoom = Math.min(20, Math.max(.3, zoom * factor)); redraw(); };
+    const rotate = (dx, dy) => {
+      azimuth = (azimuth - dx) % 360; elevation = Math.min(90, Math.max(-90, elevation + dy)); move();
+    };
+    const enlarge = (factor) => { zoom = Math.min(20, Math.max(.3, zoom * factor)); move(); };
 
     const held = new Map();
     canvas.addEventListener("pointerdown", (event) => {

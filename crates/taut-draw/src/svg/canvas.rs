@@ -3,20 +3,38 @@
 use std::fmt::Write as _;
 
 use super::{Chrome, Hover};
+use crate::base64::base64;
 use crate::number::px;
+use crate::raster::{Image, png};
 use crate::text::escape;
 use crate::{Look, Tone};
 
 /// Elements written so far.
-#[derive(Default)]
 pub(super) struct Canvas {
     body: String,
+    /// Pixels of images to each unit of the picture.
+    pub(super) density: f64,
+    /// Whether images are written into the body; else they are kept beside it, to be laid over what was written before the first.
+    pub(super) embeds: bool,
+    /// Images with their places.
+    pub(super) images: Vec<Laid>,
+    /// Length of the body before the first image.
+    cut: usize,
     /// Width and height of the document, pixels.
     pub(super) size: [f64; 2],
     /// Marks for the pointer.
     pub(super) hovers: Vec<Hover>,
     /// Whether marks carry titles of their own; a page shows their words itself.
     pub(super) titled: bool,
+}
+
+/// An image and where it lies.
+#[cfg_attr(not(feature = "png"), expect(dead_code, reason = "only PNG lays images itself"))]
+pub(crate) struct Laid {
+    pub(crate) image: Image,
+    /// Its upper left corner, and its width and height, in units of the picture.
+    pub(crate) at: [f64; 2],
+    pub(crate) size: [f64; 2],
 }
 
 /// Where a word stands relative to its place.
@@ -28,6 +46,19 @@ pub(super) enum Anchor {
 }
 
 impl Canvas {
+    pub(super) fn new(density: f64, embeds: bool) -> Self {
+        Canvas {
+            body: String::new(),
+            density,
+            embeds,
+            images: Vec::new(),
+            cut: 0,
+            size: [0.0; 2],
+            hovers: Vec::new(),
+            titled: false,
+        }
+    }
+
     /// Opens a group with classes and further attributes, which must be safe as they are.
     pub(super) fn open(&mut self, classes: &str, attributes: &str) {
         let space = if attributes.is_empty() { "" } else { " " };
@@ -111,6 +142,34 @@ impl Canvas {
         }
     }
 
+    /// A closed chain with a colour of its own.
+    pub(super) fn polygon(&mut self, places: &[[f64; 2]], [r, g, b]: [u8; 3]) {
+        let _ = write!(self.body, "<path fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"");
+        for (i, place) in places.iter().enumerate() {
+            let letter = if i == 0 { 'M' } else { 'L' };
+            let _ = write!(self.body, "{letter}{} {}", px(place[0]), px(place[1]));
+        }
+        self.body.push_str("Z\"/>");
+    }
+
+    /// An image of a size in units of the picture.
+    pub(super) fn image(&mut self, image: Image, at: [f64; 2], size: [f64; 2]) {
+        if self.embeds {
+            let [x, y, w, h] = [at[0], at[1], size[0], size[1]].map(px);
+            let _ = writeln!(
+                self.body,
+                "<image x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" preserveAspectRatio=\"none\" \
+                 href=\"data:image/png;base64,{}\"/>",
+                base64(&png(&image))
+            );
+        } else {
+            if self.images.is_empty() {
+                self.cut = self.body.len();
+            }
+            self.images.push(Laid { image, at, size });
+        }
+    }
+
     pub(super) fn text(&mut self, at: [f64; 2], class: &str, anchor: Anchor, text: &str) {
         let anchor = match anchor {
             Anchor::Start => "",
@@ -134,24 +193,37 @@ impl Canvas {
     }
 
     /// The whole document.
-    pub(super) fn document(self, title: &str, caption: &str, chrome: Chrome) -> String {
+    pub(super) fn document(&self, title: &str, caption: &str, chrome: Chrome) -> String {
+        let mut out = self.head(title, caption, chrome);
+        if let Chrome::Full(_) = chrome {
+            let [w, h] = self.size.map(px);
+            let _ = writeln!(out, "<rect class=\"t-ground\" width=\"{w}\" height=\"{h}\"/>");
+        }
+        out + &self.body + "</svg>\n"
+    }
+
+    /// A document of what lies under the images, and one, without ground, of what lies over them.
+    #[cfg(feature = "png")]
+    pub(super) fn documents(mut self, chrome: Chrome) -> [String; 2] {
+        let over = self.head("", "", chrome) + &self.body[self.cut..] + "</svg>\n";
+        self.body.truncate(self.cut);
+        [self.document("", "", chrome), over]
+    }
+
+    fn head(&self, title: &str, caption: &str, chrome: Chrome) -> String {
         let [w, h] = self.size.map(px);
         let (title, caption) = (escape(title), escape(caption));
-        let head = match chrome {
+        let attributes = match chrome {
             Chrome::Full(theme) => format!(
                 " width=\"{w}\" height=\"{h}\" role=\"img\" \
                  font-family=\"Inter, system-ui, 'Helvetica Neue', Arial, sans-serif\">\n\
-                 <title>{title}</title>\n<desc>{caption}</desc>\n<style>{}</style>\n\
-                 <rect class=\"t-ground\" width=\"{w}\" height=\"{h}\"/>\n",
+                 <title>{title}</title>\n<desc>{caption}</desc>\n<style>{}</style>\n",
                 theme.classes()
             ),
             // The caption stands below; a title element would follow the pointer everywhere.
             Chrome::Bare => format!(" role=\"img\" aria-label=\"{title}\">\n"),
         };
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\"{head}{}</svg>\n",
-            self.body
-        )
+        format!("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\"{attributes}")
     }
 
     /// What was written, without a document around it.

@@ -30,6 +30,8 @@ pub(super) enum Key {
     Line(Look),
     LineAndDot,
     Area,
+    /// A side of an opaque surface.
+    Side,
 }
 
 const MARGIN: f64 = 22.0;
@@ -122,6 +124,10 @@ pub(super) fn key(canvas: &mut Canvas, entry: &Entry<'_>, at: [f64; 2]) {
             canvas.open(&format!("f-{name} e-{name}"), "stroke-width=\"2\"");
             canvas.line([x - KEY / 2.0, y], [x + KEY / 2.0, y]);
             canvas.disc(at, 2.2, "");
+        }
+        Key::Side => {
+            canvas.open(&format!("f-{name}"), "fill-opacity=\"0.75\"");
+            canvas.rect([x - 7.0, y - 5.0], [x + 7.0, y + 5.0]);
         }
         Key::Area => {
             canvas

@@ -5,16 +5,23 @@
 //! *Guarantee.* Every number written is finite; text from outside is escaped; the same figure gives the same bytes.
 //! *Trap.* Marks that are not finite cannot be placed: they are left out, so check data before it comes here.
 
+mod camera;
 mod canvas;
 mod frame;
+mod opaque;
 mod plane;
 mod plot;
 mod space;
+mod stage;
 
 use crate::{Figure, Style};
+pub(crate) use camera::{EYE, V3, add, cross, dot};
 use canvas::Canvas;
+#[cfg(feature = "png")]
+pub(crate) use canvas::Laid;
 pub(crate) use frame::Chrome;
-pub(crate) use space::{EYE, Stage, WIRED, finite, legend, stage};
+pub(crate) use space::{WIRED, legend};
+pub(crate) use stage::{Stage, finite, stage};
 
 /// The figure as an SVG document: title, marks, legend and caption.
 pub fn to_svg(figure: &Figure, style: &Style) -> String {
@@ -30,16 +37,42 @@ pub(crate) struct Hover {
     pub(crate) words: Vec<String>,
 }
 
+/// Pixels of embedded images to each unit of a document: those of a fine screen.
+const DENSITY: f64 = 2.0;
+
 /// The document, its width and height, and its marks for the pointer.
 pub(crate) fn draw(figure: &Figure, chrome: Chrome) -> (String, [f64; 2], Vec<Hover>) {
-    let mut canvas = Canvas::default();
+    let mut canvas = Canvas::new(DENSITY, true);
+    fill(figure, chrome, &mut canvas);
+    let document = canvas.document(figure.title(), figure.caption(), chrome);
+    (document, canvas.size, canvas.hovers)
+}
+
+/// A figure for a renderer that draws no images: a document, images to lay over it, and a document to lay over these.
+#[cfg(feature = "png")]
+pub(crate) struct Layers {
+    pub(crate) under: String,
+    pub(crate) images: Vec<Laid>,
+    pub(crate) over: String,
+}
+
+/// The figure with images of so many pixels to each unit.
+#[cfg(feature = "png")]
+pub(crate) fn layers(figure: &Figure, style: &Style, density: f64) -> Layers {
+    let chrome = Chrome::Full(style.theme);
+    let mut canvas = Canvas::new(density, false);
+    fill(figure, chrome, &mut canvas);
+    let images = std::mem::take(&mut canvas.images);
+    let [under, over] = canvas.documents(chrome);
+    Layers { under, images, over }
+}
+
+fn fill(figure: &Figure, chrome: Chrome, canvas: &mut Canvas) {
     canvas.titled = chrome != Chrome::Bare;
     match figure {
-        Figure::Plane(scene) => plane::draw(scene, chrome, &mut canvas),
-        Figure::Space(scene) => space::draw(scene, chrome, &mut canvas),
-        Figure::Plot(plot) => plot::draw(plot, chrome, &mut canvas),
+        Figure::Plane(scene) => plane::draw(scene, chrome, canvas),
+        Figure::Space(scene) => space::draw(scene, chrome, canvas),
+        Figure::Views(views) => space::draw_views(views, chrome, canvas),
+        Figure::Plot(plot) => plot::draw(plot, chrome, canvas),
     }
-    let size = canvas.size;
-    let hovers = std::mem::take(&mut canvas.hovers);
-    (canvas.document(figure.title(), figure.caption(), chrome), size, hovers)
 }

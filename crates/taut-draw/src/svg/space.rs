@@ -5,172 +5,17 @@
 //! same from the same numbers.
 
 use super::Hover;
+use super::camera::{Camera, V3, add, cross, dot};
 use super::canvas::{Anchor, Canvas, stroke};
 use super::frame::{self, Chrome, Entry, Key, Room};
-use crate::axes::unit;
+use super::opaque::{Cover, solids};
+use super::stage::{Stage, balls, finite, stage};
 use crate::number::{px, short};
 use crate::text::{escape, fit};
-use crate::{Layer3, Look, Projection, Scene3, Shape3, Tone};
-
-/// Distance of the eye from the middle of the scene, in radii of the scene.
-pub(crate) const EYE: f64 = 4.0;
+use crate::{Layer3, Look, Scene3, Shape3, Tone, Views};
 
 /// A scene of which more spheres than this are drawn has outlines only.
 pub(crate) const WIRED: usize = 4;
-
-/// Where the unit ball of the view lies in the data.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Stage {
-    unit: f64,
-    middle: [f64; 3],
-    radius: f64,
-}
-
-/// The ball that holds all finite marks of a scene: the box around them decides its middle.
-pub(crate) fn stage(scene: &Scene3) -> Stage {
-    let mut balls: Vec<([f64; 3], f64)> = Vec::new();
-    for layer in &scene.layers {
-        match &layer.shape {
-            Shape3::Points(points) => balls.extend(points.iter().map(|p| (p.at, 0.0))),
-            Shape3::Crosses(places) => balls.extend(places.iter().map(|&p| (p, 0.0))),
-            Shape3::Spheres(spheres) => balls.extend(spheres.iter().map(|s| (s.center, s.radius))),
-            Shape3::Polylines(chains) => balls.extend(chains.iter().flatten().map(|&p| (p, 0.0))),
-            Shape3::Mesh(mesh) => balls.extend(mesh.vertices.iter().map(|&p| (p, 0.0))),
-        }
-    }
-    balls.retain(|(p, r)| finite(p) && r.is_finite() && *r >= 0.0);
-    let unit = unit(balls.iter().flat_map(|(p, r)| [p[0], p[1], p[2], *r]));
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for (p, r) in &balls {
-        for k in 0..3 {
-            low[k] = low[k].min(p[k] / unit - r / unit);
-            high[k] = high[k].max(p[k] / unit + r / unit);
-        }
-    }
-    if balls.is_empty() {
-        (low, high) = ([-1.0; 3], [1.0; 3]);
-    }
-    let middle = [0, 1, 2].map(|k| low[k] + (high[k] - low[k]) / 2.0);
-    let reach = |(p, r): &([f64; 3], f64)| {
-        let square: f64 = (0..3).map(|k| (p[k] / unit - middle[k]).powi(2)).sum();
-        square.sqrt() + r / unit
-    };
-    let radius = balls.iter().map(reach).fold(0.0, f64::max);
-    Stage { unit, middle, radius: if radius > 0.0 { radius } else { 1.0 } }
-}
-
-impl Stage {
-    /// A place in the unit ball.
-    pub(crate) fn place(&self, p: &[f64; 3]) -> [f64; 3] {
-        [0, 1, 2].map(|k| (p[k] / self.unit - self.middle[k]) / self.radius)
-    }
-
-    /// A length in the unit ball.
-    pub(crate) fn length(&self, r: f64) -> f64 {
-        r / self.unit / self.radius
-    }
-}
-
-pub(crate) fn finite(p: &[f64; 3]) -> bool {
-    p.iter().all(|v| v.is_finite())
-}
-
-type V3 = [f64; 3];
-
-fn dot(a: V3, b: V3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn add(a: V3, b: V3, t: f64) -> V3 {
-    [0, 1, 2].map(|k| a[k] + t * b[k])
-}
-
-/// The eye and the sheet it draws on.
-struct Camera {
-    /// Right, up, and towards the eye.
-    frame: [V3; 3],
-    projection: Projection,
-    middle: [f64; 2],
-    /// Pixels of a unit at the middle of the scene.
-    scale: f64,
-}
-
-impl Camera {
-    fn new(scene: &Scene3, room: Room) -> Self {
-        let turn = |degrees: f64| if degrees.is_finite() { degrees.to_radians() } else { 0.0 };
-        let (sa, ca) = turn(scene.azimuth).sin_cos();
-        let (se, ce) = turn(scene.elevation.clamp(-90.0, 90.0)).sin_cos();
-        let frame = [[-sa, ca, 0.0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]];
-        let half = (room.right - room.left).min(room.bottom - room.top).max(20.0) / 2.0;
-        // The outline of the unit ball seen from EYE has radius EYE/√(EYE² − 1).
-        let outline = match scene.projection {
-            Projection::Perspective => EYE / (EYE * EYE - 1.0).sqrt(),
-            Projection::Orthographic => 1.0,
-        };
-        let middle = [(room.left + room.right) / 2.0, (room.top + room.bottom) / 2.0];
-        Camera { frame, projection: scene.projection, middle, scale: 0.97 * half / outline }
-    }
-
-    /// Turns a place of the stage: right, up, towards the eye.
-    fn turn(&self, p: V3) -> V3 {
-        self.frame.map(|axis| dot(axis, p))
-    }
-
-    /// How much larger things look at a depth.
-    fn zoom(&self, depth: f64) -> f64 {
-        match self.projection {
-            Projection::Perspective => EYE / (EYE - depth),
-            Projection::Orthographic => 1.0,
-        }
-    }
-
-    /// The pixel of a turned place.
-    fn pixel(&self, v: V3) -> [f64; 2] {
-        let s = self.scale * self.zoom(v[2]);
-        [self.middle[0] + s * v[0], self.middle[1] - s * v[1]]
-    }
-
-    /// The direction from a turned place to the eye.
-    fn to_eye(&self, v: V3) -> V3 {
-        match self.projection {
-            Projection::Perspective => [-v[0], -v[1], EYE - v[2]],
-            Projection::Orthographic => [0.0, 0.0, 1.0],
-        }
-    }
-
-    /// The outline of a sphere: the circle where lines from the eye touch it.
-    fn outline(&self, center: V3, radius: f64) -> Vec<[f64; 2]> {
-        let to_eye = self.to_eye(center);
-        let distance = dot(to_eye, to_eye).sqrt();
-        let sine = match self.projection {
-            Projection::Perspective => (radius / distance).min(0.999),
-            Projection::Orthographic => 0.0,
-        };
-        let axis = to_eye.map(|v| v / distance);
-        let middle = add(center, axis, radius * sine);
-        let ring = radius * (1.0 - sine * sine).sqrt();
-        let [u, w] = across(axis);
-        (0..96)
-            .map(|i| {
-                let (s, c) = (f64::from(i) / 96.0 * std::f64::consts::TAU).sin_cos();
-                self.pixel(add(add(middle, u, ring * c), w, ring * s))
-            })
-            .collect()
-    }
-}
-
-/// Two directions that make a frame with a unit vector.
-fn across(axis: V3) -> [V3; 2] {
-    let helper = if axis[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
-    let u = add(helper, axis, -dot(helper, axis));
-    let u = u.map(|v| v / dot(u, u).sqrt());
-    let w = [
-        axis[1] * u[2] - axis[2] * u[1],
-        axis[2] * u[0] - axis[0] * u[2],
-        axis[0] * u[1] - axis[1] * u[0],
-    ];
-    [u, w]
-}
 
 /// Circles of latitude and longitude on the unit sphere, every 30 degrees.
 fn wires() -> Vec<Vec<V3>> {
@@ -186,7 +31,29 @@ fn wires() -> Vec<Vec<V3>> {
     latitudes.chain(longitudes).collect()
 }
 
-/// Something to paint, nearest last.
+/// Up to so many discs on a surface have a rim.
+const RIMS: usize = 50;
+
+/// The group of what a surface hides.
+const HIDDEN: u8 = 5;
+
+/// Something to paint, and where it is.
+struct Placed {
+    depth: f64,
+    tone: Tone,
+    hidden: bool,
+    piece: Piece,
+}
+
+/// A scene as an eye sees it.
+struct Seen<'a> {
+    scene: &'a Scene3,
+    stage: &'a Stage,
+    camera: &'a Camera,
+    cover: Option<&'a Cover>,
+}
+
+/// Something to paint.
 enum Piece {
     Disc { at: [f64; 2], radius: f64, title: String },
     Line { chain: Vec<[f64; 2]>, look: Look },
@@ -194,26 +61,101 @@ enum Piece {
     Face { corners: Vec<[f64; 2]>, light: f64 },
 }
 
+/// The scene from one place.
 pub(super) fn draw(scene: &Scene3, chrome: Chrome, canvas: &mut Canvas) {
-    let entries: Vec<_> = scene.layers.iter().map(entry).collect();
-    let size = [scene.width, scene.height];
-    let room = frame::begin(canvas, chrome, &scene.title, &scene.caption, size, &entries);
-    let (stage, camera) = (stage(scene), Camera::new(scene, room));
-    for layer in &scene.layers {
-        if let Shape3::Spheres(spheres) = &layer.shape {
-            draw_spheres(canvas, layer, spheres, &stage, &camera, chrome);
+    let room = begin(scene, chrome, canvas);
+    let camera = Camera::new(scene.projection, scene.azimuth, scene.elevation, room);
+    panels(scene, &[Panel { room, camera, small: false }], chrome, canvas);
+}
+
+/// The scene from several places, in panels as near to a square of them as can be.
+pub(super) fn draw_views(views: &Views, chrome: Chrome, canvas: &mut Canvas) {
+    let scene = &views.scene;
+    let room = begin(scene, chrome, canvas);
+    let columns = (1..).find(|c| c * c >= views.views.len()).unwrap_or(1).max(1);
+    let rows = views.views.len().div_ceil(columns).max(1);
+    let (width, height) =
+        ((room.right - room.left) / columns as f64, (room.bottom - room.top) / rows as f64);
+    let mut all = Vec::new();
+    for (i, view) in views.views.iter().enumerate() {
+        let [left, top] =
+            [room.left + (i % columns) as f64 * width, room.top + (i / columns) as f64 * height];
+        let middle = [left + width / 2.0, top + 6.0];
+        canvas.text(middle, "t-name", Anchor::Middle, &fit(&view.name, width - 8.0, 13.0));
+        let room = Room {
+            left: left + 6.0,
+            top: top + 14.0,
+            right: left + width - 6.0,
+            bottom: top + height - 8.0,
+        };
+        let camera = Camera::new(scene.projection, view.azimuth, view.elevation, room);
+        all.push(Panel { room, camera, small: true });
+    }
+    // One scale for all panels, as large as the fullest of them allows.
+    let stage = stage(scene);
+    let balls: Vec<_> = balls(scene)
+        .iter()
+        .map(|(place, radius)| (stage.place(place), stage.length(*radius)))
+        .collect();
+    let reach = |panel: &Panel| panel.camera.reach(panel.room, &balls);
+    let reach = all.iter().map(reach).fold(0.0, f64::max);
+    if reach > 0.0 {
+        for panel in &mut all {
+            panel.camera = panel.camera.enlarged(0.94 / reach);
         }
     }
-    let mut pieces: Vec<(f64, Tone, Piece)> = Vec::new();
-    for layer in &scene.layers {
-        collect(layer, scene, &stage, &camera, &mut pieces, &mut canvas.hovers);
+    panels(scene, &all, chrome, canvas);
+}
+
+fn begin(scene: &Scene3, chrome: Chrome, canvas: &mut Canvas) -> Room {
+    let entries: Vec<_> = scene.layers.iter().flat_map(entries).collect();
+    let size = [scene.width, scene.height];
+    frame::begin(canvas, chrome, &scene.title, &scene.caption, size, &entries)
+}
+
+/// A view of a scene and its place in the picture.
+struct Panel {
+    room: Room,
+    camera: Camera,
+    small: bool,
+}
+
+/// All images come before everything else that is drawn in panels, so that a document can be cut into before and after.
+fn panels(scene: &Scene3, panels: &[Panel], chrome: Chrome, canvas: &mut Canvas) {
+    let stage = stage(scene);
+    for panel in panels {
+        for layer in &scene.layers {
+            if let Shape3::Spheres(spheres) = &layer.shape {
+                draw_spheres(canvas, layer, spheres, &stage, &panel.camera, chrome);
+            }
+        }
     }
+    let solids = solids(scene, &stage);
+    let covers: Vec<_> =
+        panels.iter().map(|panel| Cover::draw(canvas, &solids, &panel.camera, chrome)).collect();
+    for (panel, cover) in panels.iter().zip(&covers) {
+        let mut pieces = Vec::new();
+        for layer in &scene.layers {
+            let view = Seen { scene, stage: &stage, camera: &panel.camera, cover: cover.as_ref() };
+            collect(layer, &view, &mut pieces, &mut canvas.hovers);
+        }
+        paint_all(canvas, pieces, cover.is_some());
+        triad(canvas, scene, panel);
+    }
+}
+
+/// From back to front.
+fn paint_all(canvas: &mut Canvas, mut pieces: Vec<Placed>, on_surface: bool) {
     // A stable sort: equal depths keep the order of the layers, so the bytes are the same each time.
-    pieces.sort_by(|a, b| a.0.total_cmp(&b.0));
+    pieces.sort_by(|a, b| a.depth.total_cmp(&b.depth));
     let many = pieces.len() > 2000;
+    // Rims of many marks would cover a surface more than the marks do.
+    let discs = pieces.iter().filter(|p| matches!(p.piece, Piece::Disc { .. })).count();
+    let rimless = on_surface && discs > RIMS;
     let mut group: Option<(Tone, u8)> = None;
-    for (depth, tone, piece) in &pieces {
-        let bucket = ((depth + 1.0) / 2.0 * 5.0).clamp(0.0, 4.0) as u8;
+    for Placed { depth, tone, hidden, piece } in &pieces {
+        let bucket =
+            if *hidden { HIDDEN } else { ((depth + 1.0) / 2.0 * 5.0).clamp(0.0, 4.0) as u8 };
         if group != Some((*tone, bucket)) {
             if group.is_some() {
                 canvas.close();
@@ -226,8 +168,11 @@ pub(super) fn draw(scene: &Scene3, chrome: Chrome, canvas: &mut Canvas) {
                 _ => 0.6,
             };
             let high = if many && *tone == Tone::Point { 0.6 } else { 0.95 };
-            let opacity = short(low + (high - low) * f64::from(bucket) / 4.0, 3);
-            let halo = if *tone == Tone::Point { "" } else { " t-halo" };
+            let opacity = match bucket {
+                HIDDEN => "0.2".to_owned(),
+                _ => short(low + (high - low) * f64::from(bucket) / 4.0, 3),
+            };
+            let halo = if *tone == Tone::Point || *hidden || rimless { "" } else { " t-halo" };
             canvas.open(&format!("f-{name}{halo}"), &format!("opacity=\"{opacity}\""));
         }
         paint(canvas, *tone, piece);
@@ -235,7 +180,17 @@ pub(super) fn draw(scene: &Scene3, chrome: Chrome, canvas: &mut Canvas) {
     if group.is_some() {
         canvas.close();
     }
-    triad(canvas, scene, &camera, room);
+}
+
+/// What the legend says of a layer: of a surface with two sides it names both.
+fn entries(layer: &Layer3) -> Vec<Entry<'_>> {
+    let front = entry(layer);
+    match &layer.shape {
+        Shape3::Surface(surface) if !layer.name.is_empty() => {
+            vec![front, Entry { name: "its back", tone: surface.back, key: Key::Side }]
+        }
+        _ => vec![front],
+    }
 }
 
 fn entry(layer: &Layer3) -> Entry<'_> {
@@ -245,6 +200,7 @@ fn entry(layer: &Layer3) -> Entry<'_> {
         Shape3::Polylines(_) => Key::Line(layer.look),
         Shape3::Spheres(_) if layer.look != Look::Filled => Key::Line(layer.look),
         Shape3::Spheres(_) | Shape3::Mesh(_) => Key::Area,
+        Shape3::Surface(_) => Key::Side,
     };
     Entry { name: &layer.name, tone: layer.tone, key }
 }
@@ -252,8 +208,8 @@ fn entry(layer: &Layer3) -> Entry<'_> {
 /// The legend of a scene as HTML, for the viewer, which draws none.
 pub(crate) fn legend(scene: &Scene3) -> String {
     let mut out = String::from("<ul class=\"legend\">");
-    for entry in scene.layers.iter().map(entry).filter(|entry| !entry.name.is_empty()) {
-        let mut canvas = Canvas::default();
+    for entry in scene.layers.iter().flat_map(entries).filter(|entry| !entry.name.is_empty()) {
+        let mut canvas = Canvas::new(1.0, true);
         frame::key(&mut canvas, &entry, [11.0, 7.0]);
         let (key, name) = (canvas.into_body(), escape(entry.name));
         out +=
@@ -333,12 +289,14 @@ fn draw_spheres(
 
 fn collect(
     layer: &Layer3,
-    scene: &Scene3,
-    stage: &Stage,
-    camera: &Camera,
-    pieces: &mut Vec<(f64, Tone, Piece)>,
+    &Seen { scene, stage, camera, cover }: &Seen<'_>,
+    pieces: &mut Vec<Placed>,
     hovers: &mut Vec<Hover>,
 ) {
+    let mut push = |depth, hidden, piece| {
+        pieces.push(Placed { depth, tone: layer.tone, hidden, piece });
+    };
+    let hidden = |v: V3| cover.is_some_and(|cover| cover.hides(camera, v));
     let turned = |p: &V3| camera.turn(stage.place(p));
     match &layer.shape {
         Shape3::Points(points) => {
@@ -360,21 +318,27 @@ fn collect(
                 };
                 words.push(point.label.clone());
                 hovers.push(Hover { at, id: point.id, words });
-                pieces.push((v[2], layer.tone, Piece::Disc { at, radius, title }));
+                push(v[2], hidden(v), Piece::Disc { at, radius, title });
             }
         }
         Shape3::Crosses(places) => {
             for v in places.iter().filter(|p| finite(p)).map(turned) {
-                pieces.push((v[2], layer.tone, Piece::Cross(camera.pixel(v))));
+                push(v[2], hidden(v), Piece::Cross(camera.pixel(v)));
             }
         }
         Shape3::Polylines(chains) => {
             for pair in chains.iter().flat_map(|chain| chain.windows(2)) {
                 if pair.iter().all(finite) {
-                    let [a, b] = [turned(&pair[0]), turned(&pair[1])];
-                    let chain = vec![camera.pixel(a), camera.pixel(b)];
-                    let line = Piece::Line { chain, look: layer.look };
-                    pieces.push(((a[2] + b[2]) / 2.0, layer.tone, line));
+                    let ends = [turned(&pair[0]), turned(&pair[1])];
+                    let runs = match cover {
+                        Some(cover) => cover.runs(camera, ends),
+                        None => vec![(ends, false)],
+                    };
+                    for ([a, b], hidden) in runs {
+                        let chain = vec![camera.pixel(a), camera.pixel(b)];
+                        let line = Piece::Line { chain, look: layer.look };
+                        push((a[2] + b[2]) / 2.0, hidden, line);
+                    }
                 }
             }
         }
@@ -385,25 +349,17 @@ fn collect(
                     .filter_map(|&i| mesh.vertices.get(i).filter(|p| finite(p)).map(turned))
                     .collect();
                 if let [a, b, c] = corners[..] {
-                    let [u, w] = [add(b, a, -1.0), add(c, a, -1.0)];
-                    let n = [
-                        u[1] * w[2] - u[2] * w[1],
-                        u[2] * w[0] - u[0] * w[2],
-                        u[0] * w[1] - u[1] * w[0],
-                    ];
+                    let n = cross(add(b, a, -1.0), add(c, a, -1.0));
                     let norm = dot(n, n).sqrt();
                     let light =
                         if norm > 0.0 { (dot(n, [-0.3, 0.5, 0.81]) / norm).abs() } else { 0.0 };
                     let corners = vec![camera.pixel(a), camera.pixel(b), camera.pixel(c)];
-                    pieces.push((
-                        (a[2] + b[2] + c[2]) / 3.0,
-                        layer.tone,
-                        Piece::Face { corners, light },
-                    ));
+                    push((a[2] + b[2] + c[2]) / 3.0, false, Piece::Face { corners, light });
                 }
             }
         }
-        Shape3::Spheres(_) => {}
+        // Drawn before all pieces.
+        Shape3::Spheres(_) | Shape3::Surface(_) => {}
     }
 }
 
@@ -433,20 +389,24 @@ fn paint(canvas: &mut Canvas, tone: Tone, piece: &Piece) {
     }
 }
 
-/// The three directions, in the lower left corner.
-fn triad(canvas: &mut Canvas, scene: &Scene3, camera: &Camera, room: Room) {
-    let origin = [room.left + 40.0, room.bottom - 40.0];
-    canvas.open("t-axis", "");
-    let tips = [0, 1, 2].map(|k| {
+/// The three directions, in the lower left corner; one that points at the eye has neither a line nor a name.
+fn triad(canvas: &mut Canvas, scene: &Scene3, panel: &Panel) {
+    let (room, scale) = (panel.room, if panel.small { 0.6 } else { 1.0 });
+    let origin = [room.left + 40.0 * scale, room.bottom - 40.0 * scale];
+    let directions = [0, 1, 2].map(|k| {
         let mut axis = [0.0; 3];
         axis[k] = 1.0;
-        let v = camera.turn(axis);
-        let tip = |length: f64| [origin[0] + length * v[0], origin[1] - length * v[1]];
-        canvas.line(origin, tip(26.0));
-        tip(36.0)
+        panel.camera.turn(axis)
     });
+    let shown = |v: &V3| v[0].hypot(v[1]) > 0.05;
+    let tip = |v: V3, length: f64| [origin[0] + length * v[0], origin[1] - length * v[1]];
+    canvas.open("t-axis", "");
+    for v in directions.into_iter().filter(shown) {
+        canvas.line(origin, tip(v, 26.0 * scale));
+    }
     canvas.close();
-    for (axis, tip) in scene.axes.iter().zip(tips) {
-        canvas.text([tip[0], tip[1] + 4.0], "t-tick", Anchor::Middle, &fit(&axis.name, 70.0, 12.0));
+    for (axis, v) in scene.axes.iter().zip(directions).filter(|(_, v)| shown(v)) {
+        let at = tip(v, 26.0 * scale + 10.0);
+        canvas.text([at[0], at[1] + 4.0], "t-tick", Anchor::Middle, &fit(&axis.name, 70.0, 12.0));
     }
 }

@@ -1,7 +1,7 @@
 //! A shape of a file, whatever its format.
 
 use std::fs::{self, File};
-use std::io::{self, BufReader};
+use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 
 use super::building::Building;
@@ -77,15 +77,24 @@ fn read(
     if head.is_empty() {
         return Err(Error::Empty { path: path() });
     }
+    read_stream(medium.stream(), format, name, shown)
+}
+
+/// Reads a shape from bytes that are not compressed; `name` tells the columns of a file without a header as a path would.
+pub(crate) fn read_stream(
+    stream: Box<dyn BufRead>,
+    format: ShapeFormat,
+    name: &Path,
+    shown: &str,
+) -> Result<Shape, Error> {
     let mut shape = Building::new(shown, format);
-    let stream = medium.stream();
     match format {
         ShapeFormat::Ply => ply::read(&mut shape, Cursor::new(stream, shown))?,
         ShapeFormat::Obj => obj::read(&mut shape, stream)?,
         ShapeFormat::Off => off::read(&mut shape, stream)?,
         ShapeFormat::Stl => stl::read(&mut shape, stream, shown)?,
         ShapeFormat::Xyz => xyz::read(&mut shape, stream, name)?,
-        _ => return Err(Error::ShapeNotReadable { path: path(), format }),
+        _ => return Err(Error::ShapeNotReadable { path: shown.to_owned(), format }),
     }
     shape.finish()
 }

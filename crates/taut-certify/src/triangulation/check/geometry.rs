@@ -15,38 +15,40 @@ use super::signs::UNDERFLOW;
 use crate::arithmetic::{Ring, U};
 
 /// N and O.
-pub(super) struct Lifted<T, const D: usize> {
-    pub(super) normal: [T; D],
-    pub(super) orientation: T,
+pub(crate) struct Lifted<T, const D: usize> {
+    pub(crate) normal: [T; D],
+    pub(crate) orientation: T,
 }
 
 /// Bounds that hold for a determinant over `f64`, in units of the largest |monomial| there can be, and the sizes of
 /// coordinate differences, in units that divide them all, up to which it is known exactly.
-pub(super) struct Bounds {
+pub(crate) struct Bounds {
     /// Monomials times roundings on the way of one, times u, with one more rounding for the bound itself.
-    pub(super) rounding: f64,
+    pub(crate) rounding: f64,
     /// The same in units of the sum of all |monomials|.
-    pub(super) rounding_of_sum: f64,
+    pub(crate) rounding_of_sum: f64,
     /// The same over [`DoubleDouble`](crate::arithmetic::DoubleDouble), from 8u² for each operation.
-    pub(super) rounding_twice: f64,
+    pub(crate) rounding_twice: f64,
     /// monomials·m^degree ≤ 2⁵³.
-    pub(super) exact_max: f64,
+    pub(crate) exact_max: f64,
     /// Factors in a monomial.
-    pub(super) degree: i32,
+    pub(crate) degree: i32,
 }
 
 impl Bounds {
     /// What a determinant over [`DoubleDouble`](crate::arithmetic::DoubleDouble) is off by at most, if no monomial is
     /// larger than `size`.
-    pub(super) fn of_double_double(&self, size: f64) -> f64 {
+    pub(crate) fn of_double_double(&self, size: f64) -> f64 {
         self.rounding_twice * (1.0 + 64.0 * U) * size + UNDERFLOW
     }
 }
 
 /// A kind of simplices: `V` vertices with `D` coordinates.
-pub(super) trait Geometry<const D: usize, const V: usize>: Sync {
+pub(crate) trait Geometry<const D: usize, const V: usize>: Sync {
     const ORIENTATION: Bounds;
     const IN_SPHERE: Bounds;
+    /// Every monomial of O and D has a factor from each of so many first coordinates.
+    const FACTORS: usize;
 
     /// N and O of the edges e₁…e_{V−1}.
     fn lifted<T: Ring>(edges: &[[T; D]]) -> Lifted<T, D>;
@@ -87,12 +89,12 @@ fn square<T: Ring, const D: usize>(v: &[T; D]) -> T {
 
 /// aᵢbⱼ − aⱼbᵢ.
 #[inline(always)]
-pub(super) fn minor<T: Ring, const D: usize>(a: &[T; D], b: &[T; D], i: usize, j: usize) -> T {
+pub(crate) fn minor<T: Ring, const D: usize>(a: &[T; D], b: &[T; D], i: usize, j: usize) -> T {
     a[i].times(&b[j]).minus(&a[j].times(&b[i]))
 }
 
 /// Triangles, in the plane (`D = 2`) or in a plane of space that is not upright (`D = 3`).
-pub(super) struct Triangles;
+pub(crate) struct Triangles;
 
 impl<const D: usize> Geometry<D, 3> for Triangles {
     /// 2 monomials; two differences, a product, a difference.
@@ -112,6 +114,7 @@ impl<const D: usize> Geometry<D, 3> for Triangles {
         exact_max: 4096.0,
         degree: 4,
     };
+    const FACTORS: usize = 2;
 
     #[inline(always)]
     fn lifted<T: Ring>(edges: &[[T; D]]) -> Lifted<T, D> {
@@ -141,10 +144,10 @@ impl<const D: usize> Geometry<D, 3> for Triangles {
 }
 
 /// Tetrahedra.
-pub(super) struct Tetrahedra;
+pub(crate) struct Tetrahedra;
 
 /// The plane of a triangle in space, in plain arithmetic, for many points.
-pub(super) struct Plane {
+pub(crate) struct Plane {
     origin: [f64; 3],
     normal: [f64; 3],
     max: [f64; 3],
@@ -152,7 +155,7 @@ pub(super) struct Plane {
 
 impl Plane {
     #[inline(always)]
-    pub(super) fn of([a, b, c]: &[[f64; 3]; 3]) -> Self {
+    pub(crate) fn of([a, b, c]: &[[f64; 3]; 3]) -> Self {
         let [b, c] = [b, c].map(|p| std::array::from_fn(|k| p[k] - a[k]));
         let max = std::array::from_fn(|k| b[k].abs().max(c[k].abs()));
         Plane { origin: *a, normal: cross(&b, &c), max }
@@ -160,7 +163,7 @@ impl Plane {
 
     /// Whether the tetrahedron of the triangle and `q` is surely negative: the triangle faces away from `q`. All sizes are below 1.
     #[inline(always)]
-    pub(super) fn is_beneath(&self, q: &[f64; 3]) -> bool {
+    pub(crate) fn is_beneath(&self, q: &[f64; 3]) -> bool {
         let r: [f64; 3] = std::array::from_fn(|k| q[k] - self.origin[k]);
         let max = std::array::from_fn(|k| self.max[k].max(r[k].abs()));
         let bound = Tetrahedra::ORIENTATION.rounding * Tetrahedra::volume(&max) + UNDERFLOW;
@@ -170,7 +173,7 @@ impl Plane {
 
 /// a × b.
 #[inline(always)]
-fn cross<T: Ring>(a: &[T; 3], b: &[T; 3]) -> [T; 3] {
+pub(crate) fn cross<T: Ring>(a: &[T; 3], b: &[T; 3]) -> [T; 3] {
     [minor(a, b, 1, 2), minor(a, b, 2, 0), minor(a, b, 0, 1)]
 }
 
@@ -197,6 +200,7 @@ impl Geometry<3, 4> for Tetrahedra {
         exact_max: 512.0,
         degree: 5,
     };
+    const FACTORS: usize = 3;
 
     #[inline(always)]
     fn lifted<T: Ring>(edges: &[[T; 3]]) -> Lifted<T, 3> {
@@ -223,5 +227,60 @@ impl Geometry<3, 4> for Tetrahedra {
     #[inline(always)]
     fn volume(max: &[f64; 3]) -> f64 {
         max[0] * max[1] * max[2]
+    }
+}
+
+/// Triangles in space with their smallest ball instead of a sphere through a fourth point: for edges u, v and n = u × v, O is |n|² and
+/// N is (n × u)|v|² + (v × n)|u|², so that D = N·r − |r|²·O is positive when q lies inside the smallest ball whose sphere passes the
+/// three vertices. Nothing of this tells on which side of the triangle q is.
+pub(crate) struct Gabriel;
+
+impl Geometry<3, 3> for Gabriel {
+    /// 12 monomials, as 4 for the square of each of three minors; four differences, 2 roundings in each of two minors, a product, two
+    /// sums: 11.
+    const ORIENTATION: Bounds = Bounds {
+        rounding: 12.0 * 12.0 * U,
+        rounding_of_sum: 12.0 * U,
+        rounding_twice: 12.0 * 8.0 * 8.0 * U * U,
+        exact_max: 4096.0,
+        degree: 4,
+    };
+    /// 36 monomials of |r|²·O and 72 of N·r. For those of N: six differences, 2 roundings in n, 2 in n × u, 3 in a square, their
+    /// product, a sum, the product with r, and three sums: 19.
+    const IN_SPHERE: Bounds = Bounds {
+        rounding: 108.0 * 20.0 * U,
+        rounding_of_sum: 20.0 * U,
+        rounding_twice: 108.0 * 14.0 * 8.0 * U * U,
+        exact_max: 200.0,
+        degree: 6,
+    };
+    const FACTORS: usize = 0;
+
+    #[inline(always)]
+    fn lifted<T: Ring>(edges: &[[T; 3]]) -> Lifted<T, 3> {
+        let (u, v) = (&edges[0], &edges[1]);
+        let (lu, lv, n) = (square(u), square(v), cross(u, v));
+        let (nu, vn) = (cross(&n, u), cross(v, &n));
+        let mut normal = u.clone();
+        for k in 0..3 {
+            normal[k] = nu[k].times(&lv).plus(&vn[k].times(&lu));
+        }
+        Lifted { normal, orientation: square(&n) }
+    }
+
+    #[inline(always)]
+    fn orientation<T: Ring>(edges: &[[T; 3]]) -> T {
+        square(&cross(&edges[0], &edges[1]))
+    }
+
+    #[inline(always)]
+    fn slope<T: Ring>(normal: &[T; 3], r: &[T; 3]) -> T {
+        dot(normal, r)
+    }
+
+    #[inline(always)]
+    fn volume(max: &[f64; 3]) -> f64 {
+        let largest = max.iter().fold(0.0f64, |largest, &m| largest.max(m));
+        largest * largest * largest * largest
     }
 }

@@ -12,9 +12,9 @@ use crate::arithmetic::parts;
 use crate::{CheckError, Violation};
 
 /// All rows.
-pub(super) struct Input<'a, const D: usize> {
+pub(crate) struct Input<'a, const D: usize> {
     rows: Rows<'a>,
-    pub(super) hash: PointsHash,
+    pub(crate) hash: PointsHash,
     /// Power of two by which coordinates are multiplied.
     scale: f64,
     signs: Signs,
@@ -69,7 +69,7 @@ fn lowest_bit(x: f64) -> i32 {
 
 impl<'a, const D: usize> Input<'a, D> {
     /// One pass. Rows that are not in memory are read to `scratch`.
-    pub(super) fn read(
+    pub(crate) fn read(
         source: &'a dyn PointSource,
         scratch: &'a mut Scratch,
         monitor: &Monitor<'_>,
@@ -105,13 +105,13 @@ impl<'a, const D: usize> Input<'a, D> {
     }
 
     /// Number of rows.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.rows.len()
     }
 
     /// A row. Adding 0 turns −0 into 0 and leaves every other value as it is.
     #[inline(always)]
-    pub(super) fn row(&self, row: u32) -> [f64; D] {
+    pub(crate) fn row(&self, row: u32) -> [f64; D] {
         let at = row as usize * D;
         match &self.rows {
             Rows::F32(points) => {
@@ -126,18 +126,23 @@ impl<'a, const D: usize> Input<'a, D> {
     }
 
     /// The signs of determinants of rows that went through [`Input::scaled`].
-    pub(super) fn signs(&self) -> Signs {
+    pub(crate) fn signs(&self) -> Signs {
         self.signs
+    }
+
+    /// The power of two by which [`Input::scaled`] multiplies.
+    pub(crate) fn scale(&self) -> f64 {
+        self.scale
     }
 
     /// A row, multiplied by the power of two.
     #[inline(always)]
-    pub(super) fn scaled(&self, row: &[f64; D]) -> [f64; D] {
+    pub(crate) fn scaled(&self, row: &[f64; D]) -> [f64; D] {
         row.map(|x| x * self.scale)
     }
 
     /// Dimension of the affine hull. O(n).
-    pub(super) fn hull_dimension(&self) -> Option<u8> {
+    pub(crate) fn hull_dimension(&self) -> Option<u8> {
         if self.rows.is_empty() {
             return None;
         }
@@ -162,7 +167,7 @@ impl<'a, const D: usize> Input<'a, D> {
     }
 
     /// The first two coordinates, in the order xy, xz, yz, in which three points are not on a line.
-    pub(super) fn axes(&self, a: &[f64; D], b: &[f64; D], c: &[f64; D]) -> Option<[usize; 2]> {
+    pub(crate) fn axes(&self, a: &[f64; D], b: &[f64; D], c: &[f64; D]) -> Option<[usize; 2]> {
         let pairs = [[0, 1], [0, 2], [1, 2]];
         let pairs = if D == 2 { &pairs[..1] } else { &pairs[..] };
         pairs.iter().copied().find(|&axes| turn(&self.signs, a, b, c, axes).is_ne())
@@ -170,7 +175,7 @@ impl<'a, const D: usize> Input<'a, D> {
 }
 
 /// The orientation of three points in two coordinates.
-pub(super) fn turn<const D: usize>(
+pub(crate) fn turn<const D: usize>(
     signs: &Signs,
     a: &[f64; D],
     b: &[f64; D],

@@ -49,38 +49,39 @@ impl Ring for Sized {
 }
 
 /// Added to every bound for what underflows.
-pub(super) const UNDERFLOW: f64 = f64::from_bits((1023 - 1000) << 52);
+pub(crate) const UNDERFLOW: f64 = f64::from_bits((1023 - 1000) << 52);
 
 /// Most differences in a determinant.
 const MOST: usize = 4;
 
 /// What is known of all coordinates.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Signs {
+pub(crate) struct Signs {
     /// All sizes are below 1.
-    pub(super) is_filtered: bool,
+    pub(crate) is_filtered: bool,
     /// 2^q, of which every coordinate is a multiple; 0 where q is unknown or below −200.
-    pub(super) quantum: f64,
+    pub(crate) quantum: f64,
 }
 
 /// Where a point is with respect to a sphere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Conflict {
-    pub(super) is_inside: bool,
+pub(crate) struct Conflict {
+    pub(crate) is_inside: bool,
     /// The point is on the sphere, and the perturbation decided.
-    pub(super) is_tie: bool,
+    pub(crate) is_tie: bool,
 }
 
 impl Signs {
     /// The sign of O.
-    pub(super) fn orientation<G: Geometry<D, V>, const D: usize, const V: usize>(
+    pub(crate) fn orientation<G: Geometry<D, V>, const D: usize, const V: usize>(
         &self,
         simplex: &[[f64; D]; V],
     ) -> Ordering {
         let [origin, vertices @ ..] = simplex.as_slice() else { return Ordering::Equal };
-        self.sign::<D, V>(
+        self.sign::<D>(
             origin,
             vertices,
+            G::FACTORS,
             &G::ORIENTATION,
             G::volume,
             G::orientation::<f64>,
@@ -92,14 +93,15 @@ impl Signs {
     }
 
     /// The sign of D for a positively oriented simplex: `Greater` is inside.
-    pub(super) fn in_sphere<G: Geometry<D, V>, const D: usize, const V: usize>(
+    pub(crate) fn in_sphere<G: Geometry<D, V>, const D: usize, const V: usize>(
         &self,
         simplex: &[[f64; D]; V],
         q: &[f64; D],
     ) -> Ordering {
-        self.sign::<D, V>(
+        self.sign::<D>(
             &simplex[0],
             &others(simplex, q),
+            G::FACTORS,
             &G::IN_SPHERE,
             G::lifted_volume,
             determinant::<G, f64, D, V>,
@@ -111,7 +113,7 @@ impl Signs {
     }
 
     /// The same in whole numbers, where |D| ≤ `most`.
-    pub(super) fn in_sphere_exactly<G: Geometry<D, V>, const D: usize, const V: usize>(
+    pub(crate) fn in_sphere_exactly<G: Geometry<D, V>, const D: usize, const V: usize>(
         &self,
         simplex: &[[f64; D]; V],
         q: &[f64; D],
@@ -129,10 +131,11 @@ impl Signs {
 
     /// The sign of a determinant of the differences of `points` and `origin`, given over five kinds of numbers.
     #[inline(always)]
-    fn sign<const D: usize, const V: usize>(
+    fn sign<const D: usize>(
         &self,
         origin: &[f64; D],
         points: &[[f64; D]],
+        factors: usize,
         bounds: &Bounds,
         volume: impl Fn(&[f64; D]) -> f64,
         plain: impl Fn(&[[f64; D]]) -> f64,
@@ -161,7 +164,7 @@ impl Signs {
                 return sign_of(value);
             }
             // Every monomial has a factor from each of these coordinates.
-            if max[..V - 1].contains(&0.0) {
+            if max[..factors].contains(&0.0) {
                 return Ordering::Equal;
             }
         }
@@ -262,7 +265,7 @@ impl Signs {
 
     /// Whether q is inside the sphere of a positively oriented simplex under the perturbation. q is no vertex.
     #[inline(never)]
-    pub(super) fn conflict<G: Geometry<D, V>, const D: usize, const V: usize>(
+    pub(crate) fn conflict<G: Geometry<D, V>, const D: usize, const V: usize>(
         &self,
         simplex: &[[f64; D]; V],
         q: &[f64; D],
@@ -272,7 +275,7 @@ impl Signs {
 
     /// The same where the sign of D is known.
     #[inline(always)]
-    pub(super) fn conflict_of<G: Geometry<D, V>, const D: usize, const V: usize>(
+    pub(crate) fn conflict_of<G: Geometry<D, V>, const D: usize, const V: usize>(
         &self,
         simplex: &[[f64; D]; V],
         q: &[f64; D],
@@ -339,7 +342,7 @@ fn others<const D: usize, const V: usize>(simplex: &[[f64; D]; V], q: &[f64; D])
 }
 
 #[inline(always)]
-pub(super) fn sign_of(value: f64) -> Ordering {
+pub(crate) fn sign_of(value: f64) -> Ordering {
     value.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
 }
 
@@ -355,7 +358,7 @@ fn is_less<const D: usize>(a: &[f64; D], b: &[f64; D]) -> bool {
 
 /// The order of points in which the larger ones are raised more.
 #[inline(always)]
-pub(super) fn lexicographic<const D: usize>(a: &[f64; D], b: &[f64; D]) -> Ordering {
+pub(crate) fn lexicographic<const D: usize>(a: &[f64; D], b: &[f64; D]) -> Ordering {
     a.partial_cmp(b).unwrap_or(Ordering::Equal)
 }
 
@@ -366,7 +369,7 @@ mod tests {
     use proptest::collection::vec;
     use proptest::prelude::*;
 
-    use super::super::geometry::{Lifted, Tetrahedra, Triangles};
+    use super::super::geometry::{Gabriel, Lifted, Tetrahedra, Triangles};
     use super::*;
 
     impl Ring for BigRational {
@@ -435,6 +438,9 @@ mod tests {
             let solid: Vec<[f64; 3]> = values.as_chunks().0.to_vec();
             agrees::<Tetrahedra, 3, 4>(&signs, &solid)?;
             agrees::<Triangles, 3, 3>(&signs, &solid[..4])?;
+            agrees::<Gabriel, 3, 3>(&signs, &solid[..4])?;
+            let upright: Vec<[f64; 3]> = solid[..4].iter().map(|p| [0.5, p[1], p[2]]).collect();
+            agrees::<Gabriel, 3, 3>(&signs, &upright)?;
         }
     }
 }

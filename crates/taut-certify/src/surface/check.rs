@@ -1,0 +1,104 @@
+//! The checker of surfaces, in arithmetic of its own.
+//!
+//! *Problem.* Given rows and triangles of them, prove what the answer and its certificate say: which rows are used and why the others
+//! are not, what the triangles are as a surface, that they meet nowhere else than along what they share, that each has an empty ball,
+//! and that closed components face outwards. Every step is exact.
+//! 1. *Lists.* Triangles name three different rows, no three twice; every other row is in just one list of unused ones; rows in one
+//!    place are known as duplicates, all of them. [`structure`], [`usage`]
+//! 2. *Topology.* Edges are sorted sides; components, fans at vertices and loops are sets joined along them. [`topology`]
+//! 3. *Balls.* A tree over the points leaves out boxes that are surely outside; exact signs decide about the others. [`balls`]
+//! 4. *Embedding.* A tree over the triangles lists the pairs that can meet; exact signs decide. [`crossing`], [`meet`]
+//! 5. *Sides.* The sign of the volume tells which way a closed component faces, rays through the others how deep it lies. [`sides`]
+//!
+//! *Delaunay.* A triangle with an empty ball is a face of a Delaunay cell, or lies in one whose sphere has more than four points:
+//! strictly inside is what counts, so that any way to divide such a cell is accepted. Where points were moved all this is said of
+//! their new places. Outliers are no points here.
+//! *Claims.* What is claimed must be so, no more and no less. That a surface is no manifold, say, is no violation if its topology
+//! says so: it is then the reason not to call it certified.
+//! *Cost.* O(n log n), beside the points whose boxes reach into balls and the pairs of triangles whose boxes meet. Balls among
+//! coordinates that no power of two brings below 1 without loss are judged without boxes, point by point.
+
+mod ball;
+mod balls;
+mod crossing;
+mod meet;
+mod places;
+mod radius;
+mod sets;
+mod sides;
+mod structure;
+mod topology;
+mod tree;
+mod usage;
+
+use taut_points::{Monitor, PointSource};
+
+use self::topology::Shape;
+use super::{
+    Surface, SurfaceCertificate, SurfaceDoubt, SurfaceMode, SurfaceVerdict, SurfaceViolation,
+};
+use crate::CheckError;
+
+/// How far a displacement may be from the one claimed, relatively, for those who round on another way.
+const DISPLACEMENT_SLACK: f64 = 1e-9;
+
+pub(super) fn check(
+    surface: &Surface,
+    certificate: &SurfaceCertificate,
+    source: &dyn PointSource,
+    monitor: &Monitor<'_>,
+) -> Result<SurfaceVerdict, CheckError> {
+    structure::check(surface, certificate, source)?;
+    let (places, displacement) = places::read(surface, certificate, source, monitor)?;
+    let claimed = certificate.displacement;
+    if (claimed - displacement).abs() > DISPLACEMENT_SLACK * displacement {
+        return Err(SurfaceViolation::Displacement { claimed, found: displacement }.into());
+    }
+    let sites = usage::check(surface, &places)?;
+    let shape = Shape::of(&surface.triangles);
+    topology::compare(&surface.topology, &shape.topology)?;
+    match (certificate.mode, shape.bare) {
+        (SurfaceMode::Closed, Some(edge)) => return Err(SurfaceViolation::Open { edge }.into()),
+        (SurfaceMode::Alpha { radius }, _) => radius::check(surface, &places, radius)?,
+        _ => {}
+    }
+    let faces = crossing::Faces::of(&surface.triangles, &places);
+    let crossing = faces.crossing(monitor)?;
+    match (crossing, certificate.embedded) {
+        (Some(doubt), true) => return Err(SurfaceViolation::NotEmbedded { doubt }.into()),
+        (None, false) => return Err(SurfaceViolation::Embedded.into()),
+        _ => {}
+    }
+    balls::check(surface, certificate, &places, sites, monitor)?;
+    sides::interior(surface, &shape, &faces)?;
+    let inward = match shape.doubt.or(crossing) {
+        None => sides::inward(&shape, &faces),
+        doubt => doubt,
+    };
+    match (inward, certificate.outward) {
+        (Some(doubt), true) => return Err(SurfaceViolation::NotOutward { doubt }.into()),
+        (None, false) => return Err(SurfaceViolation::Outward.into()),
+        _ => {}
+    }
+    let is_delaunay = certificate.apexes.len() == surface.triangles.len();
+    let empty = surface.triangles.is_empty().then_some(SurfaceDoubt::Empty);
+    let doubt = empty.or(inward).or((!is_delaunay).then_some(SurfaceDoubt::NoBalls));
+    let found = &shape.topology;
+    Ok(SurfaceVerdict {
+        triangles: surface.triangles.len() as u64,
+        vertices: found.vertices,
+        components: found.components.len() as u64,
+        boundary_loops: found.boundary_loops,
+        genus: found.genus,
+        outliers: surface.unused.outliers.len() as u64,
+        is_closed: found.is_closed(),
+        is_manifold: found.is_manifold(),
+        is_oriented: found.is_oriented(),
+        is_embedded: crossing.is_none(),
+        is_delaunay,
+        is_outward: inward.is_none(),
+        displacement,
+        certified: doubt.is_none(),
+        doubt,
+    })
+}

@@ -1,0 +1,159 @@
+//! What is said about a surface.
+
+use taut::certify::{SurfaceVerdict, Unused};
+use taut::{Solution, Surface, looks_one_sided};
+use taut_draw::{DrawOptions, Error as DrawError, Figure, surface_figures};
+
+use crate::numbers::{count, counted, exact, short};
+use crate::report::{Fact, Report, Tell, rows_of};
+
+impl Tell for Report<'_, Surface> {
+    const FOUND: &'static str = "the surface found";
+
+    fn title(&self) -> String {
+        let points = counted(self.points.source().len(), "point");
+        format!("{points} in space: {}", surface_of(self.found))
+    }
+
+    fn facts(&self) -> Vec<Fact> {
+        let topology = &self.found.answer.topology;
+        let components = topology.components.len() as u64;
+        let closed =
+            topology.components.iter().filter(|one| one.boundary_loops == 0).count() as u64;
+        let mut facts = vec![
+            Fact::new("triangles", count(self.found.answer.triangles.len() as u64)),
+            self.vertices(),
+            Fact::new("components", count(components)).remark(match (components, closed) {
+                (0, _) => "no triangle".to_owned(),
+                (1, 1) => "closed".to_owned(),
+                (1, 0) => "with a boundary".to_owned(),
+                (all, closed) if all == closed => "all closed".to_owned(),
+                (all, closed) => {
+                    format!("{} closed, {} with a boundary", count(closed), count(all - closed))
+                }
+            }),
+        ];
+        if topology.boundary_loops > 0 {
+            facts.push(Fact::new("boundary loops", count(topology.boundary_loops)));
+        }
+        facts.push(match topology.genus {
+            Some(genus) => Fact::new("handles", count(genus)),
+            None => {
+                Fact::new("handles", "not defined").remark("a part is no surface with two sides")
+            }
+        });
+        for (name, wrong) in [
+            ("non-manifold edges", topology.non_manifold_edges),
+            ("non-manifold vertices", topology.non_manifold_vertices),
+        ] {
+            if wrong > 0 {
+                facts.push(Fact::new(name, count(wrong)));
+            }
+        }
+        if looks_one_sided(self.found) {
+            facts.push(Fact::new("sides", "in doubt").remark(
+                "what cells say contradicts itself: noise, too few points, or a sheet with one side, here cut open",
+            ));
+        }
+        facts.extend(unused(&self.found.answer.unused));
+        match &self.verdict {
+            Some(proved) => {
+                facts.push(certified(proved));
+                let what = match proved.is_delaunay && proved.is_embedded {
+                    true => {
+                        "topology, empty balls, and that it meets itself nowhere, by exact signs"
+                    }
+                    false => "topology, and which points are used, by exact signs",
+                };
+                facts.push(Fact::new("verified", "yes").remark(what));
+            }
+            None => facts.push(Fact::new("verified", "not checked")),
+        }
+        facts.push(Fact::new("method", &*self.found.trace.method));
+        facts
+    }
+
+    fn dim(&self) -> usize {
+        self.points.source().dim()
+    }
+
+    fn figures(&self, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
+        surface_figures(self.found, self.points.source(), options)
+    }
+}
+
+impl Report<'_, Surface> {
+    fn vertices(&self) -> Fact {
+        let used = self.found.answer.topology.vertices;
+        let fact = Fact::new("vertices", count(used));
+        match self.found.certificate.displacement {
+            _ if used == 0 => fact,
+            0.0 => fact.remark("each is a point of the input"),
+            moved => fact.remark(format!("points of the input, moved by at most {}", short(moved))),
+        }
+    }
+}
+
+/// What kind it is: "a closed surface with 8 handles".
+pub(crate) fn surface_of(found: &Solution<Surface>) -> String {
+    let topology = &found.answer.topology;
+    match (&topology.components[..], topology.genus) {
+        ([], _) => "no surface".to_owned(),
+        ([one], Some(handles)) => {
+            let kind = if one.boundary_loops == 0 { "a closed surface" } else { "a surface" };
+            match handles {
+                0 => kind.to_owned(),
+                _ => format!("{kind} with {}", counted(handles, "handle")),
+            }
+        }
+        ([one], None) if !one.orientable => "a surface with one side".to_owned(),
+        ([_], None) => "triangles that are no surface".to_owned(),
+        (all, _) => format!("{} surfaces", count(all.len() as u64)),
+    }
+}
+
+/// The rows that no triangle has, by reason.
+fn unused(rows: &Unused) -> Vec<Fact> {
+    let wide = |rows: &[u32]| rows.iter().map(|&row| u64::from(row)).collect::<Vec<_>>();
+    let duplicates: Vec<u32> = rows.duplicates.iter().map(|pair| pair[0]).collect();
+    let lists = [
+        ("duplicates", &duplicates),
+        ("outliers", &rows.outliers),
+        ("inside", &rows.interior),
+        ("unreferenced", &rows.unreferenced),
+    ];
+    let lists = lists.into_iter().filter(|(_, rows)| !rows.is_empty());
+    lists.map(|(name, rows)| rows_of(name, &wide(rows))).collect()
+}
+
+/// What the checker proved.
+pub(crate) fn proved_of_surface(verdict: &SurfaceVerdict) -> Vec<Fact> {
+    let word = |is| if is { "yes" } else { "no" };
+    let mut facts = vec![
+        Fact::new("triangles", count(verdict.triangles)),
+        Fact::new("components", count(verdict.components)),
+        Fact::new("boundary loops", count(verdict.boundary_loops)),
+        Fact::new("manifold", word(verdict.is_manifold)),
+        Fact::new("embedded", word(verdict.is_embedded)).remark("it meets itself nowhere"),
+        Fact::new("delaunay", word(verdict.is_delaunay)).remark("each triangle has an empty ball"),
+    ];
+    if let Some(genus) = verdict.genus {
+        facts.insert(3, Fact::new("handles", count(genus)));
+    }
+    if verdict.displacement > 0.0 {
+        facts.push(
+            Fact::new("displacement", exact(verdict.displacement))
+                .remark("no vertex is farther from its point"),
+        );
+    }
+    facts.push(certified(verdict));
+    facts
+}
+
+fn certified(verdict: &SurfaceVerdict) -> Fact {
+    match &verdict.doubt {
+        None => Fact::new("certified", "yes")
+            .remark("an oriented manifold of Delaunay triangles that meets itself nowhere"),
+        Some(doubt) => Fact::new("certified", "no").remark(doubt.to_string()),
+    }
+}

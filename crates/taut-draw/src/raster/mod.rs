@@ -1,0 +1,266 @@
+//! Opaque triangles by a depth buffer: for each sample of a grid the nearest triangle, its shade and its side.
+//!
+//! *Idea.* Corners are snapped to 1/256 of a sample; whether a sample is in a triangle is then a question of whole numbers. A
+//! sample on an edge belongs to the triangle below or to the right of it, so that triangles with a common edge leave no crack and
+//! no sample is counted twice. Nearness is a quantity that is affine on the sheet, so it is interpolated as it is.
+//! *Guarantee.* The same samples on every machine: whole numbers, and sums, products and quotients of `f64` in a fixed order.
+//! Of two triangles equally near the first one given stays.
+
+mod image;
+mod normals;
+mod order;
+mod png;
+
+pub(crate) use image::{Image, Ramp, ramp};
+pub(crate) use normals::normals;
+pub(crate) use order::order;
+pub(crate) use png::png;
+
+/// Parts of a sample that corners are snapped to.
+pub(crate) const PARTS: i64 = 256;
+
+/// A corner on the grid, in parts of a sample.
+pub(crate) type Snapped = [i64; 2];
+
+/// The grid of samples, rows from the top.
+pub(crate) struct Raster {
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+    /// How near the nearest triangle is, above 0; 0 where there is none.
+    near: Vec<f32>,
+    /// How light it is there, 0 to 255.
+    light: Vec<u8>,
+    /// The number of its colours.
+    ink: Vec<u8>,
+    /// Its number.
+    owner: Vec<u32>,
+}
+
+/// A triangle on the grid.
+pub(crate) struct Facet {
+    pub(crate) corners: [Snapped; 3],
+    /// How near each corner is, above 0.
+    pub(crate) near: [f64; 3],
+    /// How light each corner is, 0 to 1.
+    pub(crate) light: [f64; 3],
+    pub(crate) ink: u8,
+    pub(crate) owner: u32,
+}
+
+/// The corner nearest to a place in samples.
+pub(crate) fn snap(at: [f64; 2]) -> Snapped {
+    at.map(|x| (x.clamp(-1e6, 1e6) * PARTS as f64).round() as i64)
+}
+
+/// Twice the area, positive where the corners run counter-clockwise to the eye. (Rows run downwards.)
+pub(crate) fn area(corners: &[Snapped; 3]) -> i64 {
+    -edge(corners[0], corners[1], corners[2])
+}
+
+/// Twice the area of a, b, p; positive where they run clockwise to the eye.
+fn edge(a: Snapped, b: Snapped, p: Snapped) -> i64 {
+    (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+}
+
+impl Raster {
+    pub(crate) fn new(width: usize, height: usize) -> Self {
+        let samples = width * height;
+        Raster {
+            width,
+            height,
+            near: vec![0.0; samples],
+            light: vec![0; samples],
+            ink: vec![0; samples],
+            owner: vec![0; samples],
+        }
+    }
+
+    /// Draws a triangle where it is nearer than what is there.
+    pub(crate) fn fill(&mut self, facet: &Facet) {
+        self.scan(facet, |raster, sample, near, light| {
+            if near > raster.near[sample] {
+                raster.near[sample] = near;
+                raster.light[sample] = light;
+                raster.ink[sample] = facet.ink;
+                raster.owner[sample] = facet.owner;
+            }
+        });
+    }
+
+    /// Calls `each` for all samples in a triangle, with its nearness and its light there.
+    fn scan(&mut self, facet: &Facet, mut each: impl FnMut(&mut Self, usize, f32, u8)) {
+        let Facet { corners, near, light, .. } = facet;
+        // The order in which all three edges have the inside at their positive side.
+        let order = if area(corners) < 0 { [0, 1, 2] } else { [0, 2, 1] };
+        let [a, b, c] = order.map(|k| corners[k]);
+        let whole = edge(a, b, c);
+        if whole == 0 {
+            return;
+        }
+        let bounds = |k: usize, size: usize| {
+            let low = a[k].min(b[k]).min(c[k]);
+            let high = a[k].max(b[k]).max(c[k]);
+            // Samples are at the middles: x·PARTS + PARTS/2.
+            let first = (low - PARTS / 2).div_euclid(PARTS).max(0);
+            let last = (high - PARTS / 2).div_euclid(PARTS).min(size as i64 - 1);
+            first..last + 1
+        };
+        let (columns, rows) = (bounds(0, self.width), bounds(1, self.height));
+        let sides = [(b, c), (c, a), (a, b)];
+        // Edges at the top and at the left belong to the triangle, the others do not.
+        let owned = sides.map(|(p, q)| i64::from(!(q[1] < p[1] || (q[1] == p[1] && q[0] > p[0]))));
+        let steps = sides.map(|(p, q)| -(q[1] - p[1]) * PARTS);
+        let scale = 1.0 / whole as f64;
+        for y in rows {
+            let start = [columns.start * PARTS + PARTS / 2, y * PARTS + PARTS / 2];
+            let mut inside = sides.map(|(p, q)| edge(p, q, start));
+            for x in columns.clone() {
+                if inside[0] >= owned[0] && inside[1] >= owned[1] && inside[2] >= owned[2] {
+                    let weights = inside.map(|e| e as f64 * scale);
+                    let mix = |values: &[f64; 3]| {
+                        weights[0] * values[order[0]]
+                            + weights[1] * values[order[1]]
+                            + weights[2] * values[order[2]]
+                    };
+                    let sample = y as usize * self.width + x as usize;
+                    let shade = (mix(light).clamp(0.0, 1.0) * 255.0).round() as u8;
+                    each(self, sample, mix(near) as f32, shade);
+                }
+                for k in 0..3 {
+                    inside[k] += steps[k];
+                }
+            }
+        }
+    }
+
+    /// Which of the owners below `count` are seen in some sample.
+    pub(crate) fn seen(&self, count: usize) -> Vec<bool> {
+        let mut seen = vec![false; count];
+        for (&owner, _) in self.owner.iter().zip(&self.near).filter(|&(_, &near)| near > 0.0) {
+            seen[owner as usize] = true;
+        }
+        seen
+    }
+
+    /// The owners whose triangles are not the nearest at some sample that they cover, each with the owner of the one that is. Those
+    /// that are less than `difference` behind do not count.
+    pub(crate) fn behind(&mut self, facets: &[Facet], difference: f32) -> Vec<[u32; 2]> {
+        let mut pairs = Vec::new();
+        for facet in facets {
+            let mut last = facet.owner;
+            self.scan(facet, |raster, sample, near, _| {
+                let nearest = raster.owner[sample];
+                // Neighbouring samples mostly say the same.
+                if nearest != last && raster.near[sample] > near + difference {
+                    last = nearest;
+                    pairs.push([facet.owner, nearest]);
+                }
+            });
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        pairs
+    }
+
+    /// Whether all samples within `reach` of a place, in samples, are nearer than it is, by more than `difference`.
+    pub(crate) fn hides(&self, at: [f64; 2], near: f64, reach: i64, difference: f64) -> bool {
+        let [x, y] = at.map(|v| v.clamp(-1e6, 1e6).floor() as i64);
+        let hidden = |x: i64, y: i64| {
+            (0..self.width as i64).contains(&x)
+                && (0..self.height as i64).contains(&y)
+                && f64::from(self.near[y as usize * self.width + x as usize]) > near + difference
+        };
+        (y - reach..=y + reach).all(|y| (x - reach..=x + reach).all(|x| hidden(x, y)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn facet(corners: [[f64; 2]; 3], near: [f64; 3], owner: u32) -> Facet {
+        Facet { corners: corners.map(snap), near, light: [1.0; 3], ink: 0, owner }
+    }
+
+    fn owners(raster: &Raster) -> Vec<i64> {
+        let of = |i: usize| if raster.near[i] > 0.0 { i64::from(raster.owner[i]) } else { -1 };
+        (0..raster.near.len()).map(of).collect()
+    }
+
+    #[test]
+    fn triangles_around_a_vertex_share_out_all_samples() {
+        // A fan around a sample's middle: each sample of the square once, none on a seam left out or counted twice.
+        let rim = [[0.0, 0.0], [4.5, 0.0], [9.0, 0.0], [9.0, 9.0], [4.5, 9.0], [0.0, 9.0]];
+        for turned in [false, true] {
+            let mut raster = Raster::new(9, 9);
+            let mut count = 0;
+            for i in 0..rim.len() {
+                let mut corners = [[4.5, 4.5], rim[i], rim[(i + 1) % rim.len()]];
+                if turned {
+                    corners.swap(1, 2);
+                }
+                raster.scan(&facet(corners, [1.0; 3], 0), |raster, sample, near, _| {
+                    raster.near[sample] = near;
+                    count += 1;
+                });
+            }
+            assert!(raster.near.iter().all(|&near| near > 0.0));
+            assert_eq!(count, 81);
+        }
+    }
+
+    #[test]
+    fn the_nearer_one_is_seen_whatever_comes_first() {
+        let low = facet([[0.0, 0.0], [8.0, 0.0], [0.0, 8.0]], [1.0; 3], 1);
+        let high = facet([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]], [2.0; 3], 2);
+        let [mut one, mut other] = [0, 1].map(|_| Raster::new(8, 8));
+        one.fill(&low);
+        one.fill(&high);
+        other.fill(&high);
+        other.fill(&low);
+        assert_eq!(owners(&one), owners(&other));
+        let seen = |who: i64| owners(&one).into_iter().filter(|&o| o == who).count();
+        assert_eq!([seen(2), seen(1) + seen(2)], [6, 28]);
+        assert_eq!(one.behind(&[low, high], 1e-6), [[1, 2]]);
+        assert_eq!(one.seen(4), [false, true, true, false]);
+    }
+
+    #[test]
+    fn triangles_that_pierce_each_other_meet_in_a_line() {
+        let level = facet([[0.0, 0.0], [16.0, 0.0], [0.0, 16.0]], [1.5; 3], 1);
+        let slope = facet([[0.0, 0.0], [16.0, 0.0], [0.0, 16.0]], [2.0, 1.0, 2.0], 2);
+        let mut raster = Raster::new(16, 16);
+        raster.fill(&level);
+        raster.fill(&slope);
+        assert_eq!(raster.behind(&[level, slope], 1e-6), [[1, 2], [2, 1]]);
+        for (i, owner) in owners(&raster).into_iter().enumerate() {
+            let (x, y) = (i % 16, i / 16);
+            let nearest = if x >= 8 { 1 } else { 2 };
+            let wanted = if x + y >= 15 { -1 } else { nearest };
+            assert_eq!(owner, wanted, "{x} {y}");
+        }
+    }
+
+    #[test]
+    fn triangles_without_area_or_out_of_sight_show_nothing() {
+        let mut raster = Raster::new(4, 4);
+        for corners in [
+            [[1.0, 1.0], [1.0, 1.0], [1.0, 1.0]],
+            [[0.0, 0.0], [2.0, 2.0], [4.0, 4.0]],
+            [[10.0, 0.0], [20.0, 0.0], [10.0, 9.0]],
+            [[-1e300, 0.0], [-9.0, f64::NAN], [-5.0, 1e300]],
+        ] {
+            raster.fill(&facet(corners, [1.0; 3], 0));
+        }
+        assert!(owners(&raster).into_iter().all(|owner| owner == -1));
+    }
+
+    #[test]
+    fn a_place_is_hidden_behind_and_seen_before_and_beside() {
+        let mut raster = Raster::new(8, 8);
+        raster.fill(&facet([[0.0, 0.0], [16.0, 0.0], [0.0, 16.0]], [1.0; 3], 0));
+        assert!(raster.hides([3.0, 3.0], 0.5, 1, 1e-3));
+        assert!(!raster.hides([3.0, 3.0], 1.0, 1, 1e-3));
+        assert!(!raster.hides([9.0, 3.0], 0.5, 1, 1e-3));
+    }
+}

@@ -1,0 +1,76 @@
+//! From cells to triangles: labels, their repair, and the border between them.
+
+use taut_points::{Cancelled, Monitor};
+
+use super::SurfaceMode;
+use super::answer::Facets;
+use super::border::{Links, faces, is_cycle, is_fan};
+use super::cells::{Cells, Kind};
+use super::flips::flip;
+use super::islands::sink;
+use super::one_sided::OVERRULED;
+use super::orient::orient;
+use super::prune::{without_all_small_fans, without_membranes};
+use super::repair::repair;
+use super::spheres::Point;
+use super::strengths::{Ties, strength_of};
+use super::tree::{Labels, labels};
+
+/// Labels cells as inside and outside. For closed surfaces all ghosts are outside; else they are cells as others.
+pub(super) fn surface_of_labels(
+    cells: &Cells,
+    points: &[Point],
+    mode: SurfaceMode,
+    monitor: &Monitor<'_>,
+) -> Result<Facets, Cancelled> {
+    let is_open = mode == SurfaceMode::Open;
+    let root = cells.first_ghost().unwrap_or(0);
+    let ties = Ties::of(cells, points, (!is_open).then_some(root));
+    monitor.check()?;
+    let Labels { mut inside, tree } = labels(&ties, cells, root);
+    monitor.check()?;
+    let flips = flip(&ties, &tree, cells, &mut inside);
+    let overruled = ties.overruled(&inside);
+    drop((ties, tree));
+    monitor.check()?;
+    let strength = |cell: u32, i: usize| strength_of(cells, points, cell << 2 | i as u32);
+    let mut found = faces(cells, &inside, points.len());
+    if sink(&found, cells, &mut inside, points.len(), &strength) > 0 {
+        found = faces(cells, &inside, points.len());
+    }
+    let defects = match is_open {
+        // What membranes do to vertices ends with them.
+        true => Links::of(&without_membranes(&found, points), points.len()).failing(is_fan),
+        false => Links::of(&found, points.len()).failing(is_cycle),
+    };
+    let repaired = repair(cells, &mut inside, points.len(), defects, &strength, is_open);
+    if repaired.changes > 0 {
+        found = faces(cells, &inside, points.len());
+    }
+    monitor.check()?;
+    if is_open {
+        let sheets = without_membranes(&found, points);
+        found = without_all_small_fans(sheets, points.len());
+        orient(&mut found, points);
+    }
+    // Many of these are where there is noise, or a sheet with one side, as no labels of its two sides exist.
+    let counters = [("flips", flips), (OVERRULED, overruled), ("repairs", repaired.changes)];
+    Ok(Facets {
+        facets: Some(found.iter().map(|face| face.facet).collect()),
+        triangles: found.iter().map(|face| face.sites).collect(),
+        is_outward: !is_open,
+        inside: if is_open { Vec::new() } else { labels_of_sites(cells, &inside, points.len()) },
+        counters: counters.map(|(name, count)| (name.to_owned(), count)).into(),
+    })
+}
+
+/// By site, the label of a cell at it: that of all, if no triangle has it.
+fn labels_of_sites(cells: &Cells, inside: &[bool], sites: usize) -> Vec<bool> {
+    let mut is_inside = vec![false; sites];
+    for cell in (0..cells.len() as u32).filter(|&cell| cells.kind(cell) == Kind::Finite) {
+        for site in cells.sites(cell) {
+            is_inside[site as usize] = inside[cell as usize];
+        }
+    }
+    is_inside
+}

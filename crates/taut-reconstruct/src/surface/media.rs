@@ -1,0 +1,77 @@
+//! Parts that are joined one by one, with a sign: union-find with parity.
+
+/// Nodes in parts, and whether each is opposite to the root of its part.
+pub(super) struct Media {
+    /// Parent, and whether opposite to it in the lowest bit.
+    link: Vec<u32>,
+}
+
+impl Media {
+    pub(super) fn new(count: usize) -> Self {
+        Self { link: (0..count as u32).map(|node| node << 1).collect() }
+    }
+
+    /// The root of a node, and in the lowest bit whether the node is opposite to it.
+    pub(super) fn root(&mut self, node: u32) -> u32 {
+        let (mut node, mut parity) = (node, 0);
+        loop {
+            let link = self.link[node as usize];
+            let parent = link >> 1;
+            if parent == node {
+                return link ^ parity;
+            }
+            // Halves the way: the parent of the parent, with the parity of both steps. A root is its own parent, in parity 0.
+            let above = self.link[parent as usize] ^ (link & 1);
+            self.link[node as usize] = above;
+            parity ^= above & 1;
+            node = above >> 1;
+        }
+    }
+
+    /// Joins the parts of two nodes, if they are two, the higher root to the lower; says whether they were.
+    pub(super) fn join(&mut self, one: u32, other: u32, is_opposite: bool) -> bool {
+        let (a, b) = (self.root(one), self.root(other));
+        if a >> 1 == b >> 1 {
+            return false;
+        }
+        let (lower, higher) = (a.min(b), a.max(b));
+        self.link[(higher >> 1) as usize] = lower ^ (higher & 1) ^ u32::from(is_opposite);
+        true
+    }
+
+    /// Links each node to its root, where parents have lower numbers.
+    pub(super) fn flatten(&mut self) {
+        for node in 0..self.link.len() {
+            let link = self.link[node];
+            self.link[node] = self.link[(link >> 1) as usize] ^ (link & 1);
+        }
+    }
+
+    /// What a node is linked to: the root of its part, if nothing was joined since all were [flattened](Self::flatten).
+    pub(super) fn parent(&self, node: u32) -> u32 {
+        self.link[node as usize] >> 1
+    }
+
+    /// Whether a node is opposite to what it is linked to.
+    pub(super) fn is_opposite(&self, node: u32) -> bool {
+        self.link[node as usize] & 1 == 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn opposites_of_opposites_are_alike() {
+        let mut media = Media::new(6);
+        assert!(media.join(4, 5, true) && media.join(3, 4, true) && media.join(0, 1, false));
+        assert!(!media.join(3, 5, true), "joined already");
+        assert!(media.join(1, 5, true));
+        media.flatten();
+        let found: Vec<_> =
+            (0..6).map(|node| (media.parent(node), media.is_opposite(node))).collect();
+        let linked = [(0, false), (0, false), (2, false), (0, true), (0, false), (0, true)];
+        assert_eq!(found, linked);
+    }
+}

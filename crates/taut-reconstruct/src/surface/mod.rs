@@ -1,0 +1,237 @@
+//! Surfaces through samples of space.
+//!
+//! *Problem.* Points were sampled from the boundary of bodies, or from sheets. Find the surface that has them for its vertices.
+//! *Idea.* Do not grow the surface: label the cells of the Delaunay triangulation. How the spheres of two neighbouring cells meet says
+//! whether they are of one medium or on two sides of the surface, and how surely (`strengths`); the strongest spanning tree of what is
+//! said labels all cells (`tree`); small parts that the facets around them object to are turned over (`flips`); the surface is where
+//! the labels change (`border`), and where that is no surface, single cells are (`repair`).
+//! *Guarantee.* A function of the point set: neither the order of the input, nor the number of threads, nor the unit matters. Triangles
+//! are Delaunay facets, so they meet in common edges and vertices alone; without defects named, it is a surface.
+//! *Trap.* Nothing is promised about samples that are too sparse for the sheets they are from: those may be joined or cut.
+
+pub mod alpha;
+mod answer;
+mod border;
+mod cells;
+mod changes;
+mod denoise;
+mod doubled;
+mod filter;
+mod flips;
+mod islands;
+mod labelled;
+mod media;
+mod neighbors;
+mod one_sided;
+mod options;
+mod orient;
+mod outward;
+mod prune;
+mod repair;
+mod scaled;
+mod sides;
+mod spheres;
+mod stars;
+mod strengths;
+pub mod thesis;
+mod tree;
+mod vector;
+mod witness;
+
+use taut_certify::{Solution, Surface, SurfaceMethod, SurfaceMode as Promise};
+use taut_delaunay::{Complex, DelaunayOptions, Space};
+use taut_points::{Monitor, PointSource, Points, PointsHash, Rows, Scalar, Scratch, hash_points};
+
+use crate::threads::on_threads;
+use crate::{Error, Span};
+use alpha::{alpha_shape, filtered_hull, optimal_alpha};
+use answer::{Facets, Sites, finish};
+use cells::Cells;
+use changes::Changes;
+use denoise::{Denoised, denoise};
+use labelled::surface_of_labels;
+use scaled::Scale;
+use thesis::{ThesisOptions, thesis_surface};
+
+pub use one_sided::looks_one_sided;
+pub use options::{Denoise, Positions, SurfaceMode, SurfaceOptions};
+
+/// The surface that points of space were sampled from, with its certificate.
+///
+/// ```
+/// use taut_points::Points;
+/// use taut_reconstruct::{SurfaceOptions, surface};
+///
+/// let octahedron = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
+/// let flat: Vec<f64> = octahedron.as_flattened().iter().map(|&x| f64::from(x)).collect();
+/// let points = Points::new(&flat, 3)?;
+/// let found = surface(&points, &SurfaceOptions::default())?;
+/// assert_eq!((found.answer.triangles.len(), found.answer.topology.genus), (8, Some(0)));
+/// assert!(found.check(&points)?.certified);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Dimension`], [`Error::NonFinite`], [`Error::Flat`], [`Error::TooManyPoints`], [`Error::Option`], and
+/// [`Error::Triangulation`] for more cells than can be numbered.
+pub fn surface<T: Scalar>(
+    points: &Points<'_, T>,
+    options: &SurfaceOptions,
+) -> Result<Solution<Surface>, Error> {
+    surface_of_source(points, options, &Monitor::silent())
+}
+
+/// The same for points of any source, with a monitor. They are held in memory while it works.
+///
+/// # Errors
+/// As [`surface`], [`Error::Read`] when the points cannot be read, and [`Error::Cancelled`].
+pub fn surface_of_source(
+    source: &dyn PointSource,
+    options: &SurfaceOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Surface>, Error> {
+    if source.dim() != 3 {
+        return Err(Error::SpaceDimension { dim: source.dim() });
+    }
+    if let Some(how) = &options.denoise {
+        how.check()?;
+    }
+    on_threads(options.threads, || {
+        monitor.check()?;
+        let mut scratch = Scratch::new();
+        let rows = source.read(0..source.len(), &mut scratch)?;
+        if let Some((row, column, value)) = rows.first_non_finite() {
+            return Err(Error::NonFinite { row: row as u64, column, value });
+        }
+        let mut given = coordinates(rows);
+        let points_hash = hash_points(source, monitor)?;
+        let Some(how) = &options.denoise else {
+            return solve(&given, None, Changes::default(), options, points_hash, monitor);
+        };
+        let scale = Scale::of(&given);
+        given.iter_mut().for_each(|point| *point = scale.apply(*point));
+        let Denoised { points, rows, outliers } = denoise(&given, how, monitor)?;
+        let given = coordinates(source.read(0..source.len(), &mut scratch)?);
+        let points: Vec<[f64; 3]> = match how.iterations {
+            0 => rows.iter().map(|&row| given[row as usize]).collect(),
+            _ => points.into_iter().map(|point| scale.inverse().apply(point)).collect(),
+        };
+        let (changes, rows, points) = Changes::of(given, how, outliers, (rows, points));
+        solve(&points, Some(&rows), changes, options, points_hash, monitor)
+    })
+}
+
+/// The coordinates of rows that have three.
+fn coordinates(rows: Rows<'_>) -> Vec<[f64; 3]> {
+    match rows {
+        Rows::F32(points) => points.rows().map(|p| [0, 1, 2].map(|k| f64::from(p[k]))).collect(),
+        Rows::F64(points) => points.rows().map(|p| [p[0], p[1], p[2]]).collect(),
+    }
+}
+
+/// Refuses sites that do not span space.
+fn check_span(space: &Space) -> Result<(), Error> {
+    let span = match space.complex() {
+        Complex::Full => return Ok(()),
+        Complex::Nothing => Span::Nothing,
+        Complex::Point => Span::Point,
+        Complex::Line(_) => Span::Line,
+        Complex::Flat(_) => Span::Plane,
+    };
+    let points = (space.site_count() + space.duplicates().len()) as u64;
+    Err(Error::Flat { points, span })
+}
+
+/// The surface through points, which are some of all rows if any are named.
+fn solve(
+    points: &[[f64; 3]],
+    rows: Option<&[u32]>,
+    changes: Changes,
+    options: &SurfaceOptions,
+    points_hash: PointsHash,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Surface>, Error> {
+    let view = Points::new(points.as_flattened(), 3);
+    let Ok(view) = view else { return Err(Error::Flat { points: 0, span: Span::Nothing }) };
+    let space = Space::build(&view, &DelaunayOptions::default(), monitor).map_err(refused)?;
+    check_span(&space)?;
+    let sites = Sites::of(&space, rows);
+    let (mode, facets, cells) = match options.method {
+        SurfaceMethod::Tree => {
+            let cells = Cells::of(space.into_slots());
+            let facets = surface_of_labels(&cells, &sites.points, options.mode, monitor)?;
+            let mode = match options.mode {
+                SurfaceMode::Closed => Promise::Closed,
+                SurfaceMode::Open => Promise::Open,
+            };
+            (mode, facets, cells)
+        }
+        method => {
+            let (mode, facets) = of_filters(&space, method, options, monitor)?;
+            (mode, facets, Cells::of(space.into_slots()))
+        }
+    };
+    monitor.check()?;
+    finish(options.method, mode, facets, (&cells, &sites), changes, points_hash)
+}
+
+/// What the methods find that choose among facets one by one.
+fn of_filters(
+    space: &Space,
+    method: SurfaceMethod,
+    options: &SurfaceOptions,
+    monitor: &Monitor<'_>,
+) -> Result<(Promise, Facets), Error> {
+    let thesis = &options.thesis;
+    if method == SurfaceMethod::Thesis {
+        if let Some(seed) = thesis.joggle {
+            let (value, expected) =
+                (seed.to_string(), "none, as joggled points are not those given");
+            return Err(Error::Option { name: "joggle", value, expected });
+        }
+        let found =
+            thesis_surface(space, &ThesisOptions { threads: None, ..thesis.clone() }, monitor)?;
+        let counters = [
+            ("candidates", found.counters.candidates),
+            ("pinches", found.pinches.len() as u64),
+            ("seeds", found.counters.seeds),
+        ];
+        let facets = Facets {
+            triangles: found.on_sites(),
+            counters: counters.map(|(name, count)| (name.to_owned(), count)).into(),
+            ..Facets::default()
+        };
+        return Ok((Promise::Open, facets));
+    }
+    if method == SurfaceMethod::Hull {
+        let found = filtered_hull(space, thesis.epsilon, thesis.emptiness, thesis.alpha)?;
+        let facets = Facets { triangles: found.triangles, ..Facets::default() };
+        return Ok((Promise::Open, facets));
+    }
+    let radius = match options.alpha {
+        Some(radius) => radius,
+        None => optimal_alpha(space, 1)?,
+    };
+    let found = alpha_shape(space, radius)?;
+    let counters = [("solids", found.solids), ("singular", found.singular.len())];
+    let facets = Facets {
+        triangles: found.regular,
+        is_outward: true,
+        counters: counters.map(|(name, count)| (name.to_owned(), count as u64)).into(),
+        ..Facets::default()
+    };
+    // A radius without end says nothing, and no JSON holds it.
+    let mode = if radius.is_finite() { Promise::Alpha { radius } } else { Promise::Closed };
+    Ok((mode, facets))
+}
+
+/// What a triangulation refuses, as a surface says it.
+fn refused(error: taut_delaunay::Error) -> Error {
+    use taut_delaunay::Error as Refused;
+    match error {
+        Refused::NonFinite { row, column, value } => Error::NonFinite { row, column, value },
+        Refused::TooManyPoints { points, most } => Error::TooManyPoints { points, most },
+        Refused::Cancelled(cancelled) => Error::Cancelled(cancelled),
+        other => Error::Triangulation(other),
+    }
+}

@@ -1,0 +1,40 @@
+//! Which way triangles turn.
+//!
+//! *Idea.* Triangles that share an edge are alike if they run along it in opposite directions. What hangs together so is turned alike, the
+//! whole so that its volume is positive; of a one-sided part, where that cannot be, as much as comes first.
+//! *Guarantee.* O(n log n), a function of the triangles in their order.
+
+use super::border::{Face, parts};
+use super::media::Media;
+use super::spheres::{Point, cross, dot, minus};
+
+/// Turns triangles alike, and closed parts outward.
+pub(super) fn orient(faces: &mut [Face], points: &[Point]) {
+    let mut sides: Vec<([u32; 2], u32, bool)> = Vec::with_capacity(3 * faces.len());
+    for (number, face) in (0u32..).zip(&*faces) {
+        let [a, b, c] = face.sites;
+        let side = |[p, q]: [u32; 2]| ([p.min(q), p.max(q)], number, p < q);
+        sides.extend([[a, b], [b, c], [c, a]].map(side));
+    }
+    sides.sort_unstable();
+    let mut media = Media::new(faces.len());
+    for edge in sides.chunk_by(|one, other| one.0 == other.0) {
+        if let [one, other] = edge {
+            media.join(one.1, other.1, one.2 == other.2);
+        }
+    }
+    media.flatten();
+    let turn = |face: &mut Face| face.sites.swap(1, 2);
+    let opposite = (0u32..).zip(&mut *faces).filter(|(number, _)| media.is_opposite(*number));
+    opposite.for_each(|(_, face)| turn(face));
+    let part = parts(faces, points.len());
+    let part_of = |face: &Face| part[face.sites[0] as usize] as usize;
+    let mut volume = vec![0.0; points.len()];
+    for face in &*faces {
+        let base = points[part_of(face)];
+        let [a, b, c] = face.sites.map(|site| minus(points[site as usize], base));
+        volume[part_of(face)] += dot(a, cross(b, c));
+    }
+    let is_inward = |face: &&mut Face| volume[part_of(face)] < 0.0;
+    faces.iter_mut().filter(is_inward).for_each(turn);
+}

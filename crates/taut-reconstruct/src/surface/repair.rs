@@ -1,0 +1,161 @@
+//! Vertices at which the border is no surface, or is not at all, put right by turning a few cells over.
+//!
+//! *Idea.* Around a vertex of a surface the cells inside hang together by facets, and so do those outside. Where they do not, a cell, two
+//! neighbours, or a whole part of the star changes sides: the change that leaves the fewest parts too many at all vertices it
+//! touches, and of those the one that the strengths of the facets object to least.
+//! *Guarantee.* Each change lowers the number of parts too many, so it ends. A cell changes only to a side that it has a facet with,
+//! so no island arises. Vertices are taken in the order of their numbers, cells in the order of their sites, and sums are exact: the
+//! answer is a function of the points.
+
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+use taut_delaunay::GHOST;
+
+use super::cells::Cells;
+use super::stars::{Star, Stars};
+
+/// What a facet says: s in steps, more than 0 for the same side.
+pub(super) type Strength<'a> = &'a dyn Fn(u32, usize) -> i64;
+
+/// What a repair came to.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Repaired {
+    /// Sites that stay as they are, ascending.
+    pub(super) stuck: Vec<u32>,
+    /// How many changes there were.
+    pub(super) changes: u64,
+}
+
+/// Turns cells over until no change makes it better; ghosts only if they may be.
+pub(super) fn repair(
+    cells: &Cells,
+    inside: &mut [bool],
+    sites: usize,
+    defects: Vec<u32>,
+    strength: Strength<'_>,
+    ghosts_may: bool,
+) -> Repaired {
+    let mut repaired = Repaired::default();
+    if defects.is_empty() {
+        return repaired;
+    }
+    let mut bench = Bench { cells, stars: Stars::of(cells, sites), strength, ghosts_may };
+    let mut waiting = BTreeSet::from_iter(defects);
+    let mut stuck = BTreeSet::new();
+    while let Some(site) = waiting.pop_first() {
+        if bench.defect(inside, site, &[]) == 0 {
+            continue;
+        }
+        let Some(change) = bench.best_change(inside, site) else {
+            stuck.insert(site);
+            continue;
+        };
+        change.iter().for_each(|&cell| inside[cell as usize] = !inside[cell as usize]);
+        repaired.changes += 1;
+        for site in bench.sites_of(&change) {
+            // What was stuck may have become possible.
+            if stuck.remove(&site) || bench.defect(inside, site, &[]) > 0 {
+                waiting.insert(site);
+            }
+        }
+    }
+    repaired.stuck = stuck.into_iter().collect();
+    repaired
+}
+
+struct Bench<'a> {
+    cells: &'a Cells,
+    stars: Stars<'a>,
+    strength: Strength<'a>,
+    ghosts_may: bool,
+}
+
+impl Bench<'_> {
+    /// How many parts too many there are at a site, were some cells turned over.
+    fn defect(&mut self, inside: &[bool], site: u32, change: &[u32]) -> u32 {
+        let star = self.stars.star(site);
+        star.groups(|cell| inside[cell as usize] ^ change.contains(&cell)).1.defect()
+    }
+
+    fn sites_of(&self, change: &[u32]) -> Vec<u32> {
+        let mut sites: Vec<u32> = change.iter().flat_map(|&cell| self.cells.sites(cell)).collect();
+        sites.retain(|&site| site != GHOST);
+        sites.sort_unstable();
+        sites.dedup();
+        sites
+    }
+
+    /// The change at a site that lowers the defects around it most.
+    fn best_change(&mut self, inside: &[bool], site: u32) -> Option<Vec<u32>> {
+        let star = self.stars.star(site);
+        let mut best: Option<(i64, i64, Vec<u32>)> = None;
+        for change in self.changes(inside, &star) {
+            let mut gain = 0;
+            for site in self.sites_of(&change) {
+                let before = self.defect(inside, site, &[]);
+                gain += i64::from(before) - i64::from(self.defect(inside, site, &change));
+            }
+            if gain <= 0 || best.as_ref().is_some_and(|(most, ..)| gain < *most) {
+                continue;
+            }
+            let objection = self.objection(inside, &change);
+            let is_better =
+                |&(most, least, _): &(i64, i64, Vec<u32>)| gain > most || objection < least;
+            if best.as_ref().is_none_or(is_better) {
+                best = Some((gain, objection, change));
+            }
+        }
+        best.map(|(_, _, change)| change)
+    }
+
+    /// The changes worth a look: cells of the star, pairs of neighbours one of which is in it, and its parts of one label.
+    fn changes(&self, inside: &[bool], star: &Rc<Star>) -> Vec<Vec<u32>> {
+        let may = |cell: u32| self.ghosts_may || !self.cells.is_ghost(cell);
+        let mut changes: Vec<Vec<u32>> = star.cells.iter().map(|&cell| vec![cell]).collect();
+        for &cell in &star.cells {
+            let mut sites = self.cells.sites(cell);
+            sites.sort_unstable();
+            for site in sites {
+                let i = self.cells.sites(cell).iter().position(|&s| s == site).unwrap_or(0);
+                let (other, _) = self.cells.across(cell, i);
+                if inside[other as usize] == inside[cell as usize] {
+                    changes.push(vec![cell, other]);
+                }
+            }
+        }
+        let (group, _) = star.groups(|cell| inside[cell as usize]);
+        let count = group.iter().max().map_or(0, |most| *most as usize + 1);
+        let mut groups = vec![Vec::new(); count];
+        group.iter().zip(&star.cells).for_each(|(&g, &cell)| groups[g as usize].push(cell));
+        groups.retain(|group| group.len() > 2 && group.len() < star.cells.len());
+        changes.extend(groups);
+        changes.retain(|change| {
+            change.iter().all(|&cell| may(cell)) && self.touches_the_other_side(inside, change)
+        });
+        changes
+    }
+
+    /// Whether one of the cells has a facet with a cell of the other label.
+    fn touches_the_other_side(&self, inside: &[bool], change: &[u32]) -> bool {
+        change.iter().any(|&cell| {
+            (0..4).any(|i| inside[self.cells.across(cell, i).0 as usize] != inside[cell as usize])
+        })
+    }
+
+    /// What the facets around a change object to it: by how much less they agree with the labels after it.
+    fn objection(&self, inside: &[bool], change: &[u32]) -> i64 {
+        let mut sum = 0;
+        for &cell in change {
+            for i in 0..4 {
+                let (other, _) = self.cells.across(cell, i);
+                if !change.contains(&other) {
+                    let is_alike = inside[other as usize] == inside[cell as usize];
+                    let s = (self.strength)(cell, i);
+                    sum += if is_alike { s } else { -s };
+                }
+            }
+        }
+        sum
+    }
+}

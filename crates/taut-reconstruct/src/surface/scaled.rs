@@ -1,0 +1,67 @@
+//! Points in coordinates of magnitude 1.
+//!
+//! *Guarantee.* Multiplied by a power of two, which loses nothing that a surface could show: whatever is measured on them does not depend
+//! on the unit, and neither products of six lengths nor reciprocals leave the range of numbers.
+
+use rayon::prelude::*;
+
+use super::spheres::Point;
+
+/// A power of two that brings points to magnitude 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Scale {
+    /// In two steps, as neither 2^1074 nor 2^−1074 is within reach of every number's exponent.
+    steps: [f64; 2],
+}
+
+impl Scale {
+    /// That of finite points.
+    pub(super) fn of(points: &[Point]) -> Self {
+        let largest = |p: &Point| p.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+        let most = points.par_iter().with_min_len(1 << 13).map(largest).reduce(|| 0.0, f64::max);
+        Self::by(if most > 0.0 { -exponent_of(most) } else { 0 })
+    }
+
+    fn by(exponent: i32) -> Self {
+        Self { steps: [exponent / 2, exponent - exponent / 2].map(|half| 2f64.powi(half)) }
+    }
+
+    pub(super) fn apply(self, point: Point) -> Point {
+        point.map(|x| x * self.steps[0] * self.steps[1])
+    }
+
+    /// The scale that undoes this one.
+    pub(super) fn inverse(self) -> Self {
+        Self { steps: self.steps.map(|step| 1.0 / step) }
+    }
+}
+
+/// e with 2ᵉ ≤ x < 2ᵉ⁺¹.
+fn exponent_of(x: f64) -> i32 {
+    let exponent = (x.to_bits() >> 52) as i32 & 0x7ff;
+    if exponent > 0 { exponent - 1023 } else { exponent_of(x * 2f64.powi(64)) - 64 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exponents_of_the_ends_of_a_double() {
+        for (x, exponent) in
+            [(1.0, 0), (7.9, 2), (f64::MAX, 1023), (5e-324, -1074), (3e-310, -1029)]
+        {
+            assert_eq!(exponent_of(x), exponent);
+        }
+    }
+
+    #[test]
+    fn scaling_there_and_back_changes_nothing() {
+        for x in [1.0, 3e300, 7e-320, -0.1] {
+            let scale = Scale::of(&[[x, 0.0, 0.0]]);
+            let [y, ..] = scale.apply([x, 0.0, 0.0]);
+            assert!((1.0..2.0).contains(&y.abs()));
+            assert_eq!(scale.inverse().apply([y, 0.0, 0.0])[0], x);
+        }
+    }
+}

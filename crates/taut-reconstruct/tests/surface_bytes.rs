@@ -1,0 +1,52 @@
+//! Any bytes as points of space: surfaces by every method pass the checker, and so do the seeds of the fuzz target.
+
+#[path = "surface_any/bytes.rs"]
+mod bytes;
+
+use std::path::Path;
+
+use proptest::collection::vec;
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngSeed};
+
+proptest! {
+    #![proptest_config(Config {
+        cases: 120, rng_seed: RngSeed::Fixed(7), failure_persistence: None, ..Config::default()
+    })]
+
+    #[test]
+    fn any_bytes(bytes in vec(any::<u8>(), 0..122)) {
+        bytes::solve_and_check(&bytes);
+    }
+
+    /// A grid of few places: copies, ties and planes.
+    #[test]
+    fn few_places(wish in 0u8..64, places in vec(0u8..4, 0..60)) {
+        bytes::solve_and_check(&[&[0, wish][..], &places].concat());
+    }
+}
+
+/// Each style with no point, one, two, three, four, five, and as many as count.
+#[test]
+fn few_points_and_many() {
+    for style in 0..8 {
+        for rows in [0, 1, 2, 3, 4, 5, 40] {
+            for wish in [0, 13, 22, 32] {
+                let rest = (0..3 * rows).map(|i| (i * 89 + 7 * i * i) as u8);
+                let bytes: Vec<u8> = [style, wish].into_iter().chain(rest).collect();
+                bytes::solve_and_check(&bytes);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_seeds_pass() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/surface");
+    let seeds: Vec<_> =
+        std::fs::read_dir(folder).unwrap().map(|seed| seed.unwrap().path()).collect();
+    assert!(seeds.len() >= 8);
+    for seed in seeds {
+        bytes::solve_and_check(&std::fs::read(seed).unwrap());
+    }
+}
