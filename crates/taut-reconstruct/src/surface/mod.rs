@@ -71,8 +71,11 @@ pub use options::{Denoise, Positions, SurfaceMode, SurfaceOptions};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
+/// n points of three coordinates each; O(n log n) beside their triangulation. The method `tree` is that of this crate, `thesis` and `hull`
+/// those of sections 4.2 to 4.5 of the thesis, `alpha` that of Edelsbrunner and Mücke, ACM Transactions on Graphics 13(1), 1994.
+///
 /// # Errors
-/// [`Error::Dimension`], [`Error::NonFinite`], [`Error::Flat`], [`Error::TooManyPoints`], [`Error::Option`], and
+/// [`Error::SpaceDimension`], [`Error::NonFinite`], [`Error::Flat`], [`Error::TooManyPoints`], [`Error::Option`], and
 /// [`Error::Triangulation`] for more cells than can be numbered.
 pub fn surface<T: Scalar>(
     points: &Points<'_, T>,

@@ -1,5 +1,5 @@
 //! Samples of surfaces, made by formulas and a seeded generator.
-#![allow(dead_code, missing_docs, unreachable_pub)]
+#![allow(dead_code, missing_docs, unreachable_pub)] // each test binary uses a part
 
 pub mod rational;
 
