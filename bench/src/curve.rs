@@ -3,7 +3,6 @@
 mod certificates;
 mod drawn;
 mod fitconnect;
-mod goals;
 mod homeomorphism;
 mod memory;
 pub(crate) mod one;

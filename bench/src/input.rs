@@ -125,6 +125,13 @@ pub(crate) fn write_rows(path: &Path, values: &[f64], columns: usize) -> Result<
     Ok(file.flush()?)
 }
 
+/// Writes points as programs of one build each read them: little-endian doubles, row by row.
+pub(crate) fn write_raw(path: &Path, values: &[f64]) -> Result<()> {
+    let mut file = BufWriter::new(std::fs::File::create(path)?);
+    file.write_all(bytemuck::cast_slice(values))?;
+    Ok(file.flush()?)
+}
+
 /// The radii of a case of balls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Radii {

@@ -40,6 +40,8 @@ pub(crate) fn describe() -> Value {
         "scikit-learn-extra": "0.3.0",
         "concorde_rs": "0.1.1",
         "elkai": "2.0.1",
+        "open3d": "0.20.0",
+        "pymeshlab": "2025.7.post1",
         "eigen": output("dpkg-query", &["-W", "-f=${Version}", "libeigen3-dev"]),
     })
 }

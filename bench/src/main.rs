@@ -1,8 +1,8 @@
 //! taut beside its peers: the same inputs, one run, every answer checked.
 //!
 //! `ball` runs the named cases of the minimum enclosing ball, `delaunay` those of Delaunay triangulations, `ellipsoid`
-//! those of ellipsoids, `centers` those of k centres, `curve` what is shown of curves; `thesis-ball`, `thesis-ellipsoid` and
-//! `thesis-curve` rerun figures of the thesis.
+//! those of ellipsoids, `centers` those of k centres, `curve` and `surface` what is shown of curves and surfaces; `thesis-ball`,
+//! `thesis-ellipsoid` and `thesis-curve` rerun figures of the thesis.
 //! The peers are installed by `bench/setup`; one that is missing is named, never skipped in silence.
 #![forbid(unsafe_code)]
 
@@ -12,6 +12,7 @@ mod context;
 mod curve;
 mod delaunay;
 mod ellipsoid;
+mod goals;
 mod input;
 mod judge;
 mod machine;
@@ -22,6 +23,7 @@ mod read;
 mod report;
 mod select;
 mod stats;
+mod surface;
 mod table;
 mod thesis;
 
@@ -48,6 +50,8 @@ enum Area {
     Centers(centers::Arguments),
     /// Curves: connectivity, errors, times and memory of reconstructions, tours, and what certificates are worth.
     Curve(curve::Arguments),
+    /// Surfaces: topology, distances, times and memory of reconstructions beside CGAL's.
+    Surface(surface::Arguments),
     /// Figures 5 to 15 of the thesis, rerun as CSV and SVG.
     ThesisBall(thesis::Arguments),
     /// Figure 18 of the thesis, core-sets of ellipsoids, rerun as CSV and SVG.
@@ -63,6 +67,9 @@ enum Area {
     /// Reconstructs the curves of one raw file and prints what that cost.
     #[command(hide = true)]
     OneCurve(curve::one::OneArguments),
+    /// Reconstructs the surface of one raw file and prints what that cost.
+    #[command(hide = true)]
+    OneSurface(surface::one::OneArguments),
     /// Encloses one raw file in an ellipsoid and prints passes and the peak memory of this process.
     #[command(hide = true)]
     SolveEllipsoid(ellipsoid::file::SolveArguments),
@@ -83,6 +90,7 @@ fn main() -> anyhow::Result<()> {
         Area::Ellipsoid(arguments) => ellipsoid::run(&arguments),
         Area::Centers(arguments) => centers::run(&arguments),
         Area::Curve(arguments) => curve::run(&arguments),
+        Area::Surface(arguments) => surface::run(&arguments),
         Area::ThesisBall(arguments) => thesis::run(&arguments),
         Area::ThesisEllipsoid(arguments) => thesis::run_ellipsoid(&arguments),
         Area::ThesisCurve(arguments) => thesis::run_curve(&arguments),
@@ -90,6 +98,7 @@ fn main() -> anyhow::Result<()> {
         Area::SolveEllipsoid(arguments) => ellipsoid::file::solve(&arguments),
         Area::OneDelaunay(arguments) => delaunay::one::run(&arguments),
         Area::OneCurve(arguments) => curve::one::run(&arguments),
+        Area::OneSurface(arguments) => surface::one::run(&arguments),
         Area::PeerCrate { input, center } => peer::serve_crate(&input, &center),
     }
 }

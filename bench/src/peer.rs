@@ -69,7 +69,8 @@ pub(crate) fn folder() -> PathBuf {
 ///
 /// Names: a program of `peers/build` with its build (`fgk-native`, `cgal-spheres-3-o2`), or `cyminiball`,
 /// `miniball-pypi`, `miniball-crate`, `sklearn-mcd-H`, `conic-PROBLEM`, `dynesty`, `cgal-approximate-EPSILON`, `set-cover`,
-/// `medoids`, `traversal-K`, `traversal-single-K`, `concorde`, `elkai`, `plain-curve`, `cgal-transport-TOLERANCE`.
+/// `medoids`, `traversal-K`, `traversal-single-K`, `concorde`, `elkai`, `plain-curve`, `cgal-transport-TOLERANCE`,
+/// `cgal-surface-WAY`, `open3d-WAY`, `pymeshlab-WAY`.
 fn command(name: &str) -> Result<Option<Command>> {
     let python = |package: &str| {
         let interpreter = folder().join(".venv/bin/python");
@@ -104,6 +105,8 @@ fn command(name: &str) -> Result<Option<Command>> {
         "medoids" => script("sklearn_extra.cluster", "centers.py", "medoids"),
         "elkai" => script("elkai", "tours.py", "elkai"),
         "plain-curve" => script("scipy", "plain_curve.py", "4"),
+        "open3d-pivoting" | "open3d-poisson" => script("open3d", "surface.py", name),
+        "pymeshlab-pivoting" | "pymeshlab-poisson" => script("pymeshlab", "surface.py", name),
         name if name.starts_with("traversal-") => script("numpy", "centers.py", name),
         "dynesty" => python("dynesty").map(|mut command| {
             command.arg(folder().join("peers/bounding.py"));
@@ -115,9 +118,10 @@ fn command(name: &str) -> Result<Option<Command>> {
             Some(command)
         }
         name => {
-            const WITH_ARGUMENT: [(&str, &str); 2] = [
+            const WITH_ARGUMENT: [(&str, &str); 3] = [
                 ("cgal-approximate-", "cgal-approximate-ellipsoid"),
                 ("cgal-transport-", "cgal-transport"),
+                ("cgal-surface-", "cgal-surface"),
             ];
             let prefixed = WITH_ARGUMENT
                 .iter()

@@ -13,8 +13,8 @@ use taut_points::generate::curves::{
 use taut_reconstruct::{CurveMethod, CurveOptions};
 
 use super::drawn::{CURVES, found_lines, pool, solve, true_lines};
-use super::goals::Goals;
 use crate::context::Context;
+use crate::goals::Goals;
 use crate::table::Table;
 
 /// Kinds of trials, by turns.

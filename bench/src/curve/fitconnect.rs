@@ -8,8 +8,8 @@ use taut_points::generate::curves::TestCurve;
 use taut_reconstruct::CurveOptions;
 
 use super::drawn::{NOISE, Trials, error, truth};
-use super::goals::Goals;
 use crate::context::Context;
+use crate::goals::Goals;
 use crate::stats::{seconds, times};
 use crate::table::Table;
 

@@ -8,8 +8,8 @@ use taut_points::generate::curves::{CurveNoise, TestCurve};
 use taut_reconstruct::CurveOptions;
 
 use super::drawn::{CURVES, NOISE, Trials, error, pool, truth};
-use super::goals::Goals;
 use crate::context::Context;
+use crate::goals::Goals;
 use crate::stats::seconds;
 use crate::table::Table;
 

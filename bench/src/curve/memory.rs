@@ -8,9 +8,10 @@ use taut_points::generate::curves::{CurveNoise, TestCurve, sample_curve};
 use taut_reconstruct::CurveMethod;
 
 use super::drawn::{NOISE, truth};
-use super::goals::Goals;
 use super::one;
 use crate::context::Context;
+use crate::goals::Goals;
+use crate::input::write_raw;
 use crate::table::Table;
 
 /// Bytes per point.
@@ -34,7 +35,7 @@ pub(super) fn run(context: &Context, seeds: Range<u64>) -> Result<Value> {
         (CurveMethod::Crust, 0.0),
     ] {
         let noise = CurveNoise { delta, ..NOISE };
-        one::write(&file, &sample_curve(&truth, n, &noise, seeds.start).points)?;
+        write_raw(&file, &sample_curve(&truth, n, &noise, seeds.start).points)?;
         let what = if delta > 0.0 { "noisy" } else { "clean" };
         let built = one::alone(method, threads, &file, context.limit)?;
         let peak =

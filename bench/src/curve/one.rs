@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{BufWriter, Read, Write};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
@@ -71,11 +71,4 @@ pub(super) fn alone(
     command.arg("one-curve").args(["--method", method.name()]);
     command.args(["--threads", &threads.to_string()]).arg(file);
     program::run(command, limit)
-}
-
-/// Writes points as all programs read them.
-pub(super) fn write(path: &Path, values: &[f64]) -> Result<()> {
-    let mut file = BufWriter::new(File::create(path)?);
-    file.write_all(bytemuck::cast_slice(values))?;
-    Ok(file.flush()?)
 }

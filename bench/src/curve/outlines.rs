@@ -11,8 +11,8 @@ use taut_points::{Distribution, generate};
 use taut_reconstruct::{CurveMethod, CurveOptions};
 
 use super::drawn::{found_edges, found_lines, solve};
-use super::goals::Goals;
 use crate::context::Context;
+use crate::goals::Goals;
 use crate::stats::seconds;
 use crate::table::Table;
 

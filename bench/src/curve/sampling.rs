@@ -10,8 +10,8 @@ use taut_points::generate::curves::{TestCurve, epsilon_sample};
 use taut_reconstruct::{CurveMethod, CurveOptions};
 
 use super::drawn::{found_edges, pool, solve};
-use super::goals::Goals;
 use crate::context::Context;
+use crate::goals::Goals;
 use crate::table::Table;
 
 const METHODS: [(CurveMethod, f64); 4] = [

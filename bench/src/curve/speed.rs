@@ -8,10 +8,11 @@ use taut_points::generate::curves::{CurveNoise, TestCurve, sample_curve};
 use taut_reconstruct::CurveMethod;
 
 use super::drawn::{NOISE, truth};
-use super::goals::Goals;
 use super::one;
 use crate::context::Context;
 use crate::delaunay::program::{Build, Peer, Program};
+use crate::goals::Goals;
+use crate::input::write_raw;
 use crate::peer::Silence;
 use crate::stats::{Summary, seconds, times};
 use crate::table::Table;
@@ -55,7 +56,7 @@ impl Input {
     ) -> Result<Self> {
         let truth = truth("bumpy", TestCurve::VERTICES)?;
         let file = context.temp.path().join("points.f64");
-        one::write(&file, &sample_curve(&truth, n, noise, seed).points)?;
+        write_raw(&file, &sample_curve(&truth, n, noise, seed).points)?;
         let start = |&worker: &Worker| Row { worker, builds: vec![], silence: None };
         let mut rows: Vec<Row> = workers.iter().map(start).collect();
         for round in 0..context.runs {

@@ -9,8 +9,8 @@ use taut_points::generate::curves::{CurveNoise, TestCurve, TruthCurves, sample_c
 use taut_reconstruct::{CurveMethod, CurveOptions};
 
 use super::drawn::{CURVES, Trials, error, pool, true_lines, truth};
-use super::goals::Goals;
 use crate::context::Context;
+use crate::goals::Goals;
 use crate::input::write_rows;
 use crate::peer::{Peer, Silence};
 use crate::stats::seconds;

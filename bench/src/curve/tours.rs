@@ -9,8 +9,8 @@ use taut_points::{Distribution, Points, generate};
 use taut_reconstruct::{CurveMethod, CurveOptions};
 
 use super::drawn::{NOISE, solve, truth};
-use super::goals::Goals;
 use crate::context::Context;
+use crate::goals::Goals;
 use crate::input::write_rows;
 use crate::peer::{Answer, Peer, Silence};
 use crate::stats::{seconds, times};

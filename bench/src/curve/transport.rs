@@ -10,8 +10,8 @@ use taut_points::generate::curves::{TestCurve, sample_curve};
 use taut_reconstruct::CurveOptions;
 
 use super::drawn::{CURVES, NOISE, error, found_lines, solve, true_lines, truth};
-use super::goals::Goals;
 use crate::context::Context;
+use crate::goals::Goals;
 use crate::input::write_rows;
 use crate::peer::Peer;
 use crate::stats::seconds;

@@ -22,7 +22,7 @@ pub(crate) struct Build {
     pub(crate) program: String,
     /// Points it read.
     pub(crate) points: u64,
-    /// Finite triangles or tetrahedra; of a curve its edges.
+    /// Finite triangles or tetrahedra; of a curve its edges, of a surface its triangles.
     pub(crate) simplices: u64,
     /// Processor seconds, user and system, of all threads.
     pub(crate) cpu: f64,

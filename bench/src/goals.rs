@@ -4,23 +4,23 @@ use serde_json::{Value, json};
 
 /// The goals of one section.
 #[derive(Default)]
-pub(super) struct Goals {
+pub(crate) struct Goals {
     lines: Vec<Value>,
 }
 
 impl Goals {
     /// What has to be reached; `met` is `None` where it was not measured.
-    pub(super) fn must(&mut self, goal: String, measured: String, met: impl Into<Option<bool>>) {
+    pub(crate) fn must(&mut self, goal: String, measured: String, met: impl Into<Option<bool>>) {
         self.line("must", goal, measured, met.into());
     }
 
     /// What is hoped for.
-    pub(super) fn aim(&mut self, goal: String, measured: String, met: impl Into<Option<bool>>) {
+    pub(crate) fn aim(&mut self, goal: String, measured: String, met: impl Into<Option<bool>>) {
         self.line("aim", goal, measured, met.into());
     }
 
     /// A value that must be at most one bound, and is hoped to be at most another.
-    pub(super) fn at_most(
+    pub(crate) fn at_most(
         &mut self,
         what: &str,
         value: Option<f64>,
@@ -47,7 +47,7 @@ impl Goals {
     }
 
     /// For the report.
-    pub(super) fn json(self) -> Value {
+    pub(crate) fn json(self) -> Value {
         self.lines.into()
     }
 }

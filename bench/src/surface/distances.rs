@@ -1,0 +1,54 @@
+//! Distances between a reference and a result, in parts of the reference's diagonal.
+
+use anyhow::Result;
+use serde::Serialize;
+use taut_io::Shape;
+use taut_mesh::{SurfaceOptions, TriangleMesh, compare_surfaces};
+
+use super::samples::Point;
+
+/// Of one mesh from another: the largest and the mean, over the diagonal.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub(super) struct Distance {
+    /// The largest.
+    pub(super) hausdorff: f64,
+    /// The mean.
+    pub(super) mean: f64,
+}
+
+/// Both ways.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub(super) struct Distances {
+    /// Of the reference from the result: what is missed.
+    pub(super) missed: Distance,
+    /// Of the result from the reference: what is invented.
+    pub(super) invented: Distance,
+}
+
+impl Distances {
+    /// Measures a result of triangles on places.
+    pub(super) fn of(reference: &Shape, places: &[Point], triangles: &[[u32; 3]]) -> Result<Self> {
+        let reference = reference.view()?.mesh;
+        let result = TriangleMesh::new(places, triangles)?;
+        let quality = compare_surfaces(&reference, &result, &SurfaceOptions::default());
+        let [missed, invented] = [quality.reference_to_result, quality.result_to_reference]
+            .map(|of| Distance { hausdorff: of.hausdorff_relative, mean: of.mean_relative });
+        Ok(Distances { missed, invented })
+    }
+
+    /// Names of [`Self::cells`].
+    pub(super) const HEAD: [&'static str; 4] = [
+        "reference to result, largest %",
+        "mean 1e-4",
+        "result to reference, largest %",
+        "mean 1e-4",
+    ];
+
+    /// For a table.
+    pub(super) fn cells(&self) -> [String; 4] {
+        let [missed, invented] = [self.missed, self.invented]
+            .map(|of| [format!("{:.3}", 100.0 * of.hausdorff), format!("{:.4}", 1e4 * of.mean)]);
+        let ([a, b], [c, d]) = (missed, invented);
+        [a, b, c, d]
+    }
+}

@@ -1,0 +1,99 @@
+//! Surfaces that taut and its peers find, in one form.
+
+use std::time::Instant;
+
+use anyhow::{Context as _, Result};
+use taut_certify::{Solution, Surface};
+use taut_points::Points;
+use taut_reconstruct::{SurfaceOptions, surface};
+
+use super::samples::Point;
+use crate::context::Context;
+use crate::input::write_rows;
+use crate::peer::{Peer, Silence};
+
+/// A surface of taut, and the seconds that it took.
+pub(super) fn ours(points: &[Point], options: &SurfaceOptions) -> Result<(Solution<Surface>, f64)> {
+    let view = Points::new(points.as_flattened(), 3)?;
+    let clock = Instant::now();
+    let found = surface(&view, options)?;
+    Ok((found, clock.elapsed().as_secs_f64()))
+}
+
+/// A peer and its way to a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Way {
+    /// CGAL's `Advancing_front_surface_reconstruction`.
+    Front,
+    /// CGAL's `Scale_space_surface_reconstruction_3`.
+    Scales,
+    /// Ball pivoting of Open3D.
+    Open3dPivoting,
+    /// Poisson reconstruction of Open3D.
+    Open3dPoisson,
+    /// Ball pivoting of pymeshlab.
+    PymeshlabPivoting,
+    /// Screened Poisson reconstruction of pymeshlab.
+    PymeshlabPoisson,
+}
+
+impl Way {
+    /// All of them.
+    pub(super) const ALL: [Self; 6] = [
+        Way::Front,
+        Way::Scales,
+        Way::Open3dPivoting,
+        Way::Open3dPoisson,
+        Way::PymeshlabPivoting,
+        Way::PymeshlabPoisson,
+    ];
+
+    /// What the tables call it.
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Way::Front => "cgal-surface-front",
+            Way::Scales => "cgal-surface-scales",
+            Way::Open3dPivoting => "open3d-pivoting",
+            Way::Open3dPoisson => "open3d-poisson",
+            Way::PymeshlabPivoting => "pymeshlab-pivoting",
+            Way::PymeshlabPoisson => "pymeshlab-poisson",
+        }
+    }
+}
+
+/// A surface of a peer.
+pub(super) struct Theirs {
+    /// Its triangles, as rows, or as places.
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// Its vertices, where they are not the points.
+    pub(super) places: Option<Vec<Point>>,
+    /// Seconds of the Delaunay triangulation, of the smoothing, or of the normals.
+    pub(super) first: f64,
+    /// Seconds of what comes after that.
+    pub(super) second: f64,
+}
+
+/// Lets a peer find a surface, in a process of its own.
+pub(super) fn theirs(
+    context: &Context,
+    way: Way,
+    points: &[Point],
+) -> Result<Result<Theirs, Silence>> {
+    let file = context.temp.path().join("surface");
+    write_rows(&file, points.as_flattened(), 3)?;
+    let mut running = match Peer::start(way.name(), &file, context.temp.path())? {
+        Ok(running) => running,
+        Err(silence) => return Ok(Err(silence)),
+    };
+    let answer = match running.solve(context.limit)? {
+        Ok(answer) => answer,
+        Err(silence) => return Ok(Err(silence)),
+    };
+    let cut_off = "the peer's answer is cut off";
+    let (times, rest) = answer.center.split_at_checked(2).context(cut_off)?;
+    let (rows, places) = rest.split_at_checked(3 * answer.support as usize).context(cut_off)?;
+    let corners = |triangle: &Point| triangle.map(|row| row as u32);
+    let triangles = rows.as_chunks().0.iter().map(corners).collect();
+    let places = (!places.is_empty()).then(|| places.as_chunks().0.to_vec());
+    Ok(Ok(Theirs { triangles, places, first: times[0], second: times[1] }))
+}

@@ -1,0 +1,109 @@
+//! A surface through points, judged by its triangles alone: the same for taut and its peers.
+
+use std::collections::BTreeMap;
+
+use anyhow::{Result, ensure};
+use serde::Serialize;
+use taut_mesh::{TriangleMesh, topology};
+
+use super::samples::Point;
+
+/// What triangles on points are as a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub(super) struct Judged {
+    /// Parts that hang together by edges.
+    pub(super) components: usize,
+    /// Handles of all parts together; `None` if one is no surface with two sides.
+    pub(super) genus: Option<u64>,
+    /// Boundary loops.
+    pub(super) loops: usize,
+    /// Edges of more than two triangles, and those along which two run in the same direction.
+    pub(super) bad_edges: usize,
+    /// Vertices with more than one fan.
+    pub(super) bad_vertices: usize,
+    /// Places of points that no triangle uses.
+    pub(super) unused: usize,
+    /// Vertices − edges + triangles.
+    pub(super) euler: i64,
+}
+
+impl Judged {
+    /// Judges triangles on points.
+    pub(super) fn of(points: &[Point], triangles: &[[u32; 3]]) -> Result<Self> {
+        let mesh = TriangleMesh::new(points, triangles)?;
+        let found = topology(&mesh);
+        // 0 and −0 are one place.
+        let place = |point: Point| point.map(|x| (x + 0.0).to_bits());
+        let count = |mut places: Vec<[u64; 3]>| {
+            places.sort_unstable();
+            places.dedup();
+            places.len()
+        };
+        let all = count(points.iter().map(|&point| place(point)).collect());
+        let corners = triangles.as_flattened().iter();
+        let used = count(corners.map(|&row| place(points[row as usize])).collect());
+        ensure!(used <= all, "more places are used than there are");
+        Ok(Self {
+            components: found.components.len(),
+            genus: found.genus,
+            loops: found.boundary_loops.len(),
+            bad_edges: found.non_manifold_edges + found.inconsistent_edges,
+            bad_vertices: found.non_manifold_vertices,
+            unused: all - used,
+            euler: found.euler_characteristic,
+        })
+    }
+
+    /// Whether it is a closed surface of so many parts and handles, through all points.
+    pub(super) fn is_exact(&self, components: usize, genus: u64) -> bool {
+        let is_closed = self.loops == 0 && self.bad_edges == 0 && self.bad_vertices == 0;
+        is_closed && self.unused == 0 && (self.components, self.genus) == (components, Some(genus))
+    }
+
+    /// Components, genus, loops, bad edges, bad vertices and unused points, for a table.
+    pub(super) fn cells(&self) -> [String; 6] {
+        [
+            self.components.to_string(),
+            self.genus.map_or("–".to_owned(), |genus| genus.to_string()),
+            self.loops.to_string(),
+            self.bad_edges.to_string(),
+            self.bad_vertices.to_string(),
+            self.unused.to_string(),
+        ]
+    }
+
+    /// What a process of its own tells of it; the genus is missing where there is none.
+    pub(super) fn counters(&self) -> BTreeMap<String, u64> {
+        let counts = [
+            ("components", Some(self.components as u64)),
+            ("genus", self.genus),
+            ("loops", Some(self.loops as u64)),
+            ("bad", Some((self.bad_edges + self.bad_vertices) as u64)),
+            ("unused", Some(self.unused as u64)),
+        ];
+        counts.into_iter().filter_map(|(name, count)| Some((name.to_owned(), count?))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_is_closed_through_all_is_exact() {
+        let mut points = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let sides = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+        assert!(Judged::of(&points, &sides).unwrap().is_exact(1, 0));
+        assert!(!Judged::of(&points, &sides).unwrap().is_exact(1, 1));
+        assert!(!Judged::of(&points, &sides[1..]).unwrap().is_exact(1, 0));
+        assert!(
+            !Judged::of(&points, &[[2, 0, 1], sides[1], sides[2], sides[3]])
+                .unwrap()
+                .is_exact(1, 0)
+        );
+        points.push([-0.0, 0.0, 0.0]);
+        assert!(Judged::of(&points, &sides).unwrap().is_exact(1, 0), "a duplicate");
+        points.push([2.0; 3]);
+        assert_eq!(Judged::of(&points, &sides).unwrap().unused, 1);
+    }
+}
