@@ -43,6 +43,7 @@ mod crossing;
 mod edges;
 mod error;
 mod grid;
+mod grouped;
 mod mesh;
 mod nesting;
 mod quality;

@@ -9,6 +9,7 @@
 //! *Trap.* The formula for the genus holds for surfaces only: where a component is none, it is not evaluated.
 
 use crate::TriangleMesh;
+use crate::grouped::Grouped;
 use crate::mesh::repeats;
 use crate::union_find::UnionFind;
 
@@ -133,23 +134,22 @@ impl Topology {
 pub fn topology(mesh: &TriangleMesh<'_>) -> Topology {
     let sides = Sides::of(mesh);
     let corners = 3 * mesh.triangles().len();
-    let mut component = UnionFind::new(mesh.triangles().len());
-    let mut turned = UnionFind::new(mesh.triangles().len());
+    let mut sets = UnionFind::new(mesh.triangles().len());
     let mut fan = UnionFind::new(corners);
     let mut found = Topology {
         triangles: sides.kept.len(),
         degenerate_triangles: mesh.triangles().len() - sides.kept.len(),
-        duplicate_triangles: duplicates(mesh, &sides.kept),
         ..Topology::default()
     };
 
-    // Edges. A triangle of a component that cannot be turned right is remembered.
+    // Edges. A triangle of a component that cannot be turned right is remembered, and triangles at an edge of more than two, which say
+    // nothing about how they are to be turned.
     let mut one_sided: Vec<u32> = Vec::new();
+    let mut together: Vec<[u32; 2]> = Vec::new();
     let mut crowded = vec![false; mesh.vertices().len()];
     for edge in sides.edges() {
         found.edges += 1;
         for pair in edge.windows(2) {
-            component.join(pair[0].triangle(), pair[1].triangle(), false);
             fan.join(pair[0].low, pair[1].low, false);
             fan.join(pair[0].high, pair[1].high, false);
         }
@@ -158,21 +158,30 @@ pub fn topology(mesh: &TriangleMesh<'_>) -> Topology {
             [one, other] => {
                 let alike = one.rises() == other.rises();
                 found.inconsistent_edges += usize::from(alike);
-                if !turned.join(one.triangle(), other.triangle(), alike) {
+                if !sets.join(one.triangle(), other.triangle(), alike) {
                     one_sided.push(one.triangle());
                 }
             }
             _ => {
                 found.non_manifold_edges += 1;
                 edge[0].ends.iter().for_each(|&end| crowded[end as usize] = true);
+                together
+                    .extend(edge.windows(2).map(|pair| [pair[0].triangle(), pair[1].triangle()]));
             }
         }
+        if edge.len() > 1 {
+            found.duplicate_triangles += duplicates(mesh, edge);
+        }
+    }
+    // From here on only who is with whom counts.
+    for [one, other] in together {
+        sets.join(one, other, false);
     }
 
     // Components, numbered by their first triangle.
     let mut number = vec![u32::MAX; mesh.triangles().len()];
     for &triangle in &sides.kept {
-        let root = component.root(triangle);
+        let root = sets.root(triangle);
         if root == triangle {
             number[triangle as usize] = found.components.len() as u32;
             found.components.push(Component::beginning_with(triangle));
@@ -195,34 +204,33 @@ pub fn topology(mesh: &TriangleMesh<'_>) -> Topology {
     }
 
     // Corners by vertex and component: each pair of these is a vertex of the component, and should be one fan.
-    let mut places: Vec<(u32, u32, u32)> = sides
-        .kept
-        .iter()
-        .flat_map(|&t| (0..3).map(move |k| (t, k)))
-        .map(|(t, k)| (mesh.triangles()[t as usize][k as usize], number[t as usize], 3 * t + k))
-        .collect();
-    places.sort_unstable();
     let mut place_of = vec![0u32; corners];
     let mut place = 0u32;
-    for at_vertex in places.chunk_by(|a, b| a.0 == b.0) {
+    let mut at_vertex: Vec<[u32; 2]> = Vec::new();
+    let starts = Grouped::of(mesh.vertices().len(), || sides.corners(mesh));
+    for (vertex, corners) in starts.groups() {
+        at_vertex.clear();
+        at_vertex.extend(corners.iter().map(|&corner| [number[corner as usize / 3], corner]));
+        at_vertex.sort_unstable();
         let mut fans = 0;
-        for at_place in at_vertex.chunk_by(|a, b| a.1 == b.1) {
-            let own = at_place.iter().filter(|&&(_, _, corner)| fan.root(corner) == corner).count();
-            let part = &mut found.components[at_place[0].1 as usize];
+        for at_place in at_vertex.chunk_by(|a, b| a[0] == b[0]) {
+            let own = at_place.iter().filter(|&&[_, corner]| fan.root(corner) == corner).count();
+            let part = &mut found.components[at_place[0][0] as usize];
             part.vertices += 1;
             part.manifold &= own == 1;
-            at_place.iter().for_each(|&(_, _, corner)| place_of[corner as usize] = place);
+            at_place.iter().for_each(|&[_, corner]| place_of[corner as usize] = place);
             place += 1;
             fans += own;
         }
         found.vertices += 1;
-        let bad = fans > 1 || crowded[at_vertex[0].0 as usize];
-        found.non_manifold_vertices += usize::from(bad);
+        found.non_manifold_vertices += usize::from(fans > 1 || crowded[vertex]);
     }
     found.unreferenced_vertices = mesh.vertices().len() - found.vertices;
 
     // Loops: of the mesh over its vertices, of each component over its own.
-    found.boundary_loops = loops(mesh, &sides);
+    if found.boundary_edges > 0 {
+        found.boundary_loops = loops(mesh, &sides);
+    }
     let mut loop_of = UnionFind::new(place as usize);
     let bare = |edge: &&[Side]| edge.len() == 1;
     for edge in sides.edges().filter(bare) {
@@ -311,36 +319,49 @@ impl Sides {
     fn of(mesh: &TriangleMesh<'_>) -> Self {
         let all = mesh.triangles();
         let kept: Vec<u32> = (0..all.len() as u32).filter(|&t| !repeats(all[t as usize])).collect();
-        let mut sorted = Vec::with_capacity(3 * kept.len());
-        for &t in &kept {
-            let triangle = all[t as usize];
-            for k in 0..3 {
-                let next = (k + 1) % 3;
-                let (from, to) = (triangle[k], triangle[next]);
-                let (k, next) = (3 * t + k as u32, 3 * t + next as u32);
-                let (low, high) = if from < to { (k, next) } else { (next, k) };
-                sorted.push(Side { ends: [from.min(to), from.max(to)], low, high });
-            }
-        }
-        sorted.sort_unstable();
-        Self { sorted, kept }
+        let sides = || {
+            kept.iter().flat_map(|&t| {
+                let triangle = all[t as usize];
+                (0..3).map(move |k| {
+                    let next = (k + 1) % 3;
+                    let (from, to) = (triangle[k], triangle[next]);
+                    let (k, next) = (3 * t + k as u32, 3 * t + next as u32);
+                    let (low, high) = if from < to { (k, next) } else { (next, k) };
+                    (from.min(to), Side { ends: [from.min(to), from.max(to)], low, high })
+                })
+            })
+        };
+        let mut grouped = Grouped::of(mesh.vertices().len(), sides);
+        grouped.groups_mut(|sides| sides.sort_unstable());
+        Self { sorted: grouped.all, kept }
     }
 
     fn edges(&self) -> impl Iterator<Item = &[Side]> {
         self.sorted.chunk_by(|a, b| a.ends == b.ends)
     }
+
+    /// The corners of these triangles with their vertices.
+    fn corners(&self, mesh: &TriangleMesh<'_>) -> impl Iterator<Item = (u32, u32)> {
+        let corners = self.kept.iter().flat_map(|&t| 3 * t..3 * t + 3);
+        corners.map(|corner| (mesh.triangles().as_flattened()[corner as usize], corner))
+    }
 }
 
-/// How many of the kept triangles have the vertices of one before them.
-fn duplicates(mesh: &TriangleMesh<'_>, kept: &[u32]) -> usize {
-    let sorted = |&t: &u32| {
-        let mut triangle = mesh.triangles()[t as usize];
-        triangle.sort_unstable();
-        triangle
+/// How many of the triangles at an edge have the vertices of one before them, if the edge has the lowest two.
+fn duplicates(mesh: &TriangleMesh<'_>, edge: &[Side]) -> usize {
+    let [low, high] = edge[0].ends;
+    let third = |side: &Side| {
+        let [a, b, c] = mesh.triangles()[side.triangle() as usize];
+        a ^ b ^ c ^ low ^ high
     };
-    let mut all: Vec<[u32; 3]> = kept.iter().map(sorted).collect();
-    all.sort_unstable();
-    all.windows(2).filter(|pair| pair[0] == pair[1]).count()
+    if let [one, other] = edge {
+        return usize::from(third(one) > high && third(one) == third(other));
+    }
+    let mut thirds: Vec<u32> = edge.iter().map(third).filter(|&third| third > high).collect();
+    let all = thirds.len();
+    thirds.sort_unstable();
+    thirds.dedup();
+    all - thirds.len()
 }
 
 /// The boundary loops, by their least vertices.

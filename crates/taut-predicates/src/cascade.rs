@@ -1,6 +1,7 @@
 //! The stages for the predicates that are asked less often, from the filter on, for any polynomial.
 //!
-//! *Idea.* The permanent rides along with the value. In `f64` it bounds the error; where all differences are whole
+//! *Idea.* First by the value alone: no permanent exceeds the one of ones times the largest difference to the degree. Then
+//! the permanent rides along with the value. In `f64` it bounds the error; where all differences are whole
 //! multiples of one unit it bounds every intermediate number, so that `i128` is exact if it is below 2¹²⁶: ties of
 //! gridded data are cheap here, too. Then double-double, and integers of any length.
 //! *Guarantee.* The error of the `f64` value is below [`Polynomial::ROUNDINGS`]·u·permanent, as proved at the filter of
@@ -13,7 +14,23 @@ use crate::{double_double, unbounded, wide};
 /// The exact sign of the polynomial at these differences.
 #[inline]
 pub(crate) fn sign<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> Sign {
-    filtered::<P, K>(differences).unwrap_or_else(|| exact::<P, K>(differences))
+    coarse::<P, K>(differences)
+        .or_else(|| filtered::<P, K>(differences))
+        .unwrap_or_else(|| exact::<P, K>(differences))
+}
+
+/// By the `f64` value and the largest difference: half the work, and enough where points are in no special position.
+#[inline(always)]
+fn coarse<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> Option<Sign> {
+    let d = differences.map(|[from, less]| from - less);
+    let largest = d.iter().fold(0.0, |most: f64, d| if d.abs() > most { d.abs() } else { most });
+    let value = P::evaluate(&d);
+    let ones = P::evaluate(&[Measured { value: 1.0, permanent: 1.0 }; K]).permanent;
+    let power = (1..P::DEGREE).fold(largest, |power, _| power * largest);
+    // The product of at most eight equal factors is less than 8u too small, which the second term is far above.
+    let bound = (f64::from(P::ROUNDINGS) + 1.0) * (f64::EPSILON / 2.0) * ones * power;
+    let is_within = largest <= double_double::DIFFERENCE_MAX;
+    (is_within && value.abs() > bound + double_double::FLOOR).then(|| Sign::from(value))
 }
 
 /// By the `f64` value and its permanent.

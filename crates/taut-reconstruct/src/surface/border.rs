@@ -8,7 +8,7 @@
 
 use rayon::prelude::*;
 
-use super::cells::{Cells, Kind};
+use super::cells::Cells;
 use super::media::Media;
 
 /// Cells or vertices of one task.
@@ -28,7 +28,7 @@ pub(super) fn faces(cells: &Cells, inside: &[bool], sites: usize) -> Vec<Face> {
     let task = |begin: usize| {
         let mut found = Vec::new();
         for cell in begin as u32..cells.len().min(begin + TASK) as u32 {
-            if cells.kind(cell) != Kind::Finite {
+            if cells.is_ghost(cell) {
                 continue;
             }
             let is_inside = inside[cell as usize];

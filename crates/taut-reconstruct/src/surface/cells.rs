@@ -1,53 +1,87 @@
-//! The cells of a Delaunay triangulation, the ghosts outside its hull among them.
+//! The cells of a Delaunay triangulation, the ghosts outside its hull among them, numbered by the point set alone.
 //!
-//! *Idea.* Every facet has a cell on both sides, so whatever turns around an edge or a vertex never meets an end. Cells have the numbers
-//! of their slots, which depend on how the triangulation was built: what is decided about cells must not depend on them.
+//! *Idea.* Every facet has a cell on both sides, so whatever turns around an edge or a vertex never meets an end. The slots of a
+//! triangulation are numbered as it was built; here cells are in the order of their sites. Sites are numbered along a curve that fills
+//! space, so cells that are near each other in space mostly are in memory, too: without this order, a million points spend
+//! most of their time waiting for memory.
+//! *Guarantee.* A function of the triangulation as a set of tetrahedra: what is decided by the numbers of cells and facets is decided by the points.
+//! O(m) for m cells, as few share their lowest site.
 
-use taut_delaunay::{Simplex, decode};
+use rayon::prelude::*;
+use taut_delaunay::{GHOST, Simplex, decode};
 
-/// What a slot holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// A tetrahedron.
-    Finite,
-    /// The room outside a facet of the hull.
-    Ghost,
-    /// Nothing.
-    Empty,
+/// Cells or sites of one task.
+const TASK: usize = 1 << 12;
+
+/// The cells by number. Of each the sites are in positive order: the lowest two first, then the third, then the highest, which of
+/// a ghost is the vertex at infinity.
+pub(super) struct Cells {
+    all: Vec<Simplex<4>>,
 }
 
-/// All cells by slot.
-pub(super) struct Cells {
-    pub(super) all: Vec<Simplex<4>>,
-    kinds: Vec<Kind>,
+/// A cell on its way into order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+struct Entry {
+    /// All sites in ascending order but the first, which all cells have in common among which this one is sorted.
+    higher: [u32; 3],
+    slot: u32,
 }
 
 impl Cells {
-    pub(super) fn of(slots: Vec<Simplex<4>>) -> Self {
-        let kind = |cell: &Simplex<4>| match cell.is_live() {
-            false => Kind::Empty,
-            true if cell.is_ghost() => Kind::Ghost,
-            true => Kind::Finite,
+    pub(super) fn of(slots: Vec<Simplex<4>>, sites: usize) -> Self {
+        let order = ordered(&slots, sites);
+        let mut moved = vec![Moved::default(); slots.len()];
+        for (cell, entry) in (0u32..).zip(&order) {
+            moved[entry.slot as usize].cell = cell;
+        }
+        moved.par_iter_mut().zip(&slots).with_min_len(TASK).for_each(|(moved, simplex)| {
+            moved.places = places(simplex.vertices);
+        });
+        let renumbered = |entry: &Entry| {
+            let old = &slots[entry.slot as usize];
+            let mut cell = Simplex { vertices: [0; 4], neighbors: [0; 4] };
+            // What comes to each place, rather than where each goes: what was just written at a place that varies is slow to read.
+            let from = inverse(moved[entry.slot as usize].places);
+            for place in 0..4 {
+                let i = usize::from(from[place]);
+                let (slot, k) = decode(old.neighbors[i]);
+                let there = moved[slot as usize];
+                cell.vertices[place] = old.vertices[i];
+                cell.neighbors[place] = there.cell << 2 | u32::from(there.places[k]);
+            }
+            cell
         };
-        let kinds = slots.iter().map(kind).collect();
-        Self { all: slots, kinds }
+        Self { all: order.par_iter().with_min_len(TASK).map(renumbered).collect() }
     }
 
-    /// How many slots there are.
+    /// How many cells there are.
     pub(super) fn len(&self) -> usize {
         self.all.len()
     }
 
-    pub(super) fn kind(&self, cell: u32) -> Kind {
-        self.kinds[cell as usize]
+    pub(super) fn is_ghost(&self, cell: u32) -> bool {
+        self.all[cell as usize].vertices[3] == GHOST
     }
 
-    pub(super) fn is_ghost(&self, cell: u32) -> bool {
-        self.kind(cell) == Kind::Ghost
+    /// The numbers of all cells that are no ghosts.
+    pub(super) fn finite(&self) -> impl Iterator<Item = u32> {
+        (0..self.len() as u32).filter(|&cell| !self.is_ghost(cell))
     }
 
     pub(super) fn sites(&self, cell: u32) -> [u32; 4] {
         self.all[cell as usize].vertices
+    }
+
+    /// The sites in ascending order.
+    pub(super) fn ascending(&self, cell: u32) -> [u32; 4] {
+        let [a, b, c, d] = self.sites(cell);
+        [a.min(b), a.max(b), c, d]
+    }
+
+    /// The facet `cell << 2 | place` as seen from the cell across it.
+    pub(super) fn mirror(&self, facet: u32) -> u32 {
+        let (cell, i) = decode(facet);
+        self.all[cell as usize].neighbors[i]
     }
 
     /// The cell across a facet, and the place of the facet in it.
@@ -58,26 +92,82 @@ impl Cells {
     /// The sites of the facet opposite the i-th of a cell, counter-clockwise as seen from beyond it.
     pub(super) fn facet(&self, cell: u32, i: usize) -> [u32; 3] {
         let sites = self.sites(cell);
-        OUTWARD[i].map(|k| sites[k])
+        let [a, b, c] = OUTWARD[i];
+        [sites[a], sites[b], sites[c]]
     }
 
-    /// The same in ascending order: the name of a facet, whatever the cells are called. The vertex at infinity comes last.
-    pub(super) fn name(&self, code: u32) -> [u32; 3] {
-        let (cell, i) = decode(code);
-        let mut sites = self.facet(cell, i);
-        sites.sort_unstable();
-        sites
-    }
-
-    /// The ghost that comes first by its sites; none if there are no cells.
+    /// The first ghost; none if there are no cells.
     pub(super) fn first_ghost(&self) -> Option<u32> {
-        let sorted = |&cell: &u32| {
-            let mut sites = self.sites(cell);
-            sites.sort_unstable();
-            sites
-        };
-        (0..self.len() as u32).filter(|&cell| self.is_ghost(cell)).min_by_key(sorted)
+        (0..self.len() as u32).find(|&cell| self.is_ghost(cell))
     }
+}
+
+/// Where a slot and its places went.
+#[derive(Clone, Copy, Default)]
+struct Moved {
+    cell: u32,
+    places: [u8; 4],
+}
+
+/// For each vertex of a slot its place in the cell.
+fn places(vertices: [u32; 4]) -> [u8; 4] {
+    let rank = |v: u32| vertices.iter().filter(|&&other| other < v).count() as u8;
+    let mut places = vertices.map(rank);
+    // Pairs in the wrong order: if they are odd in number, so is the order, and its first two change places.
+    let wrong = (0..4).flat_map(|i| (i + 1..4).map(move |k| (i, k)));
+    if wrong.filter(|&(i, k)| places[i] > places[k]).count() % 2 == 1 {
+        places.iter_mut().filter(|place| **place < 2).for_each(|place| *place = 1 - *place);
+    }
+    places
+}
+
+/// For each place what comes there.
+fn inverse(places: [u8; 4]) -> [u8; 4] {
+    let mut from = [0; 4];
+    for (place, from) in (0..).zip(&mut from) {
+        let is = |i: usize| u8::from(places[i] == place);
+        *from = is(1) + 2 * is(2) + 3 * is(3);
+    }
+    from
+}
+
+/// The live slots in the order of their sites.
+fn ordered(slots: &[Simplex<4>], sites: usize) -> Vec<Entry> {
+    let lowest =
+        |simplex: &Simplex<4>| simplex.vertices.iter().copied().min().unwrap_or(0) as usize;
+    let live = || slots.iter().zip(0u32..).filter(|(simplex, _)| simplex.is_live());
+    // Where the cells of each lowest site begin, one place late, as each comes to be where they end.
+    let mut begins = vec![0u32; sites + 2];
+    live().for_each(|(simplex, _)| begins[lowest(simplex) + 2] += 1);
+    for site in 2..begins.len() {
+        begins[site] += begins[site - 1];
+    }
+    let mut order = vec![Entry::default(); begins[sites + 1] as usize];
+    for (simplex, slot) in live() {
+        let mut sorted = simplex.vertices;
+        sorted.sort_unstable();
+        let place = &mut begins[sorted[0] as usize + 1];
+        order[*place as usize] = Entry { higher: [sorted[1], sorted[2], sorted[3]], slot };
+        *place += 1;
+    }
+    // Each place has moved on to the end of its cells, which is where those of the next site begin.
+    let (mut rest, mut tasks) = (&mut order[..], Vec::new());
+    for ends in begins[1..=sites].chunks(TASK) {
+        let begin =
+            tasks.last().map_or(0, |(ends, _): &(&[u32], &mut [Entry])| ends[ends.len() - 1]);
+        let (own, others) = rest.split_at_mut((ends[ends.len() - 1] - begin) as usize);
+        tasks.push((ends, own));
+        rest = others;
+    }
+    tasks.into_par_iter().for_each(|(ends, mut own)| {
+        let mut begin = ends[ends.len() - 1] - own.len() as u32;
+        for &end in ends {
+            let (alike, others) = own.split_at_mut((end - begin) as usize);
+            alike.sort_unstable();
+            (own, begin) = (others, end);
+        }
+    });
+    order
 }
 
 /// For a cell a, b, c, d with det(b − a, c − a, d − a) > 0, the corners of the facet opposite each, counter-clockwise from outside.
@@ -96,6 +186,20 @@ mod tests {
             let [a, b, c] = facet.map(|k| p[k]);
             let normal = cross(minus(b, a), minus(c, a));
             assert!(dot(normal, minus(p[i], a)) < 0.0, "{i}");
+        }
+    }
+
+    #[test]
+    fn places_keep_the_orientation() {
+        for (vertices, there) in [
+            ([1, 2, 3, 4], [0, 1, 2, 3]),
+            ([2, 1, 3, 4], [0, 1, 2, 3]),
+            ([2, 1, 4, 3], [1, 0, 3, 2]),
+            ([GHOST, 7, 5, 9], [3, 1, 0, 2]),
+        ] {
+            assert_eq!(places(vertices), there, "{vertices:?}");
+            let from = inverse(there);
+            assert!((0..4).all(|i| from[usize::from(there[i])] == i as u8));
         }
     }
 }

@@ -4,104 +4,94 @@
 //! *Idea.* Without one of its edges the tree falls into two parts. The facets between them are what the edge stands for; if they
 //! disagree with the labels by more than [`LEAST`] in sum, the smaller part is turned over. Leaves are peeled off the tree as long as
 //! what hangs on them is small; sums over all parts come from sums along the peeling: a facet counts at both its cells, and twice
-//! against it where the ways from them meet. Few facets disagree at all, so the sums are formed only where those that do could suffice.
+//! against it where the ways from them meet. Few facets disagree at all, so the sums are formed only where those that do could suffice,
+//! which is found on the ways up from them.
 //! *Guarantee.* Each round raises the agreement of all facets with the labels. Sums are exact, so the answer is a function of the points.
 //! O(n), and O(suspects) for each of at most [`ROUNDS`] rounds.
 //! *Trap.* Large parts are left alone: under strong noise whole regions would be turned back and forth.
+
+use rayon::prelude::*;
 
 use super::cells::Cells;
 use super::strengths::{CERTAIN, Tie, Ties};
 
 /// Cells of the largest part.
-const MOST: u32 = 100;
+const MOST: u8 = 100;
 /// The least disagreement, half of what a certain facet says. Of 1, 0.5, 0.2 and 0 it did best on the seven sets at 70 %; from 0.2 down
 /// other sets lose.
 const LEAST: i64 = CERTAIN / 2;
 const ROUNDS: usize = 12;
-
-/// Neither parent nor place.
+/// Cells of one task.
+const TASK: usize = 1 << 14;
+/// No place.
 const NONE: u32 = u32::MAX;
 
-/// The small parts of the tree: the cells that were peeled off, with what they hung on.
-struct Peeling {
-    link: Vec<Link>,
-    /// The cells in the order in which they were peeled off: those of a part before its own.
-    order: Vec<u32>,
+/// The small parts of the tree: for each cell that was peeled off, what it hung on.
+struct Peeling<'a> {
+    cells: &'a Cells,
+    /// The facets of the tree, one bit each.
+    tree: &'a [u8],
+    /// By cell; [`NONE`] for those that were not peeled off.
+    parent: Vec<u32>,
 }
 
-/// Where a cell hung, and when it was peeled off.
-#[derive(Clone, Copy)]
-struct Link {
-    parent: u32,
-    when: u32,
-    /// The strength of what it hung by.
-    strength: u32,
-}
-
-impl Peeling {
+impl<'a> Peeling<'a> {
     /// Peels a tree of facets; ghosts stay.
-    fn of(tree: &[Tie], cells: &Cells) -> Self {
-        // The neighbours in the tree and the strengths towards them, all in one number: of a leaf it is the only one.
-        let mut degree = vec![0u32; cells.len()];
-        let mut beside = vec![[0u32; 2]; cells.len()];
-        for tie in tree {
-            let [a, b] = tie.nodes();
-            for (one, other) in [(a, b), (b, a)] {
-                degree[one as usize] += 1;
-                beside[one as usize][0] ^= other;
-                beside[one as usize][1] ^= tie.strength();
-            }
-        }
-        let mut size = vec![1u32; cells.len()];
-        let stays = Link { parent: NONE, when: NONE, strength: 0 };
-        let mut peeling = Self { link: vec![stays; cells.len()], order: Vec::new() };
+    fn of(tree: &'a [u8], cells: &'a Cells) -> Self {
+        let mut left = tree.to_vec();
+        let mut size = vec![1u8; cells.len()];
+        let mut parents = vec![NONE; cells.len()];
         for start in 0..cells.len() as u32 {
             let mut leaf = start;
-            while degree[leaf as usize] == 1 && size[leaf as usize] <= MOST && !cells.is_ghost(leaf)
+            while left[leaf as usize].is_power_of_two()
+                && size[leaf as usize] <= MOST
+                && !cells.is_ghost(leaf)
             {
-                let [parent, strength] = beside[leaf as usize];
-                let when = peeling.order.len() as u32;
-                peeling.link[leaf as usize] = Link { parent, when, strength };
-                peeling.order.push(leaf);
-                degree[leaf as usize] = 0;
-                degree[parent as usize] -= 1;
-                beside[parent as usize][0] ^= leaf;
-                beside[parent as usize][1] ^= strength;
-                size[parent as usize] += size[leaf as usize];
+                let place = left[leaf as usize].trailing_zeros() as usize;
+                let (parent, back) = cells.across(leaf, place);
+                parents[leaf as usize] = parent;
+                left[leaf as usize] = 0;
+                left[parent as usize] &= !(1 << back);
+                size[parent as usize] = size[parent as usize].saturating_add(size[leaf as usize]);
                 leaf = parent;
             }
         }
-        peeling
+        Self { cells, tree, parent: parents }
     }
 
     fn is_peeled(&self, cell: u32) -> bool {
-        self.link[cell as usize].when != NONE
+        self.parent[cell as usize] != NONE
     }
 
-    /// What a cell hung on, if that was peeled off as well.
+    /// What a peeled cell hung on, if that was peeled off as well.
     fn above(&self, cell: u32) -> Option<u32> {
-        let parent = self.link[cell as usize].parent;
-        (parent != NONE && self.is_peeled(parent)).then_some(parent)
+        Some(self.parent[cell as usize]).filter(|&parent| self.is_peeled(parent))
     }
 
-    /// Where the ways from two cells meet, if that was peeled off.
-    fn meet(&self, a: u32, b: u32) -> Option<u32> {
-        let link = |cell: u32| (cell, self.link[cell as usize]);
-        let (mut a, mut b) = (link(a), link(b));
-        while a.0 != b.0 {
-            let earlier = if a.1.when <= b.1.when { &mut a } else { &mut b };
-            if earlier.1.when == NONE {
-                return None;
-            }
-            *earlier = link(earlier.1.parent);
-        }
-        (a.1.when != NONE).then_some(a.0)
+    /// The facets of a cell that are of the tree, and the cells across.
+    fn beside(&self, cell: u32) -> impl Iterator<Item = (usize, u32)> {
+        let tree = self.tree[cell as usize];
+        let places = (0..4).filter(move |&i| tree >> i & 1 == 1);
+        places.map(move |i| (i, self.cells.across(cell, i).0))
+    }
+
+    /// The cells that hung on a peeled one.
+    fn below(&self, cell: u32) -> impl Iterator<Item = u32> {
+        let beside = self.beside(cell).map(|(_, other)| other);
+        beside.filter(move |&other| self.parent[other as usize] == cell)
+    }
+
+    /// What the facet says that a peeled cell hung by.
+    fn hung_by(&self, cell: u32, ties: &Ties) -> Tie {
+        let parent = self.parent[cell as usize];
+        let place = self.beside(cell).find(|&(_, other)| other == parent);
+        place.map_or(Tie::default(), |(i, _)| ties.of_cell(cell)[i])
     }
 }
 
 /// Peeled cells whose parts the facets that disagree could outweigh, and all cells of these parts.
 struct Suspects {
-    /// In the order of their peeling.
+    /// Those of a part before what it hangs on.
     cells: Vec<u32>,
     /// For each the place of the suspect above it, or none.
     above: Vec<u32>,
@@ -112,49 +102,51 @@ struct Suspects {
 /// A tie at suspects.
 struct Near {
     tie: Tie,
+    /// Its cells.
+    cells: [u32; 2],
     /// The places of its cells and of where their ways meet, of those that are suspects.
     places: [u32; 3],
 }
 
 impl Suspects {
-    fn of(ties: &Ties, peeling: &Peeling, inside: &[bool]) -> Self {
-        // Within a part a tie counts twice here, as where ways meet is not known yet.
-        let mut against = vec![0i64; inside.len()];
-        for tie in ties.iter() {
-            let agrees = agrees(tie, inside);
-            if agrees < 0 {
-                tie.nodes().iter().for_each(|&cell| against[cell as usize] -= agrees);
+    fn of(ties: &Ties, peeling: &Peeling<'_>, inside: &[bool]) -> Self {
+        let cells = peeling.cells;
+        let tops = tops(ties, peeling, inside);
+        // From the tops down; then turned round.
+        let (mut found, mut above) = (Vec::new(), Vec::new());
+        for top in tops {
+            let mut open = vec![(top, NONE)];
+            while let Some((cell, up)) = open.pop() {
+                let place = found.len() as u32;
+                found.push(cell);
+                above.push(up);
+                open.extend(peeling.below(cell).map(|below| (below, place)));
             }
         }
-        for &cell in &peeling.order {
-            if let Some(above) = peeling.above(cell) {
-                against[above as usize] += against[cell as usize];
+        found.reverse();
+        above.reverse();
+        let count = found.len() as u32;
+        above.iter_mut().filter(|up| **up != NONE).for_each(|up| *up = count - 1 - *up);
+        // One more than the place, so that nothing is written for all other cells.
+        let mut place = vec![0u32; cells.len()];
+        (1..).zip(&found).for_each(|(k, &cell)| place[cell as usize] = k);
+        let place = |cell: u32| place[cell as usize].wrapping_sub(1);
+        let mut near = Vec::new();
+        for (&cell, from) in found.iter().zip(0..) {
+            for (i, tie) in (0..).zip(ties.of_cell(cell)) {
+                let (other, _) = cells.across(cell, i);
+                let to = place(other);
+                // A tie of two suspects is met at both.
+                if to == NONE || from < to {
+                    near.push(Near {
+                        tie,
+                        cells: [cell, other],
+                        places: [from, to, meet(&above, from, to)],
+                    });
+                }
             }
         }
-        let (mut cells, mut place) = (Vec::new(), vec![NONE; inside.len()]);
-        for &cell in peeling.order.iter().rev() {
-            let is_below = |above: u32| place[above as usize] != NONE;
-            // What the part hangs by was obeyed, and agrees.
-            let least = LEAST + i64::from(peeling.link[cell as usize].strength);
-            if against[cell as usize] > least || peeling.above(cell).is_some_and(is_below) {
-                place[cell as usize] = 0;
-                cells.push(cell);
-            }
-        }
-        cells.reverse();
-        (0..).zip(&cells).for_each(|(k, &cell)| place[cell as usize] = k);
-        let place = |cell: Option<u32>| cell.map_or(NONE, |cell| place[cell as usize]);
-        let near = |tie: Tie| {
-            let [a, b] = tie.nodes();
-            let [from, to] = [a, b].map(|cell| place(Some(cell)));
-            let top = || place(peeling.meet(a, b));
-            (from != NONE || to != NONE).then(|| Near { tie, places: [from, to, top()] })
-        };
-        Self {
-            above: cells.iter().map(|&cell| place(peeling.above(cell))).collect(),
-            near: ties.iter().filter_map(near).collect(),
-            cells,
-        }
+        Self { cells: found, above, near }
     }
 
     /// Turns over the lowest parts that the ties near them object to, and says how many; none if, as parts that are beside each other
@@ -181,7 +173,7 @@ impl Suspects {
             is_turned[k] |= above != NONE && is_turned[above as usize];
         }
         let total = |inside: &[bool]| -> i64 {
-            self.near.iter().map(|near| agrees(near.tie, inside)).sum()
+            self.near.iter().map(|near| agrees(near.tie, near.cells, inside)).sum()
         };
         let turn = |inside: &mut [bool]| {
             let turned = self.cells.iter().zip(&is_turned);
@@ -199,8 +191,8 @@ impl Suspects {
     /// For each part, by how much the facets around it agree with the labels.
     fn agreement(&self, inside: &[bool]) -> Vec<i64> {
         let mut sums = vec![0i64; self.cells.len()];
-        for Near { tie, places } in &self.near {
-            let agrees = agrees(*tie, inside);
+        for Near { tie, cells, places } in &self.near {
+            let agrees = agrees(*tie, *cells, inside);
             for (&place, times) in places.iter().zip([1, 1, -2]) {
                 if place != NONE {
                     sums[place as usize] += times * agrees;
@@ -216,8 +208,60 @@ impl Suspects {
     }
 }
 
+/// Where the ways up from two places meet.
+fn meet(above: &[u32], mut a: u32, mut b: u32) -> u32 {
+    while a != b && a != NONE && b != NONE {
+        // What hangs on another comes before it, so the former of the two is not above the other.
+        let former = if a < b { &mut a } else { &mut b };
+        *former = above[*former as usize];
+    }
+    if a == b { a } else { NONE }
+}
+
+/// The cells whose parts the facets that disagree could outweigh, without those in the part of another one.
+fn tops(ties: &Ties, peeling: &Peeling<'_>, inside: &[bool]) -> Vec<u32> {
+    let cells = peeling.cells;
+    // What is said against the parts that hang by a cell's facet. Within a part a tie counts twice here, as where ways meet is not
+    // known yet.
+    let mut against = vec![0i64; cells.len()];
+    let mut met = Vec::new();
+    for (cell, objection) in objections(ties, cells, inside) {
+        let mut at = Some(cell).filter(|&cell| peeling.is_peeled(cell));
+        while let Some(part) = at {
+            if against[part as usize] == 0 {
+                met.push(part);
+            }
+            against[part as usize] += objection;
+            at = peeling.above(part);
+        }
+    }
+    let is_suspect = |&cell: &u32| {
+        let against = against[cell as usize] - LEAST;
+        // What the part hangs by was obeyed, and agrees.
+        against > 0 && against > i64::from(peeling.hung_by(cell, ties).strength())
+    };
+    met.retain(is_suspect);
+    let is_top = |&cell: &u32| {
+        let mut above = std::iter::successors(peeling.above(cell), |&up| peeling.above(up));
+        !above.any(|up| is_suspect(&up))
+    };
+    met.iter().copied().filter(is_top).collect()
+}
+
+/// The cells at facets that disagree with the labels, and the strength of these facets.
+fn objections(ties: &Ties, cells: &Cells, inside: &[bool]) -> Vec<(u32, i64)> {
+    let of_cell = |cell: u32| {
+        let own = ties.of_cell(cell);
+        let says = |i: usize| agrees(own[i], [cell, cells.across(cell, i).0], inside);
+        let objection: i64 = (0..4).map(says).filter(|&agrees| agrees < 0).sum();
+        (objection < 0).then_some((cell, -objection))
+    };
+    let all = (0..cells.len() as u32).into_par_iter().with_min_len(TASK);
+    all.filter_map(of_cell).collect()
+}
+
 /// Turns parts over, and says how many.
-pub(super) fn flip(ties: &Ties, tree: &[Tie], cells: &Cells, inside: &mut [bool]) -> u64 {
+pub(super) fn flip(ties: &Ties, tree: &[u8], cells: &Cells, inside: &mut [bool]) -> u64 {
     let peeling = Peeling::of(tree, cells);
     let suspects = Suspects::of(ties, &peeling, inside);
     let mut flipped = 0;
@@ -230,8 +274,8 @@ pub(super) fn flip(ties: &Ties, tree: &[Tie], cells: &Cells, inside: &mut [bool]
     flipped
 }
 
-/// What a tie adds to the agreement with the labels.
-fn agrees(tie: Tie, inside: &[bool]) -> i64 {
-    let [a, b] = tie.nodes().map(|cell| inside[cell as usize]);
+/// What a tie between two cells adds to the agreement with the labels.
+fn agrees(tie: Tie, cells: [u32; 2], inside: &[bool]) -> i64 {
+    let [a, b] = cells.map(|cell| inside[cell as usize]);
     if a == b { tie.signed() } else { -tie.signed() }
 }

@@ -5,7 +5,7 @@ use taut_points::{Cancelled, Monitor};
 use super::SurfaceMode;
 use super::answer::Facets;
 use super::border::{Links, faces, is_cycle, is_fan};
-use super::cells::{Cells, Kind};
+use super::cells::Cells;
 use super::flips::flip;
 use super::islands::sink;
 use super::one_sided::OVERRULED;
@@ -13,7 +13,7 @@ use super::orient::orient;
 use super::prune::{without_all_small_fans, without_membranes};
 use super::repair::repair;
 use super::spheres::Point;
-use super::strengths::{Ties, strength_of};
+use super::strengths::Ties;
 use super::tree::{Labels, labels};
 
 /// Labels cells as inside and outside. For closed surfaces all ghosts are outside; else they are cells as others.
@@ -25,15 +25,15 @@ pub(super) fn surface_of_labels(
 ) -> Result<Facets, Cancelled> {
     let is_open = mode == SurfaceMode::Open;
     let root = cells.first_ghost().unwrap_or(0);
-    let ties = Ties::of(cells, points, (!is_open).then_some(root));
+    let ties = Ties::of(cells, points, !is_open);
     monitor.check()?;
     let Labels { mut inside, tree } = labels(&ties, cells, root);
     monitor.check()?;
     let flips = flip(&ties, &tree, cells, &mut inside);
-    let overruled = ties.overruled(&inside);
-    drop((ties, tree));
+    let overruled = ties.overruled(cells, &inside);
+    drop(tree);
     monitor.check()?;
-    let strength = |cell: u32, i: usize| strength_of(cells, points, cell << 2 | i as u32);
+    let strength = |cell: u32, i: usize| ties.of_cell(cell)[i].signed();
     let mut found = faces(cells, &inside, points.len());
     if sink(&found, cells, &mut inside, points.len(), &strength) > 0 {
         found = faces(cells, &inside, points.len());
@@ -67,7 +67,7 @@ pub(super) fn surface_of_labels(
 /// By site, the label of a cell at it: that of all, if no triangle has it.
 fn labels_of_sites(cells: &Cells, inside: &[bool], sites: usize) -> Vec<bool> {
     let mut is_inside = vec![false; sites];
-    for cell in (0..cells.len() as u32).filter(|&cell| cells.kind(cell) == Kind::Finite) {
+    for cell in cells.finite() {
         for site in cells.sites(cell) {
             is_inside[site as usize] = inside[cell as usize];
         }

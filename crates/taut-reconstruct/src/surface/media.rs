@@ -47,6 +47,24 @@ impl Media {
         }
     }
 
+    /// Numbers the parts by their lowest nodes: for each node that of its part, and in the lowest bit whether the node is opposite to
+    /// the root of its part; and how many parts there are.
+    pub(super) fn numbered(mut self) -> (Vec<u32>, usize) {
+        let mut parts = 0;
+        for node in 0..self.link.len() {
+            let link = self.link[node];
+            let parent = (link >> 1) as usize;
+            // Parents have lower numbers, and are numbered already.
+            self.link[node] = if parent == node {
+                parts += 1;
+                (parts - 1) << 1
+            } else {
+                self.link[parent] ^ (link & 1)
+            };
+        }
+        (self.link, parts as usize)
+    }
+
     /// What a node is linked to: the root of its part, if nothing was joined since all were [flattened](Self::flatten).
     pub(super) fn parent(&self, node: u32) -> u32 {
         self.link[node as usize] >> 1
@@ -73,5 +91,6 @@ mod tests {
             (0..6).map(|node| (media.parent(node), media.is_opposite(node))).collect();
         let linked = [(0, false), (0, false), (2, false), (0, true), (0, false), (0, true)];
         assert_eq!(found, linked);
+        assert_eq!(media.numbered(), (vec![0, 0, 2, 1, 0, 1], 2));
     }
 }

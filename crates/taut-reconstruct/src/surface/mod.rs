@@ -161,7 +161,7 @@ fn solve(
     let sites = Sites::of(&space, rows);
     let (mode, facets, cells) = match options.method {
         SurfaceMethod::Tree => {
-            let cells = Cells::of(space.into_slots());
+            let cells = Cells::of(space.into_slots(), sites.points.len());
             let facets = surface_of_labels(&cells, &sites.points, options.mode, monitor)?;
             let mode = match options.mode {
                 SurfaceMode::Closed => Promise::Closed,
@@ -171,7 +171,7 @@ fn solve(
         }
         method => {
             let (mode, facets) = of_filters(&space, method, options, monitor)?;
-            (mode, facets, Cells::of(space.into_slots()))
+            (mode, facets, Cells::of(space.into_slots(), sites.points.len()))
         }
     };
     monitor.check()?;

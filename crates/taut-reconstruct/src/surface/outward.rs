@@ -10,7 +10,7 @@ use taut_delaunay::GHOST;
 use taut_mesh::Topology;
 
 use super::border::parts_of;
-use super::cells::{Cells, Kind};
+use super::cells::Cells;
 
 /// How many closed parts are around a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,9 +54,6 @@ pub(super) fn turn(cells: &Cells, triangles: &mut [[u32; 3]], found: &Topology) 
         let own = depth[cell as usize];
         for i in 0..4 {
             let (next, _) = cells.across(cell, i);
-            if cells.kind(next) == Kind::Empty {
-                continue;
-            }
             let facet = cells.facet(cell, i);
             let met = triangle_at(facet);
             if let Some(place) = met.filter(|_| own == Depth::Odd) {

@@ -22,7 +22,7 @@ pub(super) struct Sphere {
 
 /// The circumsphere of a cell, of its best facet if it is flat. Vertices come in the order of their numbers.
 pub(super) fn circumsphere(p: [Point; 4]) -> Sphere {
-    let [u, v, w] = [1, 2, 3].map(|k| minus(p[k], p[0]));
+    let (u, v, w) = (minus(p[1], p[0]), minus(p[2], p[0]), minus(p[3], p[0]));
     let (uu, vv, ww) = (dot(u, u), dot(v, v), dot(w, w));
     let (vw, wu, uv) = (cross(v, w), cross(w, u), cross(u, v));
     let volume = dot(u, vw);
@@ -30,7 +30,8 @@ pub(super) fn circumsphere(p: [Point; 4]) -> Sphere {
         return nearly_flat(p);
     }
     let half = 0.5 / volume;
-    let center = [0, 1, 2].map(|k| half * (uu * vw[k] + vv * wu[k] + ww * uv[k]));
+    let along = |k: usize| half * (uu * vw[k] + vv * wu[k] + ww * uv[k]);
+    let center = [along(0), along(1), along(2)];
     Sphere { center: plus(p[0], center), radius: dot(center, center).sqrt() }
 }
 

@@ -6,7 +6,7 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use super::cells::{Cells, Kind};
+use super::cells::Cells;
 
 /// No cell.
 const NONE: u32 = u32::MAX;
@@ -31,7 +31,7 @@ pub(super) struct Star {
 impl<'a> Stars<'a> {
     pub(super) fn of(cells: &'a Cells, sites: usize) -> Self {
         let mut at = vec![NONE; sites];
-        for cell in (0..cells.len() as u32).filter(|&cell| cells.kind(cell) == Kind::Finite) {
+        for cell in cells.finite() {
             cells.sites(cell).iter().for_each(|&site| at[site as usize] = cell);
         }
         Self { cells, at, found: HashMap::new() }

@@ -8,37 +8,33 @@
 //! *Guarantee.* s is a function of the points, to the last bit: spheres and normals are formed with sites in the order of their numbers.
 
 use rayon::prelude::*;
-use taut_delaunay::{GHOST, decode};
+use taut_delaunay::decode;
 
-use super::cells::{Cells, Kind};
+use super::cells::Cells;
 use super::spheres::{Point, Sphere, circumcircle, circumsphere, cross, dot, minus};
 
-/// Slots of one task.
-const TASK: usize = 1 << 14;
+/// Cells of one task.
+const TASK: usize = 1 << 12;
 /// Steps of |s| between 0 and 1: so many that roundings of s can be told from nothing.
 const STEPS: f64 = (1u32 << 30) as f64;
+/// As many steps as a facet has that is certain.
+pub(super) const CERTAIN: i64 = STEPS as i64;
 
-/// A facet and what it says.
-#[derive(Clone, Copy, Debug)]
+/// What the facet between two ghosts has that are one: more than any other.
+const ONE: Tie = Tie { key: ((1 << 30) + 1) << 1 };
+
+/// What a facet says.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Tie {
     /// |s| in steps; the sign in the lowest bit, 1 for opposite.
     pub(super) key: u32,
-    /// `cell << 2 | facet`, from a cell that is no ghost if there is one.
-    pub(super) facet: u32,
-    /// The cell across, or the one ghost that stands for all if they are one.
-    pub(super) other: u32,
 }
 
 impl Tie {
-    fn new(facet: u32, other: u32, s: f64) -> Self {
+    fn new(s: f64) -> Self {
         // What is not a number says nothing.
         let s = if s.is_nan() { 0.0 } else { s.clamp(-1.0, 1.0) };
-        Self { key: ((s.abs() * STEPS + 0.5) as u32) << 1 | u32::from(s < 0.0), facet, other }
-    }
-
-    /// The two cells, by the numbers that stand for them.
-    pub(super) fn nodes(self) -> [u32; 2] {
-        [self.facet >> 2, self.other]
+        Self { key: ((s.abs() * STEPS + 0.5) as u32) << 1 | u32::from(s < 0.0) }
     }
 
     pub(super) fn is_opposite(self) -> bool {
@@ -57,88 +53,56 @@ impl Tie {
     }
 }
 
-/// As many steps as a facet has that is certain.
-pub(super) const CERTAIN: i64 = STEPS as i64;
-
-/// The ties of all facets, each once, in the order of the slots, in as many parts as there were tasks.
+/// What all facets say, each twice: at either of its cells.
 pub(super) struct Ties {
-    parts: Vec<Vec<Tie>>,
+    /// By cell and place.
+    all: Vec<[Tie; 4]>,
 }
 
 impl Ties {
-    /// The ties between cells. Where one ghost stands for all, there are none between ghosts.
-    pub(super) fn of(cells: &Cells, points: &[Point], ghost: Option<u32>) -> Self {
+    /// The ties between cells. Where ghosts are one, nothing is stronger than what they are joined by.
+    pub(super) fn of(cells: &Cells, points: &[Point], ghosts_are_one: bool) -> Self {
         let spheres = spheres(cells, points);
-        let geometry = Geometry { cells, points, spheres: &spheres, ghost };
-        let task = |begin: usize| {
-            let end = cells.len().min(begin + TASK);
-            // A cell has four facets, and a facet two cells.
-            let mut part = Vec::with_capacity(2 * (end - begin) + TASK / 8);
-            for cell in begin as u32..end as u32 {
-                match cells.kind(cell) {
-                    Kind::Finite => geometry.of_finite(cell, &mut part),
-                    Kind::Ghost if ghost.is_none() => geometry.of_ghost(cell, &mut part),
-                    Kind::Ghost | Kind::Empty => {}
-                }
-            }
-            part
-        };
-        let begins: Vec<usize> = (0..cells.len()).step_by(TASK).collect();
-        Self { parts: begins.into_par_iter().map(task).collect() }
+        let geometry = Geometry { cells, points, spheres: &spheres, ghosts_are_one };
+        let all = (0..cells.len() as u32).into_par_iter().with_min_len(TASK);
+        Self { all: all.map(|cell| geometry.of(cell)).collect() }
+    }
+
+    /// That of a facet, `cell << 2 | place`.
+    pub(super) fn at(&self, facet: u32) -> Tie {
+        let (cell, i) = decode(facet);
+        self.all[cell as usize][i]
+    }
+
+    /// Those of the facets of a cell.
+    pub(super) fn of_cell(&self, cell: u32) -> [Tie; 4] {
+        self.all[cell as usize]
     }
 
     /// How many facets say "opposite" with at least half of what is certain, between cells of one label.
-    pub(super) fn overruled(&self, inside: &[bool]) -> u64 {
-        let is_sure = |tie: &Tie| tie.is_opposite() && 2 * i64::from(tie.strength()) >= CERTAIN;
-        let is_within = |tie: &Tie| {
-            let [a, b] = tie.nodes();
-            inside[a as usize] == inside[b as usize]
+    pub(super) fn overruled(&self, cells: &Cells, inside: &[bool]) -> u64 {
+        let is_sure = |tie: Tie| tie.is_opposite() && 2 * i64::from(tie.strength()) >= CERTAIN;
+        let of_cell = |cell: u32| {
+            let is_within = |i: &usize| {
+                let (other, _) = cells.across(cell, *i);
+                other > cell && inside[other as usize] == inside[cell as usize]
+            };
+            let ties = self.of_cell(cell);
+            (0..4).filter(|&i| is_sure(ties[i])).filter(is_within).count() as u64
         };
-        self.iter().filter(|tie| is_sure(tie) && is_within(tie)).count() as u64
-    }
-
-    pub(super) fn iter(&self) -> impl Iterator<Item = Tie> {
-        self.parts.iter().flatten().copied()
+        (0..cells.len() as u32).into_par_iter().with_min_len(TASK).map(of_cell).sum()
     }
 }
 
-/// What a single facet says: s in steps, as [`Ties`] have it.
-pub(super) fn strength_of(cells: &Cells, points: &[Point], code: u32) -> i64 {
-    let (cell, i) = decode(code);
-    let (other, _) = cells.across(cell, i);
-    let sphere = |cell: u32| sphere_of(cells, points, cell);
-    Tie::new(
-        code,
-        other,
-        match (cells.is_ghost(cell), cells.is_ghost(other)) {
-            (false, false) => between(sphere(cell), sphere(other), || corners(cells, points, code)),
-            (false, true) => on_hull(sphere(cell), cells.facet(cell, i), points),
-            (true, false) => {
-                let (finite, back) = cells.across(cell, i);
-                on_hull(sphere(finite), cells.facet(finite, back), points)
-            }
-            (true, true) => dot(normal_of(cells, points, cell), normal_of(cells, points, other)),
-        },
-    )
-    .signed()
-}
-
-/// The corners of a finite facet in the order of their sites.
-fn corners(cells: &Cells, points: &[Point], code: u32) -> [Point; 3] {
-    cells.name(code).map(|site| points[site as usize])
-}
-
-fn sphere_of(cells: &Cells, points: &[Point], cell: u32) -> Sphere {
-    let mut sites = cells.sites(cell);
-    sites.sort_unstable();
-    circumsphere(sites.map(|site| points[site as usize]))
-}
-
-/// The circumspheres by slot; of ghosts and empty slots, none that means anything.
+/// The circumspheres by cell; of ghosts, none that means anything.
 fn spheres(cells: &Cells, points: &[Point]) -> Vec<Sphere> {
-    let of = |cell: u32| match cells.kind(cell) {
-        Kind::Finite => sphere_of(cells, points, cell),
-        Kind::Ghost | Kind::Empty => Sphere { center: [0.0; 3], radius: 0.0 },
+    let of = |cell: u32| match cells.is_ghost(cell) {
+        false => {
+            let [a, b, c, d] = cells.ascending(cell);
+            let at = |site: u32| points[site as usize];
+            circumsphere([at(a), at(b), at(c), at(d)])
+        }
+        true => Sphere { center: [0.0; 3], radius: 0.0 },
     };
     (0..cells.len() as u32).into_par_iter().with_min_len(TASK).map(of).collect()
 }
@@ -147,49 +111,70 @@ struct Geometry<'a> {
     cells: &'a Cells,
     points: &'a [Point],
     spheres: &'a [Sphere],
-    ghost: Option<u32>,
+    ghosts_are_one: bool,
 }
 
 impl Geometry<'_> {
-    fn of_finite(&self, cell: u32, part: &mut Vec<Tie>) {
-        let own = self.spheres[cell as usize];
-        for i in 0..4 {
-            let (other, _) = self.cells.across(cell, i);
-            let facet = cell << 2 | i as u32;
-            if self.cells.is_ghost(other) {
-                let s = on_hull(own, self.cells.facet(cell, i), self.points);
-                part.push(Tie::new(facet, self.ghost.unwrap_or(other), s));
-            } else if other > cell {
-                let corners = || corners(self.cells, self.points, facet);
-                let s = between(own, self.spheres[other as usize], corners);
-                part.push(Tie::new(facet, other, s));
-            }
+    fn of(&self, cell: u32) -> [Tie; 4] {
+        let Self { cells, points, spheres, ghosts_are_one } = *self;
+        let sphere = |cell: u32| spheres[cell as usize];
+        let own = sphere(cell);
+        let mut ties = [Tie::default(); 4];
+        // A loop, as closures that fill arrays are not always made one with what is around them.
+        for (i, tie) in ties.iter_mut().enumerate() {
+            let (other, k) = cells.across(cell, i);
+            // Ghosts have spheres of no size, and take the longer way.
+            let s = if own.is_like(sphere(other)) {
+                near(own, sphere(other))
+            } else {
+                match (cells.is_ghost(cell), cells.is_ghost(other)) {
+                    (false, false) => {
+                        far(own, sphere(other), corners(cells.facet(cell, i), points))
+                    }
+                    (false, true) => on_hull(own, cells.facet(cell, i), points),
+                    (true, false) => on_hull(sphere(other), cells.facet(other, k), points),
+                    (true, true) if ghosts_are_one => {
+                        *tie = ONE;
+                        continue;
+                    }
+                    (true, true) => {
+                        dot(normal_of(cells, points, cell), normal_of(cells, points, other))
+                    }
+                }
+            };
+            *tie = Tie::new(s);
         }
-    }
-
-    fn of_ghost(&self, cell: u32, part: &mut Vec<Tie>) {
-        let own = normal_of(self.cells, self.points, cell);
-        for i in 0..4 {
-            let (other, _) = self.cells.across(cell, i);
-            if self.cells.is_ghost(other) && other > cell {
-                let s = dot(own, normal_of(self.cells, self.points, other));
-                part.push(Tie::new(cell << 2 | i as u32, other, s));
-            }
-        }
+        ties
     }
 }
 
-/// s of the spheres of two cells, the same whichever is first; `facet` gives the corners of their common facet in the order of sites.
-fn between(one: Sphere, other: Sphere, facet: impl FnOnce() -> [Point; 3]) -> f64 {
-    /// Beyond this, differences of squares of distances are lost to rounding.
-    const UNLIKE: f64 = 1e3;
-    let (r, q) = (one.radius, other.radius);
-    if r.max(q) <= UNLIKE * r.min(q) {
-        let apart = minus(one.center, other.center);
-        return (r * r + q * q - dot(apart, apart)) / (2.0 * r * q);
+/// The corners of a finite facet in the order of their sites.
+fn corners(mut facet: [u32; 3], points: &[Point]) -> [Point; 3] {
+    facet.sort_unstable();
+    facet.map(|site| points[site as usize])
+}
+
+impl Sphere {
+    /// Whether two radii are so much alike that differences of squares are not lost to rounding.
+    fn is_like(self, other: Sphere) -> bool {
+        const UNLIKE: f64 = 1e3;
+        let (r, q) = (self.radius, other.radius);
+        0.0 < r && r <= UNLIKE * q && q <= UNLIKE * r
     }
+}
+
+/// s of the spheres of two cells which are alike, the same whichever is first.
+fn near(one: Sphere, other: Sphere) -> f64 {
+    let (r, q) = (one.radius, other.radius);
+    let apart = minus(one.center, other.center);
+    (r * r + q * q - dot(apart, apart)) / (2.0 * r * q)
+}
+
+/// The same where one is much larger than the other, from the corners of their common facet in the order of sites.
+#[cold]
+fn far(one: Sphere, other: Sphere, [a, b, c]: [Point; 3]) -> f64 {
     // With the radius c of the circle of the facet, and the heights of the centres over it, s = (c² + hk)/(rq).
-    let [a, b, c] = facet();
+    let (r, q) = (one.radius, other.radius);
     let normal = cross(minus(b, a), minus(c, a));
     let size = dot(normal, normal).sqrt();
     let [h, k] = [one, other].map(|sphere| dot(minus(sphere.center, a), normal) / size);
@@ -206,8 +191,7 @@ fn on_hull(sphere: Sphere, facet: [u32; 3], points: &[Point]) -> f64 {
 
 /// The unit normal of the facet of the hull that a ghost stands for, outward.
 fn normal_of(cells: &Cells, points: &[Point], ghost: u32) -> Point {
-    let place = cells.sites(ghost).iter().position(|&site| site == GHOST).unwrap_or(0);
-    let (finite, back) = cells.across(ghost, place);
+    let (finite, back) = cells.across(ghost, 3);
     normal(cells.facet(finite, back), points).0
 }
 
@@ -230,20 +214,19 @@ mod tests {
     #[test]
     fn spheres_that_touch_are_opposite_and_equal_ones_alike() {
         let ball = |x: f64, radius: f64| Sphere { center: [x, 0.0, 0.0], radius };
-        let none = || [[0.0; 3]; 3];
-        assert_eq!(between(ball(0.0, 1.0), ball(3.0, 2.0), none), -1.0);
-        assert_eq!(between(ball(0.0, 2.0), ball(0.0, 2.0), none), 1.0);
-        assert_eq!(between(ball(0.0, 3.0), ball(5.0, 4.0), none), 0.0);
+        assert_eq!(near(ball(0.0, 1.0), ball(3.0, 2.0)), -1.0);
+        assert_eq!(near(ball(0.0, 2.0), ball(0.0, 2.0)), 1.0);
+        assert_eq!(near(ball(0.0, 3.0), ball(5.0, 4.0)), 0.0);
     }
 
     #[test]
     fn a_large_sphere_is_a_half_space() {
         // Both through the unit circle around the origin across the axis of x.
-        let facet = || [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]];
+        let facet = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]];
         let ball = |x: f64| Sphere { center: [x, 0.0, 0.0], radius: x.hypot(1.0) };
         for x in [1e5, 1e12, 1e18] {
-            assert!((between(ball(x), ball(1.0), facet) - 0.5f64.sqrt()).abs() < 2.0 / x + 1e-15);
-            assert!((between(ball(1.0), ball(-x), facet) + 0.5f64.sqrt()).abs() < 2.0 / x + 1e-15);
+            assert!((far(ball(x), ball(1.0), facet) - 0.5f64.sqrt()).abs() < 2.0 / x + 1e-15);
+            assert!((far(ball(1.0), ball(-x), facet) + 0.5f64.sqrt()).abs() < 2.0 / x + 1e-15);
         }
     }
 
@@ -261,7 +244,7 @@ mod tests {
 
     #[test]
     fn what_is_not_a_number_says_nothing() {
-        assert_eq!(Tie::new(0, 1, f64::NAN).signed(), 0);
-        assert_eq!(Tie::new(0, 1, -7.0).signed(), -CERTAIN);
+        assert_eq!(Tie::new(f64::NAN).signed(), 0);
+        assert_eq!(Tie::new(-7.0).signed(), -CERTAIN);
     }
 }

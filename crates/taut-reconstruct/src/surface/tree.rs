@@ -6,84 +6,174 @@
 //! the dual graph, and the parity of opposites on the way from outside is the label. It is the thesis' spanning tree, turned from
 //! growing a surface to dividing space.
 //! *Way.* Borůvka's: in each round every part joins the one across its strongest facet. No facet is sorted, and all are read in the order
-//! in which their cells lie in memory; each round leaves a third of the parts, and of facets those between them.
-//! *Guarantee.* The labels are a function of the points: equal strengths are ordered by the sites of their facets. O(n log n).
+//! in which their cells lie in memory; each round leaves a third of the parts, and of facets those between them. In the first round a part
+//! is a cell, and its facets are at hand; then parts are numbered anew in each round, so that what is kept of them stays small.
+//! *Guarantee.* The labels are a function of the points: equal strengths are ordered by the numbers of facets, which are. O(n log n).
 //! *Reference.* Borůvka 1926; Nešetřil, Milková and Nešetřilová, Discrete Math. 233, 2001.
 
-use std::cmp::Ordering;
+use std::sync::atomic::AtomicU64;
+use std::sync::atomic::Ordering::Relaxed;
+
+use rayon::prelude::*;
+use taut_delaunay::decode;
 
 use super::cells::Cells;
 use super::media::Media;
 use super::strengths::{Tie, Ties};
 
-const NO_TIE: Tie = Tie { key: 0, facet: u32::MAX, other: 0 };
+/// Cells or bonds of one task.
+const TASK: usize = 1 << 14;
 
-/// A tie and the roots of the two parts that it is between.
+/// A facet between two parts.
 #[derive(Clone, Copy)]
 struct Bond {
+    /// The parts; in the lowest bit of the first whether the facet says that they are opposite.
     ends: [u32; 2],
-    tie: Tie,
+    /// Strength first, then the facet: no two are equal.
+    rank: u64,
+}
+
+impl Bond {
+    fn parts(&self) -> [u32; 2] {
+        [self.ends[0] >> 1, self.ends[1]]
+    }
 }
 
 /// A labelling of cells and the tree it comes from.
 pub(super) struct Labels {
-    /// By slot.
     pub(super) inside: Vec<bool>,
-    /// The ties obeyed.
-    pub(super) tree: Vec<Tie>,
+    /// For each cell the facets obeyed, one bit each.
+    pub(super) tree: Vec<u8>,
 }
 
-/// Labels the cells: `root` is outside, and with it all ghosts that it stands for.
+/// How soon a facet is heard: the later, the greater.
+fn rank(tie: Tie, facet: u32) -> u64 {
+    u64::from(tie.key) << 32 | u64::from(!facet)
+}
+
+/// The facet that has this rank.
+fn ranked(rank: u64) -> u32 {
+    !(rank as u32)
+}
+
+/// Labels the cells: `root` is outside.
 pub(super) fn labels(ties: &Ties, cells: &Cells, root: u32) -> Labels {
-    let is_stronger = |one: Tie, other: Tie| match one.strength().cmp(&other.strength()) {
-        Ordering::Equal => cells.name(one.facet) < cells.name(other.facet),
-        unequal => unequal == Ordering::Greater,
+    let mut tree = vec![0u8; cells.len()];
+    let mut obey = |facet: u32| {
+        for (cell, i) in [facet, cells.mirror(facet)].map(decode) {
+            tree[cell as usize] |= 1 << i;
+        }
     };
+    // From each level to the next: the part that a part is in, and in the lowest bit whether it is opposite to it.
+    let mut levels = Vec::new();
+
     let mut media = Media::new(cells.len());
-    let mut tree = Vec::with_capacity(cells.len());
-    // Of each part the strongest tie to another.
-    let mut best = vec![NO_TIE; cells.len()];
-    let offer = |best: &mut [Tie], Bond { ends, tie }: Bond| {
-        for end in ends {
-            let best = &mut best[end as usize];
-            if best.facet == NO_TIE.facet || is_stronger(tie, *best) {
-                *best = tie;
-            }
+    let strongest: Vec<u32> = (0..cells.len() as u32)
+        .into_par_iter()
+        .with_min_len(TASK)
+        .map(|cell| strongest_of(cell, ties, cells))
+        .collect();
+    for (cell, &facet) in (0u32..).zip(&strongest) {
+        if media.join(cell, cells.mirror(facet) >> 2, ties.at(facet).is_opposite()) {
+            obey(facet);
         }
-    };
-    ties.iter().for_each(|tie| offer(&mut best, Bond { ends: tie.nodes(), tie }));
-    let mut parts: Vec<u32> = (0..cells.len() as u32).collect();
-    let mut bonds: Option<Vec<Bond>> = None;
-    loop {
-        for &part in &parts {
-            let tie = std::mem::replace(&mut best[part as usize], NO_TIE);
-            let [one, other] = tie.nodes();
-            if tie.facet != NO_TIE.facet && media.join(one, other, tie.is_opposite()) {
-                tree.push(tie);
-            }
-        }
-        media.flatten();
-        parts.retain(|&part| media.parent(part) == part);
-        let between_parts = |mut bond: Bond| {
-            bond.ends = bond.ends.map(|end| media.parent(end));
-            (bond.ends[0] != bond.ends[1]).then_some(bond)
-        };
-        let left: Vec<Bond> = match bonds {
-            None => {
-                let bonds = ties.iter().map(|tie| Bond { ends: tie.nodes(), tie });
-                bonds.filter_map(between_parts).collect()
-            }
-            Some(bonds) => bonds.into_iter().filter_map(between_parts).collect(),
-        };
-        if left.is_empty() {
-            break;
-        }
-        left.iter().for_each(|&bond| offer(&mut best, bond));
-        bonds = Some(left);
     }
-    let outside = media.is_opposite(root);
-    // A ghost that another stands for has no tie, and is alone.
-    let is_with_root = |cell: u32| media.parent(cell) == media.parent(root);
-    let label = |cell: u32| is_with_root(cell) && media.is_opposite(cell) != outside;
-    Labels { inside: (0..cells.len() as u32).map(label).collect(), tree }
+    drop(strongest);
+    let (level, mut parts) = media.numbered();
+    let mut best = nothing(parts);
+    let mut bonds = first_bonds(ties, cells, &level, &best);
+    levels.push(level);
+    while parts > 1 {
+        let mut media = Media::new(parts);
+        for bond in bonds.iter().flatten() {
+            let [one, other] = bond.parts();
+            let is_best = |part: u32| best[part as usize].load(Relaxed) == bond.rank;
+            if (is_best(one) || is_best(other)) && media.join(one, other, bond.ends[0] & 1 == 1) {
+                obey(ranked(bond.rank));
+            }
+        }
+        let level;
+        (level, parts) = media.numbered();
+        best = nothing(parts);
+        keep_between(&mut bonds, &level, &best);
+        levels.push(level);
+    }
+    // From the last level back to the cells.
+    let whole = levels.into_iter().rev().reduce(|above, mut level| {
+        level.par_iter_mut().with_min_len(TASK).for_each(|part| {
+            *part = above[(*part >> 1) as usize] ^ (*part & 1);
+        });
+        level
+    });
+    let sides = whole.unwrap_or_default();
+    let outside = sides.get(root as usize).map_or(0, |side| side & 1);
+    Labels { inside: sides.iter().map(|side| side & 1 != outside).collect(), tree }
+}
+
+/// For each part the rank of the facet that is heard first, none yet.
+fn nothing(parts: usize) -> Vec<AtomicU64> {
+    (0..parts).map(|_| AtomicU64::new(0)).collect()
+}
+
+/// Offers a bond to its parts: whoever comes first, the highest rank stays.
+fn offer(best: &[AtomicU64], bond: &Bond) {
+    for part in bond.parts() {
+        let best = &best[part as usize];
+        if best.load(Relaxed) < bond.rank {
+            best.fetch_max(bond.rank, Relaxed);
+        }
+    }
+}
+
+/// The facet of a cell that is heard first.
+fn strongest_of(cell: u32, ties: &Ties, cells: &Cells) -> u32 {
+    let own = ties.of_cell(cell);
+    let most = own.into_iter().max().unwrap_or_default();
+    let facets = (0..4).filter(|&i| own[i] == most).map(|i| cell << 2 | i as u32);
+    // Few cells have two facets of one strength, all others need not know their neighbours.
+    let mut alike = facets.clone();
+    match (alike.next(), alike.next()) {
+        (Some(only), None) => only,
+        _ => facets.min_by_key(|&facet| facet.min(cells.mirror(facet))).unwrap_or(cell << 2),
+    }
+}
+
+/// The facets between parts of cells, each from its first cell, by tasks.
+fn first_bonds(ties: &Ties, cells: &Cells, level: &[u32], best: &[AtomicU64]) -> Vec<Vec<Bond>> {
+    let task = |begin: usize| {
+        let end = cells.len().min(begin + TASK);
+        let mut bonds = Vec::with_capacity(end - begin);
+        for cell in begin as u32..end as u32 {
+            let own = level[cell as usize];
+            for (i, tie) in (0..).zip(ties.of_cell(cell)) {
+                let (other, _) = cells.across(cell, i);
+                let beyond = level[other as usize];
+                if other > cell && own >> 1 != beyond >> 1 {
+                    let sign = (own ^ beyond) & 1 ^ u32::from(tie.is_opposite());
+                    let rank = rank(tie, cell << 2 | i as u32);
+                    let bond = Bond { ends: [own & !1 | sign, beyond >> 1], rank };
+                    offer(best, &bond);
+                    bonds.push(bond);
+                }
+            }
+        }
+        bonds
+    };
+    let begins: Vec<usize> = (0..cells.len()).step_by(TASK).collect();
+    begins.into_par_iter().map(task).collect()
+}
+
+/// Keeps the bonds that are between parts after these were joined.
+fn keep_between(bonds: &mut [Vec<Bond>], level: &[u32], best: &[AtomicU64]) {
+    let keep = |bond: &mut Bond| {
+        let [one, two] = bond.parts().map(|part| level[part as usize]);
+        let sign = (one ^ two ^ bond.ends[0]) & 1;
+        bond.ends = [one & !1 | sign, two >> 1];
+        let is_between = one >> 1 != two >> 1;
+        if is_between {
+            offer(best, bond);
+        }
+        is_between
+    };
+    bonds.par_iter_mut().for_each(|bonds| bonds.retain_mut(keep));
 }

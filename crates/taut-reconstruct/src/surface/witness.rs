@@ -11,7 +11,7 @@ use taut_certify::Apex;
 use taut_delaunay::{GHOST, decode};
 use taut_predicates::space::in_equatorial_sphere;
 
-use super::cells::{Cells, Kind};
+use super::cells::Cells;
 use super::spheres::{Point, circumsphere};
 
 /// Triangles of one task.
@@ -59,7 +59,7 @@ pub(super) fn located(cells: &Cells, triangles: &[[u32; 3]], sites: usize) -> Ve
         (0u32..).zip(triangles).map(|(number, &triangle)| (sorted(triangle), number)).collect();
     named.sort_unstable();
     let mut facets = vec![u32::MAX; triangles.len()];
-    for cell in (0..cells.len() as u32).filter(|&cell| cells.kind(cell) == Kind::Finite) {
+    for cell in cells.finite() {
         for i in 0..4 {
             let name = sorted(cells.facet(cell, i));
             if !name.iter().all(|&site| is_used[site as usize]) {
