@@ -40,6 +40,15 @@ def test_parts_and_handles_are_counted(two):
     assert volume == pytest.approx(2 * 2 * np.pi**2 * 2 * 0.7**2, rel=0.03)
 
 
+def test_trimesh_agrees(two):
+    trimesh = pytest.importorskip("trimesh")
+    found = taut.surface(two)
+    mesh = trimesh.Trimesh(two, found.answer.triangles, process=False)
+    mesh.remove_unreferenced_vertices()
+    assert mesh.is_watertight and mesh.is_winding_consistent and mesh.volume > 0
+    assert mesh.euler_number == found.answer.euler_characteristic
+
+
 def test_verdicts_and_certificates(two):
     found = taut.surface(two)
     verdict = found.check(two)

@@ -50,7 +50,11 @@ impl Tell for Report<'_, Surface> {
                 facts.push(Fact::new(name, count(wrong)));
             }
         }
-        if looks_one_sided(self.found) {
+        if topology.components.iter().any(|one| !one.orientable) {
+            let which = if components == 1 { "the surface" } else { "a part" };
+            let remark = format!("{which} cannot be turned alike throughout, as a Möbius band");
+            facts.push(Fact::new("sides", "one").remark(remark));
+        } else if looks_one_sided(self.found) {
             facts.push(Fact::new("sides", "in doubt").remark(
                 "what cells say contradicts itself: noise, too few points, or a sheet with one side, here cut open",
             ));

@@ -67,6 +67,39 @@ fn sharp_wedges() {
     }
 }
 
+/// Turned, or with points off by a little, the squares of their sides are flat cells between other spheres.
+#[test]
+fn sharp_wedges_turned_and_shaken() {
+    let mut chance = chances(12);
+    for (angle, steps) in [(PI / 6.0, 20), (PI / 9.0, 33), (PI / 12.0, 20)] {
+        for off in [0.0, 1e-12, 1e-9, 1e-6, 1e-3] {
+            let shaken = wedge(angle, steps).into_iter().map(|p| {
+                let [x, y, z] = p.map(|x| x + off / steps as f64 * (2.0 * chance() - 1.0));
+                // By 1 about the axis of z, then by 2 about that of x.
+                let ((s, c), (t, d)) = (1f64.sin_cos(), 2f64.sin_cos());
+                let (x, y) = (c * x - s * y, s * x + c * y);
+                [x, d * y - t * z, t * y + d * z]
+            });
+            assert_exact(&closed(&shaken.collect::<Vec<_>>()), 1, 0);
+        }
+    }
+}
+
+/// A body that is wide, narrow and wide again, of rings of 64 points without its ends.
+#[test]
+fn a_torso_of_rings() {
+    let count = 12_947;
+    let high = f64::from((count + 63) / 64);
+    let place = |i: i32| {
+        let (ring, at) = (f64::from(i / 64), f64::from(i % 64));
+        let along = TAU * ring / high;
+        let radius = 40.0 + 12.0 * along.cos() + 5.0 * (3.0 * along).sin();
+        let (sin, cos) = (TAU * at / 64.0).sin_cos();
+        [radius * cos, radius * sin, 3.9 * ring]
+    };
+    assert_exact(&closed(&(0..count).map(place).collect::<Vec<_>>()), 1, 0);
+}
+
 #[test]
 fn rings_on_common_circles() {
     assert_exact(&closed(&rings(20, 64)), 1, 0);
@@ -115,21 +148,63 @@ fn parallel_sheets_are_two() {
 }
 
 #[test]
-fn a_band_with_one_side_is_told() {
-    let mut chance = chances(9);
-    let mut band = |turns: f64| -> Vec<_> {
-        let point = |_| {
-            let (t, w) = (2.0 * PI * chance(), (2.0 * chance() - 1.0) / 3.0);
-            let (r, z) = (1.0 + w * (turns * t).cos(), w * (turns * t).sin());
-            [r * t.cos(), r * t.sin(), z]
-        };
-        (0..4_000).map(point).collect()
+fn a_band_with_one_side_has_one_loop() {
+    for (count, seed) in [(300, 1), (1_000, 2), (4_000, 9), (4_000, 10)] {
+        let found = found(&band(count, 0.5, seed), &open());
+        assert!(looks_one_sided(&found.solution));
+        let [part] = found.solution.answer.topology.components[..] else { panic!("one part") };
+        assert!(!part.orientable);
+        assert_eq!((part.boundary_loops, part.genus), (1, Some(1)), "{count} points, seed {seed}");
+        assert!(found.topology.is_manifold() && found.is_through_all());
+        assert_eq!(found.topology.euler_characteristic, 0);
+    }
+}
+
+#[test]
+fn a_band_with_two_sides_keeps_them() {
+    for seed in [9, 10] {
+        let found = found(&band(4_000, 1.0, seed), &open());
+        assert!(!looks_one_sided(&found.solution));
+        let t = &found.topology;
+        assert_eq!((t.components.len(), t.boundary_loops.len(), t.genus), (1, 2, Some(0)));
+    }
+}
+
+/// Neither the order of the rows nor the unit decides where the two labellings meet.
+#[test]
+fn a_band_with_one_side_is_a_function_of_its_points() {
+    let points = band(1_000, 0.5, 3);
+    let last = points.len() as u32 - 1;
+    let triangles = |points: &[Point], row: &dyn Fn(u32) -> u32| {
+        let mut all = found(points, &open()).triangles;
+        for triangle in &mut all {
+            *triangle = triangle.map(row);
+            triangle.sort_unstable();
+        }
+        all.sort_unstable();
+        all
     };
-    let options = SurfaceOptions { mode: SurfaceMode::Open, ..Default::default() };
-    assert!(looks_one_sided(&found(&band(0.5), &options).solution));
-    let plain = found(&band(1.0), &options);
-    assert!(!looks_one_sided(&plain.solution));
-    assert_eq!((plain.topology.components.len(), plain.topology.boundary_loops.len()), (1, 2));
+    let plain = triangles(&points, &|row| row);
+    let turned: Vec<Point> = points.iter().rev().copied().collect();
+    assert_eq!(triangles(&turned, &|row| last - row), plain);
+    let scaled: Vec<Point> = points.iter().map(|point| point.map(|x| x / 1024.0)).collect();
+    assert_eq!(triangles(&scaled, &|row| row), plain);
+}
+
+/// Where the surface may have boundaries.
+fn open() -> SurfaceOptions {
+    SurfaceOptions { mode: SurfaceMode::Open, ..Default::default() }
+}
+
+/// Random points of a band around the unit circle, two thirds wide, with so many turns: half a turn makes a Möbius band.
+fn band(count: usize, turns: f64, seed: u64) -> Vec<Point> {
+    let mut chance = chances(seed);
+    let point = |_| {
+        let (t, w) = (TAU * chance(), (2.0 * chance() - 1.0) / 3.0);
+        let (r, z) = (1.0 + w * (turns * t).cos(), w * (turns * t).sin());
+        [r * t.cos(), r * t.sin(), z]
+    };
+    (0..count).map(point).collect()
 }
 
 /// The trefoil knot.

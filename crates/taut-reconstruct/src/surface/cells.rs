@@ -19,35 +19,41 @@ pub(super) struct Cells {
     all: Vec<Simplex<4>>,
 }
 
-/// A cell on its way into order.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-struct Entry {
-    /// All sites in ascending order but the first, which all cells have in common among which this one is sorted.
-    higher: [u32; 3],
-    slot: u32,
+/// A cell on its way into order: all sites in ascending order but the first, which those have in common among which it is sorted, and
+/// the slot. One number, as that is compared at once.
+#[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+struct Entry(u128);
+
+impl Entry {
+    fn of([_, b, c, d]: [u32; 4], slot: u32) -> Self {
+        Self(u128::from(b) << 96 | u128::from(c) << 64 | u128::from(d) << 32 | u128::from(slot))
+    }
+
+    fn slot(self) -> usize {
+        self.0 as u32 as usize
+    }
 }
 
 impl Cells {
     pub(super) fn of(slots: Vec<Simplex<4>>, sites: usize) -> Self {
         let order = ordered(&slots, sites);
-        let mut moved = vec![Moved::default(); slots.len()];
+        let mut numbers = vec![0u32; slots.len()];
         for (cell, entry) in (0u32..).zip(&order) {
-            moved[entry.slot as usize].cell = cell;
+            numbers[entry.slot()] = cell;
         }
-        moved.par_iter_mut().zip(&slots).with_min_len(TASK).for_each(|(moved, simplex)| {
-            moved.places = places(simplex.vertices);
-        });
+        let orders: Vec<[u8; 4]> =
+            slots.par_iter().with_min_len(TASK).map(|simplex| places(simplex.vertices)).collect();
         let renumbered = |entry: &Entry| {
-            let old = &slots[entry.slot as usize];
+            let old = &slots[entry.slot()];
             let mut cell = Simplex { vertices: [0; 4], neighbors: [0; 4] };
             // What comes to each place, rather than where each goes: what was just written at a place that varies is slow to read.
-            let from = inverse(moved[entry.slot as usize].places);
+            let from = inverse(orders[entry.slot()]);
             for place in 0..4 {
                 let i = usize::from(from[place]);
                 let (slot, k) = decode(old.neighbors[i]);
-                let there = moved[slot as usize];
                 cell.vertices[place] = old.vertices[i];
-                cell.neighbors[place] = there.cell << 2 | u32::from(there.places[k]);
+                cell.neighbors[place] =
+                    numbers[slot as usize] << 2 | u32::from(orders[slot as usize][k]);
             }
             cell
         };
@@ -96,17 +102,18 @@ impl Cells {
         [sites[a], sites[b], sites[c]]
     }
 
+    /// The sites of a facet, `cell << 2 | place`, in ascending order. The vertex at infinity comes last.
+    pub(super) fn name(&self, facet: u32) -> [u32; 3] {
+        let (cell, i) = decode(facet);
+        let mut sites = self.facet(cell, i);
+        sites.sort_unstable();
+        sites
+    }
+
     /// The first ghost; none if there are no cells.
     pub(super) fn first_ghost(&self) -> Option<u32> {
         (0..self.len() as u32).find(|&cell| self.is_ghost(cell))
     }
-}
-
-/// Where a slot and its places went.
-#[derive(Clone, Copy, Default)]
-struct Moved {
-    cell: u32,
-    places: [u8; 4],
 }
 
 /// For each vertex of a slot its place in the cell.
@@ -147,7 +154,7 @@ fn ordered(slots: &[Simplex<4>], sites: usize) -> Vec<Entry> {
         let mut sorted = simplex.vertices;
         sorted.sort_unstable();
         let place = &mut begins[sorted[0] as usize + 1];
-        order[*place as usize] = Entry { higher: [sorted[1], sorted[2], sorted[3]], slot };
+        order[*place as usize] = Entry::of(sorted, slot);
         *place += 1;
     }
     // Each place has moved on to the end of its cells, which is where those of the next site begin.

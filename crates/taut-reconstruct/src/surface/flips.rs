@@ -5,7 +5,7 @@
 //! disagree with the labels by more than [`LEAST`] in sum, the smaller part is turned over. Leaves are peeled off the tree as long as
 //! what hangs on them is small; sums over all parts come from sums along the peeling: a facet counts at both its cells, and twice
 //! against it where the ways from them meet. Few facets disagree at all, so the sums are formed only where those that do could suffice,
-//! which is found on the ways up from them.
+//! which is found along the peeling as well.
 //! *Guarantee.* Each round raises the agreement of all facets with the labels. Sums are exact, so the answer is a function of the points.
 //! O(n), and O(suspects) for each of at most [`ROUNDS`] rounds.
 //! *Trap.* Large parts are left alone: under strong noise whole regions would be turned back and forth.
@@ -33,6 +33,8 @@ struct Peeling<'a> {
     tree: &'a [u8],
     /// By cell; [`NONE`] for those that were not peeled off.
     parent: Vec<u32>,
+    /// The cells in the order in which they were peeled off: those of a part before what it hung on.
+    order: Vec<u32>,
 }
 
 impl<'a> Peeling<'a> {
@@ -41,6 +43,7 @@ impl<'a> Peeling<'a> {
         let mut left = tree.to_vec();
         let mut size = vec![1u8; cells.len()];
         let mut parents = vec![NONE; cells.len()];
+        let mut order = Vec::with_capacity(cells.len());
         for start in 0..cells.len() as u32 {
             let mut leaf = start;
             while left[leaf as usize].is_power_of_two()
@@ -50,42 +53,26 @@ impl<'a> Peeling<'a> {
                 let place = left[leaf as usize].trailing_zeros() as usize;
                 let (parent, back) = cells.across(leaf, place);
                 parents[leaf as usize] = parent;
+                order.push(leaf);
                 left[leaf as usize] = 0;
                 left[parent as usize] &= !(1 << back);
                 size[parent as usize] = size[parent as usize].saturating_add(size[leaf as usize]);
                 leaf = parent;
             }
         }
-        Self { cells, tree, parent: parents }
+        Self { cells, tree, parent: parents, order }
     }
 
-    fn is_peeled(&self, cell: u32) -> bool {
-        self.parent[cell as usize] != NONE
-    }
-
-    /// What a peeled cell hung on, if that was peeled off as well.
-    fn above(&self, cell: u32) -> Option<u32> {
-        Some(self.parent[cell as usize]).filter(|&parent| self.is_peeled(parent))
-    }
-
-    /// The facets of a cell that are of the tree, and the cells across.
-    fn beside(&self, cell: u32) -> impl Iterator<Item = (usize, u32)> {
-        let tree = self.tree[cell as usize];
-        let places = (0..4).filter(move |&i| tree >> i & 1 == 1);
-        places.map(move |i| (i, self.cells.across(cell, i).0))
-    }
-
-    /// The cells that hung on a peeled one.
-    fn below(&self, cell: u32) -> impl Iterator<Item = u32> {
-        let beside = self.beside(cell).map(|(_, other)| other);
-        beside.filter(move |&other| self.parent[other as usize] == cell)
-    }
-
-    /// What the facet says that a peeled cell hung by.
-    fn hung_by(&self, cell: u32, ties: &Ties) -> Tie {
-        let parent = self.parent[cell as usize];
-        let place = self.beside(cell).find(|&(_, other)| other == parent);
-        place.map_or(Tie::default(), |(i, _)| ties.of_cell(cell)[i])
+    /// Whether so much is said against the part that hangs by a peeled cell that it could be turned over.
+    fn is_outweighed(&self, cell: u32, against: i64, ties: &Ties) -> bool {
+        // What the part hangs by was obeyed, and agrees.
+        let hung_by = || {
+            let parent = self.parent[cell as usize];
+            let tree = self.tree[cell as usize];
+            let is_up = |&i: &usize| tree >> i & 1 == 1 && self.cells.across(cell, i).0 == parent;
+            (0..4).find(is_up).map_or(0, |i| i64::from(ties.of_cell(cell)[i].strength()))
+        };
+        against > LEAST && against > LEAST + hung_by()
     }
 }
 
@@ -109,28 +96,24 @@ struct Near {
 }
 
 impl Suspects {
-    fn of(ties: &Ties, peeling: &Peeling<'_>, inside: &[bool]) -> Self {
+    fn of(objections: &[(u32, i64)], ties: &Ties, peeling: &Peeling<'_>) -> Self {
         let cells = peeling.cells;
-        let tops = tops(ties, peeling, inside);
-        // From the tops down; then turned round.
-        let (mut found, mut above) = (Vec::new(), Vec::new());
-        for top in tops {
-            let mut open = vec![(top, NONE)];
-            while let Some((cell, up)) = open.pop() {
-                let place = found.len() as u32;
+        let against = against(objections, peeling);
+        // From the tops of parts down; one more than the place, so that nothing is written for all other cells.
+        let mut place = vec![0u32; cells.len()];
+        let mut found = Vec::new();
+        for &cell in peeling.order.iter().rev() {
+            let is_within = place[peeling.parent[cell as usize] as usize] != 0;
+            if is_within || peeling.is_outweighed(cell, against[cell as usize], ties) {
                 found.push(cell);
-                above.push(up);
-                open.extend(peeling.below(cell).map(|below| (below, place)));
+                place[cell as usize] = 1;
             }
         }
         found.reverse();
-        above.reverse();
-        let count = found.len() as u32;
-        above.iter_mut().filter(|up| **up != NONE).for_each(|up| *up = count - 1 - *up);
-        // One more than the place, so that nothing is written for all other cells.
-        let mut place = vec![0u32; cells.len()];
         (1..).zip(&found).for_each(|(k, &cell)| place[cell as usize] = k);
         let place = |cell: u32| place[cell as usize].wrapping_sub(1);
+        let above = found.iter().map(|&cell| place(peeling.parent[cell as usize]));
+        let above: Vec<u32> = above.collect();
         let mut near = Vec::new();
         for (&cell, from) in found.iter().zip(0..) {
             for (i, tie) in (0..).zip(ties.of_cell(cell)) {
@@ -218,34 +201,19 @@ fn meet(above: &[u32], mut a: u32, mut b: u32) -> u32 {
     if a == b { a } else { NONE }
 }
 
-/// The cells whose parts the facets that disagree could outweigh, without those in the part of another one.
-fn tops(ties: &Ties, peeling: &Peeling<'_>, inside: &[bool]) -> Vec<u32> {
-    let cells = peeling.cells;
-    // What is said against the parts that hang by a cell's facet. Within a part a tie counts twice here, as where ways meet is not
-    // known yet.
-    let mut against = vec![0i64; cells.len()];
-    let mut met = Vec::new();
-    for (cell, objection) in objections(ties, cells, inside) {
-        let mut at = Some(cell).filter(|&cell| peeling.is_peeled(cell));
-        while let Some(part) = at {
-            if against[part as usize] == 0 {
-                met.push(part);
-            }
-            against[part as usize] += objection;
-            at = peeling.above(part);
+/// What is said against the parts that hang by peeled cells. Within a part a tie counts twice here, as where ways meet is not known yet.
+fn against(objections: &[(u32, i64)], peeling: &Peeling<'_>) -> Vec<i64> {
+    let mut against = vec![0i64; peeling.cells.len()];
+    for &(cell, objection) in objections {
+        against[cell as usize] = objection;
+    }
+    for &cell in &peeling.order {
+        let own = against[cell as usize];
+        if own > 0 {
+            against[peeling.parent[cell as usize] as usize] += own;
         }
     }
-    let is_suspect = |&cell: &u32| {
-        let against = against[cell as usize] - LEAST;
-        // What the part hangs by was obeyed, and agrees.
-        against > 0 && against > i64::from(peeling.hung_by(cell, ties).strength())
-    };
-    met.retain(is_suspect);
-    let is_top = |&cell: &u32| {
-        let mut above = std::iter::successors(peeling.above(cell), |&up| peeling.above(up));
-        !above.any(|up| is_suspect(&up))
-    };
-    met.iter().copied().filter(is_top).collect()
+    against
 }
 
 /// The cells at facets that disagree with the labels, and the strength of these facets.
@@ -260,18 +228,29 @@ fn objections(ties: &Ties, cells: &Cells, inside: &[bool]) -> Vec<(u32, i64)> {
     all.filter_map(of_cell).collect()
 }
 
-/// Turns parts over, and says how many.
-pub(super) fn flip(ties: &Ties, tree: &[u8], cells: &Cells, inside: &mut [bool]) -> u64 {
+/// What turning parts over came to.
+pub(super) struct Flipped {
+    /// How many were.
+    pub(super) flips: u64,
+    /// All cells that have a facet which disagrees with the labels are among these.
+    pub(super) doubtful: Vec<u32>,
+}
+
+/// Turns parts over.
+pub(super) fn flip(ties: &Ties, tree: &[u8], cells: &Cells, inside: &mut [bool]) -> Flipped {
     let peeling = Peeling::of(tree, cells);
-    let suspects = Suspects::of(ties, &peeling, inside);
-    let mut flipped = 0;
+    let objections = objections(ties, cells, inside);
+    let suspects = Suspects::of(&objections, ties, &peeling);
+    let mut flips = 0;
     for _ in 0..ROUNDS {
         match suspects.turn(inside) {
             0 => break,
-            found => flipped += found,
+            found => flips += found,
         }
     }
-    flipped
+    let mut doubtful = suspects.cells;
+    doubtful.extend(objections.iter().map(|(cell, _)| cell));
+    Flipped { flips, doubtful }
 }
 
 /// What a tie between two cells adds to the agreement with the labels.

@@ -6,12 +6,14 @@ use super::SurfaceMode;
 use super::answer::Facets;
 use super::border::{Links, faces, is_cycle, is_fan};
 use super::cells::Cells;
-use super::flips::flip;
+use super::diagonals::swap;
+use super::flips::{Flipped, flip};
 use super::islands::sink;
 use super::one_sided::OVERRULED;
 use super::orient::orient;
 use super::prune::{without_all_small_fans, without_membranes};
 use super::repair::repair;
+use super::seam::Patch;
 use super::spheres::Point;
 use super::strengths::Ties;
 use super::tree::{Labels, labels};
@@ -29,9 +31,12 @@ pub(super) fn surface_of_labels(
     monitor.check()?;
     let Labels { mut inside, tree } = labels(&ties, cells, root);
     monitor.check()?;
-    let flips = flip(&ties, &tree, cells, &mut inside);
-    let overruled = ties.overruled(cells, &inside);
+    let Flipped { flips, doubtful } = flip(&ties, &tree, cells, &mut inside);
     drop(tree);
+    let overruled = ties.overruled(&doubtful, cells, &inside);
+    drop(doubtful);
+    // Only sheets can have one side.
+    let patch = if is_open { Patch::of(&overruled, cells) } else { None };
     monitor.check()?;
     let strength = |cell: u32, i: usize| ties.of_cell(cell)[i].signed();
     let mut found = faces(cells, &inside, points.len());
@@ -43,18 +48,25 @@ pub(super) fn surface_of_labels(
         true => Links::of(&without_membranes(&found, points), points.len()).failing(is_fan),
         false => Links::of(&found, points.len()).failing(is_cycle),
     };
-    let repaired = repair(cells, &mut inside, points.len(), defects, &strength, is_open);
-    if repaired.changes > 0 {
+    let repaired = repair(cells, &mut inside, defects, &strength, is_open);
+    // A second surface that is compared with this one has the diagonals that labels give.
+    let swaps = if patch.is_some() { 0 } else { swap(cells, points, &mut inside) };
+    if repaired.changes + swaps > 0 {
         found = faces(cells, &inside, points.len());
     }
     monitor.check()?;
     if is_open {
         let sheets = without_membranes(&found, points);
         found = without_all_small_fans(sheets, points.len());
+        if let Some(patch) = patch {
+            found = patch.mended(found, &ties, cells, points);
+        }
         orient(&mut found, points);
     }
     // Many of these are where there is noise, or a sheet with one side, as no labels of its two sides exist.
-    let counters = [("flips", flips), (OVERRULED, overruled), ("repairs", repaired.changes)];
+    let overruled = overruled.len() as u64;
+    let counters =
+        [("flips", flips), (OVERRULED, overruled), ("repairs", repaired.changes), ("swaps", swaps)];
     Ok(Facets {
         facets: Some(found.iter().map(|face| face.facet).collect()),
         triangles: found.iter().map(|face| face.sites).collect(),

@@ -39,14 +39,6 @@ impl Media {
         true
     }
 
-    /// Links each node to its root, where parents have lower numbers.
-    pub(super) fn flatten(&mut self) {
-        for node in 0..self.link.len() {
-            let link = self.link[node];
-            self.link[node] = self.link[(link >> 1) as usize] ^ (link & 1);
-        }
-    }
-
     /// Numbers the parts by their lowest nodes: for each node that of its part, and in the lowest bit whether the node is opposite to
     /// the root of its part; and how many parts there are.
     pub(super) fn numbered(mut self) -> (Vec<u32>, usize) {
@@ -64,16 +56,6 @@ impl Media {
         }
         (self.link, parts as usize)
     }
-
-    /// What a node is linked to: the root of its part, if nothing was joined since all were [flattened](Self::flatten).
-    pub(super) fn parent(&self, node: u32) -> u32 {
-        self.link[node as usize] >> 1
-    }
-
-    /// Whether a node is opposite to what it is linked to.
-    pub(super) fn is_opposite(&self, node: u32) -> bool {
-        self.link[node as usize] & 1 == 1
-    }
 }
 
 #[cfg(test)]
@@ -86,11 +68,6 @@ mod tests {
         assert!(media.join(4, 5, true) && media.join(3, 4, true) && media.join(0, 1, false));
         assert!(!media.join(3, 5, true), "joined already");
         assert!(media.join(1, 5, true));
-        media.flatten();
-        let found: Vec<_> =
-            (0..6).map(|node| (media.parent(node), media.is_opposite(node))).collect();
-        let linked = [(0, false), (0, false), (2, false), (0, true), (0, false), (0, true)];
-        assert_eq!(found, linked);
         assert_eq!(media.numbered(), (vec![0, 0, 2, 1, 0, 1], 2));
     }
 }

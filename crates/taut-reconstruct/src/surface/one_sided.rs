@@ -9,9 +9,11 @@ pub(super) const OVERRULED: &str = "overruled";
 const LEAST: u64 = 14;
 
 /// Whether a surface found by [`SurfaceMethod::Tree`](taut_certify::SurfaceMethod::Tree) looks as if its points were from a sheet with
-/// one side, as a Möbius band. The answer then is cut open somewhere, as there is no labelling of two sides: at least 14 facets that
-/// were sure to be of the surface were overruled, and at least one for 100 triangles. Noise overrules facets, too.
+/// one side, as a Möbius band. Either a component of the answer has one side, as its topology says. Or labels of two sides had to overrule
+/// facets that were sure to be of the surface, at least 14 and one for 100 triangles: then the answer has two sides, and if the
+/// sheet has one it is cut open somewhere. Noise overrules facets, too.
 pub fn looks_one_sided(found: &Solution<Surface>) -> bool {
     let overruled = found.trace.counters.get(OVERRULED).copied().unwrap_or(0);
-    overruled >= LEAST && 100 * overruled >= found.answer.triangles.len() as u64
+    let is_seen = found.answer.topology.components.iter().any(|one| !one.orientable);
+    is_seen || overruled >= LEAST && 100 * overruled >= found.answer.triangles.len() as u64
 }

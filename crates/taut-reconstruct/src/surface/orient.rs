@@ -8,24 +8,47 @@ use super::border::{Face, parts};
 use super::media::Media;
 use super::spheres::{Point, cross, dot, minus};
 
-/// Turns triangles alike, and closed parts outward.
-pub(super) fn orient(faces: &mut [Face], points: &[Point]) {
-    let mut sides: Vec<([u32; 2], u32, bool)> = Vec::with_capacity(3 * faces.len());
-    for (number, face) in (0u32..).zip(&*faces) {
+/// A side of a triangle: its ends in order, the number of the triangle, and whether it runs along the side in that order.
+type Side = ([u32; 2], u32, bool);
+
+/// All sides, those of one edge side by side.
+fn sides_of(faces: &[Face]) -> Vec<Side> {
+    let mut sides: Vec<Side> = Vec::with_capacity(3 * faces.len());
+    for (number, face) in (0u32..).zip(faces) {
         let [a, b, c] = face.sites;
         let side = |[p, q]: [u32; 2]| ([p.min(q), p.max(q)], number, p < q);
         sides.extend([[a, b], [b, c], [c, a]].map(side));
     }
     sides.sort_unstable();
+    sides
+}
+
+/// Whether some part has one side: no way to turn its triangles makes all alike.
+pub(super) fn has_one_side(faces: &[Face]) -> bool {
+    let sides = sides_of(faces);
+    let mut media = Media::new(faces.len());
+    sides.chunk_by(|one, other| one.0 == other.0).any(|edge| match edge {
+        [one, other] => {
+            let is_turned = one.2 == other.2;
+            !media.join(one.1, other.1, is_turned)
+                && (media.root(one.1) ^ media.root(other.1)) & 1 != u32::from(is_turned)
+        }
+        _ => false,
+    })
+}
+
+/// Turns triangles alike, and closed parts outward.
+pub(super) fn orient(faces: &mut [Face], points: &[Point]) {
+    let sides = sides_of(faces);
     let mut media = Media::new(faces.len());
     for edge in sides.chunk_by(|one, other| one.0 == other.0) {
         if let [one, other] = edge {
             media.join(one.1, other.1, one.2 == other.2);
         }
     }
-    media.flatten();
+    let (sides, _) = media.numbered();
     let turn = |face: &mut Face| face.sites.swap(1, 2);
-    let opposite = (0u32..).zip(&mut *faces).filter(|(number, _)| media.is_opposite(*number));
+    let opposite = (0u32..).zip(&mut *faces).filter(|(number, _)| sides[*number as usize] & 1 == 1);
     opposite.for_each(|(_, face)| turn(face));
     let part = parts(faces, points.len());
     let part_of = |face: &Face| part[face.sites[0] as usize] as usize;

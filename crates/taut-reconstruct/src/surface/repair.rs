@@ -7,7 +7,7 @@
 //! so no island arises. Vertices are taken in the order of their numbers, cells in the order of their sites, and sums are exact: the
 //! answer is a function of the points.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 
 use taut_delaunay::GHOST;
@@ -31,7 +31,6 @@ pub(super) struct Repaired {
 pub(super) fn repair(
     cells: &Cells,
     inside: &mut [bool],
-    sites: usize,
     defects: Vec<u32>,
     strength: Strength<'_>,
     ghosts_may: bool,
@@ -40,11 +39,11 @@ pub(super) fn repair(
     if defects.is_empty() {
         return repaired;
     }
-    let mut bench = Bench { cells, stars: Stars::of(cells, sites), strength, ghosts_may };
+    let mut bench = Bench { cells, stars: Stars::of(cells, &defects), strength, ghosts_may };
     let mut waiting = BTreeSet::from_iter(defects);
     let mut stuck = BTreeSet::new();
     while let Some(site) = waiting.pop_first() {
-        if bench.defect(inside, site, &[]) == 0 {
+        if bench.around(inside, site, None).defect == 0 {
             continue;
         }
         let Some(change) = bench.best_change(inside, site) else {
@@ -53,9 +52,9 @@ pub(super) fn repair(
         };
         change.iter().for_each(|&cell| inside[cell as usize] = !inside[cell as usize]);
         repaired.changes += 1;
-        for site in bench.sites_of(&change) {
+        for (site, cell) in bench.sites_of(&change) {
             // What was stuck may have become possible.
-            if stuck.remove(&site) || bench.defect(inside, site, &[]) > 0 {
+            if stuck.remove(&site) || bench.around(inside, site, Some(cell)).defect > 0 {
                 waiting.insert(site);
             }
         }
@@ -71,30 +70,55 @@ struct Bench<'a> {
     ghosts_may: bool,
 }
 
+/// A star with the labels of its cells, and how many parts too many it has.
+struct Around {
+    star: Rc<Star>,
+    labels: Vec<bool>,
+    defect: u32,
+}
+
+impl Around {
+    /// By how much the defect would be less, were some cells turned over.
+    fn gain(&self, change: &[u32]) -> i64 {
+        let mut labels = self.labels.clone();
+        for cell in change {
+            if let Ok(place) = self.star.cells.binary_search(cell) {
+                labels[place] = !labels[place];
+            }
+        }
+        i64::from(self.defect) - i64::from(self.star.defect(&labels))
+    }
+}
+
 impl Bench<'_> {
-    /// How many parts too many there are at a site, were some cells turned over.
-    fn defect(&mut self, inside: &[bool], site: u32, change: &[u32]) -> u32 {
-        let star = self.stars.star(site);
-        star.groups(|cell| inside[cell as usize] ^ change.contains(&cell)).1.defect()
+    fn around(&mut self, inside: &[bool], site: u32, near: Option<u32>) -> Around {
+        let star = self.stars.star(site, near);
+        let labels: Vec<bool> = star.cells.iter().map(|&cell| inside[cell as usize]).collect();
+        let defect = star.defect(&labels);
+        Around { star, labels, defect }
     }
 
-    fn sites_of(&self, change: &[u32]) -> Vec<u32> {
-        let mut sites: Vec<u32> = change.iter().flat_map(|&cell| self.cells.sites(cell)).collect();
-        sites.retain(|&site| site != GHOST);
+    /// The sites of some cells, each with one of these.
+    fn sites_of(&self, change: &[u32]) -> Vec<(u32, u32)> {
+        let of_cell = |&cell: &u32| self.cells.sites(cell).map(|site| (site, cell));
+        let mut sites: Vec<(u32, u32)> = change.iter().flat_map(of_cell).collect();
+        sites.retain(|&(site, _)| site != GHOST);
         sites.sort_unstable();
-        sites.dedup();
+        sites.dedup_by_key(|&mut (site, _)| site);
         sites
     }
 
     /// The change at a site that lowers the defects around it most.
     fn best_change(&mut self, inside: &[bool], site: u32) -> Option<Vec<u32>> {
-        let star = self.stars.star(site);
+        let own = self.around(inside, site, None);
+        let mut known: HashMap<u32, Around> = HashMap::new();
         let mut best: Option<(i64, i64, Vec<u32>)> = None;
-        for change in self.changes(inside, &star) {
+        for change in self.changes(inside, &own) {
             let mut gain = 0;
-            for site in self.sites_of(&change) {
-                let before = self.defect(inside, site, &[]);
-                gain += i64::from(before) - i64::from(self.defect(inside, site, &change));
+            for (site, cell) in self.sites_of(&change) {
+                let around =
+                    known.entry(site).or_insert_with(|| self.around(inside, site, Some(cell)));
+                gain += around.gain(&change);
             }
             if gain <= 0 || best.as_ref().is_some_and(|(most, ..)| gain < *most) {
                 continue;
@@ -110,7 +134,7 @@ impl Bench<'_> {
     }
 
     /// The changes worth a look: cells of the star, pairs of neighbours one of which is in it, and its parts of one label.
-    fn changes(&self, inside: &[bool], star: &Rc<Star>) -> Vec<Vec<u32>> {
+    fn changes(&self, inside: &[bool], Around { star, labels, .. }: &Around) -> Vec<Vec<u32>> {
         let may = |cell: u32| self.ghosts_may || !self.cells.is_ghost(cell);
         let mut changes: Vec<Vec<u32>> = star.cells.iter().map(|&cell| vec![cell]).collect();
         for &cell in &star.cells {
@@ -124,7 +148,7 @@ impl Bench<'_> {
                 }
             }
         }
-        let (group, _) = star.groups(|cell| inside[cell as usize]);
+        let (group, _) = star.groups(labels);
         let count = group.iter().max().map_or(0, |most| *most as usize + 1);
         let mut groups = vec![Vec::new(); count];
         group.iter().zip(&star.cells).for_each(|(&g, &cell)| groups[g as usize].push(cell));

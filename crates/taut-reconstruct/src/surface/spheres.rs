@@ -20,19 +20,26 @@ pub(super) struct Sphere {
     pub(super) radius: f64,
 }
 
-/// The circumsphere of a cell, of its best facet if it is flat. Vertices come in the order of their numbers.
+/// The circumsphere of a cell, of its best facet if it has no volume. Vertices come in the order of their numbers.
 pub(super) fn circumsphere(p: [Point; 4]) -> Sphere {
+    sphere_and_flatness(p).0
+}
+
+/// The same, and the square of the volume in units of a sixth over the product of those of the edges from the first vertex.
+#[inline]
+pub(super) fn sphere_and_flatness(p: [Point; 4]) -> (Sphere, f64) {
     let (u, v, w) = (minus(p[1], p[0]), minus(p[2], p[0]), minus(p[3], p[0]));
     let (uu, vv, ww) = (dot(u, u), dot(v, v), dot(w, w));
     let (vw, wu, uv) = (cross(v, w), cross(w, u), cross(u, v));
     let volume = dot(u, vw);
-    if volume * volume <= NEARLY_FLAT * uu * vv * ww {
-        return nearly_flat(p);
+    let flatness = volume * volume / (uu * vv * ww);
+    if flatness <= NEARLY_FLAT {
+        return (nearly_flat(p), flatness);
     }
     let half = 0.5 / volume;
     let along = |k: usize| half * (uu * vw[k] + vv * wu[k] + ww * uv[k]);
     let center = [along(0), along(1), along(2)];
-    Sphere { center: plus(p[0], center), radius: dot(center, center).sqrt() }
+    (Sphere { center: plus(p[0], center), radius: dot(center, center).sqrt() }, flatness)
 }
 
 /// The circumsphere of a cell whose volume rounding could have made: with twice the precision, as grids that were turned, say, have

@@ -11,7 +11,8 @@ use rayon::prelude::*;
 use taut_delaunay::decode;
 
 use super::cells::Cells;
-use super::spheres::{Point, Sphere, circumcircle, circumsphere, cross, dot, minus};
+use super::flats::{FLAT, flats};
+use super::spheres::{Point, Sphere, circumcircle, cross, dot, minus, sphere_and_flatness};
 
 /// Cells of one task.
 const TASK: usize = 1 << 12;
@@ -62,7 +63,10 @@ pub(super) struct Ties {
 impl Ties {
     /// The ties between cells. Where ghosts are one, nothing is stronger than what they are joined by.
     pub(super) fn of(cells: &Cells, points: &[Point], ghosts_are_one: bool) -> Self {
-        let spheres = spheres(cells, points);
+        let (mut spheres, flat) = spheres(cells, points);
+        let own = Geometry { cells, points, spheres: &spheres, ghosts_are_one };
+        let taken = flats(&flat, &own);
+        taken.into_iter().for_each(|(cell, sphere)| spheres[cell as usize] = sphere);
         let geometry = Geometry { cells, points, spheres: &spheres, ghosts_are_one };
         let all = (0..cells.len() as u32).into_par_iter().with_min_len(TASK);
         Self { all: all.map(|cell| geometry.of(cell)).collect() }
@@ -79,72 +83,88 @@ impl Ties {
         self.all[cell as usize]
     }
 
-    /// How many facets say "opposite" with at least half of what is certain, between cells of one label.
-    pub(super) fn overruled(&self, cells: &Cells, inside: &[bool]) -> u64 {
-        let is_sure = |tie: Tie| tie.is_opposite() && 2 * i64::from(tie.strength()) >= CERTAIN;
-        let of_cell = |cell: u32| {
-            let is_within = |i: &usize| {
-                let (other, _) = cells.across(cell, *i);
-                other > cell && inside[other as usize] == inside[cell as usize]
-            };
-            let ties = self.of_cell(cell);
-            (0..4).filter(|&i| is_sure(ties[i])).filter(is_within).count() as u64
+    /// The facets of some cells that say "opposite" with at least half of what is certain, between cells of one label.
+    pub(super) fn overruled(&self, some: &[u32], cells: &Cells, inside: &[bool]) -> Vec<u32> {
+        let is_sure = |facet: &u32| {
+            let tie = self.at(*facet);
+            tie.is_opposite() && 2 * i64::from(tie.strength()) >= CERTAIN
         };
-        (0..cells.len() as u32).into_par_iter().with_min_len(TASK).map(of_cell).sum()
+        let is_within = |facet: &u32| {
+            inside[(facet >> 2) as usize] == inside[(cells.mirror(*facet) >> 2) as usize]
+        };
+        let facets = some.iter().flat_map(|&cell| (0..4).map(move |i| cell << 2 | i));
+        let found = facets.filter(is_sure).filter(is_within);
+        let mut found: Vec<u32> = found.map(|facet| facet.min(cells.mirror(facet))).collect();
+        found.sort_unstable();
+        found.dedup();
+        found
     }
 }
 
-/// The circumspheres by cell; of ghosts, none that means anything.
-fn spheres(cells: &Cells, points: &[Point]) -> Vec<Sphere> {
-    let of = |cell: u32| match cells.is_ghost(cell) {
-        false => {
-            let [a, b, c, d] = cells.ascending(cell);
-            let at = |site: u32| points[site as usize];
-            circumsphere([at(a), at(b), at(c), at(d)])
+/// The circumspheres by cell, of ghosts some of no size, and the flat cells.
+fn spheres(cells: &Cells, points: &[Point]) -> (Vec<Sphere>, Vec<u32>) {
+    let of = |cell: u32| {
+        if cells.is_ghost(cell) {
+            return (Sphere { center: [0.0; 3], radius: 0.0 }, false);
         }
-        true => Sphere { center: [0.0; 3], radius: 0.0 },
+        let [a, b, c, d] = cells.ascending(cell);
+        let at = |site: u32| points[site as usize];
+        let (sphere, flatness) = sphere_and_flatness([at(a), at(b), at(c), at(d)]);
+        (sphere, flatness <= FLAT)
     };
-    (0..cells.len() as u32).into_par_iter().with_min_len(TASK).map(of).collect()
+    let (mut spheres, mut is_flat) = (Vec::new(), Vec::new());
+    let all = (0..cells.len() as u32).into_par_iter().with_min_len(TASK);
+    all.map(of).unzip_into_vecs(&mut spheres, &mut is_flat);
+    let flat = (0u32..).zip(is_flat).filter(|(_, is_flat)| *is_flat).map(|(cell, _)| cell);
+    (spheres, flat.collect())
 }
 
-struct Geometry<'a> {
-    cells: &'a Cells,
-    points: &'a [Point],
-    spheres: &'a [Sphere],
+/// What strengths are made from.
+pub(super) struct Geometry<'a> {
+    pub(super) cells: &'a Cells,
+    pub(super) points: &'a [Point],
+    /// By cell; of ghosts, spheres of no size.
+    pub(super) spheres: &'a [Sphere],
     ghosts_are_one: bool,
 }
 
 impl Geometry<'_> {
     fn of(&self, cell: u32) -> [Tie; 4] {
-        let Self { cells, points, spheres, ghosts_are_one } = *self;
-        let sphere = |cell: u32| spheres[cell as usize];
-        let own = sphere(cell);
         let mut ties = [Tie::default(); 4];
         // A loop, as closures that fill arrays are not always made one with what is around them.
         for (i, tie) in ties.iter_mut().enumerate() {
-            let (other, k) = cells.across(cell, i);
-            // Ghosts have spheres of no size, and take the longer way.
-            let s = if own.is_like(sphere(other)) {
-                near(own, sphere(other))
-            } else {
-                match (cells.is_ghost(cell), cells.is_ghost(other)) {
-                    (false, false) => {
-                        far(own, sphere(other), corners(cells.facet(cell, i), points))
-                    }
-                    (false, true) => on_hull(own, cells.facet(cell, i), points),
-                    (true, false) => on_hull(sphere(other), cells.facet(other, k), points),
-                    (true, true) if ghosts_are_one => {
-                        *tie = ONE;
-                        continue;
-                    }
-                    (true, true) => {
-                        dot(normal_of(cells, points, cell), normal_of(cells, points, other))
-                    }
-                }
-            };
-            *tie = Tie::new(s);
+            *tie = self.tie(cell, i);
         }
         ties
+    }
+
+    /// What the facet opposite the i-th vertex of a cell says.
+    #[inline]
+    pub(super) fn tie(&self, cell: u32, i: usize) -> Tie {
+        let (other, k) = self.cells.across(cell, i);
+        let (one, two) = (self.spheres[cell as usize], self.spheres[other as usize]);
+        if one.is_like(two) {
+            return Tie::new(near(one, two));
+        }
+        self.unlike([cell, other], [i, k])
+    }
+
+    /// The same where the spheres are not alike, as that of a ghost is not like any.
+    #[cold]
+    fn unlike(&self, cells: [u32; 2], places: [usize; 2]) -> Tie {
+        let [facet, back] = [0, 1].map(|k| self.cells.facet(cells[k], places[k]));
+        let [one, two] = cells.map(|cell| self.spheres[cell as usize]);
+        let points = self.points;
+        Tie::new(match cells.map(|cell| self.cells.is_ghost(cell)) {
+            [false, false] => far(one, two, corners(facet, points)),
+            [false, true] => on_hull(one, facet, points),
+            [true, false] => on_hull(two, back, points),
+            [true, true] if self.ghosts_are_one => return ONE,
+            [true, true] => {
+                let [m, n] = cells.map(|cell| normal_of(self.cells, points, cell));
+                dot(m, n)
+            }
+        })
     }
 }
 
@@ -196,7 +216,7 @@ fn normal_of(cells: &Cells, points: &[Point], ghost: u32) -> Point {
 }
 
 /// The unit normal of a facet, towards where it is seen counter-clockwise from, and its site of the lowest number.
-fn normal(facet: [u32; 3], points: &[Point]) -> (Point, Point) {
+pub(super) fn normal(facet: [u32; 3], points: &[Point]) -> (Point, Point) {
     let mut sites = facet;
     sites.sort_unstable();
     // Turned back to what it was if sorting turned it.

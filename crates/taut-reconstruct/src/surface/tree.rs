@@ -67,19 +67,13 @@ pub(super) fn labels(ties: &Ties, cells: &Cells, root: u32) -> Labels {
     // From each level to the next: the part that a part is in, and in the lowest bit whether it is opposite to it.
     let mut levels = Vec::new();
 
-    let mut media = Media::new(cells.len());
     let strongest: Vec<u32> = (0..cells.len() as u32)
         .into_par_iter()
         .with_min_len(TASK)
         .map(|cell| strongest_of(cell, ties, cells))
         .collect();
-    for (cell, &facet) in (0u32..).zip(&strongest) {
-        if media.join(cell, cells.mirror(facet) >> 2, ties.at(facet).is_opposite()) {
-            obey(facet);
-        }
-    }
-    drop(strongest);
-    let (level, mut parts) = media.numbered();
+    let (level, mut parts) = followed(&strongest, ties, cells);
+    strongest.into_iter().for_each(&mut obey);
     let mut best = nothing(parts);
     let mut bonds = first_bonds(ties, cells, &level, &best);
     levels.push(level);
@@ -136,6 +130,37 @@ fn strongest_of(cell: u32, ties: &Ties, cells: &Cells) -> u32 {
         (Some(only), None) => only,
         _ => facets.min_by_key(|&facet| facet.min(cells.mirror(facet))).unwrap_or(cell << 2),
     }
+}
+
+/// The parts of cells that each join the one across their strongest facet, as a level, and how many there are. Whoever follows these facets
+/// comes to one that is the strongest for both its cells, as ranks only rise.
+fn followed(strongest: &[u32], ties: &Ties, cells: &Cells) -> (Vec<u32>, usize) {
+    const UNKNOWN: u32 = u32::MAX;
+    let mut level = vec![UNKNOWN; strongest.len()];
+    let mut parts = 0;
+    let mut way = Vec::new();
+    for start in 0..strongest.len() as u32 {
+        let mut at = start;
+        while level[at as usize] == UNKNOWN {
+            let facet = strongest[at as usize];
+            let next = cells.mirror(facet);
+            way.push((at, u32::from(ties.at(facet).is_opposite())));
+            let other = (next >> 2) as usize;
+            if strongest[other] == next && level[other] == UNKNOWN {
+                level[at as usize] = parts << 1;
+                parts += 1;
+                way.pop();
+            } else {
+                at = other as u32;
+            }
+        }
+        let mut side = level[at as usize];
+        while let Some((cell, sign)) = way.pop() {
+            side ^= sign;
+            level[cell as usize] = side;
+        }
+    }
+    (level, parts as usize)
 }
 
 /// The facets between parts of cells, each from its first cell, by tasks.
