@@ -132,51 +132,10 @@ impl Topology {
 /// # Ok::<(), taut_mesh::Error>(())
 /// ```
 pub fn topology(mesh: &TriangleMesh<'_>) -> Topology {
-    let sides = Sides::of(mesh);
-    let corners = 3 * mesh.triangles().len();
-    let mut sets = UnionFind::new(mesh.triangles().len());
-    let mut fan = UnionFind::new(corners);
-    let mut found = Topology {
-        triangles: sides.kept.len(),
-        degenerate_triangles: mesh.triangles().len() - sides.kept.len(),
-        ..Topology::default()
-    };
-
-    // Edges. A triangle of a component that cannot be turned right is remembered, and triangles at an edge of more than two, which say
-    // nothing about how they are to be turned.
-    let mut one_sided: Vec<u32> = Vec::new();
-    let mut together: Vec<[u32; 2]> = Vec::new();
-    let mut crowded = vec![false; mesh.vertices().len()];
-    for edge in sides.edges() {
-        found.edges += 1;
-        for pair in edge.windows(2) {
-            fan.join(pair[0].low, pair[1].low, false);
-            fan.join(pair[0].high, pair[1].high, false);
-        }
-        match edge {
-            [_] => found.boundary_edges += 1,
-            [one, other] => {
-                let alike = one.rises() == other.rises();
-                found.inconsistent_edges += usize::from(alike);
-                if !sets.join(one.triangle(), other.triangle(), alike) {
-                    one_sided.push(one.triangle());
-                }
-            }
-            _ => {
-                found.non_manifold_edges += 1;
-                edge[0].ends.iter().for_each(|&end| crowded[end as usize] = true);
-                together
-                    .extend(edge.windows(2).map(|pair| [pair[0].triangle(), pair[1].triangle()]));
-            }
-        }
-        if edge.len() > 1 {
-            found.duplicate_triangles += duplicates(mesh, edge);
-        }
-    }
-    // From here on only who is with whom counts.
-    for [one, other] in together {
-        sets.join(one, other, false);
-    }
+    let (sides, at_vertices) =
+        rayon::join(|| Sides::of(mesh), || Grouped::of(mesh.vertices().len(), || corners(mesh)));
+    let (mut fan, (mut found, mut sets, one_sided, crowded)) =
+        rayon::join(|| fans(mesh, &sides), || edges(mesh, &sides));
 
     // Components, numbered by their first triangle.
     let mut number = vec![u32::MAX; mesh.triangles().len()];
@@ -204,11 +163,10 @@ pub fn topology(mesh: &TriangleMesh<'_>) -> Topology {
     }
 
     // Corners by vertex and component: each pair of these is a vertex of the component, and should be one fan.
-    let mut place_of = vec![0u32; corners];
+    let mut place_of = vec![0u32; 3 * mesh.triangles().len()];
     let mut place = 0u32;
     let mut at_vertex: Vec<[u32; 2]> = Vec::new();
-    let starts = Grouped::of(mesh.vertices().len(), || sides.corners(mesh));
-    for (vertex, corners) in starts.groups() {
+    for (vertex, corners) in at_vertices.groups() {
         at_vertex.clear();
         at_vertex.extend(corners.iter().map(|&corner| [number[corner as usize / 3], corner]));
         at_vertex.sort_unstable();
@@ -339,12 +297,66 @@ impl Sides {
     fn edges(&self) -> impl Iterator<Item = &[Side]> {
         self.sorted.chunk_by(|a, b| a.ends == b.ends)
     }
+}
 
-    /// The corners of these triangles with their vertices.
-    fn corners(&self, mesh: &TriangleMesh<'_>) -> impl Iterator<Item = (u32, u32)> {
-        let corners = self.kept.iter().flat_map(|&t| 3 * t..3 * t + 3);
-        corners.map(|corner| (mesh.triangles().as_flattened()[corner as usize], corner))
+/// The corners of all triangles with three different vertices, with these.
+fn corners(mesh: &TriangleMesh<'_>) -> impl Iterator<Item = (u32, u32)> {
+    let kept = (0u32..).zip(mesh.triangles()).filter(|(_, triangle)| !repeats(**triangle));
+    kept.flat_map(|(t, triangle)| (0..3).map(move |k| (triangle[k], 3 * t + k as u32)))
+}
+
+/// The corners by fan.
+fn fans(mesh: &TriangleMesh<'_>, sides: &Sides) -> UnionFind {
+    let mut fan = UnionFind::new(3 * mesh.triangles().len());
+    for edge in sides.edges() {
+        for pair in edge.windows(2) {
+            fan.join(pair[0].low, pair[1].low, false);
+            fan.join(pair[0].high, pair[1].high, false);
+        }
     }
+    fan
+}
+
+/// What edges say: counts, the triangles by component, triangles of components that cannot be turned right, and which vertices are ends of
+/// an edge of more than two triangles.
+fn edges(mesh: &TriangleMesh<'_>, sides: &Sides) -> (Topology, UnionFind, Vec<u32>, Vec<bool>) {
+    let mut found = Topology {
+        triangles: sides.kept.len(),
+        degenerate_triangles: mesh.triangles().len() - sides.kept.len(),
+        ..Topology::default()
+    };
+    let mut sets = UnionFind::new(mesh.triangles().len());
+    let mut one_sided: Vec<u32> = Vec::new();
+    // Triangles at an edge of more than two say nothing about how they are to be turned.
+    let mut together: Vec<[u32; 2]> = Vec::new();
+    let mut crowded = vec![false; mesh.vertices().len()];
+    for edge in sides.edges() {
+        found.edges += 1;
+        match edge {
+            [_] => found.boundary_edges += 1,
+            [one, other] => {
+                let alike = one.rises() == other.rises();
+                found.inconsistent_edges += usize::from(alike);
+                if !sets.join(one.triangle(), other.triangle(), alike) {
+                    one_sided.push(one.triangle());
+                }
+            }
+            _ => {
+                found.non_manifold_edges += 1;
+                edge[0].ends.iter().for_each(|&end| crowded[end as usize] = true);
+                together
+                    .extend(edge.windows(2).map(|pair| [pair[0].triangle(), pair[1].triangle()]));
+            }
+        }
+        if edge.len() > 1 {
+            found.duplicate_triangles += duplicates(mesh, edge);
+        }
+    }
+    // From here on only who is with whom counts.
+    for [one, other] in together {
+        sets.join(one, other, false);
+    }
+    (found, sets, one_sided, crowded)
 }
 
 /// How many of the triangles at an edge have the vertices of one before them, if the edge has the lowest two.

@@ -89,7 +89,13 @@ pub(super) fn finish(
         most: u64::from(u32::MAX / 6),
     };
     let mesh = TriangleMesh::new(&sites.points, &facets.triangles).map_err(refused)?;
-    let found = topology(&mesh);
+    let known = facets.facets.take();
+    let known = known.unwrap_or_else(|| located(cells, &facets.triangles, sites.points.len()));
+    let apexes = || match &changes.elsewhere {
+        None => witnesses(cells, sites.exact(), &known, |site| sites.row(site)),
+        Some(_) => Vec::new(),
+    };
+    let (found, apexes) = rayon::join(|| topology(&mesh), apexes);
     let is_surface = found.is_manifold() && found.is_oriented();
     if is_surface && !facets.is_outward {
         outward::turn(cells, &mut facets.triangles, &found);
@@ -104,8 +110,6 @@ pub(super) fn finish(
         unused.duplicates = copies;
     }
     unused.outliers = changes.outliers;
-    let known = facets.facets.take();
-    let known = known.unwrap_or_else(|| located(cells, &facets.triangles, sites.points.len()));
     let triangles = facets.triangles.iter().map(|triangle| triangle.map(|site| sites.row(site)));
     let triangles: Vec<[u32; 3]> = triangles.collect();
     // Facets of one triangulation share their common edges and vertices and nothing else, but where they were found.
@@ -115,10 +119,6 @@ pub(super) fn finish(
             let mesh = TriangleMesh::new(places, &triangles).map_err(refused)?;
             self_intersections(&mesh).is_embedded()
         }
-    };
-    let apexes = match &changes.elsewhere {
-        None => witnesses(cells, sites.exact(), &known, |site| sites.row(site)),
-        Some(_) => Vec::new(),
     };
     let answer = Surface { vertices: changes.moved, triangles, topology: numbers(&found), unused };
     let certificate = SurfaceCertificate {

@@ -13,20 +13,16 @@
 
 use std::cmp::Reverse;
 
-use rayon::prelude::*;
-
 use super::cells::Cells;
 use super::media::Media;
 use super::spheres::{Point, Sphere, circumcircle};
-use super::strengths::{CERTAIN, Geometry, normal};
+use super::strengths::{CERTAIN, Tie, Ties, normal};
 
 /// A cell is flat if the square of its volume, six times as large as it is, is at most this beside the product of those of the edges from its first vertex. From
 /// 10⁻⁶ down, wedges whose points are off by a thousandth of their spacing get handles; from 10⁻⁴ up, ellipsoids that are close merge.
 pub(super) const FLAT: f64 = 1e-5;
 /// So much of "same" is sure.
 const SURE: i64 = CERTAIN / 100 * 95;
-/// Cells of one task.
-const TASK: usize = 1 << 12;
 
 /// A facet of a flat cell over which it may get its sphere; the surest is the greatest.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -36,11 +32,15 @@ struct Offer {
     facet: Reverse<u32>,
 }
 
-/// The flat cells with the spheres that they take, in any order. The geometry is that of all cells with spheres of their own.
-pub(super) fn flats(flat: &[u32], geometry: &Geometry<'_>) -> Vec<(u32, Sphere)> {
-    let Geometry { cells, points, spheres, .. } = *geometry;
-    let flat: Vec<u32> = flat.iter().copied().filter(|&cell| divides(cell, geometry)).collect();
-
+/// Those of some flat cells that take the sphere of another one, in any order, with these spheres. The ties are of all cells with spheres of
+/// their own.
+pub(super) fn flats(
+    flat: &[u32],
+    ties: &Ties,
+    (cells, points): (&Cells, &[Point]),
+    spheres: &[Sphere],
+) -> Vec<(u32, Sphere)> {
+    let flat: Vec<u32> = flat.iter().copied().filter(|&cell| divides(cell, ties)).collect();
     if flat.is_empty() {
         return Vec::new();
     }
@@ -48,14 +48,11 @@ pub(super) fn flats(flat: &[u32], geometry: &Geometry<'_>) -> Vec<(u32, Sphere)>
     let mut node = vec![0u32; cells.len()];
     (1..).zip(&flat).for_each(|(k, &cell)| node[cell as usize] = k);
     let across = |facet: u32| cells.mirror(facet) >> 2;
-    let best: Vec<Offer> = flat
-        .par_iter()
-        .with_min_len(TASK)
-        .map(|&cell| offers(cell, geometry).max().unwrap_or(Offer::NONE))
-        .collect();
     let mut tree = Tree::of(flat.len());
-    best.iter().for_each(|offer| tree.join(*offer, &node, cells));
-
+    for &cell in &flat {
+        let surest = offers(cell, ties, cells).max();
+        surest.into_iter().for_each(|offer| tree.join(offer, &node, cells));
+    }
     // What hangs together with flat cells alone looks beyond itself.
     let mut alone: Vec<u32> = (1..=flat.len() as u32).collect();
     let mut best = vec![Offer::NONE; flat.len() + 1];
@@ -66,7 +63,7 @@ pub(super) fn flats(flat: &[u32], geometry: &Geometry<'_>) -> Vec<(u32, Sphere)>
         }
         for &k in &alone {
             let (cell, own) = (flat[k as usize - 1], tree.parts.root(k) >> 1);
-            for (i, offer) in (0..).zip(offers(cell, geometry)) {
+            for (i, offer) in (0..).zip(offers(cell, ties, cells)) {
                 let other = node[across(cell << 2 | i) as usize];
                 if tree.parts.root(other) >> 1 != own {
                     best[own as usize] = best[own as usize].max(offer);
@@ -105,18 +102,17 @@ impl Offer {
 }
 
 /// Whether a cell says "same" to all its neighbours, though not surely to one of them.
-fn divides(cell: u32, geometry: &Geometry<'_>) -> bool {
-    let ties = (0..4).map(|i| geometry.tie(cell, i).signed());
-    ties.min().is_some_and(|least| (0..SURE).contains(&least))
+fn divides(cell: u32, ties: &Ties) -> bool {
+    let least = ties.of_cell(cell).map(Tie::signed).into_iter().min();
+    least.is_some_and(|least| (0..SURE).contains(&least))
 }
 
 /// What may be taken over the facets of a cell. It counts how flat cells lie in their pencil, which is known from their own spheres: so
 /// an offer is the same from both sides.
-fn offers(cell: u32, geometry: &Geometry<'_>) -> impl Iterator<Item = Offer> {
-    (0..4).map(move |i| {
+fn offers<'a>(cell: u32, ties: &'a Ties, cells: &'a Cells) -> impl Iterator<Item = Offer> + 'a {
+    (0..).zip(ties.of_cell(cell)).map(move |(i, tie)| {
         let facet = cell << 2 | i;
-        let strength = geometry.tie(cell, i as usize).signed();
-        Offer { strength, facet: Reverse(facet.min(geometry.cells.mirror(facet))) }
+        Offer { strength: tie.signed(), facet: Reverse(facet.min(cells.mirror(facet))) }
     })
 }
 

@@ -238,8 +238,9 @@ pub(super) struct Flipped {
 
 /// Turns parts over.
 pub(super) fn flip(ties: &Ties, tree: &[u8], cells: &Cells, inside: &mut [bool]) -> Flipped {
-    let peeling = Peeling::of(tree, cells);
-    let objections = objections(ties, cells, inside);
+    let labels = &*inside;
+    let (peeling, objections) =
+        rayon::join(|| Peeling::of(tree, cells), || objections(ties, cells, labels));
     let suspects = Suspects::of(&objections, ties, &peeling);
     let mut flips = 0;
     for _ in 0..ROUNDS {

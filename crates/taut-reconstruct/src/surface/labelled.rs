@@ -4,7 +4,7 @@ use taut_points::{Cancelled, Monitor};
 
 use super::SurfaceMode;
 use super::answer::Facets;
-use super::border::{Links, faces, is_cycle, is_fan};
+use super::border::{Face, Links, faces, is_cycle, is_fan};
 use super::cells::Cells;
 use super::diagonals::swap;
 use super::flips::{Flipped, flip};
@@ -71,13 +71,22 @@ pub(super) fn surface_of_labels(
         facets: Some(found.iter().map(|face| face.facet).collect()),
         triangles: found.iter().map(|face| face.sites).collect(),
         is_outward: !is_open,
-        inside: if is_open { Vec::new() } else { labels_of_sites(cells, &inside, points.len()) },
+        inside: if is_open {
+            Vec::new()
+        } else {
+            labels_of_sites(cells, &inside, points.len(), &found)
+        },
         counters: counters.map(|(name, count)| (name.to_owned(), count)).into(),
     })
 }
 
-/// By site, the label of a cell at it: that of all, if no triangle has it.
-fn labels_of_sites(cells: &Cells, inside: &[bool], sites: usize) -> Vec<bool> {
+/// By site, the label of a cell at it: that of all, if no triangle has it. Nothing where each site has a triangle.
+fn labels_of_sites(cells: &Cells, inside: &[bool], sites: usize, faces: &[Face]) -> Vec<bool> {
+    let mut is_used = vec![false; sites];
+    faces.iter().flat_map(|face| face.sites).for_each(|site| is_used[site as usize] = true);
+    if is_used.iter().all(|&is| is) {
+        return Vec::new();
+    }
     let mut is_inside = vec![false; sites];
     for cell in cells.finite() {
         for site in cells.sites(cell) {

@@ -159,7 +159,7 @@ fn solve(
 ) -> Result<Solution<Surface>, Error> {
     let view = Points::new(points.as_flattened(), 3);
     let Ok(view) = view else { return Err(Error::Flat { points: 0, span: Span::Nothing }) };
-    let space = Space::build(&view, &DelaunayOptions::default(), monitor).map_err(refused)?;
+    let space = Space::build(&view, &in_one_cell(), monitor).map_err(refused)?;
     check_span(&space)?;
     let sites = Sites::of(&space, rows);
     let (mode, facets, cells) = match options.method {
@@ -229,6 +229,12 @@ fn of_filters(
     // A radius without end says nothing, and no JSON holds it.
     let mode = if radius.is_finite() { Promise::Alpha { radius } } else { Promise::Closed };
     Ok((mode, facets))
+}
+
+/// How samples of surfaces are triangulated. Their simplices reach from one side of a body to the other, and so through all cells that
+/// threads could share: 10⁶ points of dc take two threads with a cell each half as long again as one thread alone.
+fn in_one_cell() -> DelaunayOptions {
+    DelaunayOptions { cells: Some(1), ..DelaunayOptions::default() }
 }
 
 /// What a triangulation refuses, as a surface says it.

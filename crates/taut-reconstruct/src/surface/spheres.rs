@@ -26,7 +26,7 @@ pub(super) fn circumsphere(p: [Point; 4]) -> Sphere {
 }
 
 /// The same, and the square of the volume in units of a sixth over the product of those of the edges from the first vertex.
-#[inline]
+#[inline(always)]
 pub(super) fn sphere_and_flatness(p: [Point; 4]) -> (Sphere, f64) {
     let (u, v, w) = (minus(p[1], p[0]), minus(p[2], p[0]), minus(p[3], p[0]));
     let (uu, vv, ww) = (dot(u, u), dot(v, v), dot(w, w));

@@ -64,12 +64,21 @@ impl Ties {
     /// The ties between cells. Where ghosts are one, nothing is stronger than what they are joined by.
     pub(super) fn of(cells: &Cells, points: &[Point], ghosts_are_one: bool) -> Self {
         let (mut spheres, flat) = spheres(cells, points);
-        let own = Geometry { cells, points, spheres: &spheres, ghosts_are_one };
-        let taken = flats(&flat, &own);
-        taken.into_iter().for_each(|(cell, sphere)| spheres[cell as usize] = sphere);
         let geometry = Geometry { cells, points, spheres: &spheres, ghosts_are_one };
         let all = (0..cells.len() as u32).into_par_iter().with_min_len(TASK);
-        Self { all: all.map(|cell| geometry.of(cell)).collect() }
+        let mut ties = Self { all: all.map(|cell| geometry.of(cell)).collect() };
+        let taken = flats(&flat, &ties, (cells, points), &spheres);
+        let mut changed: Vec<u32> = taken
+            .iter()
+            .flat_map(|&(cell, _)| [0, 1, 2, 3].map(|i| cells.across(cell, i).0))
+            .chain(taken.iter().map(|&(cell, _)| cell))
+            .collect();
+        changed.sort_unstable();
+        changed.dedup();
+        taken.into_iter().for_each(|(cell, sphere)| spheres[cell as usize] = sphere);
+        let geometry = Geometry { cells, points, spheres: &spheres, ghosts_are_one };
+        changed.iter().for_each(|&cell| ties.all[cell as usize] = geometry.of(cell));
+        ties
     }
 
     /// That of a facet, `cell << 2 | place`.
@@ -120,11 +129,11 @@ fn spheres(cells: &Cells, points: &[Point]) -> (Vec<Sphere>, Vec<u32>) {
 }
 
 /// What strengths are made from.
-pub(super) struct Geometry<'a> {
-    pub(super) cells: &'a Cells,
-    pub(super) points: &'a [Point],
+struct Geometry<'a> {
+    cells: &'a Cells,
+    points: &'a [Point],
     /// By cell; of ghosts, spheres of no size.
-    pub(super) spheres: &'a [Sphere],
+    spheres: &'a [Sphere],
     ghosts_are_one: bool,
 }
 
@@ -139,8 +148,8 @@ impl Geometry<'_> {
     }
 
     /// What the facet opposite the i-th vertex of a cell says.
-    #[inline]
-    pub(super) fn tie(&self, cell: u32, i: usize) -> Tie {
+    #[inline(always)]
+    fn tie(&self, cell: u32, i: usize) -> Tie {
         let (other, k) = self.cells.across(cell, i);
         let (one, two) = (self.spheres[cell as usize], self.spheres[other as usize]);
         if one.is_like(two) {
