@@ -41,19 +41,19 @@ impl Cells {
         for (cell, entry) in (0u32..).zip(&order) {
             numbers[entry.slot()] = cell;
         }
-        let orders: Vec<[u8; 4]> =
-            slots.par_iter().with_min_len(TASK).map(|simplex| places(simplex.vertices)).collect();
+        let all = slots.par_iter().with_min_len(TASK);
+        let places: Vec<Places> = all.map(|simplex| Places::of(simplex.vertices)).collect();
         let renumbered = |entry: &Entry| {
             let old = &slots[entry.slot()];
             let mut cell = Simplex { vertices: [0; 4], neighbors: [0; 4] };
             // What comes to each place, rather than where each goes: what was just written at a place that varies is slow to read.
-            let from = inverse(orders[entry.slot()]);
+            let from = places[entry.slot()].inverse();
             for place in 0..4 {
                 let i = usize::from(from[place]);
                 let (slot, k) = decode(old.neighbors[i]);
                 cell.vertices[place] = old.vertices[i];
                 cell.neighbors[place] =
-                    numbers[slot as usize] << 2 | u32::from(orders[slot as usize][k]);
+                    numbers[slot as usize] << 2 | u32::from(places[slot as usize].get(k));
             }
             cell
         };
@@ -116,26 +116,38 @@ impl Cells {
     }
 }
 
-/// For each vertex of a slot its place in the cell.
-fn places(vertices: [u32; 4]) -> [u8; 4] {
-    let rank = |v: u32| vertices.iter().filter(|&&other| other < v).count() as u8;
-    let mut places = vertices.map(rank);
-    // Pairs in the wrong order: if they are odd in number, so is the order, and its first two change places.
-    let wrong = (0..4).flat_map(|i| (i + 1..4).map(move |k| (i, k)));
-    if wrong.filter(|&(i, k)| places[i] > places[k]).count() % 2 == 1 {
-        places.iter_mut().filter(|place| **place < 2).for_each(|place| *place = 1 - *place);
-    }
-    places
-}
+/// For each vertex of a slot its place in the cell, in two bits each: they are asked for in no order, so they had better be near.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Places(u8);
 
-/// For each place what comes there.
-fn inverse(places: [u8; 4]) -> [u8; 4] {
-    let mut from = [0; 4];
-    for (place, from) in (0..).zip(&mut from) {
-        let is = |i: usize| u8::from(places[i] == place);
-        *from = is(1) + 2 * is(2) + 3 * is(3);
+impl Places {
+    fn of(vertices: [u32; 4]) -> Self {
+        let rank = |v: u32| vertices.iter().filter(|&&other| other < v).count() as u8;
+        let mut places = vertices.map(rank);
+        // Pairs in the wrong order: if they are odd in number, so is the order, and its first two change places.
+        let wrong = (0..4).flat_map(|i| (i + 1..4).map(move |k| (i, k)));
+        if wrong.filter(|&(i, k)| places[i] > places[k]).count() % 2 == 1 {
+            places.iter_mut().filter(|place| **place < 2).for_each(|place| *place = 1 - *place);
+        }
+        // Slots that hold nothing have vertices that mean nothing.
+        Self(places.iter().rev().fold(0, |bits, place| bits << 2 | place & 3))
     }
-    from
+
+    #[inline]
+    fn get(self, vertex: usize) -> u8 {
+        self.0 >> (2 * vertex) & 3
+    }
+
+    /// For each place what comes there.
+    #[inline]
+    fn inverse(self) -> [u8; 4] {
+        let mut from = [0; 4];
+        for (place, from) in (0..).zip(&mut from) {
+            let is = |i: usize| u8::from(self.get(i) == place);
+            *from = is(1) + 2 * is(2) + 3 * is(3);
+        }
+        from
+    }
 }
 
 /// The live slots in the order of their sites.
@@ -204,8 +216,9 @@ mod tests {
             ([2, 1, 4, 3], [1, 0, 3, 2]),
             ([GHOST, 7, 5, 9], [3, 1, 0, 2]),
         ] {
-            assert_eq!(places(vertices), there, "{vertices:?}");
-            let from = inverse(there);
+            let places = Places::of(vertices);
+            assert_eq!([0, 1, 2, 3].map(|i| places.get(i)), there, "{vertices:?}");
+            let from = places.inverse();
             assert!((0..4).all(|i| from[usize::from(there[i])] == i as u8));
         }
     }

@@ -34,50 +34,69 @@ const TASK: usize = 1 << 12;
 /// Swaps diagonals of the border, and says how many.
 pub(super) fn swap(cells: &Cells, points: &[Point], inside: &mut [bool]) -> u64 {
     let labels = &*inside;
-    let all = (0..cells.len() as u32).into_par_iter().with_min_len(TASK);
-    let all: Vec<u32> = all.filter(|&cell| Quadrangle::of(cell, cells, labels).is_some()).collect();
-    let by_circles = |quadrangle: &Quadrangle, _: &[bool]| quadrangle.is_rounder(cells, points);
-    let by_angles =
+    let all = 0..cells.len() as u32;
+    // Most are as they should be, which is seen in parallel; the others are looked at again, one after another.
+    let looks: Vec<(u32, Look)> = all
+        .into_par_iter()
+        .with_min_len(TASK)
+        .filter_map(|cell| Some((cell, Quadrangle::of(cell, cells, labels)?.look(cells, points))))
+        .filter(|(_, look)| look.is_rounder || look.is_bent)
+        .collect();
+    let of = |is: fn(&Look) -> bool| {
+        let those = looks.iter().filter(move |(_, look)| is(look));
+        those.map(|&(cell, _)| cell).collect::<Vec<u32>>()
+    };
+    let is_rounder =
+        |quadrangle: &Quadrangle, _: &[bool]| quadrangle.look(cells, points).is_rounder;
+    let is_flatter =
         |quadrangle: &Quadrangle, inside: &[bool]| quadrangle.is_flatter(cells, points, inside);
-    let first = swap_where(by_circles, Quadrangle::neighbors, &all, cells, inside);
-    first + swap_where(by_angles, Quadrangle::around, &all, cells, inside)
+    let rounder = of(|look| look.is_rounder);
+    let (first, mut bent) = swap_where(is_rounder, Quadrangle::neighbors, rounder, cells, inside);
+    bent.extend(of(|look| look.is_bent));
+    bent.sort_unstable();
+    bent.dedup();
+    let (second, _) = swap_where(is_flatter, Quadrangle::around, bent, cells, inside);
+    first + second
 }
 
-/// Swaps where it is better, then looks again at what that changes.
+/// Swaps where it is better, then looks again at what that changes. How many were swapped, and the quadrangles that came of it.
 fn swap_where(
-    is_better: impl Fn(&Quadrangle, &[bool]) -> bool + Sync,
+    is_better: impl Fn(&Quadrangle, &[bool]) -> bool,
     changed: fn(&Quadrangle, &Cells, &[bool]) -> Vec<u32>,
-    all: &[u32],
+    mut waiting: Vec<u32>,
     cells: &Cells,
     inside: &mut [bool],
-) -> u64 {
-    let swappable = |cell: u32, inside: &[bool]| {
-        let quadrangle = Quadrangle::of(cell, cells, inside).filter(|q| is_better(q, inside));
-        quadrangle.filter(|q| q.can_be_swapped(cells, inside))
-    };
-    // Most are as they should be, which is seen in parallel; the others are looked at again, one after another.
-    let labels = &*inside;
-    let found = all.par_iter().with_min_len(TASK).copied();
-    let mut waiting: Vec<u32> = found.filter(|&cell| swappable(cell, labels).is_some()).collect();
-    let mut swapped = 0;
+) -> (u64, Vec<u32>) {
+    let (mut swapped, mut touched) = (0, Vec::new());
     for _ in 0..ROUNDS {
         let mut next = Vec::new();
         for &cell in &waiting {
-            if let Some(quadrangle) = swappable(cell, inside) {
-                inside[cell as usize] = !inside[cell as usize];
-                swapped += 1;
-                let changed = changed(&quadrangle, cells, inside).into_iter();
-                next.extend(changed.filter(|&cell| Quadrangle::of(cell, cells, inside).is_some()));
-            }
+            let quadrangle = Quadrangle::of(cell, cells, inside).filter(|q| is_better(q, inside));
+            let Some(quadrangle) = quadrangle.filter(|q| q.can_be_swapped(cells, inside)) else {
+                continue;
+            };
+            inside[cell as usize] = !inside[cell as usize];
+            swapped += 1;
+            let changed = changed(&quadrangle, cells, inside).into_iter();
+            next.extend(changed.filter(|&cell| Quadrangle::of(cell, cells, inside).is_some()));
         }
         if next.is_empty() {
             break;
         }
         next.sort_unstable();
         next.dedup();
+        touched.extend_from_slice(&next);
         waiting = next;
     }
-    swapped
+    (swapped, touched)
+}
+
+/// What is seen of a quadrangle alone.
+struct Look {
+    /// The other two triangles have smaller circumcircles: in sum, or the larger one if that is much the same.
+    is_rounder: bool,
+    /// Some of its four triangles turn so much against each other that a swap could make the surface flatter.
+    is_bent: bool,
 }
 
 /// A cell that is no ghost with two facets on the border.
@@ -100,30 +119,44 @@ impl Quadrangle {
         (!cells.is_ghost(cell)).then_some(Self { cell, ends, others })
     }
 
-    /// The corners of the facet opposite a corner, counter-clockwise from outside the cell.
+    /// The normals of the four triangles, outward from the cell, as long as twice their areas.
     #[inline]
-    fn facet(&self, i: usize, cells: &Cells, points: &[Point]) -> [Point; 3] {
-        let [a, b, c] = cells.facet(self.cell, i);
-        [points[a as usize], points[b as usize], points[c as usize]]
+    fn normals(&self, cells: &Cells, points: &[Point]) -> [Point; 4] {
+        let [a, b, c, d] = cells.sites(self.cell).map(|site| points[site as usize]);
+        [normal(b, c, d), normal(a, d, c), normal(a, b, d), normal(a, c, b)]
     }
 
-    /// Whether the other two triangles have smaller circumcircles: in sum, or the larger one if that is much the same.
-    fn is_rounder(&self, cells: &Cells, points: &[Point]) -> bool {
-        let radius = |i: usize| circumradius(self.facet(i, cells, points));
+    fn look(&self, cells: &Cells, points: &[Point]) -> Look {
+        let [a, b, c, d] = cells.sites(self.cell).map(|site| points[site as usize]);
+        let normals = [normal(b, c, d), normal(a, d, c), normal(a, b, d), normal(a, c, b)];
+        let squared = |p: Point, q: Point| {
+            let off = minus(p, q);
+            dot(off, off)
+        };
+        let (ab, ac, ad) = (squared(a, b), squared(a, c), squared(a, d));
+        let (bc, bd, cd) = (squared(b, c), squared(b, d), squared(c, d));
+        // R = |u||v||u − v|/2|n|.
+        let edges = [bc * cd * bd, ac * cd * ad, ab * bd * ad, ab * bc * ac];
+        let radius = |i: usize| (edges[i] / dot(normals[i], normals[i])).sqrt() / 2.0;
         // The triangle opposite one of the others has the diagonal.
-        let (a, b) = (radius(self.others[0]), radius(self.others[1]));
-        let (c, d) = (radius(self.ends[0]), radius(self.ends[1]));
-        let all = a + b + c + d;
-        let less = a + b - c - d;
-        let less = if less.abs() > ALIKE * all { less } else { a.max(b) - c.max(d) };
-        less > LEAST * all
+        let (one, two) = (radius(self.others[0]), radius(self.others[1]));
+        let (three, four) = (radius(self.ends[0]), radius(self.ends[1]));
+        let all = one + two + three + four;
+        let less = one + two - three - four;
+        let less = if less.abs() > ALIKE * all { less } else { one.max(two) - three.max(four) };
+        let [i, k] = self.others.map(|i| normals[i]);
+        let [m, n] = self.ends.map(|i| normals[i]);
+        let is_straight = is_small(i, k)
+            && is_small(m, n)
+            && [i, k].iter().all(|&now| is_small_against(now, m) && is_small_against(now, n));
+        Look { is_rounder: less > LEAST * all, is_bent: !is_straight }
     }
 
     /// Whether the angles around the other two triangles are much less, and one of them is that of a sharp edge.
     fn is_flatter(&self, cells: &Cells, points: &[Point], inside: &[bool]) -> bool {
-        let normal = |i: usize| normal(self.facet(i, cells, points));
-        let now = [normal(self.others[0]), normal(self.others[1])];
-        let then = [minus([0.0; 3], normal(self.ends[0])), minus([0.0; 3], normal(self.ends[1]))];
+        let normals = self.normals(cells, points);
+        let now = self.others.map(|i| normals[i]);
+        let then = self.ends.map(|i| minus([0.0; 3], normals[i]));
         // Each of the five angles changes by no more than normals turn: where they hardly do, no more need be known.
         let pairs = [(now[0], then[0]), (now[0], then[1]), (now[1], then[0]), (now[1], then[1])];
         if pairs.iter().chain([&(now[0], now[1])]).all(|&(m, n)| is_small(m, n)) {
@@ -142,7 +175,8 @@ impl Quadrangle {
                 if sites.contains(&GHOST) {
                     continue;
                 }
-                let beside = self::normal(sites.map(|site| points[site as usize]));
+                let [a, b, c] = sites.map(|site| points[site as usize]);
+                let beside = normal(a, b, c);
                 let is = angle(then[1 - e], beside);
                 less += angle(now[1 - o], beside) - is;
                 sharpest = sharpest.max(is);
@@ -195,14 +229,6 @@ impl Quadrangle {
     }
 }
 
-/// |u||v||u − v|/2|n|.
-#[inline]
-fn circumradius([a, b, c]: [Point; 3]) -> f64 {
-    let (u, v) = (minus(b, a), minus(c, a));
-    let (n, w) = (cross(u, v), minus(v, u));
-    (dot(u, u) * dot(v, v) * dot(w, w) / dot(n, n)).sqrt() / 2.0
-}
-
 /// Whether the angle between two vectors is no more than a fifth of what takes a swap.
 #[inline]
 fn is_small(m: Point, n: Point) -> bool {
@@ -212,9 +238,15 @@ fn is_small(m: Point, n: Point) -> bool {
     along > 0.0 && along * along > COSINE_SQUARED * dot(m, m) * dot(n, n)
 }
 
-/// u × v.
+/// The same of a vector and another one turned round.
 #[inline]
-fn normal([a, b, c]: [Point; 3]) -> Point {
+fn is_small_against(m: Point, n: Point) -> bool {
+    is_small(m, minus([0.0; 3], n))
+}
+
+/// (b − a) × (c − a).
+#[inline]
+fn normal(a: Point, b: Point, c: Point) -> Point {
     cross(minus(b, a), minus(c, a))
 }
 
@@ -243,12 +275,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn radii_and_angles() {
-        let right = [[0.0, 0.0, 1.0], [3.0, 0.0, 1.0], [0.0, 4.0, 1.0]];
-        assert_eq!(circumradius(right), 2.5);
-        assert_eq!(normal(right), [0.0, 0.0, 12.0]);
+    fn normals_and_angles() {
+        let [a, b, c] = [[0.0, 0.0, 1.0], [3.0, 0.0, 1.0], [0.0, 4.0, 1.0]];
+        assert_eq!(normal(a, b, c), [0.0, 0.0, 12.0]);
         assert_eq!(angle([0.0, 0.0, 1.0], [0.0, 1.0, 0.0]), std::f64::consts::FRAC_PI_2);
-        assert_eq!(circumradius([[0.0; 3], [1.0; 3], [2.0; 3]]), f64::INFINITY);
         let turned = |x: f64| [x.cos(), x.sin(), 0.0];
         assert!(is_small([3.0, 0.0, 0.0], turned(0.199)) && !is_small(turned(0.0), turned(0.201)));
         assert!(!is_small([1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]));

@@ -77,31 +77,31 @@ impl<'a> Peeling<'a> {
 }
 
 /// Peeled cells whose parts the facets that disagree could outweigh, and all cells of these parts.
-struct Suspects {
+struct Suspects<'a> {
+    ties: &'a Ties,
+    cells: &'a Cells,
     /// Those of a part before what it hangs on.
-    cells: Vec<u32>,
+    found: Vec<u32>,
     /// For each the place of the suspect above it, or none.
     above: Vec<u32>,
-    /// What the facets at them say.
-    near: Vec<Near>,
+    /// By cell its place, counted from one, so that nothing is written for all other cells.
+    place: Vec<u32>,
+    /// For each part, by how much the facets around it agree with the labels.
+    sums: Vec<i64>,
 }
 
-/// A tie at suspects.
-struct Near {
-    tie: Tie,
-    /// Its cells.
-    cells: [u32; 2],
-    /// The places of its cells and of where their ways meet, of those that are suspects.
-    places: [u32; 3],
-}
-
-impl Suspects {
-    fn of(objections: &[(u32, i64)], ties: &Ties, peeling: &Peeling<'_>) -> Self {
+impl<'a> Suspects<'a> {
+    fn of(
+        objections: &[(u32, i64)],
+        ties: &'a Ties,
+        peeling: &Peeling<'a>,
+        inside: &[bool],
+    ) -> Self {
         let cells = peeling.cells;
         let against = against(objections, peeling);
-        // From the tops of parts down; one more than the place, so that nothing is written for all other cells.
         let mut place = vec![0u32; cells.len()];
         let mut found = Vec::new();
+        // From the tops of parts down.
         for &cell in peeling.order.iter().rev() {
             let is_within = place[peeling.parent[cell as usize] as usize] != 0;
             if is_within || peeling.is_outweighed(cell, against[cell as usize], ties) {
@@ -111,83 +111,92 @@ impl Suspects {
         }
         found.reverse();
         (1..).zip(&found).for_each(|(k, &cell)| place[cell as usize] = k);
-        let place = |cell: u32| place[cell as usize].wrapping_sub(1);
-        let above = found.iter().map(|&cell| place(peeling.parent[cell as usize]));
-        let above: Vec<u32> = above.collect();
-        let mut near = Vec::new();
-        for (&cell, from) in found.iter().zip(0..) {
-            for (i, tie) in (0..).zip(ties.of_cell(cell)) {
-                let (other, _) = cells.across(cell, i);
-                let to = place(other);
+        let above = |&cell: &u32| place[peeling.parent[cell as usize] as usize].wrapping_sub(1);
+        let above: Vec<u32> = found.iter().map(above).collect();
+        let sums = vec![0; found.len()];
+        let mut suspects = Self { ties, cells, found, above, place, sums };
+        suspects.sum_up(inside);
+        suspects
+    }
+
+    fn place(&self, cell: u32) -> u32 {
+        self.place[cell as usize].wrapping_sub(1)
+    }
+
+    fn sum_up(&mut self, inside: &[bool]) {
+        for k in 0..self.found.len() {
+            let (cell, from) = (self.found[k], k as u32);
+            for (i, tie) in (0..).zip(self.ties.of_cell(cell)) {
+                let (other, _) = self.cells.across(cell, i);
+                let to = self.place(other);
                 // A tie of two suspects is met at both.
-                if to == NONE || from < to {
-                    near.push(Near {
-                        tie,
-                        cells: [cell, other],
-                        places: [from, to, meet(&above, from, to)],
-                    });
+                if to != NONE && to < from {
+                    continue;
+                }
+                let agrees = agrees(tie, [cell, other], inside);
+                for (place, times) in [(from, 1), (to, 1), (meet(&self.above, from, to), -2)] {
+                    if place != NONE {
+                        self.sums[place as usize] += times * agrees;
+                    }
                 }
             }
         }
-        Self { cells: found, above, near }
+        for k in 0..self.found.len() {
+            if self.above[k] != NONE {
+                self.sums[self.above[k] as usize] += self.sums[k];
+            }
+        }
     }
 
-    /// Turns over the lowest parts that the ties near them object to, and says how many; none if, as parts that are beside each other
-    /// can, they would do no good together.
-    fn turn(&self, inside: &mut [bool]) -> u64 {
-        let sums = self.agreement(inside);
+    /// Turns over the lowest parts that the facets around them object to, and says how many; none if, as parts that are beside each
+    /// other can, they would do no good together.
+    fn turn(&mut self, inside: &mut [bool]) -> u64 {
         // From the leaves up; above one that is turned over, none is.
-        let mut is_turned = vec![false; self.cells.len()];
-        let mut is_above = vec![false; self.cells.len()];
-        let mut found = 0;
+        let mut is_turned = vec![false; self.found.len()];
+        let mut is_above = vec![false; self.found.len()];
+        let mut count = 0;
         for (k, &above) in self.above.iter().enumerate() {
-            if !is_above[k] && sums[k] < -LEAST {
+            if !is_above[k] && self.sums[k] < -LEAST {
                 is_turned[k] = true;
-                found += 1;
+                count += 1;
             }
             if above != NONE {
                 is_above[above as usize] |= is_above[k] || is_turned[k];
             }
         }
-        if found == 0 {
+        if count == 0 {
             return 0;
         }
         for (k, &above) in self.above.iter().enumerate().rev() {
             is_turned[k] |= above != NONE && is_turned[above as usize];
         }
-        let total = |inside: &[bool]| -> i64 {
-            self.near.iter().map(|near| agrees(near.tie, near.cells, inside)).sum()
-        };
-        let turn = |inside: &mut [bool]| {
-            let turned = self.cells.iter().zip(&is_turned);
-            turned.for_each(|(&cell, is_turned)| inside[cell as usize] ^= is_turned);
-        };
-        let before = total(inside);
-        turn(inside);
-        if total(inside) <= before {
-            turn(inside);
-            return 0;
-        }
-        found
-    }
-
-    /// For each part, by how much the facets around it agree with the labels.
-    fn agreement(&self, inside: &[bool]) -> Vec<i64> {
-        let mut sums = vec![0i64; self.cells.len()];
-        for Near { tie, cells, places } in &self.near {
-            let agrees = agrees(*tie, *cells, inside);
-            for (&place, times) in places.iter().zip([1, 1, -2]) {
-                if place != NONE {
-                    sums[place as usize] += times * agrees;
+        // The facets between what is turned over and what is not, and by how much more they agree then.
+        let mut changes: Vec<([u32; 2], i64)> = Vec::new();
+        for (k, _) in is_turned.iter().enumerate().filter(|(_, is_turned)| **is_turned) {
+            let cell = self.found[k];
+            for (i, tie) in (0..).zip(self.ties.of_cell(cell)) {
+                let (other, _) = self.cells.across(cell, i);
+                let to = self.place(other);
+                if to == NONE || !is_turned[to as usize] {
+                    changes.push(([k as u32, to], -2 * agrees(tie, [cell, other], inside)));
                 }
             }
         }
-        for (k, &above) in self.above.iter().enumerate() {
-            if above != NONE {
-                sums[above as usize] += sums[k];
+        if changes.iter().map(|(_, more)| more).sum::<i64>() <= 0 {
+            return 0;
+        }
+        let turned = self.found.iter().zip(&is_turned);
+        turned.for_each(|(&cell, is_turned)| inside[cell as usize] ^= is_turned);
+        for ([from, to], more) in changes {
+            let top = meet(&self.above, from, to);
+            for mut at in [from, to] {
+                while at != NONE && at != top {
+                    self.sums[at as usize] += more;
+                    at = self.above[at as usize];
+                }
             }
         }
-        sums
+        count
     }
 }
 
@@ -241,7 +250,7 @@ pub(super) fn flip(ties: &Ties, tree: &[u8], cells: &Cells, inside: &mut [bool])
     let labels = &*inside;
     let (peeling, objections) =
         rayon::join(|| Peeling::of(tree, cells), || objections(ties, cells, labels));
-    let suspects = Suspects::of(&objections, ties, &peeling);
+    let mut suspects = Suspects::of(&objections, ties, &peeling, inside);
     let mut flips = 0;
     for _ in 0..ROUNDS {
         match suspects.turn(inside) {
@@ -249,7 +258,7 @@ pub(super) fn flip(ties: &Ties, tree: &[u8], cells: &Cells, inside: &mut [bool])
             found => flips += found,
         }
     }
-    let mut doubtful = suspects.cells;
+    let mut doubtful = suspects.found;
     doubtful.extend(objections.iter().map(|(cell, _)| cell));
     Flipped { flips, doubtful }
 }

@@ -7,6 +7,9 @@
 //! with scale.
 //! *Guarantee.* s is a function of the points, to the last bit: spheres and normals are formed with sites in the order of their numbers.
 
+use std::sync::atomic::AtomicU32;
+use std::sync::atomic::Ordering::Relaxed;
+
 use rayon::prelude::*;
 use taut_delaunay::decode;
 
@@ -56,8 +59,8 @@ impl Tie {
 
 /// What all facets say, each twice: at either of its cells.
 pub(super) struct Ties {
-    /// By cell and place.
-    all: Vec<[Tie; 4]>,
+    /// Keys by cell and place. Each is written by whoever has the facet's first cell, so tasks write beside each other.
+    all: Vec<[AtomicU32; 4]>,
 }
 
 impl Ties {
@@ -65,31 +68,43 @@ impl Ties {
     pub(super) fn of(cells: &Cells, points: &[Point], ghosts_are_one: bool) -> Self {
         let (mut spheres, flat) = spheres(cells, points);
         let geometry = Geometry { cells, points, spheres: &spheres, ghosts_are_one };
-        let all = (0..cells.len() as u32).into_par_iter().with_min_len(TASK);
-        let mut ties = Self { all: all.map(|cell| geometry.of(cell)).collect() };
+        let every = (0..cells.len() as u32).into_par_iter().with_min_len(TASK);
+        let ties = Self { all: every.clone().map(|_| Default::default()).collect() };
+        every.for_each(|cell| {
+            for i in (0..4).filter(|&i| cells.across(cell, i).0 > cell) {
+                ties.set(cells, cell << 2 | i as u32, geometry.tie(cell, i));
+            }
+        });
         let taken = flats(&flat, &ties, (cells, points), &spheres);
-        let mut changed: Vec<u32> = taken
-            .iter()
-            .flat_map(|&(cell, _)| [0, 1, 2, 3].map(|i| cells.across(cell, i).0))
-            .chain(taken.iter().map(|&(cell, _)| cell))
-            .collect();
-        changed.sort_unstable();
-        changed.dedup();
-        taken.into_iter().for_each(|(cell, sphere)| spheres[cell as usize] = sphere);
+        taken.iter().for_each(|&(cell, sphere)| spheres[cell as usize] = sphere);
         let geometry = Geometry { cells, points, spheres: &spheres, ghosts_are_one };
-        changed.iter().for_each(|&cell| ties.all[cell as usize] = geometry.of(cell));
+        for (cell, _) in taken {
+            for i in 0..4 {
+                ties.set(cells, cell << 2 | i as u32, geometry.tie(cell, i));
+            }
+        }
         ties
+    }
+
+    /// Writes that of a facet at both its cells.
+    #[inline]
+    fn set(&self, cells: &Cells, facet: u32, tie: Tie) {
+        for (cell, i) in [facet, cells.mirror(facet)].map(decode) {
+            self.all[cell as usize][i].store(tie.key, Relaxed);
+        }
     }
 
     /// That of a facet, `cell << 2 | place`.
     pub(super) fn at(&self, facet: u32) -> Tie {
         let (cell, i) = decode(facet);
-        self.all[cell as usize][i]
+        Tie { key: self.all[cell as usize][i].load(Relaxed) }
     }
 
     /// Those of the facets of a cell.
     pub(super) fn of_cell(&self, cell: u32) -> [Tie; 4] {
-        self.all[cell as usize]
+        let [a, b, c, d] = &self.all[cell as usize];
+        let tie = |key: &AtomicU32| Tie { key: key.load(Relaxed) };
+        [tie(a), tie(b), tie(c), tie(d)]
     }
 
     /// The facets of some cells that say "opposite" with at least half of what is certain, between cells of one label.
@@ -138,15 +153,6 @@ struct Geometry<'a> {
 }
 
 impl Geometry<'_> {
-    fn of(&self, cell: u32) -> [Tie; 4] {
-        let mut ties = [Tie::default(); 4];
-        // A loop, as closures that fill arrays are not always made one with what is around them.
-        for (i, tie) in ties.iter_mut().enumerate() {
-            *tie = self.tie(cell, i);
-        }
-        ties
-    }
-
     /// What the facet opposite the i-th vertex of a cell says.
     #[inline(always)]
     fn tie(&self, cell: u32, i: usize) -> Tie {

@@ -122,12 +122,15 @@ fn offer(best: &[AtomicU64], bond: &Bond) {
 /// The facet of a cell that is heard first.
 fn strongest_of(cell: u32, ties: &Ties, cells: &Cells) -> u32 {
     let own = ties.of_cell(cell);
-    let most = own.into_iter().max().unwrap_or_default();
+    let [a, b, c, d] = own;
+    let most = a.max(b).max(c.max(d));
     let facets = (0..4).filter(|&i| own[i] == most).map(|i| cell << 2 | i as u32);
-    // Few cells have two facets of one strength, all others need not know their neighbours.
-    let mut alike = facets.clone();
-    match (alike.next(), alike.next()) {
-        (Some(only), None) => only,
+    // Few cells have two facets of one strength; all others need not know their neighbours.
+    let alike = own.iter().filter(|&&tie| tie == most).count();
+    match alike {
+        1 => {
+            cell << 2 | (u32::from(b == most) + 2 * u32::from(c == most) + 3 * u32::from(d == most))
+        }
         _ => facets.min_by_key(|&facet| facet.min(cells.mirror(facet))).unwrap_or(cell << 2),
     }
 }
