@@ -2,7 +2,7 @@
 //!
 //! `ball` runs the named cases of the minimum enclosing ball, `delaunay` those of Delaunay triangulations, `ellipsoid`
 //! those of ellipsoids, `centers` those of k centres, `curve` and `surface` what is shown of curves and surfaces; `thesis-ball`,
-//! `thesis-ellipsoid` and `thesis-curve` rerun figures of the thesis.
+//! `thesis-ellipsoid`, `thesis-curve` and `thesis-surface` rerun figures and a table of the thesis.
 //! The peers are installed by `bench/setup`; one that is missing is named, never skipped in silence.
 #![forbid(unsafe_code)]
 
@@ -58,6 +58,8 @@ enum Area {
     ThesisEllipsoid(thesis::EllipsoidArguments),
     /// Figures 2, 21 and 22 of the thesis, curves through noisy points, redrawn as SVG.
     ThesisCurve(thesis::CurveArguments),
+    /// Table 1 of the thesis, surfaces through points, rerun as CSV with pictures as SVG.
+    ThesisSurface(surface::thesis_surface::ThesisArguments),
     /// Solves one raw file and prints seconds per pass and the peak memory of this process.
     #[command(hide = true)]
     SolveFile(ball::file::SolveArguments),
@@ -94,6 +96,7 @@ fn main() -> anyhow::Result<()> {
         Area::ThesisBall(arguments) => thesis::run(&arguments),
         Area::ThesisEllipsoid(arguments) => thesis::run_ellipsoid(&arguments),
         Area::ThesisCurve(arguments) => thesis::run_curve(&arguments),
+        Area::ThesisSurface(arguments) => surface::thesis_surface::run(&arguments),
         Area::SolveFile(arguments) => ball::file::solve(&arguments),
         Area::SolveEllipsoid(arguments) => ellipsoid::file::solve(&arguments),
         Area::OneDelaunay(arguments) => delaunay::one::run(&arguments),

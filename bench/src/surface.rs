@@ -14,6 +14,7 @@ mod others;
 mod samples;
 mod speed;
 mod table_one;
+pub(crate) mod thesis_surface;
 mod timed;
 mod topology;
 

@@ -18,7 +18,7 @@ use crate::stats::{seconds, times};
 use crate::table::Table;
 
 /// A row of the table: its name, its points, and the seconds that it took then.
-const TABLE: [(&str, usize, f64); 11] = [
+pub(super) const TABLE: [(&str, usize, f64); 11] = [
     ("Hands", 54_698, 58.0),
     ("Bunny", 35_947, 35.0),
     ("Lyria", 29_970, 45.0),
@@ -33,7 +33,11 @@ const TABLE: [(&str, usize, f64); 11] = [
 ];
 
 /// The points of a row, or what stands for them, with a word about it; `None` where there is neither.
-fn input(name: &str, count: usize, seed: u64) -> Result<Option<(Vec<Point>, &'static str)>> {
+pub(super) fn input(
+    name: &str,
+    count: usize,
+    seed: u64,
+) -> Result<Option<(Vec<Point>, &'static str)>> {
     Ok(match name {
         "Bunny" => BUNNY.read()?.map(|shape| (shape.vertices, "the same scan")),
         "Cactus" => cactus()?.map(|points| (points, "another version")),

@@ -38,10 +38,10 @@ pub(crate) struct Args {
         long, value_name = "NAME", default_value = SurfaceMethod::default().name(), value_parser = methods()
     )]
     method: SurfaceMethod,
-    /// Leave gaps in the samples open: sheets end where their points end
+    /// Of tree, leave gaps in the samples open: sheets end where their points end
     #[arg(long, conflicts_with = "closed")]
     open: bool,
-    /// Close everything, as the boundary of bodies; the default
+    /// Of tree, close everything, as the boundary of bodies; the default
     #[arg(long)]
     closed: bool,
     /// Take noise out of the points first: leave outliers out and move each other point onto the sheet that its neighbours show
@@ -60,18 +60,18 @@ pub(crate) struct Args {
     /// circumradius of a triangle [default: any]
     #[arg(long, value_name = "RADIUS", allow_negative_numbers = true)]
     alpha: Option<f64>,
-    /// Of thesis and hull, by which part of its radius the sphere of a triangle is shrunk before it has to be empty
-    #[arg(long, value_name = "REAL", default_value_t = ThesisOptions::default().epsilon, allow_negative_numbers = true)]
-    epsilon: f64,
+    /// Of thesis and hull, by which part of its radius the sphere of a triangle is shrunk before it has to be empty [default: 2e-5]
+    #[arg(long, value_name = "REAL", allow_negative_numbers = true)]
+    epsilon: Option<f64>,
     /// Of thesis, the angle in radians below which two triangles at an edge are on slivers [default: π/12]
     #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
     sliver_angle: Option<f64>,
     /// Of thesis, the least angle in radians between two triangles [default: π/4]
     #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
     forbidden_angle: Option<f64>,
-    /// Of thesis, what the front prefers
-    #[arg(long, value_name = "NAME", default_value = Priority::default().name(), value_parser = priorities())]
-    priority: Priority,
+    /// Of thesis, what the front prefers [default: circumcentre-distance]
+    #[arg(long, value_name = "NAME", value_parser = priorities())]
+    priority: Option<Priority>,
     /// Of thesis, start another front where no triangle reaches
     #[arg(long)]
     restarts: bool,
@@ -114,6 +114,7 @@ fn methods() -> impl TypedValueParser<Value = SurfaceMethod> {
 
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
+        self.check_options()?;
         let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
         let mesh = self.mesh_format()?;
         let outputs: Vec<&Path> =
@@ -174,6 +175,29 @@ impl Args {
         }
         outputs.finish()?;
         Ok(Outcome::Done)
+    }
+
+    /// Refuses options that the method does not have, rather than passing over them.
+    fn check_options(&self) -> anyhow::Result<()> {
+        use SurfaceMethod::{Alpha, Hull, Thesis, Tree};
+        let of: [(&str, bool, &[SurfaceMethod]); 8] = [
+            ("open", self.open, &[Tree]),
+            ("closed", self.closed, &[Tree]),
+            ("alpha", self.alpha.is_some(), &[Alpha, Thesis, Hull]),
+            ("epsilon", self.epsilon.is_some(), &[Thesis, Hull]),
+            ("sliver-angle", self.sliver_angle.is_some(), &[Thesis]),
+            ("forbidden-angle", self.forbidden_angle.is_some(), &[Thesis]),
+            ("priority", self.priority.is_some(), &[Thesis]),
+            ("restarts", self.restarts, &[Thesis]),
+        ];
+        for (name, is_given, methods) in of {
+            if is_given && !methods.contains(&self.method) {
+                let names: Vec<&str> = methods.iter().map(|method| method.name()).collect();
+                let method = self.method.name();
+                bail!("--{name} is of --method {}, not of {method}", names.join(" and "));
+            }
+        }
+        Ok(())
     }
 
     /// The format of the mesh that goes to `--out`; none where JSON does.
@@ -242,7 +266,7 @@ impl Args {
     fn thesis(&self) -> ThesisOptions {
         let usual = ThesisOptions::default();
         ThesisOptions {
-            epsilon: self.epsilon,
+            epsilon: self.epsilon.unwrap_or(usual.epsilon),
             alpha: match self.method {
                 SurfaceMethod::Thesis | SurfaceMethod::Hull => {
                     self.alpha.map_or(AlphaFilter::None, AlphaFilter::Circumradius)
@@ -251,7 +275,7 @@ impl Args {
             },
             sliver_angle: self.sliver_angle.unwrap_or(usual.sliver_angle),
             forbidden_angle: self.forbidden_angle.unwrap_or(usual.forbidden_angle),
-            priority: self.priority,
+            priority: self.priority.unwrap_or(usual.priority),
             extent: if self.restarts { Extent::Restarts } else { Extent::Front },
             ..usual
         }

@@ -158,6 +158,6 @@ fn certified(verdict: &SurfaceVerdict) -> Fact {
     match &verdict.doubt {
         None => Fact::new("certified", "yes")
             .remark("an oriented manifold of Delaunay triangles that meets itself nowhere"),
-        Some(doubt) => Fact::new("certified", "no").remark(doubt.to_string()),
+        Some(doubt) => Fact::new("certified", "no").remark(format!("{doubt}; all counted from 0")),
     }
 }

@@ -132,10 +132,14 @@ impl Topology {
 /// # Ok::<(), taut_mesh::Error>(())
 /// ```
 pub fn topology(mesh: &TriangleMesh<'_>) -> Topology {
-    let (sides, at_vertices) =
-        rayon::join(|| Sides::of(mesh), || Grouped::of(mesh.vertices().len(), || corners(mesh)));
-    let (mut fan, (mut found, mut sets, one_sided, crowded)) =
-        rayon::join(|| fans(mesh, &sides), || edges(mesh, &sides));
+    let at_vertices = Grouped::of(mesh.vertices().len(), || corners(mesh));
+    let is_round = round(mesh, &at_vertices);
+    let is_whole = 3 * mesh.triangles().len() == at_vertices.all.len();
+    if is_whole && at_vertices.groups().all(|(vertex, _)| is_round[vertex]) {
+        return closed_surface(mesh);
+    }
+    let sides = Sides::of(mesh);
+    let (mut found, mut sets, one_sided, crowded) = edges(mesh, &sides);
 
     // Components, numbered by their first triangle.
     let mut number = vec![u32::MAX; mesh.triangles().len()];
@@ -165,51 +169,81 @@ pub fn topology(mesh: &TriangleMesh<'_>) -> Topology {
     // Corners by vertex and component: each pair of these is a vertex of the component, and should be one fan.
     let mut place_of = vec![0u32; 3 * mesh.triangles().len()];
     let mut place = 0u32;
-    let mut at_vertex: Vec<[u32; 2]> = Vec::new();
+    let mut at_vertex: Vec<[u32; 3]> = Vec::new();
     for (vertex, corners) in at_vertices.groups() {
+        let fans = fans(mesh, corners);
         at_vertex.clear();
-        at_vertex.extend(corners.iter().map(|&corner| [number[corner as usize / 3], corner]));
+        let places = corners.iter().zip(&fans);
+        at_vertex.extend(places.map(|(&corner, &fan)| [number[corner as usize / 3], fan, corner]));
         at_vertex.sort_unstable();
-        let mut fans = 0;
+        let mut all = 0;
         for at_place in at_vertex.chunk_by(|a, b| a[0] == b[0]) {
-            let own = at_place.iter().filter(|&&[_, corner]| fan.root(corner) == corner).count();
+            let own = at_place.chunk_by(|a, b| a[1] == b[1]).count();
             let part = &mut found.components[at_place[0][0] as usize];
             part.vertices += 1;
             part.manifold &= own == 1;
-            at_place.iter().for_each(|&[_, corner]| place_of[corner as usize] = place);
+            at_place.iter().for_each(|&[_, _, corner]| place_of[corner as usize] = place);
             place += 1;
-            fans += own;
+            all += own;
         }
         found.vertices += 1;
-        found.non_manifold_vertices += usize::from(fans > 1 || crowded[vertex]);
+        found.non_manifold_vertices += usize::from(all > 1 || crowded[vertex]);
     }
     found.unreferenced_vertices = mesh.vertices().len() - found.vertices;
 
-    // Loops: of the mesh over its vertices, of each component over its own.
     if found.boundary_edges > 0 {
         found.boundary_loops = loops(mesh, &sides);
-    }
-    let mut loop_of = UnionFind::new(place as usize);
-    let bare = |edge: &&[Side]| edge.len() == 1;
-    for edge in sides.edges().filter(bare) {
-        let (one, other) = (place_of[edge[0].low as usize], place_of[edge[0].high as usize]);
-        loop_of.join(one, other, false);
-    }
-    let mut seen = vec![false; place as usize];
-    for edge in sides.edges().filter(bare) {
-        let root = loop_of.root(place_of[edge[0].low as usize]);
-        let new = !std::mem::replace(&mut seen[root as usize], true);
-        found.components[of(edge[0].triangle())].boundary_loops += usize::from(new);
+        loops_of_components(&mut found, &sides, &number, (&place_of, place as usize));
     }
 
-    found.components.iter_mut().for_each(Component::conclude);
-    found.euler_characteristic = euler(found.vertices, found.edges, found.triangles);
-    found.genus = found
-        .components
-        .iter()
-        .map(|part| part.genus.filter(|_| part.orientable))
-        .try_fold(0, |sum, genus| Some(sum + genus?));
+    found.conclude();
     found
+}
+
+/// The topology of a mesh without degenerate triangles all of whose vertices are round: it is closed, a surface, and turned alike, so
+/// that counts alone are wanted. Two triangles on the same vertices are a component of their own.
+fn closed_surface(mesh: &TriangleMesh<'_>) -> Topology {
+    let all = mesh.triangles();
+    let mut sets = UnionFind::new(mesh.vertices().len());
+    for &[a, b, c] in all {
+        sets.join(a, b, false);
+        sets.join(b, c, false);
+    }
+    let mut found =
+        Topology { triangles: all.len(), edges: all.len() * 3 / 2, ..Topology::default() };
+    // Of each least vertex the number of its component.
+    let mut number = vec![u32::MAX; mesh.vertices().len()];
+    for (t, triangle) in (0u32..).zip(all) {
+        let own = &mut number[sets.root(triangle[0]) as usize];
+        if *own == u32::MAX {
+            *own = found.components.len() as u32;
+            found.components.push(Component::beginning_with(t));
+        }
+        found.components[*own as usize].triangles += 1;
+    }
+    for vertex in 0..mesh.vertices().len() as u32 {
+        if let Some(part) = found.components.get_mut(number[sets.root(vertex) as usize] as usize) {
+            part.vertices += 1;
+        }
+    }
+    for part in &mut found.components {
+        part.edges = part.triangles * 3 / 2;
+        found.vertices += part.vertices;
+        found.duplicate_triangles += usize::from(part.triangles == 2);
+    }
+    found.unreferenced_vertices = mesh.vertices().len() - found.vertices;
+    found.conclude();
+    found
+}
+
+impl Topology {
+    /// What follows from the counts.
+    fn conclude(&mut self) {
+        self.components.iter_mut().for_each(Component::conclude);
+        self.euler_characteristic = euler(self.vertices, self.edges, self.triangles);
+        let genera = self.components.iter().map(|part| part.genus.filter(|_| part.orientable));
+        self.genus = genera.into_iter().try_fold(0, |sum, genus| Some(sum + genus?));
+    }
 }
 
 impl Component {
@@ -305,16 +339,77 @@ fn corners(mesh: &TriangleMesh<'_>) -> impl Iterator<Item = (u32, u32)> {
     kept.flat_map(|(t, triangle)| (0..3).map(move |k| (triangle[k], 3 * t + k as u32)))
 }
 
-/// The corners by fan.
-fn fans(mesh: &TriangleMesh<'_>, sides: &Sides) -> UnionFind {
-    let mut fan = UnionFind::new(3 * mesh.triangles().len());
-    for edge in sides.edges() {
-        for pair in edge.windows(2) {
-            fan.join(pair[0].low, pair[1].low, false);
-            fan.join(pair[0].high, pair[1].high, false);
-        }
+/// By vertex, whether its triangles are one closed fan that runs round in one direction, as within a surface: then they are of one
+/// component, and its edges have two triangles each.
+fn round(mesh: &TriangleMesh<'_>, at_vertices: &Grouped<u32>) -> Vec<bool> {
+    let mut is_round = vec![false; mesh.vertices().len()];
+    let mut link = Vec::new();
+    for (vertex, corners) in at_vertices.groups() {
+        link.clear();
+        link.extend(corners.iter().map(|&corner| opposite(mesh, corner)));
+        is_round[vertex] = is_cycle(&link);
     }
-    fan
+    is_round
+}
+
+/// The side opposite a corner, as the triangle runs along it.
+fn opposite(mesh: &TriangleMesh<'_>, corner: u32) -> [u32; 2] {
+    let triangle = mesh.triangles()[corner as usize / 3];
+    let k = corner as usize % 3;
+    [triangle[(k + 1) % 3], triangle[(k + 2) % 3]]
+}
+
+/// Whether a walk along the sides of a link comes back by all of them. A longer link than most have is not looked at.
+fn is_cycle(link: &[[u32; 2]]) -> bool {
+    const FEW: usize = 24;
+    if link.len() > FEW {
+        return false;
+    }
+    let [first, mut at] = link[0];
+    let mut length = 1;
+    while at != first && length <= link.len() {
+        let Some(next) = link.iter().find(|side| side[0] == at) else { return false };
+        at = next[1];
+        length += 1;
+    }
+    // Where a vertex is passed twice, the walk takes the same way out again and misses the other.
+    length == link.len()
+}
+
+/// For each corner at a vertex its fan: the first of the corners that hang together with it by edges.
+fn fans(mesh: &TriangleMesh<'_>, corners: &[u32]) -> Vec<u32> {
+    let mut ends: Vec<(u32, u32)> = Vec::with_capacity(2 * corners.len());
+    for (place, &corner) in (0..).zip(corners) {
+        ends.extend(opposite(mesh, corner).map(|end| (end, place)));
+    }
+    ends.sort_unstable();
+    let mut sets = UnionFind::new(corners.len());
+    for pair in ends.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+        sets.join(pair[0].1, pair[1].1, false);
+    }
+    (0..corners.len() as u32).map(|place| sets.root(place)).collect()
+}
+
+/// Counts the loops of each component over its own vertices, which are places of corners.
+fn loops_of_components(
+    found: &mut Topology,
+    sides: &Sides,
+    number: &[u32],
+    (place_of, places): (&[u32], usize),
+) {
+    let mut loop_of = UnionFind::new(places);
+    let bare = |edge: &&[Side]| edge.len() == 1;
+    for edge in sides.edges().filter(bare) {
+        let (one, other) = (place_of[edge[0].low as usize], place_of[edge[0].high as usize]);
+        loop_of.join(one, other, false);
+    }
+    let mut seen = vec![false; places];
+    for edge in sides.edges().filter(bare) {
+        let root = loop_of.root(place_of[edge[0].low as usize]);
+        let new = !std::mem::replace(&mut seen[root as usize], true);
+        let component = number[edge[0].triangle() as usize];
+        found.components[component as usize].boundary_loops += usize::from(new);
+    }
 }
 
 /// What edges say: counts, the triangles by component, triangles of components that cannot be turned right, and which vertices are ends of

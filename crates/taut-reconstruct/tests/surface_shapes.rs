@@ -7,7 +7,8 @@ mod points;
 
 use judge::{assert_exact, closed, found};
 use points::{Point, chances, circle, cube, sphere, tube};
-use taut_reconstruct::{SurfaceMode, SurfaceOptions, looks_one_sided};
+use taut_points::Points;
+use taut_reconstruct::{SurfaceMode, SurfaceOptions, looks_one_sided, surface};
 
 use std::f64::consts::{PI, TAU};
 
@@ -26,6 +27,29 @@ fn a_tetrahedron_a_cube_and_an_octahedron() {
     let found = closed(octahedron.as_flattened());
     assert_exact(&found, 1, 0);
     assert_eq!(found.triangles.len(), 8);
+}
+
+/// Cells whose spheres are centred beyond one of their facets say that they are of the outside.
+#[test]
+fn tetrahedra_of_any_shape_and_few_points_at_will() {
+    let mut chance = chances(11);
+    for count in [4, 4, 4, 4, 4, 4, 4, 4, 5, 6, 8, 12, 20] {
+        let points: Vec<Point> = (0..count).map(|_| [chance(), chance(), chance()]).collect();
+        let found = closed(&points);
+        assert!(found.is_closed() && found.topology.genus == Some(0), "{points:?}");
+        assert!(count > 4 || found.triangles.len() == 4, "{points:?}");
+    }
+}
+
+/// The star of the centre holds all cells, and changes of it are not worth their time.
+#[test]
+fn the_centre_of_a_sphere_is_inside() {
+    let mut points = sphere(2_000, [0.0; 3], 1.0, 21);
+    points.push([0.0; 3]);
+    let view = Points::new(points.as_flattened(), 3).expect("whole rows");
+    let found = surface(&view, &SurfaceOptions::default()).expect("space is spanned");
+    assert_eq!(found.answer.unused.interior, [2_000]);
+    assert!(found.check(&view).expect("true").certified);
 }
 
 #[test]

@@ -166,6 +166,20 @@ fn other_methods_and_open_sheets() {
 }
 
 #[test]
+fn options_of_other_methods_are_refused() {
+    let desk = desk();
+    for (options, said) in [
+        ("--alpha 0.1", "--alpha is of --method alpha and thesis and hull, not of tree"),
+        ("--epsilon 7", "--epsilon is of --method thesis and hull, not of tree"),
+        ("--restarts", "--restarts is of --method thesis, not of tree"),
+        ("--method alpha --open", "--open is of --method tree, not of alpha"),
+        ("--method thesis --closed", "--closed is of --method tree, not of thesis"),
+    ] {
+        desk.taut(&format!("surface torus.csv {options}")).ends(2).complains(&[said]);
+    }
+}
+
+#[test]
 fn bad_input_is_named_and_leaves_files_as_they_were() {
     let desk = desk();
     desk.put("mesh.ply", "before");

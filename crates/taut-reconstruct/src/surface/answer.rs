@@ -100,7 +100,8 @@ pub(super) fn finish(
     if is_surface && !facets.is_outward {
         outward::turn(cells, &mut facets.triangles, &found);
     }
-    let mut unused = unused(&facets, sites, is_surface);
+    // What labels say of points holds where these are when they are labelled.
+    let mut unused = unused(&facets, sites, is_surface && changes.elsewhere.is_none());
     if let Some(copies) = changes.copies {
         // Points that met when they were moved are no copies where they were given.
         let is_copy = |row: u32| copies.binary_search_by_key(&row, |pair| pair[0]).is_ok();

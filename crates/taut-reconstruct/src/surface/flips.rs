@@ -84,6 +84,8 @@ struct Suspects<'a> {
     found: Vec<u32>,
     /// For each the place of the suspect above it, or none.
     above: Vec<u32>,
+    /// For each the place of the last one above it: ways from under different ones do not meet.
+    top: Vec<u32>,
     /// By cell its place, counted from one, so that nothing is written for all other cells.
     place: Vec<u32>,
     /// For each part, by how much the facets around it agree with the labels.
@@ -113,14 +115,31 @@ impl<'a> Suspects<'a> {
         (1..).zip(&found).for_each(|(k, &cell)| place[cell as usize] = k);
         let above = |&cell: &u32| place[peeling.parent[cell as usize] as usize].wrapping_sub(1);
         let above: Vec<u32> = found.iter().map(above).collect();
+        let mut top: Vec<u32> = (0..found.len() as u32).collect();
+        for k in (0..found.len()).rev().filter(|&k| above[k] != NONE) {
+            top[k] = top[above[k] as usize];
+        }
         let sums = vec![0; found.len()];
-        let mut suspects = Self { ties, cells, found, above, place, sums };
+        let mut suspects = Self { ties, cells, found, above, top, place, sums };
         suspects.sum_up(inside);
         suspects
     }
 
     fn place(&self, cell: u32) -> u32 {
         self.place[cell as usize].wrapping_sub(1)
+    }
+
+    /// Where the ways up from two places meet.
+    fn meet(&self, mut a: u32, mut b: u32) -> u32 {
+        if b == NONE || self.top[a as usize] != self.top[b as usize] {
+            return NONE;
+        }
+        while a != b {
+            // What hangs on another comes before it, so the former of the two is not above the other.
+            let former = if a < b { &mut a } else { &mut b };
+            *former = self.above[*former as usize];
+        }
+        a
     }
 
     fn sum_up(&mut self, inside: &[bool]) {
@@ -134,7 +153,7 @@ impl<'a> Suspects<'a> {
                     continue;
                 }
                 let agrees = agrees(tie, [cell, other], inside);
-                for (place, times) in [(from, 1), (to, 1), (meet(&self.above, from, to), -2)] {
+                for (place, times) in [(from, 1), (to, 1), (self.meet(from, to), -2)] {
                     if place != NONE {
                         self.sums[place as usize] += times * agrees;
                     }
@@ -188,7 +207,7 @@ impl<'a> Suspects<'a> {
         let turned = self.found.iter().zip(&is_turned);
         turned.for_each(|(&cell, is_turned)| inside[cell as usize] ^= is_turned);
         for ([from, to], more) in changes {
-            let top = meet(&self.above, from, to);
+            let top = self.meet(from, to);
             for mut at in [from, to] {
                 while at != NONE && at != top {
                     self.sums[at as usize] += more;
@@ -198,16 +217,6 @@ impl<'a> Suspects<'a> {
         }
         count
     }
-}
-
-/// Where the ways up from two places meet.
-fn meet(above: &[u32], mut a: u32, mut b: u32) -> u32 {
-    while a != b && a != NONE && b != NONE {
-        // What hangs on another comes before it, so the former of the two is not above the other.
-        let former = if a < b { &mut a } else { &mut b };
-        *former = above[*former as usize];
-    }
-    if a == b { a } else { NONE }
 }
 
 /// What is said against the parts that hang by peeled cells. Within a part a tie counts twice here, as where ways meet is not known yet.

@@ -49,9 +49,14 @@ pub(super) fn surface_of_labels(
         false => Links::of(&found, points.len()).failing(is_cycle),
     };
     let repaired = repair(cells, &mut inside, defects, &strength, is_open);
+    let is_empty = !is_open && repaired.changes == 0 && found.is_empty();
+    if is_empty {
+        // Too few points to tell inside from outside, or points within a body: the hull is the one surface around all.
+        cells.finite().for_each(|cell| inside[cell as usize] = true);
+    }
     // A second surface that is compared with this one has the diagonals that labels give.
-    let swaps = if patch.is_some() { 0 } else { swap(cells, points, &mut inside) };
-    if repaired.changes + swaps > 0 {
+    let swaps = if patch.is_some() || is_empty { 0 } else { swap(cells, points, &mut inside) };
+    if repaired.changes + swaps > 0 || is_empty {
         found = faces(cells, &inside, points.len());
     }
     monitor.check()?;

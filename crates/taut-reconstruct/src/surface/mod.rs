@@ -22,6 +22,7 @@ mod flats;
 mod flips;
 mod islands;
 mod labelled;
+mod lanes;
 mod media;
 mod neighbors;
 mod one_sided;

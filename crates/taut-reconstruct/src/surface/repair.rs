@@ -18,6 +18,10 @@ use super::stars::{Star, Stars};
 /// What a facet says: s in steps, more than 0 for the same side.
 pub(super) type Strength<'a> = &'a dyn Fn(u32, usize) -> i64;
 
+/// Cells of the largest star that is repaired. Samples of surfaces have stars of twenty cells, random ones of a hundred; a vertex with more is
+/// far from all surfaces around it, as the centre of a ball is, and its star would take the square of its size.
+const LARGEST: usize = 512;
+
 /// What a repair came to.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Repaired {
@@ -43,7 +47,12 @@ pub(super) fn repair(
     let mut waiting = BTreeSet::from_iter(defects);
     let mut stuck = BTreeSet::new();
     while let Some(site) = waiting.pop_first() {
-        if bench.around(inside, site, None).defect == 0 {
+        let around = bench.around(inside, site, None);
+        if around.defect == 0 {
+            continue;
+        }
+        if around.labels.len() > LARGEST {
+            stuck.insert(site);
             continue;
         }
         let Some(change) = bench.best_change(inside, site) else {

@@ -11,7 +11,7 @@ pub(super) type Point = [f64; 3];
 
 /// Rounding could have made the volume of a cell whose square is this much less than the product of those of the edges from its first
 /// vertex, at any size of cell that samples have.
-const NEARLY_FLAT: f64 = 1e-18;
+pub(super) const NEARLY_FLAT: f64 = 1e-18;
 
 /// A sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,24 +22,16 @@ pub(super) struct Sphere {
 
 /// The circumsphere of a cell, of its best facet if it has no volume. Vertices come in the order of their numbers.
 pub(super) fn circumsphere(p: [Point; 4]) -> Sphere {
-    sphere_and_flatness(p).0
-}
-
-/// The same, and the square of the volume in units of a sixth over the product of those of the edges from the first vertex.
-#[inline(always)]
-pub(super) fn sphere_and_flatness(p: [Point; 4]) -> (Sphere, f64) {
     let (u, v, w) = (minus(p[1], p[0]), minus(p[2], p[0]), minus(p[3], p[0]));
     let (uu, vv, ww) = (dot(u, u), dot(v, v), dot(w, w));
     let (vw, wu, uv) = (cross(v, w), cross(w, u), cross(u, v));
     let volume = dot(u, vw);
-    let flatness = volume * volume / (uu * vv * ww);
-    if flatness <= NEARLY_FLAT {
-        return (nearly_flat(p), flatness);
+    if volume * volume / (uu * vv * ww) <= NEARLY_FLAT {
+        return nearly_flat(p);
     }
     let half = 0.5 / volume;
-    let along = |k: usize| half * (uu * vw[k] + vv * wu[k] + ww * uv[k]);
-    let center = [along(0), along(1), along(2)];
-    (Sphere { center: plus(p[0], center), radius: dot(center, center).sqrt() }, flatness)
+    let center = [0, 1, 2].map(|k| half * (uu * vw[k] + vv * wu[k] + ww * uv[k]));
+    Sphere { center: plus(p[0], center), radius: dot(center, center).sqrt() }
 }
 
 /// The circumsphere of a cell whose volume rounding could have made: with twice the precision, as grids that were turned, say, have

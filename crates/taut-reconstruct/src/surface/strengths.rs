@@ -15,7 +15,8 @@ use taut_delaunay::decode;
 
 use super::cells::Cells;
 use super::flats::{FLAT, flats};
-use super::spheres::{Point, Sphere, circumcircle, cross, dot, minus, sphere_and_flatness};
+use super::lanes::write_spheres;
+use super::spheres::{Point, Sphere, circumcircle, cross, dot, minus};
 
 /// Cells of one task.
 const TASK: usize = 1 << 12;
@@ -127,20 +128,11 @@ impl Ties {
 
 /// The circumspheres by cell, of ghosts some of no size, and the flat cells.
 fn spheres(cells: &Cells, points: &[Point]) -> (Vec<Sphere>, Vec<u32>) {
-    let of = |cell: u32| {
-        if cells.is_ghost(cell) {
-            return (Sphere { center: [0.0; 3], radius: 0.0 }, false);
-        }
-        let [a, b, c, d] = cells.ascending(cell);
-        let at = |site: u32| points[site as usize];
-        let (sphere, flatness) = sphere_and_flatness([at(a), at(b), at(c), at(d)]);
-        (sphere, flatness <= FLAT)
-    };
-    let (mut spheres, mut is_flat) = (Vec::new(), Vec::new());
-    let all = (0..cells.len() as u32).into_par_iter().with_min_len(TASK);
-    all.map(of).unzip_into_vecs(&mut spheres, &mut is_flat);
-    let flat = (0u32..).zip(is_flat).filter(|(_, is_flat)| *is_flat).map(|(cell, _)| cell);
-    (spheres, flat.collect())
+    let mut spheres = vec![Sphere { center: [0.0; 3], radius: 0.0 }; cells.len()];
+    let tasks = spheres.par_chunks_mut(TASK).enumerate();
+    let flats = tasks.map(|(k, own)| write_spheres(own, (k * TASK) as u32, cells, points, FLAT));
+    let flats: Vec<Vec<u32>> = flats.collect();
+    (spheres, flats.concat())
 }
 
 /// What strengths are made from.
