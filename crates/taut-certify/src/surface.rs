@@ -100,8 +100,7 @@ pub enum SurfaceMode {
     },
 }
 
-/// What is claimed of a surface, beside its topology. Everything but the method must be just so: the checker refuses a claim of less
-/// as it does a claim of more.
+/// What is claimed of a surface, beside its topology. Claims of more than is so are refused; of less, those of `embedded` and `outward`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,

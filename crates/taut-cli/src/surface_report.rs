@@ -112,6 +112,9 @@ pub(crate) fn surface_of(found: &Solution<Surface>) -> String {
         }
         ([one], None) if !one.orientable => "a surface with one side".to_owned(),
         ([_], None) => "triangles that are no surface".to_owned(),
+        (all, _) if topology.non_manifold_edges + topology.non_manifold_vertices > 0 => {
+            format!("{} parts that are no surface", count(all.len() as u64))
+        }
         (all, _) => format!("{} surfaces", count(all.len() as u64)),
     }
 }
@@ -133,13 +136,18 @@ fn unused(rows: &Unused) -> Vec<Fact> {
 /// What the checker proved.
 pub(crate) fn proved_of_surface(verdict: &SurfaceVerdict) -> Vec<Fact> {
     let word = |is| if is { "yes" } else { "no" };
+    // What a word means is said where it is so.
+    let shown = |name, is, meaning| match is {
+        true => Fact::new(name, word(is)).remark(meaning),
+        false => Fact::new(name, word(is)),
+    };
     let mut facts = vec![
         Fact::new("triangles", count(verdict.triangles)),
         Fact::new("components", count(verdict.components)),
         Fact::new("boundary loops", count(verdict.boundary_loops)),
         Fact::new("manifold", word(verdict.is_manifold)),
-        Fact::new("embedded", word(verdict.is_embedded)).remark("it meets itself nowhere"),
-        Fact::new("delaunay", word(verdict.is_delaunay)).remark("each triangle has an empty ball"),
+        shown("embedded", verdict.is_embedded, "it meets itself nowhere"),
+        shown("delaunay", verdict.is_delaunay, "each triangle has an empty ball"),
     ];
     if let Some(genus) = verdict.genus {
         facts.insert(3, Fact::new("handles", count(genus)));

@@ -1,6 +1,6 @@
 //! The stages for the predicates that are asked less often, from the filter on, for any polynomial.
 //!
-//! *Idea.* First by the value alone: no permanent exceeds the one of ones times the largest difference to the degree. Then
+//! *Idea.* First by the value alone: no permanent exceeds the one of ones times the largest difference, as rounded, to the degree. Then
 //! the permanent rides along with the value. In `f64` it bounds the error; where all differences are whole
 //! multiples of one unit it bounds every intermediate number, so that `i128` is exact if it is below 2¹²⁶: ties of
 //! gridded data are cheap here, too. Then double-double, and integers of any length.
@@ -27,7 +27,7 @@ fn coarse<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> Op
     let value = P::evaluate(&d);
     let ones = P::evaluate(&[Measured { value: 1.0, permanent: 1.0 }; K]).permanent;
     let power = (1..P::DEGREE).fold(largest, |power, _| power * largest);
-    // The product of at most eight equal factors is less than 8u too small, which the second term is far above.
+    // The product of at most eight equal factors is less than 8u too small, which the 1 more than the roundings makes up for many times.
     let bound = (f64::from(P::ROUNDINGS) + 1.0) * (f64::EPSILON / 2.0) * ones * power;
     let is_within = largest <= double_double::DIFFERENCE_MAX;
     (is_within && value.abs() > bound + double_double::FLOOR).then(|| Sign::from(value))

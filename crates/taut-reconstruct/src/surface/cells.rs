@@ -4,8 +4,8 @@
 //! triangulation are numbered as it was built; here cells are in the order of their sites. Sites are numbered along a curve that fills
 //! space, so cells that are near each other in space mostly are in memory, too: without this order, a million points spend
 //! most of their time waiting for memory.
-//! *Guarantee.* A function of the triangulation as a set of tetrahedra: what is decided by the numbers of cells and facets is decided by the points.
-//! O(m) for m cells, as few share their lowest site.
+//! *Guarantee.* A function of the triangulation as a set of tetrahedra: what is decided by the numbers of cells and facets is decided by
+//! the points. O(m) for m cells, as few share their lowest site.
 
 use rayon::prelude::*;
 use taut_delaunay::{GHOST, Simplex, decode};

@@ -5,8 +5,8 @@
 //! *Idea.* Turning over a cell with two facets on the border swaps the diagonal of the quadrangle that these are. First it is done where
 //! that makes the circumcircles of the triangles smaller, which Delaunay's diagonals have; then where it takes more than [`FLATTER`] off
 //! the sum of the angles of the surface along the diagonal and the four sides, and a sharp edge is among these.
-//! *Guarantee.* All triangles remain facets, and a surface remains one of the same kind, as the new diagonal must not be an edge yet. At most
-//! [`ROUNDS`] rounds in the order of cells: a function of the points. O(n).
+//! *Guarantee.* All triangles remain facets, and a surface remains one of the same kind, as the new diagonal must not be an edge yet.
+//! At most [`ROUNDS`] rounds in the order of cells: a function of the points. O(n).
 //! *Trap.* Either criterion alone loses: by circles alone, thin triangles cut off the edges of machine parts; by angles alone, smooth
 //! surfaces that are sampled sparsely fall to long triangles along their curvature.
 //! *Reference.* Dyn, Levin and Rippa, Data dependent triangulations for piecewise linear interpolation, IMA J. Numer. Anal. 10, 1990,
@@ -190,8 +190,8 @@ impl Quadrangle {
         self.beyond(cells, inside, self.others, self.ends[0]).is_none()
     }
 
-    /// Round an edge from the cell on, which is left by the facet at `out`: the first facet of the border, seen from the side that the cell is
-    /// on. None if there is none on the way back to the cell.
+    /// Round an edge from the cell on, which is left by the facet at `out`: the first facet of the border, seen from the side that the
+    /// cell is on. None if there is none on the way back to the cell.
     fn beyond(&self, cells: &Cells, inside: &[bool], edge: [usize; 2], out: usize) -> Option<u32> {
         let sites = cells.sites(self.cell);
         let ends = edge.map(|i| sites[i]);

@@ -18,8 +18,8 @@ use super::media::Media;
 use super::spheres::{Point, Sphere, circumcircle};
 use super::strengths::{CERTAIN, Tie, Ties, normal};
 
-/// A cell is flat if the square of its volume, six times as large as it is, is at most this beside the product of those of the edges from its first vertex. From
-/// 10⁻⁶ down, wedges whose points are off by a thousandth of their spacing get handles; from 10⁻⁴ up, ellipsoids that are close merge.
+/// A cell is flat if the square of its volume, six times as large as it is, is at most this beside the product of those of the edges
+/// from its first vertex. From 10⁻⁶ down, wedges whose points are off by a thousandth of their spacing get handles; from 10⁻⁴ up, ellipsoids that are close merge.
 pub(super) const FLAT: f64 = 1e-5;
 /// So much of "same" is sure.
 const SURE: i64 = CERTAIN / 100 * 95;
@@ -32,8 +32,8 @@ struct Offer {
     facet: Reverse<u32>,
 }
 
-/// Those of some flat cells that take the sphere of another one, in any order, with these spheres. The ties are of all cells with spheres of
-/// their own.
+/// Those of some flat cells that take the sphere of another one, in any order, with these spheres. The ties are of all cells with
+/// spheres of their own.
 pub(super) fn flats(
     flat: &[u32],
     ties: &Ties,

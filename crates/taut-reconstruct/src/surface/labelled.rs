@@ -48,30 +48,35 @@ pub(super) fn surface_of_labels(
         true => Links::of(&without_membranes(&found, points), points.len()).failing(is_fan),
         false => Links::of(&found, points.len()).failing(is_cycle),
     };
-    let repaired = repair(cells, &mut inside, defects, &strength, is_open);
-    let is_empty = !is_open && repaired.changes == 0 && found.is_empty();
+    let repairs = repair(cells, &mut inside, defects, &strength, is_open);
+    let is_empty = !is_open && repairs == 0 && found.is_empty();
     if is_empty {
         // Too few points to tell inside from outside, or points within a body: the hull is the one surface around all.
         cells.finite().for_each(|cell| inside[cell as usize] = true);
     }
-    // A second surface that is compared with this one has the diagonals that labels give.
-    let swaps = if patch.is_some() || is_empty { 0 } else { swap(cells, points, &mut inside) };
-    if repaired.changes + swaps > 0 || is_empty {
+    let is_changed = repairs > 0 || is_empty;
+    let sheets =
+        |faces: &[Face]| without_all_small_fans(without_membranes(faces, points), points.len());
+    // A sheet with one side is put together from this surface and another one, both with the diagonals that labels give.
+    let mended = patch.and_then(|patch| {
+        if is_changed {
+            found = faces(cells, &inside, points.len());
+        }
+        patch.mended(&sheets(&found), &ties, cells, points)
+    });
+    let swaps = if mended.is_some() || is_empty { 0 } else { swap(cells, points, &mut inside) };
+    if is_changed || swaps > 0 {
         found = faces(cells, &inside, points.len());
     }
     monitor.check()?;
     if is_open {
-        let sheets = without_membranes(&found, points);
-        found = without_all_small_fans(sheets, points.len());
-        if let Some(patch) = patch {
-            found = patch.mended(found, &ties, cells, points);
-        }
+        found = mended.unwrap_or_else(|| sheets(&found));
         orient(&mut found, points);
     }
     // Many of these are where there is noise, or a sheet with one side, as no labels of its two sides exist.
     let overruled = overruled.len() as u64;
     let counters =
-        [("flips", flips), (OVERRULED, overruled), ("repairs", repaired.changes), ("swaps", swaps)];
+        [("flips", flips), (OVERRULED, overruled), ("repairs", repairs), ("swaps", swaps)];
     Ok(Facets {
         facets: Some(found.iter().map(|face| face.facet).collect()),
         triangles: found.iter().map(|face| face.sites).collect(),

@@ -13,7 +13,8 @@ pub struct SurfaceOptions {
     /// Whether the surface may have boundaries; default [`SurfaceMode::Closed`]. Of [`SurfaceMethod::Tree`] alone: the other
     /// methods leave boundaries where they end.
     pub mode: SurfaceMode,
-    /// Of [`SurfaceMethod::Alpha`], the radius in the unit of the coordinates, at least 0; `None` takes the least one at which all points are on one solid or in it.
+    /// Of [`SurfaceMethod::Alpha`], the radius in the unit of the coordinates, at least 0; `None` takes the least one at which all points
+    /// are on one solid or in it.
     pub alpha: Option<f64>,
     /// Of [`SurfaceMethod::Thesis`] all, and of [`SurfaceMethod::Hull`] what is said of candidates. Joggled points are others than those
     /// given: for them there is [`thesis_surface_of_points`](crate::thesis::thesis_surface_of_points).
@@ -49,8 +50,8 @@ impl SurfaceMode {
 pub struct Denoise {
     /// How many nearest points, itself among them, say where the sheet of a point is. From 4 to 1000, default 24.
     pub neighbors: usize,
-    /// How many times each point is moved onto the paraboloid that fits its neighbours best; 0 moves none and leaves out outliers alone. At most 100,
-    /// default 2.
+    /// How many times each point is moved onto the paraboloid that fits its neighbours best; 0 moves none and leaves out outliers
+    /// alone. At most 100, default 2.
     pub iterations: u32,
     /// Where the vertices of the surface are; default [`Positions::Projected`].
     pub positions: Positions,

@@ -18,31 +18,22 @@ use super::stars::{Star, Stars};
 /// What a facet says: s in steps, more than 0 for the same side.
 pub(super) type Strength<'a> = &'a dyn Fn(u32, usize) -> i64;
 
-/// Cells of the largest star that is repaired. Samples of surfaces have stars of twenty cells, random ones of a hundred; a vertex with more is
-/// far from all surfaces around it, as the centre of a ball is, and its star would take the square of its size.
+/// Cells of the largest star that is repaired. Samples of surfaces have stars of twenty cells, random ones of a hundred; a vertex with
+/// more is far from all surfaces around it, as the centre of a ball is, and its star would take the square of its size.
 const LARGEST: usize = 512;
 
-/// What a repair came to.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Repaired {
-    /// Sites that stay as they are, ascending.
-    pub(super) stuck: Vec<u32>,
-    /// How many changes there were.
-    pub(super) changes: u64,
-}
-
-/// Turns cells over until no change makes it better; ghosts only if they may be.
+/// Turns cells over until no change makes it better, ghosts only if they may be, and says how many times.
 pub(super) fn repair(
     cells: &Cells,
     inside: &mut [bool],
     defects: Vec<u32>,
     strength: Strength<'_>,
     ghosts_may: bool,
-) -> Repaired {
-    let mut repaired = Repaired::default();
+) -> u64 {
     if defects.is_empty() {
-        return repaired;
+        return 0;
     }
+    let mut changes = 0;
     let mut bench = Bench { cells, stars: Stars::of(cells, &defects), strength, ghosts_may };
     let mut waiting = BTreeSet::from_iter(defects);
     let mut stuck = BTreeSet::new();
@@ -60,7 +51,7 @@ pub(super) fn repair(
             continue;
         };
         change.iter().for_each(|&cell| inside[cell as usize] = !inside[cell as usize]);
-        repaired.changes += 1;
+        changes += 1;
         for (site, cell) in bench.sites_of(&change) {
             // What was stuck may have become possible.
             if stuck.remove(&site) || bench.around(inside, site, Some(cell)).defect > 0 {
@@ -68,8 +59,7 @@ pub(super) fn repair(
             }
         }
     }
-    repaired.stuck = stuck.into_iter().collect();
-    repaired
+    changes
 }
 
 struct Bench<'a> {

@@ -79,27 +79,26 @@ impl Patch {
         all
     }
 
-    /// The surface that labels give, without membranes, with the patch put in where it has one side then.
+    /// The surface that labels give, without membranes, with the patch put in, if it has one side then.
     pub(super) fn mended(
         &self,
-        first: Vec<Face>,
+        first: &[Face],
         ties: &Ties,
         cells: &Cells,
         points: &[Point],
-    ) -> Vec<Face> {
+    ) -> Option<Vec<Face>> {
         let edges = edges_of(first.iter().map(|face| face.sites));
         let defects = |faces: &[Face]| Links::of(faces, points.len()).failing(is_fan).len();
-        let limit = defects(&first);
+        let limit = defects(first);
         let all = RINGS.map(|count| {
             let around = Region::of(&self.rings(&edges, count), points.len());
             let second = without_membranes(&around.surface(ties, cells), points);
-            without_all_small_fans(self.joined(&first, &second, &around), points.len())
+            without_all_small_fans(self.joined(first, &second, &around), points.len())
         });
         let may = |faces: &Vec<Face>| defects(faces) <= limit && has_one_side(faces);
         // Of equally good ones the one with the fewest holes and handles, and of these the first.
         let key = |faces: &Vec<Face>| (defects(faces), -euler_characteristic(faces));
-        let best = all.filter(may).min_by_key(key);
-        best.unwrap_or(first)
+        all.filter(may).min_by_key(key)
     }
 
     /// The second surface at the points where it is unlike the first, as far as they hang together with the patch; elsewhere the first.

@@ -112,7 +112,8 @@ impl Star {
 }
 
 impl Star {
-    /// How many parts too many there are at the site, with these labels of the cells. Small stars, as most are, fit into the bits of a number.
+    /// How many parts too many there are at the site, with these labels of the cells. Small stars, as most are, fit into the bits
+    /// of a number.
     pub(super) fn defect(&self, labels: &[bool]) -> u32 {
         let count = self.cells.len();
         if count > 128 {
