@@ -15,11 +15,13 @@
 //! ```
 //!
 //! Not for: points with coordinates that are not finite (validate first), or 2³² of them or more.
-#![forbid(unsafe_code)]
-
+mod error;
 mod hilbert;
 mod order;
+mod probe;
 mod radix;
 
+pub use error::Error;
 pub use hilbert::hilbert_key;
 pub use order::hilbert_order;
+pub use probe::{Access, NoProbe, Probe};

@@ -36,7 +36,7 @@ const LEVEL: [(&str, &str); 3] =
 const BESIDE: [&str; 2] = ["bench", "fuzz"];
 
 /// The crates with named kernels, where `unsafe` is denied but can be allowed with a reason.
-const KERNELS: [&str; 3] = ["taut-points", "taut-enclose", "taut-delaunay"];
+const KERNELS: [&str; 4] = ["taut-points", "taut-enclose", "taut-delaunay", "taut-oblivious"];
 
 /// Lines a source file may have before it must be two.
 const LINES_MAX: usize = 700;
