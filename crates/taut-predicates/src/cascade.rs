@@ -23,8 +23,21 @@ pub(crate) fn sign<P: Polynomial<K>, const K: usize>(differences: &[Difference; 
 #[inline(always)]
 fn coarse<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> Option<Sign> {
     let d = differences.map(|[from, less]| from - less);
-    let largest = d.iter().fold(0.0, |most: f64, d| if d.abs() > most { d.abs() } else { most });
-    let value = P::evaluate(&d);
+    coarse_sign::<P, K>(P::evaluate(&d), largest(&d))
+}
+
+/// The largest magnitude.
+#[inline(always)]
+pub(crate) fn largest(differences: &[f64]) -> f64 {
+    differences.iter().fold(0.0, |most: f64, d| if d.abs() > most { d.abs() } else { most })
+}
+
+/// The sign of the polynomial, if its `f64` value at differences of no more than this magnitude is beyond doubt.
+#[inline(always)]
+pub(crate) fn coarse_sign<P: Polynomial<K>, const K: usize>(
+    value: f64,
+    largest: f64,
+) -> Option<Sign> {
     let ones = P::evaluate(&[Measured { value: 1.0, permanent: 1.0 }; K]).permanent;
     let power = (1..P::DEGREE).fold(largest, |power, _| power * largest);
     // The product of at most eight equal factors is less than 8u too small, which the 1 more than the roundings makes up for many times.

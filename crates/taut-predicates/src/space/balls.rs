@@ -1,5 +1,7 @@
 //! The smallest spheres through two and three points, and one that is shrunk a little.
 
+use std::array::from_fn;
+
 use crate::cascade;
 use crate::number::{Number, Polynomial};
 use crate::sign::Sign;
@@ -82,9 +84,44 @@ pub fn in_diametral_sphere(a: Point, b: Point, q: Point) -> Sign {
 #[must_use]
 pub fn in_equatorial_sphere(a: Point, b: Point, c: Point, q: Point) -> Sign {
     let points = [b, c, q];
-    cascade::sign::<InEquatorialSphere, 9>(&std::array::from_fn(|i| {
-        [points[i / 3][i % 3], a[i % 3]]
-    }))
+    cascade::sign::<InEquatorialSphere, 9>(&from_fn(|i| [points[i / 3][i % 3], a[i % 3]]))
+}
+
+/// The smallest sphere through three points, to be asked about several: as [`in_equatorial_sphere`], with what does not depend on the
+/// point asked about at hand.
+#[derive(Clone, Copy, Debug)]
+pub struct EquatorialSphere {
+    corners: [Point; 3],
+    /// N.
+    numerator: Point,
+    /// |n|².
+    squared: f64,
+    /// Of the differences of corners.
+    largest: f64,
+}
+
+impl EquatorialSphere {
+    /// That through a, b and c.
+    #[must_use]
+    #[inline]
+    pub fn new(a: Point, b: Point, c: Point) -> Self {
+        let [u, v] = [b, c].map(|p| from_fn(|k| p[k] - a[k]));
+        let (n, numerator) = circle(&u, &v);
+        let largest = cascade::largest(&[u[0], u[1], u[2], v[0], v[1], v[2]]);
+        Self { corners: [a, b, c], numerator, squared: lift(&n), largest }
+    }
+
+    /// Whether q lies inside (positive), on (zero) or outside.
+    #[must_use]
+    #[inline]
+    pub fn side(&self, q: Point) -> Sign {
+        let [a, b, c] = self.corners;
+        let w = from_fn(|k| q[k] - a[k]);
+        let value = dot(&w, &self.numerator) - self.squared * lift(&w);
+        let largest = cascade::largest(&[w[0], w[1], w[2], self.largest]);
+        cascade::coarse_sign::<InEquatorialSphere, 9>(value, largest)
+            .unwrap_or_else(|| in_equatorial_sphere(a, b, c, q))
+    }
 }
 
 /// Whether d lies inside (positive), on (zero) or outside the smallest sphere through a, b and c, shrunk about its
@@ -92,7 +129,7 @@ pub fn in_equatorial_sphere(a: Point, b: Point, c: Point, q: Point) -> Sign {
 #[must_use]
 pub fn shrunk_sphere(a: Point, b: Point, c: Point, d: Point, epsilon: f64) -> Sign {
     let points = [b, c, d];
-    cascade::sign::<ShrunkSphere, 15>(&std::array::from_fn(|i| match i {
+    cascade::sign::<ShrunkSphere, 15>(&from_fn(|i| match i {
         0..9 => [points[i / 3][i % 3], a[i % 3]],
         9..12 => [b[i % 3], c[i % 3]],
         12 => [epsilon, 0.0],
@@ -111,5 +148,25 @@ mod tests {
         constants_are_those_of::<InDiametralSphere, 6>();
         constants_are_those_of::<InEquatorialSphere, 9>();
         constants_are_those_of::<ShrunkSphere, 15>();
+    }
+
+    /// Small integers bring ties, lines and equal points; what is far off, differences of all magnitudes.
+    #[test]
+    fn a_sphere_at_hand_gives_the_same_signs() {
+        let (mut state, mut seen) = (1u64, [0; 3]);
+        let mut next = |most: u64| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 33) % most
+        };
+        for _ in 0..20_000 {
+            let unit = 2f64.powi(next(400) as i32 - 200);
+            let shift = [0.0, 1e-17, 1e150][next(3) as usize] * unit;
+            let [a, b, c, mut q] = from_fn(|_| from_fn(|_| (next(6) as f64 - 3.0) * unit));
+            q[0] += shift;
+            let sign = EquatorialSphere::new(a, b, c).side(q);
+            assert_eq!(sign, in_equatorial_sphere(a, b, c, q));
+            seen[if sign.is_positive() { 0 } else { 1 + usize::from(sign.is_zero()) }] += 1;
+        }
+        assert!(seen.into_iter().all(|count| count > 500), "{seen:?}");
     }
 }

@@ -23,6 +23,14 @@ pub(super) struct Face {
     pub(super) facet: u32,
 }
 
+impl Face {
+    /// The facet of a cell that is inside, or else of one of the hull.
+    fn of(cells: &Cells, facet: u32, is_inside: bool) -> Self {
+        let [a, b, c] = cells.facet(facet >> 2, facet as usize & 3);
+        Self { sites: from_least(if is_inside { [a, b, c] } else { [a, c, b] }), facet }
+    }
+}
+
 /// The triangles between inside and outside, but for those with the vertex at infinity.
 pub(super) fn faces(cells: &Cells, inside: &[bool], sites: usize) -> Vec<Face> {
     let task = |begin: usize| {
@@ -36,9 +44,7 @@ pub(super) fn faces(cells: &Cells, inside: &[bool], sites: usize) -> Vec<Face> {
                 let (other, _) = cells.across(cell, i);
                 // A facet between finite cells is found from inside, one of the hull from its only finite cell.
                 if inside[other as usize] != is_inside && (is_inside || cells.is_ghost(other)) {
-                    let [a, b, c] = cells.facet(cell, i);
-                    let sites = if is_inside { [a, b, c] } else { [a, c, b] };
-                    found.push(Face { sites: from_least(sites), facet: cell << 2 | i as u32 });
+                    found.push(Face::of(cells, cell << 2 | i as u32, is_inside));
                 }
             }
         }
@@ -47,6 +53,48 @@ pub(super) fn faces(cells: &Cells, inside: &[bool], sites: usize) -> Vec<Face> {
     let begins: Vec<usize> = (0..cells.len()).step_by(TASK).collect();
     let parts: Vec<Vec<Face>> = begins.into_par_iter().map(task).collect();
     in_order(&parts, sites)
+}
+
+/// The same from the triangles of other labels, in which few cells have another one.
+pub(super) fn faces_after(
+    found: &[Face],
+    before: &[bool],
+    cells: &Cells,
+    inside: &[bool],
+) -> Vec<Face> {
+    let has_changed = |cell: u32| before[cell as usize] != inside[cell as usize];
+    let mut fresh = Vec::new();
+    for cell in (0..cells.len() as u32).filter(|&cell| has_changed(cell)) {
+        for facet in (0..4).map(|i| cell << 2 | i) {
+            let back = cells.mirror(facet);
+            let other = back >> 2;
+            // Of two cells that have changed the first has the facet.
+            let is_between = inside[other as usize] != inside[cell as usize];
+            if is_between && !(has_changed(other) && other < cell) {
+                let is_own = match (cells.is_ghost(cell), cells.is_ghost(other)) {
+                    (false, false) => inside[cell as usize],
+                    (false, true) => true,
+                    (true, false) => false,
+                    (true, true) => continue,
+                };
+                let facet = if is_own { facet } else { back };
+                fresh.push(Face::of(cells, facet, inside[(facet >> 2) as usize]));
+            }
+        }
+    }
+    fresh.sort_unstable();
+    let stays =
+        |face: &&Face| !has_changed(face.facet >> 2) && !has_changed(cells.mirror(face.facet) >> 2);
+    let mut fresh = fresh.into_iter().peekable();
+    let mut all = Vec::with_capacity(found.len() + fresh.len());
+    for face in found.iter().filter(stays) {
+        while let Some(earlier) = fresh.next_if(|fresh| fresh < face) {
+            all.push(earlier);
+        }
+        all.push(*face);
+    }
+    all.extend(fresh);
+    all
 }
 
 pub(super) fn from_least([a, b, c]: [u32; 3]) -> [u32; 3] {
@@ -189,6 +237,9 @@ pub(super) fn parts_of(triangles: impl Iterator<Item = [u32; 3]>, sites: usize) 
 
 #[cfg(test)]
 mod tests {
+    use taut_delaunay::{DelaunayOptions, Space};
+    use taut_points::{Distribution, Monitor, Points, generate};
+
     use super::*;
 
     #[test]
@@ -207,6 +258,25 @@ mod tests {
         assert!(!is_fan(&[[1, 2], [3, 4]]), "two paths");
         assert!(!is_fan(&[[1, 2], [2, 3], [3, 1], [4, 5]]), "a cycle and a path");
         assert!(!is_fan(&[[9, 1], [1, 2], [2, 1]]), "a path into a cycle");
+    }
+
+    #[test]
+    fn faces_after_changes_are_those_of_the_labels() {
+        let values: Vec<f64> = generate(Distribution::Uniform, 300, 3, 5).expect("valid");
+        let points = Points::new(&values, 3).expect("whole rows");
+        let space = Space::build(&points, &DelaunayOptions::default(), &Monitor::silent());
+        let cells = Cells::of(space.expect("finite").into_slots(), 300);
+        // Ghosts change as well, as they do where surfaces are open.
+        let labels = |seed: u32, rare: u32| -> Vec<bool> {
+            let mix = |cell: u32| (cell + seed).wrapping_mul(0x9E37_79B1) >> 20;
+            (0..cells.len() as u32).map(|cell| mix(cell).is_multiple_of(rare)).collect()
+        };
+        for rare in [1, 2, 7, 50, 5000] {
+            let before = labels(0, 3);
+            let now: Vec<bool> = before.iter().zip(labels(9, rare)).map(|(a, b)| a ^ b).collect();
+            let found = faces(&cells, &before, 300);
+            assert_eq!(faces_after(&found, &before, &cells, &now), faces(&cells, &now, 300));
+        }
     }
 
     #[test]

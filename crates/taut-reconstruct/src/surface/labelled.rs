@@ -4,7 +4,7 @@ use taut_points::{Cancelled, Monitor};
 
 use super::SurfaceMode;
 use super::answer::Facets;
-use super::border::{Face, Links, faces, is_cycle, is_fan};
+use super::border::{Face, Links, faces, faces_after, is_cycle, is_fan};
 use super::cells::Cells;
 use super::diagonals::swap;
 use super::flips::{Flipped, flip};
@@ -43,6 +43,7 @@ pub(super) fn surface_of_labels(
     if sink(&found, cells, &mut inside, points.len(), &strength) > 0 {
         found = faces(cells, &inside, points.len());
     }
+    let before = inside.clone();
     let defects = match is_open {
         // What membranes do to vertices ends with them.
         true => Links::of(&without_membranes(&found, points), points.len()).failing(is_fan),
@@ -54,19 +55,16 @@ pub(super) fn surface_of_labels(
         // Too few points to tell inside from outside, or points within a body: the hull is the one surface around all.
         cells.finite().for_each(|cell| inside[cell as usize] = true);
     }
-    let is_changed = repairs > 0 || is_empty;
     let sheets =
         |faces: &[Face]| without_all_small_fans(without_membranes(faces, points), points.len());
     // A sheet with one side is put together from this surface and another one, both with the diagonals that labels give.
     let mended = patch.and_then(|patch| {
-        if is_changed {
-            found = faces(cells, &inside, points.len());
-        }
+        let found = faces_after(&found, &before, cells, &inside);
         patch.mended(&sheets(&found), &ties, cells, points)
     });
     let swaps = if mended.is_some() || is_empty { 0 } else { swap(cells, points, &mut inside) };
-    if is_changed || swaps > 0 {
-        found = faces(cells, &inside, points.len());
+    if repairs > 0 || is_empty || swaps > 0 {
+        found = faces_after(&found, &before, cells, &inside);
     }
     monitor.check()?;
     if is_open {

@@ -9,7 +9,7 @@
 use rayon::prelude::*;
 use taut_certify::Apex;
 use taut_delaunay::{GHOST, decode};
-use taut_predicates::space::in_equatorial_sphere;
+use taut_predicates::space::EquatorialSphere;
 
 use super::cells::Cells;
 use super::spheres::{Point, circumsphere};
@@ -31,7 +31,8 @@ pub(super) fn witnesses(
         let (across, k) = cells.across(cell, i);
         let apexes = [cells.sites(cell)[i], cells.sites(across)[k]];
         let [a, b, c] = cells.facet(cell, i).map(at);
-        let is_inside = |d: u32| in_equatorial_sphere(a, b, c, at(d)).is_positive();
+        let smallest = EquatorialSphere::new(a, b, c);
+        let is_inside = |d: u32| smallest.side(at(d)).is_positive();
         if !apexes.iter().any(|&d| d != GHOST && is_inside(d)) {
             return Apex::Gabriel;
         }
