@@ -6,7 +6,8 @@
 //! *Idea.* A flat cell that says "same" to all its neighbours, and not surely to all, has the sphere of one of them for its own: of the one
 //! most like it. One of its sides is then as one cell with that neighbour, and the facets of the other side say what the two that are no
 //! flat cells have to say to each other. Where such cells are beside each other, as polygons on a circle have them, they take what their
-//! neighbour took, along the surest tree.
+//! neighbour took, along the surest tree: each looks to its surest neighbour, and so do groups that only look at each other, until
+//! they look out.
 //! *Guarantee.* A function of the points: what is equally sure is ordered by the numbers of facets. O(n + f log f) for f such cells.
 //! *Trap.* A cell that is flat but whose corners are far from any circle has a sphere as large as a half-space, and much to say; but so
 //! have its neighbours.
@@ -14,7 +15,6 @@
 use std::cmp::Reverse;
 
 use super::cells::Cells;
-use super::media::Media;
 use super::spheres::{Point, Sphere, circumcircle};
 use super::strengths::{CERTAIN, Tie, Ties, normal};
 
@@ -32,73 +32,106 @@ struct Offer {
     facet: Reverse<u32>,
 }
 
-/// Those of some flat cells that take the sphere of another one, in any order, with these spheres. The ties are of all cells with
-/// spheres of their own.
+/// Gives some of the flat cells the sphere of another one, and lists them. The ties are of all cells with spheres of their own.
 pub(super) fn flats(
     flat: &[u32],
     ties: &Ties,
     (cells, points): (&Cells, &[Point]),
-    spheres: &[Sphere],
-) -> Vec<(u32, Sphere)> {
-    let flat: Vec<u32> = flat.iter().copied().filter(|&cell| divides(cell, ties)).collect();
+    spheres: &mut [Sphere],
+) -> Vec<u32> {
+    let mut flat: Vec<u32> = flat.iter().copied().filter(|&cell| divides(cell, ties)).collect();
     if flat.is_empty() {
         return Vec::new();
     }
-    // The nodes: all cells that are not flat are the first one, the flat ones follow.
-    let mut node = vec![0u32; cells.len()];
-    (1..).zip(&flat).for_each(|(k, &cell)| node[cell as usize] = k);
-    let across = |facet: u32| cells.mirror(facet) >> 2;
-    let mut tree = Tree::of(flat.len());
-    for &cell in &flat {
-        let surest = offers(cell, ties, cells).max();
-        surest.into_iter().for_each(|offer| tree.join(offer, &node, cells));
-    }
+    let mut number = vec![NONE; cells.len()];
+    (0..).zip(&flat).for_each(|(k, &cell)| number[cell as usize] = k);
+    // Where a facet of a flat cell leads.
+    let beyond = |facet: u32| match number[(cells.mirror(facet) >> 2) as usize] {
+        NONE => Way::Out(facet),
+        other => Way::To(other),
+    };
+    let surest =
+        |&cell: &u32| offers(cell, ties, cells).max().map_or(Way::End, |(_, own)| beyond(own));
+    let mut groups = ends(&flat.iter().map(surest).collect::<Vec<Way>>());
     // What hangs together with flat cells alone looks beyond itself.
-    let mut alone: Vec<u32> = (1..=flat.len() as u32).collect();
-    let mut best = vec![Offer::NONE; flat.len() + 1];
     loop {
-        alone.retain(|&k| tree.parts.root(k) >> 1 != 0);
+        let is_alone = |&k: &u32| matches!(groups[k as usize], Way::To(_));
+        let alone: Vec<u32> = (0..flat.len() as u32).filter(is_alone).collect();
         if alone.is_empty() {
             break;
         }
+        let mut best: Vec<Option<(Offer, Way)>> = vec![None; flat.len()];
         for &k in &alone {
-            let (cell, own) = (flat[k as usize - 1], tree.parts.root(k) >> 1);
-            for (i, offer) in (0..).zip(offers(cell, ties, cells)) {
-                let other = node[across(cell << 2 | i) as usize];
-                if tree.parts.root(other) >> 1 != own {
-                    best[own as usize] = best[own as usize].max(offer);
+            let Way::To(group) = groups[k as usize] else { continue };
+            for (offer, own) in offers(flat[k as usize], ties, cells) {
+                let way = match beyond(own) {
+                    Way::To(other) => groups[other as usize],
+                    out => out,
+                };
+                let is_surer = best[group as usize].is_none_or(|(most, _)| offer > most);
+                if is_surer && way != Way::To(group) {
+                    best[group as usize] = Some((offer, way));
                 }
             }
         }
-        for &k in &alone {
-            let offer = std::mem::replace(&mut best[k as usize], Offer::NONE);
-            if offer != Offer::NONE {
-                tree.join(offer, &node, cells);
+        let ways: Vec<Way> =
+            best.iter().map(|best| best.map_or(Way::End, |(_, way)| way)).collect();
+        let joined = ends(&ways);
+        for k in alone {
+            if let Way::To(group) = groups[k as usize] {
+                groups[k as usize] = joined[group as usize];
             }
         }
     }
-    // From the cells that are not flat into the flat ones.
-    let mut taken: Vec<(u32, Sphere)> = Vec::with_capacity(flat.len());
-    let mut open = Vec::new();
-    for &(cell, facet) in &tree.roots {
-        let from = across(facet);
-        let sphere = match cells.is_ghost(from) {
-            true => half_space(cells.facet(cell, facet as usize & 3), points),
+    // What is beyond is not flat, and keeps its own.
+    let mut groups = groups.into_iter();
+    flat.retain(|&cell| {
+        let Some(Way::Out(facet)) = groups.next() else { return false };
+        let from = cells.mirror(facet) >> 2;
+        spheres[cell as usize] = match cells.is_ghost(from) {
+            true => half_space(cells.facet(facet >> 2, facet as usize & 3), points),
             false => spheres[from as usize],
         };
-        open.push((cell, u32::MAX));
-        while let Some((cell, from)) = open.pop() {
-            taken.push((cell, sphere));
-            let places = tree.places[node[cell as usize] as usize - 1];
-            let beside = (0..4).filter(|i| places >> i & 1 == 1).map(|i| across(cell << 2 | i));
-            open.extend(beside.filter(|&next| next != from).map(|next| (next, cell)));
-        }
-    }
-    taken
+        true
+    });
+    flat
 }
 
-impl Offer {
-    const NONE: Self = Self { strength: i64::MIN, facet: Reverse(u32::MAX) };
+/// No number.
+const NONE: u32 = u32::MAX;
+
+/// Where a flat cell, or a group of them, gets its sphere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Way {
+    /// From the cell beyond a facet, which is not flat.
+    Out(u32),
+    /// From whatever this one gets it from; from itself, if the two look at each other.
+    To(u32),
+    /// From nowhere.
+    End,
+}
+
+/// Follows ways to their ends: out, or to the lower of two that look at each other. There is no other way round, as each goes by its
+/// surest offer.
+fn ends(ways: &[Way]) -> Vec<Way> {
+    let mut ends = vec![None; ways.len()];
+    let mut path = Vec::new();
+    for start in 0..ways.len() {
+        let mut at = start as u32;
+        let end = loop {
+            if let Some(end) = ends[at as usize] {
+                break end;
+            }
+            path.push(at);
+            match ways[at as usize] {
+                Way::To(next) if ways[next as usize] == Way::To(at) => break Way::To(at.min(next)),
+                Way::To(next) => at = next,
+                end => break end,
+            }
+        };
+        path.drain(..).for_each(|at| ends[at as usize] = Some(end));
+    }
+    ends.into_iter().map(|end| end.unwrap_or(Way::End)).collect()
 }
 
 /// Whether a cell says "same" to all its neighbours, though not surely to one of them.
@@ -107,44 +140,18 @@ fn divides(cell: u32, ties: &Ties) -> bool {
     least.is_some_and(|least| (0..SURE).contains(&least))
 }
 
-/// What may be taken over the facets of a cell. It counts how flat cells lie in their pencil, which is known from their own spheres: so
-/// an offer is the same from both sides.
-fn offers<'a>(cell: u32, ties: &'a Ties, cells: &'a Cells) -> impl Iterator<Item = Offer> + 'a {
+/// What may be taken over the facets of a cell, each with the facet as the cell has it. It counts how flat cells lie in their pencil, which
+/// is known from their own spheres: so an offer is the same from both sides.
+fn offers<'a>(
+    cell: u32,
+    ties: &'a Ties,
+    cells: &'a Cells,
+) -> impl Iterator<Item = (Offer, u32)> + 'a {
     (0..).zip(ties.of_cell(cell)).map(move |(i, tie)| {
         let facet = cell << 2 | i;
-        Offer { strength: tie.signed(), facet: Reverse(facet.min(cells.mirror(facet))) }
+        let first = Reverse(facet.min(cells.mirror(facet)));
+        (Offer { strength: tie.signed(), facet: first }, facet)
     })
-}
-
-/// The surest tree of flat cells and of all others as one.
-struct Tree {
-    parts: Media,
-    /// For each flat cell the facets of the tree to other flat cells, one bit each.
-    places: Vec<u8>,
-    /// Flat cells and their facets of the tree to cells that are not.
-    roots: Vec<(u32, u32)>,
-}
-
-impl Tree {
-    fn of(count: usize) -> Self {
-        Self { parts: Media::new(count + 1), places: vec![0; count], roots: Vec::new() }
-    }
-
-    /// Takes a facet into the tree, if it joins two parts.
-    fn join(&mut self, offer: Offer, node: &[u32], cells: &Cells) {
-        let facets = [offer.facet.0, cells.mirror(offer.facet.0)];
-        let [a, b] = facets.map(|facet| node[(facet >> 2) as usize]);
-        if !self.parts.join(a, b, false) {
-            return;
-        }
-        for (facet, own, other) in [(facets[0], a, b), (facets[1], b, a)] {
-            match (own, other) {
-                (0, _) => {}
-                (_, 0) => self.roots.push((facet >> 2, facet)),
-                _ => self.places[own as usize - 1] |= 1 << (facet & 3),
-            }
-        }
-    }
 }
 
 /// The half-space beyond a facet of the hull, as the sphere through its corners that is larger than any other by far.
@@ -157,4 +164,16 @@ fn half_space(facet: [u32; 3], points: &[Point]) -> Sphere {
     let (normal, _) = normal(facet, points);
     let radius = FAR * circle.radius;
     Sphere { center: [0, 1, 2].map(|k| circle.center[k] + radius * normal[k]), radius }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ways_end_outside_or_in_pairs() {
+        use Way::{End, Out, To};
+        let ways = [To(1), To(2), Out(40), To(4), To(3), To(4), To(7), End];
+        assert_eq!(ends(&ways), [Out(40), Out(40), Out(40), To(3), To(3), To(3), End, End]);
+    }
 }

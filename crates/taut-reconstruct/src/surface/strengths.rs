@@ -7,6 +7,7 @@
 //! with scale.
 //! *Guarantee.* s is a function of the points, to the last bit: spheres and normals are formed with sites in the order of their numbers.
 
+use std::ops::Range;
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
@@ -70,19 +71,16 @@ impl Ties {
         let (mut spheres, flat) = spheres(cells, points);
         let geometry = Geometry { cells, points, spheres: &spheres, ghosts_are_one };
         let every = (0..cells.len() as u32).into_par_iter().with_min_len(TASK);
-        let ties = Self { all: every.clone().map(|_| Default::default()).collect() };
-        every.for_each(|cell| {
-            for i in (0..4).filter(|&i| cells.across(cell, i).0 > cell) {
-                ties.set(cells, cell << 2 | i as u32, geometry.tie(cell, i));
-            }
+        let ties = Self { all: every.map(|_| Default::default()).collect() };
+        let begins: Vec<usize> = (0..cells.len()).step_by(TASK).collect();
+        begins.into_par_iter().for_each_init(Vec::new, |facets, begin| {
+            firsts(begin as u32..cells.len().min(begin + TASK) as u32, cells, facets);
+            facets.iter().for_each(|&facet| ties.set(cells, facet, geometry.tie(facet)));
         });
-        let taken = flats(&flat, &ties, (cells, points), &spheres);
-        taken.iter().for_each(|&(cell, sphere)| spheres[cell as usize] = sphere);
+        let taken = flats(&flat, &ties, (cells, points), &mut spheres);
         let geometry = Geometry { cells, points, spheres: &spheres, ghosts_are_one };
-        for (cell, _) in taken {
-            for i in 0..4 {
-                ties.set(cells, cell << 2 | i as u32, geometry.tie(cell, i));
-            }
+        for facet in taken.iter().flat_map(|cell| (0..4).map(move |i| cell << 2 | i)) {
+            ties.set(cells, facet, geometry.tie(facet));
         }
         ties
     }
@@ -126,6 +124,20 @@ impl Ties {
     }
 }
 
+/// Lists the facets of some cells from the first of their two cells.
+fn firsts(some: Range<u32>, cells: &Cells, facets: &mut Vec<u32>) {
+    facets.resize(4 * some.len(), 0);
+    let mut count = 0;
+    for cell in some {
+        for i in 0..4 {
+            // All are written and half of them written over: which is the first cell cannot be guessed.
+            facets[count] = cell << 2 | i as u32;
+            count += usize::from(cells.across(cell, i).0 > cell);
+        }
+    }
+    facets.truncate(count);
+}
+
 /// The circumspheres by cell, of ghosts some of no size, and the flat cells.
 fn spheres(cells: &Cells, points: &[Point]) -> (Vec<Sphere>, Vec<u32>) {
     let mut spheres = vec![Sphere { center: [0.0; 3], radius: 0.0 }; cells.len()];
@@ -145,9 +157,10 @@ struct Geometry<'a> {
 }
 
 impl Geometry<'_> {
-    /// What the facet opposite the i-th vertex of a cell says.
+    /// What a facet says.
     #[inline(always)]
-    fn tie(&self, cell: u32, i: usize) -> Tie {
+    fn tie(&self, facet: u32) -> Tie {
+        let (cell, i) = decode(facet);
         let (other, k) = self.cells.across(cell, i);
         let (one, two) = (self.spheres[cell as usize], self.spheres[other as usize]);
         if one.is_like(two) {
