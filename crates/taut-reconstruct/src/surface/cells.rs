@@ -13,6 +13,9 @@ use taut_delaunay::{GHOST, Simplex, decode};
 /// Cells or sites of one task.
 const TASK: usize = 1 << 12;
 
+/// Cells that are renumbered at a time.
+const BLOCK: usize = 16;
+
 /// The cells by number. Of each the sites are in positive order: the lowest two first, then the third, then the highest, which of
 /// a ghost is the vertex at infinity.
 pub(super) struct Cells {
@@ -43,21 +46,30 @@ impl Cells {
         }
         let all = slots.par_iter().with_min_len(TASK);
         let places: Vec<Places> = all.map(|simplex| Places::of(simplex.vertices)).collect();
-        let renumbered = |entry: &Entry| {
-            let old = &slots[entry.slot()];
-            let mut cell = Simplex { vertices: [0; 4], neighbors: [0; 4] };
-            // What comes to each place, rather than where each goes: what was just written at a place that varies is slow to read.
-            let from = places[entry.slot()].inverse();
-            for place in 0..4 {
-                let i = usize::from(from[place]);
-                let (slot, k) = decode(old.neighbors[i]);
-                cell.vertices[place] = old.vertices[i];
-                cell.neighbors[place] =
-                    numbers[slot as usize] << 2 | u32::from(places[slot as usize].get(k));
+        let blank = Simplex { vertices: [0; 4], neighbors: [0; 4] };
+        let mut all = vec![blank; order.len()];
+        all.par_chunks_mut(TASK).zip(order.par_chunks(TASK)).for_each(|(cells, entries)| {
+            let mut olds = [(blank, Places(0)); BLOCK];
+            // Some at a time, so that what is far off in memory is under way for all of them.
+            for (cells, entries) in cells.chunks_mut(BLOCK).zip(entries.chunks(BLOCK)) {
+                for (old, entry) in olds.iter_mut().zip(entries) {
+                    *old = (slots[entry.slot()], places[entry.slot()]);
+                }
+                for (old, _) in &mut olds[..entries.len()] {
+                    old.neighbors = old.neighbors.map(|code| {
+                        let (slot, k) = decode(code);
+                        numbers[slot as usize] << 2 | u32::from(places[slot as usize].get(k))
+                    });
+                }
+                for (cell, (old, places)) in cells.iter_mut().zip(&olds) {
+                    // What comes to each place, rather than where each goes: what was just written at a place that varies is slow to read.
+                    let from = places.inverse().map(usize::from);
+                    cell.vertices = from.map(|i| old.vertices[i]);
+                    cell.neighbors = from.map(|i| old.neighbors[i]);
+                }
             }
-            cell
-        };
-        Self { all: order.par_iter().with_min_len(TASK).map(renumbered).collect() }
+        });
+        Self { all }
     }
 
     /// How many cells there are.
