@@ -16,17 +16,13 @@ use rayon::prelude::*;
 use taut_delaunay::{GHOST, decode};
 
 use super::cells::Cells;
+use super::looks::{Look, look, looks};
 use super::spheres::{Point, cross, dot, minus};
 
 /// How much less the sum of angles must be.
 const FLATTER: f64 = 1.0;
 /// The least angle of a sharp edge.
 const SHARP: f64 = 0.8;
-/// Sums of radii that differ by no more than this share are alike. It was chosen from 0.003 to 0.04 with the seven reference sets in
-/// view; on all but two of these any of them does.
-const ALIKE: f64 = 0.006;
-/// The least share that is no rounding.
-const LEAST: f64 = 1e-9;
 const ROUNDS: usize = 16;
 /// Cells of one task.
 const TASK: usize = 1 << 12;
@@ -34,20 +30,23 @@ const TASK: usize = 1 << 12;
 /// Swaps diagonals of the border, and says how many.
 pub(super) fn swap(cells: &Cells, points: &[Point], inside: &mut [bool]) -> u64 {
     let labels = &*inside;
-    let all = 0..cells.len() as u32;
+    let task = |begin: usize| {
+        let some = begin as u32..cells.len().min(begin + TASK) as u32;
+        let all: Vec<_> = some.filter_map(|cell| Quadrangle::of(cell, cells, labels)).collect();
+        let looks = looks(&all, cells, points);
+        let seen = all.into_iter().map(|quadrangle| quadrangle.cell).zip(looks);
+        seen.filter(|(_, look)| look.is_rounder || look.is_bent).collect()
+    };
     // Most are as they should be, which is seen in parallel; the others are looked at again, one after another.
-    let looks: Vec<(u32, Look)> = all
-        .into_par_iter()
-        .with_min_len(TASK)
-        .filter_map(|cell| Some((cell, Quadrangle::of(cell, cells, labels)?.look(cells, points))))
-        .filter(|(_, look)| look.is_rounder || look.is_bent)
-        .collect();
+    let begins: Vec<usize> = (0..cells.len()).step_by(TASK).collect();
+    let looks_by_task: Vec<Vec<(u32, Look)>> = begins.into_par_iter().map(task).collect();
+    let looks_of_all = looks_by_task.concat();
     let of = |is: fn(&Look) -> bool| {
-        let those = looks.iter().filter(move |(_, look)| is(look));
+        let those = looks_of_all.iter().filter(move |(_, look)| is(look));
         those.map(|&(cell, _)| cell).collect::<Vec<u32>>()
     };
     let is_rounder =
-        |quadrangle: &Quadrangle, _: &[bool]| quadrangle.look(cells, points).is_rounder;
+        |quadrangle: &Quadrangle, _: &[bool]| look(quadrangle, cells, points).is_rounder;
     let is_flatter =
         |quadrangle: &Quadrangle, inside: &[bool]| quadrangle.is_flatter(cells, points, inside);
     let rounder = of(|look| look.is_rounder);
@@ -91,21 +90,13 @@ fn swap_where(
     (swapped, touched)
 }
 
-/// What is seen of a quadrangle alone.
-struct Look {
-    /// The other two triangles have smaller circumcircles: in sum, or the larger one if that is much the same.
-    is_rounder: bool,
-    /// Some of its four triangles turn so much against each other that a swap could make the surface flatter.
-    is_bent: bool,
-}
-
 /// A cell that is no ghost with two facets on the border.
-struct Quadrangle {
-    cell: u32,
+pub(super) struct Quadrangle {
+    pub(super) cell: u32,
     /// Places of the ends of the diagonal. The facets opposite them are not on the border.
-    ends: [usize; 2],
+    pub(super) ends: [usize; 2],
     /// Places of the other two corners.
-    others: [usize; 2],
+    pub(super) others: [usize; 2],
 }
 
 impl Quadrangle {
@@ -126,43 +117,18 @@ impl Quadrangle {
         [normal(b, c, d), normal(a, d, c), normal(a, b, d), normal(a, c, b)]
     }
 
-    fn look(&self, cells: &Cells, points: &[Point]) -> Look {
-        let [a, b, c, d] = cells.sites(self.cell).map(|site| points[site as usize]);
-        let normals = [normal(b, c, d), normal(a, d, c), normal(a, b, d), normal(a, c, b)];
-        let squared = |p: Point, q: Point| {
-            let off = minus(p, q);
-            dot(off, off)
-        };
-        let (ab, ac, ad) = (squared(a, b), squared(a, c), squared(a, d));
-        let (bc, bd, cd) = (squared(b, c), squared(b, d), squared(c, d));
-        // R = |u||v||u − v|/2|n|.
-        let edges = [bc * cd * bd, ac * cd * ad, ab * bd * ad, ab * bc * ac];
-        let radius = |i: usize| (edges[i] / dot(normals[i], normals[i])).sqrt() / 2.0;
-        // The triangle opposite one of the others has the diagonal.
-        let (one, two) = (radius(self.others[0]), radius(self.others[1]));
-        let (three, four) = (radius(self.ends[0]), radius(self.ends[1]));
-        let all = one + two + three + four;
-        let less = one + two - three - four;
-        let less = if less.abs() > ALIKE * all { less } else { one.max(two) - three.max(four) };
-        let [i, k] = self.others.map(|i| normals[i]);
-        let [m, n] = self.ends.map(|i| normals[i]);
-        let is_straight = is_small(i, k)
-            && is_small(m, n)
-            && [i, k].iter().all(|&now| is_small_against(now, m) && is_small_against(now, n));
-        Look { is_rounder: less > LEAST * all, is_bent: !is_straight }
-    }
-
     /// Whether the angles around the other two triangles are much less, and one of them is that of a sharp edge.
     fn is_flatter(&self, cells: &Cells, points: &[Point], inside: &[bool]) -> bool {
         let normals = self.normals(cells, points);
         let now = self.others.map(|i| normals[i]);
         let then = self.ends.map(|i| minus([0.0; 3], normals[i]));
-        // Each of the five angles changes by no more than normals turn: where they hardly do, no more need be known.
-        let pairs = [(now[0], then[0]), (now[0], then[1]), (now[1], then[0]), (now[1], then[1])];
-        if pairs.iter().chain([&(now[0], now[1])]).all(|&(m, n)| is_small(m, n)) {
+        // The angle at a side changes by no more than the normal of its triangle turns. It costs less to ask for that than to go
+        // round the sides.
+        let [was, is] = [angle(now[0], now[1]), angle(then[0], then[1])];
+        let turned = now.iter().flat_map(|&m| then.map(|n| angle(m, n))).sum::<f64>();
+        if was - is + turned <= FLATTER {
             return false;
         }
-        let [was, is] = [angle(now[0], now[1]), angle(then[0], then[1])];
         let (mut less, mut sharpest) = (was - is, was.max(is));
         for (e, &end) in self.ends.iter().enumerate() {
             for (o, &other) in self.others.iter().enumerate() {
@@ -229,21 +195,6 @@ impl Quadrangle {
     }
 }
 
-/// Whether the angle between two vectors is no more than a fifth of what takes a swap.
-#[inline]
-fn is_small(m: Point, n: Point) -> bool {
-    /// (cos 1/5)², rounded up.
-    const COSINE_SQUARED: f64 = 0.960531;
-    let along = dot(m, n);
-    along > 0.0 && along * along > COSINE_SQUARED * dot(m, m) * dot(n, n)
-}
-
-/// The same of a vector and another one turned round.
-#[inline]
-fn is_small_against(m: Point, n: Point) -> bool {
-    is_small(m, minus([0.0; 3], n))
-}
-
 /// (b − a) × (c − a).
 #[inline]
 fn normal(a: Point, b: Point, c: Point) -> Point {
@@ -279,9 +230,6 @@ mod tests {
         let [a, b, c] = [[0.0, 0.0, 1.0], [3.0, 0.0, 1.0], [0.0, 4.0, 1.0]];
         assert_eq!(normal(a, b, c), [0.0, 0.0, 12.0]);
         assert_eq!(angle([0.0, 0.0, 1.0], [0.0, 1.0, 0.0]), std::f64::consts::FRAC_PI_2);
-        let turned = |x: f64| [x.cos(), x.sin(), 0.0];
-        assert!(is_small([3.0, 0.0, 0.0], turned(0.199)) && !is_small(turned(0.0), turned(0.201)));
-        assert!(!is_small([1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]));
     }
 
     #[test]

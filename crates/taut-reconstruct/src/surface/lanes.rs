@@ -10,7 +10,7 @@ use super::cells::Cells;
 use super::spheres::{NEARLY_FLAT, Point, Sphere, circumsphere};
 
 /// Lanes of the widest vectors there are.
-const MOST_LANES: usize = 8;
+pub(super) const MOST_LANES: usize = 8;
 
 /// Writes the spheres of cells from one on, of ghosts some of no size, and tells the flat ones among these cells. Flat is a cell whose
 /// volume, squared and six times as large as it is, is at most `flat` beside the product of the squares of the edges from its first vertex.
@@ -33,21 +33,21 @@ struct Spheres<'a> {
 }
 
 /// A vector in each lane.
-type Vectors<S> = [<S as Simd>::f64s; 3];
+pub(super) type Vectors<S> = [<S as Simd>::f64s; 3];
 
 #[inline(always)]
-fn minus<S: Simd>(simd: S, a: Vectors<S>, b: Vectors<S>) -> Vectors<S> {
+pub(super) fn minus<S: Simd>(simd: S, a: Vectors<S>, b: Vectors<S>) -> Vectors<S> {
     [simd.sub_f64s(a[0], b[0]), simd.sub_f64s(a[1], b[1]), simd.sub_f64s(a[2], b[2])]
 }
 
 #[inline(always)]
-fn dot<S: Simd>(simd: S, a: Vectors<S>, b: Vectors<S>) -> S::f64s {
+pub(super) fn dot<S: Simd>(simd: S, a: Vectors<S>, b: Vectors<S>) -> S::f64s {
     let two = simd.add_f64s(simd.mul_f64s(a[0], b[0]), simd.mul_f64s(a[1], b[1]));
     simd.add_f64s(two, simd.mul_f64s(a[2], b[2]))
 }
 
 #[inline(always)]
-fn cross<S: Simd>(simd: S, a: Vectors<S>, b: Vectors<S>) -> Vectors<S> {
+pub(super) fn cross<S: Simd>(simd: S, a: Vectors<S>, b: Vectors<S>) -> Vectors<S> {
     let along =
         |i: usize, k: usize| simd.sub_f64s(simd.mul_f64s(a[i], b[k]), simd.mul_f64s(a[k], b[i]));
     [along(1, 2), along(2, 0), along(0, 1)]

@@ -23,6 +23,7 @@ mod flips;
 mod islands;
 mod labelled;
 mod lanes;
+mod looks;
 mod media;
 mod neighbors;
 mod one_sided;
