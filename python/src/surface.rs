@@ -56,9 +56,38 @@ pub(crate) fn surface(
     };
     let noise = Denoise {
         neighbors: whole("neighbors", neighbors, "from 4 to 1000")?,
-        iterations: whole("iterations", iterations, "at most 100")?,
+        iterations: whole("iterations", iterations, "from 0 to 100")?,
         positions: if original { Positions::Original } else { Positions::Projected },
     };
+    let of_denoise = [
+        ("neighbors", noise.neighbors != Denoise::default().neighbors),
+        ("iterations", noise.iterations != Denoise::default().iterations),
+        ("original", original),
+    ];
+    if let Some((name, _)) = of_denoise.iter().find(|(_, is_given)| *is_given && !denoise) {
+        return Err(PyValueError::new_err(format!("option `{name}` is of denoise=True")));
+    }
+    let of_methods: [(&str, bool, &[SurfaceMethod]); 7] = [
+        ("open", open, &[SurfaceMethod::Tree]),
+        (
+            "alpha",
+            alpha.is_some(),
+            &[SurfaceMethod::Alpha, SurfaceMethod::Thesis, SurfaceMethod::Hull],
+        ),
+        ("epsilon", epsilon != usual.epsilon, &[SurfaceMethod::Thesis, SurfaceMethod::Hull]),
+        ("sliver_angle", sliver_angle.is_some(), &[SurfaceMethod::Thesis]),
+        ("forbidden_angle", forbidden_angle.is_some(), &[SurfaceMethod::Thesis]),
+        ("priority", priority != usual.priority, &[SurfaceMethod::Thesis]),
+        ("restarts", restarts, &[SurfaceMethod::Thesis]),
+    ];
+    for (name, is_given, methods) in of_methods {
+        if is_given && !methods.contains(&method) {
+            let names: Vec<&str> = methods.iter().map(|method| method.name()).collect();
+            let (names, method) = (names.join(" and "), method.name());
+            let message = format!("option `{name}` is of method {names}, not of {method}");
+            return Err(PyValueError::new_err(message));
+        }
+    }
     let options = SurfaceOptions {
         method,
         mode: if open { SurfaceMode::Open } else { SurfaceMode::Closed },

@@ -121,3 +121,24 @@ def test_bad_input_is_refused(two):
         taut.surface(two, method="thesis", epsilon=1.0)
     with pytest.raises(ValueError, match="neighbors"):
         taut.surface(two, denoise=True, neighbors=3)
+    with pytest.raises(ValueError, match="iterations.*from 0 to 100"):
+        taut.surface(two, denoise=True, iterations=-3)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"alpha": 0.1},
+        {"neighbors": 30},
+        {"original": True},
+        {"open": True, "method": "hull"},
+        {"epsilon": 1e-3, "method": "alpha"},
+        {"sliver_angle": 0.2, "method": "hull"},
+        {"priority": "circumradius"},
+        {"restarts": True},
+    ],
+)
+def test_options_of_others_are_not_passed_over(two, options):
+    name = next(iter(options))
+    with pytest.raises(ValueError, match=f"option `{name}` is of"):
+        taut.surface(two, **options)

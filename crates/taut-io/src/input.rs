@@ -9,7 +9,7 @@ use taut_points::PointSource;
 
 use crate::error::shown_path;
 use crate::read::{self, Decoded};
-use crate::{Compression, Error, Format, Place, ReadOptions, compress};
+use crate::{Compression, Error, Format, Place, ReadOptions, ShapeFormat, compress};
 
 /// Points of a file, and what is known of it.
 pub struct Input {
@@ -189,8 +189,17 @@ fn open_medium(
     let format = known
         .or_else(|| read::format_of_magic(&head))
         .or(name.is_none().then_some(Format::Csv))
-        .ok_or_else(|| Error::UnknownFormat { path: shown.to_owned() })?;
+        .ok_or_else(|| unknown(name, shown))?;
     let job = Job { path: shown, format, options };
     let Decoded { source, columns, numbers } = read::read(&job, medium)?;
     Ok(Input { source, columns, format, path: shown.to_owned(), numbers })
+}
+
+/// What is wrong with a file whose name tells no format that points are read from.
+fn unknown(name: Option<&Path>, shown: &str) -> Error {
+    let path = shown.to_owned();
+    match name.and_then(|name| ShapeFormat::of_path(name).0) {
+        Some(format) if !format.can_read() => Error::ShapeNotReadable { path, format },
+        _ => Error::UnknownFormat { path },
+    }
 }

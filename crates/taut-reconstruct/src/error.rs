@@ -19,7 +19,7 @@ pub enum Error {
         dim: usize,
     },
     /// The points have no volume, so there is no surface around it.
-    #[error("the {points} points {span}: a surface needs four that are on no common plane")]
+    #[error("{}: a surface needs four points that are on no common plane", span.of(*points))]
     Flat {
         /// How many there are.
         points: u64,
@@ -78,13 +78,15 @@ pub enum Span {
     Plane,
 }
 
-impl std::fmt::Display for Span {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Nothing => "are none",
-            Self::Point => "are all equal",
-            Self::Line => "are on one line",
-            Self::Plane => "are on one plane",
-        })
+impl Span {
+    /// What so many points are.
+    fn of(self, points: u64) -> String {
+        match (self, points) {
+            (Self::Nothing, _) => "there are no points".to_owned(),
+            (Self::Point, 1) => "there is one point".to_owned(),
+            (Self::Point, _) => format!("the {points} points are all equal"),
+            (Self::Line, _) => format!("the {points} points are on one line"),
+            (Self::Plane, _) => format!("the {points} points are on one plane"),
+        }
     }
 }

@@ -191,7 +191,8 @@ fn bad_input_is_named_and_leaves_files_as_they_were() {
     refuse("nan.csv", "x,y,z\n0,0,0\n1,0,nan\n0,1,0\n", &["nan.csv", "row 2", "nan"]);
     refuse("plane.csv", "x,y\n0,0\n1,0\n0,1\n", &["plane.csv", "2 coordinates", "--columns"]);
     refuse("flat.csv", "x,y,z\n0,0,1\n1,0,1\n0,1,1\n1,1,1\n", &["flat.csv", "plane"]);
-    refuse("one.csv", "x,y,z\n0,0,1\n", &["one.csv"]);
+    refuse("one.csv", "x,y,z\n0,0,1\n", &["one.csv", "there is one point"]);
+    refuse("mesh.glb", "glTF", &["mesh.glb", "glb files are written, not read"]);
     desk.taut("surface torus.csv -o mesh.xyz").ends(2).complains(&["mesh.xyz", ".ply"]);
     desk.taut("surface torus.csv -o mesh.png").ends(2).complains(&["--draw"]);
     desk.taut("surface torus.csv --method thesis --epsilon 1").ends(2).complains(&["epsilon", "1"]);

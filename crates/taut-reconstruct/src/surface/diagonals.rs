@@ -100,7 +100,7 @@ pub(super) struct Quadrangle {
 }
 
 impl Quadrangle {
-    fn of(cell: u32, cells: &Cells, inside: &[bool]) -> Option<Self> {
+    pub(super) fn of(cell: u32, cells: &Cells, inside: &[bool]) -> Option<Self> {
         let own = inside[cell as usize];
         let is_border =
             |i: usize| usize::from(inside[cells.across(cell, i).0 as usize] != own) << i;

@@ -158,3 +158,55 @@ fn margins<S: Simd>(
     let second = simd.min_f64s(small(against(k, m), kk, mm), small(against(k, n), kk, nn));
     (rounder, simd.min_f64s(alike, simd.min_f64s(first, second)))
 }
+
+#[cfg(test)]
+mod tests {
+    use taut_delaunay::{DelaunayOptions, Space};
+    use taut_points::{Distribution, Monitor, Points, generate};
+
+    use super::*;
+
+    fn triangulated(values: &[f64]) -> (Cells, Vec<Point>) {
+        let points = Points::new(values, 3).expect("whole rows");
+        let space = Space::build(&points, &DelaunayOptions::default(), &Monitor::silent());
+        let space = space.expect("finite");
+        let sites: Vec<Point> = (0..space.site_count() as u32).map(|s| space.site(s)).collect();
+        (Cells::of(space.into_slots(), sites.len()), sites)
+    }
+
+    #[test]
+    fn many_are_seen_as_each_alone() {
+        let mut values: Vec<f64> = generate(Distribution::Uniform, 400, 3, 3).expect("valid");
+        // A grid as well, where circles are equal and triangles have right angles.
+        values.extend((0..64).flat_map(|k| [k % 4, k / 4 % 4, k / 16].map(|x| 0.3 * f64::from(x))));
+        let (cells, points) = triangulated(&values);
+        let mix = |cell: u32| cell.wrapping_mul(0x9E37_79B1) >> 31 == 1;
+        let inside: Vec<bool> = (0..cells.len() as u32).map(mix).collect();
+        let all = 0..cells.len() as u32;
+        let all: Vec<_> = all.filter_map(|cell| Quadrangle::of(cell, &cells, &inside)).collect();
+        let many = looks(&all, &cells, &points);
+        let alone: Vec<Look> = all.iter().map(|one| look(one, &cells, &points)).collect();
+        assert_eq!(many, alone);
+        let count = |is: fn(&Look) -> bool| many.iter().filter(|&look| is(look)).count();
+        assert!(all.len() > 300 && count(|look| look.is_rounder) > 50);
+        assert!(count(|look| look.is_bent) > 50);
+    }
+
+    #[test]
+    fn of_two_diagonals_the_one_with_the_smaller_circles_is_rounder() {
+        // A flat kite, 4 long and 2 wide: across its width its triangles have smaller circles than along its length.
+        let kite = [0.0, 0.0, 0.0, 4.0, 0.0, 1e-3, 2.0, 1.0, 0.0, 2.0, -1.0, 0.0];
+        let (cells, points) = triangulated(&kite);
+        let cell = cells.finite().next().expect("four points make a cell");
+        let sites = cells.sites(cell);
+        let place = |x: f64| {
+            (0..4)
+                .filter(|&i| (points[sites[i] as usize][0] == 2.0) == (x == 2.0))
+                .collect::<Vec<_>>()
+        };
+        let [along, across] = [place(0.0), place(2.0)].map(|ends| [ends[0], ends[1]]);
+        let seen = |ends, others| look(&Quadrangle { cell, ends, others }, &cells, &points);
+        assert_eq!(seen(along, across), Look { is_rounder: true, is_bent: false });
+        assert_eq!(seen(across, along), Look { is_rounder: false, is_bent: false });
+    }
+}

@@ -65,7 +65,7 @@ impl Denoise {
             return wrong("neighbors", self.neighbors.to_string(), "a number from 4 to 1000");
         }
         if self.iterations > 100 {
-            return wrong("iterations", self.iterations.to_string(), "at most 100");
+            return wrong("iterations", self.iterations.to_string(), "a number from 0 to 100");
         }
         Ok(())
     }

@@ -168,40 +168,48 @@ fn followed(strongest: &[u32], ties: &Ties, cells: &Cells) -> (Vec<u32>, usize) 
 
 /// The facets between parts of cells, each from its first cell, by tasks.
 fn first_bonds(ties: &Ties, cells: &Cells, level: &[u32], best: &[AtomicU64]) -> Vec<Vec<Bond>> {
-    let task = |begin: usize| {
-        let end = cells.len().min(begin + TASK);
-        let mut bonds = Vec::with_capacity(end - begin);
-        for cell in begin as u32..end as u32 {
-            let own = level[cell as usize];
-            for (i, tie) in (0..).zip(ties.of_cell(cell)) {
+    let part_of = |cell: u32| level[cell as usize] >> 1;
+    let task = |between: &mut Vec<u32>, begin: usize| {
+        let some = begin as u32..cells.len().min(begin + TASK) as u32;
+        between.resize(4 * some.len(), 0);
+        let mut count = 0;
+        for cell in some {
+            for i in 0..4 {
+                // All are written and most of them written over: which are between parts cannot be guessed.
+                between[count] = cell << 2 | i as u32;
                 let (other, _) = cells.across(cell, i);
-                let beyond = level[other as usize];
-                if other > cell && own >> 1 != beyond >> 1 {
-                    let sign = (own ^ beyond) & 1 ^ u32::from(tie.is_opposite());
-                    let rank = rank(tie, cell << 2 | i as u32);
-                    let bond = Bond { ends: [own & !1 | sign, beyond >> 1], rank };
-                    offer(best, &bond);
-                    bonds.push(bond);
-                }
+                count += usize::from((other > cell) & (part_of(cell) != part_of(other)));
             }
         }
-        bonds
+        let bond = |&facet: &u32| {
+            let [own, beyond] = [facet, cells.mirror(facet)].map(|f| level[(f >> 2) as usize]);
+            let tie = ties.at(facet);
+            let sign = (own ^ beyond) & 1 ^ u32::from(tie.is_opposite());
+            let bond = Bond { ends: [own & !1 | sign, beyond >> 1], rank: rank(tie, facet) };
+            offer(best, &bond);
+            bond
+        };
+        between[..count].iter().map(bond).collect::<Vec<Bond>>()
     };
     let begins: Vec<usize> = (0..cells.len()).step_by(TASK).collect();
-    begins.into_par_iter().map(task).collect()
+    begins.into_par_iter().map_init(Vec::new, task).collect()
 }
 
 /// Keeps the bonds that are between parts after these were joined.
 fn keep_between(bonds: &mut [Vec<Bond>], level: &[u32], best: &[AtomicU64]) {
-    let keep = |bond: &mut Bond| {
-        let [one, two] = bond.parts().map(|part| level[part as usize]);
-        let sign = (one ^ two ^ bond.ends[0]) & 1;
-        bond.ends = [one & !1 | sign, two >> 1];
-        let is_between = one >> 1 != two >> 1;
-        if is_between {
-            offer(best, bond);
+    let keep = |bonds: &mut Vec<Bond>| {
+        let mut count = 0;
+        for k in 0..bonds.len() {
+            let mut bond = bonds[k];
+            let [one, two] = bond.parts().map(|part| level[part as usize]);
+            let sign = (one ^ two ^ bond.ends[0]) & 1;
+            bond.ends = [one & !1 | sign, two >> 1];
+            // Written whether it is kept or not, as that cannot be guessed.
+            bonds[count] = bond;
+            count += usize::from(one >> 1 != two >> 1);
         }
-        is_between
+        bonds.truncate(count);
+        bonds.iter().for_each(|bond| offer(best, bond));
     };
-    bonds.par_iter_mut().for_each(|bonds| bonds.retain_mut(keep));
+    bonds.par_iter_mut().for_each(keep);
 }
