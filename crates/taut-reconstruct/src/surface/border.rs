@@ -33,25 +33,32 @@ impl Face {
 
 /// The triangles between inside and outside, but for those with the vertex at infinity.
 pub(super) fn faces(cells: &Cells, inside: &[bool], sites: usize) -> Vec<Face> {
-    let task = |begin: usize| {
-        let mut found = Vec::new();
-        for cell in begin as u32..cells.len().min(begin + TASK) as u32 {
+    let task = |facets: &mut Vec<u32>, begin: usize| {
+        let some = begin as u32..cells.len().min(begin + TASK) as u32;
+        facets.resize(4 * some.len(), 0);
+        let (mut count, mut outside) = (0, Vec::new());
+        for cell in some {
+            let is_inside = inside[cell as usize];
             if cells.is_ghost(cell) {
+                // A facet of the hull is found from its only finite cell, which is outside here.
+                let back = cells.mirror(cell << 2 | 3);
+                if is_inside && !inside[(back >> 2) as usize] {
+                    outside.push(Face::of(cells, back, false));
+                }
                 continue;
             }
-            let is_inside = inside[cell as usize];
-            for i in 0..4 {
-                let (other, _) = cells.across(cell, i);
-                // A facet between finite cells is found from inside, one of the hull from its only finite cell.
-                if inside[other as usize] != is_inside && (is_inside || cells.is_ghost(other)) {
-                    found.push(Face::of(cells, cell << 2 | i as u32, is_inside));
-                }
+            for facet in (0..4).map(|i| cell << 2 | i) {
+                // All are written and most of them written over, as which of them stay cannot be guessed.
+                facets[count] = facet;
+                let other = cells.mirror(facet) >> 2;
+                count += usize::from(is_inside & !inside[other as usize]);
             }
         }
-        found
+        let found = facets[..count].iter().map(|&facet| Face::of(cells, facet, true));
+        found.chain(outside).collect::<Vec<Face>>()
     };
     let begins: Vec<usize> = (0..cells.len()).step_by(TASK).collect();
-    let parts: Vec<Vec<Face>> = begins.into_par_iter().map(task).collect();
+    let parts: Vec<Vec<Face>> = begins.into_par_iter().map_init(Vec::new, task).collect();
     in_order(&parts, sites)
 }
 

@@ -194,11 +194,28 @@ fn ordered(slots: &[Simplex<4>], sites: usize) -> Vec<Entry> {
         let mut begin = ends[ends.len() - 1] - own.len() as u32;
         for &end in ends {
             let (alike, others) = own.split_at_mut((end - begin) as usize);
-            alike.sort_unstable();
+            sort(alike);
             (own, begin) = (others, end);
         }
     });
     order
+}
+
+/// Sorts entries, no two of which are equal.
+fn sort(entries: &mut [Entry]) {
+    /// Up to so many, it costs less to compare all with all than to guess which is the lower one.
+    const FEW: usize = 20;
+    if entries.len() > FEW {
+        entries.sort_unstable();
+        return;
+    }
+    let mut copies = [Entry::default(); FEW];
+    let copies = &mut copies[..entries.len()];
+    copies.copy_from_slice(entries);
+    for &entry in &*copies {
+        let lower: usize = copies.iter().map(|&other| usize::from(other < entry)).sum();
+        entries[lower] = entry;
+    }
 }
 
 /// For a cell a, b, c, d with det(b − a, c − a, d − a) > 0, the corners of the facet opposite each, counter-clockwise from outside.
@@ -217,6 +234,18 @@ mod tests {
             let [a, b, c] = facet.map(|k| p[k]);
             let normal = cross(minus(b, a), minus(c, a));
             assert!(dot(normal, minus(p[i], a)) < 0.0, "{i}");
+        }
+    }
+
+    #[test]
+    fn few_and_many_entries_are_sorted() {
+        for count in [0, 1, 2, 7, 20, 21, 60] {
+            let mut entries: Vec<Entry> =
+                (0..count).map(|k| Entry::of([0, k * 37 % 5, k * 11 % 3, 1], k)).collect();
+            let mut sorted = entries.clone();
+            sorted.sort();
+            sort(&mut entries);
+            assert!(entries == sorted, "{count}");
         }
     }
 

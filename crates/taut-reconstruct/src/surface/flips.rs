@@ -64,7 +64,14 @@ impl<'a> Peeling<'a> {
     }
 
     /// Whether so much is said against the part that hangs by a peeled cell that it could be turned over.
-    fn is_outweighed(&self, cell: u32, against: i64, ties: &Ties) -> bool {
+    fn is_outweighed(&self, cell: u32, against: i64, ties: &Ties, inside: &[bool]) -> bool {
+        if against <= LEAST {
+            return false;
+        }
+        if self.tree[cell as usize].is_power_of_two() {
+            // The cell is all of the part.
+            return agreement(cell, ties, self.cells, inside) < -LEAST;
+        }
         // What the part hangs by was obeyed, and agrees.
         let hung_by = || {
             let parent = self.parent[cell as usize];
@@ -72,7 +79,7 @@ impl<'a> Peeling<'a> {
             let is_up = |&i: &usize| tree >> i & 1 == 1 && self.cells.across(cell, i).0 == parent;
             (0..4).find(is_up).map_or(0, |i| i64::from(ties.of_cell(cell)[i].strength()))
         };
-        against > LEAST && against > LEAST + hung_by()
+        against > LEAST + hung_by()
     }
 }
 
@@ -90,6 +97,8 @@ struct Suspects<'a> {
     place: Vec<u32>,
     /// For each part, by how much the facets around it agree with the labels.
     sums: Vec<i64>,
+    /// The cells of parts that were turned over.
+    turned: Vec<u32>,
 }
 
 impl<'a> Suspects<'a> {
@@ -106,7 +115,7 @@ impl<'a> Suspects<'a> {
         // From the tops of parts down.
         for &cell in peeling.order.iter().rev() {
             let is_within = place[peeling.parent[cell as usize] as usize] != 0;
-            if is_within || peeling.is_outweighed(cell, against[cell as usize], ties) {
+            if is_within || peeling.is_outweighed(cell, against[cell as usize], ties, inside) {
                 found.push(cell);
                 place[cell as usize] = 1;
             }
@@ -120,7 +129,8 @@ impl<'a> Suspects<'a> {
             top[k] = top[above[k] as usize];
         }
         let sums = vec![0; found.len()];
-        let mut suspects = Self { ties, cells, found, above, top, place, sums };
+        let turned = Vec::new();
+        let mut suspects = Self { ties, cells, found, above, top, place, sums, turned };
         suspects.sum_up(inside);
         suspects
     }
@@ -204,8 +214,11 @@ impl<'a> Suspects<'a> {
         if changes.iter().map(|(_, more)| more).sum::<i64>() <= 0 {
             return 0;
         }
-        let turned = self.found.iter().zip(&is_turned);
-        turned.for_each(|(&cell, is_turned)| inside[cell as usize] ^= is_turned);
+        let turned = self.found.iter().zip(&is_turned).filter(|(_, is_turned)| **is_turned);
+        for (&cell, _) in turned {
+            inside[cell as usize] = !inside[cell as usize];
+            self.turned.push(cell);
+        }
         for ([from, to], more) in changes {
             let top = self.meet(from, to);
             for mut at in [from, to] {
@@ -232,6 +245,12 @@ fn against(objections: &[(u32, i64)], peeling: &Peeling<'_>) -> Vec<i64> {
         }
     }
     against
+}
+
+/// By how much the facets of a cell agree with the labels.
+fn agreement(cell: u32, ties: &Ties, cells: &Cells, inside: &[bool]) -> i64 {
+    let own = ties.of_cell(cell);
+    (0..4).map(|i| agrees(own[i], [cell, cells.across(cell, i).0], inside)).sum()
 }
 
 /// The cells at facets that disagree with the labels, and the strength of these facets.
@@ -267,7 +286,7 @@ pub(super) fn flip(ties: &Ties, tree: &[u8], cells: &Cells, inside: &mut [bool])
             found => flips += found,
         }
     }
-    let mut doubtful = suspects.found;
+    let mut doubtful = suspects.turned;
     doubtful.extend(objections.iter().map(|(cell, _)| cell));
     Flipped { flips, doubtful }
 }

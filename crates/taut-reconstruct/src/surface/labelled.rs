@@ -49,7 +49,7 @@ pub(super) fn surface_of_labels(
         true => Links::of(&without_membranes(&found, points), points.len()).failing(is_fan),
         false => Links::of(&found, points.len()).failing(is_cycle),
     };
-    let repairs = repair(cells, &mut inside, defects, &strength, is_open);
+    let repairs = repair(cells, &mut inside, defects, &strength, is_open, monitor)?;
     let is_empty = !is_open && repairs == 0 && found.is_empty();
     if is_empty {
         // Too few points to tell inside from outside, or points within a body: the hull is the one surface around all.

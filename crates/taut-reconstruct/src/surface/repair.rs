@@ -11,6 +11,7 @@ use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 
 use taut_delaunay::GHOST;
+use taut_points::{Cancelled, Monitor};
 
 use super::cells::Cells;
 use super::stars::{Star, Stars};
@@ -29,15 +30,17 @@ pub(super) fn repair(
     defects: Vec<u32>,
     strength: Strength<'_>,
     ghosts_may: bool,
-) -> u64 {
+    monitor: &Monitor<'_>,
+) -> Result<u64, Cancelled> {
     if defects.is_empty() {
-        return 0;
+        return Ok(0);
     }
     let mut changes = 0;
     let mut bench = Bench { cells, stars: Stars::of(cells, &defects), strength, ghosts_may };
     let mut waiting = BTreeSet::from_iter(defects);
     let mut stuck = BTreeSet::new();
     while let Some(site) = waiting.pop_first() {
+        monitor.check()?;
         let around = bench.around(inside, site, None);
         if around.defect == 0 {
             continue;
@@ -59,7 +62,7 @@ pub(super) fn repair(
             }
         }
     }
-    changes
+    Ok(changes)
 }
 
 struct Bench<'a> {
