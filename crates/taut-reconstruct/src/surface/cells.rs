@@ -175,8 +175,7 @@ fn ordered(slots: &[Simplex<4>], sites: usize) -> Vec<Entry> {
     }
     let mut order = vec![Entry::default(); begins[sites + 1] as usize];
     for (simplex, slot) in live() {
-        let mut sorted = simplex.vertices;
-        sorted.sort_unstable();
+        let sorted = ascending(simplex.vertices);
         let place = &mut begins[sorted[0] as usize + 1];
         order[*place as usize] = Entry::of(sorted, slot);
         *place += 1;
@@ -199,6 +198,13 @@ fn ordered(slots: &[Simplex<4>], sites: usize) -> Vec<Entry> {
         }
     });
     order
+}
+
+/// Four sites in ascending order, without a branch, as none could be guessed.
+fn ascending([a, b, c, d]: [u32; 4]) -> [u32; 4] {
+    let (a, b, c, d) = (a.min(b), a.max(b), c.min(d), c.max(d));
+    let (first, b, c, last) = (a.min(c), a.max(c), b.min(d), b.max(d));
+    [first, b.min(c), b.max(c), last]
 }
 
 /// Sorts entries, no two of which are equal.
@@ -234,6 +240,16 @@ mod tests {
             let [a, b, c] = facet.map(|k| p[k]);
             let normal = cross(minus(b, a), minus(c, a));
             assert!(dot(normal, minus(p[i], a)) < 0.0, "{i}");
+        }
+    }
+
+    #[test]
+    fn four_sites_are_sorted() {
+        for k in 0..256u32 {
+            let sites = [k & 3, k >> 2 & 3, k >> 4 & 3, k >> 6];
+            let mut sorted = sites;
+            sorted.sort();
+            assert_eq!(ascending(sites), sorted);
         }
     }
 

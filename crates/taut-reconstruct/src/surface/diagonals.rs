@@ -21,8 +21,8 @@ use super::spheres::{Point, cross, dot, minus};
 
 /// How much less the sum of angles must be.
 const FLATTER: f64 = 1.0;
-/// The least angle of a sharp edge.
-const SHARP: f64 = 0.8;
+/// (cos 0.8)²: the least angle of a sharp edge is 0.8.
+const SHARP: f64 = 0.485_400_238_849_355_57;
 const ROUNDS: usize = 16;
 /// Cells of one task.
 const TASK: usize = 1 << 12;
@@ -122,14 +122,10 @@ impl Quadrangle {
         let normals = self.normals(cells, points);
         let now = self.others.map(|i| normals[i]);
         let then = self.ends.map(|i| minus([0.0; 3], normals[i]));
-        // The angle at a side changes by no more than the normal of its triangle turns. It costs less to ask for that than to go
-        // round the sides.
-        let [was, is] = [angle(now[0], now[1]), angle(then[0], then[1])];
-        let turned = now.iter().flat_map(|&m| then.map(|n| angle(m, n))).sum::<f64>();
-        if was - is + turned <= FLATTER {
-            return false;
-        }
-        let (mut less, mut sharpest) = (was - is, was.max(is));
+        // At the diagonals and at the sides: what turns against what, now and then.
+        let mut turns = [[[[0.0; 3]; 2]; 2]; 5];
+        turns[0] = [now, then];
+        let mut count = 1;
         for (e, &end) in self.ends.iter().enumerate() {
             for (o, &other) in self.others.iter().enumerate() {
                 // At the side from the one to the other, opposite the third and the fourth corner.
@@ -143,12 +139,15 @@ impl Quadrangle {
                 }
                 let [a, b, c] = sites.map(|site| points[site as usize]);
                 let beside = normal(a, b, c);
-                let is = angle(then[1 - e], beside);
-                less += angle(now[1 - o], beside) - is;
-                sharpest = sharpest.max(is);
+                turns[count] = [[now[1 - o], beside], [then[1 - e], beside]];
+                count += 1;
             }
         }
-        less > FLATTER && sharpest >= SHARP
+        let turns = &turns[..count];
+        // Few have a sharp edge, which is seen without an angle.
+        let has_sharp = is_sharp(now) || turns.iter().any(|&[_, then]| is_sharp(then));
+        let less = |&[now, then]: &[[Point; 2]; 2]| angle(now) - angle(then);
+        has_sharp && turns.iter().map(less).sum::<f64>() > FLATTER
     }
 
     /// Whether the other diagonal is no edge of the border.
@@ -171,7 +170,10 @@ impl Quadrangle {
                 return None;
             }
             let sites = cells.sites(next);
-            out = (0..4).find(|&i| i != back && !ends.contains(&sites[i]))?;
+            // All four places add up to 6. Which of them is left is not searched for, as that cannot be guessed.
+            let place =
+                |site: u32| (1..4).map(|i| i * usize::from(sites[i] == site)).sum::<usize>();
+            out = 6 - back - place(ends[0]) - place(ends[1]);
             at = next;
         }
     }
@@ -202,9 +204,15 @@ fn normal(a: Point, b: Point, c: Point) -> Point {
 }
 
 /// The angle between two vectors.
-fn angle(a: Point, b: Point) -> f64 {
+fn angle([a, b]: [Point; 2]) -> f64 {
     let c = cross(a, b);
     dot(c, c).sqrt().atan2(dot(a, b))
+}
+
+/// Whether it is that of a sharp edge.
+fn is_sharp([a, b]: [Point; 2]) -> bool {
+    let along = dot(a, b);
+    along <= 0.0 || along * along <= SHARP * dot(a, a) * dot(b, b)
 }
 
 /// For each set of facets, one bit each, the places of these and of the others, if there are two of both.
@@ -229,7 +237,10 @@ mod tests {
     fn normals_and_angles() {
         let [a, b, c] = [[0.0, 0.0, 1.0], [3.0, 0.0, 1.0], [0.0, 4.0, 1.0]];
         assert_eq!(normal(a, b, c), [0.0, 0.0, 12.0]);
-        assert_eq!(angle([0.0, 0.0, 1.0], [0.0, 1.0, 0.0]), std::f64::consts::FRAC_PI_2);
+        assert_eq!(angle([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]), std::f64::consts::FRAC_PI_2);
+        let turned = |x: f64| [[2.0, 0.0, 0.0], [x.cos(), x.sin(), 0.0]];
+        assert!(!is_sharp(turned(0.0)) && !is_sharp(turned(0.799)) && is_sharp(turned(-0.801)));
+        assert!(is_sharp(turned(3.0)));
     }
 
     #[test]
