@@ -53,6 +53,9 @@ pub(super) fn cross<S: Simd>(simd: S, a: Vectors<S>, b: Vectors<S>) -> Vectors<S
     [along(1, 2), along(2, 0), along(0, 1)]
 }
 
+/// By corner, axis and lane.
+type Corners = [[[f64; MOST_LANES]; 3]; 4];
+
 /// What comes out of a block of lanes.
 #[derive(Clone, Copy, Default)]
 struct Block {
@@ -64,7 +67,7 @@ struct Block {
 impl Block {
     /// The spheres through corners, by corner and axis.
     #[inline(always)]
-    fn of<S: Simd>(simd: S, corners: &[[[f64; MOST_LANES]; 3]; 4]) -> Self {
+    fn of<S: Simd>(simd: S, corners: &Corners) -> Self {
         let mut block = Self::default();
         let lanes = S::F64_LANES;
         for begin in (0..MOST_LANES).step_by(lanes) {
@@ -104,29 +107,39 @@ impl WithSimd for Spheres<'_> {
     fn with_simd<S: Simd>(self, simd: S) -> Vec<u32> {
         let Self { spheres, first, cells, points, flat } = self;
         let mut flats = Vec::new();
-        let mut corners = [[[0.0; MOST_LANES]; 3]; 4];
-        for (begin, spheres) in (first..).step_by(MOST_LANES).zip(spheres.chunks_mut(MOST_LANES)) {
-            let own = begin..begin + spheres.len() as u32;
-            for (lane, cell) in own.clone().enumerate().filter(|&(_, cell)| !cells.is_ghost(cell)) {
-                let sites = cells.ascending(cell);
-                for (corner, site) in corners.iter_mut().zip(sites) {
+        let count = spheres.len();
+        let block = |k: usize| (k * MOST_LANES).min(count)..((k + 1) * MOST_LANES).min(count);
+        let gather = |corners: &mut Corners, k: usize| {
+            for (lane, cell) in block(k).map(|k| first + k as u32).enumerate() {
+                if cells.is_ghost(cell) {
+                    continue;
+                }
+                for (corner, site) in corners.iter_mut().zip(cells.ascending(cell)) {
                     let point = points[site as usize];
                     corner[0][lane] = point[0];
                     corner[1][lane] = point[1];
                     corner[2][lane] = point[2];
                 }
             }
-            let block = Block::of(simd, &corners);
-            let [x, y, z] = &block.center;
+        };
+        // A block is gathered before the one ahead of it is used: what was just written number by number is slow to read as a whole.
+        let mut corners = [[[[0.0; MOST_LANES]; 3]; 4]; 2];
+        gather(&mut corners[0], 0);
+        for k in 0..count.div_ceil(MOST_LANES) {
+            gather(&mut corners[(k + 1) % 2], k + 1);
+            let own = block(k).map(|k| first + k as u32);
+            let spheres = &mut spheres[block(k)];
+            let found = Block::of(simd, &corners[k % 2]);
+            let [x, y, z] = &found.center;
             for ((lane, cell), sphere) in own.enumerate().zip(spheres) {
                 if cells.is_ghost(cell) {
                     continue;
                 }
-                let flatness = block.flatness[lane];
+                let flatness = found.flatness[lane];
                 *sphere = if flatness <= NEARLY_FLAT {
                     circumsphere(cells.ascending(cell).map(|site| points[site as usize]))
                 } else {
-                    Sphere { center: [x[lane], y[lane], z[lane]], radius: block.radius[lane] }
+                    Sphere { center: [x[lane], y[lane], z[lane]], radius: found.radius[lane] }
                 };
                 if flatness <= flat {
                     flats.push(cell);
