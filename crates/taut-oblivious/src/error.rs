@@ -14,6 +14,32 @@ pub enum Error {
         /// What would have been accepted.
         expected: &'static str,
     },
+    /// A coordinate is NaN or infinite.
+    #[error("coordinate {column} of point {row} is {value}: all coordinates must be finite")]
+    NonFinite {
+        /// The row of the point.
+        row: u64,
+        /// Which of its coordinates.
+        column: usize,
+        /// What it is.
+        value: f64,
+    },
+    /// Keys that were to be sorted are not.
+    #[error(
+        "key {place} is smaller than the one before it: sort the keys first, floats by `total_cmp`"
+    )]
+    Unsorted {
+        /// The place of the first key that is smaller than the one before it.
+        place: u64,
+    },
+    /// Arrays of children are not those of one binary tree.
+    #[error("node {node} {reason}: expected one binary tree, each node but the root a child once")]
+    Tree {
+        /// A node where that shows.
+        node: u64,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
     /// A file cannot be read or written.
     #[error("{path}: {source}")]
     File {

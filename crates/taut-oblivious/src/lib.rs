@@ -6,6 +6,10 @@
 //! | the place of one cell on the curve | [`hilbert_key()`] | consecutive cells share a face | O(bits) |
 //! | how often an algorithm misses in a memory of any size | [`simulate`] | exact, the same on every machine | some 10 ns a touch |
 //! | the algorithms of the literature, to measure them | [`reference`](mod@reference) | as in the papers, short, not fast | |
+//! | how many sorted keys are smaller | [`search`] | the same ranks from every layout | a line of memory a factor of 9 |
+//! | an ordered set whose ranges are read like an array | [`packed`] | all densities within bounds | O(log² n) moves an insertion, few in a batch |
+//! | the points nearest to a place | [`kdtree`] | exact, ties to the lowest row | O(log n), few lines of memory |
+//! | a tree in an order for walks from its root | [`layout::permute`] | the same tree | O(n) |
 //!
 //! ```
 //! let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
@@ -19,10 +23,14 @@
 //! Not for: points with coordinates that are not finite (validate first), or 2³² of them or more.
 mod error;
 mod hilbert;
+pub mod kdtree;
+pub mod layout;
 mod order;
+pub mod packed;
 mod probe;
 mod radix;
 pub mod reference;
+pub mod search;
 pub mod simulate;
 
 pub use error::Error;

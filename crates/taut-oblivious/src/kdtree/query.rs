@@ -1,0 +1,313 @@
+//! Searches of a kd-tree.
+//!
+//! Idea: down to the bucket of the place first, keeping the other sides with the distances, axis by axis, from the place
+//! to them; then those sides that are not farther than the nearest point so far.
+//! Guarantee: the smallest squared distance as calculated, ((x² + y²) + z²) of differences in `f64`, and of several the
+//! lowest row. The distance to a side is calculated in the same order from differences that are not larger, and rounding
+//! is monotone; so no side is left out that holds a point as near.
+//! Trap: distances that are kept up to date by adding and subtracting squares are not monotone: they can exceed that of a
+//! point behind the side by a rounding.
+
+use std::array::from_fn;
+use std::collections::BinaryHeap;
+use std::hint::select_unpredictable;
+
+use rayon::prelude::*;
+
+use super::{BUCKET, IS_BUCKET, KdTree, Node};
+use crate::search::{Level, prefetch};
+use crate::{NoProbe, Probe, hilbert_order};
+
+/// A point found near a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// The row of the point.
+    pub row: u32,
+    /// The square of its distance from the place.
+    pub distance2: f64,
+}
+
+/// Coordinates worked on at once.
+const LANES: usize = 8;
+/// Other sides that can wait: one a level, and no more levels than bits of a row.
+const DEPTH_MAX: usize = 32;
+/// Places that one task of [`KdTree::nearest_all`] searches for.
+const TASK: usize = 1 << 12;
+
+/// A side that may hold nearer points.
+#[derive(Clone, Copy)]
+struct Side<const D: usize> {
+    child: u32,
+    /// Squared distance from the place.
+    distance2: f64,
+    /// Its distance along each axis.
+    offsets: [f64; D],
+}
+
+/// What a search keeps.
+trait Found {
+    /// The largest squared distance at which a point may still count.
+    fn reach(&self) -> f64;
+
+    /// Hears of the squared distances and rows of a bucket.
+    fn offer(&mut self, distances: &[[f64; LANES]; BUCKET / LANES], rows: &[u32; BUCKET]);
+}
+
+/// The nearest point so far.
+struct One(Nearest);
+
+impl Found for One {
+    #[inline(always)]
+    fn reach(&self) -> f64 {
+        self.0.distance2
+    }
+
+    #[inline(always)]
+    fn offer(&mut self, distances: &[[f64; LANES]; BUCKET / LANES], rows: &[u32; BUCKET]) {
+        let mut least = [f64::INFINITY; LANES];
+        for lane in distances {
+            for i in 0..LANES {
+                least[i] = if lane[i] < least[i] { lane[i] } else { least[i] };
+            }
+        }
+        // Most buckets hold nothing nearer, which one comparison of all lanes tells.
+        if !least.iter().fold(false, |any, &d| any | (d <= self.0.distance2)) {
+            return;
+        }
+        for half in [LANES / 2, LANES / 4, LANES / 8] {
+            for i in 0..half {
+                least[i] = if least[i + half] < least[i] { least[i + half] } else { least[i] };
+            }
+        }
+        let least = least[0];
+        let all = distances.as_flattened().iter().zip(rows);
+        let row = all.filter(|&(&d, _)| d == least).fold(u32::MAX, |a, (_, &row)| a.min(row));
+        if least < self.0.distance2 || row < self.0.row {
+            self.0 = Nearest { row, distance2: least };
+        }
+    }
+}
+
+/// The k nearest points so far: squared distances as bits, which have their order, and rows; the farthest on top.
+struct Several {
+    heap: BinaryHeap<(u64, u32)>,
+    k: usize,
+}
+
+impl Found for Several {
+    #[inline(always)]
+    fn reach(&self) -> f64 {
+        match self.heap.peek() {
+            Some(&(bits, _)) if self.heap.len() == self.k => f64::from_bits(bits),
+            _ => f64::INFINITY,
+        }
+    }
+
+    #[inline(always)]
+    fn offer(&mut self, distances: &[[f64; LANES]; BUCKET / LANES], rows: &[u32; BUCKET]) {
+        for (&distance2, &row) in distances.as_flattened().iter().zip(rows) {
+            if distance2 <= self.reach() && row != u32::MAX {
+                self.heap.push((distance2.to_bits(), row));
+                if self.heap.len() > self.k {
+                    self.heap.pop();
+                }
+            }
+        }
+    }
+}
+
+impl<const D: usize> KdTree<D> {
+    /// The point nearest to `place`, of several equally near the one of the lowest row; none if there are no points, or a
+    /// coordinate of `place` is not a number. O(log n) on average for points in general position.
+    pub fn nearest(&self, place: [f64; D]) -> Option<Nearest> {
+        self.nearest_probed(place, &mut NoProbe)
+    }
+
+    /// [`KdTree::nearest`], heard by a probe.
+    pub fn nearest_probed<P: Probe>(&self, place: [f64; D], probe: &mut P) -> Option<Nearest> {
+        let mut found = One(Nearest { row: u32::MAX, distance2: f64::INFINITY });
+        self.search(Level::detect(), place, &mut found, probe);
+        (found.0.row != u32::MAX).then_some(found.0)
+    }
+
+    /// The `k` points nearest to `place`, or all if there are fewer, by distance and then by row.
+    pub fn nearest_k(&self, place: [f64; D], k: usize) -> Vec<Nearest> {
+        self.nearest_k_probed(place, k, &mut NoProbe)
+    }
+
+    /// [`KdTree::nearest_k`], heard by a probe.
+    pub fn nearest_k_probed<P: Probe>(
+        &self,
+        place: [f64; D],
+        k: usize,
+        probe: &mut P,
+    ) -> Vec<Nearest> {
+        if k == 0 {
+            return Vec::new();
+        }
+        let heap = BinaryHeap::with_capacity(k.min(self.len) + 1);
+        let mut found = Several { heap, k };
+        self.search(Level::detect(), place, &mut found, probe);
+        let sorted = found.heap.into_sorted_vec().into_iter();
+        sorted.map(|(bits, row)| Nearest { row, distance2: f64::from_bits(bits) }).collect()
+    }
+
+    /// [`KdTree::nearest`] of many places, on the current rayon pool. The places are searched for along a Hilbert curve,
+    /// so that each search finds what it needs where the one before it was.
+    pub fn nearest_all(&self, places: &[[f64; D]]) -> Vec<Option<Nearest>> {
+        let order = hilbert_order(places.len(), |i| places[i]);
+        let parts: Vec<Vec<Option<Nearest>>> = order
+            .par_chunks(TASK)
+            .map(|part| part.iter().map(|&i| self.nearest(places[i as usize])).collect())
+            .collect();
+        let mut found = vec![None; places.len()];
+        for (&i, &nearest) in order.iter().zip(parts.iter().flatten()) {
+            found[i as usize] = nearest;
+        }
+        found
+    }
+
+    /// Tells a probe of the arrays; once, ahead of the first probed call.
+    pub fn place<P: Probe>(&self, probe: &mut P) {
+        probe.place(self.nodes.words());
+        probe.place(self.coordinates.words());
+        probe.place(self.rows.words());
+    }
+
+    /// Runs a search with the instructions of a level.
+    #[allow(unsafe_code, reason = "dispatch of a vector kernel")]
+    #[inline]
+    fn search<F: Found, P: Probe>(
+        &self,
+        level: Level,
+        place: [f64; D],
+        found: &mut F,
+        probe: &mut P,
+    ) {
+        match level {
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 => {
+                // SAFETY: the machine has the instructions.
+                unsafe { self.search_avx512(place, found, probe) }
+            }
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2 => {
+                // SAFETY: the machine has the instructions.
+                unsafe { self.search_avx2(place, found, probe) }
+            }
+            Level::Portable => self.search_by(place, found, probe),
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f")]
+    fn search_avx512<F: Found, P: Probe>(&self, place: [f64; D], found: &mut F, probe: &mut P) {
+        self.search_by(place, found, probe);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn search_avx2<F: Found, P: Probe>(&self, place: [f64; D], found: &mut F, probe: &mut P) {
+        self.search_by(place, found, probe);
+    }
+
+    #[inline(always)]
+    fn search_by<F: Found, P: Probe>(&self, place: [f64; D], found: &mut F, probe: &mut P) {
+        if self.len == 0 {
+            return;
+        }
+        let nodes = self.nodes.words();
+        let (coordinates, rows) = (self.coordinates.words(), self.rows.words());
+        let start = Side { child: self.root, distance2: 0.0, offsets: [0.0; D] };
+        let mut waiting = [start; DEPTH_MAX];
+        let (mut count, mut side) = (0, start);
+        loop {
+            while side.child & IS_BUCKET == 0 {
+                let at = side.child as usize;
+                probe.read(&nodes[at..=at]);
+                let node = Node::of_words(nodes[at]);
+                let axis = node.axis();
+                let ahead = place[axis] - node.split;
+                let before = ahead < 0.0;
+                let far = select_unpredictable(before, node.right, node.left());
+                // Chosen, not written to one place of: that would have to reach memory before all are read.
+                let offsets = from_fn(|i| select_unpredictable(i == axis, ahead, side.offsets[i]));
+                let distance2 = length2(offsets);
+                if distance2 <= found.reach() {
+                    waiting[count] = Side { child: far, distance2, offsets };
+                    count += 1;
+                    if far & IS_BUCKET != 0 {
+                        // It is likely to be next, and far away in memory.
+                        let first = (far & !IS_BUCKET) as usize * BUCKET * D;
+                        for line in (0..BUCKET * D).step_by(LANES) {
+                            prefetch(coordinates, first + line);
+                        }
+                    }
+                }
+                side.child = select_unpredictable(before, node.left(), node.right);
+            }
+            let bucket = (side.child & !IS_BUCKET) as usize;
+            let points = &coordinates[bucket * BUCKET * D..][..BUCKET * D];
+            // The rows are read at last, and only if a point is nearer: they are on their way meanwhile.
+            prefetch(rows, bucket * BUCKET);
+            prefetch(rows, bucket * BUCKET + BUCKET / 2);
+            for line in (0..BUCKET * D).step_by(LANES) {
+                prefetch(points, line);
+            }
+            probe.read(points);
+            let (rows, _) = rows[bucket * BUCKET..][..BUCKET].as_chunks::<BUCKET>();
+            probe.read(&rows[0]);
+            found.offer(&distances(place, points), &rows[0]);
+            side = loop {
+                if count == 0 {
+                    return;
+                }
+                count -= 1;
+                if waiting[count].distance2 <= found.reach() {
+                    break waiting[count];
+                }
+            };
+        }
+    }
+}
+
+/// The sum of squares from the first axis on, as [`distances`] adds.
+#[inline(always)]
+fn length2<const D: usize>(offsets: [f64; D]) -> f64 {
+    let mut sum = offsets[0] * offsets[0];
+    for &x in &offsets[1..] {
+        sum += x * x;
+    }
+    sum
+}
+
+/// The squared distances of the points of a bucket from a place.
+#[inline(always)]
+fn distances<const D: usize>(place: [f64; D], points: &[f64]) -> [[f64; LANES]; BUCKET / LANES] {
+    let (lanes, _) = points.as_chunks::<LANES>();
+    let mut distances = [[0.0; LANES]; BUCKET / LANES];
+    for (j, distance) in distances.iter_mut().enumerate() {
+        for i in 0..LANES {
+            let x = lanes[j][i] - place[0];
+            distance[i] = x * x;
+        }
+        for axis in 1..D {
+            for i in 0..LANES {
+                let x = lanes[axis * (BUCKET / LANES) + j][i] - place[axis];
+                distance[i] += x * x;
+            }
+        }
+    }
+    distances
+}
+
+/// Searches with all instructions that the machine has, for tests.
+#[cfg(test)]
+pub(super) fn nearest_by_all<const D: usize>(tree: &KdTree<D>, place: [f64; D]) -> Vec<Nearest> {
+    let search = |level| {
+        let mut found = One(Nearest { row: u32::MAX, distance2: f64::INFINITY });
+        tree.search(level, place, &mut found, &mut NoProbe);
+        found.0
+    };
+    Level::all().into_iter().map(search).collect()
+}

@@ -1,0 +1,218 @@
+//! Packed sets and maps against those of the standard library.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use proptest::prelude::*;
+
+use super::*;
+
+#[derive(Clone, Debug)]
+enum Step {
+    Insert(u16),
+    Remove(u16),
+    Batch(Vec<u16>),
+    Ascend(u8),
+    Hammer(u16, u8),
+}
+
+fn step() -> impl Strategy<Value = Step> {
+    let key = 0u16..600;
+    prop_oneof![
+        4 => key.clone().prop_map(Step::Insert),
+        4 => key.clone().prop_map(Step::Remove),
+        1 => prop::collection::vec(key.clone(), 0..300).prop_map(Step::Batch),
+        1 => any::<u8>().prop_map(Step::Ascend),
+        1 => (key, any::<u8>()).prop_map(|(key, count)| Step::Hammer(key, count)),
+    ]
+}
+
+proptest! {
+    #[test]
+    fn steps_give_the_map_of_the_standard_library(steps in prop::collection::vec(step(), 0..60)) {
+        let (mut map, mut want) = (PackedMap::new(), BTreeMap::new());
+        let mut clock = 0u32;
+        for step in steps {
+            clock += 1;
+            match step {
+                Step::Insert(key) => {
+                    prop_assert_eq!(map.insert(u64::from(key), clock), want.insert(u64::from(key), clock));
+                }
+                Step::Remove(key) => {
+                    prop_assert_eq!(map.remove(u64::from(key)), want.remove(&u64::from(key)));
+                }
+                Step::Batch(keys) => {
+                    let entries: Vec<_> =
+                        (clock..).zip(&keys).map(|(value, &key)| (u64::from(key), value)).collect();
+                    let before = want.len();
+                    want.extend(entries.iter().copied());
+                    prop_assert_eq!(map.insert_batch(&entries), want.len() - before);
+                }
+                Step::Ascend(count) => {
+                    let last = map.last().map_or(0, |entry| entry.0);
+                    for key in last + 1..last + 1 + u64::from(count) {
+                        prop_assert_eq!(map.insert(key, clock), want.insert(key, clock));
+                    }
+                }
+                Step::Hammer(key, count) => {
+                    for below in 0..u64::from(count) {
+                        let key = ((u64::from(key) + 1) << 20) - below;
+                        prop_assert_eq!(map.insert(key, clock), want.insert(key, clock));
+                    }
+                    for below in (0..u64::from(count)).step_by(2) {
+                        let key = ((u64::from(key) + 1) << 20) - below;
+                        prop_assert_eq!(map.remove(key), want.remove(&key));
+                    }
+                }
+            }
+            prop_assert!(map.check().is_ok(), "{:?}", map.check());
+            prop_assert_eq!(map.len(), want.len());
+        }
+        prop_assert!(map.iter().eq(want.iter().map(|(&key, &value)| (key, value))));
+        for low in (0..620).step_by(31) {
+            for high in [low, low + 1, low + 100, u64::MAX] {
+                let wanted = want.range(low..high).map(|(&key, &value)| (key, value));
+                prop_assert!(map.range(low..high).eq(wanted));
+                let wanted = want.range(low..=high).map(|(&key, _)| key);
+                prop_assert!(map.runs(low..=high).flat_map(|run| run.0.to_vec()).eq(wanted));
+            }
+            prop_assert_eq!(map.get(low), want.get(&low));
+        }
+    }
+}
+
+#[test]
+fn nothing_one_key_and_extreme_keys() {
+    let mut set = PackedSet::<f64>::new();
+    assert!(set.check().is_ok() && set.is_empty() && set.first().is_none());
+    assert_eq!(set.iter().count(), 0);
+    assert!(!set.remove(0.0));
+    for key in [f64::NAN, 0.0, -0.0, f64::NEG_INFINITY, -f64::NAN] {
+        assert!(set.insert(key) && !set.insert(key) && set.contains(key));
+    }
+    assert!(set.check().is_ok());
+    let bits: Vec<u64> = set.iter().map(f64::to_bits).collect();
+    let want = [-f64::NAN, f64::NEG_INFINITY, -0.0, 0.0, f64::NAN].map(f64::to_bits);
+    assert_eq!(bits, want);
+
+    let mut set = PackedSet::<u64>::new();
+    set.insert(u64::MAX);
+    for key in (0..5000).rev() {
+        assert!(set.insert(key));
+    }
+    assert!(set.contains(u64::MAX) && set.last() == Some(u64::MAX));
+    assert_eq!(set.range(4999..=u64::MAX).count(), 2);
+    assert_eq!(set.range(4999..u64::MAX).count(), 1);
+    #[allow(clippy::reversed_empty_ranges, reason = "no panic is what is tested")]
+    let none = set.range(10..5).count();
+    assert_eq!(none, 0);
+    assert!(set.check().is_ok());
+    assert!(set.remove(u64::MAX) && !set.contains(u64::MAX));
+    for key in 0..5000 {
+        assert!(set.remove(key));
+    }
+    assert!(set.is_empty() && set.check().is_ok() && set.slots() <= 64);
+}
+
+fn random(state: &mut u64) -> u64 {
+    *state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+    *state ^ *state >> 29
+}
+
+/// Patterns of insertion, each with `n` distinct keys.
+fn patterns(n: u64) -> Vec<(&'static str, Vec<u64>)> {
+    let mut state = 1;
+    let half = 1 << 40;
+    let alternating = |i: u64| if i.is_multiple_of(2) { half - i } else { 2 * half - i };
+    let mut bisected = vec![(0, 1u64 << 60)];
+    for i in 0..n as usize {
+        let (low, high) = bisected[i];
+        bisected.extend([(low, (low + high) / 2), ((low + high) / 2, high)]);
+    }
+    vec![
+        ("random", (0..n).map(|_| random(&mut state)).collect()),
+        ("ascending", (0..n).collect()),
+        ("front", (0..n).rev().collect()),
+        (
+            "middle, descending",
+            (0..n / 2).chain((0..n / 2).map(|i| half - i)).chain([half + 1]).collect(),
+        ),
+        ("middle, ascending", [half].into_iter().chain(0..n).collect()),
+        ("two places in turn", (0..n).map(alternating).collect()),
+        ("bisection", bisected[..n as usize].iter().map(|(low, high)| (low + high) / 2).collect()),
+    ]
+}
+
+/// The bound that is stated: 1.5 log² n moves an insertion, whatever the pattern.
+#[test]
+#[cfg_attr(miri, ignore = "too long for an interpreter")]
+fn moves_are_few_in_all_patterns() {
+    let n = 30_000;
+    let bound = 1.5 * (n as f64).log2().powi(2);
+    for (name, keys) in patterns(n) {
+        let mut set = PackedSet::new();
+        for &key in &keys {
+            set.insert(key);
+        }
+        assert!(set.check().is_ok(), "{name}: {:?}", set.check());
+        assert!(set.iter().eq(keys.iter().copied().collect::<BTreeSet<_>>()), "{name}");
+        let moves = set.moves() as f64 / keys.len() as f64;
+        assert!(moves <= bound, "{name}: {moves} > {bound}");
+        // The same backwards.
+        for &key in keys.iter().rev() {
+            set.remove(key);
+        }
+        assert!(set.is_empty());
+        let both = set.moves() as f64 / keys.len() as f64 - moves;
+        assert!(both <= bound, "{name}, removed: {both} > {bound}");
+    }
+}
+
+#[test]
+fn ascending_keys_are_not_moved() {
+    let mut set = PackedSet::new();
+    for key in 0..20_000u64 {
+        set.insert(key);
+    }
+    assert_eq!(set.moves(), 0);
+    assert!(set.slots() < 20_000 * 3 / 2);
+}
+
+#[test]
+fn a_batch_at_one_place_and_one_of_all() {
+    let mut set: PackedSet<u64> = (0..20_000).map(|i| i * 1000).collect();
+    let batch: Vec<u64> = (0..2000).map(|i| 5_000_001 + i % 999 + i / 999 * 1000).collect();
+    let mut want: BTreeSet<u64> = set.iter().collect();
+    let before = want.len();
+    want.extend(&batch);
+    assert_eq!(set.insert_batch(&batch), want.len() - before);
+    assert!(set.check().is_ok(), "{:?}", set.check());
+    assert!(set.iter().eq(want.iter().copied()));
+    assert_eq!(set.insert_batch(&want.iter().copied().collect::<Vec<_>>()), 0);
+    assert!(set.check().is_ok());
+    assert_eq!(set.insert_batch(&[]), 0);
+}
+
+/// Each field of a set is broken in turn; the checker has to say so.
+#[test]
+fn the_checker_refuses_what_is_wrong() {
+    let broken = |name: &str, breaks: &dyn Fn(&mut PackedMap<u64, ()>)| {
+        let mut map = PackedMap::new();
+        map.insert_batch(&(0..1000u64).map(|i| (2 * i, ())).collect::<Vec<_>>());
+        assert!(map.check().is_ok());
+        breaks(&mut map);
+        assert!(map.check().is_err(), "{name}");
+    };
+    broken("order", &|map| map.keys.words_mut().swap(1, 2));
+    broken("equal keys", &|map| map.keys.words_mut()[1] = 0);
+    broken("a count", &|map| map.counts[3] -= 1);
+    broken("an empty leaf", &|map| {
+        map.len -= map.counts[3] as usize;
+        map.counts[3] = 0;
+    });
+    broken("the number of entries", &|map| map.len += 1);
+    broken("a separator", &|map| map.separators.set(4, 5, &mut crate::NoProbe));
+    broken("a separator above its leaf", &|map| {
+        let word = map.separators.get(4).unwrap();
+        map.separators.set(4, word + 1, &mut crate::NoProbe);
+    });
+}

@@ -1,0 +1,106 @@
+//! Arrays of words that start at a line of memory, and if they are large lie in pages of 2 MiB.
+//!
+//! Problem: a search of a large array touches a new page at nearly every step, and the translation of addresses covers
+//! only a few megabytes in pages of 4 KiB: 44 ns instead of 24 for a search of 2²² keys.
+//! Idea: map memory of our own, aligned to 2 MiB, and ask for large pages before the first touch.
+//! Trap: the request is advice. Where a system has no large pages, or no mapping, the array works as well and is slower.
+
+use bytemuck::Pod;
+use memmap2::{MmapMut, MmapOptions};
+
+/// A large page.
+const PAGE: usize = 1 << 21;
+/// A line of memory.
+const LINE: usize = 64;
+/// A page of the usual size, where arrays start that are as large.
+const SMALL_PAGE: usize = 4096;
+
+enum Store<W> {
+    Heap(Vec<W>),
+    Map(MmapMut),
+}
+
+/// An array of `len` words; the first one starts a line of memory.
+pub(crate) struct Pages<W> {
+    store: Store<W>,
+    /// Where the array starts, in bytes.
+    first: usize,
+    len: usize,
+}
+
+impl<W: Pod> Pages<W> {
+    /// `len` words with all bits zero.
+    pub(crate) fn zeroed(len: usize) -> Self {
+        let bytes = len * size_of::<W>();
+        let large = bytes >= PAGE && !cfg!(miri) && PAGE.is_multiple_of(size_of::<W>().max(1));
+        if let Some((map, first)) = large.then(|| map(bytes)).flatten() {
+            return Self { store: Store::Map(map), first, len };
+        }
+        let align = if bytes < SMALL_PAGE { LINE } else { SMALL_PAGE };
+        let spare = if size_of::<W>() == 0 { 0 } else { align / size_of::<W>() };
+        let heap = vec![W::zeroed(); len + spare];
+        let first = match heap.as_ptr().align_offset(align) {
+            words if words <= spare => words * size_of::<W>(),
+            _ => 0,
+        };
+        Self { store: Store::Heap(heap), first, len }
+    }
+
+    #[inline(always)]
+    pub(crate) fn words(&self) -> &[W] {
+        match &self.store {
+            Store::Heap(heap) => {
+                let first = self.first / size_of::<W>().max(1);
+                &heap[first..first + self.len]
+            }
+            Store::Map(map) => {
+                bytemuck::cast_slice(&map[self.first..self.first + self.len * size_of::<W>()])
+            }
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn words_mut(&mut self) -> &mut [W] {
+        match &mut self.store {
+            Store::Heap(heap) => {
+                let first = self.first / size_of::<W>().max(1);
+                &mut heap[first..first + self.len]
+            }
+            Store::Map(map) => bytemuck::cast_slice_mut(
+                &mut map[self.first..self.first + self.len * size_of::<W>()],
+            ),
+        }
+    }
+}
+
+/// Fresh zeroed memory with room for `bytes` bytes from the offset returned on, which is aligned to a large page.
+fn map(bytes: usize) -> Option<(MmapMut, usize)> {
+    let room = bytes.checked_next_multiple_of(PAGE)?.checked_add(PAGE)?;
+    let map = MmapOptions::new().len(room).map_anon().ok()?;
+    let first = map.as_ptr().align_offset(PAGE);
+    if first > PAGE {
+        return None;
+    }
+    #[cfg(target_os = "linux")]
+    // A system without large pages says no, and the array is as good without them.
+    let _ = map.advise_range(memmap2::Advice::HugePage, first, room - PAGE);
+    Some((map, first))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arrays_of_any_size_start_a_line_and_are_zero() {
+        for len in [0, 1, 7, 100, PAGE / 8 - 1, PAGE / 8, PAGE / 8 + 1] {
+            let mut pages = Pages::<u64>::zeroed(len);
+            assert_eq!(pages.words().len(), len);
+            assert!(pages.words().iter().all(|&word| word == 0));
+            assert!(len == 0 || (pages.words().as_ptr() as usize).is_multiple_of(LINE));
+            pages.words_mut().fill(7);
+            assert_eq!(pages.words().iter().sum::<u64>(), 7 * len as u64);
+        }
+        assert_eq!(Pages::<()>::zeroed(3).words().len(), 3);
+    }
+}
