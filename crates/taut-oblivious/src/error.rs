@@ -48,6 +48,44 @@ pub enum Error {
         /// What the system said.
         source: std::io::Error,
     },
+    /// A file ends within a record.
+    #[error("{path} has {bytes} bytes, which are no whole number of records of {width} bytes")]
+    Partial {
+        /// Which file.
+        path: String,
+        /// Its length.
+        bytes: u64,
+        /// Bytes of a record.
+        width: usize,
+    },
+    /// Records came back from a file other than they were written to it.
+    #[error("{path}: what was read back is not what was written: the disk or its memory fails")]
+    ReadBack {
+        /// Which file.
+        path: String,
+    },
+    /// A file that should be sorted is not.
+    #[error(
+        "{path}: record {record} (from 0) is before the one it follows: the file is not sorted"
+    )]
+    UnsortedFile {
+        /// Which file.
+        path: String,
+        /// The first record whose key is below the key before it.
+        record: u64,
+    },
+    /// A file does not hold the records that it should.
+    #[error(
+        "{path}: {found} records are not the {expected} records of the certificate, or not with the same content"
+    )]
+    OtherRecords {
+        /// Which file.
+        path: String,
+        /// Number of records of the certificate.
+        expected: u64,
+        /// Number of records in the file.
+        found: u64,
+    },
     /// Stopped on request.
     #[error(transparent)]
     Cancelled(#[from] taut_points::Cancelled),

@@ -10,6 +10,13 @@
 //! | an ordered set whose ranges are read like an array | [`packed`] | all densities within bounds | O(log² n) moves an insertion, few in a batch |
 //! | the points nearest to a place | [`kdtree`] | exact, ties to the lowest row | O(log n), few lines of memory |
 //! | a tree in an order for walks from its root | [`layout::permute`] | the same tree | O(n) |
+//! | the same in Z-order | [`morton_order()`], [`morton_key()`] | a function of the point set alone | as above, keys at half the cost |
+//! | numbers in order | [`sort()`] | the total order; NaN is no error | O(n log n), eight at a time |
+//! | records in order of a number | [`sort_records()`] | stable | a few passes of O(n) |
+//! | a file of records in order | [`external::sort_file`] | stable, within a limit on memory, with a certificate | each byte read twice and written twice |
+//! | some of many, in order | [`sample()`], [`bernoulli()`], [`Sequential`] | all sets equally likely; a function of the seed | O(1) for each |
+//! | some of a stream | [`Reservoir`] | all sets equally likely | O(1) an item |
+//! | items in random order | [`shuffle()`] | all orders equally likely; a function of the seed | a few passes of O(n) |
 //!
 //! ```
 //! let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
@@ -21,19 +28,26 @@
 //! ```
 //!
 //! Not for: points with coordinates that are not finite (validate first), or 2³² of them or more.
+
 mod error;
 mod hilbert;
 pub mod kdtree;
 pub mod layout;
+mod morton;
 mod order;
 pub mod packed;
 mod probe;
-mod radix;
 pub mod reference;
+mod room;
+mod sample;
 pub mod search;
 pub mod simulate;
+mod sort;
 
 pub use error::Error;
 pub use hilbert::hilbert_key;
-pub use order::hilbert_order;
+pub use morton::morton_key;
+pub use order::{hilbert_order, morton_order};
 pub use probe::{Access, NoProbe, Probe};
+pub use sample::{Reservoir, Sequential, bernoulli, sample, shuffle, shuffle_probed};
+pub use sort::{SortKey, external, sort, sort_probed, sort_records, sort_records_probed};

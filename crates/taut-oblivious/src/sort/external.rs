@@ -1,0 +1,106 @@
+//! Sorting files of records that are larger than memory.
+//!
+//! *Problem.* n records of w bytes in a file, a key in each, a limit on memory.
+//! *Idea.* Read what fits, sort it, write it as a run; then merge all runs at once. All runs stand in one file, so three
+//! files are open however many runs there are. If so many runs come together that their blocks would be tiny,
+//! neighbouring runs are merged into longer ones first.
+//! *Guarantee.* Stable: the output is a function of the input and the place of the key, whatever the memory and the
+//! threads. Each byte is read twice and written twice while n·w is below some memory² / 512 KiB, 128 GiB for 256 MiB; a
+//! file that fits is read and written once. The output appears whole under its name or not at all. What is read back is compared with
+//! what was read first by a hash of 128 bits of the multiset of records, which is the certificate; [`verify`] shares no
+//! code with the sort.
+//! *Trap.* Waiting for the disk and sorting in turn wastes both: a block is written while the next one is filled, and the
+//! next blocks are asked for before they are needed.
+//! *Trap.* A limit on memory counts everything: the numbers of the records, the block that is being written.
+//! *References.* D. Knuth, *The Art of Computer Programming* 3, 5.4.1 (multiway merging, trees of losers), 5.4.9;
+//! A. Aggarwal, J. Vitter, *The input/output complexity of sorting*, CACM 31(9), 1988; D. Clarke et al., *Incremental
+//! multiset hash functions*, ASIACRYPT 2003 (sums of hashes).
+
+mod chunk;
+mod digest;
+mod draft;
+mod engine;
+mod files;
+mod journal;
+mod layout;
+mod medium;
+mod merge;
+#[cfg(test)]
+mod tests;
+mod verify;
+
+use std::path::{Path, PathBuf};
+
+use taut_points::Monitor;
+
+use crate::error::Error;
+pub use layout::{KeyKind, RecordLayout};
+pub use verify::{Inspection, inspect, verify};
+
+/// How to sort a file. Write `FileSortOptions { memory: 1 << 30, ..Default::default() }`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileSortOptions {
+    /// Most bytes of memory for records and what is needed to sort them; the program itself comes on top. At least
+    /// 64 KiB and 64 records, default 256 MiB.
+    pub memory: usize,
+    /// The folder for runs; none: that of the output. Runs have no name there and vanish with the process.
+    pub scratch: Option<PathBuf>,
+    /// A file to keep the runs in, under this name, until the output is there. If it exists, it must be from the same
+    /// sort, which then goes on behind the last run that was complete. None by default: nothing outlives the process.
+    pub resume: Option<PathBuf>,
+}
+
+impl Default for FileSortOptions {
+    fn default() -> Self {
+        Self { memory: 256 << 20, scratch: None, resume: None }
+    }
+}
+
+/// What proves that two files hold the same records, in whatever order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Multiset {
+    /// Number of records.
+    pub records: u64,
+    /// Sum of the hashes of all records, modulo 2¹²⁸. Two multisets that differ agree in it by chance only; it is no
+    /// defence against somebody who means to deceive.
+    pub hash: u128,
+}
+
+/// How a file was sorted: its certificate, and counters.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FileSort {
+    /// The records that were read; those of the output were found to be the same.
+    pub certificate: Multiset,
+    /// Runs that the input was cut into; 1 if it fitted.
+    pub runs: u64,
+    /// Runs that an earlier process had left, of those.
+    pub runs_resumed: u64,
+    /// Bytes read from all files.
+    pub bytes_read: u64,
+    /// Bytes written to all files.
+    pub bytes_written: u64,
+}
+
+/// Sorts the records of a file by their key into another file, or into the same one.
+///
+/// Stable. `monitor` hears of a pass over the records while runs are made, one for each merge of some runs into a longer
+/// one, and one for the last merge; it can stop the work after any block. Until the output is complete, `output` is
+/// untouched. Where the system has files without a name, nothing is left behind even if the process is killed, but for
+/// the file of [`FileSortOptions::resume`], which is removed when the output is there. Room for runs and output is
+/// reserved at the beginning where the system can, so that a full disk is told before the work.
+///
+/// Runs on the current rayon pool.
+///
+/// # Errors
+/// [`Error::Option`] for a layout or a limit that makes no sense, and for a file to resume that is of another sort;
+/// [`Error::Partial`] if the input ends within a record; [`Error::File`] for what the system refuses;
+/// [`Error::ReadBack`] if records came back from the disk other than they were written; [`Error::Cancelled`].
+pub fn sort_file(
+    input: &Path,
+    output: &Path,
+    layout: &RecordLayout,
+    options: &FileSortOptions,
+    monitor: &Monitor<'_>,
+) -> Result<FileSort, Error> {
+    files::sort(input, output, layout, options, monitor)
+}

@@ -1,0 +1,86 @@
+//! Which files are open, under which names, and what is left of them.
+//!
+//! *Guarantee.* Runs are in a file without a name, which the system takes back when the process ends, in whatever way;
+//! the output is in another one until it is complete, then it gets its name in one step. With
+//! [`FileSortOptions::resume`] the runs have that name instead, and only success removes it.
+//! *Trap.* A file without a name can be given one that is free, but cannot replace another; so where the output exists,
+//! the new one is named beside it for the moment between two calls of the system.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::Path;
+use std::time::UNIX_EPOCH;
+
+use taut_points::Monitor;
+
+use super::draft::Draft;
+use super::engine::{self, Plan};
+use super::journal::Journal;
+use super::layout::RecordLayout;
+use super::medium::Medium;
+use super::{FileSort, FileSortOptions};
+use crate::error::Error;
+
+pub(super) fn sort(
+    input: &Path,
+    output: &Path,
+    layout: &RecordLayout,
+    options: &FileSortOptions,
+    monitor: &Monitor<'_>,
+) -> Result<FileSort, Error> {
+    layout.check()?;
+    let file = at(input, File::open(input))?;
+    let about = at(input, file.metadata())?;
+    if !about.is_file() {
+        let not = io::Error::new(io::ErrorKind::InvalidInput, "not a regular file");
+        return at(input, Err(not));
+    }
+    let width = layout.width as u64;
+    if about.len() % width != 0 {
+        let path = input.display().to_string();
+        return Err(Error::Partial { path, bytes: about.len(), width: layout.width });
+    }
+    let plan = Plan::new(layout, about.len() / width, options.memory)?;
+    let mut from = Medium::new(file, input.display().to_string());
+    let draft = at(output, Draft::beside(output))?;
+    let mut to = Medium::new(draft, output.display().to_string());
+    let found = if plan.fits() {
+        engine::within(&plan, &mut from, &mut to, monitor)?
+    } else if let Some(path) = &options.resume {
+        let file = at(path, open_or_create(path))?;
+        let length = at(path, file.metadata())?.len();
+        let modified = about.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
+        let mut runs = Medium::new(file, path.display().to_string());
+        let modified = modified.map_or(0, |since| since.as_nanos() as u64);
+        let journal = Journal::open(&plan, modified, length, &mut runs)?;
+        engine::beyond(&plan, &mut from, &mut runs, Some(&journal), &mut to, monitor)?
+    } else {
+        let folder = options.scratch.as_deref().unwrap_or(folder(output));
+        let file = at(folder, tempfile::tempfile_in(folder))?;
+        let mut runs = Medium::new(file, format!("runs in {}", folder.display()));
+        engine::beyond(&plan, &mut from, &mut runs, None, &mut to, monitor)?
+    };
+    at(output, to.into_storage().publish(output))?;
+    match &options.resume {
+        Some(path) if !plan.fits() => at(path, fs::remove_file(path))?,
+        _ => {}
+    }
+    Ok(found)
+}
+
+/// Names the file that an error is about.
+fn at<T>(path: &Path, result: io::Result<T>) -> Result<T, Error> {
+    result.map_err(|source| Error::File { path: path.display().to_string(), source })
+}
+
+/// The folder of a file.
+pub(super) fn folder(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Opens the file of runs; two processes must not share it.
+fn open_or_create(path: &Path) -> io::Result<File> {
+    let file = File::options().read(true).write(true).create(true).truncate(false).open(path)?;
+    file.try_lock().map_err(io::Error::from)?;
+    Ok(file)
+}

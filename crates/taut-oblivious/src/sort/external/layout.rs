@@ -1,0 +1,78 @@
+//! Where the key of a record is, and how keys compare.
+
+use std::cmp::Ordering;
+use std::ops::Range;
+
+use crate::error::Error;
+use crate::sort::SortKey;
+
+/// How the bytes of a key are to be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum KeyKind {
+    /// A 64-bit unsigned integer, least significant byte first.
+    U64,
+    /// A 64-bit signed integer, least significant byte first.
+    I64,
+    /// A double, least significant byte first; in the total order of [`f64::total_cmp`].
+    F64,
+    /// Bytes in lexicographic order. Integers with the most significant byte first are sorted this way, too.
+    Bytes,
+}
+
+/// Records of fixed width, and the key in each.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct RecordLayout {
+    /// Bytes of a record.
+    pub width: usize,
+    /// The bytes of it that are the key: eight for numbers.
+    pub key: Range<usize>,
+    /// What these bytes mean.
+    pub kind: KeyKind,
+}
+
+impl RecordLayout {
+    /// Whether it makes sense.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let wrong = |name, value: String, expected| Err(Error::Option { name, value, expected });
+        if !(1..=1 << 24).contains(&self.width) {
+            return wrong("width", self.width.to_string(), "1 to 16777216 bytes");
+        }
+        if self.key.start >= self.key.end || self.key.end > self.width {
+            return wrong("key", format!("{:?}", self.key), "some bytes within the record");
+        }
+        if self.kind != KeyKind::Bytes && self.key.len() != 8 {
+            return wrong("key", format!("{:?}", self.key), "eight bytes for a number");
+        }
+        Ok(())
+    }
+
+    /// A number in the order of the keys, but for keys of more than eight bytes that agree in these.
+    #[inline]
+    pub(super) fn rank(&self, record: &[u8]) -> u64 {
+        let key = &record[self.key.clone()];
+        if let Ok(word) = <[u8; 8]>::try_from(key) {
+            return match self.kind {
+                KeyKind::U64 => u64::from_le_bytes(word),
+                KeyKind::I64 => i64::from_le_bytes(word).rank(),
+                KeyKind::F64 => f64::from_le_bytes(word).rank(),
+                KeyKind::Bytes => u64::from_be_bytes(word),
+            };
+        }
+        let mut word = [0; 8];
+        let first = key.len().min(8);
+        word[..first].copy_from_slice(&key[..first]);
+        u64::from_be_bytes(word)
+    }
+
+    /// Whether ranks may be equal where keys are not.
+    pub(super) fn is_long(&self) -> bool {
+        self.key.len() > 8
+    }
+
+    /// The order of two keys whose ranks are equal.
+    pub(super) fn compare_rest(&self, a: &[u8], b: &[u8]) -> Ordering {
+        let rest =
+            |record: &[u8]| self.key.start + 8.min(self.key.len())..self.key.end.min(record.len());
+        a[rest(a)].cmp(&b[rest(b)])
+    }
+}

@@ -1,0 +1,338 @@
+//! On files, on disks that fail, and against the checker, which is shown doctored files first.
+
+mod disk;
+mod killed;
+mod resumed;
+
+use std::fs;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use proptest::prelude::*;
+use tempfile::TempDir;
+
+use super::*;
+
+/// The least memory that is accepted.
+const LEAST: usize = 64 << 10;
+
+fn word(i: u64) -> u64 {
+    let z = (i + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    (z ^ z >> 29).wrapping_mul(0xBF58_476D_1CE4_E5B9)
+}
+
+/// Records of a width that have a number at `key`, masked so that keys repeat, and their place behind it.
+fn records(n: u64, width: usize, key: usize, mask: u64) -> Vec<u8> {
+    let mut bytes = vec![0; n as usize * width];
+    for (i, record) in bytes.chunks_exact_mut(width).enumerate() {
+        let (number, place) = (word(i as u64) & mask, (i as u32).to_le_bytes());
+        let size = 8.min(width - key);
+        record[key..key + size].copy_from_slice(&number.to_le_bytes()[..size]);
+        for (byte, place) in record.iter_mut().rev().zip(place) {
+            *byte ^= place;
+        }
+    }
+    bytes
+}
+
+/// The standard library's stable sort, with keys read in its own way.
+fn expected(bytes: &[u8], layout: &RecordLayout) -> Vec<u8> {
+    let mut records: Vec<&[u8]> = bytes.chunks_exact(layout.width).collect();
+    let key = |record: &[u8]| record[layout.key.clone()].to_vec();
+    let eight = |record: &[u8]| <[u8; 8]>::try_from(key(record)).expect("eight bytes");
+    match layout.kind {
+        KeyKind::U64 => records.sort_by_key(|r| u64::from_le_bytes(eight(r))),
+        KeyKind::I64 => records.sort_by_key(|r| i64::from_le_bytes(eight(r))),
+        KeyKind::F64 => {
+            records.sort_by(|a, b| {
+                f64::from_le_bytes(eight(a)).total_cmp(&f64::from_le_bytes(eight(b)))
+            });
+        }
+        KeyKind::Bytes => records.sort_by_key(|r| key(r)),
+    }
+    records.concat()
+}
+
+struct Folder(TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().expect("a folder"))
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn with(bytes: &[u8]) -> Self {
+        let folder = Self::new();
+        fs::write(folder.path("in"), bytes).expect("written");
+        folder
+    }
+
+    fn sort(&self, layout: &RecordLayout, memory: usize) -> Result<FileSort, Error> {
+        self.sort_with(
+            layout,
+            &FileSortOptions { memory, ..Default::default() },
+            &Monitor::silent(),
+        )
+    }
+
+    fn sort_with(
+        &self,
+        layout: &RecordLayout,
+        options: &FileSortOptions,
+        monitor: &Monitor<'_>,
+    ) -> Result<FileSort, Error> {
+        sort_file(&self.path("in"), &self.path("out"), layout, options, monitor)
+    }
+
+    /// Names of the files in it.
+    fn names(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.0.path()).expect("a folder");
+        let mut names: Vec<String> = entries
+            .map(|e| e.expect("an entry").file_name().into_string().expect("a name"))
+            .collect();
+        names.sort();
+        names
+    }
+}
+
+fn layout(width: usize, key: std::ops::Range<usize>, kind: KeyKind) -> RecordLayout {
+    RecordLayout { width, key, kind }
+}
+
+fn whole_number(width: usize) -> RecordLayout {
+    layout(width, 0..8, KeyKind::U64)
+}
+
+#[test]
+fn every_kind_of_key_in_memory_and_beyond() {
+    let kinds = [
+        layout(8, 0..8, KeyKind::U64),
+        layout(16, 8..16, KeyKind::I64),
+        layout(32, 3..11, KeyKind::F64),
+        layout(17, 2..10, KeyKind::F64),
+        layout(24, 0..5, KeyKind::Bytes),
+        layout(40, 4..30, KeyKind::Bytes),
+        layout(9, 1..9, KeyKind::Bytes),
+        layout(1, 0..1, KeyKind::Bytes),
+    ];
+    for layout in kinds {
+        for n in [0, 1, 2, 63, 64, 65, 9000] {
+            for mask in [u64::MAX, 0xFF, 0] {
+                let bytes = records(n, layout.width, layout.key.start, mask);
+                let folder = Folder::with(&bytes);
+                let found = folder.sort(&layout, LEAST).expect("sorted");
+                let sorted = fs::read(folder.path("out")).expect("an output");
+                assert!(sorted == expected(&bytes, &layout), "{n} of {layout:?}, {found:?}");
+                verify(&folder.path("out"), &layout, &found.certificate, &Monitor::silent())
+                    .expect("confirmed");
+                let before = inspect(&folder.path("in"), &layout, &Monitor::silent());
+                assert_eq!(before.expect("read").multiset, found.certificate);
+                assert_eq!(folder.names(), ["in", "out"]);
+            }
+        }
+    }
+}
+
+/// Long keys that agree in their first eight bytes: words say nothing, the keys must be compared.
+#[test]
+fn long_keys_with_a_common_start() {
+    let layout = layout(32, 0..20, KeyKind::Bytes);
+    let mut bytes = records(6000, 32, 8, 0xFFFF);
+    bytes.chunks_exact_mut(32).for_each(|record| record[..8].fill(7));
+    let folder = Folder::with(&bytes);
+    let found = folder.sort(&layout, LEAST).expect("sorted");
+    assert!(found.runs > 3);
+    assert!(fs::read(folder.path("out")).expect("an output") == expected(&bytes, &layout));
+}
+
+#[test]
+fn memory_and_threads_change_no_byte() {
+    let layout = whole_number(16);
+    let bytes = records(60_000, 16, 0, 0xFFF);
+    let expected = expected(&bytes, &layout);
+    let folder = Folder::with(&bytes);
+    for (memory, runs) in [(LEAST, 24), (1 << 18, 6), (1 << 20, 2), (1 << 24, 1)] {
+        for threads in [1, 3] {
+            let pool =
+                rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            let found = pool.install(|| folder.sort(&layout, memory)).expect("sorted");
+            assert_eq!(found.runs, runs);
+            assert!(fs::read(folder.path("out")).expect("an output") == expected, "{memory}");
+        }
+    }
+}
+
+#[test]
+fn each_byte_is_read_twice_and_written_twice() {
+    let bytes = records(40_000, 32, 0, u64::MAX);
+    let folder = Folder::with(&bytes);
+    let found = folder.sort(&whole_number(32), 256 << 10).expect("sorted");
+    assert!(found.runs > 4);
+    assert_eq!(found.bytes_read, 2 * bytes.len() as u64);
+    assert_eq!(found.bytes_written, 2 * bytes.len() as u64);
+    let found = folder.sort(&whole_number(32), 1 << 24).expect("sorted");
+    assert_eq!((found.bytes_read, found.bytes_written), (bytes.len() as u64, bytes.len() as u64));
+}
+
+#[test]
+fn a_file_is_sorted_into_itself_and_an_old_output_is_replaced() {
+    let layout = whole_number(8);
+    let bytes = records(20_000, 8, 0, u64::MAX);
+    let folder = Folder::with(&bytes);
+    fs::write(folder.path("out"), "old").expect("written");
+    folder.sort(&layout, LEAST).expect("sorted");
+    let path = folder.path("in");
+    let options = FileSortOptions { memory: LEAST, ..Default::default() };
+    sort_file(&path, &path, &layout, &options, &Monitor::silent()).expect("sorted");
+    assert!(fs::read(&path).expect("an output") == expected(&bytes, &layout));
+    assert!(fs::read(folder.path("out")).expect("an output") == expected(&bytes, &layout));
+}
+
+#[test]
+fn wrong_calls_are_answered_by_name() {
+    let folder = Folder::with(&[0; 100]);
+    let said = |layout: &RecordLayout, memory| {
+        let error = folder.sort(layout, memory).expect_err("refused");
+        assert_eq!(folder.names(), ["in"]);
+        error.to_string()
+    };
+    assert!(said(&whole_number(16), LEAST).contains("100 bytes"));
+    assert!(said(&layout(0, 0..0, KeyKind::Bytes), LEAST).contains("`width`"));
+    assert!(said(&layout(10, 4..11, KeyKind::Bytes), LEAST).contains("`key`"));
+    assert!(said(&layout(10, 4..4, KeyKind::Bytes), LEAST).contains("`key`"));
+    assert!(said(&layout(10, 0..7, KeyKind::F64), LEAST).contains("eight bytes"));
+    assert!(said(&layout(10, 0..8, KeyKind::F64), LEAST - 1).contains("`memory`"));
+    assert!(said(&layout(50, 0..8, KeyKind::F64), 0).contains("`memory`"));
+    let missing = FileSortOptions::default();
+    let (nowhere, out) = (folder.path("nowhere"), folder.path("out"));
+    let error = sort_file(&nowhere, &out, &whole_number(10), &missing, &Monitor::silent());
+    assert!(matches!(error, Err(Error::File { path, .. }) if path.ends_with("nowhere")));
+    let error = sort_file(folder.0.path(), &out, &whole_number(10), &missing, &Monitor::silent());
+    assert!(error.expect_err("refused").to_string().contains("not a regular file"));
+}
+
+/// Stopped at any block, the work leaves nothing; and no more than three files are open at any time.
+#[test]
+fn stopped_anywhere_nothing_is_left() {
+    let layout = whole_number(32);
+    let folder = Folder::with(&records(30_000, 32, 0, u64::MAX));
+    let options = FileSortOptions { memory: LEAST, ..Default::default() };
+    for limit in [0, 1, 10_000, 29_999, 30_001, 45_000, 59_000] {
+        let (cancel, points) = (AtomicBool::new(limit == 0), AtomicU64::new(0));
+        let count = |more: u64| {
+            if points.fetch_add(more, Ordering::Relaxed) + more >= limit {
+                cancel.store(true, Ordering::Relaxed);
+            }
+            assert!(files_open(folder.0.path()) <= 3);
+        };
+        let monitor =
+            Monitor { on_points: Some(&count), cancel: Some(&cancel), ..Monitor::silent() };
+        let stopped = folder.sort_with(&layout, &options, &monitor);
+        assert!(matches!(stopped, Err(Error::Cancelled(_))), "{limit}: {stopped:?}");
+        assert_eq!(folder.names(), ["in"]);
+    }
+}
+
+/// How many open files of this process are, or were, in a folder.
+fn files_open(folder: &std::path::Path) -> usize {
+    let Ok(open) = fs::read_dir("/proc/self/fd") else { return 0 };
+    open.filter_map(|entry| fs::read_link(entry.ok()?.path()).ok())
+        .filter(|path| path.starts_with(folder))
+        .count()
+}
+
+#[test]
+fn passes_and_records_are_told() {
+    let folder = Folder::with(&records(40_000, 16, 0, u64::MAX));
+    let (passes, points) = (AtomicU64::new(0), AtomicU64::new(0));
+    let pass = |number: u64, records: u64| {
+        passes.store(number, Ordering::Relaxed);
+        assert!(number > 0 && records <= 40_000);
+    };
+    let count = |more: u64| {
+        points.fetch_add(more, Ordering::Relaxed);
+    };
+    let monitor = Monitor { on_points: Some(&count), on_pass: Some(&pass), cancel: None };
+    let options = FileSortOptions { memory: LEAST, ..Default::default() };
+    let found = folder.sort_with(&whole_number(16), &options, &monitor).expect("sorted");
+    assert_eq!((found.runs, passes.into_inner()), (16, 3));
+    // Sixteen runs are one too many: two are merged first.
+    assert!(points.into_inner() > 2 * 40_000);
+}
+
+/// The most memory this process has used at any time, in bytes; 0 where the system does not say.
+fn peak() -> u64 {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kib = line.and_then(|line| line.split_whitespace().next()?.parse::<u64>().ok());
+    kib.unwrap_or(0) << 10
+}
+
+/// As large as it takes to see that memory stays within its limit. `TMPDIR` says where.
+#[test]
+#[ignore = "writes 9.6 GB: a hundred million records, their runs and the output, and looks at the peak of the process"]
+fn a_hundred_million_records_within_their_memory() {
+    let n = 100_000_000;
+    let folder = Folder::new();
+    let file = fs::File::create(folder.path("in")).expect("a file");
+    let mut to = std::io::BufWriter::with_capacity(1 << 20, file);
+    for i in 0..4 * n {
+        std::io::Write::write_all(&mut to, &word(i).to_le_bytes()).expect("room");
+    }
+    drop(to);
+    let layout = whole_number(32);
+    let found = folder.sort(&layout, 256 << 20).expect("sorted");
+    assert_eq!((found.bytes_read, found.bytes_written), (64 * n, 64 * n));
+    assert!(peak() <= 288 << 20, "{} MiB", peak() >> 20);
+    verify(&folder.path("out"), &layout, &found.certificate, &Monitor::silent())
+        .expect("confirmed");
+}
+
+#[test]
+fn the_checker_rejects_doctored_files() {
+    let layout = layout(16, 4..12, KeyKind::I64);
+    let bytes = records(5000, 16, 4, u64::MAX);
+    let folder = Folder::with(&bytes);
+    let certificate = folder.sort(&layout, LEAST).expect("sorted").certificate;
+    let sorted = fs::read(folder.path("out")).expect("an output");
+    let judge = |bytes: &[u8]| {
+        fs::write(folder.path("doctored"), bytes).expect("written");
+        verify(&folder.path("doctored"), &layout, &certificate, &Monitor::silent())
+    };
+    judge(&sorted).expect("untouched");
+    assert!(matches!(judge(&bytes), Err(Error::UnsortedFile { .. })));
+    let mut swapped = sorted.clone();
+    swapped[1600..1632].rotate_left(16);
+    assert!(matches!(judge(&swapped), Err(Error::UnsortedFile { record: 101, .. })));
+    for bit in [0, 100, 16 * 5000 * 8 - 1, 77_777] {
+        let mut flipped = sorted.clone();
+        flipped[bit / 8] ^= 1 << (bit % 8);
+        assert!(judge(&flipped).is_err(), "bit {bit}");
+    }
+    let doubled = [&sorted[..16], &sorted[..sorted.len() - 16]].concat();
+    for other in
+        [&[][..], &sorted[16..], &doubled, &[&sorted[..], &sorted[sorted.len() - 16..]].concat()]
+    {
+        assert!(matches!(judge(other), Err(Error::OtherRecords { expected: 5000, .. })));
+    }
+    assert!(matches!(judge(&sorted[1..]), Err(Error::Partial { bytes: 79_999, .. })));
+}
+
+proptest! {
+    /// Solver and checker have their own code for the hash.
+    #[test]
+    fn both_hashes_are_the_same_function(
+        bytes in prop::collection::vec(any::<u8>(), 0..200), width in 1usize..40,
+    ) {
+        let bytes = &bytes[..bytes.len() / width * width];
+        let folder = Folder::with(bytes);
+        let mut multiset = Multiset::default();
+        multiset.add(bytes, width);
+        let layout = layout(width, 0..1, KeyKind::Bytes);
+        let found = inspect(&folder.path("in"), &layout, &Monitor::silent()).expect("read");
+        prop_assert_eq!(found.multiset, multiset);
+    }
+}

@@ -1,0 +1,159 @@
+//! Disks that read and write by halves, are interrupted, are full, or forget.
+
+use std::io;
+use std::sync::Mutex;
+
+use super::*;
+use crate::sort::external::engine::{self, Plan};
+use crate::sort::external::medium::{Medium, Storage};
+
+/// A disk in memory, and what is wrong with it.
+#[derive(Default)]
+struct Disk {
+    bytes: Mutex<Vec<u8>>,
+    calls: AtomicU64,
+    /// Calls move part of what they could, and every fifth is interrupted.
+    by_halves: bool,
+    /// Writing beyond so many bytes fails.
+    room: Option<u64>,
+    /// Reserving tells of that.
+    tells: bool,
+    /// This byte is read with a bit turned.
+    forgets: Option<usize>,
+}
+
+impl Disk {
+    fn with(bytes: &[u8]) -> Self {
+        Self { bytes: Mutex::new(bytes.to_vec()), ..Self::default() }
+    }
+
+    /// How much of a call is done.
+    fn part(&self, bytes: usize) -> io::Result<usize> {
+        match word(self.calls.fetch_add(1, Ordering::Relaxed)) % 5 {
+            0 if self.by_halves => Err(io::ErrorKind::Interrupted.into()),
+            share if self.by_halves => Ok((bytes * share as usize / 4).max(1).min(bytes)),
+            _ => Ok(bytes),
+        }
+    }
+}
+
+impl Storage for Disk {
+    fn read_at(&self, to: &mut [u8], offset: u64) -> io::Result<usize> {
+        let (bytes, offset) = (self.bytes.lock().expect("no panic"), offset as usize);
+        let part = self.part(to.len().min(bytes.len().saturating_sub(offset)))?;
+        to[..part].copy_from_slice(&bytes[offset..offset + part]);
+        if let Some(lost) = self.forgets.filter(|lost| (offset..offset + part).contains(lost)) {
+            to[lost - offset] ^= 4;
+        }
+        Ok(part)
+    }
+
+    fn write_at(&self, from: &[u8], offset: u64) -> io::Result<usize> {
+        let part = self.part(from.len())?;
+        let end = offset as usize + part;
+        if self.room.is_some_and(|room| end as u64 > room) {
+            return Err(io::ErrorKind::StorageFull.into());
+        }
+        let mut bytes = self.bytes.lock().expect("no panic");
+        let length = bytes.len().max(end);
+        bytes.resize(length, 0);
+        bytes[end - part..end].copy_from_slice(&from[..part]);
+        Ok(part)
+    }
+
+    fn reserve(&self, bytes: u64) -> io::Result<()> {
+        match self.room {
+            Some(room) if self.tells && bytes > room => Err(io::ErrorKind::StorageFull.into()),
+            _ => Ok(()),
+        }
+    }
+
+    fn sync(&self) -> io::Result<()> {
+        self.part(1).map(|_| ())
+    }
+
+    fn soon(&self, _: u64, _: u64) {}
+}
+
+/// Sorts from disk to disk by way of a third.
+fn sort(
+    input: Disk,
+    runs: Disk,
+    output: Disk,
+    memory: usize,
+) -> Result<(FileSort, Vec<u8>), Error> {
+    let layout = whole_number(16);
+    let records = input.bytes.lock().expect("no panic").len() as u64 / 16;
+    let plan = Plan::new(&layout, records, memory)?;
+    let [mut input, mut runs, mut output] = [(input, "input"), (runs, "runs"), (output, "output")]
+        .map(|(d, p)| Medium::new(d, p.into()));
+    let monitor = Monitor::silent();
+    let found = engine::beyond(&plan, &mut input, &mut runs, None, &mut output, &monitor)?;
+    Ok((found, output.into_storage().bytes.into_inner().expect("no panic")))
+}
+
+#[test]
+fn short_and_interrupted_calls_change_nothing() {
+    let bytes = records(50_000, 16, 0, 0xFFFFF);
+    let halves = || Disk { by_halves: true, ..Disk::default() };
+    let input = Disk { by_halves: true, ..Disk::with(&bytes) };
+    let (found, sorted) = sort(input, halves(), halves(), LEAST).expect("sorted");
+    assert!(found.runs > 15, "{found:?}");
+    assert!(sorted == expected(&bytes, &whole_number(16)));
+}
+
+/// More runs than can be merged at once: twenty and four hundred, which takes three levels.
+#[test]
+fn many_runs_are_merged_in_steps() {
+    for n in [52_000, 600_000] {
+        let bytes = records(n, 16, 0, 0xFFFFF);
+        let (found, sorted) =
+            sort(Disk::with(&bytes), Disk::default(), Disk::default(), LEAST).expect("sorted");
+        assert!(
+            found.bytes_read > 2 * bytes.len() as u64 && found.bytes_read < 5 * bytes.len() as u64
+        );
+        assert!(sorted == expected(&bytes, &whole_number(16)));
+    }
+}
+
+#[test]
+fn a_full_disk_is_told_whenever_it_is_full() {
+    let bytes = records(20_000, 16, 0, u64::MAX);
+    let size = bytes.len() as u64;
+    for room in [0, 1, 4096, 100_000, size - 1] {
+        for tells in [false, true] {
+            let full = || Disk { room: Some(room), tells, ..Disk::default() };
+            for (runs, output, name) in
+                [(full(), Disk::default(), "runs"), (Disk::default(), full(), "output")]
+            {
+                let error = sort(Disk::with(&bytes), runs, output, LEAST).expect_err("no room");
+                let Error::File { path, source } = error else { panic!("{error}") };
+                assert_eq!((path.as_str(), source.kind()), (name, io::ErrorKind::StorageFull));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_disk_that_forgets_is_found_out() {
+    let bytes = records(20_000, 16, 0, u64::MAX);
+    for lost in [0, 9, 100_000, bytes.len() - 1] {
+        let runs = Disk { forgets: Some(lost), ..Disk::default() };
+        let error = sort(Disk::with(&bytes), runs, Disk::default(), LEAST).expect_err("forgotten");
+        assert!(matches!(error, Error::ReadBack { .. }), "{error}");
+    }
+}
+
+/// An input that became shorter while it was read.
+#[test]
+fn an_input_that_ends_too_soon_is_an_error() {
+    let layout = whole_number(16);
+    let plan = Plan::new(&layout, 20_000, LEAST).expect("a plan");
+    let mut input = Medium::new(Disk::with(&records(19_999, 16, 0, u64::MAX)), "input".into());
+    let mut output = Medium::new(Disk::default(), "output".into());
+    let mut runs = Medium::new(Disk::default(), "runs".into());
+    let monitor = Monitor::silent();
+    let error = engine::beyond(&plan, &mut input, &mut runs, None, &mut output, &monitor);
+    assert!(matches!(error, Err(Error::File { path, source })
+        if path == "input" && source.kind() == io::ErrorKind::UnexpectedEof));
+}

@@ -1,0 +1,107 @@
+//! Going on where another process stopped.
+
+use super::*;
+
+const N: u64 = 40_000;
+
+fn options(folder: &Folder) -> FileSortOptions {
+    FileSortOptions { memory: LEAST, resume: Some(folder.path("runs")), scratch: None }
+}
+
+/// Sorts until so many records were told of.
+fn stop_at(folder: &Folder, limit: u64) {
+    let (cancel, points) = (AtomicBool::new(false), AtomicU64::new(0));
+    let count = |more: u64| {
+        if points.fetch_add(more, Ordering::Relaxed) + more >= limit {
+            cancel.store(true, Ordering::Relaxed);
+        }
+    };
+    let monitor = Monitor { on_points: Some(&count), cancel: Some(&cancel), ..Monitor::silent() };
+    let stopped = folder.sort_with(&whole_number(32), &options(folder), &monitor);
+    assert!(matches!(stopped, Err(Error::Cancelled(_))));
+    assert_eq!(folder.names(), ["in", "runs"]);
+}
+
+#[test]
+fn runs_that_are_there_are_not_made_again() {
+    let bytes = records(N, 32, 0, 0xFFFF);
+    let folder = Folder::with(&bytes);
+    let mut before = 0;
+    for limit in [9000, 20_000, 39_000, N + 5000, 2 * N - 2000] {
+        stop_at(&folder, limit);
+        let monitor = Monitor::silent();
+        let copy = Folder::new();
+        for name in ["in", "runs"] {
+            fs::copy(folder.path(name), copy.path(name)).expect("copied");
+        }
+        // The copy of the input must look as old as the input itself.
+        let time = fs::metadata(folder.path("in")).and_then(|m| m.modified()).expect("a time");
+        let file = fs::File::options().write(true).open(copy.path("in")).expect("a file");
+        file.set_modified(time).expect("set");
+        let found = copy.sort_with(&whole_number(32), &options(&copy), &monitor).expect("sorted");
+        assert!(found.runs_resumed >= before && found.runs_resumed <= found.runs, "{found:?}");
+        assert!(found.runs_resumed > 0);
+        before = found.runs_resumed;
+        assert!(
+            fs::read(copy.path("out")).expect("an output") == expected(&bytes, &whole_number(32))
+        );
+        assert_eq!(copy.names(), ["in", "out"]);
+    }
+    assert_eq!(before, 27, "all of the runs");
+}
+
+#[test]
+fn an_entry_that_was_torn_counts_as_absent() {
+    let bytes = records(N, 32, 0, u64::MAX);
+    let folder = Folder::with(&bytes);
+    stop_at(&folder, 20_000);
+    let mut runs = fs::read(folder.path("runs")).expect("runs");
+    runs[128 * 4 + 9] ^= 1;
+    fs::write(folder.path("runs"), runs).expect("written");
+    let monitor = Monitor::silent();
+    let found = folder.sort_with(&whole_number(32), &options(&folder), &monitor).expect("sorted");
+    assert_eq!(found.runs_resumed, 3);
+    assert!(
+        fs::read(folder.path("out")).expect("an output") == expected(&bytes, &whole_number(32))
+    );
+}
+
+/// A run that changed behind the journal's back.
+#[test]
+fn a_run_that_is_not_what_it_was_is_found_out() {
+    let folder = Folder::with(&records(N, 32, 0, u64::MAX));
+    stop_at(&folder, 20_000);
+    let mut runs = fs::read(folder.path("runs")).expect("runs");
+    runs[4096 * 3] ^= 1;
+    fs::write(folder.path("runs"), runs).expect("written");
+    let result = folder.sort_with(&whole_number(32), &options(&folder), &Monitor::silent());
+    assert!(matches!(result, Err(Error::ReadBack { .. })), "{result:?}");
+    assert_eq!(folder.names(), ["in", "runs"]);
+}
+
+#[test]
+fn runs_of_another_sort_are_refused_and_left_alone() {
+    let folder = Folder::with(&records(N, 32, 0, u64::MAX));
+    stop_at(&folder, 20_000);
+    let before = fs::read(folder.path("runs")).expect("runs");
+    let refuse = |layout: &RecordLayout, options: &FileSortOptions| {
+        let error = folder.sort_with(layout, options, &Monitor::silent()).expect_err("refused");
+        assert!(error.to_string().contains("`resume`"), "{error}");
+        assert_eq!(folder.names(), ["in", "runs"]);
+    };
+    refuse(&layout(32, 8..16, KeyKind::U64), &options(&folder));
+    refuse(&layout(32, 0..8, KeyKind::I64), &options(&folder));
+    refuse(&whole_number(16), &options(&folder));
+    refuse(&whole_number(32), &FileSortOptions { memory: LEAST * 2, ..options(&folder) });
+    fs::write(folder.path("in"), records(N, 32, 0, 0xFF)).expect("written");
+    refuse(&whole_number(32), &options(&folder));
+    assert!(fs::read(folder.path("runs")).expect("runs") == before);
+}
+
+#[test]
+fn what_fits_needs_no_runs_and_touches_none() {
+    let folder = Folder::with(&records(50, 32, 0, u64::MAX));
+    fs::write(folder.path("runs"), "something").expect("written");
+    folder.sort_with(&whole_number(32), &options(&folder), &Monitor::silent()).expect("sorted");
+    assert_eq!(folder.names(), ["in", "out", "runs"]);
+}
