@@ -86,6 +86,24 @@ pub enum Error {
         /// Number of records in the file.
         found: u64,
     },
+    /// A file is longer or shorter than what it should hold.
+    #[error("{path} has {bytes} bytes: expected {expected}")]
+    Length {
+        /// Which file.
+        path: String,
+        /// What it has.
+        bytes: u64,
+        /// What the header and the elements come to.
+        expected: u64,
+    },
+    /// A check found that a file does not hold what it should.
+    #[error("{path} is not what it should be: {detail}")]
+    Differs {
+        /// Which file.
+        path: String,
+        /// What was compared.
+        detail: String,
+    },
     /// Stopped on request.
     #[error(transparent)]
     Cancelled(#[from] taut_points::Cancelled),

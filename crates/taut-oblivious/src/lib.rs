@@ -3,6 +3,11 @@
 //! | you want | call | promise | cost |
 //! |---|---|---|---|
 //! | points in an order where neighbours in space are neighbours in memory | [`hilbert_order()`] | a function of the point set alone, equal points side by side | a few passes of O(n) |
+//! | the transpose of a matrix, in memory or in a file | [`transpose()`], [`transpose_in_place`], [`transpose_file`] | a permutation of bytes; a file is whole or not there | O(mn), one pass |
+//! | a product of matrices, LU factors | [`multiply`], [`lu`] | stated errors, the same bits on any processor | O(mnk) |
+//! | a priority queue, also larger than memory | [`PriorityQueue`], [`SpillingQueue`] | keys in order, no entry lost | expected O(log n) |
+//! | linked lists in order | [`list_order`] | every node once, closed lists too | O(n) |
+//! | a Fourier transform in two passes | [`fft`] | relative error 10⁻¹⁵·log₂ n | O(n log n) |
 //! | the place of one cell on the curve | [`hilbert_key()`] | consecutive cells share a face | O(bits) |
 //! | how often an algorithm misses in a memory of any size | [`simulate`] | exact, the same on every machine | some 10 ns a touch |
 //! | the algorithms of the literature, to measure them | [`reference`](mod@reference) | as in the papers, short, not fast | |
@@ -33,21 +38,40 @@ mod error;
 mod hilbert;
 pub mod kdtree;
 pub mod layout;
+mod list;
+mod matrix;
 mod morton;
 mod order;
 pub mod packed;
 mod probe;
+mod queue;
 pub mod reference;
 mod room;
 mod sample;
 pub mod search;
+mod select;
 pub mod simulate;
 mod sort;
+mod store;
 
 pub use error::Error;
 pub use hilbert::hilbert_key;
+pub use list::{Lists, NO_NODE, list_order, list_order_probed};
+pub use matrix::fft::{Direction, fft, fft_probed};
+pub use matrix::lu::{Lu, lu, lu_probed, lu_solve};
+pub use matrix::multiply::{MultiplyOptions, multiply, multiply_probed};
+pub use matrix::transpose::in_place::{transpose_in_place, transpose_in_place_probed};
+pub use matrix::transpose::{transpose, transpose_probed};
+pub use matrix::transpose_file::check::{FileCheck, check_transposed_file};
+pub use matrix::transpose_file::{
+    FileMatrix, FileTransposition, TransposeFileOptions, transpose_file,
+};
+pub use matrix::view::{MatrixView, MatrixViewMut};
 pub use morton::morton_key;
+pub use num_complex::Complex64;
 pub use order::{hilbert_order, morton_order};
 pub use probe::{Access, NoProbe, Probe};
+pub use queue::{PriorityQueue, QueueKey, SpillingQueue};
 pub use sample::{Reservoir, Sequential, bernoulli, sample, shuffle, shuffle_probed};
+pub use select::{median, reverse, reverse_probed, select};
 pub use sort::{SortKey, external, sort, sort_probed, sort_records, sort_records_probed};

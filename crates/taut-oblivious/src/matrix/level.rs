@@ -1,0 +1,85 @@
+//! Which instructions this machine has, asked once per call.
+//!
+//! *Guarantee.* A value of [`Avx2`] or [`Avx512`] is the proof that the processor has them: only asking it makes one.
+//! Whoever takes a [`Level`] gives the same bits on every level.
+
+/// Proof that the processor has AVX2 and FMA.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Avx2(());
+
+/// Proof that the processor has AVX-512F besides AVX2 and FMA.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Avx512(());
+
+/// A set of instructions that this machine can run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(not(target_arch = "x86_64"), expect(dead_code, reason = "never made elsewhere"))]
+pub(crate) enum Level {
+    /// One number at a time, on any processor.
+    Scalar,
+    /// Vectors of 32 bytes.
+    Avx2(Avx2),
+    /// Vectors of 64 bytes.
+    Avx512(Avx512),
+}
+
+impl Level {
+    /// The fastest one of this machine.
+    pub(crate) fn best() -> Self {
+        #[cfg(all(target_arch = "x86_64", not(miri)))]
+        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+            if is_x86_feature_detected!("avx512f") {
+                return Level::Avx512(Avx512(()));
+            }
+            return Level::Avx2(Avx2(()));
+        }
+        Level::Scalar
+    }
+
+    /// All of this machine, the fastest last.
+    #[cfg(test)]
+    pub(crate) fn all() -> Vec<Self> {
+        let best = Self::best();
+        let mut all = vec![Level::Scalar];
+        if best != Level::Scalar {
+            all.push(Level::Avx2(Avx2(())));
+        }
+        if matches!(best, Level::Avx512(_)) {
+            all.push(best);
+        }
+        all
+    }
+}
+
+/// Bytes of the last level of cache: larger targets are written past it. 32 MiB where the processor does not say.
+pub(crate) fn last_cache_bytes() -> usize {
+    static BYTES: std::sync::OnceLock<usize> = std::sync::OnceLock::new();
+    // Under a virtual machine the question costs some microseconds.
+    *BYTES.get_or_init(ask_last_cache_bytes)
+}
+
+fn ask_last_cache_bytes() -> usize {
+    const UNTOLD: usize = 32 << 20;
+    #[cfg(all(target_arch = "x86_64", not(miri)))]
+    {
+        use std::arch::x86_64::{__cpuid, __cpuid_count};
+        // Deterministic cache parameters: leaf 4 as Intel numbers it, 8000_001D where AMD put the same answer.
+        let largest = [4, 0x8000_001D]
+            .into_iter()
+            .filter(|&leaf| __cpuid(leaf & 0x8000_0000).eax >= leaf)
+            .flat_map(|leaf| (0..8).map(move |level| __cpuid_count(leaf, level)))
+            .filter(|answer| answer.eax & 31 != 0)
+            .map(|answer| {
+                let (line, parts, ways) =
+                    (answer.ebx & 0xFFF, answer.ebx >> 12 & 0x3FF, answer.ebx >> 22);
+                (line as usize + 1)
+                    * (parts as usize + 1)
+                    * (ways as usize + 1)
+                    * (answer.ecx as usize + 1)
+            })
+            .max();
+        largest.unwrap_or(UNTOLD)
+    }
+    #[cfg(not(all(target_arch = "x86_64", not(miri))))]
+    UNTOLD
+}

@@ -1,0 +1,164 @@
+//! Priority queues of many entries: a key and what comes with it, smallest key first.
+//!
+//! *Problem.* A binary heap of n entries misses the caches log n times for each entry that leaves it.
+//! *Idea.* A stack of buckets, smaller keys above: pushing appends to the bucket that the key falls into, popping splits
+//! the topmost bucket at a random pivot until few entries are left, and takes the smallest of those. It is quicksort that
+//! goes only as far as it is asked; almost all buckets are only ever appended to, so they can lie in a file.
+//! *Guarantee.* Keys leave in order. Expected O(log n) comparisons for each entry and, with blocks of B entries and memory
+//! for M, O((1/B)·log₂(n/M)) transfers; the order in which equal keys leave is fixed but not said.
+//! *Trap.* Where all keys of a bucket are equal there is no pivot: such a bucket is marked and popped from its end.
+//! *Reference.* Navarro, Paredes, *On sorting, heaps, and minimum spanning trees*, Algorithmica 57, 2010 (quickheaps); Groot
+//! Koerkamp, *SimdQuickHeap*, 2026, for pivots side by side; thesis, section 5.8.
+
+use std::convert::Infallible;
+use std::path::Path;
+
+use bytemuck::Pod;
+
+use crate::Error;
+use core::Core;
+use spill::{Blocks, NoSpill};
+
+mod core;
+mod key;
+mod partition;
+mod spill;
+#[cfg(test)]
+mod tests;
+
+pub use key::QueueKey;
+
+/// A queue of entries in memory, smallest key first.
+///
+/// ```
+/// let mut queue = taut_oblivious::PriorityQueue::new();
+/// queue.push(2.5, 'b');
+/// queue.push(-1.0, 'a');
+/// assert_eq!(queue.pop(), Some((-1.0, 'a')));
+/// assert_eq!(queue.pop(), Some((2.5, 'b')));
+/// assert_eq!(queue.pop(), None);
+/// ```
+#[derive(Clone, Debug)]
+pub struct PriorityQueue<K, V> {
+    core: Core<V, NoSpill>,
+    keys: std::marker::PhantomData<K>,
+}
+
+impl<K: QueueKey, V: Copy> Default for PriorityQueue<K, V> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<K: QueueKey, V: Copy> PriorityQueue<K, V> {
+    /// An empty queue.
+    pub fn new() -> Self {
+        Self { core: Core::new(NoSpill), keys: std::marker::PhantomData }
+    }
+
+    /// Entries in the queue.
+    pub fn len(&self) -> u64 {
+        self.core.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Adds an entry. Amortised O(1) and a search among some log n pivots.
+    pub fn push(&mut self, key: K, value: V) {
+        never(self.core.push(key.to_bits(), value));
+    }
+
+    /// Takes an entry with the smallest key. Amortised, expected O(log n) for each entry that is ever taken.
+    pub fn pop(&mut self) -> Option<(K, V)> {
+        never(self.core.pop()).map(|(bits, value)| (K::from_bits(bits), value))
+    }
+
+    /// The smallest key, and what comes with it. Amortised as [`Self::pop`], which may split buckets.
+    pub fn peek(&mut self) -> Option<(K, V)> {
+        never(self.core.peek()).map(|(bits, value)| (K::from_bits(bits), value))
+    }
+}
+
+fn never<T>(result: Result<T, Infallible>) -> T {
+    match result {
+        Ok(value) => value,
+    }
+}
+
+/// A queue of which only so much is in memory, smallest key first; the rest is in a file without a name, which is gone
+/// whenever the process ends.
+///
+/// ```
+/// let mut queue = taut_oblivious::SpillingQueue::new(&std::env::temp_dir(), 1 << 20)?;
+/// for key in (0..100_000u64).rev() {
+///     queue.push(key, 2 * key)?;                                          // 1.6 MB
+/// }
+/// assert_eq!(queue.pop()?, Some((0, 0)));
+/// # Ok::<(), taut_oblivious::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct SpillingQueue<K, V> {
+    core: Core<V, Blocks>,
+    keys: std::marker::PhantomData<K>,
+}
+
+impl<K: QueueKey, V: Pod> SpillingQueue<K, V> {
+    /// An empty queue of about `memory` bytes, whose file is in `folder`.
+    ///
+    /// Entries in memory take at most that, in rooms that grow by doubling; so the room may be twice as large.
+    ///
+    /// # Errors
+    /// [`Error::Option`] if the memory is less than 64 KiB or than 1024 entries, [`Error::File`] if there can be no file.
+    pub fn new(folder: &Path, memory: usize) -> Result<Self, Error> {
+        let entries = memory / (8 + size_of::<V>());
+        if memory < 64 << 10 || entries < 1024 {
+            let value = format!("{memory} bytes");
+            let expected = "at least 64 KiB and 1024 entries";
+            return Err(Error::Option { name: "memory", value, expected });
+        }
+        let blocks = Blocks::new::<V>(folder, entries)?;
+        Ok(Self { core: Core::new(blocks), keys: std::marker::PhantomData })
+    }
+
+    /// Entries in the queue.
+    pub fn len(&self) -> u64 {
+        self.core.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Entries of the queue that are in the file now.
+    pub fn spilled(&self) -> u64 {
+        self.core.spilled()
+    }
+
+    /// Adds an entry.
+    ///
+    /// # Errors
+    /// [`Error::File`] if the file cannot be written; the entry is in the queue all the same, and all others are.
+    pub fn push(&mut self, key: K, value: V) -> Result<(), Error> {
+        self.core.push(key.to_bits(), value)
+    }
+
+    /// Takes an entry with the smallest key.
+    ///
+    /// # Errors
+    /// [`Error::File`] if the file cannot be read or written; no entry is lost by that.
+    pub fn pop(&mut self) -> Result<Option<(K, V)>, Error> {
+        Ok(self.core.pop()?.map(|(bits, value)| (K::from_bits(bits), value)))
+    }
+
+    /// The smallest key, and what comes with it.
+    ///
+    /// # Errors
+    /// As of [`Self::pop`].
+    pub fn peek(&mut self) -> Result<Option<(K, V)>, Error> {
+        Ok(self.core.peek()?.map(|(bits, value)| (K::from_bits(bits), value)))
+    }
+}

@@ -1,0 +1,190 @@
+use std::cell::{Cell, RefCell};
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::io::{self, ErrorKind};
+
+use proptest::prelude::*;
+
+use super::*;
+use crate::store::Store;
+
+/// A file in memory that is interrupted, reads and writes in parts, and fails in some calls.
+struct Faulty {
+    bytes: RefCell<Vec<u8>>,
+    calls: Cell<u64>,
+    /// Of the first 3000 calls each one of so many fails; 0 for none.
+    fails: u64,
+}
+
+impl Faulty {
+    fn call(&self, n: usize) -> io::Result<usize> {
+        self.calls.set(self.calls.get() + 1);
+        match self.calls.get() {
+            call if call < 3000 && self.fails > 0 && call % self.fails == 0 => {
+                Err(ErrorKind::StorageFull.into())
+            }
+            call if call % 7 == 0 => Err(ErrorKind::Interrupted.into()),
+            call if call % 3 == 0 => Ok(n.div_ceil(2)),
+            _ => Ok(n),
+        }
+    }
+}
+
+impl Store for Faulty {
+    fn read_at(&self, buffer: &mut [u8], at: u64) -> io::Result<usize> {
+        let n = self.call(buffer.len())?;
+        buffer[..n].copy_from_slice(&self.bytes.borrow()[at as usize..][..n]);
+        Ok(n)
+    }
+
+    fn write_at(&self, part: &[u8], at: u64) -> io::Result<usize> {
+        let n = self.call(part.len())?;
+        let mut bytes = self.bytes.borrow_mut();
+        let end = (at as usize + n).max(bytes.len());
+        bytes.resize(end, 0);
+        bytes[at as usize..][..n].copy_from_slice(&part[..n]);
+        Ok(n)
+    }
+}
+
+fn faulty(limit: usize, fails: u64) -> Blocks<Faulty> {
+    let file = Faulty { bytes: RefCell::default(), calls: Cell::new(0), fails };
+    Blocks::over::<u32>(file, Path::new("memory"), limit)
+}
+
+/// Numbers without pattern.
+fn random(state: &mut u64) -> u64 {
+    *state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+    *state >> 20
+}
+
+/// Pushes and pops as a heap does, and compares each key; values tell which key they came with.
+fn compare<S: spill::Spill<u32>>(
+    mut queue: Core<u32, S>,
+    operations: usize,
+    mut key: impl FnMut(usize) -> u64,
+    seed: u64,
+) where
+    S::Error: std::fmt::Debug,
+{
+    let mut heap = BinaryHeap::new();
+    let mut pushed = Vec::new();
+    let mut state = seed;
+    let retry = |queue: &mut Core<u32, S>| {
+        for _ in 0..10_000 {
+            if let Ok(found) = queue.pop() {
+                return found;
+            }
+        }
+        panic!("it fails for ever");
+    };
+    for i in 0..operations {
+        // More pushes in the first half, more pops in the second.
+        if random(&mut state) % 10 < if 2 * i < operations { 7 } else { 4 } {
+            // A failure to spill loses nothing.
+            let _ = queue.push(key(i), pushed.len() as u32);
+            pushed.push(Some(key(i)));
+            heap.push(Reverse(key(i)));
+        } else {
+            let (found, expected) = (retry(&mut queue), heap.pop());
+            assert_eq!(found.map(|(key, _)| key), expected.map(|Reverse(key)| key));
+            if let Some((key, value)) = found {
+                assert_eq!(pushed[value as usize].take(), Some(key));
+            }
+        }
+        assert_eq!(queue.len(), heap.len() as u64);
+    }
+    while let Some((key, value)) = retry(&mut queue) {
+        assert_eq!(heap.pop(), Some(Reverse(key)));
+        assert_eq!(pushed[value as usize].take(), Some(key));
+    }
+    assert!(heap.is_empty());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(if cfg!(miri) { 2 } else { 40 }))]
+    #[test]
+    fn pops_what_a_heap_pops(
+        operations in 0usize..4000, range in 1u64..5000, seed: u64, limit in 256usize..1200, fails in 0u64..40,
+    ) {
+        let operations = if cfg!(miri) { operations % 200 } else { operations };
+        let fails = if fails < 10 { 0 } else { fails };
+        let key = |i: usize| {
+            let mut state = seed ^ i as u64;
+            random(&mut state);
+            random(&mut state) % range
+        };
+        compare(Core::new(NoSpill), operations, key, seed);
+        compare(Core::new(faulty(limit, fails)), operations, key, seed);
+    }
+}
+
+#[test]
+#[cfg_attr(miri, ignore = "large")]
+fn orders_that_are_hard_for_pivots() {
+    let orders: [fn(usize) -> u64; 6] = [
+        |_| 7,
+        |_| u64::MAX,
+        |i| i as u64,
+        |i| u64::MAX - i as u64,
+        |i| (i % 2) as u64 * u64::MAX,
+        |i| (i as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15),
+    ];
+    for order in orders {
+        compare(Core::new(NoSpill), 20_000, order, 1);
+        compare(Core::new(faulty(512, 0)), 20_000, order, 1);
+    }
+}
+
+#[test]
+fn keys_keep_their_order() {
+    fn check<K: QueueKey + std::fmt::Debug>(sorted: &[K]) {
+        for pair in sorted.windows(2) {
+            assert!(pair[0].to_bits() < pair[1].to_bits(), "{pair:?}");
+        }
+        for &key in sorted {
+            assert_eq!(format!("{:?}", K::from_bits(key.to_bits())), format!("{key:?}"));
+        }
+    }
+    check(&[0u64, 1, u64::MAX]);
+    check(&[0u32, 1, u32::MAX]);
+    check(&[i64::MIN, -1, 0, 1, i64::MAX]);
+    check(&[
+        -f64::NAN,
+        f64::NEG_INFINITY,
+        -1.0,
+        -5e-324,
+        -0.0,
+        0.0,
+        5e-324,
+        f64::INFINITY,
+        f64::NAN,
+    ]);
+    check(&[-f32::NAN, f32::NEG_INFINITY, -1.0, -1e-45, -0.0, 0.0, 1e-45, f32::INFINITY, f32::NAN]);
+}
+
+#[test]
+#[cfg_attr(miri, ignore = "files")]
+fn the_memory_is_kept_and_the_file_is_reused() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(SpillingQueue::<u64, u64>::new(folder.path(), 60_000).is_err());
+    assert!(SpillingQueue::<u64, u64>::new(&folder.path().join("none"), 1 << 20).is_err());
+    let mut queue = SpillingQueue::<u64, [u64; 3]>::new(folder.path(), 1 << 17).unwrap();
+    let (n, entries) = (60_000u64, (1 << 17) / 32);
+    let key = |i: u64| i.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 8;
+    for i in 0..n {
+        queue.push(key(i), [i, i + 1, i + 2]).unwrap();
+        assert!(queue.len() - queue.spilled() <= entries);
+    }
+    let mut sorted: Vec<u64> = (0..n).map(key).collect();
+    sorted.sort_unstable();
+    for (k, &expected) in sorted.iter().enumerate() {
+        assert_eq!(queue.peek().unwrap().map(|(key, _)| key), Some(expected));
+        let (found, [i, ..]) = queue.pop().unwrap().expect("an entry");
+        assert_eq!((found, key(i)), (expected, expected));
+        assert_eq!(queue.len(), n - 1 - k as u64);
+        assert!(queue.len() - queue.spilled() <= entries + entries / 8);
+    }
+    assert_eq!(queue.pop().unwrap(), None);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "the file has no name");
+}
