@@ -5,7 +5,7 @@ use clap::{Parser, Subcommand};
 use crate::exit::Outcome;
 use crate::{
     ball, centers, completions, curve, delaunay, draw, ellipsoid, formats, generate, inscribe, man,
-    surface, tour, verify,
+    memory, surface, tour, verify,
 };
 
 /// Tight shapes around, through and inside point sets, with proof.
@@ -32,6 +32,7 @@ enum Command {
     Inscribe(inscribe::Args),
     Verify(verify::Args),
     Draw(draw::Args),
+    Memory(memory::Args),
     Generate(generate::Args),
     Tour(tour::Args),
     Formats(formats::Args),
@@ -51,6 +52,7 @@ impl Cli {
             Command::Inscribe(args) => args.run(),
             Command::Verify(args) => args.run(),
             Command::Draw(args) => args.run(),
+            Command::Memory(args) => args.run(),
             Command::Generate(args) => args.run(),
             Command::Tour(args) => args.run(),
             Command::Formats(args) => args.run(),

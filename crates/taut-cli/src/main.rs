@@ -27,6 +27,7 @@ mod generate;
 mod inscribe;
 mod inscribed_report;
 mod man;
+mod memory;
 mod numbers;
 mod picture;
 mod radii;

@@ -132,6 +132,7 @@ pub use taut_enclose::{
     farthest_first_of_source, inscribed_ellipsoid, inscribed_ellipsoid_of_source, robust_ellipsoid,
     robust_ellipsoid_of_source, sphere_tree, sphere_tree_of_source,
 };
+pub use taut_oblivious as oblivious;
 pub use taut_points as points;
 pub use taut_points::{Distribution, Monitor, PointSource, Points, generate};
 

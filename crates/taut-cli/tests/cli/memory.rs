@@ -1,0 +1,94 @@
+//! `taut memory`: files of records, matrices and samples.
+
+use crate::desk::Desk;
+
+/// Numbers that look random: the high words of a multiplicative sequence.
+fn words(count: u64) -> Vec<u64> {
+    (1..=count).map(|i| i.wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(17)).collect()
+}
+
+/// Records of 16 bytes: a key, then its place.
+fn records(keys: &[u64]) -> Vec<u8> {
+    (0u64..).zip(keys).flat_map(|(place, key)| [*key, place]).flat_map(u64::to_le_bytes).collect()
+}
+
+#[test]
+fn records_are_sorted_checked_and_accounted_for() {
+    let desk = Desk::new();
+    let keys: Vec<u64> = words(20_000).iter().map(|key| key % 5000).collect();
+    desk.put("records.bin", records(&keys));
+    let mut sorted: Vec<(u64, u64)> = keys.iter().copied().zip(0..).collect();
+    sorted.sort();
+    let sorted: Vec<u8> =
+        sorted.iter().flat_map(|(key, place)| [*key, *place]).flat_map(u64::to_le_bytes).collect();
+    // In memory, and in runs; equal keys keep their order either way.
+    for (memory, said) in [("256M", "runs            1 "), ("100K", "4.000 × the file")] {
+        desk.taut(&format!("memory sort records.bin --width 16 --memory {memory} -o sorted.bin"))
+            .ends(0)
+            .says(&["20000 records of 16 bytes", said, "read again: in order"]);
+        assert!(desk.bytes("sorted.bin") == sorted, "{memory}");
+    }
+    desk.taut("memory sort records.bin --width 16 --key 8:16 --quiet -o again.bin").ends(0);
+    assert!(desk.bytes("again.bin") == records(&keys), "by place: as they were");
+}
+
+#[test]
+fn what_cannot_be_sorted_is_named_and_nothing_is_written() {
+    let desk = Desk::new();
+    desk.put("records.bin", vec![7u8; 100]);
+    desk.put("sorted.bin", "before");
+    for (options, said) in [
+        ("records.bin --width 16", &["records.bin", "100 bytes", "16"][..]),
+        ("records.bin --width 0", &["width", "0"]),
+        ("records.bin --width 10 --key 4:20", &["key", "4..20"]),
+        ("records.bin --width 10 --key 3:8", &["key", "eight bytes"]),
+        ("records.bin --width 10 --memory 1K", &["memory", "1024"]),
+        ("missing.bin --width 10", &["missing.bin"]),
+    ] {
+        desk.taut(&format!("memory sort {options} -o sorted.bin")).ends(2).complains(said);
+        assert_eq!(desk.text("sorted.bin"), "before");
+    }
+    desk.taut("memory sort records.bin --width 10 -o records.bin")
+        .ends(2)
+        .complains(&["records.bin"]);
+}
+
+#[test]
+fn matrices_are_transposed_and_compared() {
+    let desk = Desk::new();
+    let matrix: Vec<u8> = (0..30_000u64).flat_map(u64::to_le_bytes).collect();
+    desk.put("rows.bin", [b"head".to_vec(), matrix.clone()].concat());
+    desk.taut(
+        "memory transpose rows.bin --rows 300 --columns 100 --offset 4 --memory 4K -o columns.bin",
+    )
+    .ends(0)
+    .says(&["100 × 300 elements of 8 bytes", "compared        all elements"]);
+    desk.taut("memory transpose columns.bin --rows 100 --columns 300 --samples 50 -o back.bin")
+        .ends(0)
+        .says(&["50 elements"]);
+    assert!(desk.bytes("back.bin") == matrix);
+    desk.taut("memory transpose rows.bin --rows 300 --columns 101 -o columns.bin")
+        .ends(2)
+        .complains(&["rows.bin", "240004", "242400"]);
+    desk.taut("memory transpose columns.bin --rows 100 --columns 300 --width 0 -o back.bin")
+        .ends(2)
+        .complains(&["at least one byte"]);
+    assert!(desk.bytes("back.bin") == matrix);
+}
+
+#[test]
+fn samples_depend_on_the_seed_alone() {
+    let desk = Desk::new();
+    let drawn = |threads: &str| {
+        desk.taut(&format!(
+            "memory sample -n 1000000 -k 5000 --seed 3 --threads {threads} -o rows.txt"
+        ))
+        .ends(0);
+        desk.text("rows.txt")
+    };
+    let rows: Vec<u64> = drawn("1").lines().map(|line| line.parse().unwrap()).collect();
+    assert!(rows.len() == 5000 && rows.is_sorted_by(|a, b| a < b) && rows[4999] < 1_000_000);
+    assert_eq!(drawn("1"), drawn("4"));
+    desk.taut("memory sample -n 4 -k 4").ends(0).says(&["0\n1\n2\n3\n"]);
+    desk.taut("memory sample -n 4 -k 5").ends(2).complains(&["k", "5"]);
+}
