@@ -37,6 +37,10 @@ struct Grid<const D: usize> {
 impl<const D: usize> Grid<D> {
     /// The grid over a box; none if the box is a point.
     fn over(low: [f64; D], high: [f64; D]) -> Option<Self> {
+        // Cells of a grid without end are all one, however often they are divided.
+        if !low.iter().chain(&high).all(|x| x.is_finite()) {
+            return None;
+        }
         let widest =
             |shrink: f64| (0..D).fold(0.0, |w: f64, i| w.max(high[i] * shrink - low[i] * shrink));
         let shrink = if widest(1.0).is_finite() { 1.0 } else { 0.5 };
@@ -321,5 +325,22 @@ mod tests {
             pool.install(|| hilbert_order(points.len(), |i| points[i]))
         };
         assert_eq!(on(1), on(3));
+    }
+
+    #[test]
+    fn coordinates_without_end_give_some_order() {
+        for wrong in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+            for axis in 0..2 {
+                let point = |i: usize| {
+                    let mut point = [i as f64, (i % 3) as f64];
+                    point[axis] = if i.is_multiple_of(2) { wrong } else { point[axis] };
+                    point
+                };
+                let mut order = hilbert_order(40, point);
+                order.sort_unstable();
+                assert!(order.into_iter().eq(0..40), "{wrong}");
+                assert_eq!(morton_order(40, point).len(), 40);
+            }
+        }
     }
 }

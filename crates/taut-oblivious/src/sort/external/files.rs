@@ -8,7 +8,7 @@
 
 use std::fs::{self, File};
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
 use taut_points::Monitor;
@@ -29,6 +29,16 @@ pub(super) fn sort(
     monitor: &Monitor<'_>,
 ) -> Result<FileSort, Error> {
     layout.check()?;
+    if let Some(path) = &options.resume {
+        // The file of runs is removed at the end.
+        if [input, output].iter().any(|other| whereabouts(other) == whereabouts(path)) {
+            return Err(Error::Option {
+                name: "resume",
+                value: path.display().to_string(),
+                expected: "another file than the input and the output",
+            });
+        }
+    }
     let file = at(input, File::open(input))?;
     let about = at(input, file.metadata())?;
     if !about.is_file() {
@@ -76,6 +86,12 @@ fn at<T>(path: &Path, result: io::Result<T>) -> Result<T, Error> {
 /// The folder of a file.
 pub(super) fn folder(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Where a file is, or would be, by one name.
+fn whereabouts(path: &Path) -> PathBuf {
+    let beside = || Some(folder(path).canonicalize().ok()?.join(path.file_name()?));
+    path.canonicalize().ok().or_else(beside).unwrap_or_else(|| path.to_owned())
 }
 
 /// Opens the file of runs; two processes must not share it.

@@ -49,13 +49,17 @@ impl Journal {
         let identity = [MAGIC, plan.records, modified, width, start, end, kind, chunk];
         let (runs, certificate) = (plan.runs(), Multiset::default());
         let mut journal = Self { identity, runs, runs_done: 0, certificate };
-        if length < SLOT as u64 {
+        if length == 0 {
             file.write(&journal.slot(&identity), 0)?;
             return Ok(journal);
         }
         let mut slot = [0; SLOT];
-        file.read(&mut slot, 0)?;
-        if slot != journal.slot(&identity) {
+        // A file that is too short for a journal is somebody else's.
+        let is_whole = length >= SLOT as u64;
+        if is_whole {
+            file.read(&mut slot, 0)?;
+        }
+        if !is_whole || slot != journal.slot(&identity) {
             return Err(Error::Option {
                 name: "resume",
                 value: file.path().to_owned(),

@@ -99,6 +99,25 @@ fn runs_of_another_sort_are_refused_and_left_alone() {
 }
 
 #[test]
+fn files_of_others_are_not_taken_for_runs() {
+    let folder = Folder::with(&records(N, 32, 0, u64::MAX));
+    fs::write(folder.path("runs"), "a short letter").expect("written");
+    let resumed = |name: &str| {
+        let options = FileSortOptions { resume: Some(folder.path(name)), ..options(&folder) };
+        let error = folder.sort_with(&whole_number(32), &options, &Monitor::silent());
+        let error = error.expect_err("refused").to_string();
+        assert!(error.contains("`resume`"), "{error}");
+    };
+    let input = fs::read(folder.path("in")).expect("records");
+    for name in ["runs", "in", "out"] {
+        resumed(name);
+        assert_eq!(folder.names(), ["in", "runs"]);
+    }
+    assert_eq!(fs::read(folder.path("runs")).expect("as it was"), b"a short letter");
+    assert!(fs::read(folder.path("in")).expect("as it was") == input);
+}
+
+#[test]
 fn what_fits_needs_no_runs_and_touches_none() {
     let folder = Folder::with(&records(50, 32, 0, u64::MAX));
     fs::write(folder.path("runs"), "something").expect("written");
