@@ -50,11 +50,13 @@ impl Sites {
     pub(super) fn of(space: &Space, rows: Option<&[u32]>) -> Self {
         let row = |of_space: u32| rows.map_or(of_space, |rows| rows[of_space as usize]);
         let sites = 0..space.site_count() as u32;
-        let given: Vec<Point> = sites.clone().map(|site| space.site(site)).collect();
-        let scale = Scale::of(&given);
-        let points: Vec<Point> = given.iter().map(|&point| scale.apply(point)).collect();
-        let is_kept = |(&point, &given): (&Point, &Point)| scale.inverse().apply(point) == given;
-        let exact = (!points.iter().zip(&given).all(is_kept)).then_some(given);
+        let given = || sites.clone().map(|site| space.site(site));
+        let mut points: Vec<Point> = given().collect();
+        let scale = Scale::of(&points);
+        points.iter_mut().for_each(|point| *point = scale.apply(*point));
+        let mut scaled_back = points.iter().map(|&point| scale.inverse().apply(point));
+        let exact =
+            (!given().all(|given| scaled_back.next() == Some(given))).then(|| given().collect());
         let copies = space.duplicates().iter();
         Self {
             points,

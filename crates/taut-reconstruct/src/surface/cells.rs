@@ -7,14 +7,17 @@
 //! *Guarantee.* A function of the triangulation as a set of tetrahedra: what is decided by the numbers of cells and facets is decided by
 //! the points. O(m) for m cells, as few share their lowest site.
 
+use std::sync::atomic::Ordering::Relaxed;
+use std::sync::atomic::{AtomicU8, AtomicU32};
+
 use rayon::prelude::*;
 use taut_delaunay::{GHOST, Simplex, decode};
 
 /// Cells or sites of one task.
 const TASK: usize = 1 << 12;
 
-/// Cells that are renumbered at a time.
-const BLOCK: usize = 16;
+/// Sites whose cells are moved at a time.
+const SITES: usize = 16;
 
 /// The cells by number. Of each the sites are in positive order: the lowest two first, then the third, then the highest, which of
 /// a ghost is the vertex at infinity.
@@ -22,52 +25,47 @@ pub(super) struct Cells {
     all: Vec<Simplex<4>>,
 }
 
-/// A cell on its way into order: all sites in ascending order but the first, which those have in common among which it is sorted, and
-/// the slot. One number, as that is compared at once.
-#[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
-struct Entry(u128);
-
-impl Entry {
-    fn of([_, b, c, d]: [u32; 4], slot: u32) -> Self {
-        Self(u128::from(b) << 96 | u128::from(c) << 64 | u128::from(d) << 32 | u128::from(slot))
-    }
-
-    fn slot(self) -> usize {
-        self.0 as u32 as usize
-    }
-}
-
 impl Cells {
+    /// The cells of so many sites.
     pub(super) fn of(slots: Vec<Simplex<4>>, sites: usize) -> Self {
-        let order = ordered(&slots, sites);
-        let mut numbers = vec![0u32; slots.len()];
-        for (cell, entry) in (0u32..).zip(&order) {
-            numbers[entry.slot()] = cell;
+        let Groups { order, ends } = Groups::of(&slots, sites);
+        // For each slot the number of its cell, and the places of its vertices there.
+        let numbers: Vec<AtomicU32> = slots.iter().map(|_| AtomicU32::new(0)).collect();
+        let places: Vec<AtomicU8> = slots.iter().map(|_| AtomicU8::new(0)).collect();
+        let mut all = vec![Simplex { vertices: [0; 4], neighbors: [0; 4] }; order.len()];
+        let (mut rest, mut tasks, mut begin) = (&mut all[..], Vec::new(), 0);
+        for ends in ends.chunks(TASK) {
+            let end = ends[ends.len() - 1];
+            let (own, others) = rest.split_at_mut((end - begin) as usize);
+            tasks.push((begin, ends, own));
+            (rest, begin) = (others, end);
         }
-        let all = slots.par_iter().with_min_len(TASK);
-        let places: Vec<Places> = all.map(|simplex| Places::of(simplex.vertices)).collect();
-        let blank = Simplex { vertices: [0; 4], neighbors: [0; 4] };
-        let mut all = vec![blank; order.len()];
-        all.par_chunks_mut(TASK).zip(order.par_chunks(TASK)).for_each(|(cells, entries)| {
-            let mut olds = [(blank, Places(0)); BLOCK];
-            // Some at a time, so that what is far off in memory is under way for all of them.
-            for (cells, entries) in cells.chunks_mut(BLOCK).zip(entries.chunks(BLOCK)) {
-                for (old, entry) in olds.iter_mut().zip(entries) {
-                    *old = (slots[entry.slot()], places[entry.slot()]);
-                }
-                for (old, _) in &mut olds[..entries.len()] {
-                    old.neighbors = old.neighbors.map(|code| {
-                        let (slot, k) = decode(code);
-                        numbers[slot as usize] << 2 | u32::from(places[slot as usize].get(k))
+        tasks.into_par_iter().for_each_init(Vec::new, |moving, (first, ends, cells)| {
+            let mut begin = first;
+            for ends in ends.chunks(SITES) {
+                // Some at a time, so that what is far off in memory is under way for all of them.
+                let order = &order[begin as usize..ends[ends.len() - 1] as usize];
+                moving.clear();
+                moving.extend(order.iter().map(|&slot| Moving::of(&slots[slot as usize], slot)));
+                let mut rest = &mut moving[..];
+                for &end in ends {
+                    let (alike, others) = rest.split_at_mut((end - begin) as usize);
+                    let to = &mut cells[(begin - first) as usize..(end - first) as usize];
+                    in_order(alike, |rank, moving| {
+                        to[rank] = moving.cell;
+                        numbers[moving.slot as usize].store(begin + rank as u32, Relaxed);
+                        places[moving.slot as usize].store(moving.places, Relaxed);
                     });
-                }
-                for (cell, (old, places)) in cells.iter_mut().zip(&olds) {
-                    // What comes to each place, rather than where each goes: what was just written at a place that varies is slow to read.
-                    let from = places.inverse().map(usize::from);
-                    cell.vertices = from.map(|i| old.vertices[i]);
-                    cell.neighbors = from.map(|i| old.neighbors[i]);
+                    (rest, begin) = (others, end);
                 }
             }
+        });
+        all.par_iter_mut().with_min_len(TASK).for_each(|cell| {
+            cell.neighbors = cell.neighbors.map(|code| {
+                let (slot, k) = decode(code);
+                let place = places[slot as usize].load(Relaxed) >> (2 * k) & 3;
+                numbers[slot as usize].load(Relaxed) << 2 | u32::from(place)
+            });
         });
         Self { all }
     }
@@ -128,100 +126,118 @@ impl Cells {
     }
 }
 
-/// For each vertex of a slot its place in the cell, in two bits each: they are asked for in no order, so they had better be near.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Places(u8);
+/// A cell on its way from its slot into order.
+struct Moving {
+    /// All sites but the lowest in ascending order, as one number, which is compared at once.
+    name: u128,
+    /// With its neighbours as slots know them.
+    cell: Simplex<4>,
+    /// For each vertex of the slot its place in the cell, in two bits each.
+    places: u8,
+    slot: u32,
+}
 
-impl Places {
-    fn of(vertices: [u32; 4]) -> Self {
-        let rank = |v: u32| vertices.iter().filter(|&&other| other < v).count() as u8;
-        let mut places = vertices.map(rank);
-        // Pairs in the wrong order: if they are odd in number, so is the order, and its first two change places.
-        let wrong = (0..4).flat_map(|i| (i + 1..4).map(move |k| (i, k)));
-        if wrong.filter(|&(i, k)| places[i] > places[k]).count() % 2 == 1 {
-            places.iter_mut().filter(|place| **place < 2).for_each(|place| *place = 1 - *place);
-        }
-        // Slots that hold nothing have vertices that mean nothing.
-        Self(places.iter().rev().fold(0, |bits, place| bits << 2 | place & 3))
-    }
-
+impl Moving {
     #[inline]
-    fn get(self, vertex: usize) -> u8 {
-        self.0 >> (2 * vertex) & 3
-    }
-
-    /// For each place what comes there.
-    #[inline]
-    fn inverse(self) -> [u8; 4] {
-        let mut from = [0; 4];
-        for (place, from) in (0..).zip(&mut from) {
-            let is = |i: usize| u8::from(self.get(i) == place);
-            *from = is(1) + 2 * is(2) + 3 * is(3);
-        }
-        from
+    fn of(from: &Simplex<4>, slot: u32) -> Self {
+        // Where each comes from goes along with it.
+        let [a, b, c, d] = from.vertices.map(u64::from);
+        let sorted = ascending([a << 2, b << 2 | 1, c << 2 | 2, d << 2 | 3]);
+        let sources = (0..4).fold(0, |all, k| all | (sorted[k] as usize & 3) << (2 * k));
+        let [_, b, c, d] = sorted.map(|from| u128::from(from >> 2));
+        let [sources, places] = POSITIVE[sources];
+        // What comes to each place, rather than where each goes: what was just written at a place that varies is slow to read.
+        let source = [0, 2, 4, 6].map(|shift| usize::from(sources >> shift & 3));
+        let cell = Simplex {
+            vertices: source.map(|k| from.vertices[k]),
+            neighbors: source.map(|k| from.neighbors[k]),
+        };
+        Self { name: b << 64 | c << 32 | d, cell, places, slot }
     }
 }
 
-/// The live slots in the order of their sites.
-fn ordered(slots: &[Simplex<4>], sites: usize) -> Vec<Entry> {
-    let lowest =
-        |simplex: &Simplex<4>| simplex.vertices.iter().copied().min().unwrap_or(0) as usize;
-    let live = || slots.iter().zip(0u32..).filter(|(simplex, _)| simplex.is_live());
-    // Where the cells of each lowest site begin, one place late, as each comes to be where they end.
-    let mut begins = vec![0u32; sites + 2];
-    live().for_each(|(simplex, _)| begins[lowest(simplex) + 2] += 1);
-    for site in 2..begins.len() {
-        begins[site] += begins[site - 1];
+/// Has each visited with its rank among all, in some order.
+fn in_order(all: &mut [Moving], mut visit: impl FnMut(usize, &Moving)) {
+    /// Up to so many, it costs less to compare all with all than to guess which is the lower one.
+    const FEW: usize = 20;
+    if all.len() > FEW {
+        all.sort_unstable_by_key(|moving| moving.name);
+        all.iter().enumerate().for_each(|(rank, moving)| visit(rank, moving));
+        return;
     }
-    let mut order = vec![Entry::default(); begins[sites + 1] as usize];
-    for (simplex, slot) in live() {
-        let sorted = ascending(simplex.vertices);
-        let place = &mut begins[sorted[0] as usize + 1];
-        order[*place as usize] = Entry::of(sorted, slot);
-        *place += 1;
+    for moving in &*all {
+        let lower = all.iter().map(|other| usize::from(other.name < moving.name)).sum();
+        visit(lower, moving);
     }
-    // Each place has moved on to the end of its cells, which is where those of the next site begin.
-    let (mut rest, mut tasks) = (&mut order[..], Vec::new());
-    for ends in begins[1..=sites].chunks(TASK) {
-        let begin =
-            tasks.last().map_or(0, |(ends, _): &(&[u32], &mut [Entry])| ends[ends.len() - 1]);
-        let (own, others) = rest.split_at_mut((ends[ends.len() - 1] - begin) as usize);
-        tasks.push((ends, own));
-        rest = others;
-    }
-    tasks.into_par_iter().for_each(|(ends, mut own)| {
-        let mut begin = ends[ends.len() - 1] - own.len() as u32;
-        for &end in ends {
-            let (alike, others) = own.split_at_mut((end - begin) as usize);
-            sort(alike);
-            (own, begin) = (others, end);
-        }
-    });
-    order
 }
 
-/// Four sites in ascending order, without a branch, as none could be guessed.
-fn ascending([a, b, c, d]: [u32; 4]) -> [u32; 4] {
+/// For the places that four vertices in ascending order come from, in two bits each: these again, the first two exchanged if that was an
+/// odd permutation, and for each vertex the place that it goes to.
+const POSITIVE: [[u8; 2]; 256] = {
+    let mut all = [[0; 2]; 256];
+    let mut code = 0;
+    while code < 256 {
+        let (mut from, mut wrong, mut k) = ([0; 4], 0, 0);
+        while k < 4 {
+            from[k] = code >> (2 * k) & 3;
+            let mut former = 0;
+            while former < k {
+                wrong += (from[former] > from[k]) as usize;
+                former += 1;
+            }
+            k += 1;
+        }
+        if wrong % 2 == 1 {
+            (from[0], from[1]) = (from[1], from[0]);
+        }
+        let mut k = 0;
+        while k < 4 {
+            all[code][0] |= (from[k] << (2 * k)) as u8;
+            all[code][1] |= (k << (2 * from[k])) as u8;
+            k += 1;
+        }
+        code += 1;
+    }
+    all
+};
+
+/// The live slots by the lowest of their sites.
+struct Groups {
+    order: Vec<u32>,
+    /// Where those of each site end.
+    ends: Vec<u32>,
+}
+
+impl Groups {
+    fn of(slots: &[Simplex<4>], sites: usize) -> Self {
+        let lowest = |simplex: &Simplex<4>| {
+            let [a, b, c, d] = simplex.vertices;
+            a.min(b).min(c.min(d)) as usize
+        };
+        let live = || slots.iter().zip(0u32..).filter(|(simplex, _)| simplex.is_live());
+        // Where those of each site begin, two places late; then, one place late, each moves on to where they end.
+        let mut ends = vec![0u32; sites + 2];
+        live().for_each(|(simplex, _)| ends[lowest(simplex) + 2] += 1);
+        for site in 2..ends.len() {
+            ends[site] += ends[site - 1];
+        }
+        let mut order = vec![0u32; ends[sites + 1] as usize];
+        for (simplex, slot) in live() {
+            let place = &mut ends[lowest(simplex) + 1];
+            order[*place as usize] = slot;
+            *place += 1;
+        }
+        ends.truncate(sites + 1);
+        ends.remove(0);
+        Self { order, ends }
+    }
+}
+
+/// Four numbers in ascending order, without a branch, as none could be guessed.
+fn ascending<T: Ord + Copy>([a, b, c, d]: [T; 4]) -> [T; 4] {
     let (a, b, c, d) = (a.min(b), a.max(b), c.min(d), c.max(d));
     let (first, b, c, last) = (a.min(c), a.max(c), b.min(d), b.max(d));
     [first, b.min(c), b.max(c), last]
-}
-
-/// Sorts entries, no two of which are equal.
-fn sort(entries: &mut [Entry]) {
-    /// Up to so many, it costs less to compare all with all than to guess which is the lower one.
-    const FEW: usize = 20;
-    if entries.len() > FEW {
-        entries.sort_unstable();
-        return;
-    }
-    let mut copies = [Entry::default(); FEW];
-    let copies = &mut copies[..entries.len()];
-    copies.copy_from_slice(entries);
-    for &entry in &*copies {
-        let lower: usize = copies.iter().map(|&other| usize::from(other < entry)).sum();
-        entries[lower] = entry;
-    }
 }
 
 /// For a cell a, b, c, d with det(b − a, c − a, d − a) > 0, the corners of the facet opposite each, counter-clockwise from outside.
@@ -244,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn four_sites_are_sorted() {
+    fn four_numbers_are_sorted() {
         for k in 0..256u32 {
             let sites = [k & 3, k >> 2 & 3, k >> 4 & 3, k >> 6];
             let mut sorted = sites;
@@ -254,29 +270,38 @@ mod tests {
     }
 
     #[test]
-    fn few_and_many_entries_are_sorted() {
-        for count in [0, 1, 2, 7, 20, 21, 60] {
-            let mut entries: Vec<Entry> =
-                (0..count).map(|k| Entry::of([0, k * 37 % 5, k * 11 % 3, 1], k)).collect();
-            let mut sorted = entries.clone();
-            sorted.sort();
-            sort(&mut entries);
-            assert!(entries == sorted, "{count}");
+    fn few_and_many_are_put_in_order() {
+        for count in [0u32, 1, 2, 7, 20, 21, 60] {
+            let slot =
+                |k| Simplex { vertices: [0, k * 37 % 61, k % 3 + 70, 80], neighbors: [0; 4] };
+            let mut all: Vec<Moving> = (0..count).map(|k| Moving::of(&slot(k), k)).collect();
+            let mut sorted: Vec<(u128, u32)> = all.iter().map(|m| (m.name, m.slot)).collect();
+            sorted.sort_unstable();
+            let mut visited = 0;
+            in_order(&mut all, |rank, moving| {
+                assert_eq!(sorted[rank], (moving.name, moving.slot));
+                visited += 1;
+            });
+            assert_eq!(visited, count);
         }
     }
 
     #[test]
-    fn places_keep_the_orientation() {
+    fn moving_keeps_the_orientation() {
         for (vertices, there) in [
             ([1, 2, 3, 4], [0, 1, 2, 3]),
             ([2, 1, 3, 4], [0, 1, 2, 3]),
             ([2, 1, 4, 3], [1, 0, 3, 2]),
             ([GHOST, 7, 5, 9], [3, 1, 0, 2]),
         ] {
-            let places = Places::of(vertices);
-            assert_eq!([0, 1, 2, 3].map(|i| places.get(i)), there, "{vertices:?}");
-            let from = places.inverse();
-            assert!((0..4).all(|i| from[usize::from(there[i])] == i as u8));
+            let moving = Moving::of(&Simplex { vertices, neighbors: [10, 11, 12, 13] }, 5);
+            assert_eq!([0, 2, 4, 6].map(|shift| usize::from(moving.places >> shift & 3)), there);
+            for (k, place) in there.into_iter().enumerate() {
+                assert_eq!(moving.cell.vertices[place], vertices[k]);
+                assert_eq!(moving.cell.neighbors[place], 10 + k as u32);
+            }
+            let [_, b, c, d] = ascending(vertices).map(u128::from);
+            assert_eq!(moving.name, b << 64 | c << 32 | d);
         }
     }
 }

@@ -10,6 +10,8 @@
 //! O(n), and O(suspects) for each of at most [`ROUNDS`] rounds.
 //! *Trap.* Large parts are left alone: under strong noise whole regions would be turned back and forth.
 
+use std::collections::HashSet;
+
 use rayon::prelude::*;
 
 use super::cells::Cells;
@@ -21,6 +23,8 @@ const MOST: u8 = 100;
 /// other sets lose.
 const LEAST: i64 = CERTAIN / 2;
 const ROUNDS: usize = 12;
+/// Cells that are weighed at a time.
+const SOME: usize = 256;
 /// Cells of one task.
 const TASK: usize = 1 << 14;
 /// No place.
@@ -63,6 +67,19 @@ impl<'a> Peeling<'a> {
         Self { cells, tree, parent: parents, order }
     }
 
+    /// The cell and all that hang on it, each after what it hangs on.
+    fn under(&self, cell: u32) -> Vec<u32> {
+        let mut all = vec![cell];
+        let mut next = 0;
+        while let Some(&cell) = all.get(next) {
+            let across = (0..4).filter(|i| self.tree[cell as usize] >> i & 1 == 1);
+            let across = across.map(|i| self.cells.across(cell, i).0);
+            all.extend(across.filter(|&other| self.parent[other as usize] == cell));
+            next += 1;
+        }
+        all
+    }
+
     /// Whether so much is said against the part that hangs by a peeled cell that it could be turned over.
     fn is_outweighed(&self, cell: u32, against: i64, ties: &Ties, inside: &[bool]) -> bool {
         if against <= LEAST {
@@ -83,152 +100,192 @@ impl<'a> Peeling<'a> {
     }
 }
 
-/// Peeled cells whose parts the facets that disagree could outweigh, and all cells of these parts.
+/// Parts that the facets which disagree could outweigh, each after those around it.
 struct Suspects<'a> {
     ties: &'a Ties,
-    cells: &'a Cells,
-    /// Those of a part before what it hangs on.
-    found: Vec<u32>,
-    /// For each the place of the suspect above it, or none.
-    above: Vec<u32>,
-    /// For each the place of the last one above it: ways from under different ones do not meet.
-    top: Vec<u32>,
-    /// By cell its place, counted from one, so that nothing is written for all other cells.
-    place: Vec<u32>,
-    /// For each part, by how much the facets around it agree with the labels.
-    sums: Vec<i64>,
+    peeling: &'a Peeling<'a>,
+    parts: Vec<Part>,
+    /// By cell the innermost part that it is in, counted from one, so that nothing is written for cells that are in none.
+    home: Vec<u32>,
     /// The cells of parts that were turned over.
     turned: Vec<u32>,
+}
+
+/// What hangs by a cell, the cell included.
+#[derive(Clone, Copy)]
+struct Part {
+    cell: u32,
+    /// The next part around it, or none.
+    outer: u32,
+    /// The outermost part around it. What is under different ones never meets.
+    top: u32,
+    /// By how much the facets around it agree with the labels.
+    sum: i64,
+}
+
+/// A tie of cells in two parts: the parts, and how much it agrees with the labels.
+#[derive(Clone, Copy, Default)]
+struct Between {
+    parts: [u32; 2],
+    agrees: i64,
 }
 
 impl<'a> Suspects<'a> {
     fn of(
         objections: &[(u32, i64)],
         ties: &'a Ties,
-        peeling: &Peeling<'a>,
+        peeling: &'a Peeling<'a>,
         inside: &[bool],
     ) -> Self {
-        let cells = peeling.cells;
         let against = against(objections, peeling);
-        let mut place = vec![0u32; cells.len()];
-        let mut found = Vec::new();
-        // From the tops of parts down.
+        let home = vec![0u32; peeling.cells.len()];
+        let mut suspects = Self { ties, peeling, parts: Vec::new(), home, turned: Vec::new() };
         for &cell in peeling.order.iter().rev() {
-            let is_within = place[peeling.parent[cell as usize] as usize] != 0;
-            if is_within || peeling.is_outweighed(cell, against[cell as usize], ties, inside) {
-                found.push(cell);
-                place[cell as usize] = 1;
+            let around = suspects.home[peeling.parent[cell as usize] as usize];
+            suspects.home[cell as usize] = around;
+            if peeling.is_outweighed(cell, against[cell as usize], ties, inside) {
+                let part = suspects.parts.len() as u32;
+                let top = suspects.parts.get(around.wrapping_sub(1) as usize);
+                suspects.begin(cell, top.map_or(part, |part| part.top));
             }
         }
-        found.reverse();
-        (1..).zip(&found).for_each(|(k, &cell)| place[cell as usize] = k);
-        let above = |&cell: &u32| place[peeling.parent[cell as usize] as usize].wrapping_sub(1);
-        let above: Vec<u32> = found.iter().map(above).collect();
-        let mut top: Vec<u32> = (0..found.len() as u32).collect();
-        for k in (0..found.len()).rev().filter(|&k| above[k] != NONE) {
-            top[k] = top[above[k] as usize];
-        }
-        let sums = vec![0; found.len()];
-        let turned = Vec::new();
-        let mut suspects = Self { ties, cells, found, above, top, place, sums, turned };
-        suspects.sum_up(inside);
+        suspects.weigh_all(inside);
         suspects
     }
 
-    fn place(&self, cell: u32) -> u32 {
-        self.place[cell as usize].wrapping_sub(1)
+    /// Begins the part that hangs by a cell, within the one that the cell hangs on, if that is in any.
+    fn begin(&mut self, cell: u32, top: u32) {
+        let outer = self.part(self.peeling.parent[cell as usize]);
+        self.parts.push(Part { cell, outer, top, sum: 0 });
+        self.home[cell as usize] = self.parts.len() as u32;
     }
 
-    /// Where the ways up from two places meet.
-    fn meet(&self, mut a: u32, mut b: u32) -> u32 {
-        if b == NONE || self.top[a as usize] != self.top[b as usize] {
+    /// The innermost part that a cell is in, or none.
+    fn part(&self, cell: u32) -> u32 {
+        self.home[cell as usize].wrapping_sub(1)
+    }
+
+    /// The innermost part that two are in, or none.
+    fn meet(&self, [mut a, mut b]: [u32; 2]) -> u32 {
+        if self.parts[a as usize].top != self.parts[b as usize].top {
             return NONE;
         }
         while a != b {
-            // What hangs on another comes before it, so the former of the two is not above the other.
-            let former = if a < b { &mut a } else { &mut b };
-            *former = self.above[*former as usize];
+            // A part comes after those around it, so the latter of the two is not around the other.
+            let latter = if a > b { &mut a } else { &mut b };
+            *latter = self.parts[*latter as usize].outer;
         }
         a
     }
 
-    fn sum_up(&mut self, inside: &[bool]) {
-        for k in 0..self.found.len() {
-            let (cell, from) = (self.found[k], k as u32);
-            for (i, tie) in (0..).zip(self.ties.of_cell(cell)) {
-                let (other, _) = self.cells.across(cell, i);
-                let to = self.place(other);
-                // A tie of two suspects is met at both.
-                if to != NONE && to < from {
-                    continue;
-                }
-                let agrees = agrees(tie, [cell, other], inside);
-                for (place, times) in [(from, 1), (to, 1), (self.meet(from, to), -2)] {
-                    if place != NONE {
-                        self.sums[place as usize] += times * agrees;
-                    }
-                }
+    /// Sums up the facets around all parts.
+    fn weigh_all(&mut self, inside: &[bool]) {
+        // In the order of cells, as they lie in memory.
+        let (mut some, mut between) = (vec![0u32; SOME + 1], Vec::new());
+        for begin in (0..self.home.len()).step_by(SOME) {
+            let mut count = 0;
+            for cell in begin..self.home.len().min(begin + SOME) {
+                // All are written and some of them written over: which are in parts cannot be guessed.
+                some[count] = cell as u32;
+                count += usize::from(self.home[cell] != 0);
             }
+            self.weigh(&some[..count], &mut between, inside);
         }
-        for k in 0..self.found.len() {
-            if self.above[k] != NONE {
-                self.sums[self.above[k] as usize] += self.sums[k];
+        self.pass_on(0);
+    }
+
+    /// Adds what the facets of some cells say to the parts where it begins to count.
+    fn weigh(&mut self, cells: &[u32], between: &mut Vec<Between>, inside: &[bool]) {
+        between.resize(4 * cells.len() + 1, Between::default());
+        let mut count = 0;
+        for &cell in cells {
+            let part = self.part(cell);
+            let mut sum = 0;
+            for (i, tie) in (0..).zip(self.ties.of_cell(cell)) {
+                let (other, _) = self.peeling.cells.across(cell, i);
+                let beyond = self.part(other);
+                let agrees = agrees(tie, [cell, other], inside);
+                // What is within a part is within all around it. Nothing here can be guessed, so nothing is asked.
+                let is_between = beyond != part;
+                sum += agrees * i64::from(is_between);
+                between[count] = Between { parts: [part, beyond], agrees };
+                // A tie of two parts is met at both.
+                count += usize::from(is_between & (beyond != NONE) & (cell < other));
+            }
+            self.parts[part as usize].sum += sum;
+        }
+        for tie in &between[..count] {
+            let meet = self.meet(tie.parts);
+            if meet != NONE {
+                self.parts[meet as usize].sum -= 2 * tie.agrees;
             }
         }
     }
 
-    /// Turns over the lowest parts that the facets around them object to, and says how many; none if, as parts that are beside each
+    /// Adds what is said around parts, from one on, to those around them.
+    fn pass_on(&mut self, first: usize) {
+        for part in (first..self.parts.len()).rev() {
+            let Part { outer, sum, .. } = self.parts[part];
+            if outer != NONE {
+                self.parts[outer as usize].sum += sum;
+            }
+        }
+    }
+
+    /// Turns over the innermost parts that the facets around them object to, and says how many; none if, as parts that are beside each
     /// other can, they would do no good together.
     fn turn(&mut self, inside: &mut [bool]) -> u64 {
-        // From the leaves up; above one that is turned over, none is.
-        let mut is_turned = vec![false; self.found.len()];
-        let mut is_above = vec![false; self.found.len()];
-        let mut count = 0;
-        for (k, &above) in self.above.iter().enumerate() {
-            if !is_above[k] && self.sums[k] < -LEAST {
-                is_turned[k] = true;
-                count += 1;
+        // Around one that is turned over, none is.
+        let mut is_around = vec![false; self.parts.len()];
+        let mut found = Vec::new();
+        for (k, part) in self.parts.iter().enumerate().rev() {
+            let is_found = !is_around[k] && part.sum < -LEAST;
+            if is_found {
+                found.push(part.cell);
             }
-            if above != NONE {
-                is_above[above as usize] |= is_above[k] || is_turned[k];
+            if part.outer != NONE {
+                is_around[part.outer as usize] |= is_around[k] || is_found;
             }
         }
-        if count == 0 {
-            return 0;
-        }
-        for (k, &above) in self.above.iter().enumerate().rev() {
-            is_turned[k] |= above != NONE && is_turned[above as usize];
-        }
-        // The facets between what is turned over and what is not, and by how much more they agree then.
-        let mut changes: Vec<([u32; 2], i64)> = Vec::new();
-        for (k, _) in is_turned.iter().enumerate().filter(|(_, is_turned)| **is_turned) {
-            let cell = self.found[k];
+        let turned: Vec<u32> = found.iter().flat_map(|&cell| self.peeling.under(cell)).collect();
+        turned.iter().for_each(|&cell| inside[cell as usize] = !inside[cell as usize]);
+        // The facets between what is turned over and what is not agree by so much more, and the tops beside them.
+        let (mut more, mut tops) = (0, Vec::new());
+        let is_turned: HashSet<u32> = turned.iter().copied().collect();
+        for &cell in &turned {
             for (i, tie) in (0..).zip(self.ties.of_cell(cell)) {
-                let (other, _) = self.cells.across(cell, i);
-                let to = self.place(other);
-                if to == NONE || !is_turned[to as usize] {
-                    changes.push(([k as u32, to], -2 * agrees(tie, [cell, other], inside)));
+                let (other, _) = self.peeling.cells.across(cell, i);
+                if !is_turned.contains(&other) {
+                    more += 2 * agrees(tie, [cell, other], inside);
+                    let parts = [cell, other].map(|cell| self.parts.get(self.part(cell) as usize));
+                    tops.extend(parts.into_iter().flatten().map(|part| part.top));
                 }
             }
         }
-        if changes.iter().map(|(_, more)| more).sum::<i64>() <= 0 {
+        if more <= 0 {
+            turned.iter().for_each(|&cell| inside[cell as usize] = !inside[cell as usize]);
             return 0;
         }
-        let turned = self.found.iter().zip(&is_turned).filter(|(_, is_turned)| **is_turned);
-        for (&cell, _) in turned {
-            inside[cell as usize] = !inside[cell as usize];
-            self.turned.push(cell);
-        }
-        for ([from, to], more) in changes {
-            let top = self.meet(from, to);
-            for mut at in [from, to] {
-                while at != NONE && at != top {
-                    self.sums[at as usize] += more;
-                    at = self.above[at as usize];
-                }
+        self.turned.extend(turned);
+        tops.sort_unstable();
+        tops.dedup();
+        self.divide(&tops, inside);
+        found.len() as u64
+    }
+
+    /// Has every cell under some tops begin a part of its own, as labels have changed around there, and any could be objected to now.
+    fn divide(&mut self, tops: &[u32], inside: &[bool]) {
+        let first = self.parts.len();
+        for &top in tops {
+            for cell in self.peeling.under(self.parts[top as usize].cell) {
+                let former = self.part(cell);
+                self.parts[former as usize].sum = 0;
+                self.begin(cell, top);
             }
         }
-        count
+        let cells: Vec<u32> = self.parts[first..].iter().map(|part| part.cell).collect();
+        self.weigh(&cells, &mut Vec::new(), inside);
+        self.pass_on(first);
     }
 }
 

@@ -59,8 +59,8 @@ fn ranked(rank: u64) -> u32 {
 /// Labels the cells: `root` is outside.
 pub(super) fn labels(ties: &Ties, cells: &Cells, root: u32) -> Labels {
     let mut tree = vec![0u8; cells.len()];
-    let mut obey = |facet: u32| {
-        for (cell, i) in [facet, cells.mirror(facet)].map(decode) {
+    let mut obey = |sides: [u32; 2]| {
+        for (cell, i) in sides.map(decode) {
             tree[cell as usize] |= 1 << i;
         }
     };
@@ -72,8 +72,8 @@ pub(super) fn labels(ties: &Ties, cells: &Cells, root: u32) -> Labels {
         .with_min_len(TASK)
         .map(|cell| strongest_of(cell, ties, cells))
         .collect();
-    let (level, mut parts) = followed(&strongest, ties, cells);
-    strongest.into_iter().for_each(&mut obey);
+    let (level, mut parts) = followed(&strongest, ties, cells, &mut obey);
+    drop(strongest);
     let mut best = nothing(parts);
     let mut bonds = first_bonds(ties, cells, &level, &best);
     levels.push(level);
@@ -83,7 +83,8 @@ pub(super) fn labels(ties: &Ties, cells: &Cells, root: u32) -> Labels {
             let [one, other] = bond.parts();
             let is_best = |part: u32| best[part as usize].load(Relaxed) == bond.rank;
             if (is_best(one) || is_best(other)) && media.join(one, other, bond.ends[0] & 1 == 1) {
-                obey(ranked(bond.rank));
+                let facet = ranked(bond.rank);
+                obey([facet, cells.mirror(facet)]);
             }
         }
         let level;
@@ -135,54 +136,64 @@ fn strongest_of(cell: u32, ties: &Ties, cells: &Cells) -> u32 {
     }
 }
 
-/// The parts of cells that each join the one across their strongest facet, as a level, and how many there are. Whoever follows these facets
-/// comes to one that is the strongest for both its cells, as ranks only rise.
-fn followed(strongest: &[u32], ties: &Ties, cells: &Cells) -> (Vec<u32>, usize) {
-    const UNKNOWN: u32 = u32::MAX;
-    let mut level = vec![UNKNOWN; strongest.len()];
-    let mut parts = 0;
-    let mut way = Vec::new();
-    for start in 0..strongest.len() as u32 {
-        let mut at = start;
-        while level[at as usize] == UNKNOWN {
-            let facet = strongest[at as usize];
-            let next = cells.mirror(facet);
-            way.push((at, u32::from(ties.at(facet).is_opposite())));
-            let other = (next >> 2) as usize;
-            if strongest[other] == next && level[other] == UNKNOWN {
-                level[at as usize] = parts << 1;
-                parts += 1;
-                way.pop();
-            } else {
-                at = other as u32;
-            }
-        }
-        let mut side = level[at as usize];
-        while let Some((cell, sign)) = way.pop() {
-            side ^= sign;
-            level[cell as usize] = side;
+/// The parts of cells that each join the one across their strongest facet, as a level, and how many there are; the facets go to `obey`.
+/// Whoever follows these facets comes to one that is the strongest for both its cells, as ranks only rise: the first of them stands for
+/// all. Each cell takes the leap that the one it leaps to takes, until none leaps further: twice as far each time, and nobody
+/// has to guess where a way ends.
+fn followed(
+    strongest: &[u32],
+    ties: &Ties,
+    cells: &Cells,
+    mut obey: impl FnMut([u32; 2]),
+) -> (Vec<u32>, usize) {
+    // Where a cell leaps to, and in the lowest bit whether that is opposite.
+    let leap = |(cell, &facet): (u32, &u32)| {
+        let back = cells.mirror(facet);
+        obey([facet, back]);
+        let other = back >> 2;
+        let is_first = (strongest[other as usize] == back) & (cell < other);
+        if is_first { cell << 1 } else { other << 1 | u32::from(ties.at(facet).is_opposite()) }
+    };
+    let mut level: Vec<u32> = (0..).zip(strongest).map(leap).collect();
+    let mut is_done = false;
+    while !is_done {
+        is_done = true;
+        for cell in 0..level.len() {
+            let leap = level[cell];
+            let further = level[(leap >> 1) as usize] ^ leap & 1;
+            is_done &= further == leap;
+            level[cell] = further;
         }
     }
+    // Those that stand for parts are numbered.
+    let mut number = vec![0u32; level.len()];
+    let mut parts = 0;
+    for (cell, &to) in (0..).zip(&level) {
+        number[cell as usize] = parts;
+        parts += u32::from(to >> 1 == cell);
+    }
+    level.iter_mut().for_each(|leap| *leap = number[(*leap >> 1) as usize] << 1 | *leap & 1);
     (level, parts as usize)
 }
 
 /// The facets between parts of cells, each from its first cell, by tasks.
 fn first_bonds(ties: &Ties, cells: &Cells, level: &[u32], best: &[AtomicU64]) -> Vec<Vec<Bond>> {
-    let part_of = |cell: u32| level[cell as usize] >> 1;
-    let task = |between: &mut Vec<u32>, begin: usize| {
+    // A facet, and the levels of its two cells.
+    let task = |between: &mut Vec<[u32; 3]>, begin: usize| {
         let some = begin as u32..cells.len().min(begin + TASK) as u32;
-        between.resize(4 * some.len(), 0);
+        between.resize(4 * some.len(), [0; 3]);
         let mut count = 0;
         for cell in some {
+            let own = level[cell as usize];
             for i in 0..4 {
-                // All are written and most of them written over: which are between parts cannot be guessed.
-                between[count] = cell << 2 | i as u32;
                 let (other, _) = cells.across(cell, i);
-                count += usize::from((other > cell) & (part_of(cell) != part_of(other)));
+                let beyond = level[other as usize];
+                // All are written and most of them written over: which are between parts cannot be guessed.
+                between[count] = [cell << 2 | i as u32, own, beyond];
+                count += usize::from((other > cell) & (own >> 1 != beyond >> 1));
             }
         }
-        let bond = |&facet: &u32| {
-            let [own, beyond] = [facet, cells.mirror(facet)].map(|f| level[(f >> 2) as usize]);
+        let bond = |&[facet, own, beyond]: &[u32; 3]| {
             let tie = ties.at(facet);
             let sign = (own ^ beyond) & 1 ^ u32::from(tie.is_opposite());
             let bond = Bond { ends: [own & !1 | sign, beyond >> 1], rank: rank(tie, facet) };
