@@ -22,7 +22,10 @@ const SITES: usize = 16;
 /// The cells by number. Of each the sites are in positive order: the lowest two first, then the third, then the highest, which of
 /// a ghost is the vertex at infinity.
 pub(super) struct Cells {
-    all: Vec<Simplex<4>>,
+    sites: Vec<[u32; 4]>,
+    /// For each place of a cell the facet opposite it, as seen from the cell beyond. Apart from the sites, as most ways through all cells
+    /// ask for one of the two alone.
+    beyond: Vec<[u32; 4]>,
 }
 
 impl Cells {
@@ -32,15 +35,17 @@ impl Cells {
         // For each slot the number of its cell, and the places of its vertices there.
         let numbers: Vec<AtomicU32> = slots.iter().map(|_| AtomicU32::new(0)).collect();
         let places: Vec<AtomicU8> = slots.iter().map(|_| AtomicU8::new(0)).collect();
-        let mut all = vec![Simplex { vertices: [0; 4], neighbors: [0; 4] }; order.len()];
-        let (mut rest, mut tasks, mut begin) = (&mut all[..], Vec::new(), 0);
+        let [mut vertices, mut beyond] = [(); 2].map(|()| vec![[0u32; 4]; order.len()]);
+        let (mut rest, mut tasks, mut begin) = ((&mut vertices[..], &mut beyond[..]), vec![], 0);
         for ends in ends.chunks(TASK) {
             let end = ends[ends.len() - 1];
-            let (own, others) = rest.split_at_mut((end - begin) as usize);
-            tasks.push((begin, ends, own));
-            (rest, begin) = (others, end);
+            let count = (end - begin) as usize;
+            let (own, others) = rest.0.split_at_mut(count);
+            let (own_beyond, others_beyond) = rest.1.split_at_mut(count);
+            tasks.push((begin, ends, own, own_beyond));
+            (rest, begin) = ((others, others_beyond), end);
         }
-        tasks.into_par_iter().for_each_init(Vec::new, |moving, (first, ends, cells)| {
+        tasks.into_par_iter().for_each_init(Vec::new, |moving, (first, ends, vertices, beyond)| {
             let mut begin = first;
             for ends in ends.chunks(SITES) {
                 // Some at a time, so that what is far off in memory is under way for all of them.
@@ -50,9 +55,10 @@ impl Cells {
                 let mut rest = &mut moving[..];
                 for &end in ends {
                     let (alike, others) = rest.split_at_mut((end - begin) as usize);
-                    let to = &mut cells[(begin - first) as usize..(end - first) as usize];
+                    let first = (begin - first) as usize;
                     in_order(alike, |rank, moving| {
-                        to[rank] = moving.cell;
+                        vertices[first + rank] = moving.vertices;
+                        beyond[first + rank] = moving.beyond;
                         numbers[moving.slot as usize].store(begin + rank as u32, Relaxed);
                         places[moving.slot as usize].store(moving.places, Relaxed);
                     });
@@ -60,23 +66,23 @@ impl Cells {
                 }
             }
         });
-        all.par_iter_mut().with_min_len(TASK).for_each(|cell| {
-            cell.neighbors = cell.neighbors.map(|code| {
+        beyond.par_iter_mut().with_min_len(TASK).for_each(|beyond| {
+            *beyond = beyond.map(|code| {
                 let (slot, k) = decode(code);
                 let place = places[slot as usize].load(Relaxed) >> (2 * k) & 3;
                 numbers[slot as usize].load(Relaxed) << 2 | u32::from(place)
             });
         });
-        Self { all }
+        Self { sites: vertices, beyond }
     }
 
     /// How many cells there are.
     pub(super) fn len(&self) -> usize {
-        self.all.len()
+        self.sites.len()
     }
 
     pub(super) fn is_ghost(&self, cell: u32) -> bool {
-        self.all[cell as usize].vertices[3] == GHOST
+        self.sites[cell as usize][3] == GHOST
     }
 
     /// The numbers of all cells that are no ghosts.
@@ -85,7 +91,7 @@ impl Cells {
     }
 
     pub(super) fn sites(&self, cell: u32) -> [u32; 4] {
-        self.all[cell as usize].vertices
+        self.sites[cell as usize]
     }
 
     /// The sites in ascending order.
@@ -97,12 +103,12 @@ impl Cells {
     /// The facet `cell << 2 | place` as seen from the cell across it.
     pub(super) fn mirror(&self, facet: u32) -> u32 {
         let (cell, i) = decode(facet);
-        self.all[cell as usize].neighbors[i]
+        self.beyond[cell as usize][i]
     }
 
     /// The cell across a facet, and the place of the facet in it.
     pub(super) fn across(&self, cell: u32, facet: usize) -> (u32, usize) {
-        decode(self.all[cell as usize].neighbors[facet])
+        decode(self.beyond[cell as usize][facet])
     }
 
     /// The sites of the facet opposite the i-th of a cell, counter-clockwise as seen from beyond it.
@@ -130,8 +136,9 @@ impl Cells {
 struct Moving {
     /// All sites but the lowest in ascending order, as one number, which is compared at once.
     name: u128,
-    /// With its neighbours as slots know them.
-    cell: Simplex<4>,
+    vertices: [u32; 4],
+    /// As slots know it.
+    beyond: [u32; 4],
     /// For each vertex of the slot its place in the cell, in two bits each.
     places: u8,
     slot: u32,
@@ -148,11 +155,13 @@ impl Moving {
         let [sources, places] = POSITIVE[sources];
         // What comes to each place, rather than where each goes: what was just written at a place that varies is slow to read.
         let source = [0, 2, 4, 6].map(|shift| usize::from(sources >> shift & 3));
-        let cell = Simplex {
+        Self {
+            name: b << 64 | c << 32 | d,
             vertices: source.map(|k| from.vertices[k]),
-            neighbors: source.map(|k| from.neighbors[k]),
-        };
-        Self { name: b << 64 | c << 32 | d, cell, places, slot }
+            beyond: source.map(|k| from.neighbors[k]),
+            places,
+            slot,
+        }
     }
 }
 
@@ -297,8 +306,8 @@ mod tests {
             let moving = Moving::of(&Simplex { vertices, neighbors: [10, 11, 12, 13] }, 5);
             assert_eq!([0, 2, 4, 6].map(|shift| usize::from(moving.places >> shift & 3)), there);
             for (k, place) in there.into_iter().enumerate() {
-                assert_eq!(moving.cell.vertices[place], vertices[k]);
-                assert_eq!(moving.cell.neighbors[place], 10 + k as u32);
+                assert_eq!(moving.vertices[place], vertices[k]);
+                assert_eq!(moving.beyond[place], 10 + k as u32);
             }
             let [_, b, c, d] = ascending(vertices).map(u128::from);
             assert_eq!(moving.name, b << 64 | c << 32 | d);

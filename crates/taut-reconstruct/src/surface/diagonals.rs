@@ -128,8 +128,17 @@ impl Quadrangle {
         let mut turns = [[[[0.0; 3]; 2]; 2]; 5];
         turns[0] = [now, then];
         let mut count = 1;
+        // At a side, what turns now and what turns then differ by no more than the two triangles of the quadrangle do. Few could come to
+        // so much, and for most others it shows before all sides are known.
+        let sides = [[0, 0], [0, 1], [1, 0], [1, 1]].map(|[e, o]| [now[1 - o], then[1 - e]]);
+        let at_most = sides.map(most);
+        let mut bound = nearly_angle(now) - nearly_angle(then) + at_most.iter().sum::<f64>();
         for (e, &end) in self.ends.iter().enumerate() {
             for (o, &other) in self.others.iter().enumerate() {
+                if bound + 20.0 * NEARLY <= FLATTER {
+                    return false;
+                }
+                bound -= at_most[2 * e + o];
                 // At the side from the one to the other, opposite the third and the fourth corner.
                 let Some(facet) = self.beyond(cells, inside, [end, other], self.ends[1 - e]) else {
                     continue;
@@ -141,7 +150,9 @@ impl Quadrangle {
                 }
                 let [a, b, c] = sites.map(|site| points[site as usize]);
                 let beside = normal(a, b, c);
-                turns[count] = [[now[1 - o], beside], [then[1 - e], beside]];
+                let [now, then] = sides[2 * e + o];
+                turns[count] = [[now, beside], [then, beside]];
+                bound += nearly_angle([now, beside]) - nearly_angle([then, beside]);
                 count += 1;
             }
         }
@@ -219,6 +230,13 @@ fn is_more(turns: &[[[Point; 2]; 2]]) -> bool {
 fn angle([a, b]: [Point; 2]) -> f64 {
     let c = cross(a, b);
     dot(c, c).sqrt().atan2(dot(a, b))
+}
+
+/// How much the angles of two vectors to any third one differ at most: their own angle, if they have one.
+fn most([a, b]: [Point; 2]) -> f64 {
+    /// Squares of vectors so short that products of two of them are no longer numbers of full precision.
+    const SHORT: f64 = 1e-140;
+    if dot(a, a).min(dot(b, b)) < SHORT { PI } else { nearly_angle([a, b]) }
 }
 
 /// How much less or more than the angle [`nearly_angle`] is at most.

@@ -13,6 +13,7 @@
 use std::collections::HashSet;
 
 use rayon::prelude::*;
+use taut_delaunay::decode;
 
 use super::cells::Cells;
 use super::strengths::{CERTAIN, Tie, Ties};
@@ -35,8 +36,8 @@ struct Peeling<'a> {
     cells: &'a Cells,
     /// The facets of the tree, one bit each.
     tree: &'a [u8],
-    /// By cell; [`NONE`] for those that were not peeled off.
-    parent: Vec<u32>,
+    /// By cell the facet that it hung by, as seen from what it hung on; [`NONE`] for those that were not peeled off.
+    up: Vec<u32>,
     /// The cells in the order in which they were peeled off: those of a part before what it hung on.
     order: Vec<u32>,
 }
@@ -46,7 +47,7 @@ impl<'a> Peeling<'a> {
     fn of(tree: &'a [u8], cells: &'a Cells) -> Self {
         let mut left = tree.to_vec();
         let mut size = vec![1u8; cells.len()];
-        let mut parents = vec![NONE; cells.len()];
+        let mut up = vec![NONE; cells.len()];
         let mut order = Vec::with_capacity(cells.len());
         for start in 0..cells.len() as u32 {
             let mut leaf = start;
@@ -54,9 +55,10 @@ impl<'a> Peeling<'a> {
                 && size[leaf as usize] <= MOST
                 && !cells.is_ghost(leaf)
             {
-                let place = left[leaf as usize].trailing_zeros() as usize;
-                let (parent, back) = cells.across(leaf, place);
-                parents[leaf as usize] = parent;
+                let place = left[leaf as usize].trailing_zeros();
+                let facet = cells.mirror(leaf << 2 | place);
+                up[leaf as usize] = facet;
+                let (parent, back) = decode(facet);
                 order.push(leaf);
                 left[leaf as usize] = 0;
                 left[parent as usize] &= !(1 << back);
@@ -64,7 +66,12 @@ impl<'a> Peeling<'a> {
                 leaf = parent;
             }
         }
-        Self { cells, tree, parent: parents, order }
+        Self { cells, tree, up, order }
+    }
+
+    /// What a peeled cell hung on.
+    fn parent(&self, cell: u32) -> u32 {
+        self.up[cell as usize] >> 2
     }
 
     /// The cell and all that hang on it, each after what it hangs on.
@@ -74,7 +81,7 @@ impl<'a> Peeling<'a> {
         while let Some(&cell) = all.get(next) {
             let across = (0..4).filter(|i| self.tree[cell as usize] >> i & 1 == 1);
             let across = across.map(|i| self.cells.across(cell, i).0);
-            all.extend(across.filter(|&other| self.parent[other as usize] == cell));
+            all.extend(across.filter(|&other| self.parent(other) == cell));
             next += 1;
         }
         all
@@ -90,13 +97,7 @@ impl<'a> Peeling<'a> {
             return agreement(cell, ties, self.cells, inside) < -LEAST;
         }
         // What the part hangs by was obeyed, and agrees.
-        let hung_by = || {
-            let parent = self.parent[cell as usize];
-            let tree = self.tree[cell as usize];
-            let is_up = |&i: &usize| tree >> i & 1 == 1 && self.cells.across(cell, i).0 == parent;
-            (0..4).find(is_up).map_or(0, |i| i64::from(ties.of_cell(cell)[i].strength()))
-        };
-        against > LEAST + hung_by()
+        against > LEAST + i64::from(ties.at(self.up[cell as usize]).strength())
     }
 }
 
@@ -141,7 +142,7 @@ impl<'a> Suspects<'a> {
         let home = vec![0u32; peeling.cells.len()];
         let mut suspects = Self { ties, peeling, parts: Vec::new(), home, turned: Vec::new() };
         for &cell in peeling.order.iter().rev() {
-            let around = suspects.home[peeling.parent[cell as usize] as usize];
+            let around = suspects.home[peeling.parent(cell) as usize];
             suspects.home[cell as usize] = around;
             if peeling.is_outweighed(cell, against[cell as usize], ties, inside) {
                 let part = suspects.parts.len() as u32;
@@ -155,7 +156,7 @@ impl<'a> Suspects<'a> {
 
     /// Begins the part that hangs by a cell, within the one that the cell hangs on, if that is in any.
     fn begin(&mut self, cell: u32, top: u32) {
-        let outer = self.part(self.peeling.parent[cell as usize]);
+        let outer = self.part(self.peeling.parent(cell));
         self.parts.push(Part { cell, outer, top, sum: 0 });
         self.home[cell as usize] = self.parts.len() as u32;
     }
@@ -298,7 +299,7 @@ fn against(objections: &[(u32, i64)], peeling: &Peeling<'_>) -> Vec<i64> {
     for &cell in &peeling.order {
         let own = against[cell as usize];
         if own > 0 {
-            against[peeling.parent[cell as usize] as usize] += own;
+            against[peeling.parent(cell) as usize] += own;
         }
     }
     against

@@ -19,9 +19,9 @@ use taut_delaunay::decode;
 
 use super::cells::Cells;
 use super::media::Media;
-use super::strengths::{Tie, Ties};
+use super::strengths::Ties;
 
-/// Cells or bonds of one task.
+/// Cells or bonds of one task. No more, as of all bonds of a task the place fits into 16 bits, and so does the number of the task.
 const TASK: usize = 1 << 14;
 
 /// A facet between two parts.
@@ -29,8 +29,8 @@ const TASK: usize = 1 << 14;
 struct Bond {
     /// The parts; in the lowest bit of the first whether the facet says that they are opposite.
     ends: [u32; 2],
-    /// Strength first, then the facet: no two are equal.
-    rank: u64,
+    facet: u32,
+    strength: u32,
 }
 
 impl Bond {
@@ -46,14 +46,16 @@ pub(super) struct Labels {
     pub(super) tree: Vec<u8>,
 }
 
-/// How soon a facet is heard: the later, the greater.
-fn rank(tie: Tie, facet: u32) -> u64 {
-    u64::from(tie.key) << 32 | u64::from(!facet)
+/// How soon a bond is heard, the later the less: by strength, then by its task and its place there, which are in the order of facets. No
+/// two are equal.
+fn rank(bond: &Bond, task: usize, place: usize) -> u64 {
+    u64::from(bond.strength) << 32 | u64::from(!((task << 16 | place) as u32))
 }
 
-/// The facet that has this rank.
-fn ranked(rank: u64) -> u32 {
-    !(rank as u32)
+/// The bond that has a rank.
+fn ranked(bonds: &[Vec<Bond>], rank: u64) -> &Bond {
+    let at = !(rank as u32) as usize;
+    &bonds[at >> 16][at & 0xffff]
 }
 
 /// Labels the cells: `root` is outside.
@@ -79,12 +81,11 @@ pub(super) fn labels(ties: &Ties, cells: &Cells, root: u32) -> Labels {
     levels.push(level);
     while parts > 1 {
         let mut media = Media::new(parts);
-        for bond in bonds.iter().flatten() {
+        for best in best.iter_mut().map(|best| *best.get_mut()).filter(|&best| best > 0) {
+            let bond = ranked(&bonds, best);
             let [one, other] = bond.parts();
-            let is_best = |part: u32| best[part as usize].load(Relaxed) == bond.rank;
-            if (is_best(one) || is_best(other)) && media.join(one, other, bond.ends[0] & 1 == 1) {
-                let facet = ranked(bond.rank);
-                obey([facet, cells.mirror(facet)]);
+            if media.join(one, other, bond.ends[0] & 1 == 1) {
+                obey([bond.facet, cells.mirror(bond.facet)]);
             }
         }
         let level;
@@ -110,12 +111,15 @@ fn nothing(parts: usize) -> Vec<AtomicU64> {
     (0..parts).map(|_| AtomicU64::new(0)).collect()
 }
 
-/// Offers a bond to its parts: whoever comes first, the highest rank stays.
-fn offer(best: &[AtomicU64], bond: &Bond) {
-    for part in bond.parts() {
-        let best = &best[part as usize];
-        if best.load(Relaxed) < bond.rank {
-            best.fetch_max(bond.rank, Relaxed);
+/// Offers the bonds of a task to their parts: whoever comes first, the highest rank stays.
+fn offer(best: &[AtomicU64], task: usize, bonds: &[Bond]) {
+    for (place, bond) in bonds.iter().enumerate() {
+        let rank = rank(bond, task, place);
+        for part in bond.parts() {
+            let best = &best[part as usize];
+            if best.load(Relaxed) < rank {
+                best.fetch_max(rank, Relaxed);
+            }
         }
     }
 }
@@ -196,11 +200,11 @@ fn first_bonds(ties: &Ties, cells: &Cells, level: &[u32], best: &[AtomicU64]) ->
         let bond = |&[facet, own, beyond]: &[u32; 3]| {
             let tie = ties.at(facet);
             let sign = (own ^ beyond) & 1 ^ u32::from(tie.is_opposite());
-            let bond = Bond { ends: [own & !1 | sign, beyond >> 1], rank: rank(tie, facet) };
-            offer(best, &bond);
-            bond
+            Bond { ends: [own & !1 | sign, beyond >> 1], facet, strength: tie.key }
         };
-        between[..count].iter().map(bond).collect::<Vec<Bond>>()
+        let bonds: Vec<Bond> = between[..count].iter().map(bond).collect();
+        offer(best, begin / TASK, &bonds);
+        bonds
     };
     let begins: Vec<usize> = (0..cells.len()).step_by(TASK).collect();
     begins.into_par_iter().map_init(Vec::new, task).collect()
@@ -208,7 +212,7 @@ fn first_bonds(ties: &Ties, cells: &Cells, level: &[u32], best: &[AtomicU64]) ->
 
 /// Keeps the bonds that are between parts after these were joined.
 fn keep_between(bonds: &mut [Vec<Bond>], level: &[u32], best: &[AtomicU64]) {
-    let keep = |bonds: &mut Vec<Bond>| {
+    let keep = |(task, bonds): (usize, &mut Vec<Bond>)| {
         let mut count = 0;
         for k in 0..bonds.len() {
             let mut bond = bonds[k];
@@ -220,7 +224,7 @@ fn keep_between(bonds: &mut [Vec<Bond>], level: &[u32], best: &[AtomicU64]) {
             count += usize::from(one >> 1 != two >> 1);
         }
         bonds.truncate(count);
-        bonds.iter().for_each(|bond| offer(best, bond));
+        offer(best, task, bonds);
     };
-    bonds.par_iter_mut().for_each(keep);
+    bonds.par_iter_mut().enumerate().for_each(keep);
 }
