@@ -32,7 +32,8 @@ pub struct Lu {
 
 /// Replaces a matrix by its factors: U on and above the diagonal, below it L, whose diagonal is one.
 ///
-/// The matrix may be rectangular. Runs on the current rayon pool. O(m·n·min(m, n)), and half as much memory as the matrix.
+/// The matrix may be rectangular. Runs on the current rayon pool. O(m·n·min(m, n)); memory for
+/// m·min(m, n)/2 numbers, and for m² more if the matrix is wider than high.
 ///
 /// ```
 /// use taut_oblivious::{MatrixViewMut, lu};

@@ -248,6 +248,9 @@ impl<'a, W: Word> Tree<'a, W> {
         ranks: &mut [usize],
         probe: &mut P,
     ) {
+        // Keys and ranks of one place, also where one of the slices is longer.
+        let answered = keys.len().min(ranks.len());
+        let (keys, ranks) = (&keys[..answered], &mut ranks[..answered]);
         let (groups, rest) = keys.as_chunks::<GROUP>();
         let (rank_groups, rank_rest) = ranks.as_chunks_mut::<GROUP>();
         let inner = self.starts.len() - 1;

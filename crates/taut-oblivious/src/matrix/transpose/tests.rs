@@ -110,6 +110,13 @@ fn nothing_in_nothing_out() {
     transpose::<f64>(&[], 5, 0, &mut []).unwrap();
     transpose(&[(); 6], 2, 3, &mut [(); 6]).unwrap();
     in_place::transpose_in_place::<f64>(&mut [], 0, 5).unwrap();
+    // Nothing is asked for and nothing is touched; something is not nothing.
+    let mut counts = Counts::default();
+    transpose_probed::<f64, _>(&[], usize::MAX, 0, &mut [], &mut counts).unwrap();
+    in_place::transpose_in_place_probed::<f64, _>(&mut [], 0, usize::MAX, &mut counts).unwrap();
+    assert_eq!((counts.placed, counts.read, counts.written), (0, 0, 0));
+    assert!(transpose(&[1u8], 0, 5, &mut [0]).is_err());
+    assert!(in_place::transpose_in_place(&mut [1u8], 5, 0).is_err());
 }
 
 #[test]
