@@ -41,6 +41,7 @@ mod error;
 mod hilbert;
 pub mod kdtree;
 pub mod layout;
+mod level;
 mod list;
 mod matrix;
 mod morton;

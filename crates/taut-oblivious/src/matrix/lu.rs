@@ -10,9 +10,9 @@
 //! *Reference.* Toledo, *Locality of reference in LU decomposition with partial pivoting*, SIAM J. Matrix Anal. 18, 1997;
 //! thesis, section 5.8; Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., theorem 9.3.
 
-use super::level::Level;
 use super::multiply::{Update, recurse, shared};
 use super::view::{MatrixView, MatrixViewMut};
+use crate::level::Level;
 use crate::{Error, NoProbe, Probe};
 
 #[cfg(test)]

@@ -17,7 +17,7 @@
 use bytemuck::Pod;
 use rayon::prelude::*;
 
-use super::level::{Level, last_cache_bytes};
+use crate::level::{Level, last_cache_bytes};
 use crate::{Error, NoProbe, Probe};
 
 pub(crate) mod in_place;

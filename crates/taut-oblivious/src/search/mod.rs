@@ -27,7 +27,7 @@ use std::ops::Range;
 pub use blocked::BlockedVanEmdeBoas;
 pub use eytzinger::Eytzinger;
 pub use key::{Key, Word};
-pub(crate) use lanes::{Level, prefetch};
+pub(crate) use lanes::prefetch;
 pub(crate) use pages::Pages;
 pub use sorted::Sorted;
 pub use splus::SPlusTree;

@@ -8,7 +8,7 @@
 use bytemuck::Pod;
 
 use super::{check_length, rectangular, tiles};
-use crate::matrix::level::Level;
+use crate::level::Level;
 use crate::{Error, NoProbe, Probe};
 
 /// Bytes of a row of a block.

@@ -5,7 +5,7 @@
 
 use bytemuck::Pod;
 
-use crate::matrix::level::Level;
+use crate::level::Level;
 
 #[cfg(target_arch = "x86_64")]
 mod x86;
@@ -89,7 +89,7 @@ pub(in crate::matrix) fn stream<T: Pod>(level: Level, from: &[T], to: &mut [T]) 
 /// Asks for `part` before it is needed.
 pub(in crate::matrix) fn fetch<T: Pod>(level: Level, part: &[T]) {
     #[cfg(target_arch = "x86_64")]
-    if level != Level::Scalar {
+    if level != Level::Portable {
         x86::fetch(bytemuck::cast_slice(part));
     }
     #[cfg(not(target_arch = "x86_64"))]
@@ -99,7 +99,7 @@ pub(in crate::matrix) fn fetch<T: Pod>(level: Level, part: &[T]) {
 /// Orders what [`stream`] wrote before what this thread writes next.
 pub(in crate::matrix) fn fence(level: Level) {
     #[cfg(target_arch = "x86_64")]
-    if level != Level::Scalar {
+    if level != Level::Portable {
         x86::fence();
     }
     #[cfg(not(target_arch = "x86_64"))]

@@ -8,7 +8,7 @@ use std::arch::x86_64::*;
 
 use bytemuck::Pod;
 
-use crate::matrix::level::{Avx2, Avx512, Level};
+use crate::level::{Avx2, Avx512, Level};
 
 pub(super) mod past;
 
@@ -365,15 +365,15 @@ pub(super) fn stream(level: Level, from: &[u8], to: &mut [u8]) {
     let body = (to.len() - head) / 64 * 64;
     to[..head].copy_from_slice(&from[..head]);
     match level {
-        // SAFETY: the level proves the instructions.
+        // SAFETY: the value proves that the processor has AVX-512F.
         Level::Avx512(_) => unsafe {
             stream_avx512(&from[head..head + body], &mut to[head..head + body]);
         },
-        // SAFETY: as above.
+        // SAFETY: the value proves that the processor has AVX2.
         Level::Avx2(_) => unsafe {
             stream_avx2(&from[head..head + body], &mut to[head..head + body]);
         },
-        Level::Scalar => to[head..head + body].copy_from_slice(&from[head..head + body]),
+        Level::Portable => to[head..head + body].copy_from_slice(&from[head..head + body]),
     }
     to[head + body..].copy_from_slice(&from[head + body..]);
 }
