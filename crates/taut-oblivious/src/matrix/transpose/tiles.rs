@@ -35,18 +35,20 @@ pub(in crate::matrix) fn turn<T: Pod>(
     }
 }
 
-/// Turns a whole strip of the source into the whole rows `to` of the target, past the caches; whether there is a kernel
-/// that does. [`fence`] must follow before another thread reads.
+/// Turns a strip of the source into rows of the target, `stride_to` apart, past the caches; whether there is a kernel that
+/// does. [`fence`] must follow before another thread reads.
 pub(super) fn walk<T: Pod>(
     level: Level,
     (rows, columns): (usize, usize),
     (from, stride): (&[T], usize),
-    to: &mut [T],
+    (to, stride_to): (&mut [T], usize),
 ) -> bool {
-    assert!((rows - 1) * stride + columns <= from.len() && rows * columns <= to.len());
+    // What the addresses of the kernel rest on.
+    assert!((rows - 1) * stride + columns <= from.len());
+    assert!((columns - 1) * stride_to + rows <= to.len());
     match level {
         #[cfg(target_arch = "x86_64")]
-        Level::Avx512(yes) => x86::walk(yes, (rows, columns), (from, stride), to),
+        Level::Avx512(yes) => x86::walk(yes, (rows, columns), (from, stride), (to, stride_to)),
         _ => false,
     }
 }
