@@ -172,8 +172,15 @@ mod tests {
 
     #[test]
     fn the_far_corners_are_inside_the_key_range() {
-        assert!(hilbert_key([65535, 65535]) > 1 << 30);
-        assert!(hilbert_key([1023, 1023, 1023]) < 1 << 30);
+        // From one corner of the square to the other end of a side; two thirds of the way to the opposite corner.
+        assert_eq!(hilbert_key([0, 0]), 0);
+        let ends = [hilbert_key([65535, 0]), hilbert_key([0, 65535])];
+        assert!(ends.contains(&u32::MAX) && ends.contains(&(u32::MAX / 3)), "{ends:?}");
+        assert_eq!(hilbert_key([65535, 65535]), u32::MAX / 3 * 2);
+        let corner = |k: u32| hilbert_key(std::array::from_fn::<_, 3, _>(|i| (k >> i & 1) * 1023));
+        let corners: Vec<u32> = (0..8).map(corner).collect();
+        assert!(corners.contains(&0) && corners.contains(&((1 << 30) - 1)), "{corners:?}");
+        assert!(corners.iter().all(|&key| key < 1 << 30));
     }
 
     #[test]

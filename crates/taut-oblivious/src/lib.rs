@@ -3,25 +3,28 @@
 //! | you want | call | promise | cost |
 //! |---|---|---|---|
 //! | points in an order where neighbours in space are neighbours in memory | [`hilbert_order()`] | a function of the point set alone, equal points side by side | a few passes of O(n) |
-//! | the transpose of a matrix, in memory or in a file | [`transpose()`], [`transpose_in_place`], [`transpose_file`] | a permutation of bytes; a file is whole or not there | O(mn), one pass |
-//! | a product of matrices, LU factors | [`multiply`], [`lu`] | stated errors, the same bits on any processor | O(mnk) |
-//! | a priority queue, also larger than memory | [`PriorityQueue`], [`SpillingQueue`] | keys in order, no entry lost | expected O(log n) |
-//! | linked lists in order | [`list_order`] | every node once, closed lists too | O(n) |
-//! | a Fourier transform in two passes | [`fft`] | relative error 10⁻¹⁵·log₂ n | O(n log n) |
-//! | the place of one cell on the curve | [`hilbert_key()`] | consecutive cells share a face | O(bits) |
-//! | how often an algorithm misses in a memory of any size | [`simulate`] | exact, the same on every machine | some 10 ns a touch |
-//! | the algorithms of the literature, to measure them | [`reference`](mod@reference) | as in the papers, short, not fast | |
-//! | how many sorted keys are smaller | [`search`] | the same ranks from every layout | a line of memory a factor of 9 |
-//! | an ordered set whose ranges are read like an array | [`packed`] | all densities within bounds | O(log² n) moves an insertion, few in a batch |
-//! | the points nearest to a place | [`kdtree`] | exact, ties to the lowest row | O(log n), few lines of memory |
-//! | a tree in an order for walks from its root | [`layout::permute`] | the same tree | O(n) |
-//! | the same in Z-order | [`morton_order()`], [`morton_key()`] | a function of the point set alone | as above, keys at half the cost |
+//! | the same in Z-order | [`morton_order()`] | as above | as above, keys at half the cost |
+//! | the place of one cell on the curve | [`hilbert_key()`], [`morton_key()`] | consecutive cells of the Hilbert curve share a face | O(bits) |
 //! | numbers in order | [`sort()`] | the total order; NaN is no error | O(n log n), eight at a time |
 //! | records in order of a number | [`sort_records()`] | stable | a few passes of O(n) |
 //! | a file of records in order | [`external::sort_file`] | stable, within a limit on memory, with a certificate | each byte read twice and written twice |
 //! | some of many, in order | [`sample()`], [`bernoulli()`], [`Sequential`] | all sets equally likely; a function of the seed | O(1) for each |
 //! | some of a stream | [`Reservoir`] | all sets equally likely | O(1) an item |
 //! | items in random order | [`shuffle()`] | all orders equally likely; a function of the seed | a few passes of O(n) |
+//! | the k-th smallest number, the median | [`select()`], [`median()`] | the total order | O(n) |
+//! | an array from its end to its beginning | [`reverse()`] | each line read and written once | O(n) |
+//! | how many sorted keys are smaller | [`search`] | the same ranks from every layout | a line of memory a factor of 9 |
+//! | an ordered set whose ranges are read like an array | [`packed`] | all densities within bounds | O(log² n) moves an insertion, few in a batch |
+//! | the points nearest to a place | [`kdtree`] | the nearest by distances calculated to rounding, also of the largest and smallest coordinates; ties to the lowest row | O(log n), few lines of memory |
+//! | a tree in an order for walks from its root | [`layout::permute`] | the same tree | O(n) |
+//! | a priority queue, also larger than memory | [`PriorityQueue`], [`SpillingQueue`] | keys in order, no entry lost | expected O(log n) |
+//! | linked lists in order | [`list_order()`] | every node once, closed lists too | O(n) |
+//! | the transpose of a matrix, in memory or in a file | [`transpose()`], [`transpose_in_place()`], [`transpose_file()`] | a permutation of bytes; a file is whole or not there | O(mn), one pass |
+//! | a product of matrices | [`multiply()`] | stated errors, the same bits on any processor | O(mnk) |
+//! | LU factors | [`lu()`], [`lu_solve()`] | as above; a zero pivot is told | O(mn·min(m, n)) |
+//! | a Fourier transform in two passes | [`fft()`] | relative error 10⁻¹⁵·log₂ n | O(n log n) |
+//! | how often an algorithm misses in a memory of any size | [`simulate`] | exact, the same on every machine | some 10 ns a touch |
+//! | the algorithms of the literature, to measure them | [`reference`](mod@reference) | as in the papers, short, not fast | |
 //!
 //! ```
 //! let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
@@ -39,6 +42,7 @@ mod error;
 mod hilbert;
 pub mod kdtree;
 pub mod layout;
+mod level;
 mod list;
 mod matrix;
 mod morton;

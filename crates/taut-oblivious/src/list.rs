@@ -39,6 +39,9 @@ impl Lists {
     }
 
     /// The place of each node in `order`.
+    ///
+    /// # Panics
+    /// If `order` was changed and has a node that is not below its length.
     pub fn ranks(&self) -> Vec<u32> {
         let mut ranks = vec![0; self.order.len()];
         for (rank, &node) in self.order.iter().enumerate() {
@@ -51,7 +54,8 @@ impl Lists {
 /// Puts all lists in order: `next[i]` is the node after node i, or [`NO_NODE`].
 ///
 /// Lists are ordered by their first node; an open one begins with the node that nothing leads to, a closed one with its
-/// smallest node. O(n), 9 bytes a node beside the answer, about one miss of the cache for each.
+/// smallest node. O(n), about one miss of the cache for each node. Beside the answer 9 bytes a node where lists are long:
+/// each list, and each 2048 nodes, take some 150 bytes more.
 ///
 /// # Errors
 /// [`Error::Option`] if a link leads to no node, two lead to the same node, or there are 2³² − 1 nodes or more.

@@ -1,7 +1,6 @@
 //! Dense matrices, row-major: transposition in memory and of files, multiplication, factors.
 
 pub(crate) mod fft;
-pub(crate) mod level;
 pub(crate) mod lu;
 pub(crate) mod multiply;
 pub(crate) mod transpose;

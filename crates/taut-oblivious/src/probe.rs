@@ -1,8 +1,16 @@
 //! What an algorithm tells of the memory it touches, at no cost when nobody listens.
 //!
-//! Every algorithm of this crate is generic over a [`Probe`]. [`NoProbe`] is a type without data whose calls compile to
-//! nothing; the simulator is another one, and turns the touches into misses of a cache of any size.
+//! An algorithm that is generic over a [`Probe`] tells of its touches. [`NoProbe`] is a type without data whose calls compile
+//! to nothing; the simulator is another one, and turns the touches into misses of a cache of any size.
 //! Touches name places in memory by address and length, so a kernel that works on whole blocks tells of whole blocks.
+//!
+//! Heard are all of [`reference`](mod@crate::reference), whose bounds are tests; all searches of [`search`](crate::search) and
+//! one by one of [`kdtree`](crate::kdtree); single and batched changes and ranges of [`PackedMap`](crate::packed::PackedMap);
+//! and whatever has a twin named `…_probed`: transposition, multiplication, LU, Fourier transform, sorting in memory,
+//! shuffling, lists, reversal. Not heard are the orders of points, samples, selection, the queues (whose rooms grow, so that
+//! addresses move), `nearest_all`, `permute`, `lu_solve`, and what works on files.
+//! That silence costs nothing is checked in the machine code of `reference` only: the test reads its assembly with and
+//! without calls. The kernels of the other modules tell of whole blocks, outside of their inner loops.
 
 /// Whether memory is read or written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

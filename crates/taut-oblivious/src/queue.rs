@@ -4,8 +4,15 @@
 //! *Idea.* A stack of buckets, smaller keys above: pushing appends to the bucket that the key falls into, popping splits
 //! the topmost bucket at a random pivot until few entries are left, and takes the smallest of those. It is quicksort that
 //! goes only as far as it is asked; almost all buckets are only ever appended to, so they can lie in a file.
-//! *Guarantee.* Keys leave in order. Expected O(log n) comparisons for each entry and, with blocks of B entries and memory
-//! for M, O((1/B)·log₂(n/M)) transfers; the order in which equal keys leave is fixed but not said.
+//! *Guarantee.* Keys leave in order. Expected, amortised O(log n) comparisons for each entry, whatever the order of pushes and
+//! pops, and with blocks of B entries and memory for M some O((1/B)·log₂(n/M)) transfers; the order in which equal keys leave
+//! is fixed but not said.
+//! *Why.* Buckets that pops leave behind can be many and small, above all if keys come in groups below all earlier ones. So
+//! neighbours of s₁ and s₂ entries are joined once there are more than 2·log₂ n + 8 buckets, if the a entries above them are
+//! not fewer than s₁ + s₂; then each second bucket at least doubles what is above, and 2·log₂ n + 2 are left. A bucket of s
+//! entries below a others has the potential s·log₂ s + 6·s·log₂((a + s)/s): a push adds O(1) for each of the O(log n) buckets
+//! and O(log n) for its own, a split releases in the mean what it costs, and a join, which moves the smaller bucket, does too,
+//! because a ≥ s₁ + s₂.
 //! *Trap.* Where all keys of a bucket are equal there is no pivot: such a bucket is marked and popped from its end.
 //! *Reference.* Navarro, Paredes, *On sorting, heaps, and minimum spanning trees*, Algorithmica 57, 2010 (quickheaps); Groot
 //! Koerkamp, *SimdQuickHeap*, 2026, for pivots side by side; thesis, section 5.8.
@@ -22,6 +29,7 @@ use spill::{Blocks, NoSpill};
 mod core;
 mod key;
 mod partition;
+mod room;
 mod spill;
 #[cfg(test)]
 mod tests;
@@ -66,7 +74,7 @@ impl<K: QueueKey, V: Copy> PriorityQueue<K, V> {
         self.len() == 0
     }
 
-    /// Adds an entry. Amortised O(1) and a search among some log n pivots.
+    /// Adds an entry. Amortised O(log n): a comparison with each of at most 2·log₂ n + 9 pivots, several at a time.
     pub fn push(&mut self, key: K, value: V) {
         never(self.core.push(key.to_bits(), value));
     }
@@ -106,17 +114,19 @@ pub struct SpillingQueue<K, V> {
 }
 
 impl<K: QueueKey, V: Pod> SpillingQueue<K, V> {
-    /// An empty queue of about `memory` bytes, whose file is in `folder`.
+    /// An empty queue of at most `memory` bytes, whose file is in `folder`.
     ///
-    /// Entries in memory take at most that, in rooms that grow by doubling; so the room may be twice as large.
+    /// Two fifths of that are for entries, half as much again for the room that vectors keep as they grow, and the rest for
+    /// one that is moved as it grows. Beside it there are 8 bytes for each block of the file, which has a 640th of the
+    /// entries that fit, and some KiB.
     ///
     /// # Errors
-    /// [`Error::Option`] if the memory is less than 64 KiB or than 1024 entries, [`Error::File`] if there can be no file.
+    /// [`Error::Option`] if the memory is less than 64 KiB or than 2560 entries, [`Error::File`] if there can be no file.
     pub fn new(folder: &Path, memory: usize) -> Result<Self, Error> {
-        let entries = memory / (8 + size_of::<V>());
+        let entries = memory / (8 + size_of::<V>()) / 5 * 2;
         if memory < 64 << 10 || entries < 1024 {
             let value = format!("{memory} bytes");
-            let expected = "at least 64 KiB and 1024 entries";
+            let expected = "at least 64 KiB and 2560 entries";
             return Err(Error::Option { name: "memory", value, expected });
         }
         let blocks = Blocks::new::<V>(folder, entries)?;

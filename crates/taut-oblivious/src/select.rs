@@ -90,9 +90,10 @@ mod tests {
             let mut heard = Listener(0);
             reverse(&mut a);
             reverse_probed(&mut b, &mut heard);
-            values.reverse();
-            let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-            prop_assert!(bits(&a) == bits(&values) && bits(&b) == bits(&values));
+            for (i, x) in values.iter().enumerate() {
+                let mirror = values.len() - 1 - i;
+                prop_assert_eq!((a[mirror].to_bits(), b[mirror].to_bits()), (x.to_bits(), x.to_bits()));
+            }
             prop_assert_eq!(heard.0, values.len() / 2 * 4 * 8);
         }
     }

@@ -5,7 +5,7 @@
 //! Guarantee: ⌈log₂ m⌉ levels whatever the points; equal coordinates may be on both sides of a split, which searches know.
 //! Trap: splitting by value instead of by number never ends where many points share a coordinate.
 
-use super::{BUCKET, IS_BUCKET, KdTree, Node};
+use super::{BUCKET, IS_BUCKET, KdTree, Node, wide};
 use crate::Error;
 use crate::layout::{NONE, TreeOrder, permute};
 use crate::search::Pages;
@@ -29,10 +29,12 @@ pub(super) fn build<const D: usize>(
         });
     }
     let mut items: Vec<Item<D>> = Vec::with_capacity(points.len());
+    let mut plain = true;
     for (row, &point) in (0u32..).zip(points) {
         if let Some(column) = point.iter().position(|x| !x.is_finite()) {
             return Err(Error::NonFinite { row: u64::from(row), column, value: point[column] });
         }
+        plain &= wide::is_plain(point);
         items.push((point, row));
     }
     let buckets = points.len().div_ceil(BUCKET);
@@ -59,7 +61,7 @@ pub(super) fn build<const D: usize>(
             rows[i] = row;
         }
     }
-    Ok(KdTree { nodes, root, coordinates, rows, len: points.len() })
+    Ok(KdTree { nodes, root, coordinates, rows, len: points.len(), plain })
 }
 
 /// Splits items until buckets are left; `nodes` are those of the subtree in pre-order, the first of which is number

@@ -6,12 +6,18 @@
 //! | the nearest points to many places | [`KdTree::nearest_all`], which goes through them along a Hilbert curve |
 //! | the k nearest | [`KdTree::nearest_k`] |
 //!
+//! The nearest point is that of the smallest squared distance ((x² + y²) + z²) as calculated in `f64`, and of several the
+//! one of the lowest row. Where squares would overflow or lose digits, which needs a coordinate beyond 2⁵⁰⁰ ≈ 3·10¹⁵⁰ or
+//! below 2⁻⁴⁰⁰ ≈ 4·10⁻¹²¹ and not zero, differences are scaled first: the answer is as right there, and takes some ten times
+//! as long. The squared distance that comes with it may then be infinite or zero where the distance is not.
+//!
 //! Not for: other dimensions than two and three; points that come and go; distances other than Euclidean.
 
 mod build;
 mod query;
 #[cfg(test)]
 mod tests;
+mod wide;
 
 pub use query::Nearest;
 
@@ -88,6 +94,8 @@ pub struct KdTree<const D: usize> {
     /// Of each bucket the rows of its points; the largest number where there is no point.
     rows: Pages<u32>,
     len: usize,
+    /// Whether all coordinates are [`wide::is_plain`].
+    plain: bool,
 }
 
 impl<const D: usize> KdTree<D> {

@@ -4,7 +4,8 @@
 //! to them; then those sides that are not farther than the nearest point so far.
 //! Guarantee: the smallest squared distance as calculated, ((x² + y²) + z²) of differences in `f64`, and of several the
 //! lowest row. The distance to a side is calculated in the same order from differences that are not larger, and rounding
-//! is monotone; so no side is left out that holds a point as near.
+//! is monotone; so no side is left out that holds a point as near. Coordinates whose squares overflow or vanish are left
+//! to `wide`.
 //! Trap: distances that are kept up to date by adding and subtracting squares are not monotone: they can exceed that of a
 //! point behind the side by a rounding.
 
@@ -14,8 +15,10 @@ use std::hint::select_unpredictable;
 
 use rayon::prelude::*;
 
+use super::wide::is_plain;
 use super::{BUCKET, IS_BUCKET, KdTree, Node};
-use crate::search::{Level, prefetch};
+use crate::level::Level;
+use crate::search::prefetch;
 use crate::{NoProbe, Probe, hilbert_order};
 
 /// A point found near a place.
@@ -23,7 +26,7 @@ use crate::{NoProbe, Probe, hilbert_order};
 pub struct Nearest {
     /// The row of the point.
     pub row: u32,
-    /// The square of its distance from the place.
+    /// The square of its distance from the place; infinite beyond 10³⁰⁸, and rounded or zero below 10⁻³⁰⁸.
     pub distance2: f64,
 }
 
@@ -125,8 +128,11 @@ impl<const D: usize> KdTree<D> {
 
     /// [`KdTree::nearest`], heard by a probe.
     pub fn nearest_probed<P: Probe>(&self, place: [f64; D], probe: &mut P) -> Option<Nearest> {
+        if !(self.plain && is_plain(place)) {
+            return self.nearest_wide(place, 1, probe).first().copied();
+        }
         let mut found = One(Nearest { row: u32::MAX, distance2: f64::INFINITY });
-        self.search(Level::detect(), place, &mut found, probe);
+        self.search(Level::best(), place, &mut found, probe);
         (found.0.row != u32::MAX).then_some(found.0)
     }
 
@@ -145,9 +151,12 @@ impl<const D: usize> KdTree<D> {
         if k == 0 {
             return Vec::new();
         }
+        if !(self.plain && is_plain(place)) {
+            return self.nearest_wide(place, k, probe);
+        }
         let heap = BinaryHeap::with_capacity(k.min(self.len) + 1);
         let mut found = Several { heap, k };
-        self.search(Level::detect(), place, &mut found, probe);
+        self.search(Level::best(), place, &mut found, probe);
         let sorted = found.heap.into_sorted_vec().into_iter();
         sorted.map(|(bits, row)| Nearest { row, distance2: f64::from_bits(bits) }).collect()
     }
@@ -186,13 +195,13 @@ impl<const D: usize> KdTree<D> {
     ) {
         match level {
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512 => {
-                // SAFETY: the machine has the instructions.
+            Level::Avx512(_) => {
+                // SAFETY: the value proves that the processor has AVX-512F.
                 unsafe { self.search_avx512(place, found, probe) }
             }
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 => {
-                // SAFETY: the machine has the instructions.
+            Level::Avx2(_) => {
+                // SAFETY: the value proves that the processor has AVX2.
                 unsafe { self.search_avx2(place, found, probe) }
             }
             Level::Portable => self.search_by(place, found, probe),

@@ -62,10 +62,94 @@ fn sizes_around_those_of_buckets() {
 #[test]
 fn places_outside_and_points_that_are_far_apart() {
     let mut points: Vec<[f64; 3]> = random(200, 5);
-    let places = [[9.0, 9.0, 9.0], [-1e9, 0.5, 0.5], [0.5, 0.5, 1e300], [1e-300, 0.0, 0.0]];
+    let places = [[9.0, 9.0, 9.0], [-1e9, 0.5, 0.5], [0.5, 0.5, 1e100], [1e-100, 0.0, -0.0]];
     agrees(&points, &places);
-    points.extend([[1e300, 0.0, 0.0], [-1e300, 1e300, 0.0], [5e-324, -0.0, 0.0], [0.0; 3]]);
+    points.extend([[1e150, 0.0, 0.0], [-1e150, 1e150, 0.0], [1e-120, -0.0, 0.0], [0.0; 3]]);
     agrees(&points, &places);
+}
+
+/// Points with integer coordinates, whose squared distances are integers: rows by distance, exactly.
+fn by_integers(points: &[[i64; 2]], place: [i64; 2]) -> Vec<u32> {
+    let square = |p: [i64; 2]| (p[0] - place[0]).pow(2) + (p[1] - place[1]).pow(2);
+    let mut rows: Vec<u32> = (0..points.len() as u32).collect();
+    rows.sort_by_key(|&row| (square(points[row as usize]), row));
+    rows
+}
+
+#[test]
+fn coordinates_of_any_size_have_the_order_of_integers() {
+    let integers: Vec<[i64; 2]> = random::<2>(150, 17)
+        .iter()
+        .map(|p| p.map(|x| (x * 40.0) as i64 - 20))
+        .chain([[700, -650], [-701, 3], [1 << 20, 5], [0, 0]])
+        .collect();
+    let places = [[0, 0], [3, -7], [690, -640], [-1 << 20, 1 << 20], [1 << 20, 6]];
+    let scales =
+        [-1074, -1060, -700, -540, -500, -453, -400, 0, 400, 480, 500, 511, 512, 600, 1000];
+    for exponent in scales {
+        // In two steps: 2⁻¹⁰⁷⁴ is no normal number.
+        let half = f64::powi(2.0, exponent / 2);
+        let scale =
+            |p: [i64; 2]| p.map(|x| x as f64 * half * f64::powi(2.0, exponent - exponent / 2));
+        let points: Vec<[f64; 2]> = integers.iter().map(|&p| scale(p)).collect();
+        let tree = KdTree::new(&points).unwrap();
+        for place in places {
+            let want = by_integers(&integers, place);
+            let at = scale(place);
+            let rows = |found: Vec<Nearest>| found.iter().map(|f| f.row).collect::<Vec<_>>();
+            assert_eq!(tree.nearest(at).unwrap().row, want[0], "2^{exponent} {place:?}");
+            for k in [1, 2, 9, points.len()] {
+                assert_eq!(rows(tree.nearest_k(at, k)), want[..k], "2^{exponent} {place:?}");
+            }
+            assert_eq!(tree.nearest_all(&[at])[0].unwrap().row, want[0]);
+        }
+    }
+}
+
+#[test]
+fn coordinates_of_very_different_sizes() {
+    // Along each axis points of all sizes: the nearest to a place between two of them is the smaller one.
+    let sizes =
+        [0.0, 5e-324, 1e-300, 1e-200, 1e-162, 1e-154, 1e-20, 1.0, 1e20, 1e154, 1e200, 1e308];
+    for axis in 0..3 {
+        let on = |x: f64| std::array::from_fn(|i| if i == axis { x } else { 0.0 });
+        let points: Vec<[f64; 3]> = sizes.iter().map(|&x| on(x)).collect();
+        let tree = KdTree::new(&points).unwrap();
+        for (row, &x) in sizes.iter().enumerate() {
+            assert_eq!(tree.nearest(on(x)).unwrap().row, row as u32, "{x}");
+            let found = tree.nearest(on(-x)).unwrap();
+            assert_eq!(found.row, 0, "{x}");
+            let past = tree.nearest_k(on(x * 1.25), 2);
+            if (1e-300..1e308).contains(&x) {
+                assert_eq!(past[0].row, row as u32, "{x}");
+            }
+        }
+    }
+    let tree = KdTree::new(&[[0.0, 0.0], [9e199, 0.0]]).unwrap();
+    assert_eq!(tree.nearest([1e200, 0.0]).unwrap().row, 1);
+    let tree = KdTree::new(&[[1e-200, 0.0], [0.0, 0.0]]).unwrap();
+    assert_eq!(tree.nearest([0.0, 0.0]), Some(Nearest { row: 1, distance2: 0.0 }));
+    let tree = KdTree::new(&[[-1.7e308, 1.7e308], [1.7e308, -1.7e308], [1.6e308, 0.0]]).unwrap();
+    let rows: Vec<u32> = tree.nearest_k([1.7e308, 1.7e308], 3).iter().map(|f| f.row).collect();
+    assert_eq!(rows, [2, 0, 1]);
+}
+
+#[test]
+fn places_at_infinity_are_equally_far_from_all() {
+    let points: Vec<[f64; 2]> = random(100, 3);
+    let tree = KdTree::new(&points).unwrap();
+    let places = [[f64::INFINITY, 0.0], [0.0, f64::NEG_INFINITY], [f64::INFINITY; 2]];
+    let all: Vec<[f64; 2]> = places.into_iter().chain(points.iter().copied().take(9)).collect();
+    let found = tree.nearest_all(&all);
+    for (place, found) in places.iter().zip(&found) {
+        assert_eq!(*found, Some(Nearest { row: 0, distance2: f64::INFINITY }));
+        assert_eq!(tree.nearest(*place), *found);
+    }
+    for row in 0..9 {
+        assert_eq!(found[3 + row].unwrap().row, row as u32);
+    }
+    assert_eq!(tree.nearest([f64::NAN, f64::INFINITY]), None);
+    assert!(tree.nearest_k([f64::NAN, 1e300], 5).is_empty());
 }
 
 #[test]

@@ -38,9 +38,12 @@ impl CompleteTree {
         self.last
     }
 
-    /// How many nodes come before `node`, one of the tree, in the order of keys.
+    /// How many nodes come before `node` in the order of keys.
+    ///
+    /// # Panics
+    /// If the tree has no such node: they are numbered from 1.
     pub fn rank_of_node(&self, node: usize) -> usize {
-        debug_assert!((1..=self.len).contains(&node));
+        assert!((1..=self.len).contains(&node), "there is no node {node} of {}", self.len);
         let depth = node.ilog2();
         // Among the nodes of a tree with a full last level, every other of which is on that level.
         let full = ((2 * (node - (1 << depth)) + 1) << (self.height - 1 - depth)) - 1;

@@ -20,8 +20,8 @@ use std::sync::Arc;
 use num_complex::Complex64;
 use rustfft::{Fft, FftPlanner};
 
-use super::level::Level;
 use super::transpose::tiles;
+use crate::level::Level;
 use crate::{Error, NoProbe, Probe};
 
 #[cfg(test)]

@@ -10,9 +10,9 @@
 //! *Reference.* Toledo, *Locality of reference in LU decomposition with partial pivoting*, SIAM J. Matrix Anal. 18, 1997;
 //! thesis, section 5.8; Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., theorem 9.3.
 
-use super::level::Level;
 use super::multiply::{Update, recurse, shared};
 use super::view::{MatrixView, MatrixViewMut};
+use crate::level::Level;
 use crate::{Error, NoProbe, Probe};
 
 #[cfg(test)]
@@ -32,7 +32,8 @@ pub struct Lu {
 
 /// Replaces a matrix by its factors: U on and above the diagonal, below it L, whose diagonal is one.
 ///
-/// The matrix may be rectangular. Runs on the current rayon pool. O(m·n·min(m, n)), and half as much memory as the matrix.
+/// The matrix may be rectangular. Runs on the current rayon pool. O(m·n·min(m, n)); memory for
+/// m·min(m, n)/2 numbers, and for m² more if the matrix is wider than high.
 ///
 /// ```
 /// use taut_oblivious::{MatrixViewMut, lu};

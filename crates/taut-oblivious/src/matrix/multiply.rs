@@ -16,8 +16,8 @@
 
 use rayon::prelude::*;
 
-use super::level::Level;
 use super::view::{MatrixView, MatrixViewMut};
+use crate::level::Level;
 use crate::{Error, NoProbe, Probe};
 
 mod kernel;

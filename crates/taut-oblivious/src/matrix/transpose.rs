@@ -17,7 +17,7 @@
 use bytemuck::Pod;
 use rayon::prelude::*;
 
-use super::level::{Level, last_cache_bytes};
+use crate::level::{Level, last_cache_bytes};
 use crate::{Error, NoProbe, Probe};
 
 pub(crate) mod in_place;
@@ -29,6 +29,11 @@ pub(in crate::matrix) mod tiles;
 /// Columns of a strip: as many streams as the pages of the target that the processor keeps at hand, with those of the
 /// source. Measured with 4096², 10000² and 8192 × 16384 numbers, 32 columns take a tenth longer, 128 up to a fifth.
 const STRIP: usize = 48;
+/// Rows of a band: their pages, one for each row of a wide matrix, stay among the two or three thousand whose translation
+/// the processor keeps. Walked from top to bottom, a strip of more rows would ask for each page anew.
+const BAND: usize = 1024;
+/// Strips of a task: their columns of numbers of 8 bytes fill a page.
+const TASK: usize = 11;
 /// Most columns of a matrix that is one strip: its rows are read as they lie.
 const NARROW: usize = 128;
 /// Bytes of a run, the part of a row of the target that is written in one go, at least.
@@ -70,15 +75,15 @@ pub fn transpose<T: Pod + Send + Sync>(
         return Ok(());
     }
     let shape = Shape::new::<T>(Level::best(), rows, columns);
-    let strip_len = shape.strip_columns * rows;
+    let task_len = shape.task_columns * rows;
     if to.len() < SHARED || rayon::current_num_threads() == 1 {
-        for (k, strip) in to.chunks_mut(strip_len).enumerate() {
-            shape.strip(from, k * shape.strip_columns, strip, &mut NoProbe);
+        for (k, task) in to.chunks_mut(task_len).enumerate() {
+            shape.task(from, k * shape.task_columns, task, &mut NoProbe);
         }
     } else {
-        to.par_chunks_mut(strip_len)
+        to.par_chunks_mut(task_len)
             .enumerate()
-            .for_each(|(k, strip)| shape.strip(from, k * shape.strip_columns, strip, &mut NoProbe));
+            .for_each(|(k, task)| shape.task(from, k * shape.task_columns, task, &mut NoProbe));
     }
     Ok(())
 }
@@ -102,8 +107,8 @@ pub fn transpose_probed<T: Pod, P: Probe>(
     probe.place(from);
     probe.place(to);
     let shape = Shape { past: false, ..Shape::new::<T>(Level::best(), rows, columns) };
-    for (k, strip) in to.chunks_mut(shape.strip_columns * rows).enumerate() {
-        shape.strip(from, k * shape.strip_columns, strip, probe);
+    for (k, task) in to.chunks_mut(shape.task_columns * rows).enumerate() {
+        shape.task(from, k * shape.task_columns, task, probe);
     }
     probe.lift(to);
     probe.lift(from);
@@ -131,6 +136,8 @@ struct Shape {
     columns: usize,
     /// Columns of the source that one strip takes.
     strip_columns: usize,
+    /// Columns of the source that a thread takes: some strips, whose rows are read in bands.
+    task_columns: usize,
     /// Elements of a line of the cache.
     line: usize,
     /// Whether the target is written past the caches.
@@ -148,20 +155,52 @@ impl Shape {
         } else {
             if columns <= NARROW { columns } else { STRIP }
         };
-        Self { level, rows, columns, strip_columns, line, past }
+        let banded = past && strip_columns < columns && rows >= 2 * BAND;
+        let task_columns = if banded { TASK * strip_columns } else { strip_columns };
+        Self { level, rows, columns, strip_columns, task_columns, line, past }
+    }
+
+    /// The columns from `left` on become the rows `to` of the target.
+    fn task<T: Pod, P: Probe>(&self, from: &[T], left: usize, to: &mut [T], probe: &mut P) {
+        if self.task_columns == self.strip_columns || !self.bands(from, left, to) {
+            for (k, strip) in to.chunks_mut(self.strip_columns * self.rows).enumerate() {
+                self.strip(from, left + k * self.strip_columns, strip, probe);
+            }
+        }
+        tiles::fence(self.level);
+    }
+
+    /// All strips of a task in bands of rows, past the caches; whether there is a kernel that does.
+    fn bands<T: Pod>(&self, from: &[T], left: usize, to: &mut [T]) -> bool {
+        let (rows, columns) = (self.rows, to.len() / self.rows);
+        let bands = rows / BAND;
+        for band in 0..bands {
+            let top = band * BAND;
+            let height = if band + 1 == bands { rows - top } else { BAND };
+            for strip in (0..columns).step_by(self.strip_columns) {
+                let extent = (height, self.strip_columns.min(columns - strip));
+                let part = &from[top * self.columns + left + strip..];
+                let place = &mut to[strip * rows + top..];
+                if !tiles::walk(self.level, extent, (part, self.columns), (place, rows)) {
+                    // The first one says so already.
+                    return false;
+                }
+            }
+        }
+        true
     }
 
     /// The columns from `left` on become the rows `to` of the target.
     fn strip<T: Pod, P: Probe>(&self, from: &[T], left: usize, to: &mut [T], probe: &mut P) {
         let columns = to.len() / self.rows;
+        let source = (&from[left..], self.columns);
         let walked = self.past
-            && tiles::walk(self.level, (self.rows, columns), (&from[left..], self.columns), to);
+            && tiles::walk(self.level, (self.rows, columns), source, (&mut *to, self.rows));
         if !walked && self.rows * size_of::<T>() <= SHORT {
             self.short(from, left, to, probe);
         } else if !walked {
             self.long(from, left, to, probe);
         }
-        tiles::fence(self.level);
     }
 
     /// A strip whose rows in the target are runs of their own.

@@ -32,6 +32,9 @@ impl<'a> MatrixView<'a> {
         (row_stride, column_stride): (usize, usize),
     ) -> Result<Self, Error> {
         check_extent(data.len(), (rows, columns), (row_stride, column_stride))?;
+        // A stride that no second row or column follows may be of any size; nothing is calculated with it.
+        let row_stride = if rows > 1 { row_stride } else { 0 };
+        let column_stride = if columns > 1 { column_stride } else { 1 };
         Ok(Self { data, rows, columns, row_stride, column_stride })
     }
 
@@ -101,7 +104,8 @@ impl<'a> MatrixViewMut<'a> {
             });
         }
         check_extent(data.len(), (rows, columns), (stride, 1))?;
-        Ok(Self { data, rows, columns, stride })
+        // As of a view to read.
+        Ok(Self { data, rows, columns, stride: if rows > 1 { stride } else { columns } })
     }
 
     /// A view of the same matrix for a shorter time.

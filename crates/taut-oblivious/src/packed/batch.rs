@@ -13,7 +13,7 @@ use super::density::{LEAF, Windows};
 use super::map::{PackedMap, Writer};
 use super::spread;
 use crate::search::{Key, prefetch};
-use crate::{NoProbe, Probe};
+use crate::{NoProbe, Probe, sort_records};
 
 /// Batches of at least this share of all entries, one in so many, are merged with all.
 const MERGE_SHARE: usize = 8;
@@ -27,7 +27,7 @@ struct Overflow<K, V> {
     values: Vec<V>,
 }
 
-impl<K: Key, V: Copy + Default> PackedMap<K, V> {
+impl<K: Key, V: Copy + Default + Send + Sync> PackedMap<K, V> {
     /// Sets the values of many keys, in any order, and returns how many keys are new; of a key that comes several times
     /// the last value holds. O(k log k) for the order of k entries, and for a large batch O(n + k).
     pub fn insert_batch(&mut self, entries: &[(K, V)]) -> usize {
@@ -37,12 +37,8 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
     /// [`PackedMap::insert_batch`], heard by a probe; the sorting of the batch is not told.
     pub fn insert_batch_probed<P: Probe>(&mut self, entries: &[(K, V)], probe: &mut P) -> usize {
         let mut batch = entries.to_vec();
-        if size_of::<V>() == 0 {
-            // Equal entries cannot be told apart.
-            batch.sort_unstable_by_key(|entry| entry.0.word());
-        } else {
-            batch.sort_by_key(|entry| entry.0.word());
-        }
+        // Stable: of equal keys the last one comes last.
+        sort_records(&mut batch, |entry| entry.0.word());
         // Keeps the last of equal keys: later values are written over the one that is kept.
         batch.dedup_by(|later, kept| {
             let equal = later.0.word() == kept.0.word();

@@ -6,7 +6,9 @@
 //! empty, is spread together with its neighbours: over the smallest window around it that is within the bounds of its
 //! level (see `density`). Leaves are found by their least keys (see `separators`).
 //! *Guarantee.* Order always; all leaves but the last hold 8 to 64 of 64 entries, the whole array is 3/8 to 3/4 full, up to
-//! one leaf; O(log² n) moves an insertion or deletion on average over any sequence, O(1 + log² n / B) blocks.
+//! one leaf; O(log² n) moves an insertion or deletion on average and O(1 + log² n / B) blocks wherever windows are spread
+//! evenly. Windows around a hammered place are not, and there the argument does not hold: that moves stay below 1.5 log² n is
+//! measured, for all patterns of `tests` and mixtures of insertion and deletion.
 //! *Trap.* The window of all leaves is spread before it is over-full, not when a leaf next overflows, or memory would not be
 //! bounded. Ascending keys never spread: they open a new leaf at the end.
 //! *Reference.* Itai, Konheim and Rodeh, ICALP 1981; Bender, Demaine and Farach-Colton, Cache-oblivious B-trees, SIAM J.
@@ -84,7 +86,8 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
         self.len == 0
     }
 
-    /// Entries moved from slot to slot by all insertions and deletions so far, the new ones not counted.
+    /// Entries moved from slot to slot by all insertions and deletions so far, the new ones not counted; nor are copies to
+    /// larger memory, in which entries keep their slots: two for each entry at most, as memory grows by half.
     pub fn moves(&self) -> u64 {
         self.moves
     }

@@ -7,7 +7,8 @@
 //! leaf, and that is known without a search.
 
 use crate::Probe;
-use crate::search::{Level, Pages, Tree, Word};
+use crate::level::Level;
+use crate::search::{Pages, Tree, Word};
 
 /// More levels than any array that fits a memory has.
 const LEVELS_MAX: usize = 24;
@@ -96,7 +97,7 @@ impl<W: Word> Separators<W> {
     ) -> Vec<usize> {
         let mut found = vec![0; entries.len()];
         let next = |entry| word(entry).next().unwrap_or(W::MAX);
-        self.tree().ranks(Level::detect(), entries, next, &mut found, probe);
+        self.tree().ranks(Level::best(), entries, next, &mut found, probe);
         for (leaf, _) in found.iter_mut().zip(entries).filter(|(_, e)| word(**e) == W::MAX) {
             *leaf = leaves - 1;
         }

@@ -167,6 +167,111 @@ fn moves_are_few_in_all_patterns() {
     }
 }
 
+/// Insertions and deletions in turn: at the bounds of leaves, of windows and of the whole, where halves are uneven after
+/// a place was hammered, and between two places.
+#[test]
+#[cfg_attr(miri, ignore = "too long for an interpreter")]
+fn moves_are_few_where_insertions_and_deletions_alternate() {
+    let n = 20_000u64;
+    let check = |name: &str, operations: &mut dyn FnMut(&mut PackedSet<u64>) -> u64| {
+        let mut set = PackedSet::new();
+        let done = operations(&mut set);
+        assert!(set.check().is_ok(), "{name}: {:?}", set.check());
+        let moves = set.moves() as f64 / done as f64;
+        let bound = 1.5 * (n as f64).log2().powi(2);
+        assert!(moves <= bound, "{name}: {moves} > {bound}");
+    };
+    check("back and forth at the front", &mut |set| {
+        (0..n).for_each(|i| {
+            set.insert(100 * i);
+        });
+        for round in 0..20 {
+            (0..500).for_each(|i| {
+                set.insert(100 * i + 1 + round);
+            });
+            (0..500).for_each(|i| {
+                set.remove(100 * i + 1 + round);
+            });
+        }
+        n + 20_000
+    });
+    check("hammered, then elsewhere", &mut |set| {
+        (0..n / 2).for_each(|i| {
+            set.insert(1000 * i);
+        });
+        for i in 0..n / 2 {
+            let second = i / 31 % 2;
+            set.insert(1_000_001 + 5_000_000 * second + i);
+            if i % 3 == 2 {
+                set.remove(1_000_001 + 5_000_000 * second + i - 1);
+            }
+        }
+        n + n / 6
+    });
+    check("emptied from the front", &mut |set| {
+        (0..n).for_each(|i| {
+            set.insert(i);
+        });
+        (0..n).for_each(|i| {
+            set.remove(i);
+        });
+        2 * n
+    });
+    check("thinned to an eighth, then random", &mut |set| {
+        (0..n).for_each(|i| {
+            set.insert(i);
+        });
+        (0..n).filter(|i| i % 8 != 0).for_each(|i| {
+            set.remove(i);
+        });
+        let mut state = 7;
+        (0..n).for_each(|_| {
+            set.insert(random(&mut state));
+        });
+        3 * n
+    });
+    check("in and out around the bound of all", &mut |set| {
+        (0..n).for_each(|i| {
+            set.insert(4 * i);
+        });
+        let mut k = 0;
+        while set.slots() * 3 / 4 > set.len() + 1 {
+            set.insert(4 * k + 1);
+            k += 1;
+        }
+        for round in 0..2000u64 {
+            let key = |j: u64| 4 * (round % 100) + 2 + j % 2;
+            (0..4).for_each(|j| {
+                set.insert(key(j));
+            });
+            (0..4).for_each(|j| {
+                set.remove(key(j));
+            });
+        }
+        n + k + 16_000
+    });
+    check("one key in and out", &mut |set| {
+        (0..48 * 400).for_each(|i| {
+            set.insert(i);
+        });
+        for _ in 0..n {
+            set.insert(1 << 40);
+            set.remove(1 << 40);
+        }
+        48 * 400 + 2 * n
+    });
+    check("random in, random out", &mut |set| {
+        let (mut ins, mut outs) = (11, 11);
+        for i in 0..4 * n {
+            set.insert(random(&mut ins));
+            if i >= n {
+                set.remove(random(&mut outs));
+            }
+        }
+        7 * n
+    });
+}
+
 #[test]
 fn ascending_keys_are_not_moved() {
     let mut set = PackedSet::new();

@@ -1,7 +1,7 @@
 //! The stack of buckets, in memory and beyond.
 
-use super::partition;
 use super::spill::Spill;
+use super::{partition, room};
 
 /// Buckets of up to so many entries are searched for their smallest key.
 const FEW: usize = 16;
@@ -9,6 +9,8 @@ const FEW: usize = 16;
 const DRAWN: (usize, usize) = (3, 15);
 /// Entries from which on a bucket is large.
 const LARGE: u64 = 1 << 10;
+/// Buckets beside 2·log₂ n from which on small neighbours are joined.
+const SPARE: usize = 8;
 
 /// Entries between two pivots.
 #[derive(Clone, Debug)]
@@ -17,13 +19,39 @@ struct Bucket<V> {
     values: Vec<V>,
     /// Blocks beyond memory.
     blocks: Vec<u32>,
-    /// Whether all keys are equal.
-    uniform: bool,
+    /// The key of all, if they are known to be equal.
+    uniform: Option<u64>,
 }
 
-impl<V> Bucket<V> {
+impl<V: Copy> Bucket<V> {
     fn new() -> Self {
-        Self { keys: Vec::new(), values: Vec::new(), blocks: Vec::new(), uniform: false }
+        Self { keys: Vec::new(), values: Vec::new(), blocks: Vec::new(), uniform: None }
+    }
+
+    /// Entries, of blocks of `block` entries.
+    fn len(&self, block: usize) -> u64 {
+        // Nothing times a block without end is nothing.
+        self.keys.len() as u64 + (self.blocks.len() as u64).wrapping_mul(block as u64)
+    }
+
+    fn push(&mut self, key: u64, value: V) {
+        room::grow(&mut self.keys, 1);
+        room::grow(&mut self.values, 1);
+        self.keys.push(key);
+        self.values.push(value);
+    }
+
+    fn append(&mut self, other: &mut Self) {
+        room::grow(&mut self.keys, other.keys.len());
+        room::grow(&mut self.values, other.values.len());
+        self.keys.append(&mut other.keys);
+        self.values.append(&mut other.values);
+        self.blocks.append(&mut other.blocks);
+    }
+
+    fn give_up_room(&mut self, kept: usize) {
+        room::give_up(&mut self.keys, kept);
+        room::give_up(&mut self.values, kept);
     }
 }
 
@@ -41,12 +69,35 @@ pub(super) struct Core<V, S> {
     spill: S,
     /// State of the generator of the pivots.
     state: u64,
+    /// Comparisons of keys and moves of entries, for tests.
+    #[cfg(test)]
+    work: u64,
 }
 
 impl<V: Copy, S: Spill<V>> Core<V, S> {
     pub(super) fn new(spill: S) -> Self {
         let buckets = vec![Bucket::new()];
-        Self { buckets, pivots: Vec::new(), held: 0, blocks: 0, spill, state: 0 }
+        Self {
+            buckets,
+            pivots: Vec::new(),
+            held: 0,
+            blocks: 0,
+            spill,
+            state: 0,
+            #[cfg(test)]
+            work: 0,
+        }
+    }
+
+    /// Counts comparisons or moves, in tests.
+    #[inline(always)]
+    fn count(&mut self, work: usize) {
+        #[cfg(test)]
+        {
+            self.work += work as u64;
+        }
+        #[cfg(not(test))]
+        let _ = work;
     }
 
     pub(super) fn len(&self) -> u64 {
@@ -59,19 +110,38 @@ impl<V: Copy, S: Spill<V>> Core<V, S> {
     }
 
     pub(super) fn push(&mut self, key: u64, value: V) -> Result<(), S::Error> {
+        let room = self.make_room(self.buckets.len(), 1);
+        self.count(self.pivots.len());
         let level = self.pivots.iter().map(|&pivot| usize::from(key < pivot)).sum::<usize>();
-        let bucket = &mut self.buckets[level];
-        bucket.uniform &= bucket.keys.last() == Some(&key);
-        bucket.keys.push(key);
-        bucket.values.push(value);
+        let level = self.beside_equals(level, key);
+        self.buckets[level].push(key, value);
         self.held += 1;
-        self.make_room(self.buckets.len())
+        room
+    }
+
+    /// The bucket for a key: that of its level, or a new one beside it if that has nothing but another key. Were it mixed,
+    /// the equal keys would be split off again for each key that comes between.
+    fn beside_equals(&mut self, level: usize, key: u64) -> usize {
+        let Some(equal) = self.buckets[level].uniform.filter(|&equal| equal != key) else {
+            return level;
+        };
+        let (bucket, pivot) = if key < equal { (level + 1, equal) } else { (level, equal + 1) };
+        self.buckets.insert(bucket, Bucket::new());
+        self.pivots.insert(level, pivot);
+        if self.too_many() {
+            self.join_small();
+            return self.pivots.partition_point(|&pivot| key < pivot);
+        }
+        bucket
     }
 
     pub(super) fn pop(&mut self) -> Result<Option<(u64, V)>, S::Error> {
         let Some(place) = self.smallest()? else { return Ok(None) };
         let top = self.top();
         let entry = (top.keys.swap_remove(place), top.values.swap_remove(place));
+        if top.uniform.is_some() && top.keys.len() < top.keys.capacity() / 2 {
+            top.give_up_room(S::ROOM_KEPT);
+        }
         self.held -= 1;
         Ok(Some(entry))
     }
@@ -94,17 +164,19 @@ impl<V: Copy, S: Spill<V>> Core<V, S> {
             let top = self.top();
             if top.keys.is_empty() && top.blocks.is_empty() {
                 if levels == 1 {
+                    top.uniform = None;
                     return Ok(None);
                 }
                 self.buckets.pop();
                 self.pivots.pop();
-            } else if top.uniform && !top.keys.is_empty() {
+            } else if top.uniform.is_some() && !top.keys.is_empty() {
                 return Ok(Some(top.keys.len() - 1));
             } else if top.blocks.is_empty() && top.keys.len() <= FEW {
                 let smallest = (0..top.keys.len()).min_by_key(|&i| top.keys[i]);
+                self.count(FEW);
                 return Ok(smallest);
             } else if !top.blocks.is_empty()
-                && (top.uniform || top.keys.len() + top.blocks.len() * block <= limit / 4)
+                && (top.uniform.is_some() || top.keys.len() + top.blocks.len() * block <= limit / 4)
             {
                 self.fetch()?;
             } else {
@@ -115,24 +187,20 @@ impl<V: Copy, S: Spill<V>> Core<V, S> {
 
     /// Brings the blocks of the topmost bucket back to memory: one if it is uniform, else all.
     fn fetch(&mut self) -> Result<(), S::Error> {
-        let mut top = self.buckets.pop().expect("there is always a bucket");
-        let mut result = Ok(());
-        while let Some(&block) = top.blocks.last() {
-            result = self.spill.give_back(block, &mut top.keys, &mut top.values);
-            if result.is_err() {
-                break;
-            }
+        let block = self.spill.block();
+        let below = self.buckets.len() - 1;
+        let blocks = if self.top().uniform.is_some() { 1 } else { self.top().blocks.len() };
+        for _ in 0..blocks {
+            // Not of these again.
+            self.make_room(below, block)?;
+            let top = self.buckets.last_mut().expect("there is always a bucket");
+            let Some(&last) = top.blocks.last() else { break };
+            self.spill.give_back(last, &mut top.keys, &mut top.values)?;
             top.blocks.pop();
             self.blocks -= 1;
-            self.held += self.spill.block();
-            if top.uniform {
-                break;
-            }
+            self.held += block;
         }
-        self.buckets.push(top);
-        result?;
-        // Not of these again.
-        self.make_room(self.buckets.len() - 1)
+        Ok(())
     }
 
     /// Splits the topmost bucket in two, or finds that all its keys are equal.
@@ -141,24 +209,25 @@ impl<V: Copy, S: Spill<V>> Core<V, S> {
         if self.split_at(pivot)? {
             return Ok(());
         }
-        // Nothing is below the pivot, so those equal to it are the smallest.
-        if pivot == u64::MAX || !self.split_at(pivot + 1)? {
-            self.top().uniform = true;
+        // Nothing is below the pivot, so those equal to it are the smallest, if not all.
+        if pivot < u64::MAX {
+            self.split_at(pivot + 1)?;
         }
+        self.top().uniform = Some(pivot);
         Ok(())
     }
 
     /// Moves what is below the pivot to a new topmost bucket; whether that left two.
     fn split_at(&mut self, pivot: u64) -> Result<bool, S::Error> {
         let mut high = self.buckets.pop().expect("there is always a bucket");
+        self.count(high.len(self.spill.block()) as usize);
         let mut low = Bucket::new();
         partition::split(
             pivot,
             (&mut high.keys, &mut high.values),
             (&mut low.keys, &mut low.values),
         );
-        give_up_room(&mut high.keys);
-        give_up_room(&mut high.values);
+        high.give_up_room(S::ROOM_KEPT);
         let blocks = std::mem::take(&mut high.blocks);
         self.buckets.push(high);
         self.buckets.push(low);
@@ -166,41 +235,66 @@ impl<V: Copy, S: Spill<V>> Core<V, S> {
         let last = self.buckets.len() - 1;
         for (k, &block) in blocks.iter().enumerate() {
             let mut part = Bucket::new();
-            let read = self.spill.give_back(block, &mut part.keys, &mut part.values);
-            if read.is_ok() {
-                self.held += part.keys.len();
-                self.blocks -= 1;
-                let low = &mut self.buckets[last];
-                let from = (&mut part.keys, &mut part.values);
-                partition::split(pivot, from, (&mut low.keys, &mut low.values));
-                let high = &mut self.buckets[last - 1];
-                high.keys.append(&mut part.keys);
-                high.values.append(&mut part.values);
-            }
-            let rest = if read.is_ok() { k + 1 } else { k };
-            if let Err(error) = read.and_then(|()| self.make_room(self.buckets.len())) {
+            let read = self
+                .make_room(self.buckets.len(), self.spill.block())
+                .and_then(|()| self.spill.give_back(block, &mut part.keys, &mut part.values));
+            if let Err(error) = read {
                 // As it was: what has been read stays with what has not.
-                self.join();
-                self.top().blocks.extend(&blocks[rest..]);
+                self.join(last - 1);
+                self.top().blocks.extend(&blocks[k..]);
                 return Err(error);
             }
+            self.held += part.keys.len();
+            self.blocks -= 1;
+            let low = &mut self.buckets[last];
+            let from = (&mut part.keys, &mut part.values);
+            partition::split(pivot, from, (&mut low.keys, &mut low.values));
+            self.buckets[last - 1].append(&mut part);
         }
         let empty = |bucket: &Bucket<V>| bucket.keys.is_empty() && bucket.blocks.is_empty();
         let divided = !empty(&self.buckets[last]) && !empty(&self.buckets[last - 1]);
         if !divided {
-            self.join();
+            self.join(last - 1);
+        } else if self.too_many() {
+            self.join_small();
         }
         Ok(divided)
     }
 
-    /// Makes one bucket of the two topmost.
-    fn join(&mut self) {
-        let mut low = self.buckets.pop().expect("there are two buckets");
-        self.pivots.pop();
-        let top = self.top();
-        top.keys.append(&mut low.keys);
-        top.values.append(&mut low.values);
-        top.blocks.append(&mut low.blocks);
+    /// Whether small neighbours have to be joined.
+    fn too_many(&self) -> bool {
+        self.buckets.len() > SPARE + 2 * self.len().max(1).ilog2() as usize
+    }
+
+    /// Makes one bucket of one and the next above it.
+    fn join(&mut self, lower: usize) {
+        let mut above = self.buckets.remove(lower + 1);
+        self.pivots.remove(lower);
+        self.count(above.keys.len());
+        let below = &mut self.buckets[lower];
+        if below.keys.len() < above.keys.len() {
+            // The fewer are moved.
+            std::mem::swap(&mut below.keys, &mut above.keys);
+            std::mem::swap(&mut below.values, &mut above.values);
+        }
+        below.append(&mut above);
+        below.uniform = None;
+    }
+
+    /// Joins neighbours that together are not more than what is above them; then 2·log₂ n + 2 buckets are left at most.
+    fn join_small(&mut self) {
+        let block = self.spill.block();
+        let len = |bucket: &Bucket<V>| bucket.len(block);
+        // Entries above both.
+        let mut above = self.buckets.last().map_or(0, len);
+        for lower in (0..self.buckets.len() - 2).rev() {
+            let both = len(&self.buckets[lower]) + len(&self.buckets[lower + 1]);
+            if both <= above {
+                self.join(lower);
+            } else {
+                above += len(&self.buckets[lower + 1]);
+            }
+        }
     }
 
     /// A pivot: the median of keys that are drawn from the topmost bucket.
@@ -223,14 +317,15 @@ impl<V: Copy, S: Spill<V>> Core<V, S> {
         Ok(keys[drawn / 2])
     }
 
-    /// Spills blocks of the largest keys, of buckets below a level, while there are too many entries in memory.
-    fn make_room(&mut self, below: usize) -> Result<(), S::Error> {
+    /// Spills blocks of the largest keys, of buckets below a level, while there is no room for so many more in memory.
+    fn make_room(&mut self, below: usize, more: usize) -> Result<(), S::Error> {
         let (limit, block) = (self.spill.limit(), self.spill.block());
-        while self.held > limit {
+        while self.held + more > limit {
             let Some(level) =
                 self.buckets[..below].iter().position(|bucket| bucket.keys.len() >= block)
             else {
-                // Less than a block in each bucket: more buckets than there are by any chance.
+                // There are too few buckets to hold the limit in less than a block each, see `Blocks::over`.
+                debug_assert!(false, "{} entries in {below} buckets, no block", self.held);
                 return Ok(());
             };
             let bucket = &mut self.buckets[level];
@@ -239,18 +334,22 @@ impl<V: Copy, S: Spill<V>> Core<V, S> {
             bucket.blocks.push(kept);
             bucket.keys.truncate(start);
             bucket.values.truncate(start);
-            give_up_room(&mut bucket.keys);
-            give_up_room(&mut bucket.values);
+            bucket.give_up_room(S::ROOM_KEPT);
             self.held -= block;
             self.blocks += 1;
         }
         Ok(())
     }
-}
 
-/// Half of a room that is three quarters empty.
-fn give_up_room<T>(entries: &mut Vec<T>) {
-    if entries.capacity() > 4 * entries.len().max(LARGE as usize) {
-        entries.shrink_to(entries.capacity() / 2);
+    /// Entries that buckets in memory have room for.
+    #[cfg(test)]
+    pub(super) fn room(&self) -> usize {
+        self.buckets.iter().map(|bucket| bucket.keys.capacity().max(bucket.values.capacity())).sum()
+    }
+
+    /// Buckets, and the comparisons and moves so far.
+    #[cfg(test)]
+    pub(super) fn buckets_and_work(&self) -> (usize, u64) {
+        (self.buckets.len(), self.work)
     }
 }

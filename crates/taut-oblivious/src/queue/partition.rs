@@ -1,5 +1,7 @@
 //! A bucket split at a pivot.
 
+use super::room;
+
 /// Moves the entries with keys below `pivot` from one pair of arrays to the end of another; the order is kept.
 pub(super) fn split<V: Copy>(
     pivot: u64,
@@ -10,6 +12,8 @@ pub(super) fn split<V: Copy>(
     let below = keys.iter().filter(|&&key| key < pivot).count();
     let Some(&value) = values.first() else { return };
     let start = low_keys.len();
+    room::grow(low_keys, below + 1);
+    room::grow(low_values, below + 1);
     // One entry more, where those that stay are written and written over.
     low_keys.resize(start + below + 1, 0);
     low_values.resize(start + below + 1, value);

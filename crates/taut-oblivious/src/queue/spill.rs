@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use bytemuck::Pod;
 
+use super::room;
 use crate::Error;
 use crate::store::Store;
 
@@ -13,6 +14,9 @@ use crate::store::Store;
 pub(super) trait Spill<V> {
     /// Why it could not.
     type Error;
+
+    /// Entries that a bucket may have room for without giving it up.
+    const ROOM_KEPT: usize;
 
     /// Entries that may be in memory.
     fn limit(&self) -> usize;
@@ -41,6 +45,7 @@ pub(super) struct NoSpill;
 
 impl<V> Spill<V> for NoSpill {
     type Error = Infallible;
+    const ROOM_KEPT: usize = 1 << 12;
 
     fn limit(&self) -> usize {
         usize::MAX
@@ -88,7 +93,8 @@ impl Blocks {
 
 impl<F: Store> Blocks<F> {
     pub(super) fn over<V>(file: F, folder: &Path, limit: usize) -> Self {
-        // A block for each of a hundred buckets is less than half of the memory.
+        // There are at most 2·log₂ n + 10 buckets: less than a block in each of these is less than half of the limit for any
+        // n below 2⁵⁰, and so is one that is fetched.
         let block = (limit / 256).clamp(1, 1 << 16);
         let bytes = (block * (8 + size_of::<V>())) as u64;
         Self { file, folder: folder.to_owned(), limit, block, bytes, count: 0, free: Vec::new() }
@@ -108,6 +114,7 @@ impl<F: Store> Blocks<F> {
 
 impl<V: Pod, F: Store> Spill<V> for Blocks<F> {
     type Error = Error;
+    const ROOM_KEPT: usize = 4;
 
     fn limit(&self) -> usize {
         self.limit
@@ -136,6 +143,8 @@ impl<V: Pod, F: Store> Spill<V> for Blocks<F> {
         values: &mut Vec<V>,
     ) -> Result<(), Error> {
         let start = keys.len();
+        room::grow(keys, self.block);
+        room::grow(values, self.block);
         keys.resize(start + self.block, 0);
         values.resize(start + self.block, V::zeroed());
         let at = self.at(block);

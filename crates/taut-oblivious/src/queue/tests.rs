@@ -170,11 +170,12 @@ fn the_memory_is_kept_and_the_file_is_reused() {
     assert!(SpillingQueue::<u64, u64>::new(folder.path(), 60_000).is_err());
     assert!(SpillingQueue::<u64, u64>::new(&folder.path().join("none"), 1 << 20).is_err());
     let mut queue = SpillingQueue::<u64, [u64; 3]>::new(folder.path(), 1 << 17).unwrap();
-    let (n, entries) = (60_000u64, (1 << 17) / 32);
+    let (n, entries) = (60_000u64, (1 << 17) / 32 / 5 * 2);
     let key = |i: u64| i.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 8;
     for i in 0..n {
         queue.push(key(i), [i, i + 1, i + 2]).unwrap();
         assert!(queue.len() - queue.spilled() <= entries);
+        assert!(queue.core.room() * 32 <= 1 << 17);
     }
     let mut sorted: Vec<u64> = (0..n).map(key).collect();
     sorted.sort_unstable();
@@ -183,8 +184,111 @@ fn the_memory_is_kept_and_the_file_is_reused() {
         let (found, [i, ..]) = queue.pop().unwrap().expect("an entry");
         assert_eq!((found, key(i)), (expected, expected));
         assert_eq!(queue.len(), n - 1 - k as u64);
-        assert!(queue.len() - queue.spilled() <= entries + entries / 8);
+        assert!(queue.len() - queue.spilled() <= entries);
+        assert!(queue.core.room() * 32 <= 1 << 17);
     }
     assert_eq!(queue.pop().unwrap(), None);
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "the file has no name");
+}
+
+/// Pushes groups of keys below all earlier ones and pops one after each, as a search does that goes for the best first.
+fn groups_below<S: spill::Spill<u32>>(
+    queue: &mut Core<u32, S>,
+    (n, group): (u64, u64),
+    mut each: impl FnMut(&Core<u32, S>),
+) where
+    S::Error: std::fmt::Debug,
+{
+    let mut key = u64::MAX / 2;
+    while queue.len() < n {
+        for _ in 0..group {
+            key -= 1;
+            queue.push(key, (key % 1000) as u32).unwrap();
+            each(queue);
+        }
+        let smallest = queue.pop().unwrap();
+        assert_eq!(smallest, Some((key, (key % 1000) as u32)));
+        each(queue);
+    }
+}
+
+#[test]
+#[cfg_attr(miri, ignore = "large")]
+fn groups_below_all_earlier_keys_leave_few_buckets() {
+    for group in [2, 15, 16, 17, 18, 33, 100] {
+        for n in [1000u64, 20_000, 80_000] {
+            let mut queue = Core::new(NoSpill);
+            groups_below(&mut queue, (n, group), |queue| {
+                let (buckets, _) = queue.buckets_and_work();
+                assert!(buckets <= 10 + 2 * n.ilog2() as usize, "{buckets} of {n}");
+            });
+            // Each push and each pop, and then all that is left.
+            let operations = n + 2 * n / (group - 1);
+            let (_, work) = queue.buckets_and_work();
+            let bound = 6 * operations * u64::from(n.ilog2());
+            assert!(work <= bound, "{work} for {n} by {group}, bound {bound}");
+            let mut before = 0;
+            while let Some((key, _)) = queue.pop().unwrap() {
+                assert!(key > before);
+                before = key;
+            }
+            let (_, work) = queue.buckets_and_work();
+            assert!(work <= 2 * bound, "{work} for {n} by {group}, bound {bound}");
+        }
+    }
+}
+
+#[test]
+#[cfg_attr(miri, ignore = "large")]
+fn groups_below_all_earlier_keys_go_to_the_file() {
+    for group in [2, 17, 100] {
+        let limit = 1638;
+        let mut queue = Core::new(faulty(limit, 0));
+        groups_below(&mut queue, (50_000, group), |queue| {
+            assert!(queue.len() - queue.spilled() <= limit as u64);
+            assert!(
+                queue.room() <= limit + limit / 2 + 4 * queue.buckets_and_work().0,
+                "{}",
+                queue.room()
+            );
+        });
+        assert!(queue.spilled() > 45_000);
+        let (mut n, mut before) = (queue.len(), 0);
+        while let Some((key, value)) = queue.pop().unwrap() {
+            assert!(key > before && u64::from(value) == key % 1000);
+            (before, n) = (key, n - 1);
+            assert!(queue.len() - queue.spilled() <= limit as u64);
+            assert!(
+                queue.room() <= limit + limit / 2 + 4 * queue.buckets_and_work().0,
+                "{}",
+                queue.room()
+            );
+        }
+        assert_eq!(n, 0);
+    }
+}
+
+#[test]
+#[cfg_attr(miri, ignore = "large")]
+fn keys_between_many_equal_ones_do_not_mix_with_them() {
+    let (n, rounds) = (20_000u64, 20_000u64);
+    for between in [6, 8] {
+        let mut queue = Core::new(NoSpill);
+        for _ in 0..n {
+            queue.push(7, 0).unwrap();
+        }
+        assert_eq!(queue.pop().unwrap(), Some((7, 0)));
+        for i in 0..rounds {
+            queue.push(if i % 2 == 0 { between } else { 7 }, 1).unwrap();
+            let (key, _) = queue.pop().unwrap().unwrap();
+            assert_eq!(key, if i % 2 == 0 { between.min(7) } else { 7 });
+        }
+        let (_, work) = queue.buckets_and_work();
+        assert!(work <= 40 * (n + rounds), "{work}");
+        let mut left = Vec::new();
+        while let Some((key, _)) = queue.pop().unwrap() {
+            left.push(key);
+        }
+        assert!(left.is_sorted() && left.len() as u64 == n - 1);
+    }
 }

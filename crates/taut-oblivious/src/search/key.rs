@@ -11,13 +11,16 @@ use std::fmt::Debug;
 use bytemuck::Pod;
 
 use super::lanes::Lanes;
+use crate::SortKey;
 
 mod sealed {
     pub trait Sealed {}
 }
 
 /// The unsigned word that a [`Key`] is compared by: `u32` or `u64`.
-pub trait Word: Lanes + Ord + Pod + Debug + Default + Send + Sync + sealed::Sealed {
+pub trait Word:
+    Lanes + SortKey + Ord + Pod + Debug + Default + Send + Sync + sealed::Sealed
+{
     /// The largest word.
     const MAX: Self;
     /// Words in a line of memory of 64 bytes.

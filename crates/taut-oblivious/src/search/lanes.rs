@@ -31,7 +31,7 @@ impl Lanes for u64 {
     #[allow(unsafe_code, reason = "a vector kernel")]
     #[inline(always)]
     unsafe fn below_avx512(line: *const Self, word: Self) -> usize {
-        // SAFETY: as the caller promises.
+        // SAFETY: the caller vouches for AVX-512F, and for 64 bytes that can be read from `line` on; they may lie anywhere.
         let mask = unsafe {
             _mm512_cmplt_epu64_mask(
                 _mm512_loadu_si512(line.cast()),
@@ -45,8 +45,9 @@ impl Lanes for u64 {
     #[allow(unsafe_code, reason = "a vector kernel")]
     #[inline(always)]
     unsafe fn below_avx2(line: *const Self, word: Self) -> usize {
-        // SAFETY: as the caller promises; signs are flipped, as AVX2 compares signed numbers only.
+        // SAFETY: the caller vouches for AVX2, and for 64 bytes that can be read from `line` on; they may lie anywhere.
         unsafe {
+            // Signs are flipped, as AVX2 compares signed numbers only.
             let sign = _mm256_set1_epi64x(i64::MIN);
             let word = _mm256_xor_si256(_mm256_set1_epi64x(word.cast_signed()), sign);
             let low = _mm256_xor_si256(_mm256_loadu_si256(line.cast()), sign);
@@ -63,7 +64,7 @@ impl Lanes for u32 {
     #[allow(unsafe_code, reason = "a vector kernel")]
     #[inline(always)]
     unsafe fn below_avx512(line: *const Self, word: Self) -> usize {
-        // SAFETY: as the caller promises.
+        // SAFETY: the caller vouches for AVX-512F, and for 64 bytes that can be read from `line` on; they may lie anywhere.
         let mask = unsafe {
             _mm512_cmplt_epu32_mask(
                 _mm512_loadu_si512(line.cast()),
@@ -77,8 +78,9 @@ impl Lanes for u32 {
     #[allow(unsafe_code, reason = "a vector kernel")]
     #[inline(always)]
     unsafe fn below_avx2(line: *const Self, word: Self) -> usize {
-        // SAFETY: as the caller promises; signs are flipped, as AVX2 compares signed numbers only.
+        // SAFETY: the caller vouches for AVX2, and for 64 bytes that can be read from `line` on; they may lie anywhere.
         unsafe {
+            // Signs are flipped, as AVX2 compares signed numbers only.
             let sign = _mm256_set1_epi32(i32::MIN);
             let word = _mm256_xor_si256(_mm256_set1_epi32(word.cast_signed()), sign);
             let low = _mm256_xor_si256(_mm256_loadu_si256(line.cast()), sign);
@@ -117,7 +119,7 @@ impl<W: Lanes> Count<W> for Avx512 {
     #[allow(unsafe_code, reason = "a vector kernel")]
     #[inline(always)]
     unsafe fn below(words: &[W], first: usize, word: W) -> usize {
-        // SAFETY: as the caller promises.
+        // SAFETY: the caller vouches for the instructions, and that the whole line from `first` on is in `words`.
         unsafe { W::below_avx512(words.as_ptr().add(first), word) }
     }
 }
@@ -127,7 +129,7 @@ impl<W: Lanes> Count<W> for Avx2 {
     #[allow(unsafe_code, reason = "a vector kernel")]
     #[inline(always)]
     unsafe fn below(words: &[W], first: usize, word: W) -> usize {
-        // SAFETY: as the caller promises.
+        // SAFETY: the caller vouches for the instructions, and that the whole line from `first` on is in `words`.
         unsafe { W::below_avx2(words.as_ptr().add(first), word) }
     }
 }
@@ -137,50 +139,6 @@ impl<W: super::Word> Count<W> for Portable {
     #[inline(always)]
     unsafe fn below(words: &[W], first: usize, word: W) -> usize {
         words[first..first + W::LANES].iter().map(|&other| usize::from(other < word)).sum()
-    }
-}
-
-/// Which instructions the machine has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Level {
-    #[cfg(target_arch = "x86_64")]
-    Avx512,
-    #[cfg(target_arch = "x86_64")]
-    Avx2,
-    Portable,
-}
-
-impl Level {
-    /// The best that the machine has.
-    #[inline(always)]
-    pub(crate) fn detect() -> Self {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("popcnt") {
-                return Self::Avx512;
-            }
-            if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("popcnt") {
-                return Self::Avx2;
-            }
-        }
-        Self::Portable
-    }
-
-    /// All that the machine has, for tests.
-    #[cfg(test)]
-    pub(crate) fn all() -> Vec<Self> {
-        let mut all = vec![Self::Portable];
-        #[cfg(target_arch = "x86_64")]
-        {
-            let best = Self::detect();
-            if best != Self::Portable && is_x86_feature_detected!("avx2") {
-                all.push(Self::Avx2);
-            }
-            if best == Self::Avx512 {
-                all.push(best);
-            }
-        }
-        all
     }
 }
 
@@ -204,17 +162,18 @@ pub(crate) fn prefetch<W>(words: &[W], at: usize) {
 mod tests {
     use super::super::{Pages, Word};
     use super::*;
+    use crate::level::Level;
 
     #[allow(unsafe_code, reason = "calls the kernels one by one")]
     fn count<W: Word>(level: Level, words: &[W], first: usize, word: W) -> usize {
         assert!(first + W::LANES <= words.len() && first.is_multiple_of(W::LANES));
-        // SAFETY: the line is inside, pages are aligned, and the machine has the level.
+        // SAFETY: the line is inside as asserted, and a level is the proof that the machine has it.
         unsafe {
             match level {
                 #[cfg(target_arch = "x86_64")]
-                Level::Avx512 => Avx512::below(words, first, word),
+                Level::Avx512(_) => Avx512::below(words, first, word),
                 #[cfg(target_arch = "x86_64")]
-                Level::Avx2 => Avx2::below(words, first, word),
+                Level::Avx2(_) => Avx2::below(words, first, word),
                 Level::Portable => Portable::below(words, first, word),
             }
         }

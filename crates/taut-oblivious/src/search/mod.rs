@@ -27,7 +27,7 @@ pub(crate) use crate::room::Pages;
 pub use blocked::BlockedVanEmdeBoas;
 pub use eytzinger::Eytzinger;
 pub use key::{Key, Word};
-pub(crate) use lanes::{Level, prefetch};
+pub(crate) use lanes::prefetch;
 pub use sorted::Sorted;
 pub use splus::SPlusTree;
 pub(crate) use splus::Tree;

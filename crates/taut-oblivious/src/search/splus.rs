@@ -11,8 +11,9 @@
 //! *Reference.* R. Groot Koerkamp, Static search trees: 40× faster than binary search, 2024; after S. Slotin, 2021.
 
 use super::Pages;
-use super::lanes::{Count, Level, Portable, prefetch};
+use super::lanes::{Count, Portable, prefetch};
 use super::{Key, SortedIndex, Word, sorted_words};
+use crate::level::Level;
 use crate::{Error, Probe};
 
 /// Searches that walk together.
@@ -91,7 +92,7 @@ impl<K: Key> SortedIndex<K> for SPlusTree<K> {
         ranks: &mut [usize],
         probe: &mut P,
     ) {
-        self.tree().ranks(Level::detect(), keys, word, ranks, probe);
+        self.tree().ranks(Level::best(), keys, word, ranks, probe);
     }
 }
 
@@ -133,15 +134,15 @@ impl<'a, W: Word> Tree<'a, W> {
     #[inline]
     #[allow(unsafe_code, reason = "dispatch of a vector kernel")]
     pub(crate) fn rank<P: Probe>(self, word: W, probe: &mut P) -> usize {
-        match Level::detect() {
+        match Level::best() {
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512 => {
-                // SAFETY: the machine has the instructions.
+            Level::Avx512(_) => {
+                // SAFETY: the value proves that the processor has AVX-512F and POPCNT.
                 unsafe { self.rank_avx512(word, probe) }
             }
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 => {
-                // SAFETY: the machine has the instructions.
+            Level::Avx2(_) => {
+                // SAFETY: the value proves that the processor has AVX2 and POPCNT.
                 unsafe { self.rank_avx2(word, probe) }
             }
             Level::Portable => self.rank_by::<Portable, P>(word, probe),
@@ -185,7 +186,8 @@ impl<'a, W: Word> Tree<'a, W> {
             probe.read(&self.words[first..first + W::LANES]);
         }
         debug_assert!(first + W::LANES <= self.words.len());
-        // SAFETY: the node exists (see `Tree`), and callers have the instructions of `C`.
+        // SAFETY: the node exists (see `Tree`); `C` is `Portable`, or is named in a function alone that has its instructions
+        // enabled and is entered with their proof.
         unsafe { C::below(self.words, first, word) }
     }
 
@@ -201,13 +203,13 @@ impl<'a, W: Word> Tree<'a, W> {
     ) {
         match level {
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512 => {
-                // SAFETY: the machine has the instructions.
+            Level::Avx512(_) => {
+                // SAFETY: the value proves that the processor has AVX-512F and POPCNT.
                 unsafe { self.ranks_avx512(keys, word, ranks, probe) }
             }
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 => {
-                // SAFETY: the machine has the instructions.
+            Level::Avx2(_) => {
+                // SAFETY: the value proves that the processor has AVX2 and POPCNT.
                 unsafe { self.ranks_avx2(keys, word, ranks, probe) }
             }
             Level::Portable => self.ranks_by::<Portable, K, P>(keys, word, ranks, probe),
@@ -248,6 +250,9 @@ impl<'a, W: Word> Tree<'a, W> {
         ranks: &mut [usize],
         probe: &mut P,
     ) {
+        // Keys and ranks of one place, also where one of the slices is longer.
+        let answered = keys.len().min(ranks.len());
+        let (keys, ranks) = (&keys[..answered], &mut ranks[..answered]);
         let (groups, rest) = keys.as_chunks::<GROUP>();
         let (rank_groups, rank_rest) = ranks.as_chunks_mut::<GROUP>();
         let inner = self.starts.len() - 1;

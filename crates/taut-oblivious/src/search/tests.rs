@@ -30,6 +30,31 @@ fn agrees<K: Key, I: SortedIndex<K>>(sorted: &[K], queries: &[K]) {
     assert!(ranks.iter().copied().eq(all.iter().map(|&key| upper(key))), "{name}");
 }
 
+/// A batch answers as many as both slices have places for, each in its own, and leaves the others alone.
+fn answers_what_both_have_room_for<I: SortedIndex<u64>>() {
+    let index = I::new(&(0..100).map(|i| 3 * i).collect::<Vec<u64>>()).unwrap();
+    for keys in 0..20usize {
+        for places in 0..20 {
+            let asked: Vec<u64> = (0..keys as u64).map(|i| 31 * i % 290).collect();
+            let mut ranks = vec![usize::MAX; places];
+            index.ranks_of_words(&asked, |key| key, &mut ranks, &mut NoProbe);
+            for (i, &rank) in ranks.iter().enumerate() {
+                let want = asked.get(i).map_or(usize::MAX, |key| key.div_ceil(3) as usize);
+                assert_eq!(rank, want, "{} {keys} {places}", std::any::type_name::<I>());
+            }
+        }
+    }
+}
+
+#[test]
+fn slices_of_unequal_length() {
+    answers_what_both_have_room_for::<Sorted<u64>>();
+    answers_what_both_have_room_for::<Eytzinger<u64>>();
+    answers_what_both_have_room_for::<VanEmdeBoas<u64>>();
+    answers_what_both_have_room_for::<BlockedVanEmdeBoas<u64>>();
+    answers_what_both_have_room_for::<SPlusTree<u64>>();
+}
+
 fn all_agree<K: Key>(sorted: &[K], queries: &[K]) {
     agrees::<K, Sorted<K>>(sorted, queries);
     agrees::<K, Eytzinger<K>>(sorted, queries);

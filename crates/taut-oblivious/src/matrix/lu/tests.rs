@@ -87,7 +87,16 @@ fn singular_matrices_are_factored_and_told() {
 
 #[test]
 fn not_a_number_ends() {
-    let mut a = numbers(40 * 40, 7);
+    let mut clean = numbers(40 * 40, 7);
+    let mut a = clean.clone();
     a[37] = f64::NAN;
-    lu(MatrixViewMut::new(&mut a, 40, 40).unwrap());
+    let factors = lu(MatrixViewMut::new(&mut a, 40, 40).unwrap());
+    let expected = lu(MatrixViewMut::new(&mut clean, 40, 40).unwrap());
+    // Columns left of it do not hear of it.
+    assert_eq!(factors.pivots[..37], expected.pivots[..37]);
+    for row in 0..37 {
+        assert_eq!(a[row * 40..row * 40 + 37], clean[row * 40..row * 40 + 37]);
+    }
+    assert!(a.iter().any(|x| x.is_nan()));
+    assert!((37..40).all(|j| (j..40).contains(&factors.pivots[j])));
 }

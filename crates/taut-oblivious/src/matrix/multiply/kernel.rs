@@ -5,7 +5,7 @@
 //! differ in size, agree to the last bit.
 
 use super::Update;
-use crate::matrix::level::Level;
+use crate::level::Level;
 use crate::matrix::view::MatrixViewMut;
 
 #[cfg(target_arch = "x86_64")]
@@ -21,7 +21,7 @@ const SCALAR: (usize, usize) = (4, 4);
 /// Rows and columns of a tile.
 pub(super) fn tile(level: Level) -> (usize, usize) {
     match level {
-        Level::Scalar => SCALAR,
+        Level::Portable => SCALAR,
         Level::Avx2(_) => (4, 12),
         Level::Avx512(_) => (8, 24),
     }

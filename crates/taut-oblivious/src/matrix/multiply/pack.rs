@@ -5,7 +5,7 @@
 //! *Guarantee.* The last panel is filled up with zeros.
 
 use crate::Probe;
-use crate::matrix::level::Level;
+use crate::level::Level;
 use crate::matrix::transpose::tiles;
 use crate::matrix::view::MatrixView;
 

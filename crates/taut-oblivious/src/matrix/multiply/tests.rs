@@ -198,3 +198,25 @@ fn nothing_times_nothing_is_zero() {
     let (a, b) = (MatrixView::new(&[], 0, 2).unwrap(), MatrixView::new(&c, 2, 3).unwrap());
     multiply(a, b, MatrixViewMut::new(&mut [], 0, 3).unwrap(), &Default::default()).unwrap();
 }
+
+#[test]
+fn a_stride_that_nothing_follows_may_be_of_any_size() {
+    let (a, b) = (vec![1.0; 2048], vec![0.5; 2048 * 1100]);
+    let (a, b) = (MatrixView::new(&a, 1, 2048).unwrap(), MatrixView::new(&b, 2048, 1100).unwrap());
+    let mut expected = vec![0.0; 1100];
+    multiply(a, b, MatrixViewMut::new(&mut expected, 1, 1100).unwrap(), &Default::default())
+        .unwrap();
+    for stride in [1100, 1 << 60, 1 << 61, usize::MAX] {
+        for threads in [1, 2, 8] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let mut c = vec![0.0; 1100];
+            let target = MatrixViewMut::strided(&mut c, (1, 1100), stride).unwrap();
+            pool.install(|| multiply(a, b, target, &Default::default())).unwrap();
+            assert_eq!(c, expected, "{stride} {threads}");
+        }
+    }
+    let column = MatrixView::strided(a.data, (2048, 1), (1, usize::MAX)).unwrap();
+    let mut c = [0.0];
+    multiply(a, column, MatrixViewMut::new(&mut c, 1, 1).unwrap(), &Default::default()).unwrap();
+    assert_eq!(c, [2048.0]);
+}

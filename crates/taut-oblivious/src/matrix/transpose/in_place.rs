@@ -8,7 +8,7 @@
 use bytemuck::Pod;
 
 use super::{check_length, rectangular, tiles};
-use crate::matrix::level::Level;
+use crate::level::Level;
 use crate::{Error, NoProbe, Probe};
 
 /// Bytes of a row of a block.
@@ -16,8 +16,9 @@ const BLOCK: usize = 256;
 
 /// Transposes the row-major `rows` × `columns` matrix in place: afterwards it has `columns` rows.
 ///
-/// O(rows · columns). Beside the matrix a square one takes 16 KiB, others the room of the longer of a row and a column, or
-/// of eight times the shorter one if that is more.
+/// O(rows · columns). Beside the matrix a square one takes two blocks of max(256 / w, 4)² elements of w bytes each: 16 KiB of
+/// 8 bytes, 128 KiB of single bytes; others the room of the longer of a row and a column, or of eight times the shorter one
+/// if that is more.
 ///
 /// # Errors
 /// [`Error::Option`] if the length of `matrix` is not `rows · columns`.

@@ -29,11 +29,13 @@ fn check<T: Pod + Send + Sync + PartialEq>(rows: usize, columns: usize, shift: u
         for past in [false, true] {
             let mut shape = Shape::new::<T>(level, rows, columns);
             shape.past = past;
+            if past && rows >= 2 * BAND && shape.strip_columns < columns {
+                shape.task_columns = TASK * shape.strip_columns;
+            }
             let mut to = [&guard[..shift], &vec![T::zeroed(); n], &guard[shift..]].concat();
-            for (k, strip) in
-                to[shift..shift + n].chunks_mut(shape.strip_columns * rows).enumerate()
+            for (k, strip) in to[shift..shift + n].chunks_mut(shape.task_columns * rows).enumerate()
             {
-                shape.strip(from, k * shape.strip_columns, strip, &mut NoProbe);
+                shape.task(from, k * shape.task_columns, strip, &mut NoProbe);
             }
             assert!(to[shift..shift + n] == expected, "{level:?} {past} {rows} × {columns}");
             assert!(to[..shift] == guard[..shift] && to[shift + n..] == guard[shift..]);
@@ -105,11 +107,29 @@ fn large_targets_go_past_the_caches_on_any_number_of_threads() {
 }
 
 #[test]
+#[cfg_attr(miri, ignore = "large")]
+fn bands_of_rows_meet() {
+    for (rows, columns) in [(2 * BAND, 130), (2 * BAND + 7, 11 * 48 + 5), (3 * BAND + 9, 131)] {
+        for shift in [0, 3] {
+            check::<u64>(rows, columns, shift);
+            check::<u32>(rows, columns, shift);
+        }
+    }
+}
+
+#[test]
 fn nothing_in_nothing_out() {
     transpose::<f64>(&[], 0, 5, &mut []).unwrap();
     transpose::<f64>(&[], 5, 0, &mut []).unwrap();
     transpose(&[(); 6], 2, 3, &mut [(); 6]).unwrap();
     in_place::transpose_in_place::<f64>(&mut [], 0, 5).unwrap();
+    // Nothing is asked for and nothing is touched; something is not nothing.
+    let mut counts = Counts::default();
+    transpose_probed::<f64, _>(&[], usize::MAX, 0, &mut [], &mut counts).unwrap();
+    in_place::transpose_in_place_probed::<f64, _>(&mut [], 0, usize::MAX, &mut counts).unwrap();
+    assert_eq!((counts.placed, counts.read, counts.written), (0, 0, 0));
+    assert!(transpose(&[1u8], 0, 5, &mut [0]).is_err());
+    assert!(in_place::transpose_in_place(&mut [1u8], 5, 0).is_err());
 }
 
 #[test]

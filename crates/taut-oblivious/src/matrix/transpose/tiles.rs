@@ -5,7 +5,7 @@
 
 use bytemuck::Pod;
 
-use crate::matrix::level::Level;
+use crate::level::Level;
 
 #[cfg(target_arch = "x86_64")]
 mod x86;
@@ -35,18 +35,20 @@ pub(in crate::matrix) fn turn<T: Pod>(
     }
 }
 
-/// Turns a whole strip of the source into the whole rows `to` of the target, past the caches; whether there is a kernel
-/// that does. [`fence`] must follow before another thread reads.
+/// Turns a strip of the source into rows of the target, `stride_to` apart, past the caches; whether there is a kernel that
+/// does. [`fence`] must follow before another thread reads.
 pub(super) fn walk<T: Pod>(
     level: Level,
     (rows, columns): (usize, usize),
     (from, stride): (&[T], usize),
-    to: &mut [T],
+    (to, stride_to): (&mut [T], usize),
 ) -> bool {
-    assert!((rows - 1) * stride + columns <= from.len() && rows * columns <= to.len());
+    // What the addresses of the kernel rest on.
+    assert!((rows - 1) * stride + columns <= from.len());
+    assert!((columns - 1) * stride_to + rows <= to.len());
     match level {
         #[cfg(target_arch = "x86_64")]
-        Level::Avx512(yes) => x86::walk(yes, (rows, columns), (from, stride), to),
+        Level::Avx512(yes) => x86::walk(yes, (rows, columns), (from, stride), (to, stride_to)),
         _ => false,
     }
 }
@@ -89,7 +91,7 @@ pub(in crate::matrix) fn stream<T: Pod>(level: Level, from: &[T], to: &mut [T]) 
 /// Asks for `part` before it is needed.
 pub(in crate::matrix) fn fetch<T: Pod>(level: Level, part: &[T]) {
     #[cfg(target_arch = "x86_64")]
-    if level != Level::Scalar {
+    if level != Level::Portable {
         x86::fetch(bytemuck::cast_slice(part));
     }
     #[cfg(not(target_arch = "x86_64"))]
@@ -99,7 +101,7 @@ pub(in crate::matrix) fn fetch<T: Pod>(level: Level, part: &[T]) {
 /// Orders what [`stream`] wrote before what this thread writes next.
 pub(in crate::matrix) fn fence(level: Level) {
     #[cfg(target_arch = "x86_64")]
-    if level != Level::Scalar {
+    if level != Level::Portable {
         x86::fence();
     }
     #[cfg(not(target_arch = "x86_64"))]

@@ -3,7 +3,7 @@
 
 use std::arch::x86_64::*;
 
-use crate::matrix::level::{Avx2, Avx512};
+use crate::level::{Avx2, Avx512};
 use crate::matrix::multiply::Update;
 use crate::matrix::view::MatrixViewMut;
 

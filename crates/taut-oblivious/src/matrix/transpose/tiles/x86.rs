@@ -8,7 +8,7 @@ use std::arch::x86_64::*;
 
 use bytemuck::Pod;
 
-use crate::matrix::level::{Avx2, Avx512, Level};
+use crate::level::{Avx2, Avx512, Level};
 
 pub(super) mod past;
 
@@ -59,23 +59,24 @@ pub(super) fn walk<T: Pod>(
     _: Avx512,
     (rows, columns): (usize, usize),
     (from, stride): (&[T], usize),
-    to: &mut [T],
+    (to, stride_to): (&mut [T], usize),
 ) -> bool {
     let (from, to) = (from.as_ptr().cast::<f64>(), to.as_mut_ptr().cast::<f64>());
     if size_of::<T>() != 8 || to.align_offset(8) != 0 || from.align_offset(8) != 0 {
         return false;
     }
+    let dense = stride_to == rows;
     // SAFETY: the proof says that AVX-512F is there; the caller has checked the extents of both sides.
     unsafe {
         match (rows, columns) {
-            (_, 2) if stride == 2 => past::split::<2>(rows, from, to),
-            (_, 3) if stride == 3 => past::split::<3>(rows, from, to),
-            (_, 4) if stride == 4 => past::split::<4>(rows, from, to),
-            (2, _) => past::join::<2>(columns, (from, stride), to),
-            (3, _) => past::join::<3>(columns, (from, stride), to),
-            (4, _) => past::join::<4>(columns, (from, stride), to),
+            (_, 2) if stride == 2 && dense => past::split::<2>(rows, from, to),
+            (_, 3) if stride == 3 && dense => past::split::<3>(rows, from, to),
+            (_, 4) if stride == 4 && dense => past::split::<4>(rows, from, to),
+            (2, _) if dense => past::join::<2>(columns, (from, stride), to),
+            (3, _) if dense => past::join::<3>(columns, (from, stride), to),
+            (4, _) if dense => past::join::<4>(columns, (from, stride), to),
             _ if rows >= 64 && columns <= past::STRIP => {
-                past::walk((rows, columns), (from, stride), to);
+                past::walk((rows, columns), (from, stride), (to, stride_to));
             }
             _ => return false,
         }
@@ -365,15 +366,15 @@ pub(super) fn stream(level: Level, from: &[u8], to: &mut [u8]) {
     let body = (to.len() - head) / 64 * 64;
     to[..head].copy_from_slice(&from[..head]);
     match level {
-        // SAFETY: the level proves the instructions.
+        // SAFETY: the value proves that the processor has AVX-512F.
         Level::Avx512(_) => unsafe {
             stream_avx512(&from[head..head + body], &mut to[head..head + body]);
         },
-        // SAFETY: as above.
+        // SAFETY: the value proves that the processor has AVX2.
         Level::Avx2(_) => unsafe {
             stream_avx2(&from[head..head + body], &mut to[head..head + body]);
         },
-        Level::Scalar => to[head..head + body].copy_from_slice(&from[head..head + body]),
+        Level::Portable => to[head..head + body].copy_from_slice(&from[head..head + body]),
     }
     to[head + body..].copy_from_slice(&from[head + body..]);
 }

@@ -19,7 +19,7 @@ pub(in crate::matrix::transpose) const STRIP: usize = 128;
 /// whose stride is a power of two share a set of the cache, which eight lines fill.
 const AHEAD: usize = 40;
 
-/// Element (i, c) of a strip of `rows` rows, row i at `from + i · stride`, goes to `to[c · rows + i]`; any width.
+/// Element (i, c) of a strip of `rows` rows, row i at `from + i · stride`, goes to `to[c · stride_to + i]`; any width.
 ///
 /// # Safety
 /// The processor has AVX-512F, both sides hold the strip, `to` is a multiple of 8, and there are at most [`STRIP`] columns.
@@ -27,13 +27,13 @@ const AHEAD: usize = 40;
 pub(super) unsafe fn walk(
     (rows, columns): (usize, usize),
     (from, stride): (*const f64, usize),
-    to: *mut f64,
+    (to, stride_to): (*mut f64, usize),
 ) {
     let mut before = [_mm512_setzero_pd(); STRIP];
     let mut pick = [_mm512_setzero_si512(); STRIP];
     let mut head = [0; STRIP];
     for c in 0..columns {
-        head[c] = to.wrapping_add(c * rows).align_offset(64);
+        head[c] = to.wrapping_add(c * stride_to).align_offset(64);
         pick[c] = from_waiting(head[c]);
     }
     // SAFETY: tiles are cut to the strip; a line of row c begins at `head[c]` and ends before the row does, as it
@@ -60,14 +60,14 @@ pub(super) unsafe fn walk(
                     let c = j + k;
                     if i > 0 {
                         let line = _mm512_permutex2var_pd(before[c], pick[c], turned[k]);
-                        _mm512_stream_pd(to.add(c * rows + head[c] + i - 8), line);
+                        _mm512_stream_pd(to.add(c * stride_to + head[c] + i - 8), line);
                     }
                     before[c] = turned[k];
                 }
             }
         }
         for c in 0..columns {
-            ends((rows, c), (from, stride), to, head[c]);
+            ends((rows, c), (from, stride), (to, stride_to), head[c]);
         }
     }
 }
@@ -95,7 +95,7 @@ pub(super) unsafe fn split<const D: usize>(rows: usize, from: *const f64, to: *m
             }
         }
         for c in 0..D {
-            ends((rows, c), (from, D), to, head[c]);
+            ends((rows, c), (from, D), (to, rows), head[c]);
         }
     }
 }
@@ -142,13 +142,13 @@ pub(super) unsafe fn join<const D: usize>(
 unsafe fn ends(
     (rows, c): (usize, usize),
     (from, stride): (*const f64, usize),
-    to: *mut f64,
+    (to, stride_to): (*mut f64, usize),
     head: usize,
 ) {
     let lines_end = head + (rows / 8 * 8).saturating_sub(8);
     for i in (0..head.min(rows)).chain(lines_end..rows) {
         // SAFETY: element (i, c) of the strip.
-        unsafe { *to.add(c * rows + i) = *from.add(i * stride + c) }
+        unsafe { *to.add(c * stride_to + i) = *from.add(i * stride + c) }
     }
 }
 

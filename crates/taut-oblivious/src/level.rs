@@ -1,22 +1,25 @@
-//! Which instructions this machine has, asked once per call.
+//! Which instructions this machine has, asked once, for all kernels of the crate.
 //!
-//! *Guarantee.* A value of [`Avx2`] or [`Avx512`] is the proof that the processor has them: only asking it makes one.
-//! Whoever takes a [`Level`] gives the same bits on every level.
+//! *Guarantee.* A value of [`Avx2`] or [`Avx512`] is the proof that the processor has what it stands for: only asking it
+//! makes one. Whoever takes a [`Level`] gives the same bits on every level.
 
-/// Proof that the processor has AVX2 and FMA.
+/// Proof that the processor has AVX2, FMA and POPCNT.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Avx2(());
 
-/// Proof that the processor has AVX-512F besides AVX2 and FMA.
+/// Proof that the processor has AVX-512F besides AVX2, FMA and POPCNT.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Avx512(());
 
 /// A set of instructions that this machine can run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(not(target_arch = "x86_64"), expect(dead_code, reason = "never made elsewhere"))]
+#[cfg_attr(
+    any(not(target_arch = "x86_64"), miri),
+    allow(dead_code, reason = "vectors are never chosen elsewhere, nor under Miri")
+)]
 pub(crate) enum Level {
     /// One number at a time, on any processor.
-    Scalar,
+    Portable,
     /// Vectors of 32 bytes.
     Avx2(Avx2),
     /// Vectors of 64 bytes.
@@ -24,30 +27,69 @@ pub(crate) enum Level {
 }
 
 impl Level {
-    /// The fastest one of this machine.
+    /// The fastest one of this machine. The answer is kept, as searches of some nanoseconds ask.
+    #[inline(always)]
     pub(crate) fn best() -> Self {
         #[cfg(all(target_arch = "x86_64", not(miri)))]
-        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-            if is_x86_feature_detected!("avx512f") {
-                return Level::Avx512(Avx512(()));
-            }
-            return Level::Avx2(Avx2(()));
+        match kept() {
+            PORTABLE => Level::Portable,
+            AVX2 => Level::Avx2(Avx2(())),
+            _ => Level::Avx512(Avx512(())),
         }
-        Level::Scalar
+        #[cfg(not(all(target_arch = "x86_64", not(miri))))]
+        Level::Portable
     }
 
     /// All of this machine, the fastest last.
     #[cfg(test)]
     pub(crate) fn all() -> Vec<Self> {
         let best = Self::best();
-        let mut all = vec![Level::Scalar];
-        if best != Level::Scalar {
+        let mut all = vec![Level::Portable];
+        if best != Level::Portable {
             all.push(Level::Avx2(Avx2(())));
         }
         if matches!(best, Level::Avx512(_)) {
             all.push(best);
         }
         all
+    }
+}
+
+#[cfg(all(target_arch = "x86_64", not(miri)))]
+const UNASKED: u8 = 0;
+#[cfg(all(target_arch = "x86_64", not(miri)))]
+const PORTABLE: u8 = 1;
+#[cfg(all(target_arch = "x86_64", not(miri)))]
+const AVX2: u8 = 2;
+#[cfg(all(target_arch = "x86_64", not(miri)))]
+const AVX512: u8 = 3;
+
+/// What the processor said: one of the above, but not that it was not asked.
+#[cfg(all(target_arch = "x86_64", not(miri)))]
+#[inline(always)]
+fn kept() -> u8 {
+    use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
+    static KEPT: AtomicU8 = AtomicU8::new(UNASKED);
+    match KEPT.load(Relaxed) {
+        UNASKED => {
+            let answer = ask();
+            KEPT.store(answer, Relaxed);
+            answer
+        }
+        answer => answer,
+    }
+}
+
+#[cfg(all(target_arch = "x86_64", not(miri)))]
+#[cold]
+fn ask() -> u8 {
+    let has_256 = is_x86_feature_detected!("avx2")
+        && is_x86_feature_detected!("fma")
+        && is_x86_feature_detected!("popcnt");
+    match (has_256, is_x86_feature_detected!("avx512f")) {
+        (true, true) => AVX512,
+        (true, false) => AVX2,
+        _ => PORTABLE,
     }
 }
 
