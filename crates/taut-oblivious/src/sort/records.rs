@@ -111,6 +111,7 @@ fn part<T: Copy + Send + Sync, P: Probe>(
         before = Some(bucket);
     }
     dealt.lift(probe);
+    drop(dealt);
     if is_alone {
         for range in large {
             part(&mut records[range], rank, Look::All, room, probe);

@@ -225,6 +225,63 @@ mod on_disk {
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
     }
 
+    #[test]
+    fn what_cannot_be_replaced_is_refused_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let (from, _) = source(folder.path());
+        std::fs::create_dir(folder.path().join("to")).unwrap();
+        let never = |_| panic!("begun");
+        let monitor = Monitor { on_points: Some(&never), ..Monitor::silent() };
+        for name in ["to", "new/", "nowhere/to"] {
+            let to = folder.path().join(name);
+            let found = transpose_file(&from, MATRIX, &to, b"", &OPTIONS, &monitor);
+            assert!(matches!(found, Err(Error::File { .. })), "{name}: {found:?}");
+        }
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_is_followed_and_the_file_behind_it_keeps_its_permissions() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let folder = tempfile::tempdir().unwrap();
+        let (from, content) = source(folder.path());
+        let [to, behind] = ["to", "behind"].map(|name| folder.path().join(name));
+        std::fs::write(&behind, "earlier").unwrap();
+        std::fs::set_permissions(&behind, PermissionsExt::from_mode(0o640)).unwrap();
+        symlink("behind", &to).unwrap();
+        transpose_file(&from, MATRIX, &to, b"", &OPTIONS, &Monitor::silent()).unwrap();
+        assert_eq!(std::fs::read_link(&to).unwrap(), PathBuf::from("behind"));
+        assert!(std::fs::read(&behind).unwrap() == plain(&content[3..], 300, 211, 8));
+        assert_eq!(std::fs::metadata(&behind).unwrap().permissions().mode() & 0o777, 0o640);
+    }
+
+    /// Four tebibytes of nothing, and elements wider than any memory of which there are none.
+    #[test]
+    fn memory_that_nobody_has_is_an_error_or_not_needed() {
+        let folder = tempfile::tempdir().unwrap();
+        let [from, to] = ["from", "to"].map(|name| folder.path().join(name));
+        let file = File::create(&from).unwrap();
+        let none = FileMatrix { rows: 0, columns: 5, width: usize::MAX, offset: 0 };
+        std::fs::write(&to, "").unwrap();
+        for check in [FileCheck::Whole, FileCheck::Sample { elements: 3, seed: 1 }] {
+            check_transposed_file(&from, none, &to, 0, check, &Monitor::silent()).unwrap();
+        }
+        let options = TransposeFileOptions { memory: usize::MAX };
+        let found = transpose_file(&from, none, &to, b"", &options, &Monitor::silent());
+        assert!(matches!(found, Err(Error::Option { name: "memory", .. })), "{found:?}");
+        if file.set_len(4 << 40).is_err() {
+            return; // The disk has no files with holes.
+        }
+        let matrix = FileMatrix { rows: 1 << 20, columns: 1 << 19, width: 8, offset: 0 };
+        let found = transpose_file(&from, matrix, &to, b"", &options, &Monitor::silent());
+        assert!(
+            matches!(found, Err(Error::Option { name: "memory", .. } | Error::File { .. })),
+            "{found:?}"
+        );
+        assert_eq!(std::fs::read(&to).unwrap(), b"");
+    }
+
     /// What the test below kills: the transposition of the folder named in the environment.
     #[test]
     #[ignore = "a process for the next test"]
@@ -258,6 +315,15 @@ mod on_disk {
             child.wait().unwrap();
             let found = std::fs::read(&to).unwrap();
             assert!(found == b"earlier" || found == new, "{} bytes", found.len());
+            // Where files need no name, nothing else is left: but for the moment before an earlier file is replaced.
+            #[cfg(target_os = "linux")]
+            for entry in std::fs::read_dir(folder.path()).unwrap() {
+                let path = entry.unwrap().path();
+                if path != to && path.extension().is_none() {
+                    assert!(std::fs::read(&path).unwrap() == new, "{}", path.display());
+                    std::fs::remove_file(path).unwrap();
+                }
+            }
             if found == new {
                 whole += 1
             } else {

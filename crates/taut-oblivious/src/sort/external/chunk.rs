@@ -1,4 +1,4 @@
-//! The order of the records of one chunk, by one word for each.
+//! The order of the records of one chunk, by one word for each; or in their own place.
 //!
 //! *Idea.* A word holds the leading bits of a rank above the lowest one, and the number of the record; the words are
 //! sorted by vectors. Where words agree in these bits, the keys themselves are compared.
@@ -7,7 +7,7 @@
 //! ranks closer than that must be looked up.
 
 use super::layout::RecordLayout;
-use crate::sort::sort;
+use crate::sort::{self, sort_records};
 
 /// Replaces `words`, one for each record, by the numbers of the records in order, in the lower [`number_bits`] bits.
 pub(super) fn order(records: &[u8], layout: &RecordLayout, words: &mut [u64]) {
@@ -22,7 +22,7 @@ pub(super) fn order(records: &[u8], layout: &RecordLayout, words: &mut [u64]) {
     for (number, word) in words.iter_mut().enumerate() {
         *word = (*word - low) >> shift << number_bits | number as u64;
     }
-    sort(words);
+    sort::sort(words);
     if shift > 0 || layout.is_long() {
         let mask = (1 << number_bits) - 1;
         let record = |word: u64| &records[(word & mask) as usize * layout.width..][..layout.width];
@@ -39,6 +39,48 @@ pub(super) fn order(records: &[u8], layout: &RecordLayout, words: &mut [u64]) {
 }
 
 /// Bits that number so many records.
-pub(super) fn number_bits(records: usize) -> u32 {
+fn number_bits(records: usize) -> u32 {
     usize::BITS - records.saturating_sub(1).leading_zeros()
+}
+
+/// Copies the records whose numbers are in `words` to the front of `to`; [`order`] was given `all` records.
+pub(super) fn gather(records: &[u8], words: &[u64], all: usize, to: &mut [u8], width: usize) {
+    let mask = (1 << number_bits(all)) - 1;
+    match width {
+        8 => gather_width::<8>(records, words, mask, to),
+        16 => gather_width::<16>(records, words, mask, to),
+        32 => gather_width::<32>(records, words, mask, to),
+        _ => {
+            for (place, word) in to.chunks_exact_mut(width).zip(words) {
+                place.copy_from_slice(&records[(word & mask) as usize * width..][..width]);
+            }
+        }
+    }
+}
+
+fn gather_width<const W: usize>(records: &[u8], words: &[u64], mask: u64, to: &mut [u8]) {
+    let records = records.as_chunks::<W>().0;
+    for (place, word) in to.as_chunks_mut::<W>().0.iter_mut().zip(words) {
+        *place = records[(word & mask) as usize];
+    }
+}
+
+/// Whether [`sort`] can: the key is no longer than its rank, and the width is one that it knows.
+pub(super) fn sorts(layout: &RecordLayout) -> bool {
+    matches!(layout.width, 8 | 16 | 24 | 32 | 64) && !layout.is_long()
+}
+
+/// Sorts records of which [`sorts`] is true in their own place.
+pub(super) fn sort(records: &mut [u8], layout: &RecordLayout) {
+    match layout.width {
+        8 => sort_width::<8>(records, layout),
+        16 => sort_width::<16>(records, layout),
+        24 => sort_width::<24>(records, layout),
+        32 => sort_width::<32>(records, layout),
+        _ => sort_width::<64>(records, layout),
+    }
+}
+
+fn sort_width<const W: usize>(records: &mut [u8], layout: &RecordLayout) {
+    sort_records(records.as_chunks_mut::<W>().0, |record| layout.rank(record));
 }

@@ -71,7 +71,7 @@ pub(super) fn beyond<I: Store, R: Store + Send + Sync, O: Store + Send + Sync>(
     let mut pass = 2;
     for (group, to) in steps {
         monitor.pass(pass, to.records);
-        let mut merge = Merging::start(plan, &group, runs)?;
+        let mut merge = Merging::start(plan, &group)?;
         let mut end = to.offset;
         loop {
             let bytes = merge.fill(runs, monitor)?;
@@ -84,7 +84,7 @@ pub(super) fn beyond<I: Store, R: Store + Send + Sync, O: Store + Send + Sync>(
         pass += 1;
     }
     monitor.pass(pass, plan.records);
-    let mut merge = Merging::start(plan, &last, runs)?;
+    let mut merge = Merging::start(plan, &last)?;
     let (mut written, mut offset) = (Multiset::default(), 0);
     let mut bytes = merge.fill(runs, monitor)?;
     let mut full = Pages::try_zeroed(plan.write_block)?;
@@ -121,12 +121,8 @@ struct Merging<'a> {
 }
 
 impl<'a> Merging<'a> {
-    fn start<S: Store>(
-        plan: &'a Plan,
-        runs: &[Run],
-        source: &mut Medium<S>,
-    ) -> Result<Self, Error> {
-        let merge = Merge::start(&plan.layout, runs, plan.merge_block(runs.len()), source)?;
+    fn start(plan: &'a Plan, runs: &[Run]) -> Result<Self, Error> {
+        let merge = Merge::start(plan, runs)?;
         let block = Pages::try_zeroed(plan.write_block)?;
         Ok(Self { merge, block, width: plan.layout.width })
     }
@@ -148,6 +144,7 @@ impl<'a> Merging<'a> {
 struct Maker<'a> {
     plan: &'a Plan,
     records: Pages<u8>,
+    /// Empty if records are sorted in their own place, as the blocks are.
     words: Pages<u64>,
     /// One block is filled while the other is written.
     blocks: [Pages<u8>; 2],
@@ -156,12 +153,12 @@ struct Maker<'a> {
 impl<'a> Maker<'a> {
     fn new(plan: &'a Plan) -> Result<Self, Error> {
         let most = plan.records.min(plan.chunk as u64) as usize;
-        let block = || Pages::try_zeroed(plan.write_block);
+        let (words, block) = if plan.in_place { (0, 0) } else { (most, plan.write_block) };
         Ok(Self {
             plan,
             records: Pages::try_zeroed(most * plan.layout.width)?,
-            words: Pages::try_zeroed(most)?,
-            blocks: [block()?, block()?],
+            words: Pages::try_zeroed(words)?,
+            blocks: [Pages::try_zeroed(block)?, Pages::try_zeroed(block)?],
         })
     }
 
@@ -175,10 +172,10 @@ impl<'a> Maker<'a> {
         certificate: &mut Multiset,
         monitor: &Monitor<'_>,
     ) -> Result<(), Error> {
-        let (width, chunk) = (self.plan.layout.width, self.plan.chunk as u64);
+        let (layout, chunk) = (&self.plan.layout, self.plan.chunk as u64);
+        let (width, write_block) = (layout.width, self.plan.write_block);
         let records = chunk.min(self.plan.records - run * chunk) as usize;
         let bytes = &mut self.records.words_mut()[..records * width];
-        let words = &mut self.words.words_mut()[..records];
         let from = run * chunk * width as u64;
         for (i, part) in bytes.chunks_mut(READ_BLOCK).enumerate() {
             monitor.check()?;
@@ -187,14 +184,24 @@ impl<'a> Maker<'a> {
         let after = from + bytes.len() as u64;
         input.soon(after, (chunk * width as u64).min(self.plan.bytes() - after));
         certificate.add(bytes, width);
-        chunk::order(bytes, &self.plan.layout, words);
-        let mask = (1 << chunk::number_bits(records)) - 1;
+        if self.plan.in_place {
+            chunk::sort(bytes, layout);
+            for block in bytes.chunks(write_block) {
+                monitor.check()?;
+                to.write(block, offset)?;
+                offset += block.len() as u64;
+                monitor.points((block.len() / width) as u64);
+            }
+            return Ok(());
+        }
+        let words = &mut self.words.words_mut()[..records];
+        chunk::order(bytes, layout, words);
         let [full, next] = &mut self.blocks;
         let mut filled = 0;
-        for words in words.chunks(self.plan.write_block / width) {
+        for words in words.chunks(write_block / width) {
             monitor.check()?;
             let block = &mut next.words_mut()[..words.len() * width];
-            let fill = || gather(bytes, words, mask, block, width);
+            let fill = || chunk::gather(bytes, words, records, block, width);
             let (put, ()) = rayon::join(|| to.write(&full.words()[..filled], offset), fill);
             put?;
             offset += filled as u64;
@@ -203,26 +210,5 @@ impl<'a> Maker<'a> {
             std::mem::swap(full, next);
         }
         to.write(&full.words()[..filled], offset)
-    }
-}
-
-/// Copies the records whose numbers the words hold.
-fn gather(records: &[u8], words: &[u64], mask: u64, to: &mut [u8], width: usize) {
-    match width {
-        8 => gather_width::<8>(records, words, mask, to),
-        16 => gather_width::<16>(records, words, mask, to),
-        32 => gather_width::<32>(records, words, mask, to),
-        _ => {
-            for (place, word) in to.chunks_exact_mut(width).zip(words) {
-                place.copy_from_slice(&records[(word & mask) as usize * width..][..width]);
-            }
-        }
-    }
-}
-
-fn gather_width<const W: usize>(records: &[u8], words: &[u64], mask: u64, to: &mut [u8]) {
-    let records = records.as_chunks::<W>().0;
-    for (place, word) in to.as_chunks_mut::<W>().0.iter_mut().zip(words) {
-        *place = records[(word & mask) as usize];
     }
 }

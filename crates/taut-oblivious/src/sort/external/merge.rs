@@ -1,82 +1,77 @@
-//! Merging runs: a tree of losers over the first records that are left.
+//! Merging runs by sorting what is next in them.
 //!
-//! *Idea.* A node of the tree holds the loser of the game played there, the winner of all is outside. When the winner is
-//! taken, its run's next record plays against the losers on the way from its leaf to the root: log₂ k games a record.
-//! *Guarantee.* Stable: equal keys go by the number of the run. One block of memory for each run.
-//! A record that comes before the one it follows in its run is an error.
+//! *Idea.* Of each run the next records stand in a window of its block. The smallest of the last keys of all windows is a
+//! bound: no run has a record below it that is not in a window. The records up to the bound are collected and sorted by
+//! the vector kernels, as in [`super::chunk`], and the windows move on.
+//! *Guarantee.* Stable. One block of memory for each run, and what is collected, which is no more than all windows. The
+//! window whose last key is the bound is used up, so each step has one run at least move by a window. A record that comes
+//! before the one it follows in its run is an error.
+//! *Trap.* Keys equal to the bound: more of them may follow behind the window that ends with it. So records of later runs
+//! must be below the bound, those of this run and of earlier ones up to it.
 //! *Trap.* Runs may have been written by another process, and their multiset says nothing of their order.
-//! *Trap.* A player is one number, the rank and then the run, so that games need no look at the records and no branch;
-//! keys of more than eight bytes need both.
-//! *Reference.* D. Knuth, *The Art of Computer Programming* 3, 5.4.1.
+//! *Trap.* A tree of losers (D. Knuth, *The Art of Computer Programming* 3, 5.4.1) needs log₂ k games a record, each of
+//! which waits for the one before: 20 ns for 16 runs, where collecting and sorting takes 13 for any number of runs.
 
+use std::cmp::Ordering;
+
+use super::chunk;
 use super::layout::RecordLayout;
 use super::medium::Medium;
-use super::plan::Run;
+use super::plan::{Plan, Run};
 use crate::error::Error;
 use crate::room::Pages;
 use crate::store::Store;
 
 /// Where a run is being read.
 struct Input {
+    /// Where it begins in the file.
+    offset: u64,
     /// What is left in the file.
     left: Run,
-    /// What is left in the block.
+    /// What is left in its block.
     at: usize,
     end: usize,
+    /// Whether the last record that was collected is in `Merge::last`.
+    begun: bool,
 }
-
-/// A rank, and a number that tells players apart: the run, and the upper half for one that has ended.
-type Player = u128;
-
-const ENDED: u128 = 1 << 63;
 
 pub(super) struct Merge<'a> {
     layout: &'a RecordLayout,
     inputs: Vec<Input>,
-    /// Where each run begins.
-    offsets: Vec<u64>,
     /// One block for each run.
     blocks: Pages<u8>,
     block: usize,
-    /// A run that is not in order.
-    disordered: Option<usize>,
-    /// Losers of the inner nodes, which are numbered from 1; the run i comes in at node `(i + k) / 2`.
-    losers: Vec<Player>,
-    winner: Player,
-    records_left: u64,
+    /// Bytes of a window.
+    window: usize,
+    /// The last record that was collected of each run.
+    last: Vec<u8>,
+    /// Records that were collected, and a word for each, in order.
+    batch: Pages<u8>,
+    words: Pages<u64>,
+    /// Records in the batch, and those of them that were taken.
+    collected: usize,
+    taken: usize,
 }
 
 impl<'a> Merge<'a> {
-    /// Starts to merge runs, with blocks of `block` bytes, a multiple of the width.
-    pub(super) fn start<S: Store>(
-        layout: &'a RecordLayout,
-        runs: &[Run],
-        block: usize,
-        source: &mut Medium<S>,
-    ) -> Result<Self, Error> {
-        let inputs = runs.iter().map(|&left| Input { left, at: 0, end: 0 }).collect();
-        let mut merge = Self {
-            layout,
-            inputs,
-            offsets: runs.iter().map(|run| run.offset).collect(),
+    /// Starts to merge runs.
+    pub(super) fn start(plan: &'a Plan, runs: &[Run]) -> Result<Self, Error> {
+        let width = plan.layout.width;
+        let (block, window) = plan.merge_sizes(runs.len());
+        let records = runs.len() * window;
+        let input = |&left: &Run| Input { offset: left.offset, left, at: 0, end: 0, begun: false };
+        Ok(Self {
+            layout: &plan.layout,
+            inputs: runs.iter().map(input).collect(),
             blocks: Pages::try_zeroed(runs.len() * block)?,
             block,
-            disordered: None,
-            losers: vec![0; runs.len()],
-            winner: 0,
-            records_left: runs.iter().map(|run| run.records).sum(),
-        };
-        let k = runs.len();
-        let mut winners = vec![0; 2 * k];
-        for i in 0..k {
-            winners[i + k] = merge.player(i, source)?;
-        }
-        for node in (1..k).rev() {
-            let (a, b) = (winners[2 * node], winners[2 * node + 1]);
-            (winners[node], merge.losers[node]) = if merge.before(a, b) { (a, b) } else { (b, a) };
-        }
-        merge.winner = winners[1];
-        Ok(merge)
+            window: window * width,
+            last: vec![0; runs.len() * width],
+            batch: Pages::try_zeroed(records * width)?,
+            words: Pages::try_zeroed(records)?,
+            collected: 0,
+            taken: 0,
+        })
     }
 
     /// Puts the next records into `to`, as many as there is room for; the number of bytes, 0 at the end.
@@ -85,110 +80,122 @@ impl<'a> Merge<'a> {
         to: &mut [u8],
         source: &mut Medium<S>,
     ) -> Result<usize, Error> {
-        match self.layout.width {
-            8 => self.fill_width::<8, S>(to, source),
-            16 => self.fill_width::<16, S>(to, source),
-            32 => self.fill_width::<32, S>(to, source),
-            _ => self.fill_width::<0, S>(to, source),
+        let (width, mut filled) = (self.layout.width, 0);
+        while filled + width <= to.len() {
+            if self.taken == self.collected {
+                self.collect(source)?;
+                if self.collected == 0 {
+                    break;
+                }
+            }
+            let room = (to.len() - filled) / width;
+            let words = &self.words.words()[self.taken..self.collected];
+            let words = &words[..words.len().min(room)];
+            let batch = &self.batch.words()[..self.collected * width];
+            chunk::gather(batch, words, self.collected, &mut to[filled..], width);
+            self.taken += words.len();
+            filled += words.len() * width;
         }
+        Ok(filled)
     }
 
-    /// [`Self::fill`] where the width is known, or 0.
-    fn fill_width<const W: usize, S: Store>(
-        &mut self,
-        to: &mut [u8],
-        source: &mut Medium<S>,
-    ) -> Result<usize, Error> {
-        let width = if W == 0 { self.layout.width } else { W };
-        let room = (to.len() / width) as u64;
-        let records = room.min(self.records_left);
-        let (k, long) = (self.inputs.len(), self.layout.is_long());
-        for place in to.chunks_exact_mut(width).take(records as usize) {
-            let run = self.winner as u32 as usize;
-            let input = &mut self.inputs[run];
-            place.copy_from_slice(&self.blocks.words()[input.at..input.at + width]);
-            input.at += width;
-            let mut winner = if input.at < input.end {
-                let rank = self.layout.rank(&self.blocks.words()[input.at..input.at + width]);
-                player(rank, run)
-            } else {
-                self.player(run, source)?
+    /// Collects the records up to the next bound, and orders them; none at the end.
+    fn collect<S: Store>(&mut self, source: &mut Medium<S>) -> Result<(), Error> {
+        (self.collected, self.taken) = (0, 0);
+        for run in 0..self.inputs.len() {
+            if self.inputs[run].at == self.inputs[run].end {
+                self.refill(run, source)?;
+            }
+        }
+        let (layout, width) = (self.layout, self.layout.width);
+        let blocks = self.blocks.words();
+        let window = |input: &Input| &blocks[input.at..input.end.min(input.at + self.window)];
+        // The first run with the smallest last key.
+        let mut bound: Option<(usize, &[u8])> = None;
+        for (run, input) in self.inputs.iter().enumerate() {
+            if let Some(last) = window(input).chunks_exact(width).next_back()
+                && bound.is_none_or(|(_, bound)| compare(layout, last, bound).is_lt())
+            {
+                bound = Some((run, last));
+            }
+        }
+        let Some((first, bound)) = bound else { return Ok(()) };
+        let batch = self.batch.words_mut();
+        for (run, input) in self.inputs.iter_mut().enumerate() {
+            let window = window(input);
+            let is_next = |record: &[u8]| match compare(layout, record, bound) {
+                Ordering::Less => true,
+                Ordering::Equal => run <= first,
+                Ordering::Greater => false,
             };
-            // Both are players of one run, so that this compares their ranks.
-            if winner < self.winner || long && self.falls(place, winner) {
-                self.disordered = Some(run);
+            let records = partition(window, width, is_next);
+            if records == 0 {
+                continue;
             }
-            let mut node = (run + k) / 2;
-            if long {
-                while node > 0 {
-                    if self.before(self.losers[node], winner) {
-                        (self.losers[node], winner) = (winner, self.losers[node]);
-                    }
-                    node /= 2;
-                }
-            } else {
-                while node > 0 {
-                    // Who wins is a coin toss: a jump would be mispredicted in every second game, so both
-                    // numbers change in the bits where they differ, or in none.
-                    let loser = self.losers[node];
-                    let changes = 0u128.wrapping_sub(u128::from(loser < winner));
-                    let bits = (loser ^ winner) & changes;
-                    self.losers[node] = loser ^ bits;
-                    winner ^= bits;
-                    node /= 2;
-                }
+            let part = &window[..records * width];
+            let last = &mut self.last[run * width..][..width];
+            let falls = input.begun && compare(layout, last, &part[..width]).is_gt();
+            if falls || !is_in_order(layout, part) {
+                let path = source.path().to_owned();
+                return Err(Error::UnsortedRun { path, offset: input.offset });
             }
-            self.winner = winner;
+            last.copy_from_slice(&part[part.len() - width..]);
+            batch[self.collected * width..][..part.len()].copy_from_slice(part);
+            input.begun = true;
+            input.at += part.len();
+            self.collected += records;
         }
-        if let Some(run) = self.disordered {
-            let path = source.path().to_owned();
-            return Err(Error::UnsortedRun { path, offset: self.offsets[run] });
-        }
-        self.records_left -= records;
-        Ok(records as usize * width)
+        let words = &mut self.words.words_mut()[..self.collected];
+        chunk::order(&batch[..self.collected * width], layout, words);
+        Ok(())
     }
 
-    /// The next player of a run whose block is used up.
-    #[cold]
-    fn player<S: Store>(&mut self, run: usize, source: &mut Medium<S>) -> Result<Player, Error> {
-        let (width, input) = (self.layout.width, &mut self.inputs[run]);
-        let bytes = (input.left.records * width as u64).min(self.block as u64);
+    /// Reads the next block of a run, if there is one.
+    fn refill<S: Store>(&mut self, run: usize, source: &mut Medium<S>) -> Result<(), Error> {
+        let (width, input) = (self.layout.width as u64, &mut self.inputs[run]);
+        let bytes = (input.left.records * width).min(self.block as u64);
         if bytes == 0 {
-            return Ok(player(u64::MAX, run) | ENDED);
+            return Ok(());
         }
         let start = run * self.block;
         (input.at, input.end) = (start, start + bytes as usize);
         source.read(&mut self.blocks.words_mut()[start..input.end], input.left.offset)?;
         input.left.offset += bytes;
-        input.left.records -= bytes / width as u64;
-        let next = (input.left.records * width as u64).min(self.block as u64);
+        input.left.records -= bytes / width;
+        let next = (input.left.records * width).min(self.block as u64);
         if next > 0 {
             source.soon(input.left.offset, next);
         }
-        Ok(player(self.layout.rank(&self.blocks.words()[start..start + width]), run))
-    }
-
-    /// Whether the record of `next`, whose key is longer than its rank, comes before `last` of the same run.
-    fn falls(&self, last: &[u8], next: Player) -> bool {
-        next >> 64 == self.winner >> 64
-            && next & ENDED == 0
-            && self.layout.compare_rest(last, self.record(next)).is_gt()
-    }
-
-    /// The record of a player whose run has not ended.
-    fn record(&self, player: Player) -> &[u8] {
-        &self.blocks.words()[self.inputs[player as u32 as usize].at..][..self.layout.width]
-    }
-
-    /// Whether the record of `a` comes before that of `b`.
-    fn before(&self, a: Player, b: Player) -> bool {
-        if a >> 64 != b >> 64 || (a | b) & ENDED != 0 || !self.layout.is_long() {
-            return a < b;
-        }
-        self.layout.compare_rest(self.record(a), self.record(b)).then(a.cmp(&b)).is_lt()
+        Ok(())
     }
 }
 
-fn player(rank: u64, run: usize) -> Player {
-    u128::from(rank) << 64 | run as u128
+/// The order of the keys of two records.
+fn compare(layout: &RecordLayout, a: &[u8], b: &[u8]) -> Ordering {
+    layout.rank(a).cmp(&layout.rank(b)).then_with(|| layout.compare_rest(a, b))
+}
+
+/// How many records at the front hold, in a row of records of which none holds behind one that does not.
+fn partition(records: &[u8], width: usize, holds: impl Fn(&[u8]) -> bool) -> usize {
+    let (mut low, mut high) = (0, records.len() / width);
+    while low < high {
+        let middle = (low + high) / 2;
+        if holds(&records[middle * width..][..width]) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    low
+}
+
+/// Whether no record comes before the one before it.
+fn is_in_order(layout: &RecordLayout, records: &[u8]) -> bool {
+    let width = layout.width;
+    let (front, back) = (&records[..records.len() - width], &records[width..]);
+    let pairs = || front.chunks_exact(width).zip(back.chunks_exact(width));
+    if layout.is_long() {
+        return pairs().all(|(a, b)| compare(layout, a, b).is_le());
+    }
+    pairs().fold(true, |holds, (a, b)| holds & (layout.rank(a) <= layout.rank(b)))
 }

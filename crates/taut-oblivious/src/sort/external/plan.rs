@@ -1,5 +1,6 @@
 //! How the memory is used, and which runs are merged when.
 
+use super::chunk;
 use super::layout::RecordLayout;
 use crate::error::Error;
 use crate::store::PAGE;
@@ -10,6 +11,14 @@ const BLOCK_MAX: usize = 1 << 20;
 const WRITE_BLOCK: usize = 512 << 10;
 /// Smaller blocks are better collected by the system.
 const PAST_CACHE_MIN: usize = 64 << 10;
+/// From this limit on, there is room for what sorting records in their own place takes, ...
+const IN_PLACE_MIN: usize = 16 << 20;
+/// ... which is this, and a fortieth of the records.
+const IN_PLACE_ROOM: usize = 4 << 20;
+/// Bytes that are collected from runs at once: half of a second-level cache.
+const BATCH_BYTES: usize = 512 << 10;
+/// Fewest records that are looked at in each run, where there is room.
+const WINDOW_MIN: usize = 32;
 /// Rather than with smaller blocks, runs are merged in several steps.
 const BLOCK_MIN: usize = 256 << 10;
 
@@ -25,6 +34,8 @@ pub(super) struct Plan {
     pub(super) write_block: usize,
     /// Whether runs and blocks are whole pages but for the last one, and large.
     pub(super) past_cache: bool,
+    /// Whether records are sorted in their own place, not by words.
+    pub(super) in_place: bool,
     /// What blocks are multiples of.
     unit: usize,
     memory: usize,
@@ -35,7 +46,12 @@ impl Plan {
         layout.check()?;
         let width = layout.width;
         let mut write_block = whole((memory / 32).min(WRITE_BLOCK), width);
-        let mut chunk = memory.saturating_sub(2 * write_block) / (width + size_of::<u64>());
+        let in_place = memory >= IN_PLACE_MIN && chunk::sorts(layout);
+        let mut chunk = if in_place {
+            (memory - IN_PLACE_ROOM) / 41 * 40 / width
+        } else {
+            memory.saturating_sub(2 * write_block) / (width + size_of::<u64>())
+        };
         if memory < 64 << 10 || chunk < 64 {
             return Err(Error::Option {
                 name: "memory",
@@ -51,7 +67,7 @@ impl Plan {
         }
         let unit = if past_cache { pages } else { width };
         let layout = layout.clone();
-        Ok(Self { layout, records, chunk, write_block, past_cache, unit, memory })
+        Ok(Self { layout, records, chunk, write_block, past_cache, in_place, unit, memory })
     }
 
     /// Whether the records fit into memory.
@@ -79,13 +95,23 @@ impl Plan {
 
     /// The most runs that are merged at once.
     fn fan_in(&self) -> usize {
-        let least = (self.memory / 64).clamp(4096, BLOCK_MIN).max(self.unit);
+        // A block, a record that is collected, and the last one that was.
+        let width = self.layout.width;
+        let least = (self.memory / 64).clamp(4096, BLOCK_MIN).max(self.unit + 2 * width + 8);
         ((self.memory - 2 * self.write_block) / least).max(2)
     }
 
-    /// Bytes of each block when so many runs are merged.
-    pub(super) fn merge_block(&self, runs: usize) -> usize {
-        whole(((self.memory - 2 * self.write_block) / runs).min(BLOCK_MAX), self.unit)
+    /// Bytes of the block and records of the window of each run when so many are merged.
+    pub(super) fn merge_sizes(&self, runs: usize) -> (usize, usize) {
+        let width = self.layout.width;
+        let share = (self.memory - 2 * self.write_block) / runs;
+        // Collected, it takes a word besides.
+        let collected = width + size_of::<u64>();
+        let window = (BATCH_BYTES / width / runs).max(WINDOW_MIN).min(share / 8 / collected).max(1);
+        // The last record that was collected is kept.
+        let block = share.saturating_sub(window * collected + width).min(BLOCK_MAX);
+        let block = whole(block, if block < self.unit { width } else { self.unit });
+        (block, window.min(block / width))
     }
 }
 
