@@ -67,20 +67,17 @@ pub(crate) fn surface(
     if let Some((name, _)) = of_denoise.iter().find(|(_, is_given)| *is_given && !denoise) {
         return Err(PyValueError::new_err(format!("option `{name}` is of denoise=True")));
     }
-    let of_methods: [(&str, bool, &[SurfaceMethod]); 7] = [
-        ("open", open, &[SurfaceMethod::Tree]),
-        (
-            "alpha",
-            alpha.is_some(),
-            &[SurfaceMethod::Alpha, SurfaceMethod::Thesis, SurfaceMethod::Hull],
-        ),
-        ("epsilon", epsilon != usual.epsilon, &[SurfaceMethod::Thesis, SurfaceMethod::Hull]),
-        ("sliver_angle", sliver_angle.is_some(), &[SurfaceMethod::Thesis]),
-        ("forbidden_angle", forbidden_angle.is_some(), &[SurfaceMethod::Thesis]),
-        ("priority", priority != usual.priority, &[SurfaceMethod::Thesis]),
-        ("restarts", restarts, &[SurfaceMethod::Thesis]),
+    let given = [
+        ("open", open),
+        ("alpha", alpha.is_some()),
+        ("epsilon", epsilon != usual.epsilon),
+        ("sliver_angle", sliver_angle.is_some()),
+        ("forbidden_angle", forbidden_angle.is_some()),
+        ("priority", priority != usual.priority),
+        ("restarts", restarts),
     ];
-    for (name, is_given, methods) in of_methods {
+    for (name, is_given) in given {
+        let methods = SurfaceOptions::methods_of(name);
         if is_given && !methods.contains(&method) {
             let names: Vec<&str> = methods.iter().map(|method| method.name()).collect();
             let (names, method) = (names.join(" and "), method.name());

@@ -179,18 +179,18 @@ impl Args {
 
     /// Refuses options that the method does not have, rather than passing over them.
     fn check_options(&self) -> anyhow::Result<()> {
-        use SurfaceMethod::{Alpha, Hull, Thesis, Tree};
-        let of: [(&str, bool, &[SurfaceMethod]); 8] = [
-            ("open", self.open, &[Tree]),
-            ("closed", self.closed, &[Tree]),
-            ("alpha", self.alpha.is_some(), &[Alpha, Thesis, Hull]),
-            ("epsilon", self.epsilon.is_some(), &[Thesis, Hull]),
-            ("sliver-angle", self.sliver_angle.is_some(), &[Thesis]),
-            ("forbidden-angle", self.forbidden_angle.is_some(), &[Thesis]),
-            ("priority", self.priority.is_some(), &[Thesis]),
-            ("restarts", self.restarts, &[Thesis]),
+        let options = [
+            ("open", self.open),
+            ("closed", self.closed),
+            ("alpha", self.alpha.is_some()),
+            ("epsilon", self.epsilon.is_some()),
+            ("sliver-angle", self.sliver_angle.is_some()),
+            ("forbidden-angle", self.forbidden_angle.is_some()),
+            ("priority", self.priority.is_some()),
+            ("restarts", self.restarts),
         ];
-        for (name, is_given, methods) in of {
+        for (name, is_given) in options {
+            let methods = SurfaceOptions::methods_of(name);
             if is_given && !methods.contains(&self.method) {
                 let names: Vec<&str> = methods.iter().map(|method| method.name()).collect();
                 let method = self.method.name();

@@ -25,6 +25,21 @@ pub struct SurfaceOptions {
     pub threads: Option<usize>,
 }
 
+impl SurfaceOptions {
+    /// The methods that heed an option, by the name that it has on the command line (`sliver-angle`) or in Python (`sliver_angle`); all
+    /// of them, where it is not of some alone.
+    pub fn methods_of(option: &str) -> &'static [SurfaceMethod] {
+        use SurfaceMethod::{Alpha, Hull, Thesis, Tree};
+        match option.replace('_', "-").as_str() {
+            "open" | "closed" => &[Tree],
+            "alpha" => &[Alpha, Thesis, Hull],
+            "epsilon" => &[Thesis, Hull],
+            "sliver-angle" | "forbidden-angle" | "priority" | "restarts" => &[Thesis],
+            _ => &SurfaceMethod::ALL,
+        }
+    }
+}
+
 /// Whether a surface may have boundaries.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SurfaceMode {
