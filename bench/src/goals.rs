@@ -2,6 +2,8 @@
 
 use serde_json::{Value, json};
 
+use crate::stats::times;
+
 /// The goals of one section.
 #[derive(Default)]
 pub(crate) struct Goals {
@@ -36,6 +38,16 @@ impl Goals {
         }
     }
 
+    /// A ratio that must be at least one bound, and is hoped to be at least another; NaN was not measured.
+    pub(crate) fn at_least(&mut self, what: &str, value: f64, (must, aim): (f64, Option<f64>)) {
+        let met = |bound| (!value.is_nan()).then_some(value >= bound);
+        let goal = |bound: f64| format!("{what} at least {}", times(bound));
+        self.must(goal(must), times(value), met(must));
+        if let Some(aim) = aim {
+            self.aim(goal(aim), times(value), met(aim));
+        }
+    }
+
     fn line(&mut self, kind: &str, goal: String, measured: String, met: Option<bool>) {
         let word = match met {
             Some(true) => "met",
@@ -66,5 +78,15 @@ mod tests {
         let met: Vec<_> = lines.as_array().unwrap().iter().map(|line| &line["met"]).collect();
         assert_eq!(met, [&json!(true), &json!(false), &json!(false), &Value::Null]);
         assert_eq!(lines[1]["goal"], "error at most 1");
+    }
+
+    #[test]
+    fn a_ratio_is_met_from_its_bound_on() {
+        let mut goals = Goals::default();
+        goals.at_least("speed", 2.0, (2.0, Some(2.5)));
+        goals.at_least("speed", f64::NAN, (2.0, None));
+        let lines = goals.json();
+        let met: Vec<_> = lines.as_array().unwrap().iter().map(|line| &line["met"]).collect();
+        assert_eq!(met, [&json!(true), &json!(false), &Value::Null]);
     }
 }

@@ -1,8 +1,9 @@
 //! taut beside its peers: the same inputs, one run, every answer checked.
 //!
 //! `ball` runs the named cases of the minimum enclosing ball, `delaunay` those of Delaunay triangulations, `ellipsoid`
-//! those of ellipsoids, `centers` those of k centres, `curve` and `surface` what is shown of curves and surfaces; `thesis-ball`,
-//! `thesis-ellipsoid`, `thesis-curve` and `thesis-surface` rerun figures and a table of the thesis.
+//! those of ellipsoids, `centers` those of k centres, `curve` and `surface` what is shown of curves and surfaces, `oblivious`
+//! that of the memory hierarchy; `thesis-ball`, `thesis-ellipsoid`, `thesis-curve` and `thesis-surface` rerun figures and a table
+//! of the thesis.
 //! The peers are installed by `bench/setup`; one that is missing is named, never skipped in silence.
 #![forbid(unsafe_code)]
 
@@ -17,6 +18,7 @@ mod input;
 mod judge;
 mod machine;
 mod meter;
+mod oblivious;
 mod peer;
 mod raw;
 mod read;
@@ -52,6 +54,8 @@ enum Area {
     Curve(curve::Arguments),
     /// Surfaces: topology, distances, times and memory of reconstructions beside CGAL's.
     Surface(surface::Arguments),
+    /// The memory hierarchy: searching, sorting, transposing, files, sets, trees and more beside peers.
+    Oblivious(oblivious::Arguments),
     /// Figures 5 to 15 of the thesis, rerun as CSV and SVG.
     ThesisBall(thesis::Arguments),
     /// Figure 18 of the thesis, core-sets of ellipsoids, rerun as CSV and SVG.
@@ -72,6 +76,9 @@ enum Area {
     /// Reconstructs the surface of one raw file and prints what that cost.
     #[command(hide = true)]
     OneSurface(surface::one::OneArguments),
+    /// Sorts, transposes or copies one file and prints what that cost.
+    #[command(hide = true)]
+    OneOblivious(oblivious::one::OneArguments),
     /// Encloses one raw file in an ellipsoid and prints passes and the peak memory of this process.
     #[command(hide = true)]
     SolveEllipsoid(ellipsoid::file::SolveArguments),
@@ -93,6 +100,7 @@ fn main() -> anyhow::Result<()> {
         Area::Centers(arguments) => centers::run(&arguments),
         Area::Curve(arguments) => curve::run(&arguments),
         Area::Surface(arguments) => surface::run(&arguments),
+        Area::Oblivious(arguments) => oblivious::run(&arguments),
         Area::ThesisBall(arguments) => thesis::run(&arguments),
         Area::ThesisEllipsoid(arguments) => thesis::run_ellipsoid(&arguments),
         Area::ThesisCurve(arguments) => thesis::run_curve(&arguments),
@@ -102,6 +110,7 @@ fn main() -> anyhow::Result<()> {
         Area::OneDelaunay(arguments) => delaunay::one::run(&arguments),
         Area::OneCurve(arguments) => curve::one::run(&arguments),
         Area::OneSurface(arguments) => surface::one::run(&arguments),
+        Area::OneOblivious(arguments) => oblivious::one::run(&arguments),
         Area::PeerCrate { input, center } => peer::serve_crate(&input, &center),
     }
 }

@@ -70,7 +70,8 @@ pub(crate) fn folder() -> PathBuf {
 /// Names: a program of `peers/build` with its build (`fgk-native`, `cgal-spheres-3-o2`), or `cyminiball`,
 /// `miniball-pypi`, `miniball-crate`, `sklearn-mcd-H`, `conic-PROBLEM`, `dynesty`, `cgal-approximate-EPSILON`, `set-cover`,
 /// `medoids`, `traversal-K`, `traversal-single-K`, `concorde`, `elkai`, `plain-curve`, `cgal-transport-TOLERANCE`,
-/// `cgal-surface-WAY`, `open3d-WAY`, `pymeshlab-WAY`.
+/// `cgal-surface-WAY`, `open3d-WAY`, `pymeshlab-WAY`, `numpy-sort`, `numpy-sort-avx2`, `quickheap`, `quickheap-keys`,
+/// `cgal-hilbert-D-POLICY`.
 fn command(name: &str) -> Result<Option<Command>> {
     let python = |package: &str| {
         let interpreter = folder().join(".venv/bin/python");
@@ -105,6 +106,7 @@ fn command(name: &str) -> Result<Option<Command>> {
         "medoids" => script("sklearn_extra.cluster", "centers.py", "medoids"),
         "elkai" => script("elkai", "tours.py", "elkai"),
         "plain-curve" => script("scipy", "plain_curve.py", "4"),
+        "numpy-sort" | "numpy-sort-avx2" => sorter(name),
         "open3d-pivoting" | "open3d-poisson" => script("open3d", "surface.py", name),
         "pymeshlab-pivoting" | "pymeshlab-poisson" => script("pymeshlab", "surface.py", name),
         name if name.starts_with("traversal-") => script("numpy", "centers.py", name),
@@ -118,7 +120,9 @@ fn command(name: &str) -> Result<Option<Command>> {
             Some(command)
         }
         name => {
-            const WITH_ARGUMENT: [(&str, &str); 3] = [
+            const WITH_ARGUMENT: [(&str, &str); 5] = [
+                ("cgal-hilbert-2-", "cgal-hilbert-2"),
+                ("cgal-hilbert-3-", "cgal-hilbert-3"),
                 ("cgal-approximate-", "cgal-approximate-ellipsoid"),
                 ("cgal-transport-", "cgal-transport"),
                 ("cgal-surface-", "cgal-surface"),
@@ -129,6 +133,7 @@ fn command(name: &str) -> Result<Option<Command>> {
             let (program, argument) = match (prefixed, name) {
                 (Some((program, argument)), _) => (program, Some(argument)),
                 (None, "concorde") => ("tours/release/tours", None),
+                (None, "quickheap" | "quickheap-keys") => ("rust/release/peers", Some(name)),
                 (None, name) => (name, None),
             };
             let path = folder().join("peers/build").join(program);
@@ -138,6 +143,20 @@ fn command(name: &str) -> Result<Option<Command>> {
                 command
             })
         }
+    })
+}
+
+/// numpy of its own folder, as other packages want an older one; `-avx2` keeps it from longer vectors.
+fn sorter(name: &str) -> Option<Command> {
+    let [numpy, interpreter] =
+        ["peers/build/numpy", ".venv/bin/python"].map(|path| folder().join(path));
+    (numpy.exists() && interpreter.exists()).then(|| {
+        let mut command = Command::new(interpreter);
+        command.arg(folder().join("peers/sort.py")).env("PYTHONPATH", numpy);
+        if name.ends_with("-avx2") {
+            command.env("NPY_DISABLE_CPU_FEATURES", "X86_V4 AVX512_ICL AVX512_SPR");
+        }
+        command
     })
 }
 

@@ -1,10 +1,12 @@
 //! spade and delaunator as peers: `peers NAME FILE` builds one triangulation in the plane and prints one line of JSON.
+//! quickheap as a peer: `peers quickheap FILE OUTPUT` and `peers quickheap-keys FILE OUTPUT`, see `queue`.
 //!
 //! The line is described in `bench/peers/delaunay.hpp`; time and memory are taken by the code that takes those of taut.
 #![forbid(unsafe_code)]
 
 #[path = "../../../src/meter.rs"]
 mod meter;
+mod queue;
 
 use std::fs::File;
 use std::io::{BufReader, Read};
@@ -15,8 +17,10 @@ use spade::{DelaunayTriangulation, Point2, Triangulation};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().collect();
-    let [_, name, path] = &arguments[..] else {
-        return Err("expected NAME and FILE".into());
+    let (name, path) = match &arguments[..] {
+        [_, name, path] => (name, path),
+        [_, name, path, output] => return queue::serve(name, path, output),
+        _ => return Err("expected NAME and FILE".into()),
     };
     let (points, simplices, cost) = match name.as_str() {
         "spade" => spade(read(path, |[x, y]| Point2::new(x, y))?)?,

@@ -1,0 +1,244 @@
+//! Files larger than the memory that is allowed: sorted beside the crate extsort, and transposed.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+use anyhow::{Context as _, Result, ensure};
+use clap::ValueEnum;
+use serde_json::{Value, json};
+use taut_oblivious::external::{Multiset, verify};
+use taut_oblivious::{FileCheck, FileMatrix, check_transposed_file};
+use taut_points::Monitor;
+use tempfile::TempDir;
+
+use super::draw::Draw;
+use super::one::{FileCost, WIDTH, Work, layout};
+use crate::context::Context;
+use crate::goals::Goals;
+use crate::raw::alone;
+use crate::stats::{seconds, times};
+use crate::table::Table;
+
+/// How large things are.
+struct Sizes {
+    records: usize,
+    sort_memory: usize,
+    rows: usize,
+    columns: usize,
+    transpose_memory: usize,
+}
+
+/// What each program cost: the best of it, and all rounds.
+struct Costs {
+    best: Vec<FileCost>,
+    rounds: Vec<Vec<FileCost>>,
+}
+
+/// A tenth and a sixteenth of what the goals speak of.
+pub(super) fn run(context: &Context) -> Result<Value> {
+    let sizes = match context.quick {
+        true => Sizes::of(100_000, 1 << 20, [300, 500], 1 << 18),
+        false => Sizes::of(10_000_000, 26 << 20, [8192, 4096], 16 << 20),
+    };
+    measure(context, &sizes)
+}
+
+/// 3.2 GB sorted and 4 GiB transposed, under 256 MiB.
+pub(super) fn run_large(context: &Context) -> Result<Value> {
+    measure(context, &Sizes::of(100_000_000, 256 << 20, [32_768, 16_384], 256 << 20))
+}
+
+impl Sizes {
+    fn of(
+        records: usize,
+        sort_memory: usize,
+        [rows, columns]: [usize; 2],
+        transpose_memory: usize,
+    ) -> Self {
+        Sizes { records, sort_memory, rows, columns, transpose_memory }
+    }
+}
+
+/// Both, in a folder that is removed at the end.
+fn measure(context: &Context, sizes: &Sizes) -> Result<Value> {
+    let folder = match &context.scratch {
+        Some(folder) => TempDir::new_in(folder)?,
+        None => TempDir::new()?,
+    };
+    let mut goals = Goals::default();
+    let mut table = Table::new(&[
+        "work",
+        "file",
+        "limit",
+        "processor",
+        "clock",
+        "peak",
+        "I/O ÷ file",
+        "clock ÷ copies",
+    ]);
+    let (from, to) = (folder.path().join("from"), folder.path().join("to"));
+    let sorted = sort(context, sizes, [&from, &to], &mut table)?;
+    let transposed = transposition(context, sizes, [&from, &to], &mut table)?;
+    let (sort, transposition) = (sorted.best, transposed.best);
+    println!("{table}");
+    let bytes = (sizes.records * WIDTH) as f64;
+    let io = sort[0].counted.map_or(f64::NAN, |counted| counted as f64 / bytes);
+    goals.must(
+        "sort: I/O four times the file, within 1 %".into(),
+        times(io),
+        (io - 4.0).abs() <= 0.04,
+    );
+    let peak = over_limit(&sort[0], sizes.sort_memory);
+    goals.at_most("sort: peak above the limit", peak, (32.0, None), mebibytes);
+    let over = over_limit(&sort[2], sizes.sort_memory);
+    let what = "queue: peak at most 16 MiB above the limit".into();
+    goals.aim(what, over.map_or(String::new(), mebibytes), over.map(|over| over <= 16.0));
+    let ratio = sort[1].cpu / sort[0].cpu;
+    goals.at_least("sort: processor time of extsort over taut's", ratio, (3.0, None));
+    goals.aim(
+        "sort: clock at most 1.3 times that of two copies".into(),
+        times(sort[0].wall / (2.0 * sort[3].wall)),
+        sort[0].wall <= 1.3 * 2.0 * sort[3].wall,
+    );
+    let peak = over_limit(&transposition[0], sizes.transpose_memory);
+    goals.at_most("transposition: peak above the limit", peak, (16.0, None), mebibytes);
+    let rounds = json!({ "sort": sorted.rounds, "transposition": transposed.rounds });
+    Ok(json!({ "rounds": rounds, "goals": goals.json() }))
+}
+
+/// taut, extsort, taut's queue, a copy; each output is judged by taut's certificate, whose checker shares no code with the sort.
+fn sort(
+    context: &Context,
+    sizes: &Sizes,
+    [from, to]: [&Path; 2],
+    table: &mut Table,
+) -> Result<Costs> {
+    let mut draw = Draw(1);
+    write(from, sizes.records * WIDTH / 8, || draw.word())?;
+    let mut certificate = None;
+    let judge = |work, cost: &FileCost| -> Result<()> {
+        if work == Work::Copy {
+            return Ok(());
+        }
+        if let Some((records, [high, low])) = cost.certificate {
+            let hash = u128::from(high) << 64 | u128::from(low);
+            certificate = Some(Multiset { records, hash });
+        }
+        let certificate = certificate.as_ref().context("taut comes first")?;
+        ensure!(certificate.records == sizes.records as u64, "records are missing");
+        Ok(verify(to, &layout(), certificate, &Monitor::silent())?)
+    };
+    let works = [Work::Sort, Work::Extsort, Work::Queue, Work::Copy];
+    let file = (sizes.records * WIDTH) as u64;
+    by_turns(context, &works, [from, to], (sizes.sort_memory, 1, file, 2.0), judge, table)
+}
+
+/// taut and a copy; the output is compared whole.
+fn transposition(
+    context: &Context,
+    sizes: &Sizes,
+    [from, to]: [&Path; 2],
+    table: &mut Table,
+) -> Result<Costs> {
+    let mut draw = Draw(2);
+    write(from, sizes.rows * sizes.columns, || draw.word())?;
+    let (rows, columns) = (sizes.rows as u64, sizes.columns as u64);
+    let matrix = FileMatrix { rows, columns, width: 8, offset: 0 };
+    let judge = |work, _: &FileCost| -> Result<()> {
+        match work {
+            Work::Transpose => Ok(check_transposed_file(
+                from,
+                matrix,
+                to,
+                0,
+                FileCheck::Whole,
+                &Monitor::silent(),
+            )?),
+            _ => Ok(()),
+        }
+    };
+    let works = [Work::Transpose, Work::Copy];
+    let file = rows * columns * 8;
+    by_turns(context, &works, [from, to], (sizes.transpose_memory, rows, file, 1.0), judge, table)
+}
+
+/// Each in a process of its own, by turns. Of times the least counts, of peaks the largest.
+fn by_turns(
+    context: &Context,
+    works: &[Work],
+    [from, to]: [&Path; 2],
+    (memory, rows, bytes, copies): (usize, u64, u64, f64),
+    mut judge: impl FnMut(Work, &FileCost) -> Result<()>,
+    table: &mut Table,
+) -> Result<Costs> {
+    let mut rounds = vec![vec![]; works.len()];
+    for _ in 0..context.runs {
+        for (&work, costs) in works.iter().zip(&mut rounds) {
+            let mut arguments = vec!["one-oblivious".into(), name(work).into()];
+            arguments
+                .extend([format!("--memory={memory}").into(), format!("--rows={rows}").into()]);
+            arguments.extend([from.into(), to.into()]);
+            let cost: FileCost = alone(&arguments)?;
+            judge(work, &cost)?;
+            std::fs::remove_file(to)?;
+            costs.push(cost);
+        }
+    }
+    let best: Vec<FileCost> = rounds.iter().filter_map(|costs| best(costs)).collect();
+    let copy = copies * best[best.len() - 1].wall;
+    for (work, cost) in works.iter().zip(&best) {
+        let io = cost.io.map_or(String::new(), |io| times(io as f64 / bytes as f64));
+        let size = |bytes: u64| mebibytes(bytes as f64 / 1048576.0);
+        table.push(vec![
+            name(*work),
+            size(bytes),
+            size(memory as u64),
+            seconds(cost.cpu),
+            seconds(cost.wall),
+            cost.peak.map_or(String::new(), size),
+            io,
+            times(cost.wall / copy),
+        ]);
+    }
+    Ok(Costs { best, rounds })
+}
+
+/// The least times, and the most of all else.
+fn best(costs: &[FileCost]) -> Option<FileCost> {
+    let mut costs = costs.iter().cloned();
+    let mut best = costs.next()?;
+    for cost in costs {
+        best.cpu = best.cpu.min(cost.cpu);
+        best.wall = best.wall.min(cost.wall);
+        best.peak = best.peak.max(cost.peak);
+        best.io = best.io.max(cost.io);
+        best.counted = best.counted.max(cost.counted);
+    }
+    Some(best)
+}
+
+/// A name on the command line.
+fn name(work: Work) -> String {
+    work.to_possible_value().map_or(String::new(), |value| value.get_name().to_owned())
+}
+
+/// Mebibytes of the peak above the limit, the program itself among them.
+fn over_limit(cost: &FileCost, memory: usize) -> Option<f64> {
+    cost.peak.map(|peak| (peak as f64 - memory as f64) / 1048576.0)
+}
+
+fn mebibytes(value: f64) -> String {
+    format!("{value:.1} MiB")
+}
+
+/// Words, least significant byte first.
+fn write(path: &Path, words: usize, mut word: impl FnMut() -> u64) -> Result<()> {
+    let mut file = BufWriter::with_capacity(1 << 20, File::create(path)?);
+    for _ in 0..words {
+        file.write_all(&word().to_le_bytes())?;
+    }
+    file.flush()?;
+    // Not to be written while something else is timed.
+    Ok(file.get_ref().sync_data()?)
+}

@@ -1,0 +1,145 @@
+//! Points in the order of a curve that fills space, beside CGAL's and beside keys of the crate fast_hilbert.
+
+use anyhow::{Result, ensure};
+use serde_json::{Value, json};
+use taut_oblivious::{hilbert_order, morton_order};
+
+use super::draw::Draw;
+use super::guests::Guests;
+use super::lanes::{Lanes, have_memory};
+use crate::context::Context;
+use crate::stats::times;
+use crate::table::Table;
+
+/// Keys of the crate and numbers, sorted by std.
+const CRATE: &str = "fast_hilbert and std's sort";
+/// By the curve that has no short steps.
+const MORTON: &str = "taut, Z-order";
+
+/// Random points of the square and the cube, and of clouds in the square; no bound is set for them.
+pub(super) fn run(context: &Context) -> Result<Value> {
+    let n = if context.quick { 10_000 } else { 1_000_000 };
+    let plane: Vec<[f64; 2]> = points(n, Draw::unit);
+    // Dense along two sides, most of all in the corner.
+    let dense: Vec<[f64; 2]> = points(n, |draw| draw.unit().powi(8));
+    let space: Vec<[f64; 3]> = points(n, Draw::unit);
+    let cgal = [
+        ["cgal-hilbert-2-median", "cgal-hilbert-2-middle"],
+        ["cgal-hilbert-3-median", "cgal-hilbert-3-middle"],
+    ];
+    Ok(json!([
+        show("square", &plane, case(context, &plane, cgal[0], Some(quantised))?),
+        show("square, x⁸ and y⁸", &dense, case(context, &dense, cgal[0], Some(quantised))?),
+        show("cube", &space, case(context, &space, cgal[1], None)?),
+    ]))
+}
+
+fn points<const D: usize>(n: usize, number: fn(&mut Draw) -> f64) -> Vec<[f64; D]> {
+    let mut draw = Draw(1);
+    (0..n).map(|_| std::array::from_fn(|_| number(&mut draw))).collect()
+}
+
+/// An order, by an order of points.
+type By<const D: usize> = fn(&[[f64; D]]) -> Vec<u32>;
+
+/// Times, and of each program the mean step from a point to the next.
+struct Case {
+    lanes: Lanes,
+    steps: Vec<(&'static str, f64)>,
+}
+
+/// All by turns; each order must have every point once. Curves differ, so the length of the way is shown beside.
+fn case<const D: usize>(
+    context: &Context,
+    points: &[[f64; D]],
+    cgal: [&'static str; 2],
+    other: Option<By<D>>,
+) -> Result<Case> {
+    let mut found = Case { lanes: Lanes::default(), steps: vec![] };
+    let words: Vec<u64> = points.iter().flatten().map(|number| number.to_bits()).collect();
+    let mut guests = Guests::invite(context, &words, D, &cgal)?;
+    let ours: By<D> = |points| hilbert_order(points.len(), |i| points[i]);
+    let morton: By<D> = |points| morton_order(points.len(), |i| points[i]);
+    let programs = [("taut", Some(ours)), (MORTON, Some(morton)), (CRATE, other)];
+    for round in 0..context.runs {
+        let mut judge = |name, order: &[u32]| -> Result<()> {
+            let mean = walk(points, order);
+            ensure!(mean.is_some(), "{name}: a point is lost");
+            if round == 0 {
+                found.steps.extend(mean.map(|mean| (name, mean)));
+            }
+            Ok(())
+        };
+        for (name, by) in programs {
+            let Some(by) = by else { continue };
+            have_memory(64 * points.len())?;
+            let order = found.lanes.time(name, || by(points));
+            judge(name, &order)?;
+        }
+        have_memory(64 * points.len())?;
+        guests.turn(context, &mut found.lanes, |name, order| {
+            let order: Vec<u32> = order.iter().map(|&word| f64::from_bits(word) as u32).collect();
+            judge(name, &order)
+        })?;
+    }
+    Ok(found)
+}
+
+/// Cells of a grid of 2³² by 2³² and numbers of points, as one would write it; the numbers are from 0 to 1.
+fn quantised(points: &[[f64; 2]]) -> Vec<u32> {
+    let key = |(i, point): (usize, &[f64; 2])| {
+        let [x, y] = point.map(|number| (number * 4_294_967_296.0) as u32);
+        (fast_hilbert::xy2h(x, y, 32), i as u32)
+    };
+    let mut keys: Vec<(u64, u32)> = points.iter().enumerate().map(key).collect();
+    keys.sort_unstable();
+    keys.into_iter().map(|(_, i)| i).collect()
+}
+
+/// The mean distance between neighbours of the order; `None` unless it has every point once.
+fn walk<const D: usize>(points: &[[f64; D]], order: &[u32]) -> Option<f64> {
+    let mut seen = vec![false; points.len()];
+    let once =
+        |&i: &u32| seen.get_mut(i as usize).is_some_and(|seen| !std::mem::replace(seen, true));
+    if order.len() != points.len() || !order.iter().all(once) {
+        return None;
+    }
+    let step = |pair: &[u32]| {
+        let [a, b] = [pair[0], pair[1]].map(|i| points[i as usize]);
+        (0..D).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
+    };
+    Some(order.windows(2).map(step).sum::<f64>() / (points.len() - 1) as f64)
+}
+
+/// A table, and the same for the report.
+fn show<const D: usize>(name: &str, points: &[[f64; D]], case: Case) -> Value {
+    let Case { lanes, steps } = case;
+    let mut table = Table::new(&["program", "ns a point", "÷ taut", "mean step ÷ taut's"]);
+    let least = steps.first().map_or(f64::NAN, |first| first.1);
+    for (program, mean) in &steps {
+        let each = lanes.of(program) / points.len() as f64 * 1e9;
+        table.push(vec![
+            (*program).to_owned(),
+            format!("{each:.1}"),
+            times(lanes.faster("taut", program)),
+            times(mean / least),
+        ]);
+    }
+    println!("{} points: {name}\n\n{table}", points.len());
+    json!({ "points": name, "n": points.len(), "lanes": lanes.json(points.len()), "steps": steps })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lost_point_is_seen() {
+        let square = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]];
+        assert_eq!(walk(&square, &[0, 1, 2, 3]), Some(1.0));
+        for wrong in [&[0, 1, 2][..], &[0, 1, 2, 2], &[0, 1, 2, 4]] {
+            assert_eq!(walk(&square, wrong), None);
+        }
+        assert!(walk(&square, &quantised(&square.map(|p| p.map(|x| x / 2.0)))).is_some());
+    }
+}

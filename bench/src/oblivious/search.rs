@@ -1,0 +1,171 @@
+//! Lower bounds among sorted keys, in all layouts.
+
+use anyhow::{Result, ensure};
+#[cfg(target_os = "linux")]
+use memmap2::Advice;
+use memmap2::MmapMut;
+use serde_json::{Value, json};
+use taut_oblivious::search::{
+    BlockedVanEmdeBoas, Eytzinger, SPlusTree, Sorted, SortedIndex, VanEmdeBoas,
+};
+
+use super::draw::Draw;
+use super::lanes::Lanes;
+use crate::context::Context;
+use crate::goals::Goals;
+use crate::stats::times;
+use crate::table::Table;
+
+/// Independent look-ups one by one, in a batch, and dependent ones.
+struct Names {
+    single: &'static str,
+    batch: &'static str,
+    dependent: &'static str,
+}
+
+/// std's binary search; its keys on pages of 4 KiB and on those of 2 MiB.
+const STD: Names = Names { single: "std", batch: "", dependent: "std, dependent" };
+const STD_HUGE: Names =
+    Names { single: "std, huge pages", batch: "", dependent: "std, huge pages, dependent" };
+
+/// What is asked, and what the answers are.
+struct Queries {
+    keys: Vec<u64>,
+    ranks: Vec<usize>,
+    /// The ranks if the last bit of each key is turned where the rank before was odd.
+    chained: Vec<usize>,
+}
+
+/// Of each layout the ratio to std.
+pub(super) fn run(context: &Context) -> Result<Value> {
+    let (n, asked) = if context.quick { (1 << 16, 1 << 14) } else { (1 << 24, 1 << 20) };
+    let mut keys = Draw(1).words(n);
+    taut_oblivious::sort(&mut keys);
+    ensure!(keys.is_sorted(), "the keys are not in order");
+    let huge = on_huge_pages(&keys)?;
+    let huge: &[u64] = bytemuck::cast_slice(&huge);
+    let queries = Queries::draw(&keys, asked);
+    let sorted = Sorted::new(&keys)?;
+    let eytzinger = Eytzinger::new(&keys)?;
+    let veb = VanEmdeBoas::new(&keys)?;
+    let blocked = BlockedVanEmdeBoas::new(&keys)?;
+    let splus = SPlusTree::new(&keys)?;
+    let layouts = [
+        Names { single: "sorted", batch: "sorted, batch", dependent: "sorted, dependent" },
+        Names { single: "Eytzinger", batch: "Eytzinger, batch", dependent: "Eytzinger, dependent" },
+        Names { single: "vEB", batch: "vEB, batch", dependent: "vEB, dependent" },
+        Names { single: "blocked", batch: "blocked, batch", dependent: "blocked, dependent" },
+        Names { single: "S+ tree", batch: "S+ tree, batch", dependent: "S+ tree, dependent" },
+    ];
+    let mut lanes = Lanes::default();
+    for _ in 0..context.runs {
+        queries.ask(&mut lanes, &STD, |key| binary_search(&keys, key))?;
+        queries.ask(&mut lanes, &STD_HUGE, |key| binary_search(huge, key))?;
+        queries.ask_index(&mut lanes, &layouts[0], &sorted)?;
+        queries.ask_index(&mut lanes, &layouts[1], &eytzinger)?;
+        queries.ask_index(&mut lanes, &layouts[2], &veb)?;
+        queries.ask_index(&mut lanes, &layouts[3], &blocked)?;
+        queries.ask_index(&mut lanes, &layouts[4], &splus)?;
+    }
+    Ok(show(n, asked, &lanes, &layouts))
+}
+
+/// Tables, goals and the report.
+fn show(n: usize, asked: usize, lanes: &Lanes, layouts: &[Names]) -> Value {
+    let ns = |name: &str| match lanes.of(name) {
+        seconds if seconds.is_nan() => String::new(),
+        seconds => format!("{:.1}", seconds / asked as f64 * 1e9),
+    };
+    let mut table = Table::new(&[
+        "layout",
+        "ns, one by one",
+        "ns, batch",
+        "std ÷ batch",
+        "std on huge pages ÷ batch",
+        "ns, dependent",
+        "dependent ÷ std",
+    ]);
+    for names in [&STD, &STD_HUGE].into_iter().chain(layouts) {
+        let over = |std: &Names| match names.batch {
+            "" => String::new(),
+            batch => times(lanes.faster(batch, std.single)),
+        };
+        table.push(vec![
+            names.single.to_owned(),
+            ns(names.single),
+            ns(names.batch),
+            over(&STD),
+            over(&STD_HUGE),
+            ns(names.dependent),
+            times(lanes.faster(STD.dependent, names.dependent)),
+        ]);
+    }
+    println!("{n} keys, {asked} look-ups\n\n{table}");
+    let mut goals = Goals::default();
+    let batch = lanes.faster("S+ tree, batch", STD.single);
+    goals.at_least("batches: std over taut", batch, (30.0, Some(40.0)));
+    let dependent = lanes.faster(STD.dependent, "S+ tree, dependent");
+    let what = "dependent look-ups over std's";
+    goals.at_most(what, Some(dependent), (0.4, None), times);
+    json!({ "keys": n, "look_ups": asked, "lanes": lanes.json(asked), "goals": goals.json() })
+}
+
+fn binary_search(keys: &[u64], key: u64) -> usize {
+    keys.binary_search(&key).unwrap_or_else(|rank| rank)
+}
+
+/// A copy of the keys that asked for pages of 2 MiB before it was written, as the indices of taut do.
+fn on_huge_pages(keys: &[u64]) -> Result<MmapMut> {
+    let mut pages = MmapMut::map_anon(size_of_val(keys))?;
+    #[cfg(target_os = "linux")]
+    pages.advise(Advice::HugePage)?;
+    bytemuck::cast_slice_mut(&mut pages).copy_from_slice(keys);
+    Ok(pages)
+}
+
+impl Queries {
+    /// Random keys; the ranks are those by halving, which is independent of all that is timed.
+    fn draw(sorted: &[u64], asked: usize) -> Self {
+        let keys = Draw(2).words(asked);
+        let rank = |key: u64| sorted.partition_point(|&other| other < key);
+        let ranks = keys.iter().map(|&key| rank(key)).collect();
+        let mut before = 0;
+        let chained = keys.iter().map(|&key| {
+            before = rank(key ^ (before as u64 & 1));
+            before
+        });
+        let chained = chained.collect();
+        Queries { keys, ranks, chained }
+    }
+
+    /// One by one, then each key depending on the rank before it. Keys are distinct, so that an exact hit has one rank.
+    fn ask(&self, lanes: &mut Lanes, names: &Names, rank: impl Fn(u64) -> usize) -> Result<()> {
+        let mut found = Vec::with_capacity(self.keys.len());
+        lanes.time(names.single, || found.extend(self.keys.iter().map(|&key| rank(key))));
+        ensure!(found == self.ranks, "{}: a wrong rank", names.single);
+        found.clear();
+        lanes.time(names.dependent, || {
+            let mut before = 0;
+            for &key in &self.keys {
+                before = rank(key ^ (before as u64 & 1));
+                found.push(before);
+            }
+        });
+        ensure!(found == self.chained, "{}: a wrong rank", names.dependent);
+        Ok(())
+    }
+
+    /// The same, and a batch.
+    fn ask_index(
+        &self,
+        lanes: &mut Lanes,
+        names: &Names,
+        index: &impl SortedIndex<u64>,
+    ) -> Result<()> {
+        self.ask(lanes, names, |key| index.lower_bound(key))?;
+        let mut found = Vec::with_capacity(self.keys.len());
+        lanes.time(names.batch, || index.lower_bounds(&self.keys, &mut found));
+        ensure!(found == self.ranks, "{}: a wrong rank", names.batch);
+        Ok(())
+    }
+}

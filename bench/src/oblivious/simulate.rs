@@ -1,0 +1,215 @@
+//! How fast the simulator is, and the misses of algorithms beside their bounds.
+
+use anyhow::{Result, ensure};
+use serde_json::{Value, json};
+use taut_oblivious::Probe;
+use taut_oblivious::reference::{
+    MatrixSizes, distribution_sort_probed, funnelsort_probed, mergesort_probed, multiply_probed,
+    transpose_probed,
+};
+use taut_oblivious::simulate::{CacheShape, Simulator, StackDistances};
+
+use super::draw::Draw;
+use super::lanes::thread_cpu;
+use crate::context::Context;
+use crate::goals::Goals;
+use crate::stats::times;
+use crate::table::Table;
+
+/// Bytes of a word; M and B below are in words.
+const WORD: usize = 8;
+
+/// Three memories at once, and all sizes at once.
+const THREE: &str = "L1, L2 and DTLB at once";
+const STACK: &str = "stack distances";
+
+/// M and B.
+type Shape = (usize, usize);
+
+/// Touches per second, then misses.
+pub(super) fn run(context: &Context) -> Result<Value> {
+    let mut goals = Goals::default();
+    let rates = rates(context)?;
+    let bounds = bounds(context)?;
+    for (name, [product, sort, scattered]) in &rates {
+        let least = product.min(*sort).min(*scattered);
+        // Stack distances answer for all sizes of memory at once, in O(log n).
+        let must = if *name == STACK { 5.0 } else { 20.0 };
+        if *name != THREE {
+            goals.at_least(&format!("{name}: million touches per second"), least, (must, None));
+        }
+    }
+    for row in &bounds {
+        let what = format!("{}: largest ratio to {}", row.name, row.formula);
+        goals.at_most(&what, Some(row.largest), (row.allowed, None), |ratio| format!("{ratio:.3}"));
+    }
+    let bound = |row: &Bound| {
+        let Bound { name, formula, largest, allowed } = row;
+        json!({ "name": name, "formula": formula, "largest": largest, "allowed": allowed })
+    };
+    let bounds: Vec<Value> = bounds.iter().map(bound).collect();
+    Ok(json!({ "rates": rates, "bounds": bounds, "goals": goals.json() }))
+}
+
+/// Million touches per second of a product, a sort, and touches at random in 32 MiB.
+fn rates(context: &Context) -> Result<Vec<(&'static str, [f64; 3])>> {
+    let mut found = vec![];
+    for (name, shapes) in [
+        ("LRU, 32 KiB", vec![CacheShape::lru(1 << 15, 64)]),
+        ("LRU, 1 MiB", vec![CacheShape::lru(1 << 20, 64)]),
+        ("FIFO, 1 MiB", vec![CacheShape::fifo(1 << 20, 64)]),
+        ("L1", vec![CacheShape::L1]),
+        (THREE, vec![CacheShape::L1, CacheShape::L2, CacheShape::DTLB]),
+    ] {
+        let fresh = || -> Result<_> { Ok(Simulator::new(&shapes)?) };
+        let touches = |simulator: &Simulator| simulator.counts(0).touches;
+        found.push((name, fastest(context, fresh, touches)?));
+    }
+    let fresh = || -> Result<_> { Ok(StackDistances::new(64)?) };
+    found.push((STACK, fastest(context, fresh, StackDistances::touches)?));
+    let mut table = Table::new(&["memory", "product", "sort", "at random"]);
+    for (name, rates) in &found {
+        let cells = rates.iter().map(|&rate| times(rate));
+        table.push([(*name).to_owned()].into_iter().chain(cells).collect());
+    }
+    println!("million touches per second\n\n{table}");
+    Ok(found)
+}
+
+/// The best of some rounds of each of the three.
+fn fastest<P: Probe>(
+    context: &Context,
+    fresh: impl Fn() -> Result<P>,
+    touches: impl Fn(&P) -> u64,
+) -> Result<[f64; 3]> {
+    let works: [fn(&mut P) -> Result<()>; 3] = [product, sort, scattered];
+    let mut best = [0.0f64; 3];
+    for _ in 0..context.runs {
+        for (best, work) in best.iter_mut().zip(works) {
+            let mut probe = fresh()?;
+            let start = thread_cpu();
+            work(&mut probe)?;
+            *best = best.max(touches(&probe) as f64 / (thread_cpu() - start) * 1e-6);
+        }
+    }
+    Ok(best)
+}
+
+fn product<P: Probe>(probe: &mut P) -> Result<()> {
+    let n = 100;
+    let (a, b, mut c) = (vec![1.0; n * n], vec![1.0; n * n], vec![0.0; n * n]);
+    Ok(multiply_probed(&a, &b, &mut c, MatrixSizes::square(n), 1, probe)?)
+}
+
+fn sort<P: Probe>(probe: &mut P) -> Result<()> {
+    let mut keys = Draw(1).words(50_000);
+    mergesort_probed(&mut keys, probe);
+    ensure!(keys.is_sorted(), "not in order");
+    Ok(())
+}
+
+/// Every touch a miss, or nearly.
+fn scattered<P: Probe>(probe: &mut P) -> Result<()> {
+    let (array, mut draw) = (vec![0u64; 1 << 22], Draw(1));
+    probe.place(&array);
+    for _ in 0..2_000_000 {
+        let at = (draw.word() >> 42) as usize;
+        probe.read(std::slice::from_ref(&array[at]));
+    }
+    Ok(())
+}
+
+/// Misses of an algorithm over what its formula says.
+struct Bound {
+    name: String,
+    formula: &'static str,
+    largest: f64,
+    allowed: f64,
+}
+
+/// The bounds that take seconds; `cargo test -p taut-oblivious --test io_bounds` has all of them.
+fn bounds(context: &Context) -> Result<Vec<Bound>> {
+    let side = if context.quick { 256 } else { 1024 };
+    let mut found = vec![];
+    let (from, mut to) = (vec![1.0f64; side * side], vec![0.0; side * side]);
+    let largest = ratio(
+        &[(4096, 8), (4096, 32), (32_768, 64)],
+        |probe| Ok(transpose_probed(&from, &mut to, side, side, 1, probe)?),
+        |_, b| 2.0 * (side * side) as f64 / b,
+    )?;
+    let name = format!("transposition, n = {side}");
+    found.push(Bound { name, formula: "2n²/B", largest, allowed: 1.001 });
+    let side = if context.quick { 128 } else { 256 };
+    let (a, b, mut c) = (vec![1.0; side * side], vec![1.0; side * side], vec![0.0; side * side]);
+    let largest = ratio(
+        &[(1024, 8), (4096, 8), (4096, 32), (16_384, 32)],
+        |probe| Ok(multiply_probed(&a, &b, &mut c, MatrixSizes::square(side), 1, probe)?),
+        |m, b| (side as f64).powi(3) / (b * m.sqrt()),
+    )?;
+    let name = format!("product, n = {side}");
+    found.push(Bound { name, formula: "n³/(B√M)", largest, allowed: 5.5 });
+    let n = if context.quick { 10_000 } else { 1 << 18 };
+    let grid = [
+        (1024, 8),
+        (4096, 8),
+        (16_384, 8),
+        (4096, 16),
+        (1024, 32),
+        (4096, 32),
+        (16_384, 32),
+        (4096, 64),
+        (16_384, 64),
+    ];
+    let scans = |m: f64, b: f64| {
+        let scan = n as f64 / b;
+        scan * (1.0 + scan.ln() / (m / b).ln())
+    };
+    let formula = "(n/B)(1 + log_{M/B}(n/B))";
+    let mut keys = Draw(1).words(n);
+    let largest = ratio(
+        &grid,
+        |probe| {
+            funnelsort_probed(&mut keys, probe);
+            Ok(())
+        },
+        scans,
+    )?;
+    ensure!(keys.is_sorted(), "funnelsort: not in order");
+    found.push(Bound { name: format!("funnelsort, n = {n}"), formula, largest, allowed: 6.0 });
+    let mut keys = Draw(1).words(n);
+    let largest = ratio(
+        &grid,
+        |probe| {
+            distribution_sort_probed(&mut keys, 7, probe);
+            Ok(())
+        },
+        scans,
+    )?;
+    ensure!(keys.is_sorted(), "distribution sort: not in order");
+    let name = format!("distribution sort, n = {n}");
+    found.push(Bound { name, formula, largest, allowed: 6.0 });
+    let mut table = Table::new(&["algorithm", "formula", "largest ratio", "allowed"]);
+    for row in &found {
+        let [largest, allowed] = [row.largest, row.allowed].map(|ratio| format!("{ratio:.3}"));
+        table.push(vec![row.name.clone(), row.formula.to_owned(), largest, allowed]);
+    }
+    println!("misses of LRU memories, M ≥ B², over the formula\n\n{table}");
+    Ok(found)
+}
+
+/// The largest ratio of misses to a formula of M and B, of memories that all hear the same run.
+fn ratio(
+    grid: &[Shape],
+    work: impl FnOnce(&mut Simulator) -> Result<()>,
+    formula: impl Fn(f64, f64) -> f64,
+) -> Result<f64> {
+    let shapes: Vec<CacheShape> =
+        grid.iter().map(|&(m, b)| CacheShape::lru(m * WORD, b * WORD)).collect();
+    let mut simulator = Simulator::new(&shapes)?;
+    work(&mut simulator)?;
+    ensure!(simulator.unannounced() == 0, "a touch outside all arrays");
+    let ratio = |(at, &(m, b)): (usize, &Shape)| {
+        simulator.counts(at).misses as f64 / formula(m as f64, b as f64)
+    };
+    Ok(grid.iter().enumerate().map(ratio).fold(0.0, f64::max))
+}
