@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 import taut
-from taut import _ball, _centers, _curve, _delaunay, _ellipsoid, _generate, _robust, _verify
+from taut import _ball, _centers, _curve, _delaunay, _ellipsoid, _generate, _memory, _robust, _verify
 
 
 FLAGS = doctest.ELLIPSIS | doctest.IGNORE_EXCEPTION_DETAIL
 
 
-MODULES = [taut, _ball, _centers, _curve, _delaunay, _ellipsoid, _generate, _robust, _verify]
+MODULES = [taut, _ball, _centers, _curve, _delaunay, _ellipsoid, _generate, _memory, _robust, _verify]
 
 
 @pytest.mark.parametrize("module", MODULES, ids=lambda m: m.__name__)
