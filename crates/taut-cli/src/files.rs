@@ -79,6 +79,14 @@ pub(crate) fn judge(
     }
 }
 
+/// Refuses standard input and output where files are read and written at many places.
+pub(crate) fn are_files(paths: &[&Path]) -> anyhow::Result<()> {
+    match paths.iter().any(|path| writing::is_stream(path)) {
+        true => Err(anyhow!("- cannot be read or written at many places: name a file")),
+        false => Ok(()),
+    }
+}
+
 pub(crate) fn opened(path: &Path) -> anyhow::Result<File> {
     let name = path.display();
     let file = File::open(path).map_err(|source| anyhow!("{name}: {source}"))?;

@@ -163,4 +163,22 @@ mod pages {
     struct Robust;
     #[doc = include_str!("../../../docs/surface.md")]
     struct Surface;
+    #[doc = include_str!("../../../docs/memory/figures.md")]
+    struct Figures;
+    #[doc = include_str!("../../../docs/memory/matrix.md")]
+    struct Matrix;
+    #[doc = include_str!("../../../docs/memory/order.md")]
+    struct Order;
+    #[doc = include_str!("../../../docs/memory/packed.md")]
+    struct Packed;
+    #[doc = include_str!("../../../docs/memory/queue.md")]
+    struct Queue;
+    #[doc = include_str!("../../../docs/memory/sample.md")]
+    struct Sample;
+    #[doc = include_str!("../../../docs/memory/search.md")]
+    struct Search;
+    #[doc = include_str!("../../../docs/memory/simulate.md")]
+    struct Simulate;
+    #[doc = include_str!("../../../docs/memory/sort.md")]
+    struct Sort;
 }

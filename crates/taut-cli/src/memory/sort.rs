@@ -10,7 +10,7 @@ use taut::oblivious::external::{FileSort, FileSortOptions, KeyKind, RecordLayout
 use super::key;
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::files::Proof;
+use crate::files::{Proof, are_files};
 use crate::{size, writing};
 
 /// Sort a file of records of fixed width by their key, which may be larger than memory.
@@ -71,6 +71,7 @@ impl Args {
         let memory = usize::try_from(self.memory).unwrap_or(usize::MAX);
         let options =
             FileSortOptions { memory, scratch: self.scratch.clone(), resume: self.resume.clone() };
+        are_files(&[&self.input, &self.out])?;
         self.proof.look_at(&self.out, &[&self.input])?;
         let watch = self.effort.start()?;
         let found = watch.during("sorting", |monitor| {

@@ -15,7 +15,7 @@ use taut_io::NpyArray;
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::files::{explain, opened};
+use crate::files::{are_files, explain, opened};
 use crate::watch::Watch;
 use crate::{size, writing};
 
@@ -73,6 +73,7 @@ struct Job {
 
 impl Args {
     pub(super) fn run(&self) -> anyhow::Result<Outcome> {
+        are_files(&[&self.input, &self.out])?;
         let places = [Some(self.out.as_path()), self.certificate.as_deref()];
         let places: Vec<&Path> = places.into_iter().flatten().collect();
         writing::look_at(&places, &[&self.input])?;

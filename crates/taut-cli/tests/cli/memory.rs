@@ -52,6 +52,10 @@ fn what_cannot_be_sorted_is_named_and_nothing_is_written() {
         desk.taut(&format!("memory sort {options} -o sorted.bin")).ends(2).complains(said);
         assert_eq!(desk.text("sorted.bin"), "before");
     }
+    desk.taut("memory sort records.bin --width 10 -o -").ends(2).complains(&["name a file"]);
+    desk.taut("memory transpose - --rows 1 --columns 1 -o columns.bin")
+        .ends(2)
+        .complains(&["name a file"]);
     desk.taut("memory sort records.bin --width 10 -o records.bin")
         .ends(2)
         .complains(&["records.bin"]);
