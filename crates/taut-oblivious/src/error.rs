@@ -64,6 +64,16 @@ pub enum Error {
         /// Which file.
         path: String,
     },
+    /// Records that another process sorted and left to be merged are not in order.
+    #[error(
+        "{path}: the records from byte {offset} on are not in order: remove the file and sort again"
+    )]
+    UnsortedRun {
+        /// Which file.
+        path: String,
+        /// Where the run begins that is not in order.
+        offset: u64,
+    },
     /// A file that should be sorted is not.
     #[error(
         "{path}: record {record} (from 0) is before the one it follows: the file is not sorted"

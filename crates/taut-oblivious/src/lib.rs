@@ -34,6 +34,7 @@
 //!
 //! Not for: points with coordinates that are not finite (validate first), or 2³² of them or more.
 
+mod deal;
 mod error;
 mod hilbert;
 pub mod kdtree;
@@ -45,6 +46,7 @@ mod order;
 pub mod packed;
 mod probe;
 mod queue;
+mod random;
 pub mod reference;
 mod room;
 mod sample;

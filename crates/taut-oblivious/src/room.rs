@@ -1,37 +1,152 @@
-//! Memory for a moment, on huge pages where the system has them.
+//! Arrays of words that start at a line of memory, and if they are large lie in pages of 2 MiB.
 //!
-//! *Trap.* Fresh memory is mapped page by page as it is first written; in pages of 4 KiB this costs as much as a pass or
-//! two of the sort that needs the memory.
-#![allow(unsafe_code)]
+//! *Problem.* A search of a large array touches a new page at nearly every step, and the translation of addresses covers
+//! only a few megabytes in pages of 4 KiB: 44 ns instead of 24 for a search of 2²² keys.
+//! *Idea.* Map memory of our own, aligned to 2 MiB, and ask for large pages before the first touch.
+//! *Trap.* The request is advice. Where a system has no large pages, or no mapping, the array works as well and is slower.
 
-/// From this many bytes on, pages are asked for; a huge page has 2 MiB.
-const HUGE: usize = 1 << 21;
+use bytemuck::Pod;
+use memmap2::{MmapMut, MmapOptions};
 
-/// The items in a row, on huge pages if they are many and the system has them.
-pub(crate) fn filled<T>(items: impl ExactSizeIterator<Item = T>) -> Vec<T> {
-    let mut room = Vec::with_capacity(items.len());
-    advise(&room);
-    room.extend(items);
-    room
+use crate::error::Error;
+
+/// A large page.
+const PAGE: usize = 1 << 21;
+/// A line of memory.
+const LINE: usize = 64;
+/// A page of the usual size, where arrays start that are as large.
+const SMALL_PAGE: usize = 4096;
+
+enum Store<W> {
+    Heap(Vec<W>),
+    Map(MmapMut),
 }
 
-/// Asks for huge pages under all that `room` has capacity for.
-fn advise<T>(room: &Vec<T>) {
-    let start = (room.as_ptr() as usize).next_multiple_of(HUGE);
-    let end = room.as_ptr() as usize + room.capacity() * size_of::<T>();
-    #[cfg(all(target_os = "linux", not(miri)))]
-    if start + HUGE <= end {
-        let from = room.as_ptr().cast::<u8>().wrapping_add(start - room.as_ptr() as usize);
-        // SAFETY: the range belongs to the vector, and this advice changes no content. That it is refused, or unknown to
-        // the system, only costs time.
-        let _ = unsafe {
-            rustix::mm::madvise(
-                from.cast_mut().cast(),
-                end - start,
-                rustix::mm::Advice::LinuxHugepage,
-            )
-        };
+/// An array of `len` words; the first one starts a line of memory.
+pub(crate) struct Pages<W> {
+    store: Store<W>,
+    /// Where the array starts, in bytes.
+    first: usize,
+    len: usize,
+}
+
+impl<W: Pod> Pages<W> {
+    /// `len` words with all bits zero.
+    pub(crate) fn zeroed(len: usize) -> Self {
+        let spare = Self::spare(len);
+        Self::mapped(len).unwrap_or_else(|| Self::heap(vec![W::zeroed(); len + spare], len))
     }
-    #[cfg(not(all(target_os = "linux", not(miri))))]
-    let _ = (start, end);
+
+    /// The same for an algorithm with an option `memory`, which the error is about if the system refuses.
+    pub(crate) fn try_zeroed(len: usize) -> Result<Self, Error> {
+        if let Some(pages) = Self::mapped(len) {
+            return Ok(pages);
+        }
+        let (words, mut heap) = (len.saturating_add(Self::spare(len)), Vec::new());
+        heap.try_reserve_exact(words).map_err(|_| Error::Option {
+            name: "memory",
+            value: format!("enough for {len} × {} bytes at once", size_of::<W>()),
+            expected: "no more than the system can give",
+        })?;
+        heap.resize(words, W::zeroed());
+        Ok(Self::heap(heap, len))
+    }
+
+    /// A mapping for many words; none if they are few, or the system has none.
+    fn mapped(len: usize) -> Option<Self> {
+        let bytes = len.checked_mul(size_of::<W>())?;
+        let large = bytes >= PAGE && !cfg!(miri) && PAGE.is_multiple_of(size_of::<W>().max(1));
+        let (map, first) = large.then(|| map(bytes)).flatten()?;
+        Some(Self { store: Store::Map(map), first, len })
+    }
+
+    /// Where arrays of so many words start: on a line, or on a page if they fill one.
+    fn align(len: usize) -> usize {
+        if len.saturating_mul(size_of::<W>()) < SMALL_PAGE { LINE } else { SMALL_PAGE }
+    }
+
+    /// Words that alignment may take.
+    fn spare(len: usize) -> usize {
+        Self::align(len).checked_div(size_of::<W>()).unwrap_or(0)
+    }
+
+    fn heap(heap: Vec<W>, len: usize) -> Self {
+        let first = match heap.as_ptr().align_offset(Self::align(len)) {
+            words if words <= Self::spare(len) => words * size_of::<W>(),
+            _ => 0,
+        };
+        Self { store: Store::Heap(heap), first, len }
+    }
+
+    #[inline(always)]
+    pub(crate) fn words(&self) -> &[W] {
+        match &self.store {
+            Store::Heap(heap) => {
+                let first = self.first / size_of::<W>().max(1);
+                &heap[first..first + self.len]
+            }
+            Store::Map(map) => {
+                bytemuck::cast_slice(&map[self.first..self.first + self.len * size_of::<W>()])
+            }
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn words_mut(&mut self) -> &mut [W] {
+        match &mut self.store {
+            Store::Heap(heap) => {
+                let first = self.first / size_of::<W>().max(1);
+                &mut heap[first..first + self.len]
+            }
+            Store::Map(map) => bytemuck::cast_slice_mut(
+                &mut map[self.first..self.first + self.len * size_of::<W>()],
+            ),
+        }
+    }
+}
+
+/// Fresh zeroed memory with room for `bytes` bytes from the offset returned on, which is aligned to a large page.
+fn map(bytes: usize) -> Option<(MmapMut, usize)> {
+    let room = bytes.checked_next_multiple_of(PAGE)?.checked_add(PAGE)?;
+    let map = MmapOptions::new().len(room).map_anon().ok()?;
+    let first = map.as_ptr().align_offset(PAGE);
+    if first > PAGE {
+        return None;
+    }
+    #[cfg(target_os = "linux")]
+    // A system without large pages says no, and the array is as good without them.
+    let _ = map.advise_range(memmap2::Advice::HugePage, first, room - PAGE);
+    Some((map, first))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arrays_of_any_size_start_a_line_and_are_zero() {
+        for len in [0, 1, 7, 100, PAGE / 8 - 1, PAGE / 8, PAGE / 8 + 1] {
+            let mut pages = Pages::<u64>::zeroed(len);
+            assert_eq!(pages.words().len(), len);
+            assert!(pages.words().iter().all(|&word| word == 0));
+            assert!(len == 0 || (pages.words().as_ptr() as usize).is_multiple_of(LINE));
+            pages.words_mut().fill(7);
+            assert_eq!(pages.words().iter().sum::<u64>(), 7 * len as u64);
+        }
+        assert_eq!(Pages::<()>::zeroed(3).words().len(), 3);
+    }
+
+    #[test]
+    fn what_no_system_has_is_an_error() {
+        for len in [usize::MAX, usize::MAX / 8, usize::MAX / 16, 1 << 60] {
+            assert!(matches!(
+                Pages::<u64>::try_zeroed(len),
+                Err(Error::Option { name: "memory", .. })
+            ));
+        }
+        let mut few = Pages::<u8>::try_zeroed(5000).expect("two pages");
+        assert!((few.words().as_ptr() as usize).is_multiple_of(SMALL_PAGE));
+        few.words_mut()[4999] = 1;
+        assert_eq!(few.words().iter().map(|&byte| u32::from(byte)).sum::<u32>(), 1);
+    }
 }

@@ -1,10 +1,18 @@
-//! Files by position, whole reads and writes, and files that appear when they are whole.
+//! Bytes by position, whole reads and writes, and files that appear when they are whole.
+//!
+//! *Trap.* Written by way of the system's cache, a page costs the system more time than sorting its records costs this
+//! crate: pages must be found, filled and written back. What is written once, in large blocks, and read much later, goes
+//! past that cache where the system can.
 
-use std::fs::{self, File};
+mod draft;
+
+use std::fs::File;
 use std::io::{self, ErrorKind};
-use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
+pub(crate) use draft::{Draft, folder, target};
+
+/// Addresses, places and lengths of bytes that go past the system's cache are multiples of this.
+pub(crate) const PAGE: usize = 4096;
 
 /// Bytes by position: a file, or what a test puts in its place.
 pub(crate) trait Store {
@@ -14,15 +22,31 @@ pub(crate) trait Store {
     /// Writes some bytes at `at`.
     fn write_at(&self, bytes: &[u8], at: u64) -> io::Result<usize>;
 
+    /// Makes sure there is room for so many bytes, where that can be known.
+    fn reserve(&self, _bytes: u64) -> io::Result<()> {
+        Ok(())
+    }
+
+    /// Waits until what was written would survive the machine.
+    fn sync(&self) -> io::Result<()> {
+        Ok(())
+    }
+
+    /// These bytes will be read soon.
+    fn soon(&self, _at: u64, _bytes: u64) {}
+
+    /// Has reads and writes go past the system's cache from now on, or no longer; whether they do.
+    fn past_cache(&self, _past: bool) -> bool {
+        false
+    }
+
     /// Fills the buffer, in as many reads as it takes.
-    fn read_exact_at(&self, mut buffer: &mut [u8], mut at: u64) -> io::Result<()> {
-        while !buffer.is_empty() {
-            match self.read_at(buffer, at) {
+    fn read_exact_at(&self, buffer: &mut [u8], at: u64) -> io::Result<()> {
+        let mut done = 0;
+        while done < buffer.len() {
+            match self.read_at(&mut buffer[done..], at + done as u64) {
                 Ok(0) => return Err(ErrorKind::UnexpectedEof.into()),
-                Ok(n) => {
-                    buffer = &mut buffer[n..];
-                    at += n as u64;
-                }
+                Ok(n) => done += n,
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
                 Err(error) => return Err(error),
             }
@@ -31,14 +55,12 @@ pub(crate) trait Store {
     }
 
     /// Writes all bytes, in as many writes as it takes.
-    fn write_all_at(&self, mut bytes: &[u8], mut at: u64) -> io::Result<()> {
-        while !bytes.is_empty() {
-            match self.write_at(bytes, at) {
+    fn write_all_at(&self, bytes: &[u8], at: u64) -> io::Result<()> {
+        let mut done = 0;
+        while done < bytes.len() {
+            match self.write_at(&bytes[done..], at + done as u64) {
                 Ok(0) => return Err(ErrorKind::WriteZero.into()),
-                Ok(n) => {
-                    bytes = &bytes[n..];
-                    at += n as u64;
-                }
+                Ok(n) => done += n,
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
                 Err(error) => return Err(error),
             }
@@ -69,43 +91,47 @@ impl Store for File {
             io::Write::write(&mut file, bytes)
         }
     }
-}
 
-/// A file under a temporary name; gone if it is not finished, unless the process is killed.
-pub(crate) struct Unfinished {
-    file: NamedTempFile,
-    path: PathBuf,
-}
-
-impl Unfinished {
-    /// In the folder of what it will replace, the file behind a symbolic link, and with its permissions.
-    pub(crate) fn beside(path: &Path) -> io::Result<Self> {
-        let earlier = fs::metadata(path).ok();
-        let path = if earlier.is_some() { fs::canonicalize(path)? } else { path.to_owned() };
-        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".taut-");
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let file = builder.tempfile_in(folder)?;
-        if let Some(earlier) = earlier {
-            if !earlier.is_file() {
-                return Err(io::Error::new(ErrorKind::InvalidInput, "not a regular file"));
-            }
-            // A rename needs no right to write the earlier file; whoever took that right away meant it.
-            File::options().append(true).open(&path)?;
-            file.as_file().set_permissions(earlier.permissions())?;
+    #[cfg(target_os = "linux")]
+    fn reserve(&self, bytes: u64) -> io::Result<()> {
+        use rustix::fs::{FallocateFlags, fallocate};
+        use rustix::io::Errno;
+        if bytes == 0 {
+            return Ok(());
         }
-        Ok(Self { file, path })
+        match fallocate(self, FallocateFlags::KEEP_SIZE, 0, bytes) {
+            // Not every file system can; then a full disk shows when it is full.
+            Err(Errno::OPNOTSUPP | Errno::NOSYS | Errno::INVAL) => Ok(()),
+            result => Ok(result?),
+        }
     }
 
-    pub(crate) fn file(&self) -> &File {
-        self.file.as_file()
+    fn sync(&self) -> io::Result<()> {
+        loop {
+            match self.sync_data() {
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                result => return result,
+            }
+        }
     }
 
-    /// Brings the bytes to the disk and gives the file its name.
-    pub(crate) fn finish(self) -> io::Result<()> {
-        self.file.as_file().sync_all()?;
-        self.file.persist(self.path).map(drop).map_err(|e| e.error)
+    #[cfg(target_os = "linux")]
+    fn soon(&self, at: u64, bytes: u64) {
+        // A hint: that it is refused changes nothing.
+        let length = std::num::NonZeroU64::new(bytes);
+        let _ = rustix::fs::fadvise(self, at, length, rustix::fs::Advice::WillNeed);
     }
+
+    #[cfg(target_os = "linux")]
+    fn past_cache(&self, past: bool) -> bool {
+        use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
+        // Not every file system can; then all goes by way of the cache.
+        let set = |flags: OFlags| fcntl_setfl(self, flags & !OFlags::DIRECT | direct(past));
+        past & fcntl_getfl(self).and_then(set).is_ok()
+    }
+}
+
+#[cfg(target_os = "linux")]
+fn direct(past: bool) -> rustix::fs::OFlags {
+    if past { rustix::fs::OFlags::DIRECT } else { rustix::fs::OFlags::empty() }
 }

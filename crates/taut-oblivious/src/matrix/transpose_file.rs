@@ -5,8 +5,9 @@
 //! *Idea.* Tiles: two buffers of half the memory each hold a tile and its transpose. A tile is read by rows and written
 //! by columns, each a run of √(memory · width / 2) bytes: 32 KiB for numbers of 8 bytes in 256 MiB, however large the file.
 //! Where the matrix is narrower than that, tiles are longer instead and runs join to one.
-//! *Guarantee.* Every byte is read once and written once; the two buffers are all the memory. The target appears under its
-//! name when it is whole: whatever ends the work before leaves the earlier file as it was.
+//! *Guarantee.* Every byte is read once and written once; the two buffers are all the memory that grows with the limit,
+//! beside some 40 KiB a thread in which tiles are turned. The target appears under its name when it is whole: whatever
+//! ends the work before leaves the earlier file as it was, and no other where the system has files without a name.
 //! *Trap.* Mapping the files instead would fault page by page, without reading ahead, and a full disk would be a signal
 //! instead of an error.
 //! *Reference.* Thesis, section 5.3; Vitter, *Algorithms and Data Structures for External Memory*, 2008, section 7.2.
@@ -17,7 +18,8 @@ use std::path::{Path, PathBuf};
 use taut_points::Monitor;
 
 use crate::Error;
-use crate::store::{Store, Unfinished};
+use crate::room::Pages;
+use crate::store::{Draft, Store};
 
 pub(crate) mod check;
 
@@ -77,7 +79,8 @@ impl FileMatrix {
 /// How to transpose a file. Write `TransposeFileOptions { memory: 64 << 20, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TransposeFileOptions {
-    /// Bytes of both buffers together, at least two elements. Default 256 MiB.
+    /// Most bytes of both buffers together, at least two elements; turning a tile takes some 40 KiB a thread besides.
+    /// Default 256 MiB.
     pub memory: usize,
 }
 
@@ -102,13 +105,14 @@ pub struct FileTransposition {
 
 /// Writes the file `to`: `header`, then the transpose of the matrix in the file `from`.
 ///
-/// The names may be the same. `monitor` hears of one pass and of the elements of each tile. The target is written under a
-/// temporary name in its folder, brought to the disk and renamed; it has the permissions of an earlier file of that name.
-/// O(rows · columns) and `options.memory` bytes.
+/// The names may be the same. `monitor` hears of one pass and of the elements of each tile. The target is written without
+/// a name, or under a temporary one in its folder, brought to the disk and named. Where there is an earlier file of that
+/// name, also behind a symbolic link, it is replaced and its permissions are kept. Room on the disk is reserved before the
+/// work where the system can. O(rows · columns) and `options.memory` bytes.
 ///
 /// # Errors
-/// [`Error::Option`] if the memory holds less than two elements or the extent is not possible, [`Error::Length`] if the
-/// file does not end with the matrix, [`Error::File`] if the system refuses, [`Error::Cancelled`].
+/// [`Error::Option`] if the memory holds less than two elements or is more than the system gives, or if the extent is not
+/// possible, [`Error::Length`] if the file does not end with the matrix, [`Error::File`] if the system refuses, [`Error::Cancelled`].
 ///
 /// ```
 /// use taut_oblivious::{FileMatrix, TransposeFileOptions, transpose_file};
@@ -134,10 +138,9 @@ pub fn transpose_file(
 ) -> Result<FileTransposition, Error> {
     let plan = Plan::new(matrix, header.len() as u64, options)?;
     let source = open(from, &matrix)?;
-    let target = Unfinished::beside(to).map_err(failed(to))?;
-    let done =
-        plan.run(&source, target.file(), header, monitor).map_err(|at| at.named(from, to))?;
-    target.finish().map_err(failed(to))?;
+    let target = Draft::beside(to).map_err(failed(to))?;
+    let done = plan.run(&source, &target, header, monitor).map_err(|at| at.named(from, to))?;
+    target.publish().map_err(failed(to))?;
     Ok(done)
 }
 
@@ -164,7 +167,8 @@ fn failed(path: &Path) -> impl Fn(std::io::Error) -> Error + use<> {
 enum Failure {
     Source(std::io::Error),
     Target(std::io::Error),
-    Cancelled(taut_points::Cancelled),
+    /// Stopped, or no memory.
+    Other(Error),
 }
 
 impl Failure {
@@ -172,7 +176,7 @@ impl Failure {
         match self {
             Self::Source(error) => failed(from)(error),
             Self::Target(error) => failed(to)(error),
-            Self::Cancelled(error) => error.into(),
+            Self::Other(error) => error,
         }
     }
 }
@@ -211,18 +215,19 @@ impl Plan {
         Ok(Self { from, to, height, width })
     }
 
-    fn run<S: Store>(
+    fn run<S: Store, T: Store>(
         &self,
         source: &S,
-        target: &S,
+        target: &T,
         header: &[u8],
         monitor: &Monitor<'_>,
     ) -> Result<FileTransposition, Failure> {
         let (rows, columns, bytes) = (self.from.rows, self.from.columns, self.from.width);
         monitor.pass(1, rows * columns);
-        target.write_all_at(header, 0).map_err(Failure::Target)?;
         let room = self.height as usize * self.width as usize * bytes;
-        let (mut tile, mut turned) = (vec![0; room], vec![0; room]);
+        let [mut tile, mut turned] = [buffer(room)?, buffer(room)?];
+        target.reserve(self.to.at(columns, 0)).map_err(Failure::Target)?;
+        target.write_all_at(header, 0).map_err(Failure::Target)?;
         let mut done = FileTransposition {
             bytes_read: 0,
             bytes_written: header.len() as u64,
@@ -236,9 +241,9 @@ impl Plan {
             let height = self.height.min(rows - top);
             for left in (0..columns).step_by(self.width as usize) {
                 let width = self.width.min(columns - left);
-                monitor.check().map_err(Failure::Cancelled)?;
+                monitor.check().map_err(|stop| Failure::Other(stop.into()))?;
                 let size = height as usize * width as usize * bytes;
-                let (tile, turned) = (&mut tile[..size], &mut turned[..size]);
+                let [tile, turned] = [&mut tile, &mut turned].map(|b| &mut b.words_mut()[..size]);
                 for (run, at) in runs(tile, &self.from, (top, left), (height, width)) {
                     source.read_exact_at(run, at).map_err(Failure::Source)?;
                 }
@@ -254,6 +259,11 @@ impl Plan {
         }
         Ok(done)
     }
+}
+
+/// Memory for a tile.
+fn buffer(bytes: usize) -> Result<Pages<u8>, Failure> {
+    Pages::try_zeroed(bytes).map_err(Failure::Other)
 }
 
 /// The rows of a tile in memory and where they lie in the file; one run if they lie side by side.

@@ -10,8 +10,8 @@
 //! *Reference.* Chiang et al., *External-memory graph algorithms*, SODA 1995; the thesis, 5.8.
 
 use super::funnelsort::funnelsort_probed;
-use super::random::mix;
 use super::{get, set};
+use crate::random::mix;
 use crate::{Error, NoProbe, Probe};
 
 /// Stands for the successor of a last element.

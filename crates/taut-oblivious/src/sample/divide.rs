@@ -29,7 +29,8 @@ const SHARE: u64 = 1 << 15;
 /// Runs on the current rayon pool. O(k) time, for any `n` up to 2⁶⁴ − 1.
 ///
 /// # Errors
-/// [`Error::Option`] if `k` is more than `n`, or more than memory holds.
+/// [`Error::Option`] if `k` is more than `n`, or more than the system gives memory for. Systems that give more than they
+/// have end the process instead.
 ///
 /// ```
 /// let found = taut_oblivious::sample(7, 1 << 40, 5)?;
@@ -42,15 +43,15 @@ pub fn sample(seed: u64, n: u64, k: u64) -> Result<Vec<u64>, Error> {
         return Err(Error::Option { name: "k", value: k.to_string(), expected });
     }
     let mut found = room(k)?;
+    found.resize(k as usize, 0);
     divide::<LEAF>(Node { seed, number: 1, start: 0, n }, &mut found);
     Ok(found)
 }
 
-/// Room for `k` numbers.
+/// Room for `k` numbers, empty.
 fn room(k: u64) -> Result<Vec<u64>, Error> {
     let mut room = Vec::new();
     if usize::try_from(k).is_ok_and(|k| room.try_reserve_exact(k).is_ok()) {
-        room.resize(k as usize, 0);
         return Ok(room);
     }
     let expected = "as many numbers as there is memory for";

@@ -6,18 +6,11 @@
 //! *References.* D. Blackman, S. Vigna, *Scrambled linear pseudorandom number generators*, TOMS 47(4), 2021;
 //! D. Lemire, *Fast random integer generation in an interval*, TOMACS 29(1), 2019.
 
+use crate::random::split_mix;
+
 /// A stream of random words.
 #[derive(Clone, Debug)]
 pub(super) struct Random([u64; 4]);
-
-/// The step of splitmix64.
-fn split_mix(state: &mut u64) -> u64 {
-    *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let mut z = *state;
-    z = (z ^ z >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ z >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
-    z ^ z >> 31
-}
 
 impl Random {
     /// The stream of a node.

@@ -38,7 +38,7 @@ impl<T> Reservoir<T> {
 
     /// Offers an item.
     pub fn push(&mut self, item: T) {
-        self.seen += 1;
+        self.seen = self.seen.saturating_add(1);
         if self.items.len() < self.k {
             self.items.push(item);
             if self.items.len() == self.k {
@@ -64,7 +64,7 @@ impl<T> Reservoir<T> {
     /// If they are more than [`Self::passing`].
     pub fn leave_out(&mut self, items: u64) {
         assert!(items <= self.passing(), "{items} of {} may be left out", self.passing());
-        self.seen += items;
+        self.seen = self.seen.saturating_add(items);
         if self.k > 0 {
             self.pass -= items;
         }
@@ -80,7 +80,7 @@ impl<T> Reservoir<T> {
         self.items
     }
 
-    /// Items offered or left out so far.
+    /// Items offered or left out so far; 2⁶⁴ − 1 if they are more.
     pub fn seen(&self) -> u64 {
         self.seen
     }

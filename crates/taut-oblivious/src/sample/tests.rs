@@ -228,6 +228,12 @@ fn a_large_sample_is_spread_evenly() {
             Err(error) => panic!("{error}"),
         };
         assert!(sequential.is_sorted_by(|a, b| a < b) && sequential.len() == k as usize);
+        let mut seen = HashMap::new();
+        let all = u128::from(n.min(1 << 50));
+        sequential
+            .iter()
+            .for_each(|&i| *seen.entry((u128::from(i) * 64 / all) as u64).or_insert(0) += 1);
+        assert!(deviate(&seen, &expected) < 4.5, "{n}");
     }
 }
 
@@ -260,11 +266,32 @@ fn threads_change_nothing() {
             (sample(4, 1 << 50, k), bernoulli(4, 1 << 30, k as f64 / 2f64.powi(30)), items)
         })
     };
-    let (a, b) = (on(1), on(3));
-    assert_eq!(a.0.expect("a sample"), b.0.expect("a sample"));
-    assert_eq!(a.1.expect("a sample"), b.1.expect("a sample"));
-    assert_eq!(a.2, b.2);
-    assert!(!a.2.is_sorted());
+    let (sampled, kept, items) = on(1);
+    let (sampled, kept) = (sampled.expect("a sample"), kept.expect("a sample"));
+    assert!(!items.is_sorted());
+    for threads in [2, 3, 8] {
+        let other = on(threads);
+        assert_eq!(sampled, other.0.expect("a sample"));
+        assert_eq!(kept, other.1.expect("a sample"));
+        assert_eq!(items, other.2);
+    }
+}
+
+/// Keys and values that are shuffled apart stay together, whatever they weigh, where all are exchanged and where not.
+#[test]
+#[cfg_attr(miri, ignore = "two hundred thousand items")]
+fn the_order_does_not_depend_on_the_size_of_an_item() {
+    for n in [100, 5000, 50_000, 200_000] {
+        let mut places: Vec<u32> = (0..n).collect();
+        let mut wide: Vec<[u32; 9]> = (0..n).map(|i| [i; 9]).collect();
+        let mut bytes: Vec<u8> = (0..n).map(|i| i as u8).collect();
+        shuffle(&mut places, 9);
+        shuffle(&mut wide, 9);
+        shuffle(&mut bytes, 9);
+        assert!(!places.is_sorted());
+        assert!(places.iter().eq(wide.iter().map(|item| &item[8])), "{n}");
+        assert!(places.iter().map(|&i| i as u8).eq(bytes), "{n}");
+    }
 }
 
 /// The same on every machine and in every version, or a CHANGELOG entry says otherwise.
@@ -279,11 +306,19 @@ fn samples_do_not_change() {
     let mut items: Vec<u64> = (0..8).collect();
     shuffle(&mut items, 1);
     assert_eq!(items, GOLDEN_ORDER);
+    // More than are exchanged all over.
+    let mut many: Vec<u32> = (0..40_000).collect();
+    shuffle(&mut many, 1);
+    assert_eq!(
+        many.iter().fold(0, |sum: u64, i| sum.wrapping_mul(31).wrapping_add(u64::from(*i))),
+        GOLDEN_ORDER_SUM
+    );
 }
 
 const GOLDEN_SAMPLE: [u64; 4] =
     [410_210_869_080, 502_395_611_716, 607_016_772_173, 764_878_170_149];
 const GOLDEN_SUM: u64 = 3_457_985_094_995_008_156;
+const GOLDEN_ORDER_SUM: u64 = 0;
 const GOLDEN_ORDER: [u64; 8] = [0, 1, 7, 6, 5, 2, 4, 3];
 
 #[test]
@@ -306,6 +341,16 @@ fn the_ends_of_every_range() {
     (0..10).for_each(|i| none.push(i));
     none.leave_out(5);
     assert_eq!((none.items(), none.seen()), (&[][..], 15));
-    shuffle(&mut [(); 9], 1);
+    none.leave_out(none.passing());
+    none.leave_out(none.passing());
+    none.push(1);
+    assert_eq!((none.items(), none.seen()), (&[][..], u64::MAX));
+    // Items without a size are dealt, too.
+    let mut nothing = vec![(); 40_000];
+    shuffle(&mut nothing, 1);
+    assert_eq!(nothing.len(), 40_000);
+    let mut one = [7];
+    shuffle(&mut one, 1);
     shuffle::<u8>(&mut [], 1);
+    assert_eq!(one, [7]);
 }

@@ -7,7 +7,7 @@
 //! *Guarantee.* One page for each factor 504 of n, one large page for each factor 504²; 8/7 of the memory of the keys.
 //! *Trap.* Cuts are counted from the leaves up, or the last page of each walk would hold one level.
 
-use super::pages::Pages;
+use super::Pages;
 use super::{Key, SortedIndex, Word, check_sorted};
 use crate::{Error, Probe};
 

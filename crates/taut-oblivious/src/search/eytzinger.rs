@@ -6,8 +6,8 @@
 //! Guarantee: ⌊log₂ n⌋ + 1 comparisons; no memory beside the keys.
 //! Reference: P.-V. Khuong and P. Morin, Array layouts for comparison-based searching, ACM J. Exp. Algorithmics 22, 2017.
 
+use super::Pages;
 use super::lanes::prefetch;
-use super::pages::Pages;
 use super::{Key, SortedIndex, Word, check_sorted};
 use crate::layout::CompleteTree;
 use crate::{Error, Probe};

@@ -202,7 +202,7 @@ pub(crate) fn prefetch<W>(words: &[W], at: usize) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Word, pages::Pages};
+    use super::super::{Pages, Word};
     use super::*;
 
     #[allow(unsafe_code, reason = "calls the kernels one by one")]

@@ -15,7 +15,6 @@ mod blocked;
 mod eytzinger;
 mod key;
 mod lanes;
-mod pages;
 mod sorted;
 mod splus;
 #[cfg(test)]
@@ -24,11 +23,11 @@ mod veb;
 
 use std::ops::Range;
 
+pub(crate) use crate::room::Pages;
 pub use blocked::BlockedVanEmdeBoas;
 pub use eytzinger::Eytzinger;
 pub use key::{Key, Word};
 pub(crate) use lanes::{Level, prefetch};
-pub(crate) use pages::Pages;
 pub use sorted::Sorted;
 pub use splus::SPlusTree;
 pub(crate) use splus::Tree;

@@ -6,7 +6,7 @@
 
 use std::hint::select_unpredictable;
 
-use super::pages::Pages;
+use super::Pages;
 use super::{Key, SortedIndex, sorted_words};
 use crate::{Error, Probe};
 

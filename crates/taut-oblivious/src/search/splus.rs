@@ -10,8 +10,8 @@
 //! and no walk leaves the tree. Prefetches belong into the second cache, see `lanes`.
 //! *Reference.* R. Groot Koerkamp, Static search trees: 40× faster than binary search, 2024; after S. Slotin, 2021.
 
+use super::Pages;
 use super::lanes::{Count, Level, Portable, prefetch};
-use super::pages::Pages;
 use super::{Key, SortedIndex, Word, sorted_words};
 use crate::{Error, Probe};
 

@@ -9,7 +9,7 @@
 //! *Reference.* H. Prokop, Cache-oblivious algorithms, 1999; Brodal, Fagerberg and Jacob, Cache oblivious search trees via
 //! binary trees of small height, SODA 2002 (places by arithmetic); section 5.5 of the thesis.
 
-use super::pages::Pages;
+use super::Pages;
 use super::{Key, SortedIndex, check_sorted};
 use crate::layout::VanEmdeBoasOrder;
 use crate::{Error, Probe};

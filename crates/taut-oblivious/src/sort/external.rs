@@ -18,13 +18,13 @@
 
 mod chunk;
 mod digest;
-mod draft;
 mod engine;
 mod files;
 mod journal;
 mod layout;
 mod medium;
 mod merge;
+mod plan;
 #[cfg(test)]
 mod tests;
 mod verify;

@@ -1,14 +1,15 @@
-//! Sorting records by a key: stable, in two buffers.
+//! Sorting records by a key: stable, in their own place.
 //!
-//! *Idea.* One pass deals the records by the leading bits of `key − smallest` into buckets that fit the second-level
-//! cache. There each record is represented by one word, the leading bits of its key beside its number in the bucket;
+//! *Idea.* The records are dealt by the leading bits of their keys into buckets that fit the second-level cache. A bucket
+//! is copied out, each record is represented by one word, the leading bits of its key beside its number in the bucket;
 //! the words are sorted by the vector kernels, and the records gathered in their order.
 //! *Guarantee.* Stable, so that the result is a function of the input whatever the machine and the threads. O(n) passes
-//! of memory for keys that spread; a bucket that is too large is dealt again, at most 64 bits deep. Room for n records.
+//! of memory for keys that spread; a bucket that is too large is dealt again, at most 65 times. Some megabytes of room.
 //! *Trap.* Words that agree in the bits they have room for must be told apart by the rest of the key, and records that
 //! agree in all of it stay in order since the number in the bucket is the last part of the word.
-//! *Trap.* Scattering from the records into fresh memory and gathering back would write every line of both for the
-//! first time twice; copying first, then scattering home, leaves the gathering within the cache.
+//! *Trap.* A look at all keys for the smallest and the largest costs a pass of memory. Those of a sample are as good: what
+//! lies beyond goes to the first and the last bucket. Only what is dealt again is looked at in full, so that a sample that
+//! misleads does no harm twice.
 //! *Reference.* D. Knuth, *The Art of Computer Programming* 3, 5.2.5 (distribution), 5.2 (address table sorting).
 
 use std::ops::Range;
@@ -16,17 +17,19 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::{Run, quick};
+use crate::deal::Dealt;
 use crate::probe::{NoProbe, Probe};
-use crate::room;
 
 /// Up to this many records are sorted by the standard library.
 const FEW: usize = 24;
 /// Bytes of records in a bucket at which one pass of dealing aims: a quarter of a second-level cache.
 const BUCKET_BYTES: usize = 1 << 19;
-/// Most bits dealt at once: more buckets than that have no room in the first levels of the cache and of the TLB.
-const DEAL_BITS: u32 = 11;
+/// Most bits dealt at once: the blocks of more buckets have no room in the second level of the cache.
+const DEAL_BITS: u32 = 10;
 /// Buckets above this many bytes are dealt again.
 const LARGE_BYTES: usize = 1 << 20;
+/// Records for each that is looked at to find the range of keys, and most that are looked at.
+const SAMPLE: (usize, usize) = (64, 1 << 12);
 
 /// Buckets of fewer ranks than this are sorted by counting.
 const FEW_RANKS: u64 = 256;
@@ -50,13 +53,21 @@ pub(super) fn sort<T: Copy + Send + Sync, P: Probe>(
     probe: &mut P,
 ) {
     probe.place(records);
-    part(records, rank, &mut Room::default(), probe);
+    part(records, rank, Look::Sample, &mut Room::default(), probe);
+}
+
+/// At which records to look for the lowest and the highest rank.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Look {
+    Sample,
+    All,
 }
 
 /// Sorts a part of the records of which nothing is known.
 fn part<T: Copy + Send + Sync, P: Probe>(
     records: &mut [T],
     rank: &(impl Fn(&T) -> u64 + Sync),
+    look: Look,
     room: &mut Room<T>,
     probe: &mut P,
 ) {
@@ -75,41 +86,103 @@ fn part<T: Copy + Send + Sync, P: Probe>(
     if size_of_val(records) <= LARGE_BYTES {
         return unknown(records, rank, room, probe);
     }
-    let (starts, low, shift) = deal(records, rank, probe);
-    if shift == 0 {
-        return; // Each bucket is one rank.
+    let (mut low, mut high) = if look == Look::Sample { sample(records, rank) } else { (0, 0) };
+    if low == high {
+        (low, high) = all(records, rank);
     }
-    let buckets = cut(records, &starts);
-    if P::LISTENS || rayon::current_num_threads() == 1 {
-        for (records, i) in buckets {
-            dealt(records, rank, low + (i << shift), shift, room, probe);
+    let most = LARGE_BYTES / size_of::<T>();
+    let is_alone = P::LISTENS || rayon::current_num_threads() == 1;
+    let mut large: Vec<Range<usize>> = vec![];
+    let scale = Scale::new(low, high, size_of_val(records));
+    let mut dealt = Dealt::new(records, scale.buckets(), |r| scale.bucket(rank(r)), probe);
+    let mut before = None;
+    while let Some((bucket, range)) = dealt.take(most, &mut room.copy, probe) {
+        let (is_whole, to) = (dealt.size(bucket) <= most, dealt.items(range.clone()));
+        if is_whole && is_alone {
+            gather(to, rank, room, probe);
+        } else {
+            to.copy_from_slice(&room.copy);
+            probe.write(to);
+            match large.last_mut() {
+                Some(last) if before == Some(bucket) => last.end = range.end,
+                _ => large.push(range),
+            }
+        }
+        before = Some(bucket);
+    }
+    dealt.lift(probe);
+    if is_alone {
+        for range in large {
+            part(&mut records[range], rank, Look::All, room, probe);
         }
     } else {
-        buckets.into_par_iter().with_min_len(8).for_each_init(
-            Room::default,
-            |room, (records, i)| {
-                dealt(records, rank, low + (i << shift), shift, room, &mut NoProbe);
-            },
-        );
+        cut(records, &large)
+            .into_par_iter()
+            .with_min_len(8)
+            .for_each_init(Room::default, |room, records| {
+                part(records, rank, Look::All, room, &mut NoProbe)
+            });
     }
 }
 
-/// Sorts a bucket whose ranks are from `low` to `low + 2^shift − 1`.
-fn dealt<T: Copy + Send + Sync, P: Probe>(
-    records: &mut [T],
-    rank: &(impl Fn(&T) -> u64 + Sync),
-    low: u64,
-    shift: u32,
-    room: &mut Room<T>,
-    probe: &mut P,
-) {
-    if records.len() <= FEW {
-        few(records, rank, probe);
-    } else if size_of_val(records) > LARGE_BYTES {
-        part(records, rank, room, probe);
-    } else {
-        bucket(records, rank, low, (1 << shift) - 1, room, probe);
+/// The lowest and the highest rank.
+fn all<T>(records: &[T], rank: &impl Fn(&T) -> u64) -> (u64, u64) {
+    let ends = |(low, high): (u64, u64), rank: u64| (low.min(rank), high.max(rank));
+    records.iter().map(rank).fold((u64::MAX, 0), ends)
+}
+
+/// The lowest and the highest rank of a sample.
+fn sample<T>(records: &[T], rank: &impl Fn(&T) -> u64) -> (u64, u64) {
+    let count = (records.len() / SAMPLE.0).min(SAMPLE.1).max(1);
+    let (mut ends, mut place) = ((u64::MAX, 0), 0.0);
+    for _ in 0..count {
+        // Steps of an irrational share of the length fall in with no period of the input.
+        place += 0.618_033_988_749_894_9;
+        place -= f64::trunc(place);
+        let rank = rank(&records[(place * records.len() as f64) as usize]);
+        ends = (rank.min(ends.0), rank.max(ends.1));
     }
+    ends
+}
+
+/// Buckets of equal ranges of ranks; those beyond the ends go to the first and the last.
+struct Scale {
+    low: u64,
+    range: u64,
+    shift: u32,
+}
+
+impl Scale {
+    /// For so many bytes of records with ranks of about `low` to `high`, which is more.
+    fn new(low: u64, high: u64, bytes: usize) -> Self {
+        let range = high - low;
+        let wanted = (bytes / BUCKET_BYTES).max(2).ilog2() + 1;
+        let span = u64::BITS - range.leading_zeros();
+        // Where one bucket for each rank is affordable, that ends the matter.
+        let shift = if span <= DEAL_BITS { 0 } else { span - wanted.min(DEAL_BITS) };
+        Self { low, range, shift }
+    }
+
+    fn buckets(&self) -> usize {
+        (self.range >> self.shift) as usize + 1
+    }
+
+    #[inline(always)]
+    fn bucket(&self, rank: u64) -> usize {
+        (rank.saturating_sub(self.low).min(self.range) >> self.shift) as usize
+    }
+}
+
+/// Parts of the records, from the front to the back.
+fn cut<'a, T>(mut records: &'a mut [T], parts: &[Range<usize>]) -> Vec<&'a mut [T]> {
+    let (mut cut, mut at) = (Vec::with_capacity(parts.len()), 0);
+    for part in parts {
+        let head;
+        (head, records) = records.split_at_mut(part.end - at);
+        cut.push(&mut head[part.start - at..]);
+        at = part.end;
+    }
+    cut
 }
 
 /// Sorts so few records that comparing is the fastest way.
@@ -119,63 +192,6 @@ fn few<T, P: Probe>(records: &mut [T], rank: impl Fn(&T) -> u64, probe: &mut P) 
     probe.write(records);
 }
 
-/// Deals the records into buckets by `(rank − low) >> shift`, `low` being the lowest rank; returns where each bucket
-/// starts, and the end, with `low` and `shift`. Not all ranks are equal.
-fn deal<T: Copy, P: Probe>(
-    records: &mut [T],
-    rank: impl Fn(&T) -> u64,
-    probe: &mut P,
-) -> (Vec<usize>, u64, u32) {
-    let (mut low, mut high) = (u64::MAX, 0);
-    let copy = room::filled(records.iter().map(|record| {
-        let rank = rank(record);
-        (low, high) = (low.min(rank), high.max(rank));
-        *record
-    }));
-    probe.place(&copy);
-    probe.read(records);
-    probe.write(&copy);
-    let range = high - low;
-    let wanted = (size_of_val(records) / BUCKET_BYTES).max(2).ilog2() + 1;
-    let span = 64 - range.leading_zeros();
-    // Where one bucket for each rank is affordable, that ends the matter.
-    let shift = if span <= DEAL_BITS { 0 } else { span - wanted.min(DEAL_BITS) };
-    let bucket = |record: &T| ((rank(record) - low) >> shift) as usize;
-    let mut starts = vec![0; (range >> shift) as usize + 2];
-    for record in &copy {
-        starts[bucket(record) + 1] += 1;
-    }
-    for i in 1..starts.len() {
-        starts[i] += starts[i - 1];
-    }
-    probe.read(&copy);
-    let mut next = starts.clone();
-    for record in &copy {
-        let place = &mut next[bucket(record)];
-        records[*place] = *record;
-        if P::LISTENS {
-            probe.read(std::slice::from_ref(record));
-            probe.write(&records[*place..][..1]);
-        }
-        *place += 1;
-    }
-    probe.lift(&copy);
-    (starts, low, shift)
-}
-
-/// The buckets with their numbers, empty ones left out.
-fn cut<'a, T>(mut records: &'a mut [T], starts: &[usize]) -> Vec<(&'a mut [T], u64)> {
-    let mut cut = Vec::new();
-    for (i, ends) in starts.windows(2).enumerate() {
-        if ends[1] > ends[0] {
-            let head;
-            (head, records) = records.split_at_mut(ends[1] - ends[0]);
-            cut.push((head, i as u64));
-        }
-    }
-    cut
-}
-
 /// Sorts records that fit the cache.
 fn unknown<T: Copy, P: Probe>(
     records: &mut [T],
@@ -183,51 +199,66 @@ fn unknown<T: Copy, P: Probe>(
     room: &mut Room<T>,
     probe: &mut P,
 ) {
-    let ends = |(low, high): (u64, u64), rank: u64| (low.min(rank), high.max(rank));
-    let (low, high) = records.iter().map(rank).fold((u64::MAX, 0), ends);
+    room.copy.clear();
+    room.copy.extend_from_slice(records);
     probe.read(records);
-    bucket(records, rank, low, high - low, room, probe);
+    gather(records, rank, room, probe);
 }
 
-/// Sorts records that fit the cache, whose ranks are from `low` to `low + range`.
-fn bucket<T: Copy, P: Probe>(
-    records: &mut [T],
+/// Writes the records of `room.copy`, at least one, in order; they fit the cache.
+fn gather<T: Copy, P: Probe>(
+    to: &mut [T],
     rank: &impl Fn(&T) -> u64,
-    low: u64,
-    range: u64,
     room: &mut Room<T>,
     probe: &mut P,
 ) {
+    let Room { words, copy } = room;
+    probe.place(copy);
+    probe.write(copy);
+    if copy.len() <= FEW {
+        to.copy_from_slice(copy);
+        probe.read(copy);
+        probe.lift(copy);
+        return few(to, rank, probe);
+    }
+    words.clear();
+    words.extend(copy.iter().map(rank));
+    let ends = |(low, high): (u64, u64), &rank: &u64| (low.min(rank), high.max(rank));
+    let (low, high) = words.iter().fold((u64::MAX, 0), ends);
+    let range = high - low;
+    probe.place(words);
+    probe.read(copy);
+    probe.write(words);
     if range < FEW_RANKS {
-        return count(records, |record| (rank(record) - low) as usize, room, probe);
+        if range == 0 {
+            to.copy_from_slice(copy);
+        } else {
+            count(copy, words, low, to);
+        }
+        probe.read(copy);
+        probe.write(to);
+        probe.lift(words);
+        return probe.lift(copy);
     }
-    let number_bits = usize::BITS - (records.len() - 1).leading_zeros();
-    let span = 64 - range.leading_zeros();
-    let shift = (span + number_bits).saturating_sub(64);
-    room.words.clear();
-    room.words.extend(
-        records.iter().enumerate().map(|(i, r)| (rank(r) - low) >> shift << number_bits | i as u64),
-    );
-    room.copy.clear();
-    room.copy.extend_from_slice(records);
-    probe.place(&room.words);
-    probe.place(&room.copy);
-    probe.read(records);
-    probe.write(&room.words);
-    probe.write(&room.copy);
-    quick::sort(&mut room.words, probe);
+    let number_bits = usize::BITS - (copy.len() - 1).leading_zeros();
+    let span = u64::BITS - range.leading_zeros();
+    let shift = (span + number_bits).saturating_sub(u64::BITS);
+    for (number, word) in words.iter_mut().enumerate() {
+        *word = (*word - low) >> shift << number_bits | number as u64;
+    }
+    quick::sort(words, probe);
     let numbers = (1 << number_bits) - 1;
-    for (record, word) in records.iter_mut().zip(&room.words) {
-        *record = room.copy[(word & numbers) as usize];
+    for (record, word) in to.iter_mut().zip(&*words) {
+        *record = copy[(word & numbers) as usize];
     }
-    let alike = if shift > 0 { runs(&room.words, number_bits) } else { Vec::new() };
-    probe.read(&room.words);
-    probe.read(&room.copy);
-    probe.write(records);
-    probe.lift(&room.words);
-    probe.lift(&room.copy);
+    let alike = if shift > 0 { runs(words, number_bits) } else { Vec::new() };
+    probe.read(words);
+    probe.read(copy);
+    probe.write(to);
+    probe.lift(words);
+    probe.lift(copy);
     for run in alike {
-        settle(&mut records[run], rank, room, probe);
+        settle(&mut to[run], rank, room, probe);
     }
 }
 
@@ -263,32 +294,19 @@ fn settle<T: Copy, P: Probe>(
     }
 }
 
-/// Sorts records that fit the cache and have few ranks, by counting.
-fn count<T: Copy, P: Probe>(
-    records: &mut [T],
-    place: impl Fn(&T) -> usize,
-    room: &mut Room<T>,
-    probe: &mut P,
-) {
+/// Writes records of few ranks in order, by counting: `ranks` are theirs, the lowest is `low`.
+fn count<T: Copy>(records: &[T], ranks: &[u64], low: u64, to: &mut [T]) {
     let mut next = [0; FEW_RANKS as usize];
-    room.copy.clear();
-    room.copy.extend(records.iter().map(|record| {
-        next[place(record)] += 1;
-        *record
-    }));
+    for rank in ranks {
+        next[(rank - low) as usize] += 1;
+    }
     let mut start = 0;
     for next in &mut next {
         (start, *next) = (start + *next, start);
     }
-    for record in &room.copy {
-        let next = &mut next[place(record)];
-        records[*next] = *record;
+    for (record, rank) in records.iter().zip(ranks) {
+        let next = &mut next[(rank - low) as usize];
+        to[*next] = *record;
         *next += 1;
     }
-    probe.place(&room.copy);
-    probe.read(records);
-    probe.write(&room.copy);
-    probe.read(&room.copy);
-    probe.write(records);
-    probe.lift(&room.copy);
 }

@@ -14,6 +14,8 @@ use taut_points::Monitor;
 
 use super::{FileMatrix, failed, open};
 use crate::Error;
+use crate::random::mix;
+use crate::room::Pages;
 use crate::store::Store;
 
 /// How much of the files to compare.
@@ -67,16 +69,20 @@ pub fn check_transposed_file(
         }
         FileCheck::Sample { elements, seed } => {
             let all = matrix.rows * matrix.columns;
-            let elements = if all == 0 { 0 } else { elements };
+            if all == 0 {
+                return Ok(());
+            }
             monitor.pass(1, elements);
-            let (mut a, mut b) = (vec![0; matrix.width], vec![0; matrix.width]);
+            let [mut a, mut b] =
+                [Pages::try_zeroed(matrix.width)?, Pages::try_zeroed(matrix.width)?];
+            let (a, b) = (a.words_mut(), b.words_mut());
             for k in 0..elements {
                 monitor.check()?;
                 // The high half of a product with a number of 64 bits: uniform but for 1 in 2⁶⁴ / n.
                 let place = ((u128::from(mixed(seed ^ mixed(k))) * u128::from(all)) >> 64) as u64;
                 let (i, j) = (place / matrix.columns, place % matrix.columns);
-                source.read_exact_at(&mut a, matrix.at(i, j)).map_err(failed(from))?;
-                target.read_exact_at(&mut b, turned.at(j, i)).map_err(failed(to))?;
+                source.read_exact_at(a, matrix.at(i, j)).map_err(failed(from))?;
+                target.read_exact_at(b, turned.at(j, i)).map_err(failed(to))?;
                 if a != b {
                     return Err(differs(format!("row {j}, column {i} is not row {i}, column {j}")));
                 }
@@ -95,14 +101,18 @@ fn sum(
     place: impl Fn(u64, u64) -> u64,
     path: &Path,
 ) -> Result<u128, Error> {
-    let block = (BLOCK / matrix.width).max(1);
-    let mut buffer = vec![0; block * matrix.width];
     let all = matrix.rows * matrix.columns;
+    if all == 0 {
+        // A width without elements may be more than any memory.
+        return Ok(0);
+    }
+    let block = (BLOCK / matrix.width).max(1);
+    let mut buffer = Pages::try_zeroed(block * matrix.width)?;
     let (mut total, mut i, mut j) = (0u128, 0, 0);
     for first in (0..all).step_by(block) {
         monitor.check()?;
         let count = (all - first).min(block as u64);
-        let part = &mut buffer[..count as usize * matrix.width];
+        let part = &mut buffer.words_mut()[..count as usize * matrix.width];
         let at = matrix.offset + first * matrix.width as u64;
         file.read_exact_at(part, at).map_err(failed(path))?;
         for element in part.chunks_exact(matrix.width) {
@@ -129,10 +139,7 @@ fn hash(element: &[u8], place: u64) -> u128 {
     u128::from(a) << 64 | u128::from(b)
 }
 
-/// A bijection of 64 bits without visible pattern: the finaliser of SplitMix64 (Steele, Lea, Flood, OOPSLA 2014).
+/// A bijection of 64 bits without visible pattern, which does not keep 0.
 fn mixed(x: u64) -> u64 {
-    let x = x.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let x = (x ^ x >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let x = (x ^ x >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
-    x ^ x >> 31
+    mix(x.wrapping_add(0x9E37_79B9_7F4A_7C15))
 }

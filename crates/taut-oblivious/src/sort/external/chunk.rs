@@ -9,10 +9,11 @@
 use super::layout::RecordLayout;
 use crate::sort::sort;
 
-/// Replaces `words` by the numbers of the records in order, in the lower [`number_bits`] bits.
-pub(super) fn order(records: &[u8], layout: &RecordLayout, words: &mut Vec<u64>) {
-    words.clear();
-    words.extend(records.chunks_exact(layout.width).map(|record| layout.rank(record)));
+/// Replaces `words`, one for each record, by the numbers of the records in order, in the lower [`number_bits`] bits.
+pub(super) fn order(records: &[u8], layout: &RecordLayout, words: &mut [u64]) {
+    for (word, record) in words.iter_mut().zip(records.chunks_exact(layout.width)) {
+        *word = layout.rank(record);
+    }
     let ends = |(low, high): (u64, u64), &rank: &u64| (low.min(rank), high.max(rank));
     let (low, high) = words.iter().fold((u64::MAX, 0), ends);
     let number_bits = number_bits(words.len());

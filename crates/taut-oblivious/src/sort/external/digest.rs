@@ -1,10 +1,15 @@
 //! The hash of a multiset of records: a sum of hashes of records, so that order does not count and parts add up.
 //!
 //! *Definition.* A record is a row of words of 64 bits, least significant byte first, the last one filled up with zeros.
-//! For each of two lanes, h := START; for each word x: h := (h ⊕ x)·FACTOR, h := h ⊕ ⌊h/2³²⌋; at the end
-//! h := h ⊕ ⌊h/2²⁹⌋, h := h·FINAL, h := h ⊕ ⌊h/2³²⌋. The second lane is the upper half of the hash.
-//! *Guarantee.* Each step is a bijection of words, so records of one word never collide. Others do by chance, with a
-//! probability of some 2⁻¹²⁸ for two multisets that are given.
+//! For a product p of 128 bits let fold(p) := ⌊p/2⁶⁴⌋ ⊕ (p mod 2⁶⁴). Lane 0: h := START; for each word x:
+//! h := fold((h ⊕ x)·FACTOR). Lane 1, with constants of its own: h := fold((h + y)·FACTOR), y being x with its halves
+//! exchanged and the sum modulo 2⁶⁴. At the end h := fold((h ⊕ FINAL)·FACTOR) in both. Lane 1 is the upper half of the hash.
+//! *Guarantee.* None that is proved, as for any fixed function: as far as hashes are random numbers, two multisets that
+//! are given and differ agree with a probability of 2⁻¹²⁸. It is no defence against somebody who means to deceive.
+//! *Trap.* The low half of a product alone lets the top bit of a word change the top bit only, whatever the factor; shifts
+//! and a second such lane then have the same pairs of changes that undo each other. The high half brings every bit down
+//! before the next word enters, and in the lanes differences are of different kinds: of bits and of sums.
+//! *Trap.* fold must not be a sum: that is nearly the product modulo 2⁶⁴ − 1, which is linear.
 
 use super::Multiset;
 
@@ -12,16 +17,19 @@ const START: [u64; 2] = [0x243F_6A88_85A3_08D3, 0x1319_8A2E_0370_7344];
 const FACTOR: [u64; 2] = [0x9E37_79B9_7F4A_7C15, 0xD6E8_FEB8_6659_FD93];
 const FINAL: [u64; 2] = [0xBF58_476D_1CE4_E5B9, 0x94D0_49BB_1331_11EB];
 
-#[inline]
-fn step(lanes: [u64; 2], word: u64) -> [u64; 2] {
-    std::array::from_fn(|i| {
-        let h = (lanes[i] ^ word).wrapping_mul(FACTOR[i]);
-        h ^ h >> 32
-    })
+#[inline(always)]
+fn fold(a: u64, b: u64) -> u64 {
+    let product = u128::from(a) * u128::from(b);
+    (product >> 64) as u64 ^ product as u64
+}
+
+#[inline(always)]
+fn step([a, b]: [u64; 2], word: u64) -> [u64; 2] {
+    [fold(a ^ word, FACTOR[0]), fold(b.wrapping_add(word.rotate_left(32)), FACTOR[1])]
 }
 
 /// The hash of one record.
-#[inline]
+#[inline(always)]
 pub(super) fn hash(record: &[u8]) -> u128 {
     let (words, rest) = record.as_chunks::<8>();
     let mut lanes = words.iter().fold(START, |lanes, word| step(lanes, u64::from_le_bytes(*word)));
@@ -30,10 +38,7 @@ pub(super) fn hash(record: &[u8]) -> u128 {
         word[..rest.len()].copy_from_slice(rest);
         lanes = step(lanes, u64::from_le_bytes(word));
     }
-    let [low, high] = std::array::from_fn(|i| {
-        let h = (lanes[i] ^ lanes[i] >> 29).wrapping_mul(FINAL[i]);
-        h ^ h >> 32
-    });
+    let [low, high] = std::array::from_fn(|i| fold(lanes[i] ^ FINAL[i], FACTOR[i]));
     u128::from(high) << 64 | u128::from(low)
 }
 

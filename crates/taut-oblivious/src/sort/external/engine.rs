@@ -4,82 +4,19 @@ use taut_points::Monitor;
 
 use super::chunk;
 use super::journal::Journal;
-use super::layout::RecordLayout;
-use super::medium::{Medium, Storage};
-use super::merge::{Merge, Run};
+use super::medium::Medium;
+use super::merge::Merge;
+use super::plan::{Plan, Run, steps};
 use super::{FileSort, Multiset};
 use crate::error::Error;
-use crate::room;
+use crate::room::Pages;
+use crate::store::Store;
 
-/// Blocks of this size keep a disk busy; larger ones leave the cache before the system has copied them.
-const BLOCK_MAX: usize = 1 << 20;
-/// Blocks that are written. There are two: one is filled while the other is written.
-const WRITE_BLOCK: usize = 256 << 10;
-/// Rather than with smaller blocks, runs are merged in several steps.
-const BLOCK_MIN: usize = 256 << 10;
-
-/// How the memory is used.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Plan {
-    pub(super) layout: RecordLayout,
-    /// Records in the input.
-    pub(super) records: u64,
-    /// Most records of a run: what fits.
-    pub(super) chunk: usize,
-    /// Bytes that are written at once.
-    write_block: usize,
-    memory: usize,
-}
-
-impl Plan {
-    pub(super) fn new(layout: &RecordLayout, records: u64, memory: usize) -> Result<Self, Error> {
-        layout.check()?;
-        let width = layout.width;
-        let write_block = whole((memory / 32).min(WRITE_BLOCK), width);
-        let chunk = memory.saturating_sub(2 * write_block) / (width + size_of::<u64>());
-        if memory < 64 << 10 || chunk < 64 {
-            return Err(Error::Option {
-                name: "memory",
-                value: format!("{memory} bytes"),
-                expected: "at least 65536 bytes, and room for 64 records",
-            });
-        }
-        let layout = layout.clone();
-        Ok(Self { layout, records, chunk, write_block, memory })
-    }
-
-    /// Whether the records fit into memory.
-    pub(super) fn fits(&self) -> bool {
-        self.records <= self.chunk as u64
-    }
-
-    pub(super) fn runs(&self) -> u64 {
-        self.records.div_ceil(self.chunk as u64)
-    }
-
-    pub(super) fn bytes(&self) -> u64 {
-        self.records * self.layout.width as u64
-    }
-
-    /// The most runs that are merged at once.
-    fn fan_in(&self) -> usize {
-        let least = (self.memory / 64).clamp(4096, BLOCK_MIN).max(self.layout.width);
-        ((self.memory - 2 * self.write_block) / least).max(2)
-    }
-
-    /// Bytes of each block when so many runs are merged.
-    fn merge_block(&self, runs: usize) -> usize {
-        whole(((self.memory - 2 * self.write_block) / runs).min(BLOCK_MAX), self.layout.width)
-    }
-}
-
-/// The largest multiple of `width` that is at most `bytes`, but one `width` at least.
-fn whole(bytes: usize, width: usize) -> usize {
-    (bytes / width).max(1) * width
-}
+/// Bytes that are read at once while a run is made.
+const READ_BLOCK: usize = 1 << 20;
 
 /// Sorts records that fit into memory.
-pub(super) fn within<I: Storage, O: Storage>(
+pub(super) fn within<I: Store, O: Store + Sync + Send>(
     plan: &Plan,
     input: &mut Medium<I>,
     output: &mut Medium<O>,
@@ -87,7 +24,8 @@ pub(super) fn within<I: Storage, O: Storage>(
 ) -> Result<FileSort, Error> {
     monitor.pass(1, plan.records);
     let mut certificate = Multiset::default();
-    let mut maker = Maker::new(plan);
+    let mut maker = Maker::new(plan)?;
+    output.reserve(plan.bytes())?;
     maker.make(0, input, output, 0, &mut certificate, monitor)?;
     output.sync()?;
     Ok(FileSort {
@@ -100,7 +38,7 @@ pub(super) fn within<I: Storage, O: Storage>(
 }
 
 /// Sorts records by runs.
-pub(super) fn beyond<I: Storage, R: Storage, O: Storage>(
+pub(super) fn beyond<I: Store, R: Store + Send + Sync, O: Store + Send + Sync>(
     plan: &Plan,
     input: &mut Medium<I>,
     runs: &mut Medium<R>,
@@ -108,58 +46,54 @@ pub(super) fn beyond<I: Storage, R: Storage, O: Storage>(
     output: &mut Medium<O>,
     monitor: &Monitor<'_>,
 ) -> Result<FileSort, Error> {
-    let width = plan.layout.width as u64;
     let start = journal.map_or(0, Journal::data_start);
+    let made = plan.made(start);
+    let (steps, last) = steps(made.clone(), plan);
+    let mut maker = Maker::new(plan)?;
     output.reserve(plan.bytes())?;
-    runs.reserve(start + plan.bytes())?;
+    runs.reserve(last.iter().map(|run| run.end(plan)).max().unwrap_or(start))?;
+    if plan.past_cache {
+        runs.past_cache();
+        output.past_cache();
+    }
     let done = journal.map_or(0, Journal::runs_done);
     let mut certificate = journal.map_or(Multiset::default(), Journal::certificate);
     monitor.pass(1, plan.records);
     monitor.points(certificate.records);
-    let mut maker = Maker::new(plan);
-    for i in done..plan.runs() {
-        let offset = start + i * plan.chunk as u64 * width;
-        maker.make(i, input, runs, offset, &mut certificate, monitor)?;
+    for (i, run) in (0..).zip(&made).skip(done as usize) {
+        maker.make(i, input, runs, run.offset, &mut certificate, monitor)?;
         if let Some(journal) = journal {
             runs.sync()?;
             journal.enter(i, &certificate, runs)?;
         }
     }
     drop(maker);
-    let chunk = plan.chunk as u64;
-    let made = (0..plan.runs()).map(|i| Run {
-        offset: start + i * chunk * width,
-        records: chunk.min(plan.records - i * chunk),
-    });
-    let mut left: Vec<Run> = made.collect();
-    let mut end = start + plan.bytes();
     let mut pass = 2;
-    while left.len() > plan.fan_in() {
-        let group = smallest_group(&left, plan.fan_in());
-        let (offset, records) = (end, left[group.clone()].iter().map(|run| run.records).sum());
-        monitor.pass(pass, records);
-        let mut merge = Merging::start(plan, &left[group.clone()], runs)?;
+    for (group, to) in steps {
+        monitor.pass(pass, to.records);
+        let mut merge = Merging::start(plan, &group, runs)?;
+        let mut end = to.offset;
         loop {
             let bytes = merge.fill(runs, monitor)?;
             if bytes == 0 {
                 break;
             }
-            runs.write(&merge.block[..bytes], end)?;
+            runs.write(&merge.block.words()[..bytes], end)?;
             end += bytes as u64;
         }
-        left.splice(group, [Run { offset, records }]);
         pass += 1;
     }
     monitor.pass(pass, plan.records);
-    let mut merge = Merging::start(plan, &left, runs)?;
+    let mut merge = Merging::start(plan, &last, runs)?;
     let (mut written, mut offset) = (Multiset::default(), 0);
     let mut bytes = merge.fill(runs, monitor)?;
-    let mut full = vec![0; merge.block.len()];
+    let mut full = Pages::try_zeroed(plan.write_block)?;
     while bytes > 0 {
         std::mem::swap(&mut full, &mut merge.block);
         let put = || {
-            written.add(&full[..bytes], plan.layout.width);
-            output.write(&full[..bytes], offset)
+            let block = &full.words()[..bytes];
+            written.add(block, plan.layout.width);
+            output.write(block, offset)
         };
         let (put, next) = rayon::join(put, || merge.fill(runs, monitor));
         put?;
@@ -179,40 +113,32 @@ pub(super) fn beyond<I: Storage, R: Storage, O: Storage>(
     })
 }
 
-/// Which neighbouring runs to merge so that at most `fan_in` are left, or as many as can be: the fewest records.
-fn smallest_group(runs: &[Run], fan_in: usize) -> std::ops::Range<usize> {
-    let size = fan_in.min(runs.len() - fan_in + 1);
-    let records =
-        |start: usize| runs[start..start + size].iter().map(|run| run.records).sum::<u64>();
-    let start = (0..=runs.len() - size).min_by_key(|&start| records(start)).unwrap_or(0);
-    start..start + size
-}
-
 /// A merge with the block that it fills.
 struct Merging<'a> {
     merge: Merge<'a>,
-    block: Vec<u8>,
+    block: Pages<u8>,
     width: usize,
 }
 
 impl<'a> Merging<'a> {
-    fn start<S: Storage>(
+    fn start<S: Store>(
         plan: &'a Plan,
         runs: &[Run],
         source: &mut Medium<S>,
     ) -> Result<Self, Error> {
         let merge = Merge::start(&plan.layout, runs, plan.merge_block(runs.len()), source)?;
-        Ok(Self { merge, block: vec![0; plan.write_block], width: plan.layout.width })
+        let block = Pages::try_zeroed(plan.write_block)?;
+        Ok(Self { merge, block, width: plan.layout.width })
     }
 
     /// Fills the block with the next merged records; the number of bytes, 0 at the end.
-    fn fill<S: Storage>(
+    fn fill<S: Store>(
         &mut self,
         source: &mut Medium<S>,
         monitor: &Monitor<'_>,
     ) -> Result<usize, Error> {
         monitor.check()?;
-        let bytes = self.merge.fill(&mut self.block, source)?;
+        let bytes = self.merge.fill(self.block.words_mut(), source)?;
         monitor.points((bytes / self.width) as u64);
         Ok(bytes)
     }
@@ -221,25 +147,26 @@ impl<'a> Merging<'a> {
 /// Makes runs; holds the memory for it.
 struct Maker<'a> {
     plan: &'a Plan,
-    records: Vec<u8>,
-    words: Vec<u64>,
+    records: Pages<u8>,
+    words: Pages<u64>,
     /// One block is filled while the other is written.
-    blocks: [Vec<u8>; 2],
+    blocks: [Pages<u8>; 2],
 }
 
 impl<'a> Maker<'a> {
-    fn new(plan: &'a Plan) -> Self {
+    fn new(plan: &'a Plan) -> Result<Self, Error> {
         let most = plan.records.min(plan.chunk as u64) as usize;
-        Self {
+        let block = || Pages::try_zeroed(plan.write_block);
+        Ok(Self {
             plan,
-            records: room::filled(std::iter::repeat_n(0, most * plan.layout.width)),
-            words: Vec::with_capacity(most),
-            blocks: [vec![0; plan.write_block], vec![0; plan.write_block]],
-        }
+            records: Pages::try_zeroed(most * plan.layout.width)?,
+            words: Pages::try_zeroed(most)?,
+            blocks: [block()?, block()?],
+        })
     }
 
     /// Reads run number `run`, sorts it and writes it from `offset`.
-    fn make<I: Storage, S: Storage>(
+    fn make<I: Store, S: Store + Send + Sync>(
         &mut self,
         run: u64,
         input: &mut Medium<I>,
@@ -250,31 +177,32 @@ impl<'a> Maker<'a> {
     ) -> Result<(), Error> {
         let (width, chunk) = (self.plan.layout.width, self.plan.chunk as u64);
         let records = chunk.min(self.plan.records - run * chunk) as usize;
-        let bytes = &mut self.records[..records * width];
+        let bytes = &mut self.records.words_mut()[..records * width];
+        let words = &mut self.words.words_mut()[..records];
         let from = run * chunk * width as u64;
-        for (i, part) in bytes.chunks_mut(WRITE_BLOCK).enumerate() {
+        for (i, part) in bytes.chunks_mut(READ_BLOCK).enumerate() {
             monitor.check()?;
-            input.read(part, from + (i * WRITE_BLOCK) as u64)?;
+            input.read(part, from + (i * READ_BLOCK) as u64)?;
         }
         let after = from + bytes.len() as u64;
         input.soon(after, (chunk * width as u64).min(self.plan.bytes() - after));
         certificate.add(bytes, width);
-        chunk::order(bytes, &self.plan.layout, &mut self.words);
+        chunk::order(bytes, &self.plan.layout, words);
         let mask = (1 << chunk::number_bits(records)) - 1;
         let [full, next] = &mut self.blocks;
         let mut filled = 0;
-        for words in self.words.chunks(next.len() / width) {
+        for words in words.chunks(self.plan.write_block / width) {
             monitor.check()?;
-            let block = &mut next[..words.len() * width];
+            let block = &mut next.words_mut()[..words.len() * width];
             let fill = || gather(bytes, words, mask, block, width);
-            let (put, ()) = rayon::join(|| to.write(&full[..filled], offset), fill);
+            let (put, ()) = rayon::join(|| to.write(&full.words()[..filled], offset), fill);
             put?;
             offset += filled as u64;
             monitor.points(words.len() as u64);
             filled = words.len() * width;
             std::mem::swap(full, next);
         }
-        to.write(&full[..filled], offset)
+        to.write(&full.words()[..filled], offset)
     }
 }
 

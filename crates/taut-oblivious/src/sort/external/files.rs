@@ -2,9 +2,8 @@
 //!
 //! *Guarantee.* Runs are in a file without a name, which the system takes back when the process ends, in whatever way;
 //! the output is in another one until it is complete, then it gets its name in one step. With
-//! [`FileSortOptions::resume`] the runs have that name instead, and only success removes it.
-//! *Trap.* A file without a name can be given one that is free, but cannot replace another; so where the output exists,
-//! the new one is named beside it for the moment between two calls of the system.
+//! [`FileSortOptions::resume`] the runs have that name instead, and only success removes it, once the name of the output
+//! has reached the disk.
 
 use std::fs::{self, File};
 use std::io;
@@ -13,13 +12,14 @@ use std::time::UNIX_EPOCH;
 
 use taut_points::Monitor;
 
-use super::draft::Draft;
-use super::engine::{self, Plan};
+use super::engine;
 use super::journal::Journal;
 use super::layout::RecordLayout;
 use super::medium::Medium;
+use super::plan::Plan;
 use super::{FileSort, FileSortOptions};
 use crate::error::Error;
+use crate::store::{self, Draft};
 
 pub(super) fn sort(
     input: &Path,
@@ -65,12 +65,13 @@ pub(super) fn sort(
         let journal = Journal::open(&plan, modified, length, &mut runs)?;
         engine::beyond(&plan, &mut from, &mut runs, Some(&journal), &mut to, monitor)?
     } else {
-        let folder = options.scratch.as_deref().unwrap_or(folder(output));
+        let target = at(output, store::target(output))?;
+        let folder = options.scratch.as_deref().unwrap_or(store::folder(&target));
         let file = at(folder, tempfile::tempfile_in(folder))?;
         let mut runs = Medium::new(file, format!("runs in {}", folder.display()));
         engine::beyond(&plan, &mut from, &mut runs, None, &mut to, monitor)?
     };
-    at(output, to.into_storage().publish(output))?;
+    at(output, to.into_store().publish())?;
     match &options.resume {
         Some(path) if !plan.fits() => at(path, fs::remove_file(path))?,
         _ => {}
@@ -83,15 +84,11 @@ fn at<T>(path: &Path, result: io::Result<T>) -> Result<T, Error> {
     result.map_err(|source| Error::File { path: path.display().to_string(), source })
 }
 
-/// The folder of a file.
-pub(super) fn folder(path: &Path) -> &Path {
-    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
-}
-
 /// Where a file is, or would be, by one name.
 fn whereabouts(path: &Path) -> PathBuf {
-    let beside = || Some(folder(path).canonicalize().ok()?.join(path.file_name()?));
-    path.canonicalize().ok().or_else(beside).unwrap_or_else(|| path.to_owned())
+    let path = store::target(path).unwrap_or_else(|_| path.to_owned());
+    let beside = || Some(store::folder(&path).canonicalize().ok()?.join(path.file_name()?));
+    path.canonicalize().ok().or_else(beside).unwrap_or(path)
 }
 
 /// Opens the file of runs; two processes must not share it.

@@ -7,15 +7,15 @@
 
 use super::Multiset;
 use super::digest;
-use super::engine::Plan;
 use super::layout::KeyKind;
-use super::medium::{Medium, Storage};
+use super::medium::Medium;
+use super::plan::Plan;
 use crate::error::Error;
+use crate::store::{PAGE, Store};
 
 const SLOT: usize = 128;
 /// What is looked for at the start of the file; the last byte is the version.
-const MAGIC: u64 = u64::from_le_bytes(*b"tautrun\x01");
-const PAGE: u64 = 4096;
+const MAGIC: u64 = u64::from_le_bytes(*b"tautrun\x02");
 
 /// The words that tell one sort from another.
 type Identity = [u64; 8];
@@ -31,7 +31,7 @@ impl Journal {
     /// Reads the journal of a file of `length` bytes, or starts one if there is none yet.
     ///
     /// `modified` is when the input was, in any unit.
-    pub(super) fn open<S: Storage>(
+    pub(super) fn open<S: Store>(
         plan: &Plan,
         modified: u64,
         length: u64,
@@ -85,7 +85,7 @@ impl Journal {
 
     /// Where runs start.
     pub(super) fn data_start(&self) -> u64 {
-        Self::place(self.runs).next_multiple_of(PAGE)
+        Self::place(self.runs).next_multiple_of(PAGE as u64)
     }
 
     /// Runs that are complete.
@@ -99,7 +99,7 @@ impl Journal {
     }
 
     /// Says that `run` is complete, after which all runs so far have this certificate.
-    pub(super) fn enter<S: Storage>(
+    pub(super) fn enter<S: Store>(
         &self,
         run: u64,
         certificate: &Multiset,

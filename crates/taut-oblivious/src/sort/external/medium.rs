@@ -1,101 +1,34 @@
-//! Files as the sort sees them: places of bytes that can fall short, be interrupted, or be full.
+//! A file with its name for errors, and counters; past the cache of the system where its blocks are whole pages.
 
-use std::fs::File;
-use std::io;
+use std::io::{self, ErrorKind};
+use std::ops::Range;
 
 use crate::error::Error;
+use crate::store::{PAGE, Store};
 
-/// A place of bytes. All reading and writing of the sort goes through this trait, so that a test can be a disk that fails.
-pub(super) trait Storage: Send + Sync {
-    /// Reads some bytes at a place, perhaps fewer than there is room for; 0 only at the end.
-    fn read_at(&self, bytes: &mut [u8], offset: u64) -> io::Result<usize>;
-
-    /// Writes some bytes at a place, perhaps not all.
-    fn write_at(&self, bytes: &[u8], offset: u64) -> io::Result<usize>;
-
-    /// Makes sure there is room for so many bytes, where that can be known.
-    fn reserve(&self, bytes: u64) -> io::Result<()>;
-
-    /// Waits until what was written would survive the machine.
-    fn sync(&self) -> io::Result<()>;
-
-    /// These bytes will be read soon.
-    fn soon(&self, offset: u64, bytes: u64);
-}
-
-impl Storage for File {
-    #[cfg(unix)]
-    fn read_at(&self, bytes: &mut [u8], offset: u64) -> io::Result<usize> {
-        std::os::unix::fs::FileExt::read_at(self, bytes, offset)
-    }
-
-    #[cfg(unix)]
-    fn write_at(&self, bytes: &[u8], offset: u64) -> io::Result<usize> {
-        std::os::unix::fs::FileExt::write_at(self, bytes, offset)
-    }
-
-    #[cfg(not(unix))]
-    fn read_at(&self, bytes: &mut [u8], offset: u64) -> io::Result<usize> {
-        use io::{Read, Seek};
-        let mut file = self;
-        file.seek(io::SeekFrom::Start(offset))?;
-        file.read(bytes)
-    }
-
-    #[cfg(not(unix))]
-    fn write_at(&self, bytes: &[u8], offset: u64) -> io::Result<usize> {
-        use io::{Seek, Write};
-        let mut file = self;
-        file.seek(io::SeekFrom::Start(offset))?;
-        file.write(bytes)
-    }
-
-    #[cfg(target_os = "linux")]
-    fn reserve(&self, bytes: u64) -> io::Result<()> {
-        use rustix::fs::{FallocateFlags, fallocate};
-        use rustix::io::Errno;
-        match fallocate(self, FallocateFlags::KEEP_SIZE, 0, bytes) {
-            // Not every file system can; then a full disk shows when it is full.
-            Err(Errno::OPNOTSUPP | Errno::NOSYS | Errno::INVAL) => Ok(()),
-            result => Ok(result?),
-        }
-    }
-
-    #[cfg(not(target_os = "linux"))]
-    fn reserve(&self, _: u64) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn sync(&self) -> io::Result<()> {
-        self.sync_data()
-    }
-
-    #[cfg(target_os = "linux")]
-    fn soon(&self, offset: u64, bytes: u64) {
-        // A hint: that it is refused changes nothing.
-        let length = std::num::NonZeroU64::new(bytes);
-        let _ = rustix::fs::fadvise(self, offset, length, rustix::fs::Advice::WillNeed);
-    }
-
-    #[cfg(not(target_os = "linux"))]
-    fn soon(&self, _: u64, _: u64) {}
-}
-
-/// A storage with its name for errors, and counters.
 pub(super) struct Medium<S> {
-    storage: S,
+    store: S,
     path: String,
     pub(super) bytes_read: u64,
     pub(super) bytes_written: u64,
+    /// Whether whole pages are to go past the cache.
+    past_cache: bool,
+    /// Whether the file is set to that just now.
+    is_past: bool,
 }
 
-impl<S: Storage> Medium<S> {
-    pub(super) fn new(storage: S, path: String) -> Self {
-        Self { storage, path, bytes_read: 0, bytes_written: 0 }
+impl<S: Store> Medium<S> {
+    pub(super) fn new(store: S, path: String) -> Self {
+        Self { store, path, bytes_read: 0, bytes_written: 0, past_cache: false, is_past: false }
     }
 
-    pub(super) fn into_storage(self) -> S {
-        self.storage
+    /// Has whole pages go past the system's cache, as far as the system can.
+    pub(super) fn past_cache(&mut self) {
+        self.past_cache = true;
+    }
+
+    pub(super) fn into_store(self) -> S {
+        self.store
     }
 
     pub(super) fn path(&self) -> &str {
@@ -104,49 +37,74 @@ impl<S: Storage> Medium<S> {
 
     /// Fills `bytes` from a place.
     pub(super) fn read(&mut self, bytes: &mut [u8], offset: u64) -> Result<(), Error> {
-        let mut done = 0;
-        while done < bytes.len() {
-            match self.storage.read_at(&mut bytes[done..], offset + done as u64) {
-                Ok(0) => return Err(self.error(io::ErrorKind::UnexpectedEof.into())),
-                Ok(more) => done += more,
-                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-                Err(error) => return Err(self.error(error)),
-            }
-        }
         self.bytes_read += bytes.len() as u64;
-        Ok(())
+        let (address, length) = (bytes.as_ptr().addr(), bytes.len());
+        let some = |store: &S, part: Range<usize>| {
+            let at = offset + part.start as u64;
+            store.read_at(&mut bytes[part], at)
+        };
+        self.all(address, length, offset, ErrorKind::UnexpectedEof, some)
     }
 
     /// Writes all of `bytes` to a place.
     pub(super) fn write(&mut self, bytes: &[u8], offset: u64) -> Result<(), Error> {
+        self.bytes_written += bytes.len() as u64;
+        let (address, length) = (bytes.as_ptr().addr(), bytes.len());
+        let some = |store: &S, part: Range<usize>| {
+            let at = offset + part.start as u64;
+            store.write_at(&bytes[part], at)
+        };
+        self.all(address, length, offset, ErrorKind::WriteZero, some)
+    }
+
+    /// Calls `some` until all is moved; that nothing was is the error `stuck`.
+    fn all(
+        &mut self,
+        address: usize,
+        length: usize,
+        offset: u64,
+        stuck: ErrorKind,
+        mut some: impl FnMut(&S, Range<usize>) -> io::Result<usize>,
+    ) -> Result<(), Error> {
         let mut done = 0;
-        while done < bytes.len() {
-            match self.storage.write_at(&bytes[done..], offset + done as u64) {
-                Ok(0) => return Err(self.error(io::ErrorKind::WriteZero.into())),
+        while done < length {
+            let left = length - done;
+            let aligned = (address + done).is_multiple_of(PAGE)
+                && (offset + done as u64).is_multiple_of(PAGE as u64);
+            let past = self.past_cache && aligned && left >= PAGE;
+            if past != self.is_past {
+                let can = self.store.past_cache(past);
+                self.past_cache &= can || !past;
+                self.is_past = can;
+            }
+            let end = if self.is_past { length - left % PAGE } else { length };
+            match some(&self.store, done..end) {
+                Ok(0) => return Err(self.error(stuck.into())),
                 Ok(more) => done += more,
-                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                // The system wants other multiples than pages, or cannot after all.
+                Err(error) if error.kind() == ErrorKind::InvalidInput && self.is_past => {
+                    self.past_cache = false;
+                }
                 Err(error) => return Err(self.error(error)),
             }
         }
-        self.bytes_written += bytes.len() as u64;
         Ok(())
     }
 
     pub(super) fn reserve(&self, bytes: u64) -> Result<(), Error> {
-        self.storage.reserve(bytes).map_err(|error| self.error(error))
+        self.store.reserve(bytes).map_err(|error| self.error(error))
     }
 
     pub(super) fn sync(&self) -> Result<(), Error> {
-        loop {
-            match self.storage.sync() {
-                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-                result => return result.map_err(|error| self.error(error)),
-            }
-        }
+        self.store.sync().map_err(|error| self.error(error))
     }
 
+    /// These bytes will be read soon: the system may bring them to its cache.
     pub(super) fn soon(&self, offset: u64, bytes: u64) {
-        self.storage.soon(offset, bytes);
+        if !self.past_cache {
+            self.store.soon(offset, bytes);
+        }
     }
 
     fn error(&self, source: io::Error) -> Error {

@@ -3,20 +3,18 @@
 //! *Idea.* A node of the tree holds the loser of the game played there, the winner of all is outside. When the winner is
 //! taken, its run's next record plays against the losers on the way from its leaf to the root: log₂ k games a record.
 //! *Guarantee.* Stable: equal keys go by the number of the run. One block of memory for each run.
+//! A record that comes before the one it follows in its run is an error.
+//! *Trap.* Runs may have been written by another process, and their multiset says nothing of their order.
 //! *Trap.* A player is one number, the rank and then the run, so that games need no look at the records and no branch;
 //! keys of more than eight bytes need both.
 //! *Reference.* D. Knuth, *The Art of Computer Programming* 3, 5.4.1.
 
 use super::layout::RecordLayout;
-use super::medium::{Medium, Storage};
+use super::medium::Medium;
+use super::plan::Run;
 use crate::error::Error;
-
-/// Sorted records in the file of runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Run {
-    pub(super) offset: u64,
-    pub(super) records: u64,
-}
+use crate::room::Pages;
+use crate::store::Store;
 
 /// Where a run is being read.
 struct Input {
@@ -35,9 +33,13 @@ const ENDED: u128 = 1 << 63;
 pub(super) struct Merge<'a> {
     layout: &'a RecordLayout,
     inputs: Vec<Input>,
+    /// Where each run begins.
+    offsets: Vec<u64>,
     /// One block for each run.
-    blocks: Vec<u8>,
+    blocks: Pages<u8>,
     block: usize,
+    /// A run that is not in order.
+    disordered: Option<usize>,
     /// Losers of the inner nodes, which are numbered from 1; the run i comes in at node `(i + k) / 2`.
     losers: Vec<Player>,
     winner: Player,
@@ -46,7 +48,7 @@ pub(super) struct Merge<'a> {
 
 impl<'a> Merge<'a> {
     /// Starts to merge runs, with blocks of `block` bytes, a multiple of the width.
-    pub(super) fn start<S: Storage>(
+    pub(super) fn start<S: Store>(
         layout: &'a RecordLayout,
         runs: &[Run],
         block: usize,
@@ -56,8 +58,10 @@ impl<'a> Merge<'a> {
         let mut merge = Self {
             layout,
             inputs,
-            blocks: vec![0; runs.len() * block],
+            offsets: runs.iter().map(|run| run.offset).collect(),
+            blocks: Pages::try_zeroed(runs.len() * block)?,
             block,
+            disordered: None,
             losers: vec![0; runs.len()],
             winner: 0,
             records_left: runs.iter().map(|run| run.records).sum(),
@@ -76,7 +80,7 @@ impl<'a> Merge<'a> {
     }
 
     /// Puts the next records into `to`, as many as there is room for; the number of bytes, 0 at the end.
-    pub(super) fn fill<S: Storage>(
+    pub(super) fn fill<S: Store>(
         &mut self,
         to: &mut [u8],
         source: &mut Medium<S>,
@@ -90,7 +94,7 @@ impl<'a> Merge<'a> {
     }
 
     /// [`Self::fill`] where the width is known, or 0.
-    fn fill_width<const W: usize, S: Storage>(
+    fn fill_width<const W: usize, S: Store>(
         &mut self,
         to: &mut [u8],
         source: &mut Medium<S>,
@@ -102,14 +106,18 @@ impl<'a> Merge<'a> {
         for place in to.chunks_exact_mut(width).take(records as usize) {
             let run = self.winner as u32 as usize;
             let input = &mut self.inputs[run];
-            place.copy_from_slice(&self.blocks[input.at..input.at + width]);
+            place.copy_from_slice(&self.blocks.words()[input.at..input.at + width]);
             input.at += width;
             let mut winner = if input.at < input.end {
-                let rank = self.layout.rank(&self.blocks[input.at..input.at + width]);
+                let rank = self.layout.rank(&self.blocks.words()[input.at..input.at + width]);
                 player(rank, run)
             } else {
                 self.player(run, source)?
             };
+            // Both are players of one run, so that this compares their ranks.
+            if winner < self.winner || long && self.falls(place, winner) {
+                self.disordered = Some(run);
+            }
             let mut node = (run + k) / 2;
             if long {
                 while node > 0 {
@@ -132,13 +140,17 @@ impl<'a> Merge<'a> {
             }
             self.winner = winner;
         }
+        if let Some(run) = self.disordered {
+            let path = source.path().to_owned();
+            return Err(Error::UnsortedRun { path, offset: self.offsets[run] });
+        }
         self.records_left -= records;
         Ok(records as usize * width)
     }
 
     /// The next player of a run whose block is used up.
     #[cold]
-    fn player<S: Storage>(&mut self, run: usize, source: &mut Medium<S>) -> Result<Player, Error> {
+    fn player<S: Store>(&mut self, run: usize, source: &mut Medium<S>) -> Result<Player, Error> {
         let (width, input) = (self.layout.width, &mut self.inputs[run]);
         let bytes = (input.left.records * width as u64).min(self.block as u64);
         if bytes == 0 {
@@ -146,14 +158,26 @@ impl<'a> Merge<'a> {
         }
         let start = run * self.block;
         (input.at, input.end) = (start, start + bytes as usize);
-        source.read(&mut self.blocks[start..input.end], input.left.offset)?;
+        source.read(&mut self.blocks.words_mut()[start..input.end], input.left.offset)?;
         input.left.offset += bytes;
         input.left.records -= bytes / width as u64;
         let next = (input.left.records * width as u64).min(self.block as u64);
         if next > 0 {
             source.soon(input.left.offset, next);
         }
-        Ok(player(self.layout.rank(&self.blocks[start..start + width]), run))
+        Ok(player(self.layout.rank(&self.blocks.words()[start..start + width]), run))
+    }
+
+    /// Whether the record of `next`, whose key is longer than its rank, comes before `last` of the same run.
+    fn falls(&self, last: &[u8], next: Player) -> bool {
+        next >> 64 == self.winner >> 64
+            && next & ENDED == 0
+            && self.layout.compare_rest(last, self.record(next)).is_gt()
+    }
+
+    /// The record of a player whose run has not ended.
+    fn record(&self, player: Player) -> &[u8] {
+        &self.blocks.words()[self.inputs[player as u32 as usize].at..][..self.layout.width]
     }
 
     /// Whether the record of `a` comes before that of `b`.
@@ -161,10 +185,7 @@ impl<'a> Merge<'a> {
         if a >> 64 != b >> 64 || (a | b) & ENDED != 0 || !self.layout.is_long() {
             return a < b;
         }
-        let record = |player: Player| {
-            &self.blocks[self.inputs[player as u32 as usize].at..][..self.layout.width]
-        };
-        self.layout.compare_rest(record(a), record(b)).then(a.cmp(&b)).is_lt()
+        self.layout.compare_rest(self.record(a), self.record(b)).then(a.cmp(&b)).is_lt()
     }
 }
 

@@ -1,7 +1,9 @@
 //! On files, on disks that fail, and against the checker, which is shown doctored files first.
 
 mod disk;
+mod hash;
 mod killed;
+mod names;
 mod resumed;
 
 use std::fs;
@@ -319,20 +321,4 @@ fn the_checker_rejects_doctored_files() {
         assert!(matches!(judge(other), Err(Error::OtherRecords { expected: 5000, .. })));
     }
     assert!(matches!(judge(&sorted[1..]), Err(Error::Partial { bytes: 79_999, .. })));
-}
-
-proptest! {
-    /// Solver and checker have their own code for the hash.
-    #[test]
-    fn both_hashes_are_the_same_function(
-        bytes in prop::collection::vec(any::<u8>(), 0..200), width in 1usize..40,
-    ) {
-        let bytes = &bytes[..bytes.len() / width * width];
-        let folder = Folder::with(bytes);
-        let mut multiset = Multiset::default();
-        multiset.add(bytes, width);
-        let layout = layout(width, 0..1, KeyKind::Bytes);
-        let found = inspect(&folder.path("in"), &layout, &Monitor::silent()).expect("read");
-        prop_assert_eq!(found.multiset, multiset);
-    }
 }

@@ -114,19 +114,17 @@ fn compare(layout: &RecordLayout, a: &[u8], b: &[u8]) -> Ordering {
     }
 }
 
-/// The hash of one record: two lanes of 64 bits.
+/// The hash of one record: two lanes of 64 bits, of which each takes a word by a product of 128 bits whose halves meet.
 fn fingerprint(record: &[u8]) -> u128 {
-    let lane = |start: u64, factor: u64, last: u64| {
-        let mut h = start;
-        for word in record.chunks(8) {
-            let x = word.iter().rev().fold(0u64, |x, &byte| x << 8 | u64::from(byte));
-            h = (h ^ x).wrapping_mul(factor);
-            h ^= h >> 32;
-        }
-        h = (h ^ (h >> 29)).wrapping_mul(last);
-        h ^ (h >> 32)
-    };
-    let low = lane(0x243f_6a88_85a3_08d3, 0x9e37_79b9_7f4a_7c15, 0xbf58_476d_1ce4_e5b9);
-    let high = lane(0x1319_8a2e_0370_7344, 0xd6e8_feb8_6659_fd93, 0x94d0_49bb_1331_11eb);
+    let meet = |product: u128| (product as u64) ^ (product >> 64) as u64;
+    let (mut low, mut high) = (0x243f_6a88_85a3_08d3_u64, 0x1319_8a2e_0370_7344_u64);
+    let (first, second) = (0x9e37_79b9_7f4a_7c15_u128, 0xd6e8_feb8_6659_fd93_u128);
+    for bytes in record.chunks(8) {
+        let x = bytes.iter().rev().fold(0u64, |x, &byte| x << 8 | u64::from(byte));
+        low = meet(u128::from(low ^ x) * first);
+        high = meet(u128::from(high.wrapping_add(x << 32 | x >> 32)) * second);
+    }
+    low = meet(u128::from(low ^ 0xbf58_476d_1ce4_e5b9) * first);
+    high = meet(u128::from(high ^ 0x94d0_49bb_1331_11eb) * second);
     u128::from(low) | u128::from(high) << 64
 }

@@ -4,8 +4,10 @@ use std::io;
 use std::sync::Mutex;
 
 use super::*;
-use crate::sort::external::engine::{self, Plan};
-use crate::sort::external::medium::{Medium, Storage};
+use crate::sort::external::engine;
+use crate::sort::external::medium::Medium;
+use crate::sort::external::plan::Plan;
+use crate::store::Store;
 
 /// A disk in memory, and what is wrong with it.
 #[derive(Default)]
@@ -37,7 +39,7 @@ impl Disk {
     }
 }
 
-impl Storage for Disk {
+impl Store for Disk {
     fn read_at(&self, to: &mut [u8], offset: u64) -> io::Result<usize> {
         let (bytes, offset) = (self.bytes.lock().expect("no panic"), offset as usize);
         let part = self.part(to.len().min(bytes.len().saturating_sub(offset)))?;
@@ -71,8 +73,6 @@ impl Storage for Disk {
     fn sync(&self) -> io::Result<()> {
         self.part(1).map(|_| ())
     }
-
-    fn soon(&self, _: u64, _: u64) {}
 }
 
 /// Sorts from disk to disk by way of a third.
@@ -89,7 +89,7 @@ fn sort(
         .map(|(d, p)| Medium::new(d, p.into()));
     let monitor = Monitor::silent();
     let found = engine::beyond(&plan, &mut input, &mut runs, None, &mut output, &monitor)?;
-    Ok((found, output.into_storage().bytes.into_inner().expect("no panic")))
+    Ok((found, output.into_store().bytes.into_inner().expect("no panic")))
 }
 
 #[test]

@@ -79,6 +79,48 @@ fn a_run_that_is_not_what_it_was_is_found_out() {
     assert_eq!(folder.names(), ["in", "runs"]);
 }
 
+/// Two records of a run that changed places: the same records, and each entry of the journal still holds.
+#[test]
+fn a_run_that_is_out_of_order_is_found_out() {
+    let long = layout(32, 0..20, KeyKind::Bytes);
+    for (layout, mask) in [(whole_number(32), u64::MAX), (long, 0)] {
+        let mut bytes = records(N, 32, 0, mask);
+        // Keys that agree in their first eight bytes, and behind them are all different.
+        for (i, record) in bytes.chunks_exact_mut(32).enumerate() {
+            record[8..16].copy_from_slice(&word(i as u64).to_le_bytes());
+        }
+        let folder = Folder::with(&bytes);
+        let limit = std::sync::atomic::AtomicU64::new(0);
+        let cancel = AtomicBool::new(false);
+        let count = |more: u64| {
+            let told = limit.fetch_add(more, Ordering::Relaxed) + more;
+            cancel.store(told >= 20_000, Ordering::Relaxed);
+        };
+        let monitor =
+            Monitor { on_points: Some(&count), cancel: Some(&cancel), ..Monitor::silent() };
+        let stopped = folder.sort_with(&layout, &options(&folder), &monitor);
+        assert!(matches!(stopped, Err(Error::Cancelled(_))));
+        let whole = fs::read(folder.path("runs")).expect("runs");
+        // Within a run, at its start, and on both sides of where a block ends.
+        for record in [700, 0, 1, 1400] {
+            let mut runs = whole.clone();
+            let (data, size) = (4096, 32);
+            let (head, tail) = runs[data + record * size..][..5 * size].split_at_mut(size);
+            head.swap_with_slice(&mut tail[3 * size..]);
+            fs::write(folder.path("runs"), runs).expect("written");
+            let result = folder.sort_with(&layout, &options(&folder), &Monitor::silent());
+            let Err(error @ Error::UnsortedRun { offset: 4096, .. }) = result else {
+                panic!("{result:?}")
+            };
+            assert!(error.to_string().contains("runs"), "{error}");
+            assert_eq!(folder.names(), ["in", "runs"]);
+        }
+        fs::write(folder.path("runs"), whole).expect("written");
+        folder.sort_with(&layout, &options(&folder), &Monitor::silent()).expect("sorted");
+        assert!(fs::read(folder.path("out")).expect("an output") == expected(&bytes, &layout));
+    }
+}
+
 #[test]
 fn runs_of_another_sort_are_refused_and_left_alone() {
     let folder = Folder::with(&records(N, 32, 0, u64::MAX));

@@ -1,0 +1,144 @@
+//! How the memory is used, and which runs are merged when.
+
+use super::layout::RecordLayout;
+use crate::error::Error;
+use crate::store::PAGE;
+
+/// Blocks of this size keep a disk busy.
+const BLOCK_MAX: usize = 1 << 20;
+/// Blocks that are written. There are two: one is filled while the other is written.
+const WRITE_BLOCK: usize = 512 << 10;
+/// Smaller blocks are better collected by the system.
+const PAST_CACHE_MIN: usize = 64 << 10;
+/// Rather than with smaller blocks, runs are merged in several steps.
+const BLOCK_MIN: usize = 256 << 10;
+
+/// How the memory is used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Plan {
+    pub(super) layout: RecordLayout,
+    /// Records in the input.
+    pub(super) records: u64,
+    /// Most records of a run: what fits.
+    pub(super) chunk: usize,
+    /// Bytes that are written at once.
+    pub(super) write_block: usize,
+    /// Whether runs and blocks are whole pages but for the last one, and large.
+    pub(super) past_cache: bool,
+    /// What blocks are multiples of.
+    unit: usize,
+    memory: usize,
+}
+
+impl Plan {
+    pub(super) fn new(layout: &RecordLayout, records: u64, memory: usize) -> Result<Self, Error> {
+        layout.check()?;
+        let width = layout.width;
+        let mut write_block = whole((memory / 32).min(WRITE_BLOCK), width);
+        let mut chunk = memory.saturating_sub(2 * write_block) / (width + size_of::<u64>());
+        if memory < 64 << 10 || chunk < 64 {
+            return Err(Error::Option {
+                name: "memory",
+                value: format!("{memory} bytes"),
+                expected: "at least 65536 bytes, and room for 64 records",
+            });
+        }
+        let pages = pages_of(width);
+        let past_cache = write_block >= PAST_CACHE_MIN.max(pages);
+        if past_cache {
+            write_block = whole(write_block, pages);
+            chunk -= chunk % (pages / width);
+        }
+        let unit = if past_cache { pages } else { width };
+        let layout = layout.clone();
+        Ok(Self { layout, records, chunk, write_block, past_cache, unit, memory })
+    }
+
+    /// Whether the records fit into memory.
+    pub(super) fn fits(&self) -> bool {
+        self.records <= self.chunk as u64
+    }
+
+    pub(super) fn runs(&self) -> u64 {
+        self.records.div_ceil(self.chunk as u64)
+    }
+
+    pub(super) fn bytes(&self) -> u64 {
+        self.records * self.layout.width as u64
+    }
+
+    /// The runs as they are made, the first one from `start`.
+    pub(super) fn made(&self, start: u64) -> Vec<Run> {
+        let chunk = self.chunk as u64;
+        let run = |i| Run {
+            offset: start + i * chunk * self.layout.width as u64,
+            records: chunk.min(self.records - i * chunk),
+        };
+        (0..self.runs()).map(run).collect()
+    }
+
+    /// The most runs that are merged at once.
+    fn fan_in(&self) -> usize {
+        let least = (self.memory / 64).clamp(4096, BLOCK_MIN).max(self.unit);
+        ((self.memory - 2 * self.write_block) / least).max(2)
+    }
+
+    /// Bytes of each block when so many runs are merged.
+    pub(super) fn merge_block(&self, runs: usize) -> usize {
+        whole(((self.memory - 2 * self.write_block) / runs).min(BLOCK_MAX), self.unit)
+    }
+}
+
+/// The least bytes that are both whole records of a width and whole pages.
+fn pages_of(width: usize) -> usize {
+    let twos = width.trailing_zeros().min(PAGE.trailing_zeros());
+    width * (PAGE >> twos)
+}
+
+/// The largest multiple of `width` that is at most `bytes`, but one `width` at least.
+fn whole(bytes: usize, width: usize) -> usize {
+    (bytes / width).max(1) * width
+}
+
+/// Sorted records in the file of runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Run {
+    pub(super) offset: u64,
+    pub(super) records: u64,
+}
+
+impl Run {
+    /// Where it ends.
+    pub(super) fn end(&self, plan: &Plan) -> u64 {
+        self.offset + self.records * plan.layout.width as u64
+    }
+}
+
+/// Neighbouring runs, and the longer one that they are merged to.
+pub(super) type Step = (Vec<Run>, Run);
+
+/// The merges after which few enough runs are left to be merged at once, and those runs.
+///
+/// From the front, as many neighbours as can be merged at once, until that is enough; if it is not, what came of it is
+/// gone through again. Longer runs are written behind the shorter ones, which stay.
+pub(super) fn steps(mut left: Vec<Run>, plan: &Plan) -> (Vec<Step>, Vec<Run>) {
+    let (fan_in, mut steps) = (plan.fan_in(), vec![]);
+    let mut end = left.last().map_or(0, |run| run.end(plan));
+    while left.len() > fan_in {
+        let (mut excess, mut next, mut rest) = (left.len() - fan_in, vec![], &left[..]);
+        while !rest.is_empty() {
+            let group;
+            (group, rest) = rest.split_at(fan_in.min(excess + 1).min(rest.len()));
+            excess -= group.len() - 1;
+            let offset = end.next_multiple_of(PAGE as u64);
+            let longer = Run { offset, records: group.iter().map(|run| run.records).sum() };
+            if group.len() > 1 {
+                end = longer.end(plan);
+                steps.push((group.to_vec(), longer));
+            }
+            next.push(if group.len() > 1 { longer } else { group[0] });
+        }
+        left = next;
+    }
+    (steps, left)
+}
