@@ -26,7 +26,9 @@ proptest! {
             match byte % 3 {
                 0 => seed[place] = byte,
                 1 => seed.insert(place, byte),
-                _ => drop(seed.drain(place..(place + 3).min(seed.len()))),
+                _ => {
+                    seed.drain(place..(place + 3).min(seed.len()));
+                }
             }
             if seed.is_empty() {
                 break;

@@ -19,37 +19,62 @@ impl Hash128 {
     }
 }
 
-/// One lane: START, FACTOR and FINAL of the definition.
+/// START, FACTOR and FINAL of the definition, by lane.
 const LANES: [[u64; 3]; 2] = [
     [0x243f_6a88_85a3_08d3, 0x9e37_79b9_7f4a_7c15, 0xbf58_476d_1ce4_e5b9],
     [0x1319_8a2e_0370_7344, 0xd6e8_feb8_6659_fd93, 0x94d0_49bb_1331_11eb],
 ];
 
-fn record(parts: [&[u8]; 2]) -> u128 {
-    let [mut low, mut high] = LANES.map(|[start, ..]| start);
-    let mut word = |x: u64| {
-        low = (low ^ x).wrapping_mul(LANES[0][1]);
-        low ^= low >> 32;
-        high = (high ^ x).wrapping_mul(LANES[1][1]);
-        high ^= high >> 32;
+/// The two halves of a product of 128 bits, added bit by bit.
+fn fold(a: u64, b: u64) -> u64 {
+    let [low, high] = {
+        let product = u128::from(a) * u128::from(b);
+        [product as u64, (product >> 64) as u64]
     };
+    low ^ high
+}
+
+/// What is left of a record after some of its words.
+struct Lanes {
+    low: u64,
+    high: u64,
+}
+
+impl Lanes {
+    fn word(&mut self, x: u64) {
+        self.low = fold(self.low ^ x, LANES[0][1]);
+        let exchanged = x << 32 | x >> 32;
+        self.high = fold(self.high.wrapping_add(exchanged), LANES[1][1]);
+    }
+}
+
+fn record(parts: [&[u8]; 2]) -> u128 {
+    let mut lanes = Lanes { low: LANES[0][0], high: LANES[1][0] };
     let (mut held, mut filled) = (0u64, 0);
-    for byte in parts.into_iter().flatten() {
-        held |= u64::from(*byte) << (8 * filled);
-        filled += 1;
-        if filled == 8 {
-            word(held);
-            (held, filled) = (0, 0);
+    for part in parts {
+        let mut rest = part;
+        // Whole words where the parts before were whole ones.
+        while filled == 0
+            && let Some((word, more)) = rest.split_first_chunk()
+        {
+            lanes.word(u64::from_le_bytes(*word));
+            rest = more;
+        }
+        for byte in rest {
+            held |= u64::from(*byte) << (8 * filled);
+            filled += 1;
+            if filled == 8 {
+                lanes.word(held);
+                (held, filled) = (0, 0);
+            }
         }
     }
     if filled > 0 {
-        word(held);
+        lanes.word(held);
     }
-    let end = |h: u64, last: u64| {
-        let h = (h ^ (h >> 29)).wrapping_mul(last);
-        h ^ (h >> 32)
-    };
-    u128::from(end(low, LANES[0][2])) | u128::from(end(high, LANES[1][2])) << 64
+    let [low, high] = [(lanes.low, LANES[0]), (lanes.high, LANES[1])]
+        .map(|(h, [_, factor, last])| fold(h ^ last, factor));
+    u128::from(low) | u128::from(high) << 64
 }
 
 impl fmt::Display for Hash128 {

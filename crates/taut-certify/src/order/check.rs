@@ -135,7 +135,7 @@ impl Grid {
         let half = if widest(1.0) < f64::INFINITY { 1.0 } else { 0.5 };
         let extent = widest(half);
         // No point at all, or one place.
-        if !(extent > 0.0) {
+        if extent <= 0.0 {
             return None;
         }
         let lift = if extent < 1e-290 { 2f64.powi(600) } else { 1.0 };

@@ -99,6 +99,19 @@ fn other_bytes_are_seen() {
     assert!(matches!(judge(&found, None, &output[24..]), Err(FileViolation::Length { .. })));
 }
 
+/// Signs of two neighbours, and the pairs of bits that a weak hash mixes alike.
+#[test]
+fn doubles_that_change_signs_are_other_records() {
+    let record = |x: f64, y: u64| [x.to_bits(), y].map(u64::to_le_bytes).concat();
+    let input = record(1.5, 2.5f64.to_bits());
+    let (found, output) = sorted(&input, 16, [0, 8], KeyKind::U64);
+    assert!(judge(&found, Some(&input), &output).is_ok());
+    for bits in [1 << 63, 1 << 63 | 1 << 31, 1 << 31] {
+        let other = record(-1.5, 2.5f64.to_bits() ^ bits);
+        assert!(judge(&found, None, &other).is_err(), "{bits:x}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
