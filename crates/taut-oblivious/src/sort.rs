@@ -3,8 +3,7 @@
 //! | you want | call | order | room |
 //! |---|---|---|---|
 //! | numbers in order | [`sort`] | total, NaN at the ends | none; one word each for 32-bit numbers |
-//! | records in order of a number | [`sort_records`] | stable | as much again |
-//!
+//! | records in order of a number | [`sort_records`] | stable | some megabytes |
 //! | a file of records in order of a key | [`external::sort_file`] | stable | a limit that is given |
 //!
 //! The result is a function of the input alone: vectors, their absence and threads change no byte.
@@ -99,9 +98,9 @@ fn run<T>(items: &[T], rank: &impl Fn(&T) -> u64) -> Option<Run> {
 
 /// Sorts records in place by a number in each; records with equal numbers keep their order.
 ///
-/// The order of numbers is that of [`sort`]. Memory for as many records again is allocated while it runs, and the
-/// records are moved three times; for records above some 256 bytes, sort numbers of them instead. Runs on the current
-/// rayon pool. O(n) passes over memory for numbers that spread, O(n log n) whatever the input.
+/// The order of numbers is that of [`sort`]. Some megabytes are allocated while it runs, and the records are moved five
+/// times, four of them in blocks; for records above some 256 bytes, sort numbers of them instead. Runs on the current
+/// rayon pool, where dealing is the work of one thread. O(n) passes over memory for numbers that spread, O(n log n) whatever the input.
 ///
 /// # Panics
 /// If `key` does; the records are then in some order, and some may be doubled at the cost of others.

@@ -6,9 +6,9 @@
 //! neighbouring runs are merged into longer ones first.
 //! *Guarantee.* Stable: the output is a function of the input and the place of the key, whatever the memory and the
 //! threads. Each byte is read twice and written twice while n·w is below some memory² / 512 KiB, 128 GiB for 256 MiB; a
-//! file that fits is read and written once. The output appears whole under its name or not at all. What is read back is compared with
-//! what was read first by a hash of 128 bits of the multiset of records, which is the certificate; [`verify`] shares no
-//! code with the sort.
+//! file that fits is read and written once. The output appears whole under its name or not at all. What is read back from
+//! runs is compared with what was read first by a hash of 128 bits of the multiset of records, which is the certificate, and
+//! held to its order, whoever made the run; [`verify`] shares no code with the sort.
 //! *Trap.* Waiting for the disk and sorting in turn wastes both: a block is written while the next one is filled, and the
 //! next blocks are asked for before they are needed.
 //! *Trap.* A limit on memory counts everything: the numbers of the records, the block that is being written.
@@ -45,7 +45,7 @@ pub struct FileSortOptions {
     pub memory: usize,
     /// The folder for runs; none: that of the output. Runs have no name there and vanish with the process.
     pub scratch: Option<PathBuf>,
-    /// A file to keep the runs in, under this name, until the output is there. If it exists, it must be from the same
+    /// A file to keep the runs in, under this name, until the output is there; another one than input and output. If it exists, it must be from the same
     /// sort, which then goes on behind the last run that was complete. None by default: nothing outlives the process.
     pub resume: Option<PathBuf>,
 }
@@ -61,15 +61,16 @@ impl Default for FileSortOptions {
 pub struct Multiset {
     /// Number of records.
     pub records: u64,
-    /// Sum of the hashes of all records, modulo 2¹²⁸. Two multisets that differ agree in it by chance only; it is no
-    /// defence against somebody who means to deceive.
+    /// Sum of the hashes of all records, modulo 2¹²⁸. Two multisets that differ agree in it by chance only, as far as
+    /// hashes are random numbers; it is no defence against somebody who means to deceive.
     pub hash: u128,
 }
 
 /// How a file was sorted: its certificate, and counters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FileSort {
-    /// The records that were read; those of the output were found to be the same.
+    /// The records that were read. If they did not fit, those that came back from the runs for the output were found to be
+    /// the same. What the disk made of the output nobody has looked at: [`verify`] does.
     pub certificate: Multiset,
     /// Runs that the input was cut into; 1 if it fitted.
     pub runs: u64,
@@ -86,15 +87,18 @@ pub struct FileSort {
 /// Stable. `monitor` hears of a pass over the records while runs are made, one for each merge of some runs into a longer
 /// one, and one for the last merge; it can stop the work after any block. Until the output is complete, `output` is
 /// untouched. Where the system has files without a name, nothing is left behind even if the process is killed, but for
-/// the file of [`FileSortOptions::resume`], which is removed when the output is there. Room for runs and output is
-/// reserved at the beginning where the system can, so that a full disk is told before the work.
+/// the file of [`FileSortOptions::resume`], which is removed when the output is there. Room for runs, also those of merges in
+/// steps, and for the output is reserved at the beginning where the system can, so that a full disk is told before the work.
+/// An output that exists is replaced, also behind a symbolic link, and its permissions are kept.
 ///
 /// Runs on the current rayon pool.
 ///
 /// # Errors
-/// [`Error::Option`] for a layout or a limit that makes no sense, and for a file to resume that is of another sort;
+/// [`Error::Option`] for a layout or a limit that makes no sense or is more than the system gives, and for a file to resume
+/// that is of another sort;
 /// [`Error::Partial`] if the input ends within a record; [`Error::File`] for what the system refuses;
-/// [`Error::ReadBack`] if records came back from the disk other than they were written; [`Error::Cancelled`].
+/// [`Error::ReadBack`] if records came back from the disk other than they were written, [`Error::UnsortedRun`] if their
+/// order is not that of a run; [`Error::Cancelled`].
 pub fn sort_file(
     input: &Path,
     output: &Path,
