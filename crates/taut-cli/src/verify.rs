@@ -62,7 +62,7 @@ impl Args {
         }
         let answer = match read_document(&self.answer, &self.files[0])? {
             AnyDocument::Files(found) => return self.run_files(&found, &watch),
-            AnyDocument::Points(answer) => answer,
+            AnyDocument::Points(answer) => *answer,
         };
         let points = self.open_points()?;
         let rejected = |why: String| {
@@ -277,7 +277,7 @@ fn verdict<V>(
 /// Reads an answer about points; `points` is the other input, as both cannot be standard input.
 pub(crate) fn read_answer(path: &Path, points: &Path) -> anyhow::Result<AnySolution> {
     match read_document(path, points)? {
-        AnyDocument::Points(answer) => Ok(answer),
+        AnyDocument::Points(answer) => Ok(*answer),
         AnyDocument::Files(_) => bail!("{}: an answer about files, not about points", shown(path)),
     }
 }

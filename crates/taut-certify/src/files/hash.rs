@@ -43,7 +43,7 @@ struct Lanes {
 impl Lanes {
     fn word(&mut self, x: u64) {
         self.low = fold(self.low ^ x, LANES[0][1]);
-        let exchanged = x << 32 | x >> 32;
+        let exchanged = x.rotate_left(32);
         self.high = fold(self.high.wrapping_add(exchanged), LANES[1][1]);
     }
 }

@@ -95,7 +95,7 @@ impl AnyFileSolution {
 #[derive(Clone, Debug, PartialEq)]
 pub enum AnyDocument {
     /// About points.
-    Points(AnySolution),
+    Points(Box<AnySolution>),
     /// About files.
     Files(AnyFileSolution),
 }
@@ -110,7 +110,7 @@ impl AnyDocument {
         match AnyFileSolution::of_kind(kind_of(text)?, text) {
             Ok(found) => Ok(AnyDocument::Files(found)),
             Err(JsonError::Kind { found }) => {
-                AnySolution::of_kind(found, text).map(AnyDocument::Points)
+                AnySolution::of_kind(found, text).map(|found| AnyDocument::Points(Box::new(found)))
             }
             Err(error) => Err(error),
         }

@@ -17,6 +17,9 @@ const PENTIUM: CacheShape = CacheShape::lru(256 << 10, 32).with_ways(8);
 const ATHLON: CacheShape = CacheShape::lru(256 << 10, 64).with_ways(16);
 /// Third-level cache of the server: 2 MiB, 4 ways, lines of 64 bytes (Itanium).
 const ITANIUM: CacheShape = CacheShape::lru(2 << 20, 64).with_ways(4);
+/// Tables of addresses: 64 pages of 4 KiB in 4 ways (Pentium III), 96 pages of 16 KiB in any place (Itanium).
+const PENTIUM_PAGES: CacheShape = CacheShape::lru(64 << 12, 4 << 10).with_ways(4);
+const ITANIUM_PAGES: CacheShape = CacheShape::lru(96 << 14, 16 << 10);
 
 /// Rows of square matrices: powers of two, and in between.
 const SQUARES: [u64; 11] = [64, 100, 128, 200, 256, 300, 400, 512, 700, 900, 1024];
@@ -27,7 +30,8 @@ const SORTS: [u64; 6] = [1 << 12, 1 << 14, 1 << 15, 1 << 16, 1 << 17, 1 << 18];
 /// What a figure compares.
 struct Figure {
     title: &'static str,
-    cache: CacheShape,
+    /// A picture for each.
+    caches: Vec<CacheShape>,
     sizes: &'static [u64],
     /// Programs with the size at which they stop to divide.
     programs: Vec<(&'static str, Algorithm, usize)>,
@@ -40,7 +44,7 @@ fn described(number: u32) -> Option<Figure> {
     let [linear, log] = [Scale::Linear, Scale::Log];
     let transposition = |title, cache, columns, base| Figure {
         title,
-        cache,
+        caches: vec![cache],
         sizes: &SQUARES,
         programs: vec![
             ("two loops", TransposeLoops(columns), 1),
@@ -49,9 +53,9 @@ fn described(number: u32) -> Option<Figure> {
         unit: "misses an element",
         scales: [linear, linear],
     };
-    let trees = |title, cache, width| Figure {
+    let trees = |title, caches: [CacheShape; 2], width| Figure {
         title,
-        cache,
+        caches: caches.to_vec(),
         sizes: &TREES,
         programs: vec![
             ("pre-order", Search(Layout::PreOrder, width), 1),
@@ -69,18 +73,18 @@ fn described(number: u32) -> Option<Figure> {
         42 => transposition("Blocked transposition, n × n", ATHLON, None, 16),
         43 => Figure {
             title: "Blocked matrix product, n × n",
-            cache: ATHLON,
+            caches: vec![ATHLON],
             sizes: &PRODUCTS,
             programs: vec![("three loops", MultiplyLoops, 1), ("cache-oblivious", Multiply, 16)],
             unit: "misses a product of two numbers",
             scales: [linear, linear],
         },
-        46 => trees("Search, nodes of 32 bytes, notebook", PENTIUM, 32),
-        47 => trees("Search, nodes of 256 bytes, notebook", PENTIUM, 256),
-        48 => trees("Search, nodes of 48 bytes, Itanium", ITANIUM, 48),
+        46 => trees("Search, nodes of 32 bytes, notebook", [PENTIUM_PAGES, PENTIUM], 32),
+        47 => trees("Search, nodes of 256 bytes, notebook", [PENTIUM_PAGES, PENTIUM], 256),
+        48 => trees("Search, nodes of 48 bytes, Itanium", [ITANIUM_PAGES, ITANIUM], 48),
         49 | 50 => Figure {
             title: "Sorting n numbers, notebook",
-            cache: PENTIUM,
+            caches: vec![PENTIUM],
             sizes: &SORTS,
             programs: vec![
                 ("quicksort", Quicksort, 1),
@@ -102,12 +106,27 @@ pub(super) fn figure(number: u32) -> anyhow::Result<(Vec<Counted>, Vec<Plot>)> {
              tree (docs/memory/figures.md)"
         );
     };
-    let Figure { title, cache, sizes, programs, unit, scales } = figure;
+    let (mut rows, mut plots) = (Vec::new(), Vec::new());
+    for &cache in &figure.caches {
+        let (counts, plot) = counted_in(&figure, number, cache)?;
+        rows.extend(counts);
+        plots.push(plot);
+    }
+    Ok((rows, plots))
+}
+
+/// The counts of a figure in one of its caches.
+fn counted_in(
+    figure: &Figure,
+    number: u32,
+    cache: CacheShape,
+) -> anyhow::Result<(Vec<Counted>, Plot)> {
+    let Figure { title, sizes, programs, unit, scales, .. } = figure;
     let (mut rows, mut series) = (Vec::new(), Vec::new());
     const TONES: [Tone; 3] = [Tone::Second, Tone::Answer, Tone::Third];
     for (&(name, algorithm, base), tone) in programs.iter().zip(TONES) {
         let mut points = Vec::new();
-        for &n in sizes {
+        for &n in *sizes {
             let mut simulator = Simulator::new(&[cache])?;
             algorithm.run(n, base, &mut simulator)?;
             let counts = simulator.counts(0);
@@ -138,15 +157,16 @@ pub(super) fn figure(number: u32) -> anyhow::Result<(Vec<Counted>, Vec<Plot>)> {
         });
     }
     let axis = programs.first().map_or("n", |program| program.1.axis());
+    let blocks = if cache.block < 4 << 10 { "lines" } else { "pages" };
+    let ways = cache.ways.map_or(String::new(), |ways| format!(" in {ways} ways"));
     let caption = format!(
-        "Figure {number} of the thesis, counted: {} KiB in {} ways of lines of {} bytes, least recently used. The formula is without \
-         a constant factor.",
-        cache.memory >> 10,
-        cache.ways.unwrap_or(1),
-        cache.block
+        "Figure {number} of the thesis, counted: {} {blocks} of {} bytes{ways}, least recently used. The formula is without a \
+         constant factor.",
+        cache.blocks(),
+        cache.block,
     );
-    let plot = plot(title.to_owned(), caption, [axis, unit], scales, series);
-    Ok((rows, vec![plot]))
+    let plot = plot((*title).to_owned(), caption, [axis, *unit], *scales, series);
+    Ok((rows, plot))
 }
 
 /// What the tour shows: misses of two algorithms against M and against B, each count within a factor of its formula.
@@ -161,10 +181,12 @@ pub(crate) fn panel() -> anyhow::Result<Panel> {
         ways: None,
     };
     let memories: Vec<usize> = (13..=19).map(|power| 1 << power).collect();
+    // Of 256, 1024 and 4096 words, whose roots are powers of two, as the submatrices are.
+    let squares = [2 << 10, 8 << 10, 32 << 10];
     let blocks: Vec<usize> = (6..=10).map(|power| 1 << power).collect();
     // What the constant of each may be; the tests of the library hold larger sizes against the same.
     let lists = [
-        (wanted(Multiply, &[64], &memories[..3], &[64]), 5.5),
+        (wanted(Multiply, &[64], &squares, &[64]), 5.5),
         (wanted(Transpose(None), &[256], &[256 << 10], &blocks), 1.01),
         (wanted(Funnelsort, &[1 << 14], &memories, &[64]), 6.0),
         (wanted(DistributionSort, &[1 << 14], &[64 << 10], &blocks[..3]), 6.0),

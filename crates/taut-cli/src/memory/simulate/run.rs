@@ -6,6 +6,7 @@ use taut::oblivious::simulate::{CacheShape, Replacement, Simulator, Trace};
 use taut_draw::{Axis, DrawOptions, Plot, Scale, Series, SeriesLook, Tone};
 
 use super::algorithm::Algorithm;
+use crate::reading::wrong_option;
 
 /// Which block makes room.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -67,6 +68,11 @@ pub(super) fn counted(wanted: &Wanted) -> anyhow::Result<Vec<Counted>> {
         .flat_map(|&memory| wanted.blocks.iter().map(move |&block| (memory, block)))
         .map(|(memory, block)| CacheShape { memory, block, ways, replacement })
         .collect();
+    if let Some(shape) = shapes.iter().find(|shape| shape.memory < shape.block) {
+        let CacheShape { memory, block, .. } = *shape;
+        let expected = format!("at least a block, {block} bytes");
+        return Err(wrong_option("memory", &memory.to_string(), &expected));
+    }
     let mut rows = Vec::new();
     for &n in &wanted.sizes {
         // Refuses what is no cache, before anything is run.
