@@ -122,7 +122,7 @@ fn fingerprint(record: &[u8]) -> u128 {
     for bytes in record.chunks(8) {
         let x = bytes.iter().rev().fold(0u64, |x, &byte| x << 8 | u64::from(byte));
         low = meet(u128::from(low ^ x) * first);
-        high = meet(u128::from(high.wrapping_add(x << 32 | x >> 32)) * second);
+        high = meet(u128::from(high.wrapping_add(x.rotate_right(32))) * second);
     }
     low = meet(u128::from(low ^ 0xbf58_476d_1ce4_e5b9) * first);
     high = meet(u128::from(high ^ 0x94d0_49bb_1331_11eb) * second);
