@@ -11,10 +11,12 @@ mod curve;
 mod delaunay;
 mod ellipsoid;
 mod farthest_first;
+mod files;
 mod generate;
 mod inscribed;
 mod items;
 mod numbers;
+mod order;
 mod robust;
 mod rows;
 mod solution;
@@ -43,11 +45,15 @@ mod _native {
     #[pymodule_export]
     use crate::farthest_first::{FarthestFirst, farthest_first};
     #[pymodule_export]
+    use crate::files::{FileSolution, FileVerdict, sample, sort_file, transpose_file};
+    #[pymodule_export]
     use crate::generate::generate;
     #[pymodule_export]
     use crate::inscribed::{
         InscribedCertificate, InscribedEllipsoid, InscribedVerdict, inscribed_ellipsoid,
     };
+    #[pymodule_export]
+    use crate::order::{Order, OrderCertificate, OrderVerdict, spatial_order};
     #[pymodule_export]
     use crate::robust::{RobustCertificate, RobustEllipsoid, RobustVerdict, robust_ellipsoid};
     #[pymodule_export]

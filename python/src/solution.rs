@@ -14,6 +14,7 @@ use crate::ellipsoid::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, direct
 use crate::inscribed::{InscribedCertificate, InscribedEllipsoid, InscribedVerdict};
 use crate::items::{name_of_items, words};
 use crate::numbers::float;
+use crate::order::{Order, OrderCertificate, OrderVerdict};
 use crate::robust::{RobustCertificate, RobustEllipsoid, RobustVerdict};
 use crate::rows::{Rows, numbers};
 use crate::surface::{Surface, SurfaceCertificate, SurfaceVerdict};
@@ -137,6 +138,12 @@ pub(crate) struct Trace {
     trace: taut::Trace,
 }
 
+impl Trace {
+    pub(crate) fn new(trace: taut::Trace) -> Self {
+        Trace { trace }
+    }
+}
+
 #[pymethods]
 impl Trace {
     #[getter]
@@ -229,8 +236,8 @@ impl Verdict {
 /// ----------
 /// kind : str
 ///     ``"ball"``, ``"ellipsoid"``, ``"inscribed-ellipsoid"``, ``"robust-ellipsoid"``, ``"centers"``,
-///     ``"curve"``, ``"surface"`` or ``"delaunay"``.
-/// answer : Ball, Ellipsoid, InscribedEllipsoid, RobustEllipsoid, Centers, Curve, Surface or Triangulation
+///     ``"curve"``, ``"surface"``, ``"order"`` or ``"delaunay"``.
+/// answer : Ball, Ellipsoid, InscribedEllipsoid, RobustEllipsoid, Centers, Curve, Surface, Order or Triangulation
 ///     The shape.
 /// certificate : BallCertificate, EllipsoidCertificate and so on
 ///     Its proof.
@@ -288,6 +295,11 @@ impl Solution {
                 let certificate = SurfaceCertificate::new(py, &found.certificate)?;
                 (answer, Py::new(py, certificate)?.into_any(), found.trace.clone())
             }
+            AnySolution::Order(found) => {
+                let answer = Py::new(py, Order::new(py, &found.answer)?)?.into_any();
+                let certificate = OrderCertificate::new(&found.certificate);
+                (answer, Py::new(py, certificate)?.into_any(), found.trace.clone())
+            }
             AnySolution::Triangulation(found) => {
                 let answer = Py::new(py, Triangulation::new(py, found)?)?.into_any();
                 let certificate = TriangulationCertificate::new(&found.certificate);
@@ -313,11 +325,12 @@ impl Solution {
             | AnySolution::Robust(_)
             | AnySolution::Centers(_)
             | AnySolution::Curve(_)
-            | AnySolution::Surface(_) => {
+            | AnySolution::Surface(_)
+            | AnySolution::Order(_) => {
                 let kind = self.kind();
                 let holder = match kind {
                     "centers" => "centers have".to_owned(),
-                    _ if kind.starts_with(['e', 'i']) => format!("an {kind} has"),
+                    _ if kind.starts_with(['e', 'i', 'o']) => format!("an {kind} has"),
                     _ => format!("a {kind} has"),
                 };
                 let problem = format!("{holder} no {name}: triangulations do");
@@ -337,9 +350,13 @@ impl Solution {
             (AnySolution::Inscribed(_), _) => ("lies in half-spaces", "offsets"),
             (_, Some(Items::Balls)) => ("encloses balls", "radii"),
             (_, Some(Items::Ellipsoids)) => ("encloses ellipsoids", "shapes"),
-            (AnySolution::Robust(_) | AnySolution::Curve(_) | AnySolution::Surface(_), _) => {
-                ("speaks of points", "")
-            }
+            (
+                AnySolution::Robust(_)
+                | AnySolution::Curve(_)
+                | AnySolution::Surface(_)
+                | AnySolution::Order(_),
+                _,
+            ) => ("speaks of points", ""),
             (_, Some(Items::Points)) => ("encloses points", ""),
             (_, None) => ("joins points", ""),
         };
@@ -362,7 +379,9 @@ impl Solution {
             AnySolution::Ellipsoid(found) => Some(found.certificate.items),
             AnySolution::Robust(_) => Some(Items::Points),
             AnySolution::Centers(found) => Some(found.certificate.items),
-            AnySolution::Curve(_) | AnySolution::Surface(_) => Some(Items::Points),
+            AnySolution::Curve(_) | AnySolution::Surface(_) | AnySolution::Order(_) => {
+                Some(Items::Points)
+            }
             AnySolution::Inscribed(_) | AnySolution::Triangulation(_) => None,
         }
     }
@@ -414,6 +433,7 @@ impl Solution {
             AnySolution::Centers(_) => "centers",
             AnySolution::Curve(_) => "curve",
             AnySolution::Surface(_) => "surface",
+            AnySolution::Order(_) => "order",
             AnySolution::Triangulation(_) => "delaunay",
         }
     }
@@ -527,6 +547,9 @@ impl Solution {
             Ok(AnyVerdict::Surface(proved)) => {
                 Ok(Py::new(py, SurfaceVerdict::new(&proved))?.into_any())
             }
+            Ok(AnyVerdict::Order(proved)) => {
+                Ok(Py::new(py, OrderVerdict::new(&proved))?.into_any())
+            }
             Ok(AnyVerdict::Triangulation(proved)) => {
                 Ok(Py::new(py, TriangulationVerdict::new(&proved))?.into_any())
             }
@@ -615,6 +638,11 @@ impl Solution {
                 let (triangles, parts) =
                     (found.answer.triangles.len(), found.answer.topology.components.len());
                 format!("Solution(kind='{kind}', triangles={triangles}, components={parts})")
+            }
+            AnySolution::Order(found) => {
+                let (curve, points) =
+                    (crate::order::name(found.answer.curve), found.answer.rows.len());
+                format!("Solution(kind='{kind}', curve='{curve}', points={points})")
             }
             AnySolution::Triangulation(found) => {
                 let certify::TriangulationCounts { sites, simplices, hull } =

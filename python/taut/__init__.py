@@ -17,6 +17,7 @@ from ._curve import curve
 from ._delaunay import delaunay
 from ._ellipsoid import ellipsoid, ellipsoids, inscribed_ellipsoid
 from ._generate import generate
+from ._memory import sample, sort_file, spatial_order, transpose_file
 from ._native import (
     Ball,
     BallCertificate,
@@ -31,10 +32,15 @@ from ._native import (
     EllipsoidCertificate,
     EllipsoidVerdict,
     FarthestFirst,
+    FileSolution,
+    FileVerdict,
     Hull,
     InscribedCertificate,
     InscribedEllipsoid,
     InscribedVerdict,
+    Order,
+    OrderCertificate,
+    OrderVerdict,
     PassBounds,
     RobustCertificate,
     RobustEllipsoid,
@@ -71,10 +77,15 @@ __all__ = [
     "EllipsoidCertificate",
     "EllipsoidVerdict",
     "FarthestFirst",
+    "FileSolution",
+    "FileVerdict",
     "Hull",
     "InscribedCertificate",
     "InscribedEllipsoid",
     "InscribedVerdict",
+    "Order",
+    "OrderCertificate",
+    "OrderVerdict",
     "PassBounds",
     "RobustCertificate",
     "RobustEllipsoid",
@@ -103,7 +114,11 @@ __all__ = [
     "generate",
     "inscribed_ellipsoid",
     "robust_ellipsoid",
+    "sample",
+    "sort_file",
+    "spatial_order",
     "sphere_tree",
     "surface",
+    "transpose_file",
     "verify",
 ]

@@ -1,3 +1,4 @@
+from os import PathLike
 from typing import Any, final
 
 import numpy as np
@@ -17,10 +18,15 @@ __all__ = [
     "EllipsoidCertificate",
     "EllipsoidVerdict",
     "FarthestFirst",
+    "FileSolution",
+    "FileVerdict",
     "Hull",
     "InscribedCertificate",
     "InscribedEllipsoid",
     "InscribedVerdict",
+    "Order",
+    "OrderCertificate",
+    "OrderVerdict",
     "PassBounds",
     "RobustCertificate",
     "RobustEllipsoid",
@@ -48,8 +54,12 @@ __all__ = [
     "generate",
     "inscribed_ellipsoid",
     "robust_ellipsoid",
+    "sample",
+    "sort_file",
+    "spatial_order",
     "sphere_tree",
     "surface",
+    "transpose_file",
 ]
 
 __version__: str
@@ -166,7 +176,74 @@ def sphere_tree(
     threads: int | None,
 ) -> SphereTree: ...
 
+def sort_file(
+    input: str | PathLike[str],
+    output: str | PathLike[str],
+    width: int,
+    key: tuple[int, int],
+    kind: str,
+    memory: int,
+    scratch: str | PathLike[str] | None,
+    resume: str | PathLike[str] | None,
+) -> FileSolution: ...
+def transpose_file(
+    input: str | PathLike[str],
+    output: str | PathLike[str],
+    shape: tuple[int, int],
+    width: int,
+    fortran: bool,
+    offset: int,
+    dtype: str | None,
+    header: bytes,
+    memory: int,
+) -> FileSolution: ...
+def sample(n: int, k: int, seed: int) -> NDArray[np.uint64]: ...
+def spatial_order(rows: NDArray[np.float32] | NDArray[np.float64], curve: str) -> Solution: ...
+
 class Violation(Exception): ...
+
+@final
+class FileSolution:
+    @property
+    def kind(self) -> str: ...
+    @property
+    def answer(self) -> dict[str, Any]: ...
+    @property
+    def certificate(self) -> dict[str, Any]: ...
+    @property
+    def trace(self) -> Trace: ...
+    def check(
+        self, output: str | PathLike[str], input: str | PathLike[str] | None = None
+    ) -> FileVerdict: ...
+    def to_json(self) -> str: ...
+    @staticmethod
+    def from_json(text: str) -> FileSolution: ...
+
+@final
+class FileVerdict:
+    @property
+    def items(self) -> int: ...
+    @property
+    def compared(self) -> bool: ...
+
+@final
+class Order:
+    @property
+    def curve(self) -> str: ...
+    @property
+    def rows(self) -> NDArray[np.int64]: ...
+
+@final
+class OrderCertificate:
+    @property
+    def points_hash(self) -> str: ...
+
+@final
+class OrderVerdict:
+    @property
+    def points(self) -> int: ...
+    @property
+    def grids(self) -> int: ...
 
 @final
 class Ball:

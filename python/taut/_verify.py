@@ -9,6 +9,7 @@ from ._native import (
     CurveVerdict,
     EllipsoidVerdict,
     InscribedVerdict,
+    OrderVerdict,
     RobustVerdict,
     Solution,
     SurfaceVerdict,
@@ -24,6 +25,7 @@ AnyVerdict = (
     | CentersVerdict
     | CurveVerdict
     | SurfaceVerdict
+    | OrderVerdict
     | TriangulationVerdict
 )
 
@@ -56,10 +58,10 @@ def verify(
 
     Returns
     -------
-    Verdict, EllipsoidVerdict, InscribedVerdict, RobustVerdict, CentersVerdict, CurveVerdict, SurfaceVerdict or
-    TriangulationVerdict
+    Verdict, EllipsoidVerdict, InscribedVerdict, RobustVerdict, CentersVerdict, CurveVerdict, SurfaceVerdict,
+    OrderVerdict or TriangulationVerdict
         Proved bounds ``lower`` and ``upper``, and their ``gap``; of a robust ellipsoid, of curves, of a
-        surface and of a triangulation what was proved instead.
+        surface, of an order and of a triangulation what was proved instead.
 
     Raises
     ------

@@ -7,7 +7,7 @@ use serde_json::ser::{Formatter, PrettyFormatter};
 use taut_points::{Monitor, PointSource, PointsHash};
 
 use crate::{
-    Answer, AnyVerdict, Ball, Centers, CheckError, Curve, Ellipsoid, InscribedEllipsoid,
+    Answer, AnyVerdict, Ball, Centers, CheckError, Curve, Ellipsoid, InscribedEllipsoid, Order,
     RobustEllipsoid, Solution, Surface, Trace, Triangulation,
 };
 
@@ -83,16 +83,21 @@ impl<A: Answer> Solution<A> {
     /// # Errors
     /// What `out` says.
     pub fn write_json(&self, out: impl io::Write) -> io::Result<()> {
-        let document = Document {
-            schema: SCHEMA,
-            kind: A::KIND,
-            answer: &self.answer,
-            certificate: &self.certificate,
-            trace: &self.trace,
-        };
-        let mut serializer = serde_json::Serializer::with_formatter(out, RowFormatter::default());
-        Ok(document.serialize(&mut serializer)?)
+        write_document(A::KIND, &self.answer, &self.certificate, &self.trace, out)
     }
+}
+
+/// Writes a document of any kind.
+pub(crate) fn write_document(
+    kind: &str,
+    answer: &impl Serialize,
+    certificate: &impl Serialize,
+    trace: &Trace,
+    out: impl io::Write,
+) -> io::Result<()> {
+    let document = Document { schema: SCHEMA, kind, answer, certificate, trace };
+    let mut serializer = serde_json::Serializer::with_formatter(out, RowFormatter::default());
+    Ok(document.serialize(&mut serializer)?)
 }
 
 /// One item a line, as people read it, but a list within a list on one line: tables may have millions of rows.
@@ -198,6 +203,8 @@ pub enum AnySolution {
     Curve(Solution<Curve>),
     /// A surface through points of space.
     Surface(Solution<Surface>),
+    /// Points in the order of a curve.
+    Order(Solution<Order>),
     /// A Delaunay triangulation.
     Triangulation(Solution<Triangulation>),
 }
@@ -208,23 +215,13 @@ impl AnySolution {
     /// # Errors
     /// [`JsonError`].
     pub fn from_json(text: &str) -> Result<Self, JsonError> {
-        #[derive(Deserialize)]
-        #[serde(expecting = "an object with schema, kind, answer, certificate and trace")]
-        struct Head {
-            schema: u32,
-            kind: String,
-        }
-        // Editors of some systems put a byte order mark first.
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        // A row of numbers begins like JSON, and serde would take a list for an object.
-        if !text.trim_start().starts_with('{') {
-            return Err(JsonError::Syntax { line: 1, column: 1 });
-        }
-        let head: Head = serde_json::from_str(text)?;
-        if head.schema != SCHEMA {
-            return Err(JsonError::Schema { found: head.schema });
-        }
-        match head.kind.as_str() {
+        let text = without_mark(text);
+        Self::of_kind(kind_of(text)?, text)
+    }
+
+    /// Reads a document of a kind that is known to be stated.
+    pub(crate) fn of_kind(kind: String, text: &str) -> Result<Self, JsonError> {
+        match kind.as_str() {
             Ball::KIND => Ok(AnySolution::Ball(parse(text)?)),
             Ellipsoid::KIND => Ok(AnySolution::Ellipsoid(parse(text)?)),
             InscribedEllipsoid::KIND => Ok(AnySolution::Inscribed(parse(text)?)),
@@ -232,8 +229,9 @@ impl AnySolution {
             Centers::KIND => Ok(AnySolution::Centers(parse(text)?)),
             Curve::KIND => Ok(AnySolution::Curve(parse(text)?)),
             Surface::KIND => Ok(AnySolution::Surface(parse(text)?)),
+            Order::KIND => Ok(AnySolution::Order(parse(text)?)),
             Triangulation::KIND => Ok(AnySolution::Triangulation(parse(text)?)),
-            _ => Err(JsonError::Kind { found: head.kind }),
+            _ => Err(JsonError::Kind { found: kind }),
         }
     }
 
@@ -247,6 +245,7 @@ impl AnySolution {
             AnySolution::Centers(found) => found.to_json(),
             AnySolution::Curve(found) => found.to_json(),
             AnySolution::Surface(found) => found.to_json(),
+            AnySolution::Order(found) => found.to_json(),
             AnySolution::Triangulation(found) => found.to_json(),
         }
     }
@@ -282,6 +281,9 @@ impl AnySolution {
             AnySolution::Surface(found) => {
                 found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Surface)
             }
+            AnySolution::Order(found) => {
+                found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Order)
+            }
             AnySolution::Triangulation(found) => found
                 .answer
                 .check(&found.certificate, source, monitor)
@@ -290,11 +292,39 @@ impl AnySolution {
     }
 }
 
-fn parse<A: Answer + DeserializeOwned>(text: &str) -> Result<Solution<A>, JsonError> {
-    let document: Document<String, A, A::Certificate, Trace> = serde_json::from_str(text)?;
-    Ok(Solution {
-        answer: document.answer,
-        certificate: document.certificate,
-        trace: document.trace,
-    })
+fn parse<A: Answer>(text: &str) -> Result<Solution<A>, JsonError> {
+    let (answer, certificate, trace) = parse_document(text)?;
+    Ok(Solution { answer, certificate, trace })
+}
+
+/// Answer, certificate and trace of a document whose kind is known.
+pub(crate) fn parse_document<A: DeserializeOwned, C: DeserializeOwned>(
+    text: &str,
+) -> Result<(A, C, Trace), JsonError> {
+    let document: Document<String, A, C, Trace> = serde_json::from_str(text)?;
+    Ok((document.answer, document.certificate, document.trace))
+}
+
+/// The text without the byte order mark that editors of some systems put first.
+pub(crate) fn without_mark(text: &str) -> &str {
+    text.strip_prefix('\u{feff}').unwrap_or(text)
+}
+
+/// The kind that a document of this schema states.
+pub(crate) fn kind_of(text: &str) -> Result<String, JsonError> {
+    #[derive(Deserialize)]
+    #[serde(expecting = "an object with schema, kind, answer, certificate and trace")]
+    struct Head {
+        schema: u32,
+        kind: String,
+    }
+    // A row of numbers begins like JSON, and serde would take a list for an object.
+    if !text.trim_start().starts_with('{') {
+        return Err(JsonError::Syntax { line: 1, column: 1 });
+    }
+    let head: Head = serde_json::from_str(text)?;
+    if head.schema != SCHEMA {
+        return Err(JsonError::Schema { found: head.schema });
+    }
+    Ok(head.kind)
 }

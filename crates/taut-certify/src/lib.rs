@@ -9,7 +9,16 @@
 //! | [`Centers`] | [`CentersCertificate`] | every item that counts is within the radius of a centre; no k equal balls much smaller hold the core-set |
 //! | [`Curve`] | [`CurveCertificate`] | it meets neither itself nor others; every point but the outliers is within the band; whether sampling was dense enough |
 //! | [`Surface`] | [`SurfaceCertificate`] | which rows it uses and why not the others; its topology; it meets itself nowhere; each triangle has an empty ball; it faces outwards |
+//! | [`Order`] | [`OrderCertificate`] | each row once; it is *the* order of the points along its curve |
 //! | [`Triangulation`] | [`TriangulationCertificate`] | the simplices are *the* Delaunay triangulation of the points |
+//!
+//! Answers that are files, judged from their bytes:
+//!
+//! | answer | certificate | what the checker proves |
+//! |---|---|---|
+//! | [`SortedFile`] | [`SortCertificate`] | its records are in order, and by a hash those of the input |
+//! | [`TransposedFile`] | [`TransposeCertificate`] | each element is where the transpose has it; by a hash if the input is gone |
+//! | [`DrawnSample`] | [`SampleCertificate`] | its numbers are those of the seed: different, in order, in range |
 //!
 //! A [`Solution`] is an answer, its certificate and a trace of counters. [`Solution::check`] reads the points again
 //! and returns a [`Verdict`], or the first [`Violation`] it meets.
@@ -43,9 +52,11 @@ mod ball;
 mod centers;
 mod curve;
 mod ellipsoid;
+mod files;
 mod inscribed;
 mod items;
 mod json;
+mod order;
 mod robust;
 mod solution;
 mod surface;
@@ -63,9 +74,16 @@ pub use curve::{
 pub use ellipsoid::{
     EllipseSupport, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipse_support,
 };
+pub use files::{
+    AnyDocument, AnyFileSolution, Data, DrawnSample, ElementOrder, FileAnswer, FileCheckError,
+    FileSolution, FileVerdict, FileViolation, Files, Hash128, Hash128FormError, KeyKind,
+    SampleCertificate, SortCertificate, SortedFile, TransposeCertificate, TransposedFile,
+    WhichFile,
+};
 pub use inscribed::{InscribedCertificate, InscribedEllipsoid, InscribedVerdict};
 pub use items::Items;
 pub use json::{AnySolution, JsonError, SCHEMA};
+pub use order::{Order, OrderCertificate, OrderCurve, OrderVerdict, OrderViolation};
 pub use robust::{
     Enclosure, RobustCertificate, RobustEllipsoid, RobustMethod, RobustMethodError, RobustVerdict,
     Unweighted,

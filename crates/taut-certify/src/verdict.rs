@@ -4,8 +4,8 @@ use taut_points::ReadError;
 
 use crate::{
     CentersVerdict, CentersViolation, CurveVerdict, CurveViolation, EllipsoidVerdict,
-    InscribedVerdict, MeshViolation, RobustVerdict, SurfaceVerdict, SurfaceViolation,
-    TriangulationVerdict,
+    InscribedVerdict, MeshViolation, OrderVerdict, OrderViolation, RobustVerdict, SurfaceVerdict,
+    SurfaceViolation, TriangulationVerdict,
 };
 
 /// What was proved of an answer of any kind.
@@ -25,6 +25,8 @@ pub enum AnyVerdict {
     Curve(CurveVerdict),
     /// Of a surface.
     Surface(SurfaceVerdict),
+    /// Of an order of points.
+    Order(OrderVerdict),
     /// Of a Delaunay triangulation.
     Triangulation(TriangulationVerdict),
 }
@@ -378,6 +380,9 @@ pub enum Violation {
     /// Something is wrong with a surface.
     #[error(transparent)]
     Surface(#[from] SurfaceViolation),
+    /// An order is wrong.
+    #[error(transparent)]
+    Order(#[from] OrderViolation),
     /// Something is wrong with a triangulation.
     #[error(transparent)]
     Mesh(#[from] MeshViolation),
@@ -425,6 +430,12 @@ impl From<SurfaceViolation> for CheckError {
 
 impl From<MeshViolation> for CheckError {
     fn from(violation: MeshViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
+}
+
+impl From<OrderViolation> for CheckError {
+    fn from(violation: OrderViolation) -> Self {
         CheckError::Rejected(violation.into())
     }
 }

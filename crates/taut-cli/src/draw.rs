@@ -56,6 +56,9 @@ impl Args {
             AnySolution::Centers(found) => self.drawing(found, &points, &watch)?,
             AnySolution::Curve(found) => self.drawing(found, &points, &watch)?,
             AnySolution::Surface(found) => self.drawing(found, &points, &watch)?,
+            AnySolution::Order(_) => {
+                anyhow::bail!("{}: an order of points has no picture", shown(&self.answer))
+            }
             AnySolution::Triangulation(found) => self.drawing(found, &points, &watch)?,
         };
         match drawing {

@@ -22,6 +22,7 @@ mod elbow;
 mod ellipsoid;
 mod ellipsoid_report;
 mod exit;
+mod files;
 mod formats;
 mod generate;
 mod inscribe;

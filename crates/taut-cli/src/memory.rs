@@ -1,18 +1,19 @@
 //! `taut memory`: the algorithms for the memory hierarchy, on files.
 
 mod key;
+mod order;
 mod sample;
+mod simulate;
 mod sort;
 mod transpose;
 
 use clap::Subcommand;
 
-use taut::oblivious::Error;
+pub(crate) use simulate::panel;
 
 use crate::exit::Outcome;
-use crate::writing;
 
-/// Sort, transpose and sample more than memory holds.
+/// Sort, transpose and sample more than memory holds; order points; count cache misses.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Each of these stays within a limit on memory, and a file appears whole or not at all.
@@ -27,6 +28,8 @@ enum What {
     Sort(sort::Args),
     Transpose(transpose::Args),
     Sample(sample::Args),
+    Order(order::Args),
+    Simulate(simulate::Args),
 }
 
 impl Args {
@@ -35,22 +38,8 @@ impl Args {
             What::Sort(args) => args.run(),
             What::Transpose(args) => args.run(),
             What::Sample(args) => args.run(),
+            What::Order(args) => args.run(),
+            What::Simulate(args) => args.run(),
         }
-    }
-}
-
-/// Whether a check found what it should; what it found instead is said.
-fn holds(checked: Result<(), Error>) -> anyhow::Result<bool> {
-    match checked {
-        Ok(()) => Ok(true),
-        Err(
-            error @ (Error::UnsortedFile { .. }
-            | Error::OtherRecords { .. }
-            | Error::Differs { .. }),
-        ) => {
-            writing::complain(&error.to_string());
-            Ok(false)
-        }
-        Err(error) => Err(error.into()),
     }
 }

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::certify::{CentersViolation, CurveViolation, MeshViolation, SurfaceViolation};
+use taut::certify::{
+    CentersViolation, CurveViolation, MeshViolation, OrderViolation, SurfaceViolation,
+};
 use taut::delaunay::Error as DelaunayError;
 use taut::enclose::Error as SolveError;
 use taut::points::{ReadError, ScalarKind};
@@ -321,6 +323,7 @@ impl Opened {
             )
             | Violation::Curve(CurveViolation::Plane { .. })
             | Violation::Surface(SurfaceViolation::Space { .. })
+            | Violation::Order(OrderViolation::Dimension { .. })
             | Violation::Mesh(MeshViolation::Dimension { .. } | MeshViolation::Id { .. }) => {
                 format!("{points} does not belong to {answer}: {violation}")
             }

@@ -4,7 +4,10 @@ use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
-use taut::certify::{CentersViolation, CheckError, JsonError, check_simplices};
+use taut::certify::{
+    AnyDocument, AnyFileSolution, CentersViolation, CheckError, JsonError, OrderCurve,
+    check_simplices,
+};
 use taut::enclose::Error as SolveError;
 use taut::points::{Blocks, Scratch};
 use taut::{Answer, AnySolution, Solution, Verdict, Violation};
@@ -15,9 +18,10 @@ use crate::curve_report::{curves_of, proved_of_curve};
 use crate::effort::Effort;
 use crate::ellipsoid_report::proved_of_ellipsoid;
 use crate::exit::Outcome;
+use crate::files;
 use crate::inscribed_report::proved_of_inscribed;
-use crate::numbers::{count, exact, gap};
-use crate::reading::{Opened, Points, Reading};
+use crate::numbers::{count, counted, exact, gap};
+use crate::reading::{Opened, Reading};
 use crate::report::{self, Fact};
 use crate::robust_report::proved_of_robust;
 use crate::surface_report::{proved_of_surface, surface_of};
@@ -32,12 +36,15 @@ Columns and the like have to be chosen as for the answer: the certificate knows 
 Exit: 0 proved · 1 rejected, with the first violation, or a larger gap than --epsilon ·
       2 bad input or usage
 A mesh of simplices (.ply, .obj, .off, .vtu, .parquet) is judged as a Delaunay triangulation, without certificate.
+A sorted or transposed file is judged with the file it was made from, or alone by the hash of the certificate.
 Example: taut verify ball.json points.csv --epsilon 1e-6")]
 pub(crate) struct Args {
-    /// The answer, as `taut ball -o`, `taut ellipsoid -o` and their like write it; - is standard input
+    /// The answer, as `taut ball -o`, `taut memory sort --certificate` and their like write it; - is standard input
     answer: PathBuf,
-    #[command(flatten)]
-    points: Points,
+    /// The points, in any format of `taut formats`; - is standard input. Of an answer about files: the file that was read,
+    /// then the one that was written, or the latter alone
+    #[arg(value_name = "POINTS", required = true, num_args = 1..=2)]
+    files: Vec<PathBuf>,
     /// Largest relative gap to accept, at least 0 [default: the one the certificate claims]
     #[arg(long, value_name = "REAL", value_parser = epsilon, allow_negative_numbers = true)]
     epsilon: Option<f64>,
@@ -53,8 +60,11 @@ impl Args {
         if MeshFormat::of_path(&self.answer).0.is_some() {
             return self.run_mesh(&watch);
         }
-        let answer = read_answer(&self.answer, &self.points.path)?;
-        let points = self.reading.open(&self.points.path)?;
+        let answer = match read_document(&self.answer, &self.files[0])? {
+            AnyDocument::Files(found) => return self.run_files(&found, &watch),
+            AnyDocument::Points(answer) => *answer,
+        };
+        let points = self.open_points()?;
         let rejected = |why: String| {
             (Outcome::CheckFailed, format!("Rejected: {}\n", writing::printable(&why)))
         };
@@ -110,6 +120,16 @@ impl Args {
                 let title = format!("Verified: {}", surface_of(found));
                 (Outcome::Done, report::text(&title, &proved_of_surface(&verdict)))
             }),
+            AnySolution::Order(found) => judge(found, &points, &watch)?.map(|verdict| {
+                let along = match found.answer.curve {
+                    OrderCurve::Hilbert => "along a Hilbert curve",
+                    OrderCurve::Morton => "in Z-order",
+                };
+                let title = format!("Verified: {} {along}", counted(verdict.points, "point"));
+                let grids = Fact::new("grids", count(verdict.grids))
+                    .remark("no place on the curve is below the one before it");
+                (Outcome::Done, report::text(&title, &[grids]))
+            }),
             AnySolution::Triangulation(found) => judge(found, &points, &watch)?.map(|verdict| {
                 let title = triangulation(points.source().dim());
                 (Outcome::Done, report::text(&title, &proved(&verdict)))
@@ -125,10 +145,47 @@ impl Args {
 }
 
 impl Args {
+    /// Opens the one file of points.
+    fn open_points(&self) -> anyhow::Result<Opened> {
+        match &self.files[..] {
+            [path] => self.reading.open(path),
+            _ => bail!(
+                "{} belongs to one file of points: two belong to an answer about files",
+                shown(&self.answer)
+            ),
+        }
+    }
+
+    /// Judges a file that was written, beside the one that was read if that is named, too.
+    fn run_files(&self, found: &AnyFileSolution, watch: &Watch) -> anyhow::Result<Outcome> {
+        if self.epsilon.is_some() {
+            bail!("--epsilon belongs to answers with a gap, not to files: leave it out");
+        }
+        let (input, output) = match &self.files[..] {
+            [input, output] => (Some(input.as_path()), output),
+            [output] => (None, output),
+            _ => bail!("name the file that was written, after the one that was read"),
+        };
+        let (outcome, said) = match files::judge(found, input, output, watch)? {
+            Ok(verdict) => {
+                let (what, facts) = files::told(found, &verdict);
+                (Outcome::Done, report::text(&format!("Verified: {what}"), &facts))
+            }
+            Err(violation) => {
+                let why = files::explain(&violation, input, output, &shown(&self.answer));
+                (Outcome::CheckFailed, format!("Rejected: {}\n", writing::printable(&why)))
+            }
+        };
+        if !self.effort.quiet {
+            writing::say(said.as_bytes())?;
+        }
+        Ok(outcome)
+    }
+
     /// Judges the simplices of a file of a mesh, which has no certificate.
     fn run_mesh(&self, watch: &Watch) -> anyhow::Result<Outcome> {
         let mesh = open_mesh(&self.answer)?;
-        let points = self.reading.open(&self.points.path)?;
+        let points = self.open_points()?;
         let judged = match other_vertices(&mesh, &points)? {
             Some(problem) => Err(problem),
             None => {
@@ -217,8 +274,16 @@ fn verdict<V>(
     }
 }
 
-/// Reads an answer; `points` is the other input, as both cannot be standard input.
+/// Reads an answer about points; `points` is the other input, as both cannot be standard input.
 pub(crate) fn read_answer(path: &Path, points: &Path) -> anyhow::Result<AnySolution> {
+    match read_document(path, points)? {
+        AnyDocument::Points(answer) => Ok(*answer),
+        AnyDocument::Files(_) => bail!("{}: an answer about files, not about points", shown(path)),
+    }
+}
+
+/// Reads an answer of any kind.
+fn read_document(path: &Path, points: &Path) -> anyhow::Result<AnyDocument> {
     let name = shown(path);
     let mut text = String::new();
     let read = match writing::is_stream(path) {
@@ -235,7 +300,7 @@ pub(crate) fn read_answer(path: &Path, points: &Path) -> anyhow::Result<AnySolut
         ErrorKind::InvalidData => anyhow!("{name}: not an answer of taut: it is no text; {order}"),
         _ => anyhow!("{name}: the answer could not be read: {source}"),
     })?;
-    AnySolution::from_json(&text).map_err(|error| match error {
+    AnyDocument::from_json(&text).map_err(|error| match error {
         JsonError::Syntax { .. } => anyhow!("{name}: {error}; {order}"),
         error => anyhow!("{name}: {error}"),
     })

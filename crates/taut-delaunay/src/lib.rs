@@ -6,6 +6,7 @@
 //! | a triangulation to walk around in | [`Plane::build`], [`Space::build`] | a function of the point set alone | O(n log n) |
 //! | the nearest site, the simplex at a point, Voronoi cells, natural neighbours | [`Triangulation::locator`] | the simplex exactly, areas to rounding | O(log n) a question |
 //! | the alpha shape | [`Plane::alpha_complex`], [`Space::alpha_complex`] | emptiness exactly, radii to rounding | O(simplices) |
+//! | rows in the order in which sites are numbered, with its certificate | [`spatial_order`] | a function of the point set alone | O(n log n) |
 //! | given edges in it | [`Plane::constrained`] | exact; Delaunay as far as the edges let it | O(n), and O(k²) for an edge across k others |
 //!
 //! ```
@@ -42,6 +43,7 @@ mod kernel;
 #[cfg(test)]
 mod numbers;
 mod options;
+mod order;
 mod plane;
 mod query;
 mod rounds;
@@ -55,6 +57,7 @@ mod vector;
 pub use error::Error;
 pub use kernel::Counters;
 pub use options::{DelaunayOptions, InsertionOrder};
+pub use order::spatial_order;
 pub use plane::constrained::{Constrained, ConstraintError, Piece, Segment, Split};
 pub use query::{AlphaComplex, Location, Locator, Polygon, Polyhedron};
 pub use simplex::{GHOST, Simplex, Slots, decode};

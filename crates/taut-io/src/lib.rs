@@ -9,6 +9,7 @@
 //! | curves of the plane as a file | [`write_polylines`] | loops within loops are holes where a format knows them |
 //! | a mesh on points as a file | [`write_mesh`] | every point is a vertex, in input order |
 //! | a mesh of a file | [`open_mesh`] | every simplex, or an error that names file and line or element |
+//! | type, shape, order and place of a NumPy array in a file | [`NpyArray::open`] | elements of any fixed width, as many as the header promises |
 //! | triangles, or points with normals and colours, as a file | [`write_shape`] | every bit, where the format has room |
 //! | such a shape of a file, whoever wrote it | [`open_shape`] | every vertex and triangle, or an error as above |
 //!
@@ -32,6 +33,7 @@
 
 #![forbid(unsafe_code)]
 
+mod array;
 mod columns;
 mod compress;
 mod create;
@@ -49,6 +51,7 @@ mod sink;
 mod words;
 mod write;
 
+pub use array::NpyArray;
 pub use columns::Columns;
 pub use create::{AtomicFile, create};
 pub use error::{Error, MeshPlace, Place};

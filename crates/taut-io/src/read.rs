@@ -6,8 +6,8 @@ mod arrow;
 mod columnar;
 mod delimited;
 mod lines;
-mod literal;
-mod npy;
+pub(crate) mod literal;
+pub(crate) mod npy;
 #[cfg(feature = "arrow")]
 mod parquet;
 #[cfg(feature = "arrow")]

@@ -19,6 +19,8 @@
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`Plane`], [`Space`] | the same | [mod@delaunay] |
 //! | edges that must be there | [`Plane::constrained`] | exact, Delaunay as far as they let it be | [mod@delaunay] |
+//! | rows in an order where neighbours are near each other | [`spatial_order()`] | a function of the point set alone, proved | [mod@delaunay] |
+//! | files sorted or transposed that memory does not hold, samples, search, simulated memories | [mod@oblivious] | each with its own | [mod@oblivious] |
 //! | the curves that noisy points were sampled from | [`curve()`] | no crossings; each point within the band told or named as an outlier; whether sampling was dense enough | [mod@reconstruct] |
 //! | the curves through points without noise, a short tour through points | [`curve()`] with a [`CurveMethod`] | what each is known for, a bound beside the tour | [mod@reconstruct] |
 //! | a second opinion on any answer | [`Solution::check`] | a proved bracket, or the first violation | [`certify`] |
@@ -112,14 +114,14 @@ pub use taut_certify::{
     Answer, AnySolution, Ball, BallCertificate, Centers, CentersCertificate, CentersVerdict, Curve,
     CurveCertificate, CurveComponent, CurveDoubt, CurveVerdict, EllipseSupport, Ellipsoid,
     EllipsoidCertificate, EllipsoidVerdict, InscribedCertificate, InscribedEllipsoid,
-    InscribedVerdict, Items, LowerBound, Placement, RobustCertificate, RobustEllipsoid,
-    RobustMethod, RobustVerdict, Solution, Surface, SurfaceCertificate, SurfaceComponent,
-    SurfaceDoubt, SurfaceTopology, SurfaceVerdict, Trace, Triangulation, TriangulationCertificate,
-    Verdict, Violation, ellipse_support,
+    InscribedVerdict, Items, LowerBound, Order, OrderCertificate, OrderCurve, OrderVerdict,
+    Placement, RobustCertificate, RobustEllipsoid, RobustMethod, RobustVerdict, Solution, Surface,
+    SurfaceCertificate, SurfaceComponent, SurfaceDoubt, SurfaceTopology, SurfaceVerdict, Trace,
+    Triangulation, TriangulationCertificate, Verdict, Violation, ellipse_support,
 };
 pub use taut_delaunay as delaunay;
 pub use taut_delaunay::{
-    DelaunayOptions, InsertionOrder, Plane, Space, delaunay, delaunay_of_source,
+    DelaunayOptions, InsertionOrder, Plane, Space, delaunay, delaunay_of_source, spatial_order,
 };
 pub use taut_enclose as enclose;
 pub use taut_enclose::{
@@ -161,4 +163,22 @@ mod pages {
     struct Robust;
     #[doc = include_str!("../../../docs/surface.md")]
     struct Surface;
+    #[doc = include_str!("../../../docs/memory/figures.md")]
+    struct Figures;
+    #[doc = include_str!("../../../docs/memory/matrix.md")]
+    struct Matrix;
+    #[doc = include_str!("../../../docs/memory/order.md")]
+    struct Order;
+    #[doc = include_str!("../../../docs/memory/packed.md")]
+    struct Packed;
+    #[doc = include_str!("../../../docs/memory/queue.md")]
+    struct Queue;
+    #[doc = include_str!("../../../docs/memory/sample.md")]
+    struct Sample;
+    #[doc = include_str!("../../../docs/memory/search.md")]
+    struct Search;
+    #[doc = include_str!("../../../docs/memory/simulate.md")]
+    struct Simulate;
+    #[doc = include_str!("../../../docs/memory/sort.md")]
+    struct Sort;
 }

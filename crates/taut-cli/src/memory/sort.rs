@@ -3,13 +3,14 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-use taut::oblivious::external::{
-    FileSort, FileSortOptions, KeyKind, RecordLayout, sort_file, verify,
-};
+use taut::Trace;
+use taut::certify::{self, AnyFileSolution, FileSolution, Hash128, SortCertificate, SortedFile};
+use taut::oblivious::external::{FileSort, FileSortOptions, KeyKind, RecordLayout, sort_file};
 
 use super::key;
 use crate::effort::Effort;
 use crate::exit::Outcome;
+use crate::files::{Proof, are_files};
 use crate::{size, writing};
 
 /// Sort a file of records of fixed width by their key, which may be larger than memory.
@@ -17,7 +18,9 @@ use crate::{size, writing};
 #[command(after_help = "\
 Records with equal keys keep their order. The output is read again and proved to be in order and to hold the records of
 the input, by a hash of 128 bits of all of them; without --resume nothing is left behind, however the process ends.
-Example: taut memory sort records.bin --width 32 --key 0:8 --kind u64 -o sorted.bin")]
+Exit: 0 done · 1 the check failed · 2 bad input or usage
+Example: taut memory sort records.bin --width 32 --key 0:8 --kind u64 -o sorted.bin --certificate sorted.json
+         taut verify sorted.json records.bin sorted.bin")]
 pub(super) struct Args {
     /// The records, one after the other
     input: PathBuf,
@@ -42,9 +45,8 @@ pub(super) struct Args {
     /// Keep what was done in this file until the output is there; go on from it if it is there
     #[arg(long, value_name = "FILE", conflicts_with = "scratch")]
     resume: Option<PathBuf>,
-    /// Do not read the output again
-    #[arg(long)]
-    unchecked: bool,
+    #[command(flatten)]
+    proof: Proof,
 
     #[command(flatten)]
     effort: Effort,
@@ -69,18 +71,16 @@ impl Args {
         let memory = usize::try_from(self.memory).unwrap_or(usize::MAX);
         let options =
             FileSortOptions { memory, scratch: self.scratch.clone(), resume: self.resume.clone() };
-        writing::look_at(&[&self.out], &[&self.input])?;
+        are_files(&[&self.input, &self.out])?;
+        self.proof.look_at(&self.out, &[&self.input])?;
         let watch = self.effort.start()?;
         let found = watch.during("sorting", |monitor| {
             sort_file(&self.input, &self.out, &layout, &options, monitor)
         })?;
-        if !self.unchecked {
-            let checked = watch.during("checking", |monitor| {
-                verify(&self.out, &layout, &found.certificate, monitor)
-            });
-            if !super::holds(checked)? {
-                return Ok(Outcome::CheckFailed);
-            }
+        let solution = solution(&layout, &found);
+        let outcome = self.proof.finish(&solution, None, &self.out, &watch)?;
+        if outcome != Outcome::Done {
+            return Ok(outcome);
         }
         if !self.effort.quiet {
             writing::say(self.summary(&layout, &found).as_bytes())?;
@@ -104,7 +104,7 @@ impl Args {
         let bytes = records * layout.width as u64;
         let moved = found.bytes_read + found.bytes_written;
         let times = if bytes == 0 { 0.0 } else { moved as f64 / bytes as f64 };
-        let checked = match self.unchecked {
+        let checked = match self.proof.no_verify {
             true => "not read again",
             false => "read again: in order, and the records of the input",
         };
@@ -125,4 +125,31 @@ impl Args {
             found.certificate.hash,
         )
     }
+}
+
+/// What the output is said to be, and what proves it.
+fn solution(layout: &RecordLayout, found: &FileSort) -> AnyFileSolution {
+    let answer = SortedFile {
+        records: found.certificate.records,
+        width: layout.width as u64,
+        key: [layout.key.start as u64, layout.key.end as u64],
+        key_kind: match layout.kind {
+            KeyKind::U64 => certify::KeyKind::U64,
+            KeyKind::I64 => certify::KeyKind::I64,
+            KeyKind::F64 => certify::KeyKind::F64,
+            KeyKind::Bytes => certify::KeyKind::Bytes,
+        },
+    };
+    let certificate = SortCertificate { hash: Hash128(found.certificate.hash) };
+    let counters = [
+        ("bytes_read", found.bytes_read),
+        ("bytes_written", found.bytes_written),
+        ("runs", found.runs),
+    ];
+    let trace = Trace {
+        method: "merge-runs".to_owned(),
+        counters: counters.map(|(name, value)| (name.to_owned(), value)).into(),
+        ..Trace::default()
+    };
+    AnyFileSolution::Sort(FileSolution { answer, certificate, trace })
 }

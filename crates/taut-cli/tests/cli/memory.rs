@@ -1,17 +1,21 @@
-//! `taut memory`: files of records, matrices and samples.
+//! `taut memory`: files of records, matrices, samples, orders of points and simulated memories.
+
+mod certificates;
+mod npy;
+mod order;
+mod simulate;
 
 use crate::desk::Desk;
 
 /// Numbers that look random: the high words of a multiplicative sequence.
-fn words(count: u64) -> Vec<u64> {
+pub(crate) fn words(count: u64) -> Vec<u64> {
     (1..=count).map(|i| i.wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(17)).collect()
 }
 
 /// Records of 16 bytes: a key, then its place.
-fn records(keys: &[u64]) -> Vec<u8> {
+pub(crate) fn records(keys: &[u64]) -> Vec<u8> {
     (0u64..).zip(keys).flat_map(|(place, key)| [*key, place]).flat_map(u64::to_le_bytes).collect()
 }
-
 #[test]
 fn records_are_sorted_checked_and_accounted_for() {
     let desk = Desk::new();
@@ -48,6 +52,10 @@ fn what_cannot_be_sorted_is_named_and_nothing_is_written() {
         desk.taut(&format!("memory sort {options} -o sorted.bin")).ends(2).complains(said);
         assert_eq!(desk.text("sorted.bin"), "before");
     }
+    desk.taut("memory sort records.bin --width 10 -o -").ends(2).complains(&["name a file"]);
+    desk.taut("memory transpose - --rows 1 --columns 1 -o columns.bin")
+        .ends(2)
+        .complains(&["name a file"]);
     desk.taut("memory sort records.bin --width 10 -o records.bin")
         .ends(2)
         .complains(&["records.bin"]);

@@ -68,7 +68,7 @@ fn the_tour_shows_and_verifies_every_tool() {
     let desk = Desk::new();
     let run = desk.taut("tour --samples samples").ends(0).says(&["verified yes", "tour.html"]);
     let stations = run.out.lines().filter(|line| line.contains(" verified yes ")).count();
-    assert_eq!(stations, 14, "{}", run.out);
+    assert_eq!(stations, 15, "{}", run.out);
     assert_eq!(desk.files(), ["samples", "tour.html"]);
     let page = desk.text("tour.html");
     for part in [
@@ -97,6 +97,9 @@ fn the_tour_shows_and_verifies_every_tool() {
         "Voronoi diagram of 432 points",
         "an edge turned",
         "a triangle turned over",
+        "Memory hierarchy",
+        "times the formula, allowed 5.5",
+        "Misses of multiply",
     ] {
         assert!(page.contains(part), "no {part}");
     }

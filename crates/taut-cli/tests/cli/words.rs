@@ -2,7 +2,7 @@
 
 use crate::desk::Desk;
 
-const COMMANDS: [&str; 14] = [
+const COMMANDS: [&str; 15] = [
     "ball",
     "ellipsoid",
     "centers",
@@ -12,6 +12,7 @@ const COMMANDS: [&str; 14] = [
     "inscribe",
     "verify",
     "draw",
+    "memory",
     "generate",
     "tour",
     "formats",

@@ -2,7 +2,7 @@
 
 /// A literal.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Literal {
+pub(crate) enum Literal {
     Text(String),
     Bool(bool),
     /// A tuple of counts.

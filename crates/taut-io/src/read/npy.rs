@@ -99,44 +99,55 @@ impl Header {
     }
 }
 
-/// Reads the header and leaves `stream` at the first value.
-pub(super) fn header(job: &Job<'_>, stream: &mut dyn BufRead) -> Result<Header, Error> {
+/// The dictionary of a header, and the bytes up to the first value; leaves `stream` there.
+pub(crate) fn dictionary(
+    path: &str,
+    stream: &mut dyn BufRead,
+) -> Result<(Vec<(String, Literal)>, u64), Error> {
     let mut fixed = [0; 8];
-    exact(job, stream, &mut fixed)?;
+    exact(path, stream, &mut fixed)?;
     if !fixed.starts_with(MAGIC) {
-        return Err(damaged(job, "it does not begin as one".to_owned()));
+        return Err(damaged(path, "it does not begin as one".to_owned()));
     }
     let (length, before) = match fixed[6] {
         1 => {
             let mut length = [0; 2];
-            exact(job, stream, &mut length)?;
+            exact(path, stream, &mut length)?;
             (u64::from(u16::from_le_bytes(length)), 10)
         }
         2 | 3 => {
             let mut length = [0; 4];
-            exact(job, stream, &mut length)?;
+            exact(path, stream, &mut length)?;
             (u64::from(u32::from_le_bytes(length)), 12)
         }
-        version => return Err(damaged(job, format!("its version is {version}, not 1, 2 or 3"))),
+        version => return Err(damaged(path, format!("its version is {version}, not 1, 2 or 3"))),
     };
     let mut text = Vec::new();
-    stream.take(length).read_to_end(&mut text).map_err(|e| Error::reading(job.path, e))?;
+    stream.take(length).read_to_end(&mut text).map_err(|e| Error::reading(path, e))?;
     if (text.len() as u64) < length {
-        return Err(damaged(job, "it ends within its header".to_owned()));
+        return Err(damaged(path, "it ends within its header".to_owned()));
     }
     let text = String::from_utf8_lossy(&text);
-    let parsed = literal::parse(&text)
-        .ok_or_else(|| damaged(job, "its header is no dictionary".to_owned()))?;
-    let Literal::Dict(entries) = parsed else {
-        return Err(damaged(job, "its header is no dictionary".to_owned()));
-    };
-    let entry = |key: &str| {
-        entries
-            .iter()
-            .find(|(name, _)| name == key)
-            .map(|(_, value)| value)
-            .ok_or_else(|| damaged(job, format!("its header has no `{key}`")))
-    };
+    match literal::parse(&text) {
+        Some(Literal::Dict(entries)) => Ok((entries, before + length)),
+        _ => Err(damaged(path, "its header is no dictionary".to_owned())),
+    }
+}
+
+/// The value of a key of a header.
+pub(crate) fn entry<'a>(
+    path: &str,
+    entries: &'a [(String, Literal)],
+    key: &str,
+) -> Result<&'a Literal, Error> {
+    let found = entries.iter().find(|(name, _)| name == key).map(|(_, value)| value);
+    found.ok_or_else(|| damaged(path, format!("its header has no `{key}`")))
+}
+
+/// Reads the header and leaves `stream` at the first value.
+pub(super) fn header(job: &Job<'_>, stream: &mut dyn BufRead) -> Result<Header, Error> {
+    let (entries, offset) = dictionary(job.path, stream)?;
+    let entry = |key: &str| entry(job.path, &entries, key);
     let (element, big_endian) = match entry("descr")? {
         Literal::Text(descr) => element(job, descr)?,
         _ => {
@@ -148,10 +159,10 @@ pub(super) fn header(job: &Job<'_>, stream: &mut dyn BufRead) -> Result<Header, 
         }
     };
     let Literal::Bool(fortran) = *entry("fortran_order")? else {
-        return Err(damaged(job, "`fortran_order` is neither True nor False".to_owned()));
+        return Err(damaged(job.path, "`fortran_order` is neither True nor False".to_owned()));
     };
     let Literal::Tuple(shape) = entry("shape")? else {
-        return Err(damaged(job, "`shape` is no tuple of numbers".to_owned()));
+        return Err(damaged(job.path, "`shape` is no tuple of numbers".to_owned()));
     };
     let (n, dim) = match shape[..] {
         [n] => (n, 1),
@@ -173,14 +184,14 @@ pub(super) fn header(job: &Job<'_>, stream: &mut dyn BufRead) -> Result<Header, 
             });
         }
         Ok(dim) => dim,
-        Err(_) => return Err(damaged(job, format!("its shape {shape:?} is out of range"))),
+        Err(_) => return Err(damaged(job.path, format!("its shape {shape:?} is out of range"))),
     };
     if n == 0 {
         return Err(Error::NoRows { path: job.path.to_owned() });
     }
     // In one dimension, and for one column, both orders are the same.
     let fortran = fortran && dim > 1 && n > 1;
-    Ok(Header { element, big_endian, fortran, n, dim, offset: before + length })
+    Ok(Header { element, big_endian, fortran, n, dim, offset })
 }
 
 /// Reads `<f8` and its kin.
@@ -377,13 +388,13 @@ impl<'a, T: Scalar> Decoder<'a, T> {
     }
 }
 
-fn exact(job: &Job<'_>, stream: &mut dyn BufRead, bytes: &mut [u8]) -> Result<(), Error> {
+fn exact(path: &str, stream: &mut dyn BufRead, bytes: &mut [u8]) -> Result<(), Error> {
     stream.read_exact(bytes).map_err(|source| match source.kind() {
-        io::ErrorKind::UnexpectedEof => damaged(job, "it ends within its header".to_owned()),
-        _ => Error::reading(job.path, source),
+        io::ErrorKind::UnexpectedEof => damaged(path, "it ends within its header".to_owned()),
+        _ => Error::reading(path, source),
     })
 }
 
-fn damaged(job: &Job<'_>, problem: String) -> Error {
-    Error::Damaged { path: job.path.to_owned(), format: Format::Npy, problem }
+pub(crate) fn damaged(path: &str, problem: String) -> Error {
+    Error::Damaged { path: path.to_owned(), format: Format::Npy, problem }
 }

@@ -1,0 +1,83 @@
+//! The header of a NumPy array, read once more: type of the elements, order, shape, and where the elements begin.
+//!
+//! *Reference.* NumPy enhancement proposal 1 (the npy format), versions 1.0 to 3.0.
+
+use super::bytes::Source;
+use super::{FileCheckError, FileViolation};
+
+/// Longest header that is looked at.
+const LONGEST: u64 = 1 << 16;
+
+/// What a header says.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Header {
+    pub(super) dtype: String,
+    pub(super) fortran: bool,
+    pub(super) shape: Vec<u64>,
+    pub(super) offset: u64,
+    /// As the file has it, without what fills it up at the end.
+    text: String,
+}
+
+impl Header {
+    /// Whether the text is the one that NumPy writes for what it says: readers need not be lenient.
+    pub(super) fn is_plain(&self) -> bool {
+        let Self { dtype, fortran, shape, text, .. } = self;
+        let order = if *fortran { "True" } else { "False" };
+        let shape: Vec<String> = shape.iter().map(u64::to_string).collect();
+        let shape = shape.join(", ");
+        *text == format!("{{'descr': '{dtype}', 'fortran_order': {order}, 'shape': ({shape}), }}")
+    }
+}
+
+/// Reads the header of a file.
+pub(super) fn header(source: &mut Source<'_>) -> Result<Header, FileCheckError> {
+    let file = source.which;
+    let wrong = |problem: &str| FileViolation::Header { file, problem: problem.to_owned() };
+    let mut start = [0; 12];
+    if source.length < 12 {
+        return Err(wrong("is not there: the file is too short").into());
+    }
+    source.read_at(0, &mut start)?;
+    if &start[..6] != b"\x93NUMPY" {
+        return Err(wrong("is not that of an npy file").into());
+    }
+    let (before, length) = match start[6] {
+        _ if start[7] != 0 => return Err(wrong("has a version that is not known").into()),
+        1 => (10, u64::from(u16::from_le_bytes([start[8], start[9]]))),
+        2 | 3 => (12, u64::from(u32::from_le_bytes([start[8], start[9], start[10], start[11]]))),
+        _ => return Err(wrong("has a version that is not known").into()),
+    };
+    if length > LONGEST || before + length > source.length {
+        return Err(wrong("is longer than the file, or than 65536 bytes").into());
+    }
+    let mut text = vec![0; length as usize];
+    source.read_at(before, &mut text)?;
+    let text = String::from_utf8(text).map_err(|_| wrong("is no text"))?;
+    let (dtype, fortran, shape) =
+        parse(&text).ok_or_else(|| wrong("does not tell type, order and shape"))?;
+    let text = text.trim_end_matches('\n').trim_end_matches(' ').to_owned();
+    Ok(Header { dtype, fortran, shape, offset: before + length, text })
+}
+
+/// Type, order and shape in the text of a header.
+fn parse(text: &str) -> Option<(String, bool, Vec<u64>)> {
+    let value = |name: &str| {
+        let (_, rest) = text.split_once(&format!("'{name}':"))?;
+        Some(rest.trim_start())
+    };
+    let dtype = value("descr")?.strip_prefix('\'')?.split_once('\'')?.0.to_owned();
+    let fortran = match value("fortran_order")? {
+        yes if yes.starts_with("True") => true,
+        no if no.starts_with("False") => false,
+        _ => return None,
+    };
+    let (shape, _) = value("shape")?.strip_prefix('(')?.split_once(')')?;
+    let shape = shape
+        .split(',')
+        .map(str::trim)
+        .filter(|length| !length.is_empty())
+        .map(|length| length.trim_end_matches('L').parse().ok())
+        .collect::<Option<Vec<u64>>>()?;
+    Some((dtype, fortran, shape))
+}

@@ -1,0 +1,172 @@
+//! Answers about files: judged beside the file that was read, told, and their certificates written.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use taut::certify::{
+    AnyFileSolution, Data, FileCheckError, FileVerdict, FileViolation, Files, KeyKind, WhichFile,
+};
+
+use crate::exit::Outcome;
+use crate::numbers::{count, counted};
+use crate::report::Fact;
+use crate::watch::Watch;
+use crate::writing;
+
+/// Where the certificate of a file goes.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct Proof {
+    /// Write what the file is said to be and its certificate as JSON, for `taut verify`
+    #[arg(long, value_name = "FILE", help_heading = "Writing")]
+    pub(crate) certificate: Option<PathBuf>,
+    /// Do without the independent check, which reads the output again
+    #[arg(long)]
+    pub(crate) no_verify: bool,
+}
+
+impl Proof {
+    /// Refuses places that cannot be written.
+    pub(crate) fn look_at(&self, out: &Path, inputs: &[&Path]) -> anyhow::Result<()> {
+        let outputs: Vec<&Path> =
+            [Some(out), self.certificate.as_deref()].into_iter().flatten().collect();
+        writing::look_at(&outputs, inputs)
+    }
+
+    /// Checks a file that was just written, unless that is not wanted, and writes its certificate.
+    pub(crate) fn finish(
+        &self,
+        found: &AnyFileSolution,
+        input: Option<&Path>,
+        out: &Path,
+        watch: &Watch,
+    ) -> anyhow::Result<Outcome> {
+        if !self.no_verify
+            && let Err(violation) = judge(found, input, out, watch)?
+        {
+            let why = explain(&violation, input, out, "the certificate");
+            writing::complain(&format!("the check failed: {why}"));
+            return Ok(Outcome::CheckFailed);
+        }
+        if let Some(path) = &self.certificate {
+            writing::replace(path, (found.to_json() + "\n").as_bytes())?;
+        }
+        Ok(Outcome::Done)
+    }
+}
+
+/// The verdict on a file, or the first violation; an error where a file cannot be read.
+pub(crate) fn judge(
+    found: &AnyFileSolution,
+    input: Option<&Path>,
+    output: &Path,
+    watch: &Watch,
+) -> anyhow::Result<Result<FileVerdict, FileViolation>> {
+    let mut read = input.map(opened).transpose()?;
+    let mut written = opened(output)?;
+    let judged = watch.during("checking", |monitor| {
+        let input = read.as_mut().map(|file| file as &mut dyn Data);
+        found.check(Files { input, output: &mut written }, monitor)
+    });
+    match judged {
+        Ok(verdict) => Ok(Ok(verdict)),
+        Err(FileCheckError::Rejected(violation)) => Ok(Err(violation)),
+        Err(FileCheckError::Read { file, source }) => {
+            let name = shown(file, input, output);
+            Err(anyhow!("{name}: reading failed: {source}"))
+        }
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// Refuses standard input and output where files are read and written at many places.
+pub(crate) fn are_files(paths: &[&Path]) -> anyhow::Result<()> {
+    match paths.iter().any(|path| writing::is_stream(path)) {
+        true => Err(anyhow!("- cannot be read or written at many places: name a file")),
+        false => Ok(()),
+    }
+}
+
+pub(crate) fn opened(path: &Path) -> anyhow::Result<File> {
+    let name = path.display();
+    let file = File::open(path).map_err(|source| anyhow!("{name}: {source}"))?;
+    // A pipe has no place to go back to.
+    if file.metadata().is_ok_and(|kind| kind.is_file()) {
+        Ok(file)
+    } else {
+        Err(anyhow!("{name} is not a regular file: answers about files are judged from files"))
+    }
+}
+
+/// A violation with the names of the files.
+pub(crate) fn explain(
+    violation: &FileViolation,
+    input: Option<&Path>,
+    output: &Path,
+    answer: &str,
+) -> String {
+    let said = violation.to_string();
+    if let FileViolation::Number { .. } = violation {
+        return format!("{answer}: {said}");
+    }
+    [WhichFile::Input, WhichFile::Output]
+        .into_iter()
+        .fold(said, |said, file| said.replace(&file.to_string(), &shown(file, input, output)))
+}
+
+fn shown(file: WhichFile, input: Option<&Path>, output: &Path) -> String {
+    match (file, input) {
+        (WhichFile::Input, Some(input)) => input.display().to_string(),
+        (WhichFile::Input, None) => "the input".to_owned(),
+        (WhichFile::Output, _) => output.display().to_string(),
+    }
+}
+
+/// What was proved of a file, in one line, and the facts.
+pub(crate) fn told(found: &AnyFileSolution, verdict: &FileVerdict) -> (String, Vec<Fact>) {
+    let by_hash = "by a hash of 128 bits, which other content has by chance only";
+    match found {
+        AnyFileSolution::Sort(found) => {
+            let [start, end] = found.answer.key;
+            let kind = match found.answer.key_kind {
+                KeyKind::U64 => "u64",
+                KeyKind::I64 => "i64",
+                KeyKind::F64 => "f64",
+                KeyKind::Bytes => "bytes",
+            };
+            let title = format!(
+                "{} of {} bytes in order",
+                counted(verdict.items, "record"),
+                count(found.answer.width)
+            );
+            let key = format!("bytes {start} to {}, as {kind}", end.saturating_sub(1));
+            let records = match verdict.compared {
+                true => "those of the input",
+                false => "those of the certificate",
+            };
+            let facts = vec![
+                Fact::new("key", key).remark("no key is below the one before it"),
+                Fact::new("records", records).remark(by_hash),
+                Fact::new("equal keys", "order not proved"),
+            ];
+            (title, facts)
+        }
+        AnyFileSolution::Transpose(found) => {
+            let (rows, columns) = (count(found.answer.columns), count(found.answer.rows));
+            let title = format!("{rows} × {columns}, the transpose");
+            let elements = match verdict.compared {
+                true => Fact::new("elements", count(verdict.items))
+                    .remark("each compared with the one of the input"),
+                false => Fact::new("elements", count(verdict.items)).remark(by_hash),
+            };
+            (title, vec![elements])
+        }
+        AnyFileSolution::Sample(found) => {
+            let of = count(found.answer.of);
+            let title = format!("{} of {of}", counted(verdict.items, "number"));
+            let seed = Fact::new("seed", found.certificate.seed.to_string())
+                .remark("each number was drawn again: different, in order, in range");
+            (title, vec![seed])
+        }
+    }
+}

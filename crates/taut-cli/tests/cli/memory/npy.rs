@@ -1,0 +1,103 @@
+//! Matrices in `.npy` files.
+
+use super::words;
+use crate::desk::Desk;
+
+/// An array as NumPy writes it.
+fn npy(dtype: &str, fortran: bool, shape: &str, values: &[u8]) -> Vec<u8> {
+    let order = if fortran { "True" } else { "False" };
+    let text = format!("{{'descr': '{dtype}', 'fortran_order': {order}, 'shape': {shape}, }}");
+    let text = format!("{text:117}\n");
+    let length = (text.len() as u16).to_le_bytes();
+    [b"\x93NUMPY\x01\x00".as_slice(), &length, text.as_bytes(), values].concat()
+}
+
+/// The transpose of rows × columns elements of `width` bytes.
+fn turned(values: &[u8], rows: usize, columns: usize, width: usize) -> Vec<u8> {
+    let places = (0..columns).flat_map(|j| (0..rows).map(move |i| (i * columns + j) * width));
+    places.flat_map(|at| values[at..at + width].to_vec()).collect()
+}
+
+#[test]
+fn arrays_of_any_type_and_order_are_turned() {
+    let desk = Desk::new();
+    for (dtype, width) in
+        [("<f8", 8), (">f4", 4), ("|u1", 1), ("<c16", 16), ("|S3", 3), ("<U2", 8), ("<M8[ns]", 8)]
+    {
+        let values: Vec<u8> =
+            words((70 * 30 * width) as u64).into_iter().map(|word| word as u8).collect();
+        let other = turned(&values, 70, 30, width);
+        for (fortran, bytes) in [(false, &values), (true, &other)] {
+            desk.put("a.npy", npy(dtype, fortran, "(70, 30)", bytes));
+            desk.taut("memory transpose a.npy --memory 4K -o b.npy --certificate b.json")
+                .ends(0)
+                .says(&["30 × 70 elements", dtype, "all elements"]);
+            assert!(desk.bytes("b.npy") == npy(dtype, false, "(30, 70)", &other), "{dtype}");
+            desk.taut("verify b.json a.npy b.npy").ends(0).says(&[
+                "Verified: 30 × 70, the transpose",
+                "each compared with the one of the input",
+            ]);
+            desk.taut("verify b.json b.npy").ends(0).says(&["by a hash"]);
+            desk.taut("memory transpose a.npy --samples 20 -o c.npy")
+                .ends(0)
+                .says(&["20 elements"]);
+            assert!(desk.bytes("b.npy") == desk.bytes("c.npy"));
+        }
+    }
+    let mut wrong = desk.bytes("b.npy");
+    wrong[128 + 8 * 71] ^= 1;
+    desk.put("b.npy", wrong);
+    desk.taut("verify b.json a.npy b.npy")
+        .ends(1)
+        .says(&["Rejected: b.npy has another element in row 1, column 1 than a.npy"]);
+    desk.taut("verify b.json b.npy a.npy").ends(1);
+}
+
+#[test]
+fn rows_columns_and_nothing() {
+    let desk = Desk::new();
+    let eight = [1, 2, 3, 4, 5, 6, 7, 8];
+    for (shape, other) in [("(1, 8)", "(8, 1)"), ("(8, 1)", "(1, 8)")] {
+        for fortran in [false, true] {
+            desk.put("a.npy", npy("|i1", fortran, shape, &eight));
+            desk.taut("memory transpose a.npy -o b.npy --certificate b.json").ends(0);
+            assert!(desk.bytes("b.npy") == npy("|i1", false, other, &eight));
+            desk.taut("verify b.json a.npy b.npy").ends(0);
+        }
+    }
+    for (shape, other) in [("(0, 8)", "(8, 0)"), ("(5, 0)", "(0, 5)"), ("(0, 0)", "(0, 0)")] {
+        desk.put("a.npy", npy("<f8", true, shape, &[]));
+        desk.taut("memory transpose a.npy -o b.npy --certificate b.json").ends(0);
+        assert!(desk.bytes("b.npy") == npy("<f8", false, other, &[]));
+        desk.taut("verify b.json a.npy b.npy").ends(0);
+    }
+}
+
+#[test]
+fn what_is_no_matrix_is_refused_by_name() {
+    let desk = Desk::new();
+    let plain = npy("<f8", false, "(1, 2)", &[0; 16]);
+    for (bytes, options, said) in [
+        (npy("<f8", false, "(3,)", &[0; 24]), "-o b.npy", &["a.npy", "1 axes"][..]),
+        (npy("<f8", false, "(1, 2, 3)", &[0; 48]), "-o b.npy", &["a.npy", "3 axes"]),
+        (npy("|O", false, "(1, 2)", &[0; 16]), "-o b.npy", &["a.npy", "|O"]),
+        (npy("<f8", false, "(1, 3)", &[0; 16]), "-o b.npy", &["a.npy", "16"]),
+        (b"1,2\n".to_vec(), "-o b.npy", &["a.npy"]),
+        (plain.clone(), "-o b.bin", &["b.bin", "name it .npy"]),
+        (plain.clone(), "--rows 1 -o b.npy", &["--rows", "a.npy"]),
+        (plain.clone(), "--offset 1 -o b.npy", &["--offset"]),
+        (plain.clone(), "-o a.npy", &["a.npy", "is the input"]),
+    ] {
+        desk.put("a.npy", bytes);
+        desk.taut(&format!("memory transpose a.npy {options}")).ends(2).complains(said);
+        assert_eq!(desk.files(), ["a.npy"]);
+    }
+    desk.taut("memory transpose a.npy --samples 1 --certificate b.json -o b.npy").ends(2);
+    desk.put("a.bin", [0; 16]);
+    desk.taut("memory transpose a.bin -o b.bin").ends(2).complains(&["a.bin", "--rows N"]);
+    desk.taut("memory transpose a.bin --rows 1 --columns 2 -o b.npy")
+        .ends(2)
+        .complains(&["b.npy", "without a header"]);
+    desk.taut("memory transpose a.bin --rows 1 --columns 2 -o b.bin --certificate b.json").ends(0);
+    desk.taut("verify b.json a.bin b.bin").ends(0).says(&["Verified: 2 × 1, the transpose"]);
+}

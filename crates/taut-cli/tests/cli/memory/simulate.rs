@@ -1,0 +1,101 @@
+//! Simulated memories.
+
+use crate::desk::Desk;
+
+/// Rows of a CSV file below its header, by column.
+fn rows(text: &str) -> Vec<Vec<String>> {
+    let line = |line: &str| line.split(',').map(str::to_owned).collect();
+    text.lines().skip(1).map(line).collect()
+}
+
+#[test]
+fn misses_stand_beside_the_formula() {
+    let desk = Desk::new();
+    desk.taut("memory simulate transpose -n 256 --memory 32K,256K --block 64,256 -o misses.csv")
+        .ends(0)
+        .says(&["algorithm", "formula", "transpose", "16,384", "1.000"]);
+    let text = desk.text("misses.csv");
+    assert!(text.starts_with("algorithm,n,memory,block,policy,misses,write_backs,formula\n"));
+    let rows = rows(&text);
+    assert_eq!(rows.len(), 4);
+    for row in &rows {
+        let block: f64 = row[3].parse().unwrap();
+        assert_eq!(row[5].parse::<f64>().unwrap(), 2.0 * 256.0 * 256.0 * 8.0 / block, "{row:?}");
+        assert_eq!(row[5], row[7]);
+    }
+}
+
+#[test]
+fn policies_differ_and_the_best_is_the_best() {
+    let desk = Desk::new();
+    let misses = |policy: &str| -> u64 {
+        let line = format!("memory simulate multiply -n 24 --memory 4K --policy {policy} -o -");
+        let text = desk.taut(&line).ends(0).out;
+        rows(&text)[0][5].parse().unwrap()
+    };
+    let (lru, fifo, best) = (misses("lru"), misses("fifo"), misses("optimal"));
+    assert!(best < lru && best < fifo && lru != fifo, "{lru} {fifo} {best}");
+    assert!(misses("lru --ways 1") > lru);
+}
+
+#[test]
+fn every_algorithm_runs() {
+    let desk = Desk::new();
+    let help = desk.taut("memory simulate --help").ends(0).out;
+    let mut ran = 0;
+    for line in help.lines().filter_map(|line| line.trim().strip_prefix("- ")) {
+        let Some((name, _)) = line.split_once(':') else { continue };
+        if !["lru", "fifo", "optimal", "auto", "always", "never"].contains(&name)
+            && !name.contains(' ')
+        {
+            let small =
+                format!("memory simulate {name} -n 1,2,16 --memory 1K -o {name}.csv --quiet");
+            desk.taut(&small).ends(0);
+            assert_eq!(desk.text(&format!("{name}.csv")).lines().count(), 4);
+            ran += 1;
+        }
+    }
+    assert_eq!(ran, 17, "{help}");
+}
+
+#[test]
+fn figures_of_the_thesis_are_counted_and_drawn() {
+    let desk = Desk::new();
+    desk.taut("memory simulate --figure 40 -o 40.csv --draw 40.svg")
+        .ends(0)
+        .says(&["transpose-loops"]);
+    assert!(desk.text("40.svg").contains("Transposition, n × 100"));
+    assert_eq!(rows(&desk.text("40.csv")).len(), 22);
+    for number in [35, 39, 44, 45, 51] {
+        desk.taut(&format!("memory simulate --figure {number}")).ends(2).complains(&[
+            "--figure",
+            &number.to_string(),
+            "36 to 38",
+        ]);
+    }
+    desk.taut("memory simulate reverse -n 100,1000 --draw reverse.html").ends(0);
+    assert!(desk.text("reverse.html").contains("Misses of reverse"));
+}
+
+#[test]
+fn what_is_no_memory_is_refused_by_name() {
+    let desk = Desk::new();
+    for (options, said) in [
+        ("transpose --block 48", &["block", "48"][..]),
+        ("transpose --memory 32 --block 64", &["memory"]),
+        ("transpose --ways 0", &["ways", "0"]),
+        ("transpose --ways 3", &["memory"]),
+        ("transpose --policy optimal --ways 2", &["--ways"]),
+        ("transpose -n 0", &["`n`", "0"]),
+        ("transpose -n 1000000", &["`n`", "8192"]),
+        ("transpose --base 0", &["base", "0"]),
+        ("strassen -n 48", &["`n`", "power of two"]),
+        ("transpose --draw picture.txt", &["picture.txt"]),
+    ] {
+        desk.taut(&format!("memory simulate {options}")).ends(2).complains(said);
+    }
+    for usage in ["transposition", "--draw picture.svg", "transpose --figure 36"] {
+        desk.taut(&format!("memory simulate {usage}")).ends(2);
+    }
+    assert!(desk.files().is_empty());
+}

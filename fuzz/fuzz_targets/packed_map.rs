@@ -1,0 +1,8 @@
+//! Any bytes as operations of a packed map: as a `BTreeMap` has it.
+#![no_main]
+
+#[allow(dead_code)]
+#[path = "../../crates/taut-oblivious/tests/memory_any/bytes.rs"]
+mod bytes;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| bytes::packed_any(bytes));
