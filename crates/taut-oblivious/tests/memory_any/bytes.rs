@@ -71,7 +71,7 @@ pub(crate) fn packed_any(bytes: &[u8]) {
             4 => assert_eq!(map.get(key(near)), model.get(&key(near))),
             5 => {
                 // Falling, then rising.
-                let entries = (0..u64::from(more)).map(|i| (key(near ^ (i * 37 & 0xff)), time));
+                let entries = (0..u64::from(more)).map(|i| (key(near ^ ((i * 37) & 0xff)), time));
                 let entries: Vec<(u64, u16)> = entries.collect();
                 let before = model.len();
                 model.extend(entries.iter().copied());
