@@ -265,8 +265,10 @@ mod tests {
     fn every_bucket_in_its_place_and_in_order() {
         let mut state = 1;
         let mut random = move || crate::random::split_mix(&mut state) as usize;
-        for n in [0, 1, 2, 3, 4, 5, 7, 8, 9, 31, 32, 33, 100, 513, 3000] {
-            for buckets in [1, 2, 3, 7, 64] {
+        let counts = [3, 1, 2, 7, 64];
+        let sizes = [0, 1, 2, 3, 4, 5, 7, 8, 9, 31, 32, 33, 100, 513, 3000];
+        for &n in &sizes[..if cfg!(miri) { 12 } else { sizes.len() }] {
+            for &buckets in &counts[..if cfg!(miri) { 1 } else { counts.len() }] {
                 for kind in 0..4 {
                     let owners: Vec<usize> = (0..n)
                         .map(|i| match kind {

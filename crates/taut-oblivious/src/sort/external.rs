@@ -12,7 +12,7 @@
 //! *Trap.* Waiting for the disk and sorting in turn wastes both: a block is written while the next one is filled, and the
 //! next blocks are asked for before they are needed.
 //! *Trap.* A limit on memory counts everything: the numbers of the records, the block that is being written.
-//! *References.* D. Knuth, *The Art of Computer Programming* 3, 5.4.1 (multiway merging, trees of losers), 5.4.9;
+//! *References.* D. Knuth, *The Art of Computer Programming* 3, 5.4.1 (multiway merging), 5.4.9;
 //! A. Aggarwal, J. Vitter, *The input/output complexity of sorting*, CACM 31(9), 1988; D. Clarke et al., *Incremental
 //! multiset hash functions*, ASIACRYPT 2003 (sums of hashes).
 

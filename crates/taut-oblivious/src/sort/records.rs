@@ -86,14 +86,19 @@ fn part<T: Copy + Send + Sync, P: Probe>(
     if size_of_val(records) <= LARGE_BYTES {
         return unknown(records, rank, room, probe);
     }
-    let (mut low, mut high) = if look == Look::Sample { sample(records, rank) } else { (0, 0) };
-    if low == high {
-        (low, high) = all(records, rank);
+    let sample = if look == Look::Sample { sample(records, rank) } else { Vec::new() };
+    let (mut low, mut high) = ends(sample.iter().copied());
+    if low >= high {
+        (low, high) = ends(records.iter().map(rank));
+    }
+    let bytes = size_of_val(records);
+    let mut scale = Scale::new(low, high, (bytes / BUCKET_BYTES).max(2).ilog2() + 1);
+    if scale.crowds(&sample) {
+        scale = Scale::new(low, high, DEAL_BITS);
     }
     let most = LARGE_BYTES / size_of::<T>();
     let is_alone = P::LISTENS || rayon::current_num_threads() == 1;
     let mut large: Vec<Range<usize>> = vec![];
-    let scale = Scale::new(low, high, size_of_val(records));
     let mut dealt = Dealt::new(records, scale.buckets(), |r| scale.bucket(rank(r)), probe);
     let mut before = None;
     while let Some((bucket, range)) = dealt.take(most, &mut room.copy, probe) {
@@ -126,24 +131,22 @@ fn part<T: Copy + Send + Sync, P: Probe>(
     }
 }
 
-/// The lowest and the highest rank.
-fn all<T>(records: &[T], rank: &impl Fn(&T) -> u64) -> (u64, u64) {
-    let ends = |(low, high): (u64, u64), rank: u64| (low.min(rank), high.max(rank));
-    records.iter().map(rank).fold((u64::MAX, 0), ends)
+/// The lowest and the highest of some ranks; if there is none, the other way round.
+fn ends(ranks: impl Iterator<Item = u64>) -> (u64, u64) {
+    ranks.fold((u64::MAX, 0), |(low, high), rank| (low.min(rank), high.max(rank)))
 }
 
-/// The lowest and the highest rank of a sample.
-fn sample<T>(records: &[T], rank: &impl Fn(&T) -> u64) -> (u64, u64) {
-    let count = (records.len() / SAMPLE.0).min(SAMPLE.1).max(1);
-    let (mut ends, mut place) = ((u64::MAX, 0), 0.0);
-    for _ in 0..count {
+/// The ranks of some records.
+fn sample<T>(records: &[T], rank: &impl Fn(&T) -> u64) -> Vec<u64> {
+    let count = (records.len() / SAMPLE.0).clamp(1, SAMPLE.1);
+    let mut place = 0.0;
+    let next = || {
         // Steps of an irrational share of the length fall in with no period of the input.
         place += 0.618_033_988_749_894_9;
         place -= f64::trunc(place);
-        let rank = rank(&records[(place * records.len() as f64) as usize]);
-        ends = (rank.min(ends.0), rank.max(ends.1));
-    }
-    ends
+        rank(&records[(place * records.len() as f64) as usize])
+    };
+    std::iter::repeat_with(next).take(count).collect()
 }
 
 /// Buckets of equal ranges of ranks; those beyond the ends go to the first and the last.
@@ -154,14 +157,20 @@ struct Scale {
 }
 
 impl Scale {
-    /// For so many bytes of records with ranks of about `low` to `high`, which is more.
-    fn new(low: u64, high: u64, bytes: usize) -> Self {
+    /// For ranks of about `low` to `high`, which is more, in some 2^`bits` buckets.
+    fn new(low: u64, high: u64, bits: u32) -> Self {
         let range = high - low;
-        let wanted = (bytes / BUCKET_BYTES).max(2).ilog2() + 1;
         let span = u64::BITS - range.leading_zeros();
         // Where one bucket for each rank is affordable, that ends the matter.
-        let shift = if span <= DEAL_BITS { 0 } else { span - wanted.min(DEAL_BITS) };
+        let shift = if span <= DEAL_BITS { 0 } else { span - bits.min(DEAL_BITS) };
         Self { low, range, shift }
+    }
+
+    /// Whether more than a quarter of the records come to one bucket, as far as a sample says; none says so.
+    fn crowds(&self, sample: &[u64]) -> bool {
+        let mut sizes = vec![0; self.buckets()];
+        sample.iter().for_each(|&rank| sizes[self.bucket(rank)] += 1);
+        sizes.into_iter().max() >= Some(sample.len() / 4)
     }
 
     fn buckets(&self) -> usize {
@@ -224,8 +233,7 @@ fn gather<T: Copy, P: Probe>(
     }
     words.clear();
     words.extend(copy.iter().map(rank));
-    let ends = |(low, high): (u64, u64), &rank: &u64| (low.min(rank), high.max(rank));
-    let (low, high) = words.iter().fold((u64::MAX, 0), ends);
+    let (low, high) = ends(words.iter().copied());
     let range = high - low;
     probe.place(words);
     probe.read(copy);
