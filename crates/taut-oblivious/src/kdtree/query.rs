@@ -1,7 +1,8 @@
 //! Searches of a kd-tree.
 //!
 //! Idea: down to the bucket of the place first, keeping the other sides with the distances, axis by axis, from the place
-//! to them; then those sides that are not farther than the nearest point so far.
+//! to them; then those sides that are not farther than the nearest point so far. Their buckets are far apart in memory, so
+//! several are asked for before the first of them is looked at: walking down to them needs no points.
 //! Guarantee: the smallest squared distance as calculated, ((x² + y²) + z²) of differences in `f64`, and of several the
 //! lowest row. The distance to a side is calculated in the same order from differences that are not larger, and rounding
 //! is monotone; so no side is left out that holds a point as near. Coordinates whose squares overflow or vanish are left
@@ -34,6 +35,9 @@ pub struct Nearest {
 const LANES: usize = 8;
 /// Other sides that can wait: one a level, and no more levels than bits of a row.
 const DEPTH_MAX: usize = 32;
+/// Buckets that are asked for before the first of them is looked at: with the reach that the first bucket of all gave, two
+/// or three more are near enough on average.
+const ASKED: usize = 8;
 /// Places that one task of [`KdTree::nearest_all`] searches for.
 const TASK: usize = 1 << 12;
 
@@ -230,6 +234,9 @@ impl<const D: usize> KdTree<D> {
         let start = Side { child: self.root, distance2: 0.0, offsets: [0.0; D] };
         let mut waiting = [start; DEPTH_MAX];
         let (mut count, mut side) = (0, start);
+        // Buckets on their way from memory, and their squared distances.
+        let mut asked = [(0, 0.0); ASKED];
+        let mut ahead = 0;
         loop {
             while side.child & IS_BUCKET == 0 {
                 let at = side.child as usize;
@@ -247,26 +254,44 @@ impl<const D: usize> KdTree<D> {
                     count += 1;
                     if far & IS_BUCKET != 0 {
                         // It is likely to be next, and far away in memory.
-                        let first = (far & !IS_BUCKET) as usize * BUCKET * D;
-                        for line in (0..BUCKET * D).step_by(LANES) {
-                            prefetch(coordinates, first + line);
-                        }
+                        self.fetch(far);
                     }
                 }
                 side.child = select_unpredictable(before, node.left(), node.right);
             }
+            // The rows are read at last, and only if a point is nearer.
             let bucket = (side.child & !IS_BUCKET) as usize;
-            let points = &coordinates[bucket * BUCKET * D..][..BUCKET * D];
-            // The rows are read at last, and only if a point is nearer: they are on their way meanwhile.
             prefetch(rows, bucket * BUCKET);
             prefetch(rows, bucket * BUCKET + BUCKET / 2);
-            for line in (0..BUCKET * D).step_by(LANES) {
-                prefetch(points, line);
+            self.fetch(side.child);
+            asked[ahead] = (bucket, side.distance2);
+            ahead += 1;
+            let mut next = None;
+            while next.is_none() && count > 0 {
+                count -= 1;
+                next = Some(waiting[count]).filter(|side| side.distance2 <= found.reach());
             }
-            probe.read(points);
-            let (rows, _) = rows[bucket * BUCKET..][..BUCKET].as_chunks::<BUCKET>();
-            probe.read(&rows[0]);
-            found.offer(&distances(place, points), &rows[0]);
+            if let Some(next) = next
+                && ahead < ASKED
+                && found.reach() < f64::INFINITY
+            {
+                side = next;
+                continue;
+            }
+            for &(bucket, distance2) in &asked[..ahead] {
+                if distance2 <= found.reach() {
+                    let points = &coordinates[bucket * BUCKET * D..][..BUCKET * D];
+                    probe.read(points);
+                    let (rows, _) = rows[bucket * BUCKET..][..BUCKET].as_chunks::<BUCKET>();
+                    probe.read(&rows[0]);
+                    found.offer(&distances(place, points), &rows[0]);
+                }
+            }
+            ahead = 0;
+            // The side that was taken may be too far by now.
+            let Some(next) = next else { return };
+            waiting[count] = next;
+            count += 1;
             side = loop {
                 if count == 0 {
                     return;
@@ -276,6 +301,15 @@ impl<const D: usize> KdTree<D> {
                     break waiting[count];
                 }
             };
+        }
+    }
+
+    /// Asks for the points of a bucket.
+    #[inline(always)]
+    fn fetch(&self, bucket: u32) {
+        let first = (bucket & !IS_BUCKET) as usize * BUCKET * D;
+        for line in (0..BUCKET * D).step_by(LANES) {
+            prefetch(self.coordinates.words(), first + line);
         }
     }
 }

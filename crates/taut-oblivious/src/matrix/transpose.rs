@@ -173,18 +173,27 @@ impl Shape {
     /// All strips of a task in bands of rows, past the caches; whether there is a kernel that does.
     fn bands<T: Pod>(&self, from: &[T], left: usize, to: &mut [T]) -> bool {
         let (rows, columns) = (self.rows, to.len() / self.rows);
+        let lead = if self.columns.is_multiple_of(self.line) { to_line(&from[left..]) } else { 0 };
         let bands = rows / BAND;
         for band in 0..bands {
             let top = band * BAND;
             let height = if band + 1 == bands { rows - top } else { BAND };
-            for strip in (0..columns).step_by(self.strip_columns) {
-                let extent = (height, self.strip_columns.min(columns - strip));
+            let mut strip = 0;
+            while strip < columns {
+                // From the second one on strips begin with a line of the source, if all its rows do so at one place.
+                let width = if strip == 0 && lead > 0 {
+                    self.strip_columns - self.line + lead
+                } else {
+                    self.strip_columns
+                };
+                let extent = (height, width.min(columns - strip));
                 let part = &from[top * self.columns + left + strip..];
                 let place = &mut to[strip * rows + top..];
                 if !tiles::walk(self.level, extent, (part, self.columns), (place, rows)) {
                     // The first one says so already.
                     return false;
                 }
+                strip += extent.1;
             }
         }
         true

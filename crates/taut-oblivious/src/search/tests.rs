@@ -72,7 +72,9 @@ fn sorted<K: Key>(mut keys: Vec<K>) -> Vec<K> {
 #[test]
 fn few_keys_and_sizes_around_powers() {
     let sizes = [0, 1, 2, 3, 4, 7, 8, 9, 15, 16, 17, 63, 64, 65, 71, 72, 73, 255, 256, 257, 447];
-    for n in sizes.into_iter().chain([448, 449, 647, 648, 649]) {
+    let sizes = sizes.into_iter().chain([448, 449, 647, 648, 649]);
+    // An interpreter has time for two levels.
+    for n in sizes.filter(|n| !cfg!(miri) || [0, 1, 9, 17, 73].contains(n)) {
         let keys: Vec<u64> = (0..n).map(|i| 2 * i + 1).collect();
         all_agree(&keys, &(0..2 * n + 2).collect::<Vec<_>>());
         let keys: Vec<u32> = (0..n as u32).map(|i| 2 * i + 1).collect();

@@ -109,7 +109,12 @@ fn large_targets_go_past_the_caches_on_any_number_of_threads() {
 #[test]
 #[cfg_attr(miri, ignore = "large")]
 fn bands_of_rows_meet() {
-    for (rows, columns) in [(2 * BAND, 130), (2 * BAND + 7, 11 * 48 + 5), (3 * BAND + 9, 131)] {
+    for (rows, columns) in [
+        (2 * BAND, 130),
+        (2 * BAND, 11 * 48 + 64),
+        (2 * BAND + 7, 11 * 48 + 5),
+        (3 * BAND + 9, 131),
+    ] {
         for shift in [0, 3] {
             check::<u64>(rows, columns, shift);
             check::<u32>(rows, columns, shift);

@@ -36,12 +36,15 @@ pub(super) unsafe fn walk(
         head[c] = to.wrapping_add(c * stride_to).align_offset(64);
         pick[c] = from_waiting(head[c]);
     }
+    // Where all rows begin at the same place in a line, all tiles but the first read whole lines.
+    let lead = if stride % 8 == 0 { from.align_offset(64) } else { 0 };
     // SAFETY: tiles are cut to the strip; a line of row c begins at `head[c]` and ends before the row does, as it
     // holds elements of the groups before.
     unsafe {
         for i in (0..rows / 8 * 8).step_by(8) {
-            for j in (0..columns).step_by(8) {
-                let width = (columns - j).min(8);
+            let mut j = 0;
+            while j < columns {
+                let width = if j < lead { lead } else { 8 }.min(columns - j);
                 let tile = from.add(i * stride + j);
                 let ahead =
                     if j + AHEAD < columns { j + AHEAD } else { j + AHEAD - columns + 8 * stride };
@@ -64,6 +67,7 @@ pub(super) unsafe fn walk(
                     }
                     before[c] = turned[k];
                 }
+                j += width;
             }
         }
         for c in 0..columns {
