@@ -65,137 +65,60 @@ __all__ = [
 __version__: str
 
 def ball(
-    rows: NDArray[np.float32] | NDArray[np.float64],
-    items: str,
-    epsilon: float,
-    method: str,
-    batch: int | None,
-    max_passes: int,
-    threads: int | None,
-    seed: int,
+    rows: NDArray[np.float32] | NDArray[np.float64], items: str, epsilon: float, method: str, batch: int | None,
+    max_passes: int, threads: int | None, seed: int,
 ) -> Solution: ...
 def centers(
-    rows: NDArray[np.float32] | NDArray[np.float64],
-    k: int,
-    items: str,
-    weights: bool,
-    epsilon: float,
-    method: str,
-    discrete: bool,
-    outliers: int,
-    max_nodes: int,
-    assignment: bool,
-    threads: int | None,
+    rows: NDArray[np.float32] | NDArray[np.float64], k: int, items: str, weights: bool, epsilon: float, method: str,
+    discrete: bool, outliers: int, max_nodes: int, assignment: bool, threads: int | None,
 ) -> Solution: ...
 def curve(
-    rows: NDArray[np.float32] | NDArray[np.float64],
-    method: str,
-    open: bool,
-    rho: float,
-    omega: float,
-    feature: float | None,
-    places: bool,
-    threads: int | None,
+    rows: NDArray[np.float32] | NDArray[np.float64], method: str, open: bool, rho: float, omega: float,
+    feature: float | None, places: bool, threads: int | None,
 ) -> Solution: ...
 def delaunay(
-    rows: NDArray[np.float32] | NDArray[np.float64],
-    order: str,
-    threads: int | None,
-    seed: int,
+    rows: NDArray[np.float32] | NDArray[np.float64], order: str, threads: int | None, seed: int,
 ) -> Solution: ...
 def surface(
-    rows: NDArray[np.float32] | NDArray[np.float64],
-    method: str,
-    open: bool,
-    denoise: bool,
-    neighbors: int,
-    iterations: int,
-    original: bool,
-    alpha: float | None,
-    epsilon: float,
-    sliver_angle: float | None,
-    forbidden_angle: float | None,
-    priority: str,
-    restarts: bool,
-    threads: int | None,
+    rows: NDArray[np.float32] | NDArray[np.float64], method: str, open: bool, denoise: bool, neighbors: int,
+    iterations: int, original: bool, alpha: float | None, epsilon: float, sliver_angle: float | None,
+    forbidden_angle: float | None, priority: str, restarts: bool, threads: int | None,
 ) -> Solution: ...
 def ellipsoid(
-    rows: NDArray[np.float32] | NDArray[np.float64],
-    items: str,
-    epsilon: float,
-    method: str,
-    max_passes: int,
-    threads: int | None,
-    seed: int,
+    rows: NDArray[np.float32] | NDArray[np.float64], items: str, epsilon: float, method: str, max_passes: int,
+    threads: int | None, seed: int,
 ) -> Solution: ...
 def ellipsoids(
-    sets: list[NDArray[np.float32] | NDArray[np.float64]],
-    epsilon: float,
-    method: str,
-    max_passes: int,
-    threads: int | None,
-    seed: int,
+    sets: list[NDArray[np.float32] | NDArray[np.float64]], epsilon: float, method: str, max_passes: int,
+    threads: int | None, seed: int,
 ) -> list[Solution]: ...
 def farthest_first(
-    rows: NDArray[np.float32] | NDArray[np.float64],
-    count: int,
-    start: int,
-    threads: int | None,
+    rows: NDArray[np.float32] | NDArray[np.float64], count: int, start: int, threads: int | None,
 ) -> FarthestFirst: ...
 def generate(
-    out: NDArray[np.float32] | NDArray[np.float64],
-    distribution: str,
-    seed: int,
-    thickness: float | None,
-    count: int | None,
-    spread: float | None,
-    vertices: int | None,
-    side: int | None,
-    angle: float | None,
-    turns: float | None,
-    noise: float | None,
+    out: NDArray[np.float32] | NDArray[np.float64], distribution: str, seed: int, thickness: float | None,
+    count: int | None, spread: float | None, vertices: int | None, side: int | None, angle: float | None,
+    turns: float | None, noise: float | None,
 ) -> None: ...
 
 def inscribed_ellipsoid(
-    rows: NDArray[np.float32] | NDArray[np.float64],
-    epsilon: float,
-    max_steps: int,
+    rows: NDArray[np.float32] | NDArray[np.float64], epsilon: float, max_steps: int,
 ) -> Solution: ...
 def robust_ellipsoid(
-    rows: NDArray[np.float32] | NDArray[np.float64],
-    method: str,
-    coverage: float | None,
-    level: float,
-    epsilon: float,
+    rows: NDArray[np.float32] | NDArray[np.float64], method: str, coverage: float | None, level: float, epsilon: float,
     threads: int | None,
 ) -> Solution: ...
 def sphere_tree(
-    rows: NDArray[np.float32] | NDArray[np.float64],
-    leaf_size: int,
-    epsilon: float,
-    threads: int | None,
+    rows: NDArray[np.float32] | NDArray[np.float64], leaf_size: int, epsilon: float, threads: int | None,
 ) -> SphereTree: ...
 
 def sort_file(
-    input: str | PathLike[str],
-    output: str | PathLike[str],
-    width: int,
-    key: tuple[int, int],
-    kind: str,
-    memory: int,
-    scratch: str | PathLike[str] | None,
-    resume: str | PathLike[str] | None,
+    input: str | PathLike[str], output: str | PathLike[str], width: int, key: tuple[int, int], kind: str, memory: int,
+    scratch: str | PathLike[str] | None, resume: str | PathLike[str] | None,
 ) -> FileSolution: ...
 def transpose_file(
-    input: str | PathLike[str],
-    output: str | PathLike[str],
-    shape: tuple[int, int],
-    width: int,
-    fortran: bool,
-    offset: int,
-    dtype: str | None,
-    header: bytes,
-    memory: int,
+    input: str | PathLike[str], output: str | PathLike[str], shape: tuple[int, int], width: int, fortran: bool,
+    offset: int, dtype: str | None, header: bytes, memory: int,
 ) -> FileSolution: ...
 def sample(n: int, k: int, seed: int) -> NDArray[np.uint64]: ...
 def spatial_order(rows: NDArray[np.float32] | NDArray[np.float64], curve: str) -> Solution: ...
@@ -212,9 +135,7 @@ class FileSolution:
     def certificate(self) -> dict[str, Any]: ...
     @property
     def trace(self) -> Trace: ...
-    def check(
-        self, output: str | PathLike[str], input: str | PathLike[str] | None = None
-    ) -> FileVerdict: ...
+    def check(self, output: str | PathLike[str], input: str | PathLike[str] | None = None) -> FileVerdict: ...
     def to_json(self) -> str: ...
     @staticmethod
     def from_json(text: str) -> FileSolution: ...

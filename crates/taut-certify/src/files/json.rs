@@ -46,7 +46,7 @@ impl AnyFileSolution {
     /// Reads a document.
     ///
     /// # Errors
-    /// [`JsonError`]; [`JsonError::Kind`] for answers about points, which [`AnySolution`](crate::AnySolution) reads.
+    /// [`JsonError`]; [`JsonError::Kind`] for answers about points, which [`AnySolution`] reads.
     pub fn from_json(text: &str) -> Result<Self, JsonError> {
         let text = without_mark(text);
         Self::of_kind(kind_of(text)?, text)
