@@ -5,7 +5,7 @@
 //! space, so cells that are near each other in space mostly are in memory, too: without this order, a million points spend
 //! most of their time waiting for memory.
 //! *Guarantee.* A function of the triangulation as a set of tetrahedra: what is decided by the numbers of cells and facets is decided by
-//! the points. O(m) for m cells, as few share their lowest site.
+//! the points. O(m) for m cells where few share their lowest site, and O(m log m) if all do.
 
 use std::sync::atomic::Ordering::Relaxed;
 use std::sync::atomic::{AtomicU8, AtomicU32};

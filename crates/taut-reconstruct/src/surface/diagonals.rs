@@ -135,7 +135,7 @@ impl Quadrangle {
         let mut bound = nearly_angle(now) - nearly_angle(then) + at_most.iter().sum::<f64>();
         for (e, &end) in self.ends.iter().enumerate() {
             for (o, &other) in self.others.iter().enumerate() {
-                if bound + 20.0 * NEARLY <= FLATTER {
+                if bound + SLACK <= FLATTER {
                     return false;
                 }
                 bound -= at_most[2 * e + o];
@@ -232,30 +232,34 @@ fn angle([a, b]: [Point; 2]) -> f64 {
     dot(c, c).sqrt().atan2(dot(a, b))
 }
 
-/// How much the angles of two vectors to any third one differ at most: their own angle, if they have one.
+/// How much the angles of two vectors to any third one differ at most: their own angle, if they have one. Of a third one that is so short
+/// itself, angles are roundings, which nothing bounds; no swap hangs on these.
 fn most([a, b]: [Point; 2]) -> f64 {
     /// Squares of vectors so short that products of two of them are no longer numbers of full precision.
     const SHORT: f64 = 1e-140;
     if dot(a, a).min(dot(b, b)) < SHORT { PI } else { nearly_angle([a, b]) }
 }
 
+/// What the angles in a bound can be off together: two at the diagonals, four that bound the sides, two for each side that is known.
+const SLACK: f64 = 14.0 * NEARLY;
+
 /// How much less or more than the angle [`nearly_angle`] is at most.
 const NEARLY: f64 = 1e-4;
 
-/// The same to within [`NEARLY`], in a third of the time. The polynomial is 4.4.49 of Abramowitz and Stegun, Handbook of Mathematical
-/// Functions, 1964, for the arc tangent from 0 to 1, which is 1e-5 off at most.
+/// The same to within [`NEARLY`], in a third of the time. The polynomial is 4.4.47 of Abramowitz and Stegun, Handbook of Mathematical
+/// Functions, 1964, for the arc tangent from 0 to 1: with these digits it is 1.2e-5 off at most.
 fn nearly_angle([a, b]: [Point; 2]) -> f64 {
     let c = cross(a, b);
     let (across, along) = (dot(c, c).sqrt(), dot(a, b));
     let (least, most) = (across.min(along.abs()), across.max(along.abs()));
-    // Of two vectors of which one is nothing, atan2 calls the angle 0.
+    // Where nothing is across and nothing along, the sign of that nothing decides, as it does for atan2.
     let z = if most > 0.0 { least / most } else { 0.0 };
     let zz = z * z;
     let arc = z
         * (0.999_866_0
             + zz * (-0.330_299_5 + zz * (0.180_141_0 + zz * (-0.085_133_0 + zz * 0.020_835_1))));
     let acute = if across > along.abs() { FRAC_PI_2 - arc } else { arc };
-    if along < 0.0 { PI - acute } else { acute }
+    if along.is_sign_negative() { PI - acute } else { acute }
 }
 
 /// Whether it is that of a sharp edge.
@@ -306,6 +310,8 @@ mod tests {
         }
         let nothing = [[0.0; 3], [1.0, 2.0, 3.0]];
         assert_eq!((nearly_angle(nothing), angle(nothing)), (0.0, 0.0));
+        let less_than_nothing = [[-0.0; 3], [1.0, 2.0, 3.0]];
+        assert_eq!((nearly_angle(less_than_nothing), angle(less_than_nothing)), (PI, PI));
     }
 
     #[test]

@@ -4,8 +4,9 @@
 //! *Idea.* Without one of its edges the tree falls into two parts. The facets between them are what the edge stands for; if they
 //! disagree with the labels by more than [`LEAST`] in sum, the smaller part is turned over. Leaves are peeled off the tree as long as
 //! what hangs on them is small; sums over all parts come from sums along the peeling: a facet counts at both its cells, and twice
-//! against it where the ways from them meet. Few facets disagree at all, so the sums are formed only where those that do could suffice,
-//! which is found along the peeling as well.
+//! against it where the ways from them meet. Few facets disagree at all, so sums are formed only for parts that those which do could
+//! outweigh, as is found along the peeling as well; cells between two such parts count for the one around them. Once a part was turned
+//! over, all parts under the outermost ones beside it are weighed.
 //! *Guarantee.* Each round raises the agreement of all facets with the labels. Sums are exact, so the answer is a function of the points.
 //! O(n), and O(suspects) for each of at most [`ROUNDS`] rounds.
 //! *Trap.* Large parts are left alone: under strong noise whole regions would be turned back and forth.
@@ -327,7 +328,7 @@ fn objections(ties: &Ties, cells: &Cells, inside: &[bool]) -> Vec<(u32, i64)> {
 pub(super) struct Flipped {
     /// How many were.
     pub(super) flips: u64,
-    /// All cells that have a facet which disagrees with the labels are among these.
+    /// Of each facet that disagrees with the labels one cell at least is among these.
     pub(super) doubtful: Vec<u32>,
 }
 

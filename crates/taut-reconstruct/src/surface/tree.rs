@@ -6,8 +6,9 @@
 //! the dual graph, and the parity of opposites on the way from outside is the label. It is the thesis' spanning tree, turned from
 //! growing a surface to dividing space.
 //! *Way.* Borůvka's: in each round every part joins the one across its strongest facet. No facet is sorted, and all are read in the order
-//! in which their cells lie in memory; each round leaves a third of the parts, and of facets those between them. In the first round a part
-//! is a cell, and its facets are at hand; then parts are numbered anew in each round, so that what is kept of them stays small.
+//! in which their cells lie in memory; each round leaves half of the parts at most, of most samples a third, and of facets those between
+//! them. In the first round a part is a cell, and its facets are at hand; then parts are numbered anew in each round, so that what is kept
+//! of them stays small.
 //! *Guarantee.* The labels are a function of the points: equal strengths are ordered by the numbers of facets, which are. O(n log n).
 //! *Reference.* Borůvka 1926; Nešetřil, Milková and Nešetřilová, Discrete Math. 233, 2001.
 
@@ -21,8 +22,10 @@ use super::cells::Cells;
 use super::media::Media;
 use super::strengths::Ties;
 
-/// Cells or bonds of one task. No more, as of all bonds of a task the place fits into 16 bits, and so does the number of the task.
+/// Cells of one task, and the bonds that are listed from them.
 const TASK: usize = 1 << 14;
+// A rank has 16 bits for the place of a bond among those of its task, and as many for the task, as cells are fewer than 2³⁰.
+const _: () = assert!(4 * TASK <= 1 << 16 && (1 << 30) / TASK <= 1 << 16);
 
 /// A facet between two parts.
 #[derive(Clone, Copy)]
@@ -46,8 +49,8 @@ pub(super) struct Labels {
     pub(super) tree: Vec<u8>,
 }
 
-/// How soon a bond is heard, the later the less: by strength, then by its task and its place there, which are in the order of facets. No
-/// two are equal.
+/// The bond of the highest rank is heard first. Strength comes first, then the lower task and the lower place in it, which are in the order
+/// of facets: no two ranks are equal.
 fn rank(bond: &Bond, task: usize, place: usize) -> u64 {
     u64::from(bond.strength) << 32 | u64::from(!((task << 16 | place) as u32))
 }
