@@ -16,6 +16,7 @@ const ROOT: &str = r#"
 #![crate_type = "lib"]
 #![allow(warnings)]
 pub mod probe;
+mod random;
 pub mod reference;
 pub use probe::{Access, NoProbe, Probe};
 
@@ -60,7 +61,7 @@ fn assembly(name: &str, change: impl Fn(&str) -> String) -> String {
     fs::write(folder.join("lib.rs"), changed(ROOT)).expect("written");
     let reference = fs::read_dir(source.join("reference")).expect("the sources are there");
     let mut files: Vec<PathBuf> = reference.map(|entry| entry.expect("an entry").path()).collect();
-    files.push(source.join("probe.rs"));
+    files.extend(["probe.rs", "random.rs"].map(|name| source.join(name)));
     for file in files {
         let text = fs::read_to_string(&file).expect("sources are text");
         let inside = file.strip_prefix(&source).expect("found there");
