@@ -61,7 +61,7 @@ fn assembly(name: &str, change: impl Fn(&str) -> String) -> String {
     fs::write(folder.join("lib.rs"), changed(ROOT)).expect("written");
     let reference = fs::read_dir(source.join("reference")).expect("the sources are there");
     let mut files: Vec<PathBuf> = reference.map(|entry| entry.expect("an entry").path()).collect();
-    files.extend(["probe.rs", "random.rs"].map(|file| source.join(file)));
+    files.extend(["probe.rs", "random.rs"].map(|name| source.join(name)));
     for file in files {
         let text = fs::read_to_string(&file).expect("sources are text");
         let inside = file.strip_prefix(&source).expect("found there");
