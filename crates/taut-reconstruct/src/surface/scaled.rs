@@ -10,7 +10,8 @@ use super::spheres::Point;
 /// A power of two that brings points to magnitude 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Scale {
-    /// In two steps, as neither 2^1074 nor 2^−1074 is within reach of every number's exponent.
+    /// In one step and a step of 1 where it can be, so that what is too small for all its digits is rounded once, to the same number
+    /// whatever the unit was; in two where the power is beyond all numbers, as then everything grows and nothing is rounded.
     steps: [f64; 2],
 }
 
@@ -23,7 +24,8 @@ impl Scale {
     }
 
     fn by(exponent: i32) -> Self {
-        Self { steps: [exponent / 2, exponent - exponent / 2].map(|half| 2f64.powi(half)) }
+        let first = if exponent > 1023 { exponent / 2 } else { exponent };
+        Self { steps: [first, exponent - first].map(|part| 2f64.powi(part)) }
     }
 
     pub(super) fn apply(self, point: Point) -> Point {
@@ -45,6 +47,21 @@ fn exponent_of(x: f64) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn small_numbers_are_rounded_alike_in_every_unit() {
+        for k in 1..4000u64 {
+            let x = f64::from_bits(k * 7919);
+            for (down, up) in [(26, 7), (300, 299), (1000, 23), (1023, 0)] {
+                let unit = 2f64.powi(up);
+                let point = [x, -x, 1e8];
+                let there = Scale::by(-down - up).apply(point.map(|x| x * unit));
+                if down + up <= 1023 {
+                    assert_eq!(Scale::by(-down).apply(point), there);
+                }
+            }
+        }
+    }
 
     #[test]
     fn exponents_of_the_ends_of_a_double() {
