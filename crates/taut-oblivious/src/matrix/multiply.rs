@@ -16,12 +16,14 @@
 
 use rayon::prelude::*;
 
+use super::transpose::tiles;
 use super::view::{MatrixView, MatrixViewMut};
 use crate::level::Level;
 use crate::{Error, NoProbe, Probe};
 
 mod kernel;
 mod pack;
+mod scratch;
 mod strassen;
 #[cfg(test)]
 mod tests;
@@ -49,6 +51,8 @@ pub(crate) enum Update {
 const DEPTH: usize = 256;
 /// Columns of a block of B: half of a second cache of 1 MiB.
 const BLOCK: usize = 240;
+/// Numbers in a line of the cache.
+const LINE: usize = 8;
 /// Longest side of what is packed at once: panels of A of 8 MiB.
 const LEAF: usize = 4096;
 /// Multiplications from which on threads share the rows.
@@ -60,7 +64,7 @@ const SHARED: usize = 1 << 21;
 /// u = 2⁻⁵³. With ℓ levels of it the bound is on the largest elements only: max |C − Ĉ| ≤ (18^ℓ·(q² + 6q) − 6p)·u·max |A| ·
 /// max |B| + O(u²), where p is the largest of the three dimensions and q = p / 2^ℓ (Higham, section 23.2.2). Runs on the
 /// current rayon pool; the bits do not depend on it, nor on the processor. O(m·k·n), or O(n^2.81); 10 MiB of memory for
-/// each thread, and with Strassen's method two thirds of an operand.
+/// each thread, up to 2 of which it keeps for the next product, and with Strassen's method two thirds of an operand.
 ///
 /// # Errors
 /// [`Error::Option`] if the shapes do not match or the cut-off is below 16.
@@ -205,8 +209,13 @@ fn leaf<P: Probe>(
 ) {
     let (m, k, n) = (a.rows, a.columns, b.columns);
     let (tile_rows, tile_columns) = kernel::tile(level);
-    let mut packed_a = pack::Panels::new(tile_rows, m, k.min(DEPTH));
-    let mut packed_b = pack::Panels::new(tile_columns, n.min(BLOCK), k.min(DEPTH));
+    let depth = k.min(DEPTH);
+    let room_a = pack::Panels::room(tile_rows, m, depth).next_multiple_of(LINE);
+    let room = room_a + pack::Panels::room(tile_columns, n.min(BLOCK), depth);
+    let mut scratch = scratch::Scratch::of(room);
+    let (room_a, room_b) = scratch.numbers().split_at_mut(room_a);
+    let mut packed_a = pack::Panels::new(tile_rows, room_a);
+    let mut packed_b = pack::Panels::new(tile_columns, room_b);
     probe.place(packed_a.all());
     probe.place(packed_b.all());
     for first in (0..k).step_by(DEPTH) {
@@ -216,8 +225,12 @@ fn leaf<P: Probe>(
         for left in (0..n).step_by(BLOCK) {
             let block = left..n.min(left + BLOCK);
             packed_b.pack(level, b.part(stretch.clone(), block.clone()).transposed(), probe);
+            let share = (tile_rows * stretch.len()).div_ceil(block.len().div_ceil(tile_columns));
             for (top, panel_a) in packed_a.panels() {
+                // The next panel comes from the last cache, or from memory, while this one is used.
+                let mut coming = packed_a.after(top).chunks(share);
                 for (right, panel_b) in packed_b.panels() {
+                    tiles::fetch(level, coming.next().unwrap_or(&[]));
                     let rows = top..m.min(top + tile_rows);
                     let columns = left + right..block.end.min(left + right + tile_columns);
                     let mut tile = c.part(rows, columns);

@@ -27,25 +27,37 @@ pub(super) fn tile(level: Level) -> (usize, usize) {
     }
 }
 
+/// Columns of a tile that are computed together.
+fn lanes(level: Level) -> usize {
+    match level {
+        Level::Portable => SCALAR.1,
+        Level::Avx2(_) => 4,
+        Level::Avx512(_) => 8,
+    }
+}
+
 /// C ← C ± A·B for a panel of A and one of B, of the widths of [`tile`] and of one depth; C may be smaller than the tile.
+#[inline]
 pub(super) fn run(level: Level, a: &[f64], b: &[f64], mut c: MatrixViewMut<'_>, update: Update) {
     let (rows, columns) = tile(level);
     let depth = a.len() / rows;
     assert_eq!((a.len(), b.len()), (depth * rows, depth * columns), "panels of one depth");
-    if (c.rows, c.columns) == (rows, columns) {
+    let used = c.columns.next_multiple_of(lanes(level));
+    if (c.rows, c.columns) == (rows, used) {
         return whole(level, depth, a, b, c, update);
     }
     let mut tile = [0.0; TILE_MAX];
-    let view = MatrixViewMut { data: &mut tile, rows, columns, stride: columns };
+    let view = MatrixViewMut { data: &mut tile, rows, columns: used, stride: used };
     whole(level, depth, a, b, view, Update::Set);
     for i in 0..c.rows {
-        for (x, &y) in c.row(i).iter_mut().zip(&tile[i * columns..]) {
+        for (x, &y) in c.row(i).iter_mut().zip(&tile[i * used..]) {
             *x = updated(*x, y, update);
         }
     }
 }
 
-/// A whole tile.
+/// All rows of a tile, and whole vectors of its columns.
+#[inline]
 fn whole(level: Level, depth: usize, a: &[f64], b: &[f64], c: MatrixViewMut<'_>, update: Update) {
     match level {
         #[cfg(target_arch = "x86_64")]

@@ -9,11 +9,12 @@ use crate::level::Level;
 use crate::matrix::transpose::tiles;
 use crate::matrix::view::MatrixView;
 
+/// Runs between the request for one and its use: they lie in different pages, which the processor does not foresee.
+const AHEAD: usize = 4;
+
 /// Panels of rows of an operand.
-pub(super) struct Panels {
-    room: Vec<f64>,
-    /// Elements before the first one that begins a line of the cache.
-    skip: usize,
+pub(super) struct Panels<'a> {
+    room: &'a mut [f64],
     /// Rows of a panel.
     width: usize,
     /// Rows that are packed now.
@@ -22,49 +23,57 @@ pub(super) struct Panels {
     depth: usize,
 }
 
-impl Panels {
-    /// Room for `rows` rows of `depth` elements.
-    pub(super) fn new(width: usize, rows: usize, depth: usize) -> Self {
-        let room = vec![0.0; rows.next_multiple_of(width) * depth + 7];
-        let skip = room.as_ptr().align_offset(64).min(7);
-        Self { room, skip, width, rows: 0, depth: 0 }
+impl<'a> Panels<'a> {
+    /// Elements of memory for `rows` rows of `depth` elements.
+    pub(super) fn room(width: usize, rows: usize, depth: usize) -> usize {
+        rows.next_multiple_of(width) * depth
+    }
+
+    /// Panels of so many rows, in memory that begins at a line of the cache.
+    pub(super) fn new(width: usize, room: &'a mut [f64]) -> Self {
+        Self { room, width, rows: 0, depth: 0 }
     }
 
     /// Replaces the content by all rows of `from`.
     pub(super) fn pack<P: Probe>(&mut self, level: Level, from: MatrixView<'_>, probe: &mut P) {
         (self.rows, self.depth) = from.shape();
         let (width, depth) = (self.width, self.depth);
-        for (k, panel) in self.room[self.skip..]
-            .chunks_exact_mut(width * depth)
-            .enumerate()
-            .take_while(|(k, _)| k * width < from.rows)
-        {
-            let rows = k * width..from.rows.min((k + 1) * width);
-            let here = from.part(rows.clone(), 0..depth);
-            if P::LISTENS {
-                tell(here, probe);
-                probe.write(panel);
-            }
-            if rows.len() < width {
-                panel.fill(0.0);
-            }
-            if here.column_stride == 1 {
-                tiles::turn(
-                    level,
-                    (rows.len(), depth),
-                    (here.data, here.row_stride),
-                    (panel, width),
-                );
-            } else if here.row_stride == 1 {
-                for (j, column) in panel.chunks_exact_mut(width).enumerate() {
-                    column[..rows.len()]
-                        .copy_from_slice(&here.data[j * here.column_stride..][..rows.len()]);
+        let used = &mut self.room[..Self::room(width, from.rows, depth)];
+        if !from.rows.is_multiple_of(width) {
+            let last = used.len() - width * depth;
+            used[last..].fill(0.0);
+        }
+        if from.column_stride == 1 {
+            for (panel, top) in used.chunks_exact_mut(width * depth).zip((0..).step_by(width)) {
+                let here = from.part(top..from.rows.min(top + width), 0..depth);
+                if P::LISTENS {
+                    (0..here.rows)
+                        .for_each(|i| probe.read(&here.data[i * here.row_stride..][..depth]));
+                    probe.write(panel);
                 }
-            } else {
-                for (j, column) in panel.chunks_exact_mut(width).enumerate() {
-                    for (i, x) in column[..rows.len()].iter_mut().enumerate() {
-                        *x = here.data[i * here.row_stride + j * here.column_stride];
-                    }
+                let source = (here.data, here.row_stride);
+                tiles::turn(level, (here.rows, depth), source, (panel, width));
+            }
+        } else if from.row_stride == 1 {
+            // All panels side by side: a run of the source is read as it lies in memory.
+            for j in 0..depth {
+                let run = |j: usize| &from.data[j * from.column_stride..][..from.rows];
+                tiles::fetch(level, run((j + AHEAD).min(depth - 1)));
+                let run = run(j);
+                let places = used[j * width..].chunks_mut(width * depth);
+                probe.read(run);
+                for (piece, place) in run.chunks(width).zip(places) {
+                    copy(piece, place);
+                    probe.write(&place[..piece.len()]);
+                }
+            }
+        } else {
+            for (i, at) in (0..from.rows).map(|i| (i, i / width * width * depth + i % width)) {
+                for (j, x) in used[at..].iter_mut().step_by(width).take(depth).enumerate() {
+                    let source = i * from.row_stride + j * from.column_stride;
+                    *x = from.data[source];
+                    probe.read(&from.data[source..][..1]);
+                    probe.write(std::slice::from_ref(x));
                 }
             }
         }
@@ -72,30 +81,30 @@ impl Panels {
 
     /// The first row of each panel, and the panel.
     pub(super) fn panels(&self) -> impl Iterator<Item = (usize, &[f64])> {
-        let used = self.rows.next_multiple_of(self.width) * self.depth;
-        self.room[self.skip..self.skip + used]
+        self.room[..Self::room(self.width, self.rows, self.depth)]
             .chunks_exact(self.width * self.depth)
             .enumerate()
             .map(|(k, panel)| (k * self.width, panel))
     }
 
+    /// The panel after the one whose first row this is; nothing after the last.
+    pub(super) fn after(&self, row: usize) -> &[f64] {
+        let used = self.rows.next_multiple_of(self.width) * self.depth;
+        let panel = self.width * self.depth;
+        let begin = (row * self.depth + panel).min(used);
+        &self.room[begin..used.min(begin + panel)]
+    }
+
     /// The memory of the panels.
     pub(super) fn all(&self) -> &[f64] {
-        &self.room
+        self.room
     }
 }
 
-/// Tells of what is read, by runs of adjacent elements.
-fn tell<P: Probe>(from: MatrixView<'_>, probe: &mut P) {
-    let along_rows = from.column_stride == 1;
-    let from = if along_rows { from } else { from.transposed() };
-    for i in 0..from.rows {
-        if from.column_stride == 1 {
-            probe.read(&from.data[i * from.row_stride..][..from.columns]);
-        } else {
-            for j in 0..from.columns {
-                probe.read(&from.data[i * from.row_stride + j * from.column_stride..][..1]);
-            }
-        }
+/// Copies a piece of a run to the beginning of its place; whole pieces without a call.
+fn copy(piece: &[f64], place: &mut [f64]) {
+    match (piece.as_array::<24>(), place.first_chunk_mut::<24>()) {
+        (Some(piece), Some(place)) => *place = *piece,
+        _ => place[..piece.len()].copy_from_slice(piece),
     }
 }

@@ -2,6 +2,7 @@
 #![allow(unsafe_code)] // Loads and stores of whole vectors.
 
 use std::arch::x86_64::*;
+use std::array::from_fn;
 
 use crate::level::{Avx2, Avx512};
 use crate::matrix::multiply::Update;
@@ -9,13 +10,14 @@ use crate::matrix::view::MatrixViewMut;
 
 /// Checks what the addresses rest on.
 fn check(
-    (rows, columns): (usize, usize),
+    (rows, panel): (usize, usize),
     depth: usize,
     a: &[f64],
     b: &[f64],
     c: &MatrixViewMut<'_>,
+    columns: usize,
 ) {
-    assert!(a.len() == depth * rows && b.len() == depth * columns);
+    assert!(a.len() == depth * rows && b.len() == depth * panel && columns <= panel);
     assert!((rows - 1) * c.stride + columns <= c.data.len());
 }
 
@@ -27,9 +29,18 @@ pub(super) fn avx2(
     c: MatrixViewMut<'_>,
     update: Update,
 ) {
-    check((4, 12), depth, a, b, &c);
+    let columns = c.columns;
+    check((4, 12), depth, a, b, &c, columns);
+    let (a, b, c) = (a.as_ptr(), b.as_ptr(), (c.data.as_mut_ptr(), c.stride));
     // SAFETY: the proof says that AVX2 and FMA are there; extents were checked.
-    unsafe { tile_4_12(depth, a.as_ptr(), b.as_ptr(), (c.data.as_mut_ptr(), c.stride), update) }
+    unsafe {
+        match columns {
+            4 => tile_4_12::<1>(depth, a, b, c, update),
+            8 => tile_4_12::<2>(depth, a, b, c, update),
+            12 => tile_4_12::<3>(depth, a, b, c, update),
+            _ => unreachable!("whole vectors"),
+        }
+    }
 }
 
 pub(super) fn avx512(
@@ -40,44 +51,63 @@ pub(super) fn avx512(
     c: MatrixViewMut<'_>,
     update: Update,
 ) {
-    check((8, 24), depth, a, b, &c);
+    let columns = c.columns;
+    check((8, 24), depth, a, b, &c, columns);
+    let (a, b, c) = (a.as_ptr(), b.as_ptr(), (c.data.as_mut_ptr(), c.stride));
     // SAFETY: the proof says that AVX-512F is there; extents were checked.
-    unsafe { tile_8_24(depth, a.as_ptr(), b.as_ptr(), (c.data.as_mut_ptr(), c.stride), update) }
+    unsafe {
+        match columns {
+            8 => tile_8_24::<1>(depth, a, b, c, update),
+            16 => tile_8_24::<2>(depth, a, b, c, update),
+            24 => tile_8_24::<3>(depth, a, b, c, update),
+            _ => unreachable!("whole vectors"),
+        }
+    }
 }
 
 macro_rules! tile {
     ($name:ident, $feature:literal, $rows:literal, $lanes:literal,
      $zero:ident, $set:ident, $load:ident, $store:ident, $fused:ident, $add:ident, $subtract:ident) => {
+        /// The first `VECTORS` vectors of each row.
         #[target_feature(enable = $feature)]
-        unsafe fn $name(
+        unsafe fn $name<const VECTORS: usize>(
             depth: usize,
             mut a: *const f64,
             mut b: *const f64,
             (c, stride): (*mut f64, usize),
             update: Update,
         ) {
-            let mut sums = [[$zero(); 3]; $rows];
+            let mut sums = [[$zero(); VECTORS]; $rows];
             // SAFETY: `depth` groups of the rows of a and of the columns of b; a tile of whole vectors of c.
             unsafe {
-                for i in 0..$rows {
-                    // On its way while the products are added up.
-                    _mm_prefetch::<_MM_HINT_T0>(c.add(i * stride).cast());
-                    _mm_prefetch::<_MM_HINT_T0>(c.add(i * stride + $lanes).cast());
-                    _mm_prefetch::<_MM_HINT_T0>(c.add(i * stride + 3 * $lanes - 1).cast());
-                }
-                for _ in 0..depth {
-                    let columns = [$load(b), $load(b.add($lanes)), $load(b.add(2 * $lanes))];
-                    for i in 0..$rows {
-                        let x = $set(*a.add(i));
-                        for v in 0..3 {
-                            sums[i][v] = $fused(x, columns[v], sums[i][v]);
+                // The tile of C is on its way while the products are added up: a row of it after each share, as all of
+                // it at once takes a thirtieth of the time.
+                let share = depth / (2 * $rows);
+                for row in 0..=$rows {
+                    let steps = if row < $rows {
+                        let row = c.add(row * stride);
+                        for v in 0..VECTORS {
+                            _mm_prefetch::<_MM_HINT_T0>(row.add(v * $lanes).cast());
                         }
+                        _mm_prefetch::<_MM_HINT_T0>(row.add(VECTORS * $lanes - 1).cast());
+                        share
+                    } else {
+                        depth - $rows * share
+                    };
+                    for _ in 0..steps {
+                        let columns: [_; VECTORS] = from_fn(|v| $load(b.add(v * $lanes)));
+                        for i in 0..$rows {
+                            let x = $set(*a.add(i));
+                            for v in 0..VECTORS {
+                                sums[i][v] = $fused(x, columns[v], sums[i][v]);
+                            }
+                        }
+                        a = a.add($rows);
+                        b = b.add(3 * $lanes);
                     }
-                    a = a.add($rows);
-                    b = b.add(3 * $lanes);
                 }
                 for i in 0..$rows {
-                    for v in 0..3 {
+                    for v in 0..VECTORS {
                         let at = c.add(i * stride + v * $lanes);
                         let sum = match update {
                             Update::Set => sums[i][v],
