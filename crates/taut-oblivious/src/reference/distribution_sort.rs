@@ -10,16 +10,24 @@
 //! of the four calls is not free. The number of runs is no power of two in general: the longer side is halved.
 //! *Trap.* There are √n buckets and √n − 1 boundaries, not 1 + √n and √n as printed; and equal elements need parts of
 //! their own, see [`super::sample`].
+//! *Trap.* A memory of few blocks has a block of each run and of each bucket it deals with, and what is beside them counts:
+//! bounds of buckets and their cursors lie in one array; runs are counted in strips, as counting asks for bounds and no
+//! buckets; and each pass begins where the one before ended.
 //! *Reference.* The thesis, 5.6.1, algorithms 8 and 9, repaired; Frigo et al., ACM TALG 8(1), 2012 (deterministic).
+
+use std::slice::from_ref;
 
 use super::median::insertion_sort;
 use super::mergesort::mergesort_probed;
-use super::sample::{Boundary, boundaries, draw, oversampling};
+use super::sample::{bounds, draw, oversampling};
 use super::{Random, get, set};
 use crate::{NoProbe, Probe};
 
 /// Up to this many elements are sorted by insertion.
-const FEW: usize = 32;
+const FEW: usize = 64;
+/// Counting has strips of this many times as many buckets as runs: a bucket's bound and cursor are two words, a run has a
+/// block.
+const STRIP: usize = 8;
 
 /// Sorts; the order of equal elements is not kept. `seed` chooses the samples, and changes nothing but the cost.
 pub fn distribution_sort<T: Copy + Ord>(array: &mut [T], seed: u64) {
@@ -74,14 +82,20 @@ fn sort<T: Copy + Ord, P: Probe>(
         }
     }
     sort_alone(&mut sample, random, probe);
-    let found = boundaries(&sample, run, probe);
+    let mut buckets: Vec<Bucket<T>> = bounds(&sample, run, probe)
+        .into_iter()
+        .chain([array[0]]) // Of the last bucket, where nobody asks.
+        .map(|bound| Bucket { bound, next: 0 })
+        .collect();
     probe.lift(&sample);
-    let ends = distribute(array, other, run, &found, probe);
-    let mut start = 0;
-    for (j, end) in ends.into_iter().enumerate() {
-        let (bucket, home) = (&mut other[start..end], &mut array[start..end]);
-        start = end;
-        if j > 0 && j < found.len() && Boundary::one_value(found[j - 1], found[j]) {
+    distribute(array, other, run, &mut buckets, probe);
+    // The last ones were written last.
+    for j in (0..buckets.len()).rev() {
+        let start = if j > 0 { buckets[j - 1].next } else { 0 };
+        let range = start..buckets[j].next;
+        let (bucket, home) = (&mut other[range.clone()], &mut array[range]);
+        let one_value = 0 < j && j + 1 < buckets.len() && buckets[j - 1].bound == buckets[j].bound;
+        if one_value {
             if stay {
                 copy(bucket, home, probe);
             }
@@ -103,45 +117,50 @@ fn copy<T: Copy, P: Probe>(from: &[T], to: &mut [T], probe: &mut P) {
     }
 }
 
-/// Moves the elements of the runs in `from` to their buckets in `to`; returns where each bucket ends.
+/// Where a bucket ends among the values, and in memory.
+struct Bucket<T> {
+    /// Smaller elements belong to it or to buckets before. Equal ones too, if the bucket before has the same bound: then it
+    /// is the bucket of that value. The last bucket takes all.
+    bound: T,
+    /// How many elements were counted, or where the next one goes.
+    next: usize,
+}
+
+/// Moves the elements of the runs in `from` to their buckets in `to`, whose ends are `next` then.
 fn distribute<T: Copy + Ord, P: Probe>(
     from: &[T],
     to: &mut [T],
     run: usize,
-    found: &[Boundary<T>],
+    buckets: &mut [Bucket<T>],
     probe: &mut P,
-) -> Vec<usize> {
-    let (runs, buckets) = (from.len().div_ceil(run), found.len() + 1);
+) {
+    let (runs, width) = (from.len().div_ceil(run), buckets.len());
     let next = (0..runs).map(|i| i * run).collect();
-    let mut work = Distribution { from, run, boundaries: found, next, fill: vec![0; buckets] };
-    probe.place(work.boundaries);
+    let mut work = Distribution { from, run, next, buckets };
     probe.place(&work.next);
-    probe.place(&work.fill);
-    work.quarter((0, runs), (0, buckets), false, &mut None, probe);
+    probe.place(work.buckets);
+    // The last run was sorted last.
+    work.quarter((0, runs), (0, width), true, &mut None, probe);
     let mut start = 0;
-    for j in 0..buckets {
-        let count = get(&work.fill, j, probe);
-        set(&mut work.fill, j, start, probe);
-        start += count;
+    for bucket in &mut *work.buckets {
+        probe.read(from_ref(&bucket.next));
+        (bucket.next, start) = (start, start + bucket.next);
+        probe.write(from_ref(&bucket.next));
     }
     for i in 0..runs {
         set(&mut work.next, i, i * run, probe);
     }
-    work.quarter((0, runs), (0, buckets), false, &mut Some(to), probe);
-    probe.lift(&work.fill);
+    work.quarter((0, runs), (0, width), false, &mut Some(to), probe);
+    probe.lift(work.buckets);
     probe.lift(&work.next);
-    probe.lift(work.boundaries);
-    work.fill
 }
 
 struct Distribution<'a, T> {
     from: &'a [T],
     run: usize,
-    boundaries: &'a [Boundary<T>],
     /// The first element of each run that was not moved yet.
     next: Vec<usize>,
-    /// Elements counted, or where the next one goes, of each bucket.
-    fill: Vec<usize>,
+    buckets: &'a mut [Bucket<T>],
 }
 
 impl<T: Copy + Ord> Distribution<'_, T> {
@@ -155,9 +174,10 @@ impl<T: Copy + Ord> Distribution<'_, T> {
         to: &mut Option<&mut [T]>,
         probe: &mut P,
     ) {
+        let strip = if to.is_some() { 1 } else { STRIP };
         if di == 1 && dj == 1 {
             self.one(i, j, to, probe);
-        } else if dj >= di {
+        } else if di == 1 || dj > 1 && dj >= strip * di {
             let half = dj / 2;
             self.quarter((i, di), (j, half), back, to, probe);
             self.quarter((i, di), (j + half, dj - half), !back, to, probe);
@@ -176,24 +196,39 @@ impl<T: Copy + Ord> Distribution<'_, T> {
     fn one<P: Probe>(&mut self, i: usize, j: usize, to: &mut Option<&mut [T]>, probe: &mut P) {
         let end = ((i + 1) * self.run).min(self.from.len());
         let mut next = get(&self.next, i, probe);
-        let boundary =
-            if j < self.boundaries.len() { get(self.boundaries, j, probe) } else { Boundary::All };
+        let (before, bucket) = self.buckets.split_at_mut(j);
+        let [bucket, behind @ ..] = bucket else { return };
+        let is_last = behind.is_empty();
+        if !is_last {
+            probe.read(from_ref(&bucket.bound));
+        }
         let start = next;
-        let mut fill = None;
+        let mut place = None;
         while next < end {
             let x = get(self.from, next, probe);
-            if !boundary.is_after(x) {
-                break;
+            if !is_last && x >= bucket.bound {
+                let is_of_its_value = x == bucket.bound
+                    && before.last().is_some_and(|before| {
+                        probe.read(from_ref(&before.bound));
+                        before.bound == x
+                    });
+                if !is_of_its_value {
+                    break;
+                }
             }
             next += 1;
-            let place = fill.get_or_insert_with(|| get(&self.fill, j, probe));
+            let place = place.get_or_insert_with(|| {
+                probe.read(from_ref(&bucket.next));
+                bucket.next
+            });
             if let Some(to) = to {
                 set(to, *place, x, probe);
             }
             *place += 1;
         }
-        if let Some(fill) = fill {
-            set(&mut self.fill, j, fill, probe);
+        if let Some(place) = place {
+            bucket.next = place;
+            probe.write(from_ref(&bucket.next));
         }
         if next > start {
             set(&mut self.next, i, next, probe);

@@ -12,9 +12,8 @@
 //! *Reference.* The thesis, 6.1, lemma 6.1.1; Brodal and Fagerberg, ICALP 2002 (the unfolded form, of mergers).
 
 use super::buckets::Buckets;
-use super::buffer_tree::{BufferTree, Edge, three_halves};
+use super::buffer_tree::{BufferTree, Edge, Waiting, three_halves};
 use super::get;
-use super::sample::Boundary;
 use super::set;
 use super::veb::VebIndex;
 use crate::{Error, NoProbe, Probe};
@@ -37,8 +36,10 @@ pub enum DistributorForm {
 #[derive(Clone, Debug)]
 pub struct Distributor<T> {
     form: DistributorForm,
-    /// Of the nodes, in the order of the layout.
-    boundaries: Vec<Boundary<T>>,
+    /// Where the left of a node ends, in the order of the layout; nobody asks nodes beyond the last bound.
+    bounds: Vec<T>,
+    /// Whether elements that equal the bound of a node belong to the left.
+    up_to: Vec<bool>,
     index: VebIndex,
     tree: BufferTree,
     buckets: usize,
@@ -65,27 +66,33 @@ impl<T: Copy + Ord> Distributor<T> {
                 expected: "splitters in ascending order",
             });
         }
-        let boundaries: Vec<_> = splitters.iter().map(|&x| Boundary::Below(x)).collect();
-        Ok(Self::between(&boundaries, form))
+        Ok(Self::between(splitters, |_| false, form))
     }
 
-    pub(super) fn between(sorted: &[Boundary<T>], form: DistributorForm) -> Self {
+    /// For ascending bounds; `up_to` says of which one equal elements lie before it.
+    pub(super) fn between(
+        sorted: &[T],
+        up_to: impl Fn(usize) -> bool,
+        form: DistributorForm,
+    ) -> Self {
         let buckets = sorted.len() + 1;
         let height = buckets.next_power_of_two().ilog2() as usize;
         let index = VebIndex::new(height).expect("fewer splitters than memory has bytes");
-        let mut boundaries = vec![Boundary::All; (1 << height) - 1];
+        let nodes = sorted.first().map_or(0, |_| (1 << height) - 1);
+        let mut bounds: Vec<T> = sorted.iter().copied().cycle().take(nodes).collect();
+        let mut are_up_to = vec![false; nodes];
         for node in 1..1usize << height {
-            let depth = node.ilog2() as usize;
-            let in_order = (2 * (node - (1 << depth)) + 1) << (height - 1 - depth);
-            if let Some(&boundary) = sorted.get(in_order - 1) {
-                boundaries[index.position_of(node)] = boundary;
+            let k = in_order(node, height);
+            if let Some(&bound) = sorted.get(k) {
+                let position = index.position_of(node);
+                (bounds[position], are_up_to[position]) = (bound, up_to(k));
             }
         }
         let tree = match form {
             DistributorForm::Recursive => BufferTree::new(height, |h| 2 * three_halves(h)),
             DistributorForm::Unfolded => BufferTree::new(height, three_halves),
         };
-        Self { form, boundaries, index, tree, buckets }
+        Self { form, bounds, up_to: are_up_to, index, tree, buckets }
     }
 
     /// k, the number of buckets.
@@ -95,8 +102,9 @@ impl<T: Copy + Ord> Distributor<T> {
 
     /// Words of all its arrays, an element counted as one.
     pub fn words(&self) -> usize {
-        let edge = size_of::<Edge>() / size_of::<usize>();
-        self.tree.places() + edge * self.tree.edges().len() + 2 * self.boundaries.len()
+        let edge = size_of::<Waiting>() / size_of::<usize>();
+        let flags = self.up_to.len().div_ceil(size_of::<usize>());
+        self.tree.places() + edge * self.tree.edges().len() + self.bounds.len() + flags
     }
 
     /// Deals the elements of `input` to the buckets.
@@ -116,7 +124,8 @@ impl<T: Copy + Ord> Distributor<T> {
             buckets: Buckets::new(input, 1 << height),
         };
         probe.place(input);
-        probe.place(&self.boundaries);
+        probe.place(&self.bounds);
+        probe.place(&self.up_to);
         probe.place(flow.tree.edges());
         probe.write(flow.tree.edges());
         probe.place(&flow.buffers);
@@ -135,10 +144,17 @@ impl<T: Copy + Ord> Distributor<T> {
         }
         probe.lift(&flow.buffers);
         probe.lift(flow.tree.edges());
-        probe.lift(&self.boundaries);
+        probe.lift(&self.up_to);
+        probe.lift(&self.bounds);
         flow.buckets.truncate(self.buckets);
         flow.buckets
     }
+}
+
+/// How many bounds of a tree of 2^height leaves lie before that of a node.
+fn in_order(node: usize, height: usize) -> usize {
+    let depth = node.ilog2() as usize;
+    ((2 * (node - (1 << depth)) + 1) << (height - 1 - depth)) - 1
 }
 
 /// A distributor at work.
@@ -196,8 +212,11 @@ impl<T: Copy + Ord> Flow<'_, T> {
     /// The basic distributor: deals the next `count` elements above a node, or as many as there are, to the two edges
     /// below; an edge that is full is emptied by the node below it.
     fn deal<P: Probe>(&mut self, node: usize, count: usize, probe: &mut P) {
-        let boundary =
-            get(&self.distributor.boundaries, self.distributor.index.position_of(node), probe);
+        let Distributor { index, bounds, up_to, buckets, .. } = self.distributor;
+        // Of a number of buckets that is no power of two, the last nodes have nothing on their right.
+        let position = index.position_of(node);
+        let is_idle = in_order(node, self.tree.height()) + 1 >= *buckets;
+        let bound = if is_idle { None } else { Some(get(bounds, position, probe)) };
         let mut above = self.tree.edge(node, probe);
         let leaves = self.is_leaf(2 * node);
         let mut below = [Edge::default(); 2];
@@ -208,7 +227,9 @@ impl<T: Copy + Ord> Flow<'_, T> {
             let source = if node == 1 { self.input } else { &self.buffers };
             let x = get(source, above.next, probe);
             above.next += 1;
-            let side = usize::from(!boundary.is_after(x));
+            let is_right =
+                bound.is_some_and(|bound| x > bound || x == bound && !get(up_to, position, probe));
+            let side = usize::from(is_right);
             let (child, edge) = (2 * node + side, &mut below[side]);
             if leaves {
                 self.buckets.push(child - (1 << self.tree.height()), x, probe);

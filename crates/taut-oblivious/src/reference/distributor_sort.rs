@@ -8,7 +8,7 @@
 use super::distributor::{Distributor, DistributorForm};
 use super::median::insertion_sort;
 use super::mergesort::mergesort_probed;
-use super::sample::{Boundary, boundaries, draw, oversampling};
+use super::sample::{bounds, draw, oversampling};
 use super::{Random, set};
 use crate::{NoProbe, Probe};
 
@@ -47,9 +47,10 @@ fn sort<T: Copy + Ord, P: Probe>(
     probe.place(&sample);
     draw(array, &mut sample, random, probe);
     sort(&mut sample, form, random, probe);
-    let found = boundaries(&sample, k, probe);
+    let found = bounds(&sample, k, probe);
     probe.lift(&sample);
-    let buckets = Distributor::between(&found, form).distribute_probed(array, probe);
+    let one_value = |j: usize| j > 0 && j < found.len() && found[j - 1] == found[j];
+    let buckets = Distributor::between(&found, one_value, form).distribute_probed(array, probe);
     let mut end = 0;
     for j in 0..buckets.len() {
         buckets.visit(
@@ -66,7 +67,7 @@ fn sort<T: Copy + Ord, P: Probe>(
     for j in 0..buckets.len() {
         let (part, behind) = rest.split_at_mut(buckets.count(j));
         rest = behind;
-        if j > 0 && j < found.len() && Boundary::one_value(found[j - 1], found[j]) {
+        if one_value(j) {
             continue;
         }
         if part.len() > n - n / 4 {

@@ -73,7 +73,6 @@ fn merge<T: Copy + Ord, P: Probe>(
         let edge = Edge { next, end, done: true, ..Edge::default() };
         merger.tree.set_edge((1 << height) + leaf, edge, probe);
     }
-    merger.tree.set_edge(1, Edge { capacity: from.len(), ..Edge::default() }, probe);
     merger.fill(1, probe);
     probe.lift(&merger.buffers);
     probe.lift(merger.tree.edges());
@@ -90,6 +89,9 @@ impl<T: Copy + Ord> Merger<'_, T> {
     /// Fills the buffer above a node, which is empty, or as much of it as there are elements.
     fn fill<P: Probe>(&mut self, node: usize, probe: &mut P) {
         let mut out = self.tree.edge(node, probe);
+        if node == 1 {
+            out.capacity = self.to.len();
+        }
         let mut left = self.tree.edge(2 * node, probe);
         let mut right = self.tree.edge(2 * node + 1, probe);
         (out.next, out.end) = (out.start, out.start);

@@ -6,13 +6,15 @@ use crate::{Shape, largest, log, misses, numbers, row};
 
 const FORMS: [DistributorForm; 2] = [DistributorForm::Recursive, DistributorForm::Unfolded];
 
-/// M ≥ 4B² from 512 words on, M = B² from 1024 words on.
-const GRID: [Shape; 11] = [
+/// M ≥ B², at least 512 words and 32 blocks.
+const GRID: [Shape; 13] = [
     (512, 8),
+    (512, 16),
     (1024, 8),
     (4096, 8),
     (1024, 16),
     (4096, 16),
+    (16384, 16),
     (1024, 32),
     (4096, 32),
     (16384, 32),
