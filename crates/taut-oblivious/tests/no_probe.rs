@@ -128,8 +128,14 @@ fn a_probe_that_does_not_listen_leaves_no_trace_in_the_code() {
         assert!(50 * a.saturating_sub(b) <= a, "{name} has {a} instructions, without calls {b}");
     }
     let size = |functions: &BTreeMap<&str, Vec<&str>>| functions.values().map(Vec::len).sum();
-    let (a, b, c): (usize, usize, usize) = (size(&told), size(&blank), size(&heard));
-    println!("{a} instructions; without calls of probes {b}; with a probe that listens {c}");
-    assert!(200 * a.abs_diff(b) <= a && 50 * c > 51 * a, "{a}, {b}, {c}");
+    let (a, b): (usize, usize) = (size(&told), size(&blank));
+    assert!(200 * a.saturating_sub(b) <= a, "{a} instructions, without calls {b}");
+    // A probe that listens does leave traces, or this test would find none in anything.
+    let of = |name: &&&str| heard.get(**name).is_none_or(|heard| heard.len() > told[**name].len());
+    let longer = told.keys().filter(of).count();
+    println!(
+        "{a} instructions; without calls {b}; longer for a probe that listens: {longer} functions"
+    );
+    assert!(longer > 10, "{longer} of {}", told.len());
     let _ = fs::remove_dir_all(Path::new(env!("CARGO_TARGET_TMPDIR")).join("no_probe"));
 }
