@@ -6,15 +6,10 @@ use std::path::{Path, PathBuf};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
-use taut::Trace as Counters;
-use taut::certify::{
-    self, AnyFileSolution, Data, ElementOrder, FileCheckError, FileSolution as Found, Files,
-    Hash128, SortCertificate, SortedFile, TransposedFile,
-};
+use taut::certify::{AnyFileSolution, Data, FileCheckError, Files, SortedFile, TransposedFile};
+use taut::files::{StoredMatrix, sorted, transposed};
 use taut::oblivious::external::{FileSortOptions, KeyKind, RecordLayout, sort_file as sort};
-use taut::oblivious::{
-    Error, FileMatrix, TransposeFileOptions, sample as draw, transpose_file as transpose,
-};
+use taut::oblivious::{Error, TransposeFileOptions, sample as draw, transpose_file as transpose};
 
 use crate::numbers::whole;
 use crate::rows::numbers;
@@ -37,11 +32,11 @@ pub(crate) fn sort_file(
     scratch: Option<PathBuf>,
     resume: Option<PathBuf>,
 ) -> PyResult<FileSolution> {
-    let (kind, key_kind) = match kind {
-        "u64" => (KeyKind::U64, certify::KeyKind::U64),
-        "i64" => (KeyKind::I64, certify::KeyKind::I64),
-        "f64" => (KeyKind::F64, certify::KeyKind::F64),
-        "bytes" => (KeyKind::Bytes, certify::KeyKind::Bytes),
+    let kind = match kind {
+        "u64" => KeyKind::U64,
+        "i64" => KeyKind::I64,
+        "f64" => KeyKind::F64,
+        "bytes" => KeyKind::Bytes,
         _ => {
             let problem =
                 format!("option `kind` is {kind:?}: expected one of u64, i64, f64, bytes");
@@ -53,20 +48,7 @@ pub(crate) fn sort_file(
     let options = FileSortOptions { memory: whole("memory", memory, SIZE)?, scratch, resume };
     let found = interruptible(py, |monitor| sort(&input, &output, &layout, &options, monitor))?
         .map_err(raise)?;
-    let answer = SortedFile {
-        records: found.certificate.records,
-        width: layout.width as u64,
-        key: [layout.key.start as u64, layout.key.end as u64],
-        key_kind,
-    };
-    let certificate = SortCertificate { hash: Hash128(found.certificate.hash) };
-    let counters = [
-        ("bytes_read", found.bytes_read),
-        ("bytes_written", found.bytes_written),
-        ("runs", found.runs),
-    ];
-    let trace = trace("merge-runs", counters);
-    FileSolution::new(py, AnyFileSolution::Sort(Found { answer, certificate, trace }))
+    FileSolution::new(py, AnyFileSolution::Sort(sorted(&layout, &found)))
 }
 
 /// Transposes a matrix in a file; `header` goes before the elements of the output.
@@ -88,21 +70,8 @@ pub(crate) fn transpose_file(
     let width: usize = whole("width", width, SIZE)?;
     let offset: u64 = whole("offset", offset, SIZE)?;
     let options = TransposeFileOptions { memory: whole("memory", memory, SIZE)? };
-    let by_columns = fortran && rows > 1 && columns > 1;
-    let matrix = match by_columns {
-        // In Fortran order the elements lie as those of the transpose do: one row of them all.
-        true => FileMatrix { rows: 1, columns: rows.saturating_mul(columns), width, offset },
-        false => FileMatrix { rows, columns, width, offset },
-    };
-    let answer = TransposedFile {
-        rows,
-        columns,
-        width: width as u64,
-        order: if by_columns { ElementOrder::Columns } else { ElementOrder::Rows },
-        input_offset: offset,
-        output_offset: header.len() as u64,
-        dtype,
-    };
+    let stored = StoredMatrix { rows, columns, width, offset, by_columns: fortran, dtype };
+    let (matrix, answer) = (stored.matrix(), stored.transpose(header.len() as u64));
     let done = interruptible(py, |monitor| {
         let found = transpose(&input, matrix, &output, header, &options, monitor)?;
         let opened = |path: &Path| {
@@ -115,13 +84,7 @@ pub(crate) fn transpose_file(
     })?;
     let (found, certified) = done.map_err(raise)?;
     let certificate = certified.map_err(judged)?;
-    let counters = [
-        ("bytes_read", found.bytes_read),
-        ("bytes_written", found.bytes_written),
-        ("tiles", found.tiles),
-    ];
-    let trace = Counters { passes: 1, ..trace("tiles", counters) };
-    FileSolution::new(py, AnyFileSolution::Transpose(Found { answer, certificate, trace }))
+    FileSolution::new(py, AnyFileSolution::Transpose(transposed(answer, certificate, &found)))
 }
 
 /// Draws `k` different numbers below `n`.
@@ -136,14 +99,6 @@ pub(crate) fn sample(
         .map(|(name, value)| whole::<u64>(name, value, "0 to 2**64 - 1"));
     let (n, k, seed) = (n?, k?, seed?);
     numbers(py, interruptible(py, |_| draw(seed, n, k))?.map_err(raise)?)
-}
-
-fn trace(method: &str, counters: [(&str, u64); 3]) -> Counters {
-    Counters {
-        method: method.to_owned(),
-        counters: counters.map(|(name, value)| (name.to_owned(), value)).into(),
-        ..Counters::default()
-    }
 }
 
 /// A wrong input is a `ValueError`, what the system refuses an `OSError`, both with the library's sentence.

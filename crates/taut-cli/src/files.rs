@@ -89,7 +89,8 @@ pub(crate) fn are_files(paths: &[&Path]) -> anyhow::Result<()> {
 
 pub(crate) fn opened(path: &Path) -> anyhow::Result<File> {
     let name = path.display();
-    let file = File::open(path).map_err(|source| anyhow!("{name}: {source}"))?;
+    let file =
+        File::open(path).map_err(|source| taut_io::Error::reading(&name.to_string(), source))?;
     // A pipe has no place to go back to.
     if file.metadata().is_ok_and(|kind| kind.is_file()) {
         Ok(file)

@@ -614,8 +614,8 @@ pub enum Error {
 }
 
 impl Error {
-    /// What an error of opening or reading `path` means.
-    pub(crate) fn reading(path: &str, source: io::Error) -> Error {
+    /// What an error of opening or reading the file shown as `path` means, for those who read it themselves.
+    pub fn reading(path: &str, source: io::Error) -> Error {
         let path = path.to_owned();
         match source.kind() {
             io::ErrorKind::NotFound => Error::NotFound { path },

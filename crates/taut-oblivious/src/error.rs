@@ -41,7 +41,7 @@ pub enum Error {
         reason: &'static str,
     },
     /// A file cannot be read or written.
-    #[error("{path}: {source}")]
+    #[error("{path}: {}", said(source))]
     File {
         /// Which file.
         path: String,
@@ -117,4 +117,15 @@ pub enum Error {
     /// Stopped on request.
     #[error(transparent)]
     Cancelled(#[from] taut_points::Cancelled),
+}
+
+/// What the system said, in a sentence where it is one of the usual ones.
+fn said(source: &std::io::Error) -> String {
+    use std::io::ErrorKind;
+    match source.kind() {
+        ErrorKind::NotFound => "no such file or folder".to_owned(),
+        ErrorKind::PermissionDenied => "no permission to read or write it".to_owned(),
+        ErrorKind::IsADirectory => "this is a folder: name a file in it".to_owned(),
+        _ => format!("reading or writing failed: {source}"),
+    }
 }

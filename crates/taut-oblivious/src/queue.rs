@@ -22,19 +22,17 @@ use std::path::Path;
 
 use bytemuck::Pod;
 
-use crate::Error;
+use crate::key::{of_rank, rank};
+use crate::{Error, Key};
 use core::Core;
 use spill::{Blocks, NoSpill};
 
 mod core;
-mod key;
 mod partition;
 mod room;
 mod spill;
 #[cfg(test)]
 mod tests;
-
-pub use key::QueueKey;
 
 /// A queue of entries in memory, smallest key first.
 ///
@@ -52,13 +50,13 @@ pub struct PriorityQueue<K, V> {
     keys: std::marker::PhantomData<K>,
 }
 
-impl<K: QueueKey, V: Copy> Default for PriorityQueue<K, V> {
+impl<K: Key, V: Copy> Default for PriorityQueue<K, V> {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl<K: QueueKey, V: Copy> PriorityQueue<K, V> {
+impl<K: Key, V: Copy> PriorityQueue<K, V> {
     /// An empty queue.
     pub fn new() -> Self {
         Self { core: Core::new(NoSpill), keys: std::marker::PhantomData }
@@ -76,17 +74,17 @@ impl<K: QueueKey, V: Copy> PriorityQueue<K, V> {
 
     /// Adds an entry. Amortised O(log n): a comparison with each of at most 2·log₂ n + 9 pivots, several at a time.
     pub fn push(&mut self, key: K, value: V) {
-        never(self.core.push(key.to_bits(), value));
+        never(self.core.push(rank(key), value));
     }
 
     /// Takes an entry with the smallest key. Amortised, expected O(log n) for each entry that is ever taken.
     pub fn pop(&mut self) -> Option<(K, V)> {
-        never(self.core.pop()).map(|(bits, value)| (K::from_bits(bits), value))
+        never(self.core.pop()).map(|(rank, value)| (of_rank(rank), value))
     }
 
     /// The smallest key, and what comes with it. Amortised as [`Self::pop`], which may split buckets.
     pub fn peek(&mut self) -> Option<(K, V)> {
-        never(self.core.peek()).map(|(bits, value)| (K::from_bits(bits), value))
+        never(self.core.peek()).map(|(rank, value)| (of_rank(rank), value))
     }
 }
 
@@ -113,7 +111,7 @@ pub struct SpillingQueue<K, V> {
     keys: std::marker::PhantomData<K>,
 }
 
-impl<K: QueueKey, V: Pod> SpillingQueue<K, V> {
+impl<K: Key, V: Pod> SpillingQueue<K, V> {
     /// An empty queue of at most `memory` bytes, whose file is in `folder`.
     ///
     /// Two fifths of that are for entries, half as much again for the room that vectors keep as they grow, and the rest for
@@ -153,7 +151,7 @@ impl<K: QueueKey, V: Pod> SpillingQueue<K, V> {
     /// # Errors
     /// [`Error::File`] if the file cannot be written; the entry is in the queue all the same, and all others are.
     pub fn push(&mut self, key: K, value: V) -> Result<(), Error> {
-        self.core.push(key.to_bits(), value)
+        self.core.push(rank(key), value)
     }
 
     /// Takes an entry with the smallest key.
@@ -161,7 +159,7 @@ impl<K: QueueKey, V: Pod> SpillingQueue<K, V> {
     /// # Errors
     /// [`Error::File`] if the file cannot be read or written; no entry is lost by that.
     pub fn pop(&mut self) -> Result<Option<(K, V)>, Error> {
-        Ok(self.core.pop()?.map(|(bits, value)| (K::from_bits(bits), value)))
+        Ok(self.core.pop()?.map(|(rank, value)| (of_rank(rank), value)))
     }
 
     /// The smallest key, and what comes with it.
@@ -169,6 +167,6 @@ impl<K: QueueKey, V: Pod> SpillingQueue<K, V> {
     /// # Errors
     /// As of [`Self::pop`].
     pub fn peek(&mut self) -> Result<Option<(K, V)>, Error> {
-        Ok(self.core.peek()?.map(|(bits, value)| (K::from_bits(bits), value)))
+        Ok(self.core.peek()?.map(|(rank, value)| (of_rank(rank), value)))
     }
 }

@@ -10,14 +10,13 @@
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 pub mod external;
-mod key;
 mod quick;
 mod records;
 #[cfg(test)]
 mod tests;
 
-pub use key::SortKey;
-
+use crate::Key;
+use crate::key::{of_rank, rank};
 use crate::probe::{NoProbe, Probe};
 
 /// Up to this many numbers are compared with each other instead of being turned into ranks.
@@ -34,41 +33,59 @@ const FEW: usize = 16;
 /// taut_oblivious::sort(&mut numbers);
 /// assert_eq!(format!("{numbers:?}"), "[-inf, -0.0, 0.0, 1.0, NaN]");
 /// ```
-pub fn sort<K: SortKey>(keys: &mut [K]) {
+pub fn sort<K: Key>(keys: &mut [K]) {
     sort_probed(keys, &mut NoProbe);
 }
 
 /// [`sort`], on one thread if anybody listens to the touches.
-pub fn sort_probed<K: SortKey, P: Probe>(keys: &mut [K], probe: &mut P) {
+pub fn sort_probed<K: Key, P: Probe>(keys: &mut [K], probe: &mut P) {
     probe.place(keys);
     probe.read(keys);
     if keys.len() <= FEW {
-        keys.sort_unstable_by_key(|key| key.rank());
+        keys.sort_unstable_by_key(|&key| rank(key));
         return probe.write(keys);
     }
-    if let Some(run) = run(keys, &|key: &K| key.rank()) {
+    if let Some(run) = run(keys, &|&key: &K| rank(key)) {
         if run == Run::Falls {
             keys.reverse();
             probe.write(keys);
         }
         return;
     }
-    if let Some(ranks) = K::into_ranks(keys) {
+    if let Some(ranks) = into_ranks(keys) {
         quick::sort(ranks, probe);
-        K::out_of_ranks(ranks);
+        out_of_ranks::<K>(ranks);
         probe.read(ranks);
         probe.write(ranks);
     } else {
-        let mut words: Vec<u64> = keys.iter().map(|key| key.rank()).collect();
+        let mut words: Vec<u64> = keys.iter().map(|&key| rank(key)).collect();
         probe.place(&words);
         probe.write(&words);
         quick::sort(&mut words, probe);
         for (key, &word) in keys.iter_mut().zip(&words) {
-            *key = K::of_rank(word);
+            *key = of_rank(word);
         }
         probe.read(&words);
         probe.lift(&words);
         probe.write(keys);
+    }
+}
+
+/// Keys of the size of words turned into words that are ranks, in place; none for keys that are smaller.
+fn into_ranks<K: Key>(keys: &mut [K]) -> Option<&mut [u64]> {
+    if size_of::<K>() < size_of::<u64>() {
+        return None;
+    }
+    for key in keys.iter_mut() {
+        *key = bytemuck::cast(rank(*key));
+    }
+    Some(bytemuck::cast_slice_mut(keys))
+}
+
+/// Ranks turned back into keys.
+fn out_of_ranks<K: Key>(ranks: &mut [u64]) {
+    for rank in ranks {
+        *rank = bytemuck::cast(of_rank::<K>(*rank));
     }
 }
 
@@ -110,7 +127,7 @@ fn run<T>(items: &[T], rank: &impl Fn(&T) -> u64) -> Option<Run> {
 /// taut_oblivious::sort_records(&mut points, |point| point.0);
 /// assert_eq!(points, [(-1.0, 'a'), (2.0, 'b'), (2.0, 'a')]);
 /// ```
-pub fn sort_records<T: Copy + Send + Sync, K: SortKey>(
+pub fn sort_records<T: Copy + Send + Sync, K: Key>(
     records: &mut [T],
     key: impl Fn(&T) -> K + Sync,
 ) {
@@ -118,10 +135,10 @@ pub fn sort_records<T: Copy + Send + Sync, K: SortKey>(
 }
 
 /// [`sort_records`], on one thread if anybody listens to the touches.
-pub fn sort_records_probed<T: Copy + Send + Sync, K: SortKey, P: Probe>(
+pub fn sort_records_probed<T: Copy + Send + Sync, K: Key, P: Probe>(
     records: &mut [T],
     key: impl Fn(&T) -> K + Sync,
     probe: &mut P,
 ) {
-    records::sort(records, &|record: &T| key(record).rank(), probe);
+    records::sort(records, &|record: &T| rank(key(record)), probe);
 }

@@ -20,7 +20,7 @@
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`Plane`], [`Space`] | the same | [mod@delaunay] |
 //! | edges that must be there | [`Plane::constrained`] | exact, Delaunay as far as they let it be | [mod@delaunay] |
 //! | rows in an order where neighbours are near each other | [`spatial_order()`] | a function of the point set alone, proved | [mod@delaunay] |
-//! | files sorted or transposed that memory does not hold, samples, search, simulated memories | [mod@oblivious] | each with its own | [mod@oblivious] |
+//! | files sorted or transposed that memory does not hold, samples, search, simulated memories | [mod@oblivious] | each with its own | [mod@oblivious], [`files`] |
 //! | the curves that noisy points were sampled from | [`curve()`] | no crossings; each point within the band told or named as an outlier; whether sampling was dense enough | [mod@reconstruct] |
 //! | the curves through points without noise, a short tour through points | [`curve()`] with a [`CurveMethod`] | what each is known for, a bound beside the tour | [mod@reconstruct] |
 //! | a second opinion on any answer | [`Solution::check`] | a proved bracket, or the first violation | [`certify`] |
@@ -103,11 +103,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Nothing but names lives here; each crate behind the door can be used on its own. Files are read and written by
+//! Nothing but names lives here, and in [`files`] what joins two crates that do not know each other; each crate behind the door can be used on its own. Files are read and written by
 //! `taut-io`, pictures drawn by `taut-draw`, and the command `taut` is the crate `taut-cli`.
 //!
 //! Not for: distances other than Euclidean, or weights other than those of centres.
 #![forbid(unsafe_code)]
+
+pub mod files;
 
 pub use taut_certify as certify;
 pub use taut_certify::{

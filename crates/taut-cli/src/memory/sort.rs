@@ -3,8 +3,8 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-use taut::Trace;
-use taut::certify::{self, AnyFileSolution, FileSolution, Hash128, SortCertificate, SortedFile};
+use taut::certify::AnyFileSolution;
+use taut::files::sorted;
 use taut::oblivious::external::{FileSort, FileSortOptions, KeyKind, RecordLayout, sort_file};
 
 use super::key;
@@ -77,7 +77,7 @@ impl Args {
         let found = watch.during("sorting", |monitor| {
             sort_file(&self.input, &self.out, &layout, &options, monitor)
         })?;
-        let solution = solution(&layout, &found);
+        let solution = AnyFileSolution::Sort(sorted(&layout, &found));
         let outcome = self.proof.finish(&solution, None, &self.out, &watch)?;
         if outcome != Outcome::Done {
             return Ok(outcome);
@@ -125,31 +125,4 @@ impl Args {
             found.certificate.hash,
         )
     }
-}
-
-/// What the output is said to be, and what proves it.
-fn solution(layout: &RecordLayout, found: &FileSort) -> AnyFileSolution {
-    let answer = SortedFile {
-        records: found.certificate.records,
-        width: layout.width as u64,
-        key: [layout.key.start as u64, layout.key.end as u64],
-        key_kind: match layout.kind {
-            KeyKind::U64 => certify::KeyKind::U64,
-            KeyKind::I64 => certify::KeyKind::I64,
-            KeyKind::F64 => certify::KeyKind::F64,
-            KeyKind::Bytes => certify::KeyKind::Bytes,
-        },
-    };
-    let certificate = SortCertificate { hash: Hash128(found.certificate.hash) };
-    let counters = [
-        ("bytes_read", found.bytes_read),
-        ("bytes_written", found.bytes_written),
-        ("runs", found.runs),
-    ];
-    let trace = Trace {
-        method: "merge-runs".to_owned(),
-        counters: counters.map(|(name, value)| (name.to_owned(), value)).into(),
-        ..Trace::default()
-    };
-    AnyFileSolution::Sort(FileSolution { answer, certificate, trace })
 }

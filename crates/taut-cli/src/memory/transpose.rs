@@ -3,10 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
-use taut::Trace;
-use taut::certify::{
-    AnyFileSolution, ElementOrder, FileCheckError, FileSolution, Files, TransposedFile,
-};
+use taut::certify::{AnyFileSolution, FileCheckError, Files, TransposedFile};
+use taut::files::{StoredMatrix, transposed};
 use taut::oblivious::{
     Error, FileCheck, FileMatrix, FileTransposition, TransposeFileOptions, check_transposed_file,
     transpose_file,
@@ -71,6 +69,13 @@ struct Job {
     header: Vec<u8>,
 }
 
+impl Job {
+    fn of(stored: &StoredMatrix, header: Vec<u8>) -> Self {
+        let answer = stored.transpose(header.len() as u64);
+        Self { answer, matrix: stored.matrix(), header }
+    }
+}
+
 impl Args {
     pub(super) fn run(&self) -> anyhow::Result<Outcome> {
         are_files(&[&self.input, &self.out])?;
@@ -111,17 +116,8 @@ impl Args {
             );
         }
         let (width, offset) = (self.width.unwrap_or(8), self.offset.unwrap_or(0));
-        let matrix = FileMatrix { rows, columns, width, offset };
-        let answer = TransposedFile {
-            rows,
-            columns,
-            width: width as u64,
-            order: ElementOrder::Rows,
-            input_offset: offset,
-            output_offset: 0,
-            dtype: None,
-        };
-        Ok(Job { answer, matrix, header: Vec::new() })
+        let stored = StoredMatrix { rows, columns, width, offset, by_columns: false, dtype: None };
+        Ok(Job::of(&stored, Vec::new()))
     }
 
     fn npy(&self) -> anyhow::Result<Job> {
@@ -148,25 +144,10 @@ impl Args {
                 array.shape.len()
             );
         };
-        let NpyArray { width, offset, fortran, .. } = array;
-        let by_columns = fortran && rows > 1 && columns > 1;
-        let matrix = match by_columns {
-            // In Fortran order the elements lie as those of the transpose do: one row of them all.
-            true => FileMatrix { rows: 1, columns: rows * columns, width, offset },
-            false => FileMatrix { rows, columns, width, offset },
-        };
         let turned = NpyArray { shape: vec![columns, rows], fortran: false, ..array.clone() };
-        let header = turned.header();
-        let answer = TransposedFile {
-            rows,
-            columns,
-            width: width as u64,
-            order: if by_columns { ElementOrder::Columns } else { ElementOrder::Rows },
-            input_offset: offset,
-            output_offset: header.len() as u64,
-            dtype: Some(array.dtype),
-        };
-        Ok(Job { answer, matrix, header })
+        let NpyArray { dtype, width, fortran: by_columns, offset, .. } = array;
+        let stored = StoredMatrix { rows, columns, width, offset, by_columns, dtype: Some(dtype) };
+        Ok(Job::of(&stored, turned.header()))
     }
 
     /// Compares the files, every element, and writes the certificate of what was found.
@@ -190,18 +171,7 @@ impl Args {
             Err(error) => return Err(error.into()),
         };
         if let Some(path) = &self.certificate {
-            let counters = [
-                ("bytes_read", found.bytes_read),
-                ("bytes_written", found.bytes_written),
-                ("tiles", found.tiles),
-            ];
-            let trace = Trace {
-                method: "tiles".to_owned(),
-                passes: 1,
-                counters: counters.map(|(name, value)| (name.to_owned(), value)).into(),
-                ..Trace::default()
-            };
-            let solution = FileSolution { answer: answer.clone(), certificate, trace };
+            let solution = transposed(answer.clone(), certificate, found);
             let text = AnyFileSolution::Transpose(solution).to_json() + "\n";
             writing::replace(path, text.as_bytes())?;
         }

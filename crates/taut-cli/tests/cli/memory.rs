@@ -47,7 +47,7 @@ fn what_cannot_be_sorted_is_named_and_nothing_is_written() {
         ("records.bin --width 10 --key 4:20", &["key", "4..20"]),
         ("records.bin --width 10 --key 3:8", &["key", "eight bytes"]),
         ("records.bin --width 10 --memory 1K", &["memory", "1024"]),
-        ("missing.bin --width 10", &["missing.bin"]),
+        ("missing.bin --width 10", &["missing.bin: no such file or folder"]),
     ] {
         desk.taut(&format!("memory sort {options} -o sorted.bin")).ends(2).complains(said);
         assert_eq!(desk.text("sorted.bin"), "before");

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | the nearest point to a place | [`KdTree::nearest`] |
 //! | the nearest points to many places | [`KdTree::nearest_all`], which goes through them along a Hilbert curve |
-//! | the k nearest | [`KdTree::nearest_k`] |
+//! | the k nearest | [`KdTree::nearest_k`]; [`KdTree::nearest_k_by`] where the order of equal distances matters |
 //!
 //! The nearest point is that of the smallest squared distance ((x² + y²) + z²) as calculated in `f64`, and of several the
 //! one of the lowest row. Where squares would overflow or lose digits, which needs a coordinate beyond 2⁵⁰⁰ ≈ 3·10¹⁵⁰ or

@@ -11,6 +11,7 @@
 //! point behind the side by a rounding.
 
 use std::array::from_fn;
+use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::hint::select_unpredictable;
 
@@ -38,6 +39,8 @@ const DEPTH_MAX: usize = 32;
 /// Buckets that are asked for before the first of them is looked at: with the reach that the first bucket of all gave, two
 /// or three more are near enough on average.
 const ASKED: usize = 8;
+/// Nearest points that are kept in order; more are kept in a heap.
+const FEW: usize = 64;
 /// Places that one task of [`KdTree::nearest_all`] searches for.
 const TASK: usize = 1 << 12;
 
@@ -95,32 +98,128 @@ impl Found for One {
     }
 }
 
-/// The k nearest points so far: squared distances as bits, which have their order, and rows; the farthest on top.
-struct Several {
-    heap: BinaryHeap<(u64, u32)>,
+/// The k nearest points so far, the farthest on top.
+struct Several<F> {
+    heap: BinaryHeap<Candidate<u64, F>>,
     k: usize,
+    ties: F,
 }
 
-impl Found for Several {
+/// A point that may be among the nearest: a squared distance as something of the same order, the row, and the order of
+/// rows that are equally far.
+#[derive(Clone, Copy)]
+pub(super) struct Candidate<S, F> {
+    pub(super) square: S,
+    pub(super) row: u32,
+    pub(super) ties: F,
+}
+
+impl<S: Ord, F: Fn(u32, u32) -> Ordering> Ord for Candidate<S, F> {
+    #[inline(always)]
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.square.cmp(&other.square).then_with(|| (self.ties)(self.row, other.row))
+    }
+}
+
+impl<S: Ord, F: Fn(u32, u32) -> Ordering> PartialOrd for Candidate<S, F> {
+    #[inline(always)]
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl<S: Ord, F: Fn(u32, u32) -> Ordering> PartialEq for Candidate<S, F> {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl<S: Ord, F: Fn(u32, u32) -> Ordering> Eq for Candidate<S, F> {}
+
+/// Takes a candidate among the k least.
+#[inline(always)]
+pub(super) fn keep<S: Ord, F: Fn(u32, u32) -> Ordering>(
+    heap: &mut BinaryHeap<Candidate<S, F>>,
+    k: usize,
+    candidate: Candidate<S, F>,
+) {
+    if heap.len() < k {
+        heap.push(candidate);
+    } else if let Some(mut farthest) = heap.peek_mut()
+        && candidate < *farthest
+    {
+        *farthest = candidate;
+    }
+}
+
+impl<F: Fn(u32, u32) -> Ordering + Copy> Found for Several<F> {
     #[inline(always)]
     fn reach(&self) -> f64 {
         match self.heap.peek() {
-            Some(&(bits, _)) if self.heap.len() == self.k => f64::from_bits(bits),
+            Some(farthest) if self.heap.len() == self.k => f64::from_bits(farthest.square),
             _ => f64::INFINITY,
         }
     }
 
     #[inline(always)]
     fn offer(&mut self, distances: &[[f64; LANES]; BUCKET / LANES], rows: &[u32; BUCKET]) {
-        for (&distance2, &row) in distances.as_flattened().iter().zip(rows) {
-            if distance2 <= self.reach() && row != u32::MAX {
-                self.heap.push((distance2.to_bits(), row));
-                if self.heap.len() > self.k {
-                    self.heap.pop();
-                }
+        for (distance2, row) in within(self.reach(), distances, rows) {
+            if distance2 <= self.reach() {
+                let candidate = Candidate { square: distance2.to_bits(), row, ties: self.ties };
+                keep(&mut self.heap, self.k, candidate);
             }
         }
     }
+}
+
+/// The k nearest points so far, where these are few: in order, which costs less than a heap up to [`FEW`].
+struct Few<F> {
+    /// Squared distances as bits, which have their order, and rows.
+    found: Vec<(u64, u32)>,
+    k: usize,
+    ties: F,
+}
+
+impl<F: Fn(u32, u32) -> Ordering + Copy> Found for Few<F> {
+    #[inline(always)]
+    fn reach(&self) -> f64 {
+        self.found.get(self.k - 1).map_or(f64::INFINITY, |&(bits, _)| f64::from_bits(bits))
+    }
+
+    #[inline(always)]
+    fn offer(&mut self, distances: &[[f64; LANES]; BUCKET / LANES], rows: &[u32; BUCKET]) {
+        for (distance2, row) in within(self.reach(), distances, rows) {
+            let bits = distance2.to_bits();
+            let mut place = self.found.partition_point(|&(other, _)| other < bits);
+            let is_before = |&&(other, its): &&(u64, u32)| {
+                other == bits && (self.ties)(its, row) == Ordering::Less
+            };
+            place += self.found[place..].iter().take_while(is_before).count();
+            if place < self.k {
+                self.found.truncate(self.k - 1);
+                self.found.insert(place, (bits, row));
+            }
+        }
+    }
+}
+
+/// The points of a bucket that are not farther than a reach. All are compared at once, as most are too far.
+#[inline(always)]
+fn within(
+    reach: f64,
+    distances: &[[f64; LANES]; BUCKET / LANES],
+    rows: &[u32; BUCKET],
+) -> impl Iterator<Item = (f64, u32)> {
+    let distances = distances.as_flattened();
+    let bit = |(i, &distance2): (usize, &f64)| u32::from(distance2 <= reach) << i;
+    let mut near = distances.iter().enumerate().map(bit).fold(0, |all, bit| all | bit);
+    let next = move || {
+        let i = near.trailing_zeros() as usize;
+        near &= near.wrapping_sub(1);
+        (i < BUCKET).then(|| (distances[i], rows[i]))
+    };
+    // Where there is no point, the distance is infinite.
+    std::iter::from_fn(next).filter(|&(_, row)| row != u32::MAX)
 }
 
 impl<const D: usize> KdTree<D> {
@@ -133,7 +232,7 @@ impl<const D: usize> KdTree<D> {
     /// [`KdTree::nearest`], heard by a probe.
     pub fn nearest_probed<P: Probe>(&self, place: [f64; D], probe: &mut P) -> Option<Nearest> {
         if !(self.plain && is_plain(place)) {
-            return self.nearest_wide(place, 1, probe).first().copied();
+            return self.nearest_wide(place, 1, |a, b| a.cmp(&b), probe).first().copied();
         }
         let mut found = One(Nearest { row: u32::MAX, distance2: f64::INFINITY });
         self.search(Level::best(), place, &mut found, probe);
@@ -152,17 +251,57 @@ impl<const D: usize> KdTree<D> {
         k: usize,
         probe: &mut P,
     ) -> Vec<Nearest> {
+        self.several(place, k, |a, b| a.cmp(&b), probe)
+    }
+
+    /// The `k` points nearest to `place`, by distance and then by an order of rows of one's own, which has to be total: by
+    /// the coordinates of the points, say, so that what is found does not depend on how they are numbered. It is asked
+    /// only where distances are equal.
+    ///
+    /// ```
+    /// use taut_oblivious::kdtree::KdTree;
+    /// let points = [[2.0, 0.0], [1.0, 1.0], [0.0, 0.0]];
+    /// let by_place = |a: u32, b: u32| points[a as usize][0].total_cmp(&points[b as usize][0]);
+    /// let found = KdTree::new(&points)?.nearest_k_by([1.0, 0.0], 2, by_place);
+    /// assert_eq!([found[0].row, found[1].row], [2, 1]);         // all are equally far
+    /// # Ok::<(), taut_oblivious::Error>(())
+    /// ```
+    pub fn nearest_k_by(
+        &self,
+        place: [f64; D],
+        k: usize,
+        ties: impl Fn(u32, u32) -> Ordering,
+    ) -> Vec<Nearest> {
+        self.several(place, k, &ties, &mut NoProbe)
+    }
+
+    fn several<F: Fn(u32, u32) -> Ordering + Copy, P: Probe>(
+        &self,
+        place: [f64; D],
+        k: usize,
+        ties: F,
+        probe: &mut P,
+    ) -> Vec<Nearest> {
         if k == 0 {
             return Vec::new();
         }
         if !(self.plain && is_plain(place)) {
-            return self.nearest_wide(place, k, probe);
+            return self.nearest_wide(place, k, ties, probe);
         }
-        let heap = BinaryHeap::with_capacity(k.min(self.len) + 1);
-        let mut found = Several { heap, k };
+        if k <= FEW {
+            let mut few = Few { found: Vec::with_capacity(k), k, ties };
+            self.search(Level::best(), place, &mut few, probe);
+            let nearest =
+                |(bits, row): (u64, u32)| Nearest { row, distance2: f64::from_bits(bits) };
+            return few.found.into_iter().map(nearest).collect();
+        }
+        let heap = BinaryHeap::with_capacity(k.min(self.len));
+        let mut found = Several { heap, k, ties };
         self.search(Level::best(), place, &mut found, probe);
         let sorted = found.heap.into_sorted_vec().into_iter();
-        sorted.map(|(bits, row)| Nearest { row, distance2: f64::from_bits(bits) }).collect()
+        let nearest =
+            |c: Candidate<u64, F>| Nearest { row: c.row, distance2: f64::from_bits(c.square) };
+        sorted.map(nearest).collect()
     }
 
     /// [`KdTree::nearest`] of many places, on the current rayon pool. The places are searched for along a Hilbert curve,

@@ -38,6 +38,10 @@ fn agrees<const D: usize>(points: &[[f64; D]], places: &[[f64; D]]) {
             }
             for k in [0, 1, 2, 7, points.len(), points.len() + 5] {
                 assert_eq!(tree.nearest_k(place, k), want[..k.min(want.len())], "{k} {place:?}");
+                let falling = tree.nearest_k_by(place, k, |a, b| b.cmp(&a));
+                let mut want = want.clone();
+                want.sort_by(|a, b| a.distance2.total_cmp(&b.distance2).then(b.row.cmp(&a.row)));
+                assert_eq!(falling, want[..k.min(want.len())], "{k} {place:?}");
             }
         }
     }
@@ -149,6 +153,9 @@ fn places_at_infinity_are_equally_far_from_all() {
         assert_eq!(found[3 + row].unwrap().row, row as u32);
     }
     assert_eq!(tree.nearest([f64::NAN, f64::INFINITY]), None);
+    let last: Vec<u32> =
+        tree.nearest_k_by(places[0], 3, |a, b| b.cmp(&a)).iter().map(|found| found.row).collect();
+    assert_eq!(last, [99, 98, 97]);
     assert!(tree.nearest_k([f64::NAN, 1e300], 5).is_empty());
 }
 

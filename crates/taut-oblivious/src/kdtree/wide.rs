@@ -9,8 +9,10 @@
 //! *Trap.* A side is left out by a bound that may have been calculated in another band than the points behind it; it is
 //! lowered by more than all roundings.
 
+use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
+use super::query::{Candidate, keep};
 use super::{BUCKET, IS_BUCKET, KdTree, Nearest, Node};
 use crate::Probe;
 
@@ -87,11 +89,13 @@ impl Square {
 }
 
 impl<const D: usize> KdTree<D> {
-    /// The `k` points nearest to a place with any coordinates, by distance and then by row; none if one is not a number.
-    pub(super) fn nearest_wide<P: Probe>(
+    /// The `k` points nearest to a place with any coordinates, by distance and then as `ties` says; none if a coordinate is
+    /// not a number.
+    pub(super) fn nearest_wide<F: Fn(u32, u32) -> Ordering + Copy, P: Probe>(
         &self,
         place: [f64; D],
         k: usize,
+        ties: F,
         probe: &mut P,
     ) -> Vec<Nearest> {
         if k == 0 || self.len == 0 || place.iter().any(|x| x.is_nan()) {
@@ -99,17 +103,22 @@ impl<const D: usize> KdTree<D> {
         }
         if place.iter().any(|x| x.is_infinite()) {
             // All are equally far.
-            let rows = (0..self.len as u32).take(k);
-            return rows.map(|row| Nearest { row, distance2: f64::INFINITY }).collect();
+            let mut rows: Vec<u32> = (0..self.len as u32).collect();
+            rows.sort_unstable_by(|&a, &b| ties(a, b));
+            return rows
+                .into_iter()
+                .take(k)
+                .map(|row| Nearest { row, distance2: f64::INFINITY })
+                .collect();
         }
         let (nodes, rows) = (self.nodes.words(), self.rows.words());
         let coordinates = self.coordinates.words();
         // The farthest on top.
-        let mut found: BinaryHeap<(Square, u32)> = BinaryHeap::new();
+        let mut found: BinaryHeap<Candidate<Square, F>> = BinaryHeap::new();
         // Sides, and the corner of each that is nearest to the place.
         let mut waiting = vec![(self.root, place)];
         while let Some((mut child, corner)) = waiting.pop() {
-            let reach = found.peek().filter(|_| found.len() == k).map(|&(square, _)| square);
+            let reach = found.peek().filter(|_| found.len() == k).map(|farthest| farthest.square);
             let too_far = |corner: [f64; D]| {
                 reach.is_some_and(|reach| Square::between(place, corner).lowered() > reach)
             };
@@ -137,13 +146,10 @@ impl<const D: usize> KdTree<D> {
             probe.read(rows);
             for (i, &row) in rows.iter().enumerate().filter(|(_, row)| **row != u32::MAX) {
                 let point = std::array::from_fn(|axis| points[axis * BUCKET + i]);
-                found.push((Square::between(place, point), row));
-                if found.len() > k {
-                    found.pop();
-                }
+                keep(&mut found, k, Candidate { square: Square::between(place, point), row, ties });
             }
         }
-        let nearest = |(square, row): (Square, u32)| Nearest { row, distance2: square.value() };
+        let nearest = |c: Candidate<Square, F>| Nearest { row: c.row, distance2: c.square.value() };
         found.into_sorted_vec().into_iter().map(nearest).collect()
     }
 }

@@ -12,8 +12,8 @@ use std::ops::Range;
 use super::density::{LEAF, Windows};
 use super::map::{PackedMap, Writer};
 use super::spread;
-use crate::search::{Key, prefetch};
-use crate::{NoProbe, Probe, sort_records};
+use crate::search::prefetch;
+use crate::{Key, NoProbe, Probe, sort_records};
 
 /// Batches of at least this share of all entries, one in so many, are merged with all.
 const MERGE_SHARE: usize = 8;

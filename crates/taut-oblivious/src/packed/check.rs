@@ -2,7 +2,7 @@
 
 use super::density::{LEAF, LEAF_MIN};
 use super::map::PackedMap;
-use crate::search::{Key, Word};
+use crate::{Key, Word};
 
 /// How full the windows of one level are.
 #[derive(Clone, Copy, Debug, PartialEq)]

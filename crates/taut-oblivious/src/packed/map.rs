@@ -19,8 +19,8 @@ use std::ops::Range;
 use super::density::{LEAF, LEAF_MIN, SEQUENTIAL, Windows};
 use super::separators::Separators;
 use super::spread;
-use crate::search::{Key, Pages, Word, prefetch};
-use crate::{NoProbe, Probe};
+use crate::search::{Pages, prefetch};
+use crate::{Key, NoProbe, Probe, Word};
 
 /// Insertions into one leaf, one after the other, after which it counts as hammered.
 const HAMMERED: u32 = 32;

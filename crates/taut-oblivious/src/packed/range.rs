@@ -4,8 +4,7 @@ use std::ops::{Bound, RangeBounds};
 
 use super::density::LEAF;
 use super::map::PackedMap;
-use crate::NoProbe;
-use crate::search::{Key, Word};
+use crate::{Key, NoProbe, Word};
 
 /// The runs of the array that make up a range of a [`PackedMap`]: for each leaf its keys and its values.
 #[derive(Clone)]

@@ -6,9 +6,9 @@
 //! Trap: a search counts separators below the successor of its word. The largest word has none: it belongs to the last
 //! leaf, and that is known without a search.
 
-use crate::Probe;
 use crate::level::Level;
-use crate::search::{Pages, Tree, Word};
+use crate::search::{Pages, Tree};
+use crate::{Probe, Word};
 
 /// More levels than any array that fits a memory has.
 const LEVELS_MAX: usize = 24;

@@ -5,8 +5,7 @@ use std::ops::RangeBounds;
 use super::check::{Density, Violation};
 use super::map::PackedMap;
 use super::range::{Iter, Runs};
-use crate::search::Key;
-use crate::{NoProbe, Probe};
+use crate::{Key, NoProbe, Probe};
 
 /// An ordered set in one array with gaps: a [`PackedMap`] without values.
 ///

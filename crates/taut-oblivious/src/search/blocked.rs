@@ -8,8 +8,8 @@
 //! *Trap.* Cuts are counted from the leaves up, or the last page of each walk would hold one level.
 
 use super::Pages;
-use super::{Key, SortedIndex, Word, check_sorted};
-use crate::{Error, Probe};
+use super::{SortedIndex, check_sorted};
+use crate::{Error, Key, Probe, Word};
 
 /// Children of the first line of a page.
 const FIRST: usize = 7;

@@ -8,9 +8,9 @@
 
 use super::Pages;
 use super::lanes::prefetch;
-use super::{Key, SortedIndex, Word, check_sorted};
+use super::{SortedIndex, check_sorted};
 use crate::layout::CompleteTree;
-use crate::{Error, Probe};
+use crate::{Error, Key, Probe, Word};
 
 /// Sorted keys as a complete binary tree in breadth-first order.
 pub struct Eytzinger<K: Key> {

@@ -134,7 +134,7 @@ impl<W: Lanes> Count<W> for Avx2 {
     }
 }
 
-impl<W: super::Word> Count<W> for Portable {
+impl<W: crate::Word> Count<W> for Portable {
     #[allow(unsafe_code, reason = "the form without vectors of the kernels")]
     #[inline(always)]
     unsafe fn below(words: &[W], first: usize, word: W) -> usize {
@@ -160,8 +160,9 @@ pub(crate) fn prefetch<W>(words: &[W], at: usize) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Pages, Word};
+    use super::super::Pages;
     use super::*;
+    use crate::Word;
     use crate::level::Level;
 
     #[allow(unsafe_code, reason = "calls the kernels one by one")]

@@ -13,7 +13,6 @@
 
 mod blocked;
 mod eytzinger;
-mod key;
 mod lanes;
 mod sorted;
 mod splus;
@@ -26,14 +25,13 @@ use std::ops::Range;
 pub(crate) use crate::room::Pages;
 pub use blocked::BlockedVanEmdeBoas;
 pub use eytzinger::Eytzinger;
-pub use key::{Key, Word};
-pub(crate) use lanes::prefetch;
+pub(crate) use lanes::{Lanes, prefetch};
 pub use sorted::Sorted;
 pub use splus::SPlusTree;
 pub(crate) use splus::Tree;
 pub use veb::VanEmdeBoas;
 
-use crate::{Error, NoProbe, Probe};
+use crate::{Error, Key, NoProbe, Probe, Word};
 
 /// An index over sorted keys, built once, asked often.
 ///

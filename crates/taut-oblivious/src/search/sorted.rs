@@ -7,8 +7,8 @@
 use std::hint::select_unpredictable;
 
 use super::Pages;
-use super::{Key, SortedIndex, sorted_words};
-use crate::{Error, Probe};
+use super::{SortedIndex, sorted_words};
+use crate::{Error, Key, Probe};
 
 /// Sorted keys in one array, searched by halving.
 pub struct Sorted<K: Key> {

@@ -12,9 +12,9 @@
 
 use super::Pages;
 use super::lanes::{Count, Portable, prefetch};
-use super::{Key, SortedIndex, Word, sorted_words};
+use super::{SortedIndex, sorted_words};
 use crate::level::Level;
-use crate::{Error, Probe};
+use crate::{Error, Key, Probe, Word};
 
 /// Searches that walk together.
 const GROUP: usize = 4;

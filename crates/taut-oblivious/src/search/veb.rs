@@ -10,9 +10,9 @@
 //! binary trees of small height, SODA 2002 (places by arithmetic); section 5.5 of the thesis.
 
 use super::Pages;
-use super::{Key, SortedIndex, check_sorted};
+use super::{SortedIndex, check_sorted};
 use crate::layout::VanEmdeBoasOrder;
-use crate::{Error, Probe};
+use crate::{Error, Key, Probe};
 
 /// Sorted keys as a complete binary tree in the van Emde Boas layout.
 pub struct VanEmdeBoas<K: Key> {

@@ -17,6 +17,8 @@
 
 use std::arch::x86_64::*;
 
+use crate::level::Avx512;
+
 /// Keys in a vector.
 const LANES: usize = 8;
 /// Keys that are read from one end before the other end is looked at: four vectors.
@@ -26,21 +28,12 @@ pub(super) const SMALL: usize = 16 * LANES;
 /// Fewest keys that [`Avx512::partition`] takes.
 pub(super) const PARTITION_MIN: usize = 2 * CHUNK;
 
-/// Proof that the processor has AVX-512: there is no other way to make one than to ask it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Avx512(());
-
 impl Avx512 {
-    pub(super) fn detect() -> Option<Self> {
-        (is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("popcnt"))
-            .then_some(Avx512(()))
-    }
-
     /// Brings the keys below `pivot`, with `inclusive` also those equal to it, to the front and returns their number.
     ///
     /// # Panics
     /// If there are fewer than [`PARTITION_MIN`] keys.
-    pub(super) fn partition(self, keys: &mut [u64], pivot: u64, inclusive: bool) -> usize {
+    pub(in crate::sort) fn partition(self, keys: &mut [u64], pivot: u64, inclusive: bool) -> usize {
         assert!(keys.len() >= PARTITION_MIN, "{} keys are too few", keys.len());
         // SAFETY: `self` proves that the processor has the features.
         unsafe {
@@ -49,7 +42,7 @@ impl Avx512 {
     }
 
     /// A key near the median: the median of the medians of eight columns of seven.
-    pub(super) fn near_median(self, sample: &[u64; 7 * LANES]) -> u64 {
+    pub(in crate::sort) fn near_median(self, sample: &[u64; 7 * LANES]) -> u64 {
         // SAFETY: `self` proves that the processor has the features.
         unsafe { near_median(sample) }
     }
@@ -58,7 +51,7 @@ impl Avx512 {
     ///
     /// # Panics
     /// If there are more.
-    pub(super) fn small(self, keys: &mut [u64]) {
+    pub(in crate::sort) fn small(self, keys: &mut [u64]) {
         assert!(keys.len() <= SMALL, "{} keys are too many", keys.len());
         // SAFETY: `self` proves that the processor has the features.
         unsafe {

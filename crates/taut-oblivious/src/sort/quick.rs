@@ -6,7 +6,7 @@
 //! *References.* Those of the kernels; O. Peters, *Pattern-defeating quicksort*, arXiv 2106.05123 (equal keys).
 
 #[cfg(target_arch = "x86_64")]
-use super::avx512::Avx512;
+use crate::level::{Avx512, Level};
 use crate::probe::{NoProbe, Probe};
 
 /// Up to this many keys are sorted by the standard library: a network would be filled with nothing.
@@ -16,7 +16,7 @@ const FEW: usize = 16;
 pub(super) fn sort<P: Probe>(keys: &mut [u64], probe: &mut P) {
     #[cfg(target_arch = "x86_64")]
     if keys.len() > FEW
-        && let Some(kernel) = Avx512::detect()
+        && let Level::Avx512(kernel) = Level::best()
     {
         let levels = 2 * keys.len().ilog2();
         if !P::LISTENS && keys.len() >= vector::SHARE && rayon::current_num_threads() > 1 {

@@ -13,11 +13,12 @@
 use std::cmp::Ordering;
 
 use rayon::prelude::*;
-use taut_points::{Cancelled, Monitor};
+use taut_points::Monitor;
 
 use super::Denoise;
 use super::neighbors::of_neighbors;
 use super::spheres::{Point, dot, minus};
+use crate::Error;
 
 /// How many times farther from its neighbours than they are from theirs a point must be for an outlier.
 const FAR: f64 = 3.0;
@@ -33,11 +34,17 @@ pub(super) struct Denoised {
 }
 
 /// Takes out noise. Coordinates are of a magnitude whose squares are numbers.
+///
+/// # Errors
+/// [`Error::TooManyPoints`] and [`Error::Cancelled`].
 pub(super) fn denoise(
     all: &[Point],
     options: &Denoise,
     monitor: &Monitor<'_>,
-) -> Result<Denoised, Cancelled> {
+) -> Result<Denoised, Error> {
+    if u32::try_from(all.len()).is_err() {
+        return Err(Error::TooManyPoints { points: all.len() as u64, most: u32::MAX.into() });
+    }
     // Equal points are one: each is where its first is moved, or left out with it.
     let first = firsts(all);
     let (distinct, place): (Vec<u32>, Vec<u32>) = {
@@ -49,14 +56,14 @@ pub(super) fn denoise(
         (distinct, of_first)
     };
     let once: Vec<Point> = distinct.iter().map(|&row| all[row as usize]).collect();
-    let is_outlier = outliers(&once, options.neighbors);
+    let is_outlier = outliers(&once, options.neighbors)?;
     let kept: Vec<u32> = (0..once.len() as u32).filter(|&k| !is_outlier[k as usize]).collect();
     let mut points: Vec<Point> = kept.iter().map(|&k| once[k as usize]).collect();
     for _ in 0..options.iterations {
         monitor.check()?;
         points = of_neighbors(&points, options.neighbors, |point, near| {
-            onto_sheet(points[point], near.iter().map(|near| points[near.1 as usize]))
-        });
+            onto_sheet(points[point], near.iter().map(|near| points[near.row as usize]))
+        })?;
     }
     let mut moved = once;
     kept.iter().zip(points).for_each(|(&k, point)| moved[k as usize] = point);
@@ -85,17 +92,17 @@ pub(super) fn firsts(points: &[Point]) -> Vec<u32> {
 }
 
 /// By point, whether its neighbours are much farther from it than theirs from them.
-fn outliers(points: &[Point], neighbors: usize) -> Vec<bool> {
+fn outliers(points: &[Point], neighbors: usize) -> Result<Vec<bool>, Error> {
     let distances: Vec<(f64, Vec<u32>)> = of_neighbors(points, neighbors, |_, near| {
-        let sum: f64 = near.iter().map(|near| near.0.sqrt()).sum();
-        (sum, near.iter().map(|near| near.1).collect())
-    });
+        let sum: f64 = near.iter().map(|near| near.distance2.sqrt()).sum();
+        (sum, near.iter().map(|near| near.row).collect())
+    })?;
     let is_outlier = |(own, near): &(f64, Vec<u32>)| {
         let mut theirs: Vec<f64> = near.iter().map(|&other| distances[other as usize].0).collect();
         theirs.sort_unstable_by(f64::total_cmp);
         theirs.get(theirs.len() / 2).is_some_and(|median| *own > FAR * median)
     };
-    distances.par_iter().map(is_outlier).collect()
+    Ok(distances.par_iter().map(is_outlier).collect())
 }
 
 /// A point moved along the normal of others onto the paraboloid that fits them best; onto the plane that does, if they are too few or

@@ -1,120 +1,50 @@
 //! The k nearest of a set of points.
 //!
-//! *Idea.* A k-d tree without pointers: of each range of the points the middle one along the longest side of its box is in the middle,
-//! the lower ones before it, the higher ones after it.
-//! *Guarantee.* Equal distances are ordered by coordinates, so what is found depends on the points alone. O(n log n) to build.
+//! *Idea.* The kd-tree of `taut-oblivious`, searched along a Hilbert curve, so that each search finds in the caches what the one before
+//! it needed.
+//! *Guarantee.* Equal distances are ordered by coordinates, so what is found depends on the points alone. O(n log n).
+
+use std::cmp::Ordering;
 
 use rayon::prelude::*;
+use taut_oblivious::hilbert_order;
+use taut_oblivious::kdtree::{KdTree, Nearest};
 
-use super::spheres::{Point, dot, minus};
+use super::spheres::Point;
+use crate::Error;
 
-/// Ranges of up to this many points are looked through.
-const FEW: usize = 8;
-/// Ranges of more points are divided by two threads.
-const TASK: usize = 1 << 13;
-
-/// A tree over points.
-pub(super) struct Tree<'a> {
-    points: &'a [Point],
-    /// The points, arranged.
-    order: Vec<u32>,
-    /// Of the middle of each range, along which axis it is.
-    axes: Vec<u8>,
-}
-
-/// A point with the square of its distance.
-pub(super) type Near = (f64, u32);
-
-impl<'a> Tree<'a> {
-    pub(super) fn of(points: &'a [Point]) -> Self {
-        let mut order: Vec<u32> = (0..points.len() as u32).collect();
-        let mut axes = vec![0; points.len()];
-        arrange(points, &mut order, &mut axes);
-        Self { points, order, axes }
-    }
-
-    /// The `count` points nearest to one, the nearest first; itself among them.
-    pub(super) fn nearest(&self, to: Point, count: usize, found: &mut Vec<Near>) {
-        found.clear();
-        self.search(0, self.order.len(), to, count, found);
-    }
-
-    fn search(&self, begin: usize, end: usize, to: Point, count: usize, found: &mut Vec<Near>) {
-        if end - begin <= FEW {
-            self.order[begin..end].iter().for_each(|&point| self.offer(point, to, count, found));
-            return;
-        }
-        let middle = begin + (end - begin) / 2;
-        let axis = self.axes[middle] as usize;
-        let beyond = to[axis] - self.points[self.order[middle] as usize][axis];
-        let sides = [(begin, middle), (middle + 1, end)];
-        let [near, far] = if beyond < 0.0 { sides } else { [sides[1], sides[0]] };
-        self.search(near.0, near.1, to, count, found);
-        self.offer(self.order[middle], to, count, found);
-        if found.len() < count || beyond * beyond <= found[found.len() - 1].0 {
-            self.search(far.0, far.1, to, count, found);
-        }
-    }
-
-    fn offer(&self, point: u32, to: Point, count: usize, found: &mut Vec<Near>) {
-        let at = |point: u32| self.points[point as usize];
-        let off = minus(at(point), to);
-        let square = dot(off, off);
-        let is_before =
-            |other: &Near| other.0 < square || other.0 == square && at(other.1) <= at(point);
-        let place = found.partition_point(is_before);
-        if place < count {
-            found.truncate(count - 1);
-            found.insert(place, (square, point));
-        }
-    }
-}
-
-fn arrange(points: &[Point], order: &mut [u32], axes: &mut [u8]) {
-    if order.len() <= FEW {
-        return;
-    }
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for point in &*order {
-        for k in 0..3 {
-            let x = points[*point as usize][k];
-            (low[k], high[k]) = (low[k].min(x), high[k].max(x));
-        }
-    }
-    let side = |k: usize| high[k] - low[k];
-    let axis = (1..3).fold(0, |best, k| if side(k) > side(best) { k } else { best });
-    let middle = order.len() / 2;
-    let along = |point: u32| points[point as usize][axis];
-    order.select_nth_unstable_by(middle, |&a, &b| along(a).total_cmp(&along(b)));
-    axes[middle] = axis as u8;
-    let is_large = order.len() > TASK;
-    let (lower, rest) = order.split_at_mut(middle);
-    let (axes_lower, axes_rest) = axes.split_at_mut(middle);
-    let (upper, axes_upper) = (&mut rest[1..], &mut axes_rest[1..]);
-    if is_large {
-        rayon::join(|| arrange(points, lower, axes_lower), || arrange(points, upper, axes_upper));
-    } else {
-        arrange(points, lower, axes_lower);
-        arrange(points, upper, axes_upper);
-    }
-}
-
-/// For each point something of its nearest neighbours, on all threads.
+/// For each point something of its nearest neighbours, the nearest first and itself among them, on all threads.
 pub(super) fn of_neighbors<R: Send>(
     points: &[Point],
     count: usize,
-    of: impl Fn(usize, &[Near]) -> R + Sync,
-) -> Vec<R> {
-    let tree = Tree::of(points);
-    let each = |found: &mut Vec<Near>, point: usize| {
-        tree.nearest(points[point], count, found);
-        of(point, found)
-    };
-    (0..points.len()).into_par_iter().with_min_len(1 << 8).map_init(Vec::new, each).collect()
+    of: impl Fn(usize, &[Nearest]) -> R + Sync,
+) -> Result<Vec<R>, Error> {
+    let tree = KdTree::new(points).map_err(|error| refused(error, points.len()))?;
+    let at = |row: u32| points[row as usize];
+    // Finite, so that there is an order.
+    let by_place =
+        |a: u32, b: u32| at(a).partial_cmp(&at(b)).unwrap_or(Ordering::Equal).then(a.cmp(&b));
+    let each = |&row: &u32| of(row as usize, &tree.nearest_k_by(at(row), count, by_place));
+    let order = hilbert_order(points.len(), |row| points[row]);
+    let found: Vec<R> = order.par_iter().with_min_len(1 << 8).map(each).collect();
+    let mut by_row: Vec<Option<R>> = points.iter().map(|_| None).collect();
+    order.iter().zip(found).for_each(|(&row, found)| by_row[row as usize] = Some(found));
+    Ok(by_row.into_iter().flatten().collect())
+}
+
+/// What the tree refuses, as a surface says it.
+fn refused(error: taut_oblivious::Error, points: usize) -> Error {
+    match error {
+        taut_oblivious::Error::NonFinite { row, column, value } => {
+            Error::NonFinite { row, column, value }
+        }
+        _ => Error::TooManyPoints { points: points as u64, most: u32::MAX.into() },
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::spheres::{dot, minus};
     use super::*;
 
     #[test]
@@ -128,18 +58,19 @@ mod tests {
         let mut points: Vec<Point> = (0..600).map(|_| [number(), number(), number()]).collect();
         points.sort_unstable_by(|a, b| a.partial_cmp(b).expect("numbers"));
         points.dedup();
-        let tree = Tree::of(&points);
-        let mut found = Vec::new();
-        for &to in points.iter().step_by(17) {
-            tree.nearest(to, 9, &mut found);
-            let square = |point: &u32| {
-                dot(minus(points[*point as usize], to), minus(points[*point as usize], to))
-            };
-            let mut all: Vec<u32> = (0..points.len() as u32).collect();
-            all.sort_by(|a, b| square(a).total_cmp(&square(b)));
-            let places: Vec<u32> = found.iter().map(|near| near.1).collect();
+        // Rows in another order than places.
+        let turned: Vec<Point> = points.iter().rev().copied().collect();
+        let found = of_neighbors(&turned, 9, |row, near| {
+            (row, near.iter().map(|near| turned[near.row as usize]).collect::<Vec<_>>())
+        });
+        for (row, (own, near)) in found.expect("finite").into_iter().enumerate() {
+            assert_eq!(row, own);
+            let to = turned[row];
+            let square = |point: &Point| dot(minus(*point, to), minus(*point, to));
+            let mut all = points.clone();
             // Points are sorted, so the stable sort leaves equal distances in the order of coordinates.
-            assert_eq!(places, all[..9]);
+            all.sort_by(|a, b| square(a).total_cmp(&square(b)));
+            assert_eq!(near, all[..9]);
         }
     }
 }

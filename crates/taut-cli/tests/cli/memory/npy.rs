@@ -93,11 +93,16 @@ fn what_is_no_matrix_is_refused_by_name() {
         assert_eq!(desk.files(), ["a.npy"]);
     }
     desk.taut("memory transpose a.npy --samples 1 --certificate b.json -o b.npy").ends(2);
+    for missing in ["missing.npy -o b.npy", "missing.bin --rows 1 --columns 2 -o b.bin"] {
+        let named = ["missing", ": no such file or folder"];
+        desk.taut(&format!("memory transpose {missing}")).ends(2).complains(&named);
+    }
     desk.put("a.bin", [0; 16]);
     desk.taut("memory transpose a.bin -o b.bin").ends(2).complains(&["a.bin", "--rows N"]);
     desk.taut("memory transpose a.bin --rows 1 --columns 2 -o b.npy")
         .ends(2)
         .complains(&["b.npy", "without a header"]);
     desk.taut("memory transpose a.bin --rows 1 --columns 2 -o b.bin --certificate b.json").ends(0);
+    desk.taut("verify b.json a.bin c.bin").ends(2).complains(&["c.bin: no such file or folder"]);
     desk.taut("verify b.json a.bin b.bin").ends(0).says(&["Verified: 2 × 1, the transpose"]);
 }

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 use crate::error::Error;
-use crate::sort::SortKey;
+use crate::key::rank;
 
 /// How the bytes of a key are to be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -53,8 +53,8 @@ impl RecordLayout {
         if let Ok(word) = <[u8; 8]>::try_from(key) {
             return match self.kind {
                 KeyKind::U64 => u64::from_le_bytes(word),
-                KeyKind::I64 => i64::from_le_bytes(word).rank(),
-                KeyKind::F64 => f64::from_le_bytes(word).rank(),
+                KeyKind::I64 => rank(i64::from_le_bytes(word)),
+                KeyKind::F64 => rank(f64::from_le_bytes(word)),
                 KeyKind::Bytes => u64::from_be_bytes(word),
             };
         }

@@ -1,26 +1,23 @@
 //! What can be a key: numbers, by an unsigned word that has their order.
 //!
-//! Idea: a structure compares words and nothing else, so one kernel serves all kinds of keys. Words are a bijection:
-//! unsigned numbers are their own, signed ones have the sign bit flipped, floats are in the total order of IEEE 754
-//! (`f64::total_cmp`): −NaN < −∞ < … < −0.0 < 0.0 < … < ∞ < NaN.
-//! Trap: −0.0 and 0.0 are two keys in that order, and every NaN has its place; nothing panics, and nothing is equal to
+//! *Idea.* Whatever sorts, searches or queues keys compares words and nothing else, so one kernel serves all kinds of keys.
+//! Words are a bijection: unsigned numbers are their own, signed ones have the sign bit flipped, floats are in the total
+//! order of IEEE 754 ([`f64::total_cmp`]): −NaN < −∞ < … < −0.0 < 0.0 < … < ∞ < NaN.
+//! *Trap.* −0.0 and 0.0 are two keys in that order, and every NaN has its place; nothing panics, and nothing is equal to
 //! a key but the same bits.
 
 use std::fmt::Debug;
 
 use bytemuck::Pod;
 
-use super::lanes::Lanes;
-use crate::SortKey;
+use crate::search::Lanes;
 
 mod sealed {
     pub trait Sealed {}
 }
 
 /// The unsigned word that a [`Key`] is compared by: `u32` or `u64`.
-pub trait Word:
-    Lanes + SortKey + Ord + Pod + Debug + Default + Send + Sync + sealed::Sealed
-{
+pub trait Word: Key<Word = Self> + Lanes + Ord + Default + Into<u64> {
     /// The largest word.
     const MAX: Self;
     /// Words in a line of memory of 64 bytes.
@@ -28,11 +25,13 @@ pub trait Word:
 
     /// The next larger word; none after the largest.
     fn next(self) -> Option<Self>;
+
+    /// The low bits of a number.
+    fn low_bits(number: u64) -> Self;
 }
 
 macro_rules! word {
     ($word:ty, $lanes:literal) => {
-        impl sealed::Sealed for $word {}
         impl Word for $word {
             const MAX: Self = <$word>::MAX;
             const LANES: usize = $lanes;
@@ -41,15 +40,21 @@ macro_rules! word {
             fn next(self) -> Option<Self> {
                 self.checked_add(1)
             }
+
+            #[inline(always)]
+            fn low_bits(number: u64) -> Self {
+                number as Self
+            }
         }
     };
 }
 word!(u32, 16);
 word!(u64, 8);
 
-/// A number that can be a key: `u32`, `u64`, `i32`, `i64`, `f32`, `f64`.
+/// A number that can be sorted, searched for or queued: exactly `u32`, `u64`, `i32`, `i64`, `f32` and `f64`.
 ///
-/// The order of keys is that of integers, and of floats the total order of IEEE 754.
+/// The order of keys is that of integers, and of floats the total order of IEEE 754, as [`f64::total_cmp`] has it: negative
+/// NaN, −∞, …, −0, 0, …, ∞, NaN. Sealed.
 pub trait Key: Copy + Pod + Debug + Send + Sync + sealed::Sealed {
     /// The word that has the key's place.
     type Word: Word;
@@ -61,8 +66,21 @@ pub trait Key: Copy + Pod + Debug + Send + Sync + sealed::Sealed {
     fn of_word(word: Self::Word) -> Self;
 }
 
+/// The word of a key among those of 64 bits.
+#[inline(always)]
+pub(crate) fn rank<K: Key>(key: K) -> u64 {
+    key.word().into()
+}
+
+/// The key with this rank; for a number that is no rank, any key.
+#[inline(always)]
+pub(crate) fn of_rank<K: Key>(rank: u64) -> K {
+    K::of_word(K::Word::low_bits(rank))
+}
+
 macro_rules! unsigned {
     ($key:ty) => {
+        impl sealed::Sealed for $key {}
         impl Key for $key {
             type Word = $key;
 
@@ -133,14 +151,19 @@ mod tests {
 
     fn keeps_order<K: Key>(sorted: &[K]) {
         assert!(sorted.windows(2).all(|side| side[0].word() < side[1].word()), "{sorted:?}");
+        assert!(sorted.windows(2).all(|side| rank(side[0]) < rank(side[1])), "{sorted:?}");
         for &key in sorted {
-            assert_eq!(K::of_word(key.word()).word(), key.word());
+            // By their bits, as NaN equals nothing.
+            let bits = |key: K| bytemuck::bytes_of(&key).to_vec();
+            assert_eq!(bits(K::of_word(key.word())), bits(key));
+            assert_eq!(bits(of_rank(rank(key))), bits(key));
         }
     }
 
     #[test]
     fn words_have_the_order_of_their_keys() {
         keeps_order(&[0u64, 1, u64::MAX - 1, u64::MAX]);
+        keeps_order(&[0u32, 1, u32::MAX - 1, u32::MAX]);
         keeps_order(&[i64::MIN, -2, -1, 0, 1, i64::MAX]);
         keeps_order(&[i32::MIN, -1, 0, i32::MAX]);
         let floats = [f64::INFINITY, f64::MAX, 1.0, f64::MIN_POSITIVE, 5e-324, 0.0];
