@@ -27,10 +27,10 @@ fn check<T: Pod + Send + Sync + PartialEq>(rows: usize, columns: usize, shift: u
     let guard = numbered::<T>(2 * shift + 1);
     for level in Level::all() {
         for past in [false, true] {
-            let mut shape = Shape::new::<T>(level, rows, columns);
+            let mut shape = Shape::new::<T>(level, rows, columns, 1);
             shape.past = past;
             if past && rows >= 2 * BAND && shape.strip_columns < columns {
-                shape.task_columns = TASK * shape.strip_columns;
+                shape.task_columns = TASK * WALK;
             }
             let mut to = [&guard[..shift], &vec![T::zeroed(); n], &guard[shift..]].concat();
             for (k, strip) in to[shift..shift + n].chunks_mut(shape.task_columns * rows).enumerate()
