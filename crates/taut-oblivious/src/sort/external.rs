@@ -106,5 +106,5 @@ pub fn sort_file(
     options: &FileSortOptions,
     monitor: &Monitor<'_>,
 ) -> Result<FileSort, Error> {
-    files::sort(input, output, layout, options, monitor)
+    files::sort(input, output, layout, options, monitor, |file, _| file)
 }

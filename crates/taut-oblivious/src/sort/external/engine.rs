@@ -27,7 +27,6 @@ pub(super) fn within<I: Store, O: Store + Sync + Send>(
     let mut maker = Maker::new(plan)?;
     output.reserve(plan.bytes())?;
     maker.make(0, input, output, 0, &mut certificate, monitor)?;
-    output.sync()?;
     Ok(FileSort {
         certificate,
         runs: plan.runs(),
@@ -103,7 +102,6 @@ pub(super) fn beyond<I: Store, R: Store + Send + Sync, O: Store + Send + Sync>(
     if written != certificate {
         return Err(Error::ReadBack { path: runs.path().to_owned() });
     }
-    output.sync()?;
     Ok(FileSort {
         certificate,
         runs: plan.runs(),

@@ -5,6 +5,7 @@
 //! [`FileSortOptions::resume`] the runs have that name instead, and only success removes it, once the name of the output
 //! has reached the disk.
 
+use std::borrow::Borrow;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -19,14 +20,16 @@ use super::medium::Medium;
 use super::plan::Plan;
 use super::{FileSort, FileSortOptions};
 use crate::error::Error;
-use crate::store::{self, Draft};
+use crate::store::{self, Draft, Store};
 
-pub(super) fn sort(
+/// Sorts a file; `open` makes of each file, by its name in errors, what is read and written.
+pub(super) fn sort<F: Store + Borrow<File> + Send + Sync>(
     input: &Path,
     output: &Path,
     layout: &RecordLayout,
     options: &FileSortOptions,
     monitor: &Monitor<'_>,
+    open: impl Fn(File, &str) -> F,
 ) -> Result<FileSort, Error> {
     layout.check()?;
     if let Some(path) = &options.resume {
@@ -51,16 +54,18 @@ pub(super) fn sort(
         return Err(Error::Partial { path, bytes: about.len(), width: layout.width });
     }
     let plan = Plan::new(layout, about.len() / width, options.memory)?;
-    let mut from = Medium::new(file, input.display().to_string());
-    let draft = at(output, Draft::beside(output))?;
-    let mut to = Medium::new(draft, output.display().to_string());
+    let medium = |file, path: String| Medium::new(open(file, &path), path);
+    let mut from = medium(file, input.display().to_string());
+    let to = output.display().to_string();
+    let draft = at(output, Draft::beside(output, |file| open(file, &to)))?;
+    let mut to = Medium::new(draft, to);
     let found = if plan.fits() {
         engine::within(&plan, &mut from, &mut to, monitor)?
     } else if let Some(path) = &options.resume {
         let file = at(path, open_or_create(path))?;
         let length = at(path, file.metadata())?.len();
         let modified = about.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
-        let mut runs = Medium::new(file, path.display().to_string());
+        let mut runs = medium(file, path.display().to_string());
         let modified = modified.map_or(0, |since| since.as_nanos() as u64);
         let journal = Journal::open(&plan, modified, length, &mut runs)?;
         engine::beyond(&plan, &mut from, &mut runs, Some(&journal), &mut to, monitor)?
@@ -68,7 +73,7 @@ pub(super) fn sort(
         let target = at(output, store::target(output))?;
         let folder = options.scratch.as_deref().unwrap_or(store::folder(&target));
         let file = at(folder, tempfile::tempfile_in(folder))?;
-        let mut runs = Medium::new(file, format!("runs in {}", folder.display()));
+        let mut runs = medium(file, format!("runs in {}", folder.display()));
         engine::beyond(&plan, &mut from, &mut runs, None, &mut to, monitor)?
     };
     at(output, to.into_store().publish())?;

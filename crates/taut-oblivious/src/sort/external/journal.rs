@@ -49,22 +49,20 @@ impl Journal {
         let identity = [MAGIC, plan.records, modified, width, start, end, kind, chunk];
         let (runs, certificate) = (plan.runs(), Multiset::default());
         let mut journal = Self { identity, runs, runs_done: 0, certificate };
-        if length == 0 {
-            file.write(&journal.slot(&identity), 0)?;
-            return Ok(journal);
-        }
-        let mut slot = [0; SLOT];
-        // A file that is too short for a journal is somebody else's.
-        let is_whole = length >= SLOT as u64;
-        if is_whole {
-            file.read(&mut slot, 0)?;
-        }
-        if !is_whole || slot != journal.slot(&identity) {
+        let (first, mut slot) = (journal.slot(&identity), [0; SLOT]);
+        let start = &mut slot[..length.min(SLOT as u64) as usize];
+        file.read(start, 0)?;
+        if !first.starts_with(start) {
             return Err(Error::Option {
                 name: "resume",
                 value: file.path().to_owned(),
                 expected: "a file of the same sort: same input, layout and memory; or none",
             });
+        }
+        // Nothing yet, or what a disk had room for that then was full.
+        if start.len() < SLOT {
+            file.write(&first, 0)?;
+            return Ok(journal);
         }
         for run in 0..runs {
             let at = Self::place(run);
