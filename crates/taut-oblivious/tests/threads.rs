@@ -34,7 +34,7 @@ fn bytes<T: bytemuck::NoUninit>(values: &[T]) -> Vec<u8> {
     bytemuck::cast_slice(values).to_vec()
 }
 
-fn sorted<T: SortKey + bytemuck::NoUninit>(mut keys: Vec<T>) -> Vec<u8> {
+fn sorted<T: Key + bytemuck::NoUninit>(mut keys: Vec<T>) -> Vec<u8> {
     sort(&mut keys);
     bytes(&keys)
 }

@@ -140,7 +140,7 @@ pub fn transpose_file(
     transpose_through(from, matrix, to, header, options, monitor, |file, _| file)
 }
 
-/// The same; `open` makes of each file what is read and written.
+/// The same; `through` makes of each file what is read and written.
 fn transpose_through<F: Store + Borrow<File>>(
     from: &Path,
     matrix: FileMatrix,
