@@ -219,7 +219,7 @@ mod tests {
     }
 
     /// Points of a set, as many as an interpreter has time for.
-    const MOST: usize = if cfg!(miri) { 20 } else { 400 };
+    const MOST: usize = if cfg!(miri) { 12 } else { 400 };
 
     fn coordinate() -> impl Strategy<Value = f64> {
         prop_oneof![
@@ -235,7 +235,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(if cfg!(miri) { 2 } else { 256 }))]
+        #![proptest_config(ProptestConfig::with_cases(if cfg!(miri) { 1 } else { 256 }))]
         #[test]
         fn the_order_is_a_function_of_the_set(
             points in prop::collection::vec([coordinate(), coordinate()], 0..MOST),

@@ -100,7 +100,7 @@ fn nothing_one_key_and_extreme_keys() {
 
     let mut set = PackedSet::<u64>::new();
     set.insert(u64::MAX);
-    let n = if cfg!(miri) { 300 } else { 5000 };
+    let n = if cfg!(miri) { 150 } else { 5000 };
     for key in (0..n).rev() {
         assert!(set.insert(key));
     }
