@@ -2,7 +2,7 @@
 //!
 //! *Guarantee.* A value of [`Avx2`] or [`Avx512`] proves the instructions; the caller has checked that the block lies in
 //! both slices. Elements are plain bytes (`Pod`), so any width may be read as an integer of that width.
-#![allow(unsafe_code)] // Loads, stores and shuffles of whole vectors.
+#![allow(unsafe_code, reason = "loads, stores and shuffles of whole vectors")]
 
 use std::arch::x86_64::*;
 

@@ -7,7 +7,7 @@
 //! row go one at a time.
 //! *Trap.* Reading a block and then writing it costs the sum of both, not the longer: measured, copying in blocks of
 //! 16 KiB runs at two thirds of copying line by line.
-#![allow(unsafe_code)] // Loads, stores and shuffles of whole vectors.
+#![allow(unsafe_code, reason = "loads, stores and shuffles of whole vectors")]
 
 use std::arch::x86_64::*;
 
