@@ -16,8 +16,9 @@ use crate::{size, writing};
 /// Sort a file of records of fixed width by their key, which may be larger than memory.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Records with equal keys keep their order. The output is read again and proved to be in order and to hold the records of
-the input, by a hash of 128 bits of all of them; without --resume nothing is left behind, however the process ends.
+Records with equal keys keep their order. The output is read again and proved to be in order and to hold the records that
+were read, by a hash of 128 bits of all of them; `taut verify` compares them with those that the input holds then. Without
+--resume nothing is left behind, however the process ends.
 Exit: 0 done · 1 the check failed · 2 bad input or usage
 Example: taut memory sort records.bin --width 32 --key 0:8 --kind u64 -o sorted.bin --certificate sorted.json
          taut verify sorted.json records.bin sorted.bin")]

@@ -113,7 +113,7 @@ impl Gap {
         let order = _mm512_cvtepu8_epi64(_mm_cvtsi64_si128(FRONT[mask as usize] as i64));
         let sorted = _mm512_permutexvar_epi64(order, v);
         let less = mask.count_ones() as usize;
-        // SAFETY: as promised.
+        // SAFETY: the caller promises the eight places from `low` on and those up to `high`.
         unsafe {
             _mm512_storeu_si512(self.base.add(self.low).cast(), sorted);
             _mm512_storeu_si512(self.base.add(self.high - LANES).cast(), sorted);

@@ -1,5 +1,5 @@
 //! Tiles in the registers of x86-64: 8 × 24 numbers in 24 registers of 8, or 4 × 12 in 12 registers of 4.
-#![allow(unsafe_code)] // Loads and stores of whole vectors.
+#![allow(unsafe_code, reason = "loads and stores of whole vectors")]
 
 use std::arch::x86_64::*;
 use std::array::from_fn;
@@ -69,6 +69,9 @@ macro_rules! tile {
     ($name:ident, $feature:literal, $rows:literal, $lanes:literal,
      $zero:ident, $set:ident, $load:ident, $store:ident, $fused:ident, $add:ident, $subtract:ident) => {
         /// The first `VECTORS` vectors of each row.
+        ///
+        /// # Safety
+        /// The processor has the instructions; `a` and `b` hold `depth` groups of packed rows and columns, `c` the tile.
         #[target_feature(enable = $feature)]
         unsafe fn $name<const VECTORS: usize>(
             depth: usize,
