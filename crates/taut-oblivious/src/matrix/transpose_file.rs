@@ -19,7 +19,7 @@ use taut_points::Monitor;
 
 use crate::Error;
 use crate::room::Pages;
-use crate::store::{Draft, Store};
+use crate::store::{self, Draft, Pending, Store};
 
 pub(crate) mod check;
 
@@ -136,18 +136,33 @@ pub fn transpose_file(
     options: &TransposeFileOptions,
     monitor: &Monitor<'_>,
 ) -> Result<FileTransposition, Error> {
+    transpose_file_pending(from, matrix, to, header, options, monitor)?.publish()
+}
+
+/// [`transpose_file`], but for the last step: the target is complete and has not its name yet, so that it can be looked at
+/// before it replaces an earlier one.
+///
+/// # Errors
+/// Those of [`transpose_file`].
+pub fn transpose_file_pending(
+    from: &Path,
+    matrix: FileMatrix,
+    to: &Path,
+    header: &[u8],
+    options: &TransposeFileOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Pending<FileTransposition>, Error> {
     let plan = Plan::new(matrix, header.len() as u64, options)?;
     let source = open(from, &matrix)?;
     let target = Draft::beside(to).map_err(failed(to))?;
     let done = plan.run(&source, &target, header, monitor).map_err(|at| at.named(from, to))?;
-    target.publish().map_err(failed(to))?;
-    Ok(done)
+    Ok(Pending::new(done, target, to, None))
 }
 
 /// Opens a file that ends with `matrix`.
 fn open(path: &Path, matrix: &FileMatrix) -> Result<File, Error> {
-    let file = File::open(path).map_err(failed(path))?;
-    let bytes = file.metadata().map_err(failed(path))?.len();
+    let (file, about) = store::open(path).map_err(failed(path))?;
+    let bytes = about.len();
     let expected = matrix.end()?;
     if bytes == expected {
         Ok(file)
@@ -197,7 +212,7 @@ impl Plan {
         let to = from.transposed(header);
         to.end()?;
         let elements = (options.memory / 2 / from.width) as u64;
-        if elements == 0 {
+        if elements == 0 && from.rows > 0 && from.columns > 0 {
             return Err(Error::Option {
                 name: "memory",
                 value: format!("{} bytes", options.memory),

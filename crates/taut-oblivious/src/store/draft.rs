@@ -58,8 +58,22 @@ impl Draft {
         // As any new file; else nobody but the owner might read it.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let (file, name) = builder.tempfile_in(folder(&target))?.into_parts();
+        // The system speaks of a name that nobody asked for.
+        let refused = |error: io::Error| match error.kind() {
+            ErrorKind::NotFound => io::Error::other("its folder takes no new files"),
+            ErrorKind::PermissionDenied => ErrorKind::PermissionDenied.into(),
+            _ => error,
+        };
+        let folder = folder(&target);
+        fs::metadata(folder)?;
+        let (file, name) = builder.tempfile_in(folder).map_err(refused)?.into_parts();
         Ok(Self { file, name: Some(name), target })
+    }
+
+    /// The file as it is so far, to be read by way of the system's cache.
+    pub(crate) fn file(&mut self) -> &mut File {
+        self.file.past_cache(false);
+        &mut self.file
     }
 
     /// Brings the bytes to the disk and gives the file its name, in the place of any other file with this name.
