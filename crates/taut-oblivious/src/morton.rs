@@ -63,6 +63,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(if cfg!(miri) { 8 } else { 256 }))]
         #[test]
         fn bits_are_interleaved(x in 0u32..1 << 16, y in 0u32..1 << 16) {
             prop_assert_eq!(morton_key([x, y]), plain([x, y]));

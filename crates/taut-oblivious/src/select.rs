@@ -79,9 +79,13 @@ mod tests {
         }
     }
 
+    /// Numbers, as many as an interpreter has time for.
+    const MOST: usize = if cfg!(miri) { 120 } else { 400 };
+
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(if cfg!(miri) { 3 } else { 256 }))]
         #[test]
-        fn selects_and_reverses(mut values in proptest::collection::vec(any::<f64>(), 0..400), k in 0usize..400) {
+        fn selects_and_reverses(mut values in proptest::collection::vec(any::<f64>(), 0..MOST), k in 0..MOST) {
             let mut sorted = values.clone();
             sorted.sort_by(f64::total_cmp);
             let found = select(&mut values, k).map(f64::to_bits);

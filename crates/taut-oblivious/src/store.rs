@@ -5,6 +5,8 @@
 //! past that cache where the system can.
 
 mod draft;
+#[cfg(test)]
+pub(crate) mod faulty;
 mod pending;
 
 use std::fs::{self, File, Metadata};
@@ -129,7 +131,7 @@ impl Store for File {
 
     fn sync(&self) -> io::Result<()> {
         loop {
-            match self.sync_data() {
+            match self.sync_all() {
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
                 result => return result,
             }

@@ -260,7 +260,7 @@ impl<const D: usize> KdTree<D> {
     ///
     /// ```
     /// use taut_oblivious::kdtree::KdTree;
-    /// let points = [[2.0, 0.0], [1.0, 1.0], [0.0, 0.0]];
+    /// let points = [[2.0f64, 0.0], [1.0, 1.0], [0.0, 0.0]];
     /// let by_place = |a: u32, b: u32| points[a as usize][0].total_cmp(&points[b as usize][0]);
     /// let found = KdTree::new(&points)?.nearest_k_by([1.0, 0.0], 2, by_place);
     /// assert_eq!([found[0].row, found[1].row], [2, 1]);         // all are equally far

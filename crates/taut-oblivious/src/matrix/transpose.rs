@@ -32,8 +32,13 @@ const STRIP: usize = 48;
 /// Rows of a band: their pages, one for each row of a wide matrix, stay among the two or three thousand whose translation
 /// the processor keeps. Walked from top to bottom, a strip of more rows would ask for each page anew.
 const BAND: usize = 1024;
-/// Strips of a task: their columns of numbers of 8 bytes fill a page.
-const TASK: usize = 11;
+/// Columns of a strip of a band.
+const WALK: usize = 64;
+/// Most strips of a band: of numbers of 8 bytes, four pages of each row are read in one go. Measured with one page, 8192 × 16384
+/// numbers take a quarter longer, whose rows begin at the same place in so many pages that few translations are kept.
+const TASK: usize = 32;
+/// Least number of tasks for each thread.
+const SHARE: usize = 4;
 /// Most columns of a matrix that is one strip: its rows are read as they lie.
 const NARROW: usize = 128;
 /// Bytes of a run, the part of a row of the target that is written in one go, at least.
@@ -74,7 +79,7 @@ pub fn transpose<T: Pod + Send + Sync>(
     if to.is_empty() || size_of::<T>() == 0 {
         return Ok(());
     }
-    let shape = Shape::new::<T>(Level::best(), rows, columns);
+    let shape = Shape::new::<T>(Level::best(), rows, columns, rayon::current_num_threads());
     let task_len = shape.task_columns * rows;
     if to.len() < SHARED || rayon::current_num_threads() == 1 {
         for (k, task) in to.chunks_mut(task_len).enumerate() {
@@ -106,7 +111,7 @@ pub fn transpose_probed<T: Pod, P: Probe>(
     }
     probe.place(from);
     probe.place(to);
-    let shape = Shape { past: false, ..Shape::new::<T>(Level::best(), rows, columns) };
+    let shape = Shape { past: false, ..Shape::new::<T>(Level::best(), rows, columns, 1) };
     for (k, task) in to.chunks_mut(shape.task_columns * rows).enumerate() {
         shape.task(from, k * shape.task_columns, task, probe);
     }
@@ -145,7 +150,8 @@ struct Shape {
 }
 
 impl Shape {
-    fn new<T>(level: Level, rows: usize, columns: usize) -> Self {
+    /// For as many threads; they change nothing but what is done at a time.
+    fn new<T>(level: Level, rows: usize, columns: usize, threads: usize) -> Self {
         let width = size_of::<T>();
         let past = 2 * rows * columns * width > last_cache_bytes();
         let line = elements_of_line::<T>();
@@ -156,7 +162,8 @@ impl Shape {
             if columns <= NARROW { columns } else { STRIP }
         };
         let banded = past && strip_columns < columns && rows >= 2 * BAND;
-        let task_columns = if banded { TASK * strip_columns } else { strip_columns };
+        let strips = (columns / WALK / (SHARE * threads)).clamp(1, TASK);
+        let task_columns = if banded { strips * WALK } else { strip_columns };
         Self { level, rows, columns, strip_columns, task_columns, line, past }
     }
 
@@ -181,11 +188,7 @@ impl Shape {
             let mut strip = 0;
             while strip < columns {
                 // From the second one on strips begin with a line of the source, if all its rows do so at one place.
-                let width = if strip == 0 && lead > 0 {
-                    self.strip_columns - self.line + lead
-                } else {
-                    self.strip_columns
-                };
+                let width = if strip == 0 && lead > 0 { WALK - self.line + lead } else { WALK };
                 let extent = (height, width.min(columns - strip));
                 let part = &from[top * self.columns + left + strip..];
                 let place = &mut to[strip * rows + top..];

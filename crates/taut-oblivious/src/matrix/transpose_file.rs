@@ -12,6 +12,7 @@
 //! instead of an error.
 //! *Reference.* Thesis, section 5.3; Vitter, *Algorithms and Data Structures for External Memory*, 2008, section 7.2.
 
+use std::borrow::Borrow;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
@@ -152,9 +153,22 @@ pub fn transpose_file_pending(
     options: &TransposeFileOptions,
     monitor: &Monitor<'_>,
 ) -> Result<Pending<FileTransposition>, Error> {
+    transpose_through(from, matrix, to, header, options, monitor, |file, _| file)
+}
+
+/// The same; `through` makes of each file what is read and written.
+fn transpose_through<F: Store + Borrow<File>>(
+    from: &Path,
+    matrix: FileMatrix,
+    to: &Path,
+    header: &[u8],
+    options: &TransposeFileOptions,
+    monitor: &Monitor<'_>,
+    through: impl Fn(File, &Path) -> F,
+) -> Result<Pending<FileTransposition, F>, Error> {
     let plan = Plan::new(matrix, header.len() as u64, options)?;
-    let source = open(from, &matrix)?;
-    let target = Draft::beside(to).map_err(failed(to))?;
+    let source = through(open(from, &matrix)?, from);
+    let target = Draft::beside(to, |file| through(file, to)).map_err(failed(to))?;
     let done = plan.run(&source, &target, header, monitor).map_err(|at| at.named(from, to))?;
     Ok(Pending::new(done, target, to, None))
 }

@@ -120,7 +120,8 @@ mod tests {
 
     #[test]
     fn every_leaf_is_found_by_its_separator() {
-        for room in [1, 2, 9, 10, 81, 82, 800] {
+        for room in [1, 2, 9, 10, 81, 82, 800].into_iter().filter(|&room| !cfg!(miri) || room < 80)
+        {
             let mut separators = Separators::<u64>::new(room);
             for leaf in 0..room {
                 separators.set(leaf, 10 * leaf as u64, &mut NoProbe);

@@ -67,6 +67,7 @@ mod tests {
     use super::*;
 
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(if cfg!(miri) { 4 } else { 256 }))]
         /// All entries are placed, no leaf is full or too empty, and the leaf of the place is among the emptiest.
         #[test]
         fn leaves_keep_their_bounds(

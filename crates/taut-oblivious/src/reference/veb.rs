@@ -179,7 +179,7 @@ mod tests {
 
     #[test]
     fn arithmetic_equals_the_recursion() {
-        for height in 0..=16 {
+        for height in 0..=if cfg!(miri) { 7 } else { 16 } {
             let order = by_recursion(height);
             let index = VebIndex::new(height).expect("not too high");
             let mut positions = [0; 16];
@@ -203,6 +203,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(if cfg!(miri) { 4 } else { 256 }))]
         #[test]
         fn search_equals_that_in_the_sorted_array(
             mut keys in prop::collection::vec(0u32..60, 0..140),

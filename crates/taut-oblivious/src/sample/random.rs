@@ -51,6 +51,6 @@ impl Random {
     /// A real number above 0 and up to 1, a multiple of 2⁻⁵³.
     #[inline]
     pub(super) fn unit(&mut self) -> f64 {
-        ((self.next() >> 11) + 1) as f64 * 2f64.powi(-53)
+        ((self.next() >> 11) + 1) as f64 / (1u64 << 53) as f64
     }
 }

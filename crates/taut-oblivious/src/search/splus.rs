@@ -309,11 +309,15 @@ mod tests {
 
     #[test]
     fn batches_are_the_same_with_all_instructions() {
-        for n in [0usize, 1, 8, 9, 72, 73, 5000, 60_000] {
+        for n in
+            [0usize, 1, 9, 73, 8, 72, 5000, 60_000].into_iter().take(if cfg!(miri) { 4 } else { 8 })
+        {
             let sorted: Vec<u64> = (0..n as u64).map(|i| i / 3 * 7).collect();
             let tree = SPlusTree::new(&sorted).unwrap();
-            let keys: Vec<u64> =
-                (0..999u64).map(|i| i * 7919 % (3 * n as u64 + 9)).chain([u64::MAX]).collect();
+            let keys: Vec<u64> = (0..if cfg!(miri) { 99 } else { 999u64 })
+                .map(|i| i * 7919 % (3 * n as u64 + 9))
+                .chain([u64::MAX])
+                .collect();
             let want: Vec<usize> =
                 keys.iter().map(|&key| sorted.partition_point(|&other| other < key)).collect();
             for level in Level::all() {

@@ -239,6 +239,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(if cfg!(miri) { 3 } else { 256 }))]
         /// Arrays in use never share a byte, and free space is put together again.
         #[test]
         fn arrays_are_disjoint(steps in prop::collection::vec((0usize..30, 1usize..400), 1..80)) {

@@ -125,5 +125,5 @@ pub fn sort_file_pending(
     options: &FileSortOptions,
     monitor: &Monitor<'_>,
 ) -> Result<Pending<FileSort>, Error> {
-    files::sort(input, output, layout, options, monitor)
+    files::sort(input, output, layout, options, monitor, |file, _| file)
 }

@@ -7,6 +7,7 @@
 //! the new one is named beside it for the moment between two calls of the system.
 //! *Trap.* A rename needs no right to write the earlier file; whoever took that right away meant it.
 
+use std::borrow::Borrow;
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -16,16 +17,16 @@ use tempfile::TempPath;
 use super::Store;
 
 /// An output that nobody sees yet.
-pub(crate) struct Draft {
-    file: File,
+pub(crate) struct Draft<F = File> {
+    file: F,
     /// The other name of the file, which is removed with the draft; none if it has no name at all.
     name: Option<TempPath>,
     target: PathBuf,
 }
 
-impl Draft {
-    /// Starts a file in the folder of what it will be, or replace.
-    pub(crate) fn beside(path: &Path) -> io::Result<Self> {
+impl<F: Store + Borrow<File>> Draft<F> {
+    /// Starts a file in the folder of what it will be, or replace; `open` makes of the file what is written to.
+    pub(crate) fn beside(path: &Path, open: impl FnOnce(File) -> F) -> io::Result<Self> {
         let target = target(path)?;
         let earlier = match fs::metadata(&target) {
             Err(error) if error.kind() == ErrorKind::NotFound => None,
@@ -41,50 +42,50 @@ impl Draft {
         {
             return Err(io::Error::new(ErrorKind::InvalidInput, "not the name of a file"));
         }
-        let draft = match unnamed(folder(&target)) {
-            Some(file) => Self { file, name: None, target },
-            None => Self::named(target)?,
+        let (file, name) = match unnamed(folder(&target)) {
+            Some(file) => (file, None),
+            None => named(folder(&target)).map(|(file, name)| (file, Some(name)))?,
         };
         if let Some(earlier) = earlier {
-            draft.file.set_permissions(earlier.permissions())?;
+            file.set_permissions(earlier.permissions())?;
         }
-        Ok(draft)
+        Ok(Self { file: open(file), name, target })
     }
 
-    /// Starts a file with a name of its own.
-    fn named(target: PathBuf) -> io::Result<Self> {
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".taut-");
-        // As any new file; else nobody but the owner might read it.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        // The system speaks of a name that nobody asked for.
-        let refused = |error: io::Error| match error.kind() {
-            ErrorKind::NotFound => io::Error::other("its folder takes no new files"),
-            ErrorKind::PermissionDenied => ErrorKind::PermissionDenied.into(),
-            _ => error,
-        };
-        let folder = folder(&target);
-        fs::metadata(folder)?;
-        let (file, name) = builder.tempfile_in(folder).map_err(refused)?.into_parts();
-        Ok(Self { file, name: Some(name), target })
+    /// Brings the bytes to the disk and gives the file its name, in the place of any other file with this name.
+    pub(crate) fn publish(self) -> io::Result<()> {
+        self.file.sync()?;
+        match self.name {
+            Some(name) => name.persist(&self.target)?,
+            None => link(self.file.borrow(), &self.target)?,
+        }
+        settle(folder(&self.target))
     }
+}
 
+impl Draft {
     /// The file as it is so far, to be read by way of the system's cache.
     pub(crate) fn file(&mut self) -> &mut File {
         self.file.past_cache(false);
         &mut self.file
     }
+}
 
-    /// Brings the bytes to the disk and gives the file its name, in the place of any other file with this name.
-    pub(crate) fn publish(self) -> io::Result<()> {
-        self.file.sync_all()?;
-        match self.name {
-            Some(name) => name.persist(&self.target)?,
-            None => link(&self.file, &self.target)?,
-        }
-        settle(folder(&self.target))
-    }
+/// A file with a name of its own.
+fn named(folder: &Path) -> io::Result<(File, TempPath)> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".taut-");
+    // As any new file; else nobody but the owner might read it.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    fs::metadata(folder)?;
+    // The system speaks of a name that nobody asked for.
+    let refused = |error: io::Error| match error.kind() {
+        ErrorKind::NotFound => io::Error::other("its folder takes no new files"),
+        ErrorKind::PermissionDenied => ErrorKind::PermissionDenied.into(),
+        _ => error,
+    };
+    Ok(builder.tempfile_in(folder).map_err(refused)?.into_parts())
 }
 
 /// The folder of a file.
@@ -181,13 +182,13 @@ mod linux {
     }
 }
 
-impl Store for Draft {
+impl<F: Store> Store for Draft<F> {
     fn read_at(&self, bytes: &mut [u8], at: u64) -> io::Result<usize> {
-        Store::read_at(&self.file, bytes, at)
+        self.file.read_at(bytes, at)
     }
 
     fn write_at(&self, bytes: &[u8], at: u64) -> io::Result<usize> {
-        Store::write_at(&self.file, bytes, at)
+        self.file.write_at(bytes, at)
     }
 
     fn reserve(&self, bytes: u64) -> io::Result<()> {

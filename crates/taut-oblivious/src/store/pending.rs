@@ -1,28 +1,25 @@
 //! An output that is complete, before it has its name: to be looked at first.
 
+use std::borrow::Borrow;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-use super::Draft;
+use super::{Draft, Store};
 use crate::error::Error;
 
 /// A file that is complete and has not its name yet; and what is known of how it was made.
 ///
 /// Dropped without [`publish`](Self::publish) it leaves the earlier file as it was.
-pub struct Pending<R> {
+pub struct Pending<R, F = File> {
     /// How it was made.
     pub found: R,
-    draft: Draft,
+    draft: Draft<F>,
     path: PathBuf,
     /// A file that is removed when it is needed no longer; locked until then.
-    kept: Option<(PathBuf, File)>,
+    kept: Option<(PathBuf, F)>,
 }
 
 impl<R> Pending<R> {
-    pub(crate) fn new(found: R, draft: Draft, path: &Path, kept: Option<(PathBuf, File)>) -> Self {
-        Self { found, draft, path: path.to_owned(), kept }
-    }
-
     /// The file, to be read from any place.
     pub fn file(&mut self) -> &mut File {
         self.draft.file()
@@ -33,6 +30,20 @@ impl<R> Pending<R> {
     /// # Errors
     /// [`Error::File`] if the system refuses.
     pub fn publish(self) -> Result<R, Error> {
+        self.finish()
+    }
+}
+
+impl<R, F> Pending<R, F> {
+    pub(crate) fn new(found: R, draft: Draft<F>, path: &Path, kept: Option<(PathBuf, F)>) -> Self {
+        Self { found, draft, path: path.to_owned(), kept }
+    }
+
+    /// [`Pending::publish`], of whatever is written to.
+    pub(crate) fn finish(self) -> Result<R, Error>
+    where
+        F: Store + Borrow<File>,
+    {
         self.draft.publish().map_err(failed(&self.path))?;
         if let Some((path, _)) = &self.kept {
             fs::remove_file(path).map_err(failed(path))?;

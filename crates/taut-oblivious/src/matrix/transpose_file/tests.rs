@@ -93,11 +93,14 @@ fn run(
     Ok((target.bytes.into_inner(), done))
 }
 
+/// Rows and columns, as many as an interpreter has time for.
+const MOST: usize = if cfg!(miri) { 20 } else { 60 };
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(if cfg!(miri) { 3 } else { 64 }))]
     #[test]
     fn any_extent_width_offset_and_memory(
-        rows in 0usize..60, columns in 0usize..60, width in 1usize..20, offset in 0usize..5,
+        rows in 0..MOST, columns in 0..MOST, width in 1usize..20, offset in 0usize..5,
         header in 0usize..4, memory in 0usize..5000, short: bool, interrupted: bool,
     ) {
         let from = bytes(offset + rows * columns * width);
@@ -143,7 +146,8 @@ fn impossible_extents_and_too_little_memory_are_refused() {
     refused(FileMatrix { rows: 1 << 61, columns: 1, ..matrix }, &Default::default());
 }
 
-#[cfg(not(miri))]
+mod faults;
+
 mod on_disk {
     use super::*;
 
@@ -158,6 +162,7 @@ mod on_disk {
     }
 
     #[test]
+    #[cfg_attr(miri, ignore = "files")]
     fn the_checks_accept_the_transpose_and_nothing_else() {
         let folder = tempfile::tempdir().unwrap();
         let (from, content) = source(folder.path());
@@ -197,6 +202,7 @@ mod on_disk {
     }
 
     #[test]
+    #[cfg_attr(miri, ignore = "files")]
     fn a_file_may_replace_itself_and_keeps_its_permissions() {
         let folder = tempfile::tempdir().unwrap();
         let (from, content) = source(folder.path());
@@ -208,6 +214,7 @@ mod on_disk {
     }
 
     #[test]
+    #[cfg_attr(miri, ignore = "files")]
     fn cancelled_or_refused_work_leaves_the_earlier_file_and_no_trace() {
         let folder = tempfile::tempdir().unwrap();
         let (from, _) = source(folder.path());
@@ -226,6 +233,7 @@ mod on_disk {
     }
 
     #[test]
+    #[cfg_attr(miri, ignore = "files")]
     fn what_cannot_be_replaced_is_refused_at_once() {
         let folder = tempfile::tempdir().unwrap();
         let (from, _) = source(folder.path());
@@ -242,6 +250,7 @@ mod on_disk {
 
     #[cfg(unix)]
     #[test]
+    #[cfg_attr(miri, ignore = "files")]
     fn a_link_is_followed_and_the_file_behind_it_keeps_its_permissions() {
         use std::os::unix::fs::{PermissionsExt, symlink};
         let folder = tempfile::tempdir().unwrap();
@@ -258,6 +267,7 @@ mod on_disk {
 
     /// Four tebibytes of nothing, and elements wider than any memory of which there are none.
     #[test]
+    #[cfg_attr(miri, ignore = "files")]
     fn memory_that_nobody_has_is_an_error_or_not_needed() {
         let folder = tempfile::tempdir().unwrap();
         let [from, to] = ["from", "to"].map(|name| folder.path().join(name));
@@ -296,6 +306,7 @@ mod on_disk {
     }
 
     #[test]
+    #[cfg_attr(miri, ignore = "files")]
     fn killed_at_any_moment_it_leaves_the_old_or_the_whole_new_file() {
         let folder = tempfile::tempdir().unwrap();
         let from = bytes(1500 * 1000 * 8);

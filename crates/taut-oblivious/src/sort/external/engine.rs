@@ -29,7 +29,6 @@ pub(super) fn within<I: Store, O: Store + Sync + Send>(
     output.reserve(plan.bytes())?;
     maker.read(0, input, monitor)?;
     maker.make(0, output, 0, &mut certificate, monitor)?;
-    output.sync()?;
     Ok(FileSort {
         certificate,
         runs: plan.runs(),
@@ -119,7 +118,6 @@ pub(super) fn beyond<I: Store, R: Store + Send + Sync, O: Store + Send + Sync>(
             None => Error::ReadBack { path },
         });
     }
-    output.sync()?;
     Ok(FileSort {
         certificate,
         runs: plan.runs(),

@@ -5,6 +5,7 @@
 //! [`FileSortOptions::resume`] the runs have that name instead, and only success removes it, once the name of the output
 //! has reached the disk.
 
+use std::borrow::Borrow;
 use std::fs::{File, Metadata};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -19,15 +20,17 @@ use super::medium::Medium;
 use super::plan::Plan;
 use super::{FileSort, FileSortOptions};
 use crate::error::Error;
-use crate::store::{self, Draft, Pending};
+use crate::store::{self, Draft, Pending, Store};
 
-pub(super) fn sort(
+/// Sorts a file; `open` makes of each file, by its name in errors, what is read and written.
+pub(super) fn sort<F: Store + Borrow<File> + Send + Sync>(
     input: &Path,
     output: &Path,
     layout: &RecordLayout,
     options: &FileSortOptions,
     monitor: &Monitor<'_>,
-) -> Result<Pending<FileSort>, Error> {
+    open: impl Fn(File, &str) -> F,
+) -> Result<Pending<FileSort, F>, Error> {
     layout.check()?;
     if let Some(path) = &options.resume {
         // The file of runs is removed at the end.
@@ -46,9 +49,11 @@ pub(super) fn sort(
         return Err(Error::Partial { path, bytes: about.len(), width: layout.width });
     }
     let plan = Plan::new(layout, about.len() / width, options.memory)?;
-    let mut from = Medium::new(file, input.display().to_string());
-    let draft = at(output, Draft::beside(output))?;
-    let mut to = Medium::new(draft, output.display().to_string());
+    let medium = |file, path: String| Medium::new(open(file, &path), path);
+    let mut from = medium(file, input.display().to_string());
+    let to = output.display().to_string();
+    let draft = at(output, Draft::beside(output, |file| open(file, &to)))?;
+    let mut to = Medium::new(draft, to);
     let mut kept = None;
     let found = if plan.fits() {
         // Runs that are kept are those of a sort with less memory.
@@ -59,7 +64,7 @@ pub(super) fn sort(
     } else if let Some(path) = &options.resume {
         let file = at(path, open_or_create(path))?;
         let length = at(path, file.metadata())?.len();
-        let mut runs = Medium::new(file, path.display().to_string());
+        let mut runs = medium(file, path.display().to_string());
         let journal = Journal::open(&plan, origin(&about), length, &mut runs)?;
         let found = engine::beyond(&plan, &mut from, &mut runs, Some(&journal), &mut to, monitor)?;
         kept = Some((path.clone(), runs.into_store()));
@@ -68,7 +73,7 @@ pub(super) fn sort(
         let target = at(output, store::target(output))?;
         let folder = options.scratch.as_deref().unwrap_or(store::folder(&target));
         let file = at(folder, tempfile::tempfile_in(folder))?;
-        let mut runs = Medium::new(file, format!("runs in {}", folder.display()));
+        let mut runs = medium(file, format!("runs in {}", folder.display()));
         engine::beyond(&plan, &mut from, &mut runs, None, &mut to, monitor)?
     };
     Ok(Pending::new(found, to.into_store(), output, kept))

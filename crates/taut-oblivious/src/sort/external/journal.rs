@@ -58,18 +58,16 @@ impl Journal {
             [MAGIC, plan.records, modified, changed, number, width, start, end, kind, chunk];
         let (runs, certificate) = (plan.runs(), Multiset::default());
         let mut journal = Self { identity, runs, made_of: vec![], certificate };
-        if length == 0 {
-            file.write(&journal.slot(&identity), 0)?;
-            return Ok(journal);
-        }
-        let mut slot = [0; SLOT];
-        // A file that is too short for a journal is somebody else's.
-        let is_whole = length >= SLOT as u64;
-        if is_whole {
-            file.read(&mut slot, 0)?;
-        }
-        if !is_whole || slot != journal.slot(&identity) {
+        let (first, mut slot) = (journal.slot(&identity), [0; SLOT]);
+        let start = &mut slot[..length.min(SLOT as u64) as usize];
+        file.read(start, 0)?;
+        if !first.starts_with(start) {
             return Err(Self::other(file.path()));
+        }
+        // Nothing yet, or what a disk had room for that then was full.
+        if start.len() < SLOT {
+            file.write(&first, 0)?;
+            return Ok(journal);
         }
         let made = plan.made(journal.data_start());
         for (run, made) in (0..).zip(made) {

@@ -1,6 +1,7 @@
 //! On files, on disks that fail, and against the checker, which is shown doctored files first.
 
 mod disk;
+mod faults;
 mod hash;
 mod killed;
 mod names;
@@ -109,6 +110,7 @@ fn whole_number(width: usize) -> RecordLayout {
 }
 
 #[test]
+#[cfg_attr(miri, ignore = "files")]
 fn every_kind_of_key_in_memory_and_beyond() {
     let kinds = [
         layout(8, 0..8, KeyKind::U64),
@@ -140,6 +142,7 @@ fn every_kind_of_key_in_memory_and_beyond() {
 
 /// Long keys that agree in their first eight bytes: words say nothing, the keys must be compared.
 #[test]
+#[cfg_attr(miri, ignore = "files")]
 fn long_keys_with_a_common_start() {
     let layout = layout(32, 0..20, KeyKind::Bytes);
     let mut bytes = records(6000, 32, 8, 0xFFFF);
@@ -151,6 +154,7 @@ fn long_keys_with_a_common_start() {
 }
 
 #[test]
+#[cfg_attr(miri, ignore = "files")]
 fn memory_and_threads_change_no_byte() {
     let layout = whole_number(16);
     let bytes = records(60_000, 16, 0, 0xFFF);
@@ -168,6 +172,7 @@ fn memory_and_threads_change_no_byte() {
 }
 
 #[test]
+#[cfg_attr(miri, ignore = "files")]
 fn each_byte_is_read_twice_and_written_twice() {
     let bytes = records(40_000, 32, 0, u64::MAX);
     let folder = Folder::with(&bytes);
@@ -180,6 +185,7 @@ fn each_byte_is_read_twice_and_written_twice() {
 }
 
 #[test]
+#[cfg_attr(miri, ignore = "files")]
 fn a_file_is_sorted_into_itself_and_an_old_output_is_replaced() {
     let layout = whole_number(8);
     let bytes = records(20_000, 8, 0, u64::MAX);
@@ -194,6 +200,7 @@ fn a_file_is_sorted_into_itself_and_an_old_output_is_replaced() {
 }
 
 #[test]
+#[cfg_attr(miri, ignore = "files")]
 fn wrong_calls_are_answered_by_name() {
     let folder = Folder::with(&[0; 100]);
     let said = |layout: &RecordLayout, memory| {
@@ -237,6 +244,7 @@ fn a_pipe_is_refused_at_once() {
 
 /// Stopped at any block, the work leaves nothing; and no more than three files are open at any time.
 #[test]
+#[cfg_attr(miri, ignore = "files")]
 fn stopped_anywhere_nothing_is_left() {
     let layout = whole_number(32);
     let folder = Folder::with(&records(30_000, 32, 0, u64::MAX));
@@ -266,6 +274,7 @@ fn files_open(folder: &std::path::Path) -> usize {
 }
 
 #[test]
+#[cfg_attr(miri, ignore = "files")]
 fn passes_and_records_are_told() {
     let folder = Folder::with(&records(40_000, 16, 0, u64::MAX));
     let (passes, points) = (AtomicU64::new(0), AtomicU64::new(0));
@@ -313,6 +322,7 @@ fn a_hundred_million_records_within_their_memory() {
 }
 
 #[test]
+#[cfg_attr(miri, ignore = "files")]
 fn the_checker_rejects_doctored_files() {
     let layout = layout(16, 4..12, KeyKind::I64);
     let bytes = records(5000, 16, 4, u64::MAX);

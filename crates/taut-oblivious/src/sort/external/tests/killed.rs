@@ -11,6 +11,7 @@ const RESUME: &str = "TAUT_TEST_SORT_RESUME";
 
 /// What the killed process does: nothing unless it is told where.
 #[test]
+#[cfg_attr(miri, ignore = "files")]
 fn sorts_slowly_where_it_is_told() {
     let Some(folder) = std::env::var_os(FOLDER) else { return };
     let path = |name: &str| PathBuf::from(&folder).join(name);
@@ -47,6 +48,7 @@ fn kill_after(folder: &Folder, blocks: usize, resume: bool) {
 }
 
 #[test]
+#[cfg_attr(miri, ignore = "files")]
 fn killed_at_any_block_the_old_output_stands_and_nothing_is_left() {
     let bytes = records(20_000, 32, 0, u64::MAX);
     let folder = Folder::with(&bytes);

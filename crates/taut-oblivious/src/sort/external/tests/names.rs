@@ -8,6 +8,7 @@ fn small() -> (Folder, Vec<u8>) {
 }
 
 #[test]
+#[cfg_attr(miri, ignore = "files")]
 fn a_folder_or_a_name_that_is_none_is_refused_at_once() {
     let (folder, _) = small();
     fs::create_dir(folder.path("out")).expect("a folder");
@@ -24,6 +25,7 @@ fn a_folder_or_a_name_that_is_none_is_refused_at_once() {
 
 #[cfg(unix)]
 #[test]
+#[cfg_attr(miri, ignore = "files")]
 fn links_are_followed_and_permissions_kept() {
     use std::os::unix::fs::{PermissionsExt, symlink};
     let (folder, bytes) = small();
@@ -57,6 +59,7 @@ fn links_are_followed_and_permissions_kept() {
 
 #[cfg(unix)]
 #[test]
+#[cfg_attr(miri, ignore = "files")]
 fn what_is_read_only_is_refused() {
     use std::os::unix::fs::PermissionsExt;
     let (folder, _) = small();
@@ -72,6 +75,7 @@ fn what_is_read_only_is_refused() {
 /// Four tebibytes of nothing.
 #[cfg(target_os = "linux")]
 #[test]
+#[cfg_attr(miri, ignore = "files")]
 fn memory_that_nobody_has_is_an_error() {
     let folder = Folder::new();
     let file = fs::File::create(folder.path("in")).expect("a file");
@@ -88,6 +92,7 @@ fn memory_that_nobody_has_is_an_error() {
 
 /// Blocks that go past the system's cache, and a last one that does not fill a page.
 #[test]
+#[cfg_attr(miri, ignore = "files")]
 fn large_blocks_come_back_as_they_were() {
     for width in [32, 24] {
         let layout = whole_number(width);
