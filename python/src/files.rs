@@ -123,6 +123,7 @@ fn judged(error: FileCheckError) -> PyErr {
     match error {
         FileCheckError::Rejected(violation) => Violation::new_err(violation.to_string()),
         FileCheckError::Read { .. } => PyOSError::new_err(error.to_string()),
+        FileCheckError::NoInput => PyValueError::new_err(error.to_string()),
         error => PyRuntimeError::new_err(error.to_string()),
     }
 }
@@ -205,6 +206,8 @@ impl FileSolution {
     ///     When the file is not what this says.
     /// OSError
     ///     When a file cannot be read.
+    /// ValueError
+    ///     When an input is named for a sample, which is made from none.
     #[pyo3(signature = (output, input=None))]
     fn check(
         &self,

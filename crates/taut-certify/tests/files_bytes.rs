@@ -3,9 +3,14 @@
 #[path = "files_any/bytes.rs"]
 mod bytes;
 
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use proptest::prelude::*;
+use taut_certify::{
+    DrawnSample, FileCheckError, FileSolution, FileViolation, Files, SampleCertificate, Trace,
+};
+use taut_points::Monitor;
 
 fn seeds() -> Vec<Vec<u8>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/files");
@@ -43,4 +48,40 @@ fn the_seeds_pass() {
     let seeds = seeds();
     assert!(seeds.len() >= 4);
     seeds.iter().for_each(|seed| bytes::check_any(seed));
+}
+
+/// A file that has so many bytes by its own word.
+struct Sparse(u64);
+
+impl Read for Sparse {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        buffer[..2].copy_from_slice(b"x\n");
+        Ok(2)
+    }
+}
+
+impl Seek for Sparse {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        Ok(if to == SeekFrom::End(0) { self.0 } else { 0 })
+    }
+}
+
+#[test]
+fn a_sample_of_a_sparse_file_takes_no_memory() {
+    let certificate = SampleCertificate { seed: 1 };
+    // Seven million weights of the first division alone.
+    let answer = DrawnSample { of: 1_000_000_000_000, drawn: 500_000_000_000 };
+    let found = FileSolution { answer, certificate, trace: Trace::default() };
+    let (before, mut output) = (most_held(), Sparse(1 << 40));
+    let judged = found.check(Files { input: None, output: &mut output }, &Monitor::silent());
+    assert!(matches!(judged, Err(FileCheckError::Rejected(FileViolation::Drawn { .. }))));
+    let more = most_held() - before;
+    assert!(more < 16 << 20, "{more} bytes");
+}
+
+/// Bytes that this process has held at most, where the system tells.
+fn most_held() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    line.and_then(|line| line.trim().split(' ').next()?.parse().ok()).unwrap_or(0) << 10
 }

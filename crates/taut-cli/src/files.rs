@@ -97,6 +97,9 @@ fn judge_open(
     match judged {
         Ok(verdict) => Ok(Ok(verdict)),
         Err(FileCheckError::Rejected(violation)) => Ok(Err(violation)),
+        Err(error @ FileCheckError::NoInput) => {
+            Err(anyhow!("{}: {error}", shown(WhichFile::Input, input, output)))
+        }
         Err(FileCheckError::Read { file, source }) => {
             let name = shown(file, input, output);
             Err(anyhow!("{name}: reading failed: {source}"))
@@ -184,7 +187,17 @@ pub(crate) fn told(found: &AnyFileSolution, verdict: &FileVerdict) -> (String, V
                     .remark("each compared with the one of the input"),
                 false => Fact::new("elements", count(verdict.items)).remark(by_hash),
             };
-            (title, vec![elements])
+            let mut facts = vec![elements];
+            let [input, output] = [found.answer.input_offset, found.answer.output_offset];
+            if found.answer.dtype.is_none() && input.max(output) > 0 {
+                let begin =
+                    format!("byte {} of the input, {} of the output", count(input), count(output));
+                facts.push(
+                    Fact::new("from", begin)
+                        .remark("what comes before is judged in .npy files only"),
+                );
+            }
+            (title, facts)
         }
         AnyFileSolution::Sample(found) => {
             let of = count(found.answer.of);

@@ -16,7 +16,7 @@ use crate::exit::Outcome;
 /// Sort, transpose and sample more than memory holds; order points; count cache misses.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Each of these stays within a limit on memory, and a file appears whole or not at all.
+`sort` and `transpose` stay within a limit on memory. What is written appears whole or not at all.
 Example: taut memory sort records.bin --width 32 --memory 256M -o sorted.bin")]
 pub(crate) struct Args {
     #[command(subcommand)]

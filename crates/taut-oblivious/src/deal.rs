@@ -6,8 +6,9 @@
 //! items have already been read. Then buckets are taken one by one, in order: the blocks of a bucket are copied out,
 //! which frees their places; blocks of others that lie where the bucket belongs move to places that are free; the bucket
 //! is written, in whatever order its owner wants.
-//! *Guarantee.* Each item is moved four times, in blocks. Room for a block a bucket, a block to spare, and two numbers
-//! for each block of the array.
+//! *Guarantee.* Each item is moved four times, in blocks: to its block, to the front, to the copy, and from there to its
+//! place. Room for a block a bucket, a block to spare, and four numbers of 32 bits for each block of the array. A block has
+//! more than half a KiB, and at least four items however wide they are.
 //! *Trap.* Buckets do not start where blocks do. Behind a place e of n items there are ⌊n/b⌋ − ⌈e/b⌉ whole blocks, and
 //! the n − e items that belong there fill at most one block more: that is the block to spare.
 //! *Reference.* M. Axtmann, S. Witt, D. Ferizovic, P. Sanders, *In-place parallel super scalar samplesort*, ESA 2017
@@ -21,8 +22,15 @@ use crate::probe::Probe;
 const BLOCK_BYTES: usize = 1 << 10;
 /// Fewest items of a block.
 const BLOCK_MIN: usize = 4;
+/// Bytes that are put in their places at once: they stay in the second-level cache.
+const PIECE_BYTES: usize = 1 << 18;
 /// Instead of the block in a slot.
 const NONE: u32 = u32::MAX;
+
+/// Items of a block, a power of two.
+pub(crate) fn block<T>() -> usize {
+    1 << (BLOCK_BYTES / size_of::<T>().max(1)).max(BLOCK_MIN).ilog2()
+}
 
 /// Items in blocks of one bucket each, which are taken from the first bucket to the last.
 pub(crate) struct Dealt<'a, T> {
@@ -51,16 +59,20 @@ impl<'a, T: Copy> Dealt<'a, T> {
     /// Deals items into so many buckets; `bucket` is asked once for each item, in order.
     ///
     /// # Panics
-    /// If `bucket` names one that there is not, or does itself; then some items may be doubled at the cost of others.
+    /// If `bucket` names one that there is not, or does itself; then some items may be doubled at the cost of others. Before
+    /// anything is moved, if there are 2³² − 1 blocks or more.
     pub(crate) fn new<P: Probe>(
         items: &'a mut [T],
         buckets: usize,
         mut bucket: impl FnMut(&T) -> usize,
         probe: &mut P,
     ) -> Self {
-        let block = (BLOCK_BYTES / size_of::<T>().max(1)).max(BLOCK_MIN);
-        let block = 1 << block.ilog2();
+        let block = block::<T>();
         let (n, mask) = (items.len(), block - 1);
+        assert!(
+            n / block < NONE as usize,
+            "blocks have numbers of 32 bits: {n} items are too many"
+        );
         let mut rest = items.first().map_or_else(Vec::new, |&any| vec![any; (buckets + 1) * block]);
         let mut ends: Vec<usize> = (0..buckets).map(|b| b * block).collect();
         let mut first = vec![0; buckets + 1];
@@ -91,7 +103,6 @@ impl<'a, T: Copy> Dealt<'a, T> {
             first[b + 1] += first[b];
         }
         let all = n / block;
-        // A number of 32 bits for each block: 2³² blocks of 1 KiB are more than any memory.
         let mut slots = vec![0; owners.len()];
         let mut holds = vec![NONE; all + 1];
         let mut place = first.clone();
@@ -221,9 +232,6 @@ impl<'a, T: Copy> Dealt<'a, T> {
     }
 }
 
-/// Bytes that are put in their places at once: they stay in the second-level cache.
-const PIECE_BYTES: usize = 1 << 18;
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -247,8 +255,7 @@ mod tests {
             Dealt::new(&mut items, buckets, |_| owner.next().expect("one each"), &mut NoProbe);
         let mut copy = vec![];
         while let Some((bucket, range)) = dealt.take(most, &mut copy, &mut NoProbe) {
-            let block = 1 << (BLOCK_BYTES / size_of::<T>()).max(BLOCK_MIN).ilog2();
-            assert!(copy.len() <= most.max(2 * block) && !copy.is_empty());
+            assert!(copy.len() <= most.max(2 * block::<T>()) && !copy.is_empty());
             assert!(dealt.size(bucket) > most || copy.len() == dealt.size(bucket));
             dealt.items(range).copy_from_slice(&copy);
         }

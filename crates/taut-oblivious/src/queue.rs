@@ -98,10 +98,11 @@ fn never<T>(result: Result<T, Infallible>) -> T {
 /// whenever the process ends.
 ///
 /// ```
-/// let mut queue = taut_oblivious::SpillingQueue::new(&std::env::temp_dir(), 1 << 20)?;
-/// for key in (0..100_000u64).rev() {
-///     queue.push(key, 2 * key)?;                                          // 1.6 MB
+/// let mut queue = taut_oblivious::SpillingQueue::new(&std::env::temp_dir(), 4 << 20)?;
+/// for key in (0..300_000u64).rev() {
+///     queue.push(key, 2 * key)?;                                          // 4.8 MB
 /// }
+/// assert!(queue.spilled() > 200_000);
 /// assert_eq!(queue.pop()?, Some((0, 0)));
 /// # Ok::<(), taut_oblivious::Error>(())
 /// ```
@@ -114,17 +115,17 @@ pub struct SpillingQueue<K, V> {
 impl<K: Key, V: Pod> SpillingQueue<K, V> {
     /// An empty queue of at most `memory` bytes, whose file is in `folder`.
     ///
-    /// Two fifths of that are for entries, half as much again for the room that vectors keep as they grow, and the rest for
-    /// one that is moved as it grows. Beside it there are 8 bytes for each block of the file, which has a 640th of the
-    /// entries that fit, and some KiB.
+    /// Three tenths of that are for entries, half as much again for the room that vectors keep as they grow, and the rest for
+    /// one that is moved as it grows or shrinks. Beside it there are some KiB, and up to 24 bytes for each block of the file.
+    /// A block has 4 KiB or more, a 256th of the entries up to 65 536 of them, so that is less than a hundredth of the file.
     ///
     /// # Errors
-    /// [`Error::Option`] if the memory is less than 64 KiB or than 2560 entries, [`Error::File`] if there can be no file.
+    /// [`Error::Option`] if the memory is less than 4 MiB or than 6830 entries, [`Error::File`] if there can be no file.
     pub fn new(folder: &Path, memory: usize) -> Result<Self, Error> {
-        let entries = memory / (8 + size_of::<V>()) / 5 * 2;
-        if memory < 64 << 10 || entries < 1024 {
+        let entries = memory / (8 + size_of::<V>()) / 10 * 3;
+        if memory < 4 << 20 || entries < 2048 {
             let value = format!("{memory} bytes");
-            let expected = "at least 64 KiB and 2560 entries";
+            let expected = "at least 4 MiB and 6830 entries";
             return Err(Error::Option { name: "memory", value, expected });
         }
         let blocks = Blocks::new::<V>(folder, entries)?;

@@ -1,8 +1,10 @@
 //! Arrays of words that start at a line of memory, and if they are large lie in pages of 2 MiB.
 //!
 //! *Problem.* A search of a large array touches a new page at nearly every step, and the translation of addresses covers
-//! only a few megabytes in pages of 4 KiB: 44 ns instead of 24 for a search of 2²² keys.
-//! *Idea.* Map memory of our own, aligned to 2 MiB, and ask for large pages before the first touch.
+//! only a few megabytes in pages of 4 KiB: 44 ns instead of 24 for a search of 2²² keys. What is written to files past the
+//! system's cache must begin at a page of 4 KiB.
+//! *Idea.* Map memory of our own, aligned to 2 MiB, and ask for large pages before the first touch. Smaller arrays are
+//! allocated, those of 4 KiB or more from such a page on.
 //! *Trap.* The request is advice. Where a system has no large pages, or no mapping, the array works as well and is slower.
 
 use bytemuck::Pod;

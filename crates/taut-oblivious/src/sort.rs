@@ -3,7 +3,7 @@
 //! | you want | call | order | room |
 //! |---|---|---|---|
 //! | numbers in order | [`sort`] | total, NaN at the ends | none; one word each for 32-bit numbers |
-//! | records in order of a number | [`sort_records`] | stable | some megabytes |
+//! | records in order of a number | [`sort_records`] | stable | some megabytes a thread, and a thirtieth of the records at most |
 //! | a file of records in order of a key | [`external::sort_file`] | stable | a limit that is given |
 //!
 //! The result is a function of the input alone: vectors, their absence and threads change no byte.
@@ -38,6 +38,9 @@ pub fn sort<K: Key>(keys: &mut [K]) {
 }
 
 /// [`sort`], on one thread if anybody listens to the touches.
+///
+/// # Panics
+/// If the probe does; the numbers are then other ones.
 pub fn sort_probed<K: Key, P: Probe>(keys: &mut [K], probe: &mut P) {
     probe.place(keys);
     probe.read(keys);

@@ -1,10 +1,19 @@
 //! The header of a NumPy array, read once more: type of the elements, order, shape, and where the elements begin.
 //!
-//! *Reference.* NumPy enhancement proposal 1 (the npy format), versions 1.0 to 3.0.
+//! *Trap.* What reads must read what NumPy reads, or a true answer is called wrong: keys in any order, either quote, any
+//! white space, and a type by any of its names, of which `<f8`, `f8`, `=f8`, `d` and `float64` mean the same.
+//! *Reference.* NumPy enhancement proposal 1 (the npy format), versions 1.0 to 3.0; the array interface protocol.
+
+mod literal;
+mod names;
 
 use super::bytes::Source;
 use super::{FileCheckError, FileViolation};
 
+pub(super) use names::{is_same_type, width};
+
+/// How such a file begins.
+const MAGIC: &[u8; 6] = b"\x93NUMPY";
 /// Longest header that is looked at.
 const LONGEST: u64 = 1 << 16;
 
@@ -30,6 +39,16 @@ impl Header {
     }
 }
 
+/// Whether a file begins as one with such a header.
+pub(super) fn begins(source: &mut Source<'_>) -> Result<bool, FileCheckError> {
+    let mut start = [0; MAGIC.len()];
+    if source.length < start.len() as u64 {
+        return Ok(false);
+    }
+    source.read_at(0, &mut start)?;
+    Ok(start == *MAGIC)
+}
+
 /// Reads the header of a file.
 pub(super) fn header(source: &mut Source<'_>) -> Result<Header, FileCheckError> {
     let file = source.which;
@@ -39,7 +58,7 @@ pub(super) fn header(source: &mut Source<'_>) -> Result<Header, FileCheckError> 
         return Err(wrong("is not there: the file is too short").into());
     }
     source.read_at(0, &mut start)?;
-    if &start[..6] != b"\x93NUMPY" {
+    if !start.starts_with(MAGIC) {
         return Err(wrong("is not that of an npy file").into());
     }
     let (before, length) = match start[6] {
@@ -55,29 +74,7 @@ pub(super) fn header(source: &mut Source<'_>) -> Result<Header, FileCheckError> 
     source.read_at(before, &mut text)?;
     let text = String::from_utf8(text).map_err(|_| wrong("is no text"))?;
     let (dtype, fortran, shape) =
-        parse(&text).ok_or_else(|| wrong("does not tell type, order and shape"))?;
+        literal::parse(&text).ok_or_else(|| wrong("does not tell type, order and shape"))?;
     let text = text.trim_end_matches('\n').trim_end_matches(' ').to_owned();
     Ok(Header { dtype, fortran, shape, offset: before + length, text })
-}
-
-/// Type, order and shape in the text of a header.
-fn parse(text: &str) -> Option<(String, bool, Vec<u64>)> {
-    let value = |name: &str| {
-        let (_, rest) = text.split_once(&format!("'{name}':"))?;
-        Some(rest.trim_start())
-    };
-    let dtype = value("descr")?.strip_prefix('\'')?.split_once('\'')?.0.to_owned();
-    let fortran = match value("fortran_order")? {
-        yes if yes.starts_with("True") => true,
-        no if no.starts_with("False") => false,
-        _ => return None,
-    };
-    let (shape, _) = value("shape")?.strip_prefix('(')?.split_once(')')?;
-    let shape = shape
-        .split(',')
-        .map(str::trim)
-        .filter(|length| !length.is_empty())
-        .map(|length| length.trim_end_matches('L').parse().ok())
-        .collect::<Option<Vec<u64>>>()?;
-    Some((dtype, fortran, shape))
 }

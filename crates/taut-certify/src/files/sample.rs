@@ -4,7 +4,7 @@
 //! from left to right, so that numbers come in order and are compared with the lines of the file one by one.
 //! *Guarantee.* Exact: the file is the one that the seed gives, so its numbers are different, in order and below n.
 //! *Trap.* Probabilities are compared with a random number in double precision, so the order of the operations is a part of
-//! the definition.
+//! the definition. How many numbers there are is what the JSON says: a file too short for them is refused before any is drawn.
 
 mod random;
 
@@ -61,7 +61,16 @@ impl FileAnswer for DrawnSample {
             let expected = "at most the number of those to choose from";
             return Err(FileViolation::Number { what, value, expected }.into());
         }
+        if files.input.is_some() {
+            return Err(FileCheckError::NoInput);
+        }
         let mut output = Source::new(WhichFile::Output, files.output)?;
+        // A digit for each number, and a line feed between any two.
+        let least = (2 * u128::from(self.drawn)).saturating_sub(1);
+        if u128::from(output.length) < least {
+            let (file, found, lines) = (output.which, output.length, self.drawn);
+            return Err(FileViolation::Short { file, found, lines, least }.into());
+        }
         let mut numbers = Numbers::new(certificate.seed, self.of, self.drawn);
         let mut line = 0;
         let differs = |line, found, expected| {

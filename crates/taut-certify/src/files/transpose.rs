@@ -41,7 +41,8 @@ pub struct TransposedFile {
     pub input_offset: u64,
     /// Bytes of the output before its first element; it ends with the last.
     pub output_offset: u64,
-    /// Where both are `.npy` files, the type of an element as their headers have it: `<f8`.
+    /// Where both are `.npy` files, the type of an element as their headers have it: `<f8`. Without it the header of an output
+    /// that begins as an `.npy` file is judged all the same, and then that of such an input.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dtype: Option<String>,
 }
@@ -96,26 +97,44 @@ impl TransposedFile {
             return Err(FileViolation::Number { what, value, expected }.into());
         }
         let mut output = Source::new(WhichFile::Output, files.output)?;
-        self.fits(&mut output, self.output_offset)?;
+        let offset = self.output_offset;
+        self.has_length(&output, offset)?;
+        let is_npy = self.dtype.is_some() || offset > 0 && npy::begins(&mut output)?;
+        if is_npy {
+            self.has_header(&mut output, offset)?;
+        }
         let Some(input) = files.input else { return self.hash(&mut output, monitor) };
         let mut input = Source::new(WhichFile::Input, input)?;
-        self.fits(&mut input, self.input_offset)?;
+        let offset = self.input_offset;
+        self.has_length(&input, offset)?;
+        if self.dtype.is_some() || is_npy && offset > 0 && npy::begins(&mut input)? {
+            self.has_header(&mut input, offset)?;
+        }
         self.compare(&mut input, &mut output, monitor)
     }
 
-    /// Length of a file, and its header if it should have one.
-    fn fits(&self, source: &mut Source<'_>, offset: u64) -> Result<(), FileCheckError> {
+    fn has_length(&self, source: &Source<'_>, offset: u64) -> Result<(), FileViolation> {
         let (file, found) = (source.which, source.length);
         let elements = u128::from(self.rows) * u128::from(self.columns);
         let expected = elements
             .checked_mul(self.width.into())
             .and_then(|bytes| bytes.checked_add(offset.into()))
             .unwrap_or(u128::MAX);
-        if u128::from(found) != expected {
-            return Err(FileViolation::Length { file, found, expected }.into());
+        if u128::from(found) == expected {
+            Ok(())
+        } else {
+            Err(FileViolation::Length { file, found, expected })
         }
-        let Some(dtype) = &self.dtype else { return Ok(()) };
+    }
+
+    /// The header of an `.npy` file.
+    fn has_header(&self, source: &mut Source<'_>, offset: u64) -> Result<(), FileCheckError> {
+        let file = source.which;
         let header = npy::header(source)?;
+        let has_type = match &self.dtype {
+            Some(dtype) => npy::is_same_type(&header.dtype, dtype),
+            None => npy::width(&header.dtype) == Some(self.width),
+        };
         let shape = match file {
             WhichFile::Input => [self.rows, self.columns],
             WhichFile::Output => [self.columns, self.rows],
@@ -125,8 +144,10 @@ impl TransposedFile {
         let order_matters = self.rows > 1 && self.columns > 1;
         let problem = if header.offset != offset {
             format!("has {} bytes, not {offset}", header.offset)
-        } else if header.dtype != *dtype {
-            format!("says that elements are {:?}, not {dtype:?}", header.dtype)
+        } else if !has_type {
+            let bytes = format!("of {} bytes", self.width);
+            let expected = self.dtype.as_ref().map_or(bytes, |dtype| format!("{dtype:?}"));
+            format!("says that elements are {:?}, not {expected}", header.dtype)
         } else if header.shape != shape {
             format!("says that the shape is {:?}, not {shape:?}", header.shape)
         } else if header.fortran != fortran && (order_matters || file == WhichFile::Output) {

@@ -47,6 +47,18 @@ pub enum FileViolation {
         /// The length that the answer asks for.
         expected: u128,
     },
+    /// A file of numbers is shorter than so many can be.
+    #[error("{file} has {found} bytes: {lines} lines of a number take {least} or more")]
+    Short {
+        /// Which file.
+        file: WhichFile,
+        /// Its length.
+        found: u64,
+        /// The lines that the answer asks for.
+        lines: u64,
+        /// Bytes that they take at least.
+        least: u128,
+    },
     /// Records are not in order.
     #[error("{file} is not sorted: record {record} (from 0) belongs before the one it follows")]
     Unsorted {
@@ -107,6 +119,9 @@ pub enum FileCheckError {
     /// The file or its certificate is wrong.
     #[error(transparent)]
     Rejected(#[from] FileViolation),
+    /// There is a file to compare with, but none was read.
+    #[error("a sample is drawn from numbers, not from a file: name the file of the sample alone")]
+    NoInput,
     /// A file could not be read.
     #[error("{file} could not be read: {source}")]
     Read {

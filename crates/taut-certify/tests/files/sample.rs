@@ -1,10 +1,14 @@
 //! Samples: the checker draws what the solver draws, bit for bit.
 
+use std::io::Cursor;
+
 use proptest::prelude::*;
 use taut_certify::{
-    AnyFileSolution, DrawnSample, FileSolution, FileViolation, SampleCertificate, Trace,
+    AnyFileSolution, DrawnSample, FileCheckError, FileSolution, FileViolation, Files,
+    SampleCertificate, Trace,
 };
 use taut_oblivious::sample;
+use taut_points::Monitor;
 
 use super::{judge, no_change_is_confirmed};
 
@@ -56,6 +60,34 @@ fn every_field_counts() {
 }
 
 #[test]
+fn promises_of_many_numbers_need_a_file_of_many_bytes() {
+    let promise = |of: u64, drawn: u64| {
+        let certificate = SampleCertificate { seed: 1 };
+        let answer = DrawnSample { of, drawn };
+        FileSolution { answer, certificate, trace: Trace::default() }
+    };
+    for (of, drawn) in [(1_000_000_000_000_000, 500_000_000_000_000), (u64::MAX, 1 << 62)] {
+        let found = AnyFileSolution::Sample(promise(of, drawn));
+        for text in [&b""[..], b"1\n2\n3"] {
+            let refused = judge(&found, None, text).unwrap_err();
+            assert!(matches!(refused, FileViolation::Short { .. }), "{refused}");
+        }
+    }
+    // The shortest file there can be.
+    let (ten, text) = drawn(1, 10, 10);
+    assert_eq!(text.trim_ascii_end().len(), 19);
+    assert!(judge(&ten, None, text.trim_ascii_end()).is_ok());
+}
+
+#[test]
+fn a_sample_has_no_input() {
+    let (found, text) = drawn(3, 1000, 50);
+    let (mut input, mut output) = (Cursor::new(b"anything"), Cursor::new(text));
+    let files = Files { input: Some(&mut input), output: &mut output };
+    assert!(matches!(found.check(files, &Monitor::silent()), Err(FileCheckError::NoInput)));
+}
+
+#[test]
 fn other_lines_are_seen() {
     let (found, text) = drawn(3, 1000, 50);
     let text = String::from_utf8(text).unwrap();
@@ -69,13 +101,13 @@ fn other_lines_are_seen() {
         joined(&swapped),
         joined(&twice),
         joined(&lines[1..]),
-        joined(&lines[..49]),
         text.clone() + "1000\n",
         text.clone() + "\n",
         text.replacen('\n', " \n", 1),
         text.replacen(lines[5], &format!("0{}", lines[5]), 1),
         format!("{}{text}", "9".repeat(3_000_000)),
-        String::new(),
+        joined(&lines[..49]),
+        format!("{}\n", lines[0]).repeat(50),
     ] {
         let refused = judge(&found, None, wrong.as_bytes()).unwrap_err();
         assert!(matches!(refused, FileViolation::Drawn { .. }), "{refused}");

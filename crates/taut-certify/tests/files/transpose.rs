@@ -131,6 +131,81 @@ fn headers_are_read() {
     }
 }
 
+/// A header with any text.
+fn with_header(text: &str, values: &[u8]) -> Vec<u8> {
+    let text = format!("{text:117}\n");
+    let length = (text.len() as u16).to_le_bytes();
+    [b"\x93NUMPY\x01\x00".as_slice(), &length, text.as_bytes(), values].concat()
+}
+
+#[test]
+#[cfg(target_endian = "little")]
+fn headers_that_numpy_reads_are_read() {
+    let (bytes, turned) = matrix(6, 4, 8);
+    let output = npy("<f8", false, [4, 6], &turned);
+    let array = TransposedFile { dtype: Some("<f8".to_owned()), ..answer(6, 4, 8, [128, 128]) };
+    for text in [
+        r#"{"descr": "<f8", "fortran_order": False, "shape": (6, 4)}"#,
+        "{'shape':(6,4),'descr':'<f8','fortran_order':False}",
+        "{ 'descr' : 'f8' , 'fortran_order' : False , 'shape' : ( 6 , 4 , ) }",
+        "{'descr': '=f8', 'fortran_order': False, 'shape': (6L, 4L), }",
+        "{'descr': 'float64', 'fortran_order': False, 'shape': (6, 4), }",
+    ] {
+        let input = with_header(text, &bytes);
+        let found = certified(array.clone(), &input, &output);
+        assert!(judge(&found, Some(&input), &output).is_ok(), "{text}");
+        for (from, to) in
+            [("6", "7"), ("False", "True"), ("8'", "4'"), ("8\"", "4\""), ("4'", "2'")]
+        {
+            let other = with_header(&text.replace(from, to), &bytes);
+            assert!(judge(&found, Some(&other), &output).is_err() || other == input, "{text} {to}");
+        }
+    }
+    // What is written is as NumPy writes it, but for the name of the type.
+    let input = npy("<f8", false, [6, 4], &bytes);
+    let found = certified(array.clone(), &input, &output);
+    for text in [
+        r#"{"descr": "<f8", "fortran_order": False, "shape": (4, 6), }"#,
+        "{'descr': '<f8', 'shape': (4, 6), 'fortran_order': False, }",
+    ] {
+        assert!(judge(&found, Some(&input), &with_header(text, &turned)).is_err(), "{text}");
+    }
+    let by_name = TransposedFile { dtype: Some("f8".to_owned()), ..array };
+    certified(by_name, &npy("<f8", false, [6, 4], &bytes), &output);
+}
+
+#[test]
+fn headers_that_lie_are_seen_without_a_type() {
+    let (bytes, turned) = matrix(6, 4, 8);
+    let array = answer(6, 4, 8, [128, 128]);
+    let input = npy("<f8", false, [6, 4], &bytes);
+    let output = npy("<f8", false, [4, 6], &turned);
+    let found = certified(array.clone(), &input, &output);
+    for wrong in [
+        npy("<f8", false, [6, 4], &turned),
+        npy("<f8", false, [24, 1], &turned),
+        npy("<f8", true, [4, 6], &turned),
+        npy("<f4", false, [4, 12], &turned),
+        npy("<f4", false, [4, 6], &turned),
+        npy("|O", false, [4, 6], &turned),
+        with_header("{'descr': '<f8', 'shape': (4, 6), }", &turned),
+    ] {
+        let refused = judge(&found, None, &wrong).unwrap_err();
+        assert!(matches!(refused, FileViolation::Header { .. }), "{refused}");
+        assert!(judge(&found, Some(&input), &wrong).is_err());
+    }
+    for wrong in [npy("<f8", true, [6, 4], &bytes), npy("<f8", false, [4, 6], &bytes)] {
+        let refused = judge(&found, Some(&wrong), &output).unwrap_err();
+        assert!(matches!(refused, FileViolation::Header { .. }), "{refused}");
+    }
+    // Raw files with something before their elements, whatever it is.
+    let raw = [vec![7; 128], bytes.clone()].concat();
+    assert!(judge(&found, Some(&raw), &output).is_ok());
+    assert!(judge(&found, None, &[vec![7; 128], turned.clone()].concat()).is_ok());
+    let without = certified(answer(6, 4, 8, [128, 0]), &npy("|S7", true, [1, 1], &bytes), &turned);
+    assert!(judge(&without, None, &turned).is_ok());
+}
+
 proptest! {
     /// Shapes of any kind, nothing included; element (i, j) of the input against every place.
     #[test]

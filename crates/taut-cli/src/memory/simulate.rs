@@ -148,15 +148,22 @@ fn csv(rows: &[Counted]) -> String {
 
 fn table(rows: &[Counted]) -> String {
     let mut text = format!(
-        "{:<20}{:>10}{:>10}{:>8}{:>14}{:>14}{:>9}\n",
+        "{:<20} {:>9} {:>9} {:>7} {:>13} {:>13} {:>8}\n",
         "algorithm", "n", "M", "B", "misses", "formula", "ratio"
     );
     for Counted { name, n, memory, block, misses, formula, .. } in rows {
+        let ratio = match *formula > 0.0 {
+            true => format!("{:.3}", *misses as f64 / formula),
+            false => "-".to_owned(),
+        };
         text += &format!(
-            "{name:<20}{n:>10}{memory:>10}{block:>8}{:>14}{:>14}{:>9.3}\n",
+            "{name:<20} {n:>9} {memory:>9} {block:>7} {:>13} {:>13} {ratio:>8}\n",
             numbers::count(*misses),
-            numbers::count(formula.round() as u64),
-            *misses as f64 / formula
+            // A few misses, or a part of one, are not rounded to other ones.
+            match *formula < 100.0 {
+                true => numbers::short(*formula),
+                false => numbers::count(formula.round() as u64),
+            },
         );
     }
     text

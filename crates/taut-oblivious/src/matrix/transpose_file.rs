@@ -113,7 +113,8 @@ pub struct FileTransposition {
 ///
 /// # Errors
 /// [`Error::Option`] if the memory holds less than two elements or is more than the system gives, or if the extent is not
-/// possible, [`Error::Length`] if the file does not end with the matrix, [`Error::File`] if the system refuses, [`Error::Cancelled`].
+/// possible, [`Error::Length`] if the file does not end with the matrix, [`Error::File`] if the system refuses,
+/// [`Error::Cancelled`].
 ///
 /// ```
 /// use taut_oblivious::{FileMatrix, TransposeFileOptions, transpose_file};

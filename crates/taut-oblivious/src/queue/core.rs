@@ -46,6 +46,7 @@ impl<V: Copy> Bucket<V> {
         room::grow(&mut self.values, other.values.len());
         self.keys.append(&mut other.keys);
         self.values.append(&mut other.values);
+        room::grow(&mut self.blocks, other.blocks.len());
         self.blocks.append(&mut other.blocks);
     }
 
@@ -196,7 +197,7 @@ impl<V: Copy, S: Spill<V>> Core<V, S> {
             let top = self.buckets.last_mut().expect("there is always a bucket");
             let Some(&last) = top.blocks.last() else { break };
             self.spill.give_back(last, &mut top.keys, &mut top.values)?;
-            top.blocks.pop();
+            room::pop(&mut top.blocks);
             self.blocks -= 1;
             self.held += block;
         }
@@ -331,6 +332,7 @@ impl<V: Copy, S: Spill<V>> Core<V, S> {
             let bucket = &mut self.buckets[level];
             let start = bucket.keys.len() - block;
             let kept = self.spill.keep(&bucket.keys[start..], &bucket.values[start..])?;
+            room::grow(&mut bucket.blocks, 1);
             bucket.blocks.push(kept);
             bucket.keys.truncate(start);
             bucket.values.truncate(start);

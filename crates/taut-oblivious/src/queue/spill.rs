@@ -130,7 +130,7 @@ impl<V: Pod, F: Store> Spill<V> for Blocks<F> {
         self.file.write_all_at(bytemuck::cast_slice(keys), at).map_err(self.failed())?;
         let at = at + 8 * self.block as u64;
         self.file.write_all_at(bytemuck::cast_slice(values), at).map_err(self.failed())?;
-        if self.free.pop().is_none() {
+        if room::pop(&mut self.free).is_none() {
             self.count += 1;
         }
         Ok(block)
@@ -160,6 +160,7 @@ impl<V: Pod, F: Store> Spill<V> for Blocks<F> {
             values.truncate(start);
             return Err(self.failed()(error));
         }
+        room::grow(&mut self.free, 1);
         self.free.push(block);
         Ok(())
     }

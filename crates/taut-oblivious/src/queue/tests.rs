@@ -161,15 +161,18 @@ fn keys_of_all_kinds_leave_in_order() {
 #[cfg_attr(miri, ignore = "files")]
 fn the_memory_is_kept_and_the_file_is_reused() {
     let folder = tempfile::tempdir().unwrap();
-    assert!(SpillingQueue::<u64, u64>::new(folder.path(), 60_000).is_err());
-    assert!(SpillingQueue::<u64, u64>::new(&folder.path().join("none"), 1 << 20).is_err());
-    let mut queue = SpillingQueue::<u64, [u64; 3]>::new(folder.path(), 1 << 17).unwrap();
-    let (n, entries) = (60_000u64, (1 << 17) / 32 / 5 * 2);
+    let memory = 4 << 20;
+    assert!(SpillingQueue::<u64, u64>::new(folder.path(), memory - 1).is_err());
+    assert!(SpillingQueue::<u64, [u64; 96]>::new(folder.path(), 6830 * 776 - 1).is_err());
+    assert!(SpillingQueue::<u64, [u64; 96]>::new(folder.path(), 6830 * 776).is_ok());
+    assert!(SpillingQueue::<u64, u64>::new(&folder.path().join("none"), memory).is_err());
+    let mut queue = SpillingQueue::<u64, [u64; 3]>::new(folder.path(), memory).unwrap();
+    let (n, entries) = (150_000u64, memory as u64 / 32 / 10 * 3);
     let key = |i: u64| i.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 8;
     for i in 0..n {
         queue.push(key(i), [i, i + 1, i + 2]).unwrap();
         assert!(queue.len() - queue.spilled() <= entries);
-        assert!(queue.core.room() * 32 <= 1 << 17);
+        assert!(queue.core.room() * 32 <= memory / 2);
     }
     let mut sorted: Vec<u64> = (0..n).map(key).collect();
     sorted.sort_unstable();
@@ -179,7 +182,7 @@ fn the_memory_is_kept_and_the_file_is_reused() {
         assert_eq!((found, key(i)), (expected, expected));
         assert_eq!(queue.len(), n - 1 - k as u64);
         assert!(queue.len() - queue.spilled() <= entries);
-        assert!(queue.core.room() * 32 <= 1 << 17);
+        assert!(queue.core.room() * 32 <= memory / 2);
     }
     assert_eq!(queue.pop().unwrap(), None);
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "the file has no name");

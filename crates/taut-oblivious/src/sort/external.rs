@@ -5,10 +5,11 @@
 //! files are open however many runs there are. If so many runs come together that their blocks would be tiny,
 //! neighbouring runs are merged into longer ones first.
 //! *Guarantee.* Stable: the output is a function of the input and the place of the key, whatever the memory and the
-//! threads. Each byte is read twice and written twice while n·w is below some memory² / 512 KiB, 128 GiB for 256 MiB; a
-//! file that fits is read and written once. The output appears whole under its name or not at all. What is read back from
-//! runs is compared with what was read first by a hash of 128 bits of the multiset of records, which is the certificate, and
-//! held to its order, whoever made the run; [`verify`] shares no code with the sort.
+//! threads. Each byte is read twice and written twice while there are at most some memory / 256 KiB runs of nine tenths of
+//! the memory, 240 GB for 256 MiB (below 16 MiB of memory some 60 runs); a file that fits is read and written once. The
+//! output appears whole under its name or not at all. What is read back from runs is compared with what was read first by a
+//! hash of 128 bits of the multiset of records, which is the certificate, and held to its order, whoever made the run;
+//! [`verify`] shares no code with the sort.
 //! *Trap.* Waiting for the disk and sorting in turn wastes both: a block is written while the next one is filled, and the
 //! next blocks are asked for before they are needed.
 //! *Trap.* A limit on memory counts everything: the numbers of the records, the block that is being written.

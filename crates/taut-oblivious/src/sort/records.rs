@@ -20,7 +20,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::{Run, quick};
-use crate::deal::Dealt;
+use crate::deal::{self, Dealt};
 use crate::probe::{NoProbe, Probe};
 
 /// Up to this many records are sorted by the standard library.
@@ -29,6 +29,8 @@ const FEW: usize = 24;
 const BUCKET_BYTES: usize = 1 << 19;
 /// Most bits dealt at once: the blocks of more buckets have no room in the second level of the cache.
 const DEAL_BITS: u32 = 10;
+/// Bytes that the blocks of all buckets may take: records above 1 KiB are dealt into fewer buckets, but two at least.
+const BLOCKS_BYTES: usize = 4 << 20;
 /// Buckets above this many bytes are dealt again.
 const LARGE_BYTES: usize = 1 << 20;
 /// Records for each that is looked at to find the range of keys, and most that are looked at.
@@ -124,9 +126,9 @@ fn divide<T: Copy, P: Probe>(
         (low, high) = ends(records.iter().map(rank));
     }
     let bytes = size_of_val(records);
-    let mut scale = Scale::new(low, high, (bytes / BUCKET_BYTES).max(2).ilog2() + 1);
+    let mut scale = Scale::new::<T>(low, high, (bytes / BUCKET_BYTES).max(2).ilog2() + 1);
     if scale.crowds(&sample) {
-        scale = Scale::new(low, high, DEAL_BITS);
+        scale = Scale::new::<T>(low, high, DEAL_BITS);
     }
     let most = LARGE_BYTES / size_of::<T>();
     room.copy(most);
@@ -169,6 +171,12 @@ fn sample<T>(records: &[T], rank: &impl Fn(&T) -> u64) -> Vec<u64> {
     std::iter::repeat_with(next).take(count).collect()
 }
 
+/// Most bits of such records dealt at once.
+fn most_bits<T>() -> u32 {
+    let block = deal::block::<T>().saturating_mul(size_of::<T>()).max(1);
+    (BLOCKS_BYTES / block).max(2).ilog2().min(DEAL_BITS)
+}
+
 /// Buckets of equal ranges of ranks; those beyond the ends go to the first and the last.
 struct Scale {
     low: u64,
@@ -177,12 +185,13 @@ struct Scale {
 }
 
 impl Scale {
-    /// For ranks of about `low` to `high`, which is more, in some 2^`bits` buckets.
-    fn new(low: u64, high: u64, bits: u32) -> Self {
+    /// For ranks of about `low` to `high`, which is more, in some 2^`bits` buckets, or as many as records may have.
+    fn new<T>(low: u64, high: u64, bits: u32) -> Self {
         let range = high - low;
         let span = u64::BITS - range.leading_zeros();
         // Where one bucket for each rank is affordable, that ends the matter.
-        let shift = if span <= DEAL_BITS { 0 } else { span - bits.min(DEAL_BITS) };
+        let most = most_bits::<T>();
+        let shift = if span <= most { 0 } else { span - bits.min(most) };
         Self { low, range, shift }
     }
 

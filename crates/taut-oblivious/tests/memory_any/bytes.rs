@@ -98,8 +98,9 @@ pub(crate) fn packed_any(bytes: &[u8]) {
 /// Both queues beside a `BinaryHeap`: two bytes an operation, some many times over.
 pub(crate) fn queue_any(bytes: &[u8]) {
     let mut queue = PriorityQueue::<i64, u32>::new();
+    // Wide values, so that some thousands of entries are more than memory holds.
     let mut spilling =
-        SpillingQueue::<i64, u32>::new(&std::env::temp_dir(), 64 << 10).expect("a file");
+        SpillingQueue::<i64, [u32; 64]>::new(&std::env::temp_dir(), 4 << 20).expect("a file");
     let mut model = BinaryHeap::new();
     let (mut now, mut held) = (0i64, vec![0u32; 2]);
     for (time, &[what, more]) in (0u32..).zip(bytes.as_chunks::<2>().0) {
@@ -114,7 +115,7 @@ pub(crate) fn queue_any(bytes: &[u8]) {
             };
             let Some(key) = key else {
                 let smallest = model.pop().map(|Reverse(key)| key);
-                let (one, other) = (queue.pop(), spilling.pop().expect("read"));
+                let (one, other) = (queue.pop(), narrow(spilling.pop().expect("read")));
                 assert_eq!(one.map(|entry| entry.0), smallest);
                 assert_eq!(other.map(|entry| entry.0), smallest);
                 now = smallest.unwrap_or(0);
@@ -125,7 +126,7 @@ pub(crate) fn queue_any(bytes: &[u8]) {
             };
             model.push(Reverse(key));
             queue.push(key, time);
-            spilling.push(key, time).expect("written");
+            spilling.push(key, [time; 64]).expect("written");
             held.iter_mut().for_each(|held| *held = held.wrapping_add(time));
         }
         assert_eq!((queue.len(), spilling.len()), (model.len() as u64, model.len() as u64));
@@ -136,11 +137,22 @@ pub(crate) fn queue_any(bytes: &[u8]) {
     // Every key, and every payload: their sums come out even.
     while let Some(Reverse(key)) = model.pop() {
         assert_eq!(queue.peek().map(|entry| entry.0), Some(key));
-        let (one, other) = (queue.pop(), spilling.pop().expect("read"));
+        let (one, other) = (queue.pop(), narrow(spilling.pop().expect("read")));
         assert_eq!([one, other].map(|entry| entry.map(|entry| entry.0)), [Some(key); 2]);
         for (held, entry) in held.iter_mut().zip([one, other]) {
             *held = held.wrapping_sub(entry.map_or(0, |entry| entry.1));
         }
     }
-    assert_eq!((queue.pop(), spilling.pop().expect("read"), held), (None, None, vec![0, 0]));
+    assert_eq!(
+        (queue.pop(), narrow(spilling.pop().expect("read")), held),
+        (None, None, vec![0, 0])
+    );
+}
+
+/// The entry without what its value is repeated for.
+fn narrow(entry: Option<(i64, [u32; 64])>) -> Option<(i64, u32)> {
+    entry.map(|(key, value)| {
+        assert!(value == [value[0]; 64]);
+        (key, value[0])
+    })
 }

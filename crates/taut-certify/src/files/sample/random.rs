@@ -65,24 +65,42 @@ pub(super) fn fall_below(random: &mut Random, n: u64, half: u64, k: u64) -> u64 
         let (up, down) = ((k - x) as f64 * (half - x) as f64, (x + 1) as f64 * rest as f64);
         up / down
     };
-    let mut weights = vec![(mode, 1.0)];
+    // The weights are walked through twice: kept, those of a file that only promises numbers could fill any memory.
+    let mut sum = 0.0;
+    walk(mode, [least, most], ratio, |weight| {
+        sum += weight;
+        false
+    });
+    let mut lot = random.unit() * sum;
+    walk(mode, [least, most], ratio, |weight| {
+        lot -= weight;
+        lot <= 0.0
+    })
+}
+
+/// Goes through the numbers and their weights until `stop` says so; the number it ends at.
+fn walk(
+    mode: u64,
+    [least, most]: [u64; 2],
+    ratio: impl Fn(u64) -> f64,
+    mut stop: impl FnMut(f64) -> bool,
+) -> u64 {
     let (mut x, mut weight) = (mode, 1.0);
+    if stop(weight) {
+        return x;
+    }
     while x < most && weight > 1e-22 {
         weight *= ratio(x);
         x += 1;
-        weights.push((x, weight));
+        if stop(weight) {
+            return x;
+        }
     }
     (x, weight) = (mode, 1.0);
     while x > least && weight > 1e-22 {
         x -= 1;
         weight /= ratio(x);
-        weights.push((x, weight));
-    }
-    let sum = weights.iter().fold(0.0, |sum, (_, weight)| sum + weight);
-    let mut lot = random.unit() * sum;
-    for &(x, weight) in &weights {
-        lot -= weight;
-        if lot <= 0.0 {
+        if stop(weight) {
             return x;
         }
     }

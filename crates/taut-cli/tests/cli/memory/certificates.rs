@@ -45,6 +45,17 @@ fn a_sample_is_drawn_again() {
     desk.taut("verify rows.json rows.txt")
         .ends(0)
         .says(&["Verified: 9000 numbers of 1,000,000,000", "drawn again"]);
+    // A file that it was made from is nothing to be passed over in silence.
+    desk.taut("verify rows.json rows.json rows.txt")
+        .ends(2)
+        .complains(&["rows.json: a sample is drawn from numbers, not from a file"]);
+    let text = desk.text("rows.json");
+    let promise = text.replace("\"of\": 1000000000", "\"of\": 18446744073709551615");
+    desk.put("promise.json", promise.replace("\"drawn\": 9000", "\"drawn\": 4611686018427387904"));
+    desk.taut("verify promise.json rows.txt").ends(1).says(&[
+        "Rejected: rows.txt has ",
+        "4611686018427387904 lines of a number take 9223372036854775807",
+    ]);
     desk.put("rows.json", desk.text("rows.json").replace("\"seed\": 5", "\"seed\": 6"));
     desk.taut("verify rows.json rows.txt").ends(1).says(&["line 1 of rows.txt is "]);
     desk.taut("memory sample -n 10 -k 3 -o same.txt --certificate same.txt")

@@ -54,6 +54,38 @@ fn arrays_of_any_type_and_order_are_turned() {
 }
 
 #[test]
+fn headers_that_numpy_reads_and_headers_that_lie() {
+    let desk = Desk::new();
+    let values: Vec<u8> = words(5 * 6 * 8).into_iter().map(|word| word as u8).collect();
+    for header in [
+        r#"{"descr": "<f8", "fortran_order": False, "shape": (5, 6)}"#,
+        "{'shape': (5, 6), 'fortran_order': False, 'descr': 'f8', }",
+    ] {
+        let text = format!("{header:117}\n");
+        let length = (text.len() as u16).to_le_bytes();
+        desk.put(
+            "a.npy",
+            [b"\x93NUMPY\x01\x00".as_slice(), &length, text.as_bytes(), values.as_slice()].concat(),
+        );
+        desk.taut("memory transpose a.npy -o b.npy --certificate b.json").ends(0);
+        desk.taut("verify b.json a.npy b.npy").ends(0);
+    }
+    // Without the type the header is judged all the same.
+    let lines = desk.text("b.json");
+    let without: Vec<&str> = lines.lines().filter(|line| !line.contains("dtype")).collect();
+    desk.put(
+        "b.json",
+        without.join("\n").replace("\"output_offset\": 128,", "\"output_offset\": 128"),
+    );
+    desk.taut("verify b.json a.npy b.npy").ends(0).says(&["byte 128 of the input"]);
+    let turned = desk.bytes("b.npy")[128..].to_vec();
+    for lie in [npy("<f8", true, "(6, 5)", &turned), npy("<f8", false, "(30, 1)", &turned)] {
+        desk.put("b.npy", lie);
+        desk.taut("verify b.json b.npy").ends(1).says(&["Rejected: the header of b.npy"]);
+    }
+}
+
+#[test]
 fn rows_columns_and_nothing() {
     let desk = Desk::new();
     let eight = [1, 2, 3, 4, 5, 6, 7, 8];

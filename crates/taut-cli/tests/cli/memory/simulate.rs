@@ -26,6 +26,24 @@ fn misses_stand_beside_the_formula() {
 }
 
 #[test]
+fn columns_do_not_run_together() {
+    let desk = Desk::new();
+    let wide = desk.taut("memory simulate transpose -n 8 --block 1G --memory 900T").ends(0).out;
+    let cells = |text: &str| -> Vec<String> {
+        let last = text.lines().last().unwrap_or_default();
+        last.split_whitespace().map(str::to_owned).collect()
+    };
+    assert_eq!(cells(&wide)[..4], ["transpose", "8", "989560464998400", "1073741824"], "{wide}");
+    // 2·8·8 words in blocks of 2²⁷.
+    assert_eq!(cells(&wide)[5], "9.53674316e-7", "{wide}");
+    let one = desk.taut("memory simulate transpose -n 1 --memory 4K").ends(0).out;
+    let misses: f64 = cells(&one)[4].parse().unwrap();
+    assert_eq!(cells(&one)[5..], ["0.25".to_owned(), format!("{:.3}", misses / 0.25)], "{one}");
+    let none = desk.taut("memory simulate search -n 1 --memory 4K").ends(0).out;
+    assert_eq!(cells(&none).len(), 7, "{none}");
+}
+
+#[test]
 fn policies_differ_and_the_best_is_the_best() {
     let desk = Desk::new();
     let misses = |policy: &str| -> u64 {

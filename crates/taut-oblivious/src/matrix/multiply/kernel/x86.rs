@@ -69,6 +69,9 @@ macro_rules! tile {
     ($name:ident, $feature:literal, $rows:literal, $lanes:literal,
      $zero:ident, $set:ident, $load:ident, $store:ident, $fused:ident, $add:ident, $subtract:ident) => {
         /// The first `VECTORS` vectors of each row.
+        ///
+        /// # Safety
+        /// The processor has the instructions; `a` and `b` hold `depth` groups of packed rows and columns, `c` the tile.
         #[target_feature(enable = $feature)]
         unsafe fn $name<const VECTORS: usize>(
             depth: usize,

@@ -84,9 +84,12 @@ pub(super) fn walk<T: Pod>(
     true
 }
 
-/// A block by square tiles of `$side`, and one element at a time where none fits.
 macro_rules! turn {
     ($name:ident, $word:ty, $side:literal, $tile:ident) => {
+        /// A block by square tiles of `$side`, and one element at a time where none fits.
+        ///
+        /// # Safety
+        /// The processor has AVX2, and both sides hold the block.
         #[target_feature(enable = "avx2")]
         unsafe fn $name(
             (rows, columns): (usize, usize),
@@ -122,6 +125,10 @@ turn!(turn_2, u16, 8, tile_8_of_2);
 turn!(turn_4, u32, 8, tile_8_of_4);
 turn!(turn_8, u64, 4, tile_4_of_8);
 
+/// Sixteen by sixteen elements of one byte.
+///
+/// # Safety
+/// The processor has AVX2, and both sides hold the tile.
 #[inline]
 #[target_feature(enable = "avx2")]
 unsafe fn tile_16_of_1((from, stride): (*const u8, usize), (to, stride_to): (*mut u8, usize)) {
@@ -146,6 +153,10 @@ unsafe fn tile_16_of_1((from, stride): (*const u8, usize), (to, stride_to): (*mu
     }
 }
 
+/// Eight by eight elements of 2 bytes.
+///
+/// # Safety
+/// The processor has AVX2, and both sides hold the tile.
 #[inline]
 #[target_feature(enable = "avx2")]
 unsafe fn tile_8_of_2((from, stride): (*const u16, usize), (to, stride_to): (*mut u16, usize)) {
@@ -169,6 +180,10 @@ unsafe fn tile_8_of_2((from, stride): (*const u16, usize), (to, stride_to): (*mu
     }
 }
 
+/// Eight by eight elements of 4 bytes.
+///
+/// # Safety
+/// The processor has AVX2, and both sides hold the tile.
 #[inline]
 #[target_feature(enable = "avx2")]
 unsafe fn tile_8_of_4((from, stride): (*const u32, usize), (to, stride_to): (*mut u32, usize)) {
@@ -196,6 +211,10 @@ unsafe fn tile_8_of_4((from, stride): (*const u32, usize), (to, stride_to): (*mu
     }
 }
 
+/// Four by four elements of 8 bytes.
+///
+/// # Safety
+/// The processor has AVX2, and both sides hold the tile.
 #[inline]
 #[target_feature(enable = "avx2")]
 unsafe fn tile_4_of_8((from, stride): (*const u64, usize), (to, stride_to): (*mut u64, usize)) {
@@ -218,6 +237,9 @@ unsafe fn tile_4_of_8((from, stride): (*const u64, usize), (to, stride_to): (*mu
 }
 
 /// Points to coordinates: rows of `D` adjacent elements of 8 bytes become `D` rows; `rows` is a multiple of 8.
+///
+/// # Safety
+/// The processor has AVX-512F, and both sides hold the block.
 #[target_feature(enable = "avx512f")]
 unsafe fn split<const D: usize>(rows: usize, from: *const f64, (to, stride_to): (*mut f64, usize)) {
     let table = past::split_table::<D>();
@@ -234,6 +256,9 @@ unsafe fn split<const D: usize>(rows: usize, from: *const f64, (to, stride_to): 
 }
 
 /// Coordinates to points: `D` rows of elements of 8 bytes become rows of `D` adjacent ones; `columns` is a multiple of 8.
+///
+/// # Safety
+/// The processor has AVX-512F, and both sides hold the block.
 #[target_feature(enable = "avx512f")]
 unsafe fn join<const D: usize>(columns: usize, (from, stride): (*const f64, usize), to: *mut f64) {
     let table = past::join_table::<D>();
@@ -260,6 +285,9 @@ fn lanes(pick: impl Fn(usize) -> usize) -> __m512i {
 }
 
 /// Eight by eight elements of 8 bytes; masks cut what is beyond the block.
+///
+/// # Safety
+/// The processor has AVX-512F, and both sides hold the block.
 #[target_feature(enable = "avx512f")]
 unsafe fn turn_8_wide(
     (rows, columns): (usize, usize),

@@ -142,6 +142,9 @@ pub(super) unsafe fn join<const D: usize>(
 }
 
 /// The elements of column c that are in no whole line.
+///
+/// # Safety
+/// Both sides hold the strip, of which column c is one.
 #[inline]
 unsafe fn ends(
     (rows, c): (usize, usize),
@@ -175,6 +178,9 @@ pub(super) fn split_table<const D: usize>() -> [[__m512i; D]; D] {
 }
 
 /// Eight rows of `D` adjacent elements as `D` vectors.
+///
+/// # Safety
+/// The processor has AVX-512F, and 8 · `D` elements from `from` on are readable.
 #[inline]
 #[target_feature(enable = "avx512f")]
 pub(super) unsafe fn split_eight<const D: usize>(
@@ -198,6 +204,9 @@ pub(super) fn join_table<const D: usize>() -> [[__m512i; D]; D] {
 }
 
 /// Eight columns of `D` rows as eight rows of `D` adjacent elements.
+///
+/// # Safety
+/// The processor has AVX-512F, and 8 elements of each of `D` rows are readable.
 #[inline]
 #[target_feature(enable = "avx512f")]
 pub(super) unsafe fn join_eight<const D: usize>(
