@@ -9,7 +9,9 @@ use pyo3::prelude::*;
 use taut::certify::{AnyFileSolution, Data, FileCheckError, Files, SortedFile, TransposedFile};
 use taut::files::{StoredMatrix, sorted, transposed};
 use taut::oblivious::external::{FileSortOptions, KeyKind, RecordLayout, sort_file as sort};
-use taut::oblivious::{Error, TransposeFileOptions, sample as draw, transpose_file as transpose};
+use taut::oblivious::{
+    Error, TransposeFileOptions, sample as draw, transpose_file_pending as transpose,
+};
 
 use crate::numbers::whole;
 use crate::rows::numbers;
@@ -73,14 +75,14 @@ pub(crate) fn transpose_file(
     let stored = StoredMatrix { rows, columns, width, offset, by_columns: fortran, dtype };
     let (matrix, answer) = (stored.matrix(), stored.transpose(header.len() as u64));
     let done = interruptible(py, |monitor| {
-        let found = transpose(&input, matrix, &output, header, &options, monitor)?;
-        let opened = |path: &Path| {
-            let failed = |source| Error::File { path: path.display().to_string(), source };
-            File::open(path).map_err(failed)
-        };
-        let (mut from, mut to) = (opened(&input)?, opened(&output)?);
-        let files = Files { input: Some(&mut from), output: &mut to };
-        Ok((found, answer.certify(files, monitor)))
+        let mut written = transpose(&input, matrix, &output, header, &options, monitor)?;
+        let failed = |source| Error::File { path: input.display().to_string(), source };
+        let mut from = File::open(&input).map_err(failed)?;
+        let files = Files { input: Some(&mut from), output: written.file() };
+        Ok(match answer.certify(files, monitor) {
+            Ok(certificate) => (written.publish()?, Ok(certificate)),
+            Err(violation) => (written.found, Err(violation)),
+        })
     })?;
     let (found, certified) = done.map_err(raise)?;
     let certificate = certified.map_err(judged)?;

@@ -47,9 +47,10 @@ def sort_file(
     memory : int, default 256 MiB
         Most bytes of memory to use for records, at least 64 KiB.
     scratch : path, optional
-        Folder for what does not fit in memory; by default that of the output.
+        Folder for what does not fit in memory; by default that of the output. Not together with `resume`.
     resume : path, optional
-        Keep what was done in this file until the output is there; go on from it if it is there.
+        Keep what was done in this file until the output is there; go on from it if it is there. Then the input must be
+        the same file, unchanged; what was done is compared with it by a hash.
 
     Returns
     -------
@@ -60,7 +61,7 @@ def sort_file(
     Raises
     ------
     ValueError
-        When an option is out of range, or the file ends within a record.
+        When an option is out of range, the file ends within a record, or `resume` is a file of another sort.
     OSError
         When the system refuses; the earlier output is as it was.
 
@@ -85,6 +86,10 @@ def sort_file(
     if key is None:
         key = (0, width if kind == "bytes" else 8)
     start, end = key
+    if scratch is not None and resume is not None:
+        raise ValueError("`scratch` and `resume` exclude each other: runs that are kept stand in the file of `resume`")
+    input, output = os.fsdecode(input), os.fsdecode(output)
+    scratch, resume = (path if path is None else os.fsdecode(path) for path in (scratch, resume))
     return _native.sort_file(input, output, width, (start, end), kind, memory, scratch, resume)
 
 
@@ -102,7 +107,8 @@ def transpose_file(
 
     A ``.npy`` file says itself what it holds: elements of any fixed width, in C or Fortran order; its transpose is
     a ``.npy`` file in C order. Another file holds the elements row by row, and `rows` and `columns` must be given.
-    Both files are read again from end to end and compared, byte by byte, for the certificate.
+    Before the output takes its name both files are read again from end to end and compared, byte by byte, for the
+    certificate.
 
     Parameters
     ----------
@@ -126,6 +132,8 @@ def transpose_file(
     ------
     ValueError
         When the file holds no matrix, or not the one that was told.
+    Violation
+        When the check fails; the earlier output is as it was.
     OSError
         When the system refuses; the earlier output is as it was.
 
@@ -145,23 +153,24 @@ def transpose_file(
     6
     >>> folder.cleanup()
     """
+    input, output = os.fsdecode(input), os.fsdecode(output)
     if os.path.exists(output) and os.path.samefile(input, output):
-        raise ValueError(f"{os.fspath(output)} is the input: name another file for the transpose")
-    of_npy = [os.fspath(path).endswith(".npy") for path in (input, output)]
+        raise ValueError(f"{output} is the input: name another file for the transpose")
+    of_npy = [path.lower().endswith(".npy") for path in (input, output)]
     if of_npy[0] != of_npy[1]:
         raise ValueError("the transpose of a .npy file is one, and that of another file is none: rename the output")
     if not of_npy[0]:
         if rows is None or columns is None:
-            raise ValueError(f"{os.fspath(input)} is no .npy file: give `rows` and `columns`")
+            raise ValueError(f"{input} is no .npy file: give `rows` and `columns`")
         return _native.transpose_file(input, output, (rows, columns), width, False, offset, None, b"", memory)
     if rows is not None or columns is not None or width != 8 or offset != 0:
         raise ValueError("`rows`, `columns`, `width` and `offset` belong to raw files: leave them out")
     shape, fortran, dtype, offset = _header(input)
     if len(shape) != 2:
-        raise ValueError(f"{os.fspath(input)} has shape {shape}: a matrix has 2 axes")
+        raise ValueError(f"{input} has shape {shape}: a matrix has 2 axes")
     descr = npy.dtype_to_descr(dtype)
     if dtype.hasobject or not isinstance(descr, str):
-        raise ValueError(f"{os.fspath(input)} has elements of type {dtype}: expected a type of fixed width without fields")
+        raise ValueError(f"{input} has elements of type {dtype}: expected a type of fixed width without fields")
     text = f"{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape[::-1]}, }}"
     # Spaces and a line feed bring the elements to a multiple of 64 bytes.
     text += " " * (-(len(text) + 11) % 64) + "\n"
@@ -171,7 +180,7 @@ def transpose_file(
     )
 
 
-def _header(path: Path) -> tuple[tuple[int, ...], bool, np.dtype[Any], int]:
+def _header(path: str) -> tuple[tuple[int, ...], bool, np.dtype[Any], int]:
     """Shape, order, type and place of the elements of a ``.npy`` file."""
     with open(path, "rb") as file:
         try:
@@ -179,7 +188,7 @@ def _header(path: Path) -> tuple[tuple[int, ...], bool, np.dtype[Any], int]:
             read = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
             shape, fortran, dtype = read(file)
         except ValueError as error:
-            raise ValueError(f"{os.fspath(path)}: {error}") from None
+            raise ValueError(f"{path}: {error}") from None
         return shape, fortran, dtype, file.tell()
 
 

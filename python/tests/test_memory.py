@@ -166,3 +166,17 @@ def test_what_has_no_order_is_named():
         taut.spatial_order([[1.0, 2.0]], curve="peano")
     with pytest.raises(AttributeError, match="an order has no simplices"):
         _ = taut.spatial_order([[1.0, 2.0]]).simplices
+
+
+def test_options_and_names_are_as_those_of_the_command(tmp_path):
+    np.arange(100, dtype="<u8")[::-1].tofile(tmp_path / "in")
+    with pytest.raises(ValueError, match="`scratch` and `resume` exclude each other"):
+        taut.sort_file(
+            tmp_path / "in", tmp_path / "out", width=8, scratch=tmp_path, resume=tmp_path / "runs"
+        )
+    taut.sort_file(bytes(tmp_path / "in"), bytes(tmp_path / "out"), width=8)
+    np.save(tmp_path / "a.npy", np.arange(6).reshape(2, 3))
+    (tmp_path / "a.npy").rename(tmp_path / "A.NPY")
+    taut.transpose_file(bytes(tmp_path / "A.NPY"), tmp_path / "B.NPY")
+    assert np.load(tmp_path / "B.NPY").tolist() == [[0, 3], [1, 4], [2, 5]]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["A.NPY", "B.NPY", "in", "out"]

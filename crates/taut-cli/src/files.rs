@@ -1,18 +1,19 @@
 //! Answers about files: judged beside the file that was read, told, and their certificates written.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-use anyhow::anyhow;
+use anyhow::{anyhow, bail};
 use taut::certify::{
     AnyFileSolution, Data, FileCheckError, FileVerdict, FileViolation, Files, KeyKind, WhichFile,
 };
+use taut::oblivious::Pending;
 
 use crate::exit::Outcome;
 use crate::numbers::{count, counted};
 use crate::report::Fact;
 use crate::watch::Watch;
-use crate::writing;
+use crate::writing::{self, Outputs};
 
 /// Where the certificate of a file goes.
 #[derive(Clone, Debug, clap::Args)]
@@ -33,26 +34,40 @@ impl Proof {
         writing::look_at(&outputs, inputs)
     }
 
-    /// Checks a file that was just written, unless that is not wanted, and writes its certificate.
-    pub(crate) fn finish(
+    /// Checks a file that has not its name yet, unless that is not wanted, then gives it and its certificate theirs.
+    pub(crate) fn finish<R>(
         &self,
         found: &AnyFileSolution,
-        input: Option<&Path>,
+        mut written: Pending<R>,
         out: &Path,
         watch: &Watch,
     ) -> anyhow::Result<Outcome> {
         if !self.no_verify
-            && let Err(violation) = judge(found, input, out, watch)?
+            && let Err(violation) = judge_open(found, (None, out), None, written.file(), watch)?
         {
-            let why = explain(&violation, input, out, "the certificate");
-            writing::complain(&format!("the check failed: {why}"));
+            let why = explain(&violation, None, out, "the certificate");
+            writing::complain(&format!("the check failed: {why}; {AS_IT_WAS}"));
             return Ok(Outcome::CheckFailed);
         }
-        if let Some(path) = &self.certificate {
-            writing::replace(path, (found.to_json() + "\n").as_bytes())?;
-        }
+        publish(written, self.certificate.as_deref(), found)?;
         Ok(Outcome::Done)
     }
+}
+
+/// Said of outputs whose check failed.
+pub(crate) const AS_IT_WAS: &str = "nothing was written";
+
+/// Gives a file its name, and then its certificate; if that cannot be written, neither.
+pub(crate) fn publish<R>(
+    written: Pending<R>,
+    certificate: Option<&Path>,
+    found: &AnyFileSolution,
+) -> anyhow::Result<()> {
+    let mut outputs = Outputs::default();
+    if let Some(path) = certificate {
+        outputs.add(path, (found.to_json() + "\n").as_bytes())?;
+    }
+    outputs.finish_after(|| Ok(written.publish().map(drop)?))
 }
 
 /// The verdict on a file, or the first violation; an error where a file cannot be read.
@@ -64,9 +79,20 @@ pub(crate) fn judge(
 ) -> anyhow::Result<Result<FileVerdict, FileViolation>> {
     let mut read = input.map(opened).transpose()?;
     let mut written = opened(output)?;
+    judge_open(found, (input, output), read.as_mut(), &mut written, watch)
+}
+
+/// The same of files that are open, with their names.
+fn judge_open(
+    found: &AnyFileSolution,
+    (input, output): (Option<&Path>, &Path),
+    read: Option<&mut File>,
+    written: &mut File,
+    watch: &Watch,
+) -> anyhow::Result<Result<FileVerdict, FileViolation>> {
     let judged = watch.during("checking", |monitor| {
-        let input = read.as_mut().map(|file| file as &mut dyn Data);
-        found.check(Files { input, output: &mut written }, monitor)
+        let input = read.map(|file| file as &mut dyn Data);
+        found.check(Files { input, output: written }, monitor)
     });
     match judged {
         Ok(verdict) => Ok(Ok(verdict)),
@@ -92,14 +118,12 @@ pub(crate) fn are_files(paths: &[&Path]) -> anyhow::Result<()> {
 
 pub(crate) fn opened(path: &Path) -> anyhow::Result<File> {
     let name = path.display();
-    let file =
-        File::open(path).map_err(|source| taut_io::Error::reading(&name.to_string(), source))?;
-    // A pipe has no place to go back to.
-    if file.metadata().is_ok_and(|kind| kind.is_file()) {
-        Ok(file)
-    } else {
-        Err(anyhow!("{name} is not a regular file: answers about files are judged from files"))
+    let failed = |source| taut_io::Error::reading(&name.to_string(), source);
+    // A pipe has no place to go back to, and to open one is to wait until somebody writes to it.
+    if !fs::metadata(path).map_err(failed)?.is_file() {
+        bail!("{name} is not a regular file: answers about files are judged from files");
     }
+    Ok(File::open(path).map_err(failed)?)
 }
 
 /// A violation with the names of the files.

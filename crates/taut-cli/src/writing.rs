@@ -34,7 +34,9 @@ pub(crate) fn look_at(outputs: &[&Path], inputs: &[&Path]) -> anyhow::Result<()>
             bail!("`{path}` is named for two outputs: name another file for one of them");
         }
     }
-    Ok(())
+    // A folder that takes no new files says so only when one is made.
+    let files = outputs.iter().filter(|output| !is_stream(output));
+    Ok(files.copied().try_for_each(taut_io::look_at)?)
 }
 
 /// Whether two outputs would end up in one place, there already or not.
@@ -123,9 +125,21 @@ impl Outputs {
 
     /// Says the words, then gives the files their names.
     pub(crate) fn finish(self) -> anyhow::Result<()> {
-        if interrupted() && !self.files.is_empty() {
+        if self.files.is_empty() {
+            return say(&self.words);
+        }
+        self.finish_after(|| Ok(()))
+    }
+
+    /// The same, after something else that takes its name.
+    pub(crate) fn finish_after(
+        self,
+        first: impl FnOnce() -> anyhow::Result<()>,
+    ) -> anyhow::Result<()> {
+        if interrupted() {
             bail!("interrupted: all files are as they were");
         }
+        first()?;
         say(&self.words)?;
         self.files.into_iter().try_for_each(AtomicFile::commit)?;
         Ok(())

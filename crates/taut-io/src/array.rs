@@ -2,8 +2,8 @@
 //!
 //! *Reference.* NumPy enhancement proposal 1 (the npy format); the array interface protocol, for the names of types.
 
-use std::fs::File;
-use std::io::BufReader;
+use std::fs::{self, File};
+use std::io::{self, BufReader};
 use std::path::Path;
 
 use crate::error::shown_path;
@@ -42,11 +42,16 @@ impl NpyArray {
     pub fn open(path: &Path) -> Result<Self, Error> {
         let shown = shown_path(path);
         let failed = |source| Error::reading(&shown, source);
-        let file = File::open(path).map_err(failed)?;
-        let kind = file.metadata().map_err(failed)?;
+        let kind = fs::metadata(path).map_err(failed)?;
         if kind.is_dir() {
             return Err(Error::Directory { path: shown });
         }
+        // To open a pipe is to wait until somebody writes to it.
+        if !kind.is_file() {
+            let not = io::Error::new(io::ErrorKind::InvalidInput, "not a regular file");
+            return Err(failed(not));
+        }
+        let file = File::open(path).map_err(failed)?;
         let (entries, offset) = dictionary(&shown, &mut BufReader::new(file))?;
         let entry = |key| entry(&shown, &entries, key);
         let refused = |problem, remedy| Err(Error::Array { path: shown.clone(), problem, remedy });

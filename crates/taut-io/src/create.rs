@@ -70,12 +70,46 @@ fn end_of_links(path: &Path) -> PathBuf {
     end
 }
 
+/// Whether a file can be made or replaced where `path` says, as far as that shows without doing it; nothing is left.
+///
+/// # Errors
+/// Those of [`create`].
+pub fn look_at(path: &Path) -> Result<(), Error> {
+    let shown = shown_path(path);
+    let failed = |source| Error::writing(&shown, source);
+    let behind = match fs::metadata(path) {
+        Ok(meta) if meta.is_dir() => return Err(Error::Directory { path: shown }),
+        // To open a pipe is to begin with it.
+        Ok(meta) if !meta.is_file() => return Ok(()),
+        Ok(_) => {
+            File::options().append(true).open(path).map_err(failed)?;
+            fs::canonicalize(path).map_err(failed)?
+        }
+        Err(_) => end_of_links(path),
+    };
+    let folder = folder(&behind);
+    tempfile::tempfile_in(folder).map_err(|error| failed(refused(error, folder)))?;
+    Ok(())
+}
+
+/// The folder of a file.
+fn folder(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Why no file can be made in a folder: the system may speak of a name that nobody asked for.
+fn refused(error: io::Error, folder: &Path) -> io::Error {
+    match error.kind() {
+        io::ErrorKind::NotFound if folder.is_dir() => {
+            io::Error::other("its folder takes no new files")
+        }
+        _ => error,
+    }
+}
+
 /// A temporary file beside `path`, with the permissions of the earlier file, or those of any new one.
 fn rename_to(path: PathBuf, earlier: Option<Permissions>) -> io::Result<Target> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
+    let folder = folder(&path);
     let mut builder = tempfile::Builder::new();
     builder.prefix(".taut-");
     // Temporary files are private unless told otherwise; the umask is applied to this by the system.
@@ -83,7 +117,7 @@ fn rename_to(path: PathBuf, earlier: Option<Permissions>) -> io::Result<Target> 
     if earlier.is_none() {
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     }
-    let file = builder.tempfile_in(folder)?;
+    let file = builder.tempfile_in(folder).map_err(|error| refused(error, folder))?;
     if let Some(permissions) = earlier {
         // Set before the first byte is written: what was private is so at every moment.
         file.as_file().set_permissions(permissions)?;

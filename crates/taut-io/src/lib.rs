@@ -53,7 +53,7 @@ mod write;
 
 pub use array::NpyArray;
 pub use columns::Columns;
-pub use create::{AtomicFile, create};
+pub use create::{AtomicFile, create, look_at};
 pub use error::{Error, MeshPlace, Place};
 pub use format::{Compression, Format};
 pub use input::{Input, open, open_bytes};

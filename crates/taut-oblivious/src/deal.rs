@@ -112,7 +112,9 @@ impl<'a, T: Copy> Dealt<'a, T> {
             holds[slot] = *place as u32;
             *place += 1;
         }
-        let free = (owners.len() as u32..=all as u32).rev().collect();
+        // All slots are free in the end.
+        let mut free = Vec::with_capacity(all + 1);
+        free.extend((owners.len() as u32..=all as u32).rev());
         Self { items, block, rest, ends, first, slots, holds, free, bucket: 0, next: 0, taken: 0 }
     }
 

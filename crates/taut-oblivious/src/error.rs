@@ -64,6 +64,12 @@ pub enum Error {
         /// Which file.
         path: String,
     },
+    /// Runs that were kept in a file did not come back as they were written.
+    #[error("{path}: the runs in it are not as they were written: remove the file and sort again")]
+    DamagedRuns {
+        /// The file to resume.
+        path: String,
+    },
     /// Records that another process sorted and left to be merged are not in order.
     #[error(
         "{path}: the records from byte {offset} on are not in order: remove the file and sort again"

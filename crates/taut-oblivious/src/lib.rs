@@ -72,7 +72,7 @@ pub use matrix::transpose::in_place::{transpose_in_place, transpose_in_place_pro
 pub use matrix::transpose::{transpose, transpose_probed};
 pub use matrix::transpose_file::check::{FileCheck, check_transposed_file};
 pub use matrix::transpose_file::{
-    FileMatrix, FileTransposition, TransposeFileOptions, transpose_file,
+    FileMatrix, FileTransposition, TransposeFileOptions, transpose_file, transpose_file_pending,
 };
 pub use matrix::view::{MatrixView, MatrixViewMut};
 pub use morton::morton_key;
@@ -83,3 +83,4 @@ pub use queue::{PriorityQueue, SpillingQueue};
 pub use sample::{Reservoir, Sequential, bernoulli, sample, shuffle, shuffle_probed};
 pub use select::{median, reverse, reverse_probed, select};
 pub use sort::{external, sort, sort_probed, sort_records, sort_records_probed};
+pub use store::Pending;

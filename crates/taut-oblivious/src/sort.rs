@@ -118,7 +118,7 @@ fn run<T>(items: &[T], rank: &impl Fn(&T) -> u64) -> Option<Run> {
 
 /// Sorts records in place by a number in each; records with equal numbers keep their order.
 ///
-/// The order of numbers is that of [`sort`]. Some megabytes are allocated while it runs, and the records are moved five
+/// The order of numbers is that of [`sort`]. Some megabytes for each thread are allocated while it runs, and the records are moved five
 /// times, four of them in blocks; for records above some 256 bytes, sort numbers of them instead. Runs on the current
 /// rayon pool, where dealing is the work of one thread. O(n) passes over memory for numbers that spread, O(n log n) whatever the input.
 ///
@@ -143,5 +143,5 @@ pub fn sort_records_probed<T: Copy + Send + Sync, K: Key, P: Probe>(
     key: impl Fn(&T) -> K + Sync,
     probe: &mut P,
 ) {
-    records::sort(records, &|record: &T| rank(key(record)), probe);
+    records::sort(records, &|record: &T| rank(key(record)), &records::Rooms::any(), probe);
 }

@@ -7,14 +7,35 @@
 mod draft;
 #[cfg(test)]
 pub(crate) mod faulty;
+mod pending;
 
-use std::fs::File;
+use std::fs::{self, File, Metadata};
 use std::io::{self, ErrorKind};
+use std::path::Path;
 
 pub(crate) use draft::{Draft, folder, target};
+pub use pending::Pending;
 
 /// Addresses, places and lengths of bytes that go past the system's cache are multiples of this.
 pub(crate) const PAGE: usize = 4096;
+
+/// Opens a regular file to be read, and says what the system knows of it; anything else is an error at once.
+///
+/// *Trap.* To open a pipe is to wait until somebody writes to it.
+pub(crate) fn open(path: &Path) -> io::Result<(File, Metadata)> {
+    regular(path)?;
+    let file = File::open(path)?;
+    let about = file.metadata()?;
+    Ok((file, about))
+}
+
+/// Refuses what is there and is no regular file.
+pub(crate) fn regular(path: &Path) -> io::Result<()> {
+    match fs::metadata(path)?.is_file() {
+        true => Ok(()),
+        false => Err(io::Error::new(ErrorKind::InvalidInput, "not a regular file")),
+    }
+}
 
 /// Bytes by position: a file, or what a test puts in its place.
 pub(crate) trait Store {

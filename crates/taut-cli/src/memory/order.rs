@@ -82,15 +82,15 @@ impl Args {
             }
             clock.lap("checking");
         }
+        let mut outputs = Outputs::default();
+        if let Some(path) = &self.out {
+            outputs.add_json(path, &found)?;
+        }
         if let Some(path) = &self.sorted {
             let names = points.names(points.source().dim());
             let sorted = reordered(&points, &found.answer.rows)?;
             watch
                 .during("writing", |monitor| write_points(&*sorted, &names, path, None, monitor))?;
-        }
-        let mut outputs = Outputs::default();
-        if let Some(path) = &self.out {
-            outputs.add_json(path, &found)?;
         }
         let streams =
             [&self.out, &self.sorted].into_iter().flatten().any(|p| writing::is_stream(p));

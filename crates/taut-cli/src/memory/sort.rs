@@ -5,7 +5,9 @@ use std::path::PathBuf;
 
 use taut::certify::AnyFileSolution;
 use taut::files::sorted;
-use taut::oblivious::external::{FileSort, FileSortOptions, KeyKind, RecordLayout, sort_file};
+use taut::oblivious::external::{
+    FileSort, FileSortOptions, KeyKind, RecordLayout, sort_file_pending,
+};
 
 use super::key;
 use crate::effort::Effort;
@@ -16,10 +18,10 @@ use crate::{size, writing};
 /// Sort a file of records of fixed width by their key, which may be larger than memory.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Records with equal keys keep their order. The output is read again and proved to be in order and to hold the records that
-were read, by a hash of 128 bits of all of them; `taut verify` compares them with those that the input holds then. Without
---resume nothing is left behind, however the process ends.
-Exit: 0 done · 1 the check failed · 2 bad input or usage
+Records with equal keys keep their order. Before it takes its name the output is read again and proved to be in order and to
+hold the records that were read, by a hash of 128 bits of all of them; `taut verify` reads the input once more, too. Without
+--resume nothing is left behind, however the process ends; with it the input must be the same file, unchanged.
+Exit: 0 done · 1 the check failed, nothing written · 2 bad input or usage, nothing written
 Example: taut memory sort records.bin --width 32 --key 0:8 --kind u64 -o sorted.bin --certificate sorted.json
          taut verify sorted.json records.bin sorted.bin")]
 pub(super) struct Args {
@@ -75,11 +77,12 @@ impl Args {
         are_files(&[&self.input, &self.out])?;
         self.proof.look_at(&self.out, &[&self.input])?;
         let watch = self.effort.start()?;
-        let found = watch.during("sorting", |monitor| {
-            sort_file(&self.input, &self.out, &layout, &options, monitor)
+        let written = watch.during("sorting", |monitor| {
+            sort_file_pending(&self.input, &self.out, &layout, &options, monitor)
         })?;
+        let found = written.found.clone();
         let solution = AnyFileSolution::Sort(sorted(&layout, &found));
-        let outcome = self.proof.finish(&solution, None, &self.out, &watch)?;
+        let outcome = self.proof.finish(&solution, written, &self.out, &watch)?;
         if outcome != Outcome::Done {
             return Ok(outcome);
         }
@@ -107,7 +110,7 @@ impl Args {
         let times = if bytes == 0 { 0.0 } else { moved as f64 / bytes as f64 };
         let checked = match self.proof.no_verify {
             true => "not read again",
-            false => "read again: in order, and the records of the input",
+            false => "read again: in order, and by the hash the records that were read",
         };
         format!(
             "{records} records of {} bytes in order of bytes {} to {}\n\

@@ -6,14 +6,14 @@ use anyhow::bail;
 use taut::certify::{AnyFileSolution, FileCheckError, Files, TransposedFile};
 use taut::files::{StoredMatrix, transposed};
 use taut::oblivious::{
-    Error, FileCheck, FileMatrix, FileTransposition, TransposeFileOptions, check_transposed_file,
-    transpose_file,
+    Error, FileCheck, FileMatrix, FileTransposition, Pending, TransposeFileOptions,
+    check_transposed_file, transpose_file_pending,
 };
 use taut_io::NpyArray;
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::files::{are_files, explain, opened};
+use crate::files::{AS_IT_WAS, are_files, explain, opened, publish};
 use crate::watch::Watch;
 use crate::{size, writing};
 
@@ -21,9 +21,10 @@ use crate::{size, writing};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 An .npy file says itself what it holds: elements of any fixed width, in C or Fortran order; its transpose is one in C
-order. Another file holds the elements row by row, after --offset bytes of something else, which are left out. Both files
-are read again from end to end and compared, unless --samples says how many elements will do.
-Exit: 0 done · 1 the check failed · 2 bad input or usage
+order. Another file holds the elements row by row, after --offset bytes of something else, which are left out. Before the
+output takes its name both files are read again from end to end and compared; with --samples only so many elements are, once
+the output is there.
+Exit: 0 done · 1 the check failed, nothing written (but with --samples) · 2 bad input or usage, nothing written
 Example: taut memory transpose matrix.npy -o columns.npy --certificate columns.json
          taut verify columns.json matrix.npy columns.npy
          taut memory transpose matrix.bin --rows 1000000 --columns 300 --width 8 -o columns.bin")]
@@ -89,12 +90,17 @@ impl Args {
         let memory = usize::try_from(self.memory).unwrap_or(usize::MAX);
         let options = TransposeFileOptions { memory };
         let watch = self.effort.start()?;
-        let found = watch.during("transposing", |monitor| {
-            transpose_file(&self.input, job.matrix, &self.out, &job.header, &options, monitor)
+        let written = watch.during("transposing", |monitor| {
+            let (header, memory) = (&job.header, &options);
+            transpose_file_pending(&self.input, job.matrix, &self.out, header, memory, monitor)
         })?;
+        let found = written.found;
         let outcome = match self.samples {
-            None => self.compare(&job.answer, &found, &watch)?,
-            Some(elements) => self.sample(&job, elements, &watch)?,
+            None => self.compare(&job.answer, written, &watch)?,
+            Some(elements) => {
+                written.publish()?;
+                self.sample(&job, elements, &watch)?
+            }
         };
         if outcome == Outcome::Done && !self.effort.quiet {
             writing::say(self.summary(&job.answer, &found).as_bytes())?;
@@ -150,31 +156,28 @@ impl Args {
         Ok(Job::of(&stored, turned.header()))
     }
 
-    /// Compares the files, every element, and writes the certificate of what was found.
+    /// Compares the files, every element, then gives the output its name and writes the certificate of what was found.
     fn compare(
         &self,
         answer: &TransposedFile,
-        found: &FileTransposition,
+        mut written: Pending<FileTransposition>,
         watch: &Watch,
     ) -> anyhow::Result<Outcome> {
-        let (mut from, mut to) = (opened(&self.input)?, opened(&self.out)?);
+        let mut from = opened(&self.input)?;
         let certified = watch.during("checking", |monitor| {
-            answer.certify(Files { input: Some(&mut from), output: &mut to }, monitor)
+            answer.certify(Files { input: Some(&mut from), output: written.file() }, monitor)
         });
         let certificate = match certified {
             Ok(certificate) => certificate,
             Err(FileCheckError::Rejected(violation)) => {
                 let why = explain(&violation, Some(&self.input), &self.out, "the answer");
-                writing::complain(&format!("the check failed: {why}"));
+                writing::complain(&format!("the check failed: {why}; {AS_IT_WAS}"));
                 return Ok(Outcome::CheckFailed);
             }
             Err(error) => return Err(error.into()),
         };
-        if let Some(path) = &self.certificate {
-            let solution = transposed(answer.clone(), certificate, found);
-            let text = AnyFileSolution::Transpose(solution).to_json() + "\n";
-            writing::replace(path, text.as_bytes())?;
-        }
+        let solution = transposed(answer.clone(), certificate, &written.found);
+        publish(written, self.certificate.as_deref(), &AnyFileSolution::Transpose(solution))?;
         Ok(Outcome::Done)
     }
 

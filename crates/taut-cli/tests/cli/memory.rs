@@ -100,3 +100,73 @@ fn samples_depend_on_the_seed_alone() {
     desk.taut("memory sample -n 4 -k 4").ends(0).says(&["0\n1\n2\n3\n"]);
     desk.taut("memory sample -n 4 -k 5").ends(2).complains(&["k", "5"]);
 }
+
+/// A folder that takes no new files, a certificate that cannot be written, a check that fails: what was there stays.
+#[cfg(target_os = "linux")]
+#[test]
+fn outputs_stay_as_they_were_unless_all_can_be_written() {
+    let desk = Desk::new();
+    desk.put("records.bin", records(&words(100)));
+    desk.put("points.csv", "0,0\n2,0\n1,1\n");
+    desk.put("out.bin", "before");
+    desk.put("out.csv", "before");
+    for command in [
+        "sort records.bin --width 16 -o out.bin --certificate /proc/x.json",
+        "transpose records.bin --rows 100 --columns 2 -o out.bin --certificate /proc/x.json",
+        "order points.csv --points out.csv -o /proc/x.json",
+    ] {
+        desk.taut(&format!("memory {command}"))
+            .ends(2)
+            .complains(&["/proc/x.json", "its folder takes no new files"]);
+    }
+    desk.taut("memory sort records.bin --width 16 -o /proc/x.bin")
+        .ends(2)
+        .complains(&["/proc/x.bin", "its folder takes no new files"]);
+    for name in ["out.bin", "out.csv"] {
+        assert_eq!(desk.text(name), "before");
+    }
+    assert_eq!(desk.files(), ["out.bin", "out.csv", "points.csv", "records.bin"]);
+}
+
+/// A pipe without a writer, to open which is to wait.
+#[cfg(target_os = "linux")]
+#[test]
+fn pipes_are_refused_at_once() {
+    let desk = Desk::new();
+    desk.put("records.bin", records(&words(100)));
+    desk.taut("memory sort records.bin --width 16 -o out.bin --certificate out.json").ends(0);
+    for command in [
+        "memory sort pipe --width 8 -o x.bin",
+        "memory transpose pipe --rows 2 --columns 2 -o x.bin",
+        "memory transpose pipe.npy -o x.npy",
+        "verify out.json pipe",
+    ] {
+        let taut = assert_cmd::cargo::cargo_bin!("taut").display().to_string();
+        let run =
+            desk.shell(&format!("mkfifo pipe pipe.npy 2>/dev/null; timeout 20 {taut} {command}"));
+        run.ends(2).complains(&["not a regular file"]);
+    }
+    desk.taut("memory transpose . --rows 2 --columns 2 -o x.bin")
+        .ends(2)
+        .complains(&["not a regular file"]);
+    assert!(!desk.files().contains(&"x.bin".to_owned()));
+}
+
+/// Runs of one file are not those of another one that looks as old.
+#[test]
+fn runs_of_another_input_are_refused() {
+    let desk = Desk::new();
+    let bytes = records(&words(20_000));
+    desk.put("records.bin", &bytes);
+    desk.put("runs", "of something else");
+    desk.put("sorted.bin", "before");
+    for memory in ["100K", "256M"] {
+        desk.taut(&format!(
+            "memory sort records.bin --width 16 --memory {memory} -o sorted.bin --resume runs"
+        ))
+        .ends(2)
+        .complains(&["`resume`", "runs", "same sort"]);
+    }
+    assert_eq!(desk.text("sorted.bin"), "before");
+    assert_eq!(desk.text("runs"), "of something else");
+}

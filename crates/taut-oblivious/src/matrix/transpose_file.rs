@@ -20,7 +20,7 @@ use taut_points::Monitor;
 
 use crate::Error;
 use crate::room::Pages;
-use crate::store::{Draft, Store};
+use crate::store::{self, Draft, Pending, Store};
 
 pub(crate) mod check;
 
@@ -138,6 +138,22 @@ pub fn transpose_file(
     options: &TransposeFileOptions,
     monitor: &Monitor<'_>,
 ) -> Result<FileTransposition, Error> {
+    transpose_file_pending(from, matrix, to, header, options, monitor)?.publish()
+}
+
+/// [`transpose_file`], but for the last step: the target is complete and has not its name yet, so that it can be looked at
+/// before it replaces an earlier one.
+///
+/// # Errors
+/// Those of [`transpose_file`].
+pub fn transpose_file_pending(
+    from: &Path,
+    matrix: FileMatrix,
+    to: &Path,
+    header: &[u8],
+    options: &TransposeFileOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Pending<FileTransposition>, Error> {
     transpose_through(from, matrix, to, header, options, monitor, |file, _| file)
 }
 
@@ -150,19 +166,18 @@ fn transpose_through<F: Store + Borrow<File>>(
     options: &TransposeFileOptions,
     monitor: &Monitor<'_>,
     through: impl Fn(File, &Path) -> F,
-) -> Result<FileTransposition, Error> {
+) -> Result<Pending<FileTransposition, F>, Error> {
     let plan = Plan::new(matrix, header.len() as u64, options)?;
     let source = through(open(from, &matrix)?, from);
     let target = Draft::beside(to, |file| through(file, to)).map_err(failed(to))?;
     let done = plan.run(&source, &target, header, monitor).map_err(|at| at.named(from, to))?;
-    target.publish().map_err(failed(to))?;
-    Ok(done)
+    Ok(Pending::new(done, target, to, None))
 }
 
 /// Opens a file that ends with `matrix`.
 fn open(path: &Path, matrix: &FileMatrix) -> Result<File, Error> {
-    let file = File::open(path).map_err(failed(path))?;
-    let bytes = file.metadata().map_err(failed(path))?.len();
+    let (file, about) = store::open(path).map_err(failed(path))?;
+    let bytes = about.len();
     let expected = matrix.end()?;
     if bytes == expected {
         Ok(file)
@@ -212,7 +227,7 @@ impl Plan {
         let to = from.transposed(header);
         to.end()?;
         let elements = (options.memory / 2 / from.width) as u64;
-        if elements == 0 {
+        if elements == 0 && from.rows > 0 && from.columns > 0 {
             return Err(Error::Option {
                 name: "memory",
                 value: format!("{} bytes", options.memory),

@@ -38,6 +38,8 @@ use crate::error::Error;
 pub use layout::{KeyKind, RecordLayout};
 pub use verify::{Inspection, inspect, verify};
 
+use crate::store::Pending;
+
 /// How to sort a file. Write `FileSortOptions { memory: 1 << 30, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileSortOptions {
@@ -46,8 +48,10 @@ pub struct FileSortOptions {
     pub memory: usize,
     /// The folder for runs; none: that of the output. Runs have no name there and vanish with the process.
     pub scratch: Option<PathBuf>,
-    /// A file to keep the runs in, under this name, until the output is there; another one than input and output. If it exists, it must be from the same
-    /// sort, which then goes on behind the last run that was complete. None by default: nothing outlives the process.
+    /// A file to keep the runs in, under this name, until the output is there; another one than input and output. If it
+    /// exists, it must be from the same sort, which then goes on behind the last run that was complete: the input must be
+    /// the same file, unchanged, and what those runs were made of is read again and compared by a hash. None by default:
+    /// nothing outlives the process. None is made for a file that fits into memory.
     pub resume: Option<PathBuf>,
 }
 
@@ -98,8 +102,8 @@ pub struct FileSort {
 /// [`Error::Option`] for a layout or a limit that makes no sense or is more than the system gives, and for a file to resume
 /// that is of another sort;
 /// [`Error::Partial`] if the input ends within a record; [`Error::File`] for what the system refuses;
-/// [`Error::ReadBack`] if records came back from the disk other than they were written, [`Error::UnsortedRun`] if their
-/// order is not that of a run; [`Error::Cancelled`].
+/// [`Error::ReadBack`], or [`Error::DamagedRuns`] of a file to resume, if records came back from the disk other than they
+/// were written, [`Error::UnsortedRun`] if their order is not that of a run; [`Error::Cancelled`].
 pub fn sort_file(
     input: &Path,
     output: &Path,
@@ -107,5 +111,20 @@ pub fn sort_file(
     options: &FileSortOptions,
     monitor: &Monitor<'_>,
 ) -> Result<FileSort, Error> {
+    sort_file_pending(input, output, layout, options, monitor)?.publish()
+}
+
+/// [`sort_file`], but for the last step: the output is complete and has not its name yet, so that it can be looked at before
+/// it replaces an earlier one and a file to resume is removed.
+///
+/// # Errors
+/// Those of [`sort_file`].
+pub fn sort_file_pending(
+    input: &Path,
+    output: &Path,
+    layout: &RecordLayout,
+    options: &FileSortOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Pending<FileSort>, Error> {
     files::sort(input, output, layout, options, monitor, |file, _| file)
 }

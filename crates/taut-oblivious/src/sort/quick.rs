@@ -15,14 +15,23 @@ const FEW: usize = 16;
 /// Sorts; on the current rayon pool if nobody listens.
 pub(super) fn sort<P: Probe>(keys: &mut [u64], probe: &mut P) {
     #[cfg(target_arch = "x86_64")]
+    if !P::LISTENS
+        && keys.len() >= vector::SHARE
+        && rayon::current_num_threads() > 1
+        && let Level::Avx512(kernel) = Level::best()
+    {
+        return vector::share(kernel, keys, None, 2 * keys.len().ilog2());
+    }
+    alone(keys, probe);
+}
+
+/// Sorts on one thread.
+pub(super) fn alone<P: Probe>(keys: &mut [u64], probe: &mut P) {
+    #[cfg(target_arch = "x86_64")]
     if keys.len() > FEW
         && let Level::Avx512(kernel) = Level::best()
     {
-        let levels = 2 * keys.len().ilog2();
-        if !P::LISTENS && keys.len() >= vector::SHARE && rayon::current_num_threads() > 1 {
-            return vector::share(kernel, keys, None, levels);
-        }
-        return vector::descend(kernel, keys, None, levels, probe);
+        return vector::descend(kernel, keys, None, 2 * keys.len().ilog2(), probe);
     }
     compare(keys, probe);
 }

@@ -4,13 +4,16 @@
 //! is copied out, each record is represented by one word, the leading bits of its key beside its number in the bucket;
 //! the words are sorted by the vector kernels, and the records gathered in their order.
 //! *Guarantee.* Stable, so that the result is a function of the input whatever the machine and the threads. O(n) passes
-//! of memory for keys that spread; a bucket that is too large is dealt again, at most 65 times. Some megabytes of room.
+//! of memory for keys that spread; a bucket that is too large is dealt again, at most 65 times. Some megabytes of room for
+//! each thread, or for as many threads as a limit has room for ([`Rooms`]).
 //! *Trap.* Words that agree in the bits they have room for must be told apart by the rest of the key, and records that
 //! agree in all of it stay in order since the number in the bucket is the last part of the word.
 //! *Trap.* A look at all keys for the smallest and the largest costs a pass of memory. Those of a sample are as good: what
 //! lies beyond goes to the first and the last bucket. Only what is dealt again is looked at in full, so that a sample that
 //! misleads does no harm twice.
 //! *Reference.* D. Knuth, *The Art of Computer Programming* 3, 5.2.5 (distribution), 5.2 (address table sorting).
+
+mod rooms;
 
 use std::ops::Range;
 
@@ -36,26 +39,22 @@ const SAMPLE: (usize, usize) = (64, 1 << 12);
 /// Buckets of fewer ranks than this are sorted by counting.
 const FEW_RANKS: u64 = 256;
 
-/// Room that sorting one bucket needs; kept from bucket to bucket.
-struct Room<T> {
-    words: Vec<u64>,
-    copy: Vec<T>,
-}
+use rooms::Room;
+pub(super) use rooms::{Rooms, room_bytes};
 
-impl<T> Default for Room<T> {
-    fn default() -> Self {
-        Self { words: Vec::new(), copy: Vec::new() }
-    }
-}
-
-/// Sorts records by their rank.
+/// Sorts records by their rank, on as many threads as there are rooms for.
 pub(super) fn sort<T: Copy + Send + Sync, P: Probe>(
     records: &mut [T],
     rank: &(impl Fn(&T) -> u64 + Sync),
+    rooms: &Rooms<T>,
     probe: &mut P,
 ) {
     probe.place(records);
-    part(records, rank, Look::Sample, &mut Room::default(), probe);
+    if P::LISTENS || rayon::current_num_threads() == 1 {
+        rooms.within(|room| alone(records, rank, Look::Sample, room, probe));
+    } else {
+        shared(records, rank, Look::Sample, rooms);
+    }
 }
 
 /// At which records to look for the lowest and the highest rank.
@@ -65,16 +64,48 @@ enum Look {
     All,
 }
 
-/// Sorts a part of the records of which nothing is known.
-fn part<T: Copy + Send + Sync, P: Probe>(
+/// Sorts a part of the records of which nothing is known, on one thread.
+fn alone<T: Copy, P: Probe>(
     records: &mut [T],
-    rank: &(impl Fn(&T) -> u64 + Sync),
+    rank: &impl Fn(&T) -> u64,
     look: Look,
     room: &mut Room<T>,
     probe: &mut P,
 ) {
+    for range in divide(records, rank, look, true, room, probe) {
+        alone(&mut records[range], rank, Look::All, room, probe);
+    }
+}
+
+/// Sorts such a part on all threads that get a room.
+fn shared<T: Copy + Send + Sync>(
+    records: &mut [T],
+    rank: &(impl Fn(&T) -> u64 + Sync),
+    look: Look,
+    rooms: &Rooms<T>,
+) {
+    if look == Look::All && !rooms.shares(records) {
+        return rooms.within(|room| alone(records, rank, look, room, &mut NoProbe));
+    }
+    // A room is given back before other threads are waited for: whoever has one comes to an end.
+    let large = rooms.within(|room| divide(records, rank, look, false, room, &mut NoProbe));
+    let parts = cut(records, &large);
+    drop(large);
+    parts.into_par_iter().for_each(|records| shared(records, rank, Look::All, rooms));
+}
+
+/// Deals a part into buckets and, if one thread is `alone` with it, sorts those that are small; what is left to be sorted.
+fn divide<T: Copy, P: Probe>(
+    records: &mut [T],
+    rank: &impl Fn(&T) -> u64,
+    look: Look,
+    alone: bool,
+    room: &mut Room<T>,
+    probe: &mut P,
+) -> Vec<Range<usize>> {
     if records.len() <= FEW {
-        return few(records, rank, probe);
+        few(records, rank, probe);
+        return Vec::new();
     }
     probe.read(records);
     if let Some(run) = super::run(records, rank) {
@@ -83,10 +114,11 @@ fn part<T: Copy + Send + Sync, P: Probe>(
             records.reverse();
             probe.write(records);
         }
-        return;
+        return Vec::new();
     }
     if size_of_val(records) <= LARGE_BYTES {
-        return unknown(records, rank, room, probe);
+        unknown(records, rank, room, probe);
+        return Vec::new();
     }
     let sample = if look == Look::Sample { sample(records, rank) } else { Vec::new() };
     let (mut low, mut high) = ends(sample.iter().copied());
@@ -99,13 +131,13 @@ fn part<T: Copy + Send + Sync, P: Probe>(
         scale = Scale::new::<T>(low, high, DEAL_BITS);
     }
     let most = LARGE_BYTES / size_of::<T>();
-    let is_alone = P::LISTENS || rayon::current_num_threads() == 1;
+    room.copy(most);
     let mut large: Vec<Range<usize>> = vec![];
     let mut dealt = Dealt::new(records, scale.buckets(), |r| scale.bucket(rank(r)), probe);
     let mut before = None;
     while let Some((bucket, range)) = dealt.take(most, &mut room.copy, probe) {
         let (is_whole, to) = (dealt.size(bucket) <= most, dealt.items(range.clone()));
-        if is_whole && is_alone {
+        if is_whole && alone {
             gather(to, rank, room, probe);
         } else {
             to.copy_from_slice(&room.copy);
@@ -118,19 +150,7 @@ fn part<T: Copy + Send + Sync, P: Probe>(
         before = Some(bucket);
     }
     dealt.lift(probe);
-    drop(dealt);
-    if is_alone {
-        for range in large {
-            part(&mut records[range], rank, Look::All, room, probe);
-        }
-    } else {
-        cut(records, &large)
-            .into_par_iter()
-            .with_min_len(8)
-            .for_each_init(Room::default, |room, records| {
-                part(records, rank, Look::All, room, &mut NoProbe)
-            });
-    }
+    large
 }
 
 /// The lowest and the highest of some ranks; if there is none, the other way round.
@@ -218,8 +238,7 @@ fn unknown<T: Copy, P: Probe>(
     room: &mut Room<T>,
     probe: &mut P,
 ) {
-    room.copy.clear();
-    room.copy.extend_from_slice(records);
+    room.copy(records.len()).extend_from_slice(records);
     probe.read(records);
     gather(records, rank, room, probe);
 }
@@ -231,6 +250,7 @@ fn gather<T: Copy, P: Probe>(
     room: &mut Room<T>,
     probe: &mut P,
 ) {
+    room.words();
     let Room { words, copy } = room;
     probe.place(copy);
     probe.write(copy);
@@ -240,7 +260,6 @@ fn gather<T: Copy, P: Probe>(
         probe.lift(copy);
         return few(to, rank, probe);
     }
-    words.clear();
     words.extend(copy.iter().map(rank));
     let (low, high) = ends(words.iter().copied());
     let range = high - low;
@@ -264,7 +283,7 @@ fn gather<T: Copy, P: Probe>(
     for (number, word) in words.iter_mut().enumerate() {
         *word = (*word - low) >> shift << number_bits | number as u64;
     }
-    quick::sort(words, probe);
+    quick::alone(words, probe);
     let numbers = (1 << number_bits) - 1;
     for (record, word) in to.iter_mut().zip(&*words) {
         *record = copy[(word & numbers) as usize];
@@ -283,16 +302,19 @@ fn gather<T: Copy, P: Probe>(
 /// Where words agree in all but the number.
 fn runs(words: &[u64], number_bits: u32) -> Vec<Range<usize>> {
     let alike = |a: u64, b: u64| (a ^ b) >> number_bits == 0;
-    let mut runs = Vec::new();
     // Nearly always none: one look without a branch in it, before each word is taken by itself.
-    if words.iter().zip(&words[1..]).fold(false, |any, (&a, &b)| any | alike(a, b)) {
-        let mut start = 0;
-        for run in words.chunk_by(|&a, &b| alike(a, b)) {
-            if run.len() > 1 {
-                runs.push(start..start + run.len());
-            }
-            start += run.len();
+    if !words.iter().zip(&words[1..]).fold(false, |any, (&a, &b)| any | alike(a, b)) {
+        return Vec::new();
+    }
+    let all = || words.chunk_by(|&a, &b| alike(a, b));
+    // Not a byte more than they need, as [`room_bytes`] says.
+    let mut runs = Vec::with_capacity(all().filter(|run| run.len() > 1).count());
+    let mut start = 0;
+    for run in all() {
+        if run.len() > 1 {
+            runs.push(start..start + run.len());
         }
+        start += run.len();
     }
     runs
 }

@@ -63,6 +63,14 @@ impl<F: Store + Borrow<File>> Draft<F> {
     }
 }
 
+impl Draft {
+    /// The file as it is so far, to be read by way of the system's cache.
+    pub(crate) fn file(&mut self) -> &mut File {
+        self.file.past_cache(false);
+        &mut self.file
+    }
+}
+
 /// A file with a name of its own.
 fn named(folder: &Path) -> io::Result<(File, TempPath)> {
     let mut builder = tempfile::Builder::new();
@@ -70,7 +78,14 @@ fn named(folder: &Path) -> io::Result<(File, TempPath)> {
     // As any new file; else nobody but the owner might read it.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    Ok(builder.tempfile_in(folder)?.into_parts())
+    fs::metadata(folder)?;
+    // The system speaks of a name that nobody asked for.
+    let refused = |error: io::Error| match error.kind() {
+        ErrorKind::NotFound => io::Error::other("its folder takes no new files"),
+        ErrorKind::PermissionDenied => ErrorKind::PermissionDenied.into(),
+        _ => error,
+    };
+    Ok(builder.tempfile_in(folder).map_err(refused)?.into_parts())
 }
 
 /// The folder of a file.

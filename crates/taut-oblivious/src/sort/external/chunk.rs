@@ -7,7 +7,8 @@
 //! ranks closer than that must be looked up.
 
 use super::layout::RecordLayout;
-use crate::sort::{self, sort_records};
+use crate::probe::NoProbe;
+use crate::sort::{self, records::Rooms};
 
 /// Replaces `words`, one for each record, by the numbers of the records in order, in the lower [`number_bits`] bits.
 pub(super) fn order(records: &[u8], layout: &RecordLayout, words: &mut [u64]) {
@@ -70,17 +71,18 @@ pub(super) fn sorts(layout: &RecordLayout) -> bool {
     matches!(layout.width, 8 | 16 | 24 | 32 | 64) && !layout.is_long()
 }
 
-/// Sorts records of which [`sorts`] is true in their own place.
-pub(super) fn sort(records: &mut [u8], layout: &RecordLayout) {
+/// Sorts records of which [`sorts`] is true in their own place, on so many threads at most.
+pub(super) fn sort(records: &mut [u8], layout: &RecordLayout, threads: usize) {
     match layout.width {
-        8 => sort_width::<8>(records, layout),
-        16 => sort_width::<16>(records, layout),
-        24 => sort_width::<24>(records, layout),
-        32 => sort_width::<32>(records, layout),
-        _ => sort_width::<64>(records, layout),
+        8 => sort_width::<8>(records, layout, threads),
+        16 => sort_width::<16>(records, layout, threads),
+        24 => sort_width::<24>(records, layout, threads),
+        32 => sort_width::<32>(records, layout, threads),
+        _ => sort_width::<64>(records, layout, threads),
     }
 }
 
-fn sort_width<const W: usize>(records: &mut [u8], layout: &RecordLayout) {
-    sort_records(records.as_chunks_mut::<W>().0, |record| layout.rank(record));
+fn sort_width<const W: usize>(records: &mut [u8], layout: &RecordLayout, threads: usize) {
+    let (records, rooms) = (records.as_chunks_mut::<W>().0, Rooms::most(threads));
+    sort::records::sort(records, &|record: &[u8; W]| layout.rank(record), &rooms, &mut NoProbe);
 }

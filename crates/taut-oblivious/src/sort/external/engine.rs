@@ -3,6 +3,7 @@
 use taut_points::Monitor;
 
 use super::chunk;
+use super::digest;
 use super::journal::Journal;
 use super::medium::Medium;
 use super::merge::Merge;
@@ -26,7 +27,8 @@ pub(super) fn within<I: Store, O: Store + Sync + Send>(
     let mut certificate = Multiset::default();
     let mut maker = Maker::new(plan)?;
     output.reserve(plan.bytes())?;
-    maker.make(0, input, output, 0, &mut certificate, monitor)?;
+    maker.read(0, input, monitor)?;
+    maker.make(0, output, 0, &mut certificate, monitor)?;
     Ok(FileSort {
         certificate,
         runs: plan.runs(),
@@ -45,11 +47,12 @@ pub(super) fn beyond<I: Store, R: Store + Send + Sync, O: Store + Send + Sync>(
     output: &mut Medium<O>,
     monitor: &Monitor<'_>,
 ) -> Result<FileSort, Error> {
+    // Before anything is made that grows with the number of runs.
+    output.reserve(plan.bytes())?;
     let start = journal.map_or(0, Journal::data_start);
     let made = plan.made(start);
     let (steps, last) = steps(made.clone(), plan);
     let mut maker = Maker::new(plan)?;
-    output.reserve(plan.bytes())?;
     runs.reserve(last.iter().map(|run| run.end(plan)).max().unwrap_or(start))?;
     if plan.past_cache {
         runs.past_cache();
@@ -58,12 +61,21 @@ pub(super) fn beyond<I: Store, R: Store + Send + Sync, O: Store + Send + Sync>(
     let done = journal.map_or(0, Journal::runs_done);
     let mut certificate = journal.map_or(Multiset::default(), Journal::certificate);
     monitor.pass(1, plan.records);
-    monitor.points(certificate.records);
-    for (i, run) in (0..).zip(&made).skip(done as usize) {
-        maker.make(i, input, runs, run.offset, &mut certificate, monitor)?;
-        if let Some(journal) = journal {
+    for (i, run) in (0..).zip(&made) {
+        maker.read(i, input, monitor)?;
+        let Some(journal) = journal else {
+            maker.make(i, runs, run.offset, &mut certificate, monitor)?;
+            continue;
+        };
+        let made_of = digest::hash(maker.read_of(i));
+        if i >= done {
+            maker.make(i, runs, run.offset, &mut certificate, monitor)?;
             runs.sync()?;
-            journal.enter(i, &certificate, runs)?;
+            journal.enter(i, &certificate, made_of, runs)?;
+        } else if made_of == journal.made_of(i) {
+            monitor.points(run.records);
+        } else {
+            return Err(Journal::other(runs.path()));
         }
     }
     drop(maker);
@@ -100,7 +112,11 @@ pub(super) fn beyond<I: Store, R: Store + Send + Sync, O: Store + Send + Sync>(
         bytes = next?;
     }
     if written != certificate {
-        return Err(Error::ReadBack { path: runs.path().to_owned() });
+        let path = runs.path().to_owned();
+        return Err(match journal {
+            Some(_) => Error::DamagedRuns { path },
+            None => Error::ReadBack { path },
+        });
     }
     Ok(FileSort {
         certificate,
@@ -151,7 +167,7 @@ struct Maker<'a> {
 impl<'a> Maker<'a> {
     fn new(plan: &'a Plan) -> Result<Self, Error> {
         let most = plan.records.min(plan.chunk as u64) as usize;
-        let (words, block) = if plan.in_place { (0, 0) } else { (most, plan.write_block) };
+        let (words, block) = if plan.in_place > 0 { (0, 0) } else { (most, plan.write_block) };
         Ok(Self {
             plan,
             records: Pages::try_zeroed(most * plan.layout.width)?,
@@ -160,30 +176,52 @@ impl<'a> Maker<'a> {
         })
     }
 
-    /// Reads run number `run`, sorts it and writes it from `offset`.
-    fn make<I: Store, S: Store + Send + Sync>(
+    /// Records of run number `run`.
+    fn records_of(&self, run: u64) -> usize {
+        let chunk = self.plan.chunk as u64;
+        chunk.min(self.plan.records - run * chunk) as usize
+    }
+
+    /// What was last read, which is run number `run`.
+    fn read_of(&self, run: u64) -> &[u8] {
+        &self.records.words()[..self.records_of(run) * self.plan.layout.width]
+    }
+
+    /// Reads run number `run`.
+    fn read<I: Store>(
         &mut self,
         run: u64,
         input: &mut Medium<I>,
-        to: &mut Medium<S>,
-        mut offset: u64,
-        certificate: &mut Multiset,
         monitor: &Monitor<'_>,
     ) -> Result<(), Error> {
-        let (layout, chunk) = (&self.plan.layout, self.plan.chunk as u64);
-        let (width, write_block) = (layout.width, self.plan.write_block);
-        let records = chunk.min(self.plan.records - run * chunk) as usize;
+        let (records, width) = (self.records_of(run), self.plan.layout.width);
+        let most = self.plan.chunk as u64 * width as u64;
         let bytes = &mut self.records.words_mut()[..records * width];
-        let from = run * chunk * width as u64;
+        let from = run * most;
         for (i, part) in bytes.chunks_mut(READ_BLOCK).enumerate() {
             monitor.check()?;
             input.read(part, from + (i * READ_BLOCK) as u64)?;
         }
         let after = from + bytes.len() as u64;
-        input.soon(after, (chunk * width as u64).min(self.plan.bytes() - after));
+        input.soon(after, most.min(self.plan.bytes() - after));
+        Ok(())
+    }
+
+    /// Sorts what was read, which is run number `run`, and writes it from `offset`.
+    fn make<S: Store + Send + Sync>(
+        &mut self,
+        run: u64,
+        to: &mut Medium<S>,
+        mut offset: u64,
+        certificate: &mut Multiset,
+        monitor: &Monitor<'_>,
+    ) -> Result<(), Error> {
+        let (layout, records) = (&self.plan.layout, self.records_of(run));
+        let (width, write_block) = (layout.width, self.plan.write_block);
+        let bytes = &mut self.records.words_mut()[..records * width];
         certificate.add(bytes, width);
-        if self.plan.in_place {
-            chunk::sort(bytes, layout);
+        if self.plan.in_place > 0 {
+            chunk::sort(bytes, layout, self.plan.in_place);
             for block in bytes.chunks(write_block) {
                 monitor.check()?;
                 to.write(block, offset)?;

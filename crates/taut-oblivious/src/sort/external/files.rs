@@ -6,7 +6,7 @@
 //! has reached the disk.
 
 use std::borrow::Borrow;
-use std::fs::{self, File};
+use std::fs::{File, Metadata};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
@@ -14,13 +14,13 @@ use std::time::UNIX_EPOCH;
 use taut_points::Monitor;
 
 use super::engine;
-use super::journal::Journal;
+use super::journal::{Journal, Origin};
 use super::layout::RecordLayout;
 use super::medium::Medium;
 use super::plan::Plan;
 use super::{FileSort, FileSortOptions};
 use crate::error::Error;
-use crate::store::{self, Draft, Store};
+use crate::store::{self, Draft, Pending, Store};
 
 /// Sorts a file; `open` makes of each file, by its name in errors, what is read and written.
 pub(super) fn sort<F: Store + Borrow<File> + Send + Sync>(
@@ -30,7 +30,7 @@ pub(super) fn sort<F: Store + Borrow<File> + Send + Sync>(
     options: &FileSortOptions,
     monitor: &Monitor<'_>,
     open: impl Fn(File, &str) -> F,
-) -> Result<FileSort, Error> {
+) -> Result<Pending<FileSort, F>, Error> {
     layout.check()?;
     if let Some(path) = &options.resume {
         // The file of runs is removed at the end.
@@ -42,12 +42,7 @@ pub(super) fn sort<F: Store + Borrow<File> + Send + Sync>(
             });
         }
     }
-    let file = at(input, File::open(input))?;
-    let about = at(input, file.metadata())?;
-    if !about.is_file() {
-        let not = io::Error::new(io::ErrorKind::InvalidInput, "not a regular file");
-        return at(input, Err(not));
-    }
+    let (file, about) = at(input, store::open(input))?;
     let width = layout.width as u64;
     if about.len() % width != 0 {
         let path = input.display().to_string();
@@ -59,16 +54,21 @@ pub(super) fn sort<F: Store + Borrow<File> + Send + Sync>(
     let to = output.display().to_string();
     let draft = at(output, Draft::beside(output, |file| open(file, &to)))?;
     let mut to = Medium::new(draft, to);
+    let mut kept = None;
     let found = if plan.fits() {
+        // Runs that are kept are those of a sort with less memory.
+        if let Some(path) = options.resume.as_ref().filter(|path| path.exists()) {
+            return Err(Journal::other(&path.display().to_string()));
+        }
         engine::within(&plan, &mut from, &mut to, monitor)?
     } else if let Some(path) = &options.resume {
         let file = at(path, open_or_create(path))?;
         let length = at(path, file.metadata())?.len();
-        let modified = about.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
         let mut runs = medium(file, path.display().to_string());
-        let modified = modified.map_or(0, |since| since.as_nanos() as u64);
-        let journal = Journal::open(&plan, modified, length, &mut runs)?;
-        engine::beyond(&plan, &mut from, &mut runs, Some(&journal), &mut to, monitor)?
+        let journal = Journal::open(&plan, origin(&about), length, &mut runs)?;
+        let found = engine::beyond(&plan, &mut from, &mut runs, Some(&journal), &mut to, monitor)?;
+        kept = Some((path.clone(), runs.into_store()));
+        found
     } else {
         let target = at(output, store::target(output))?;
         let folder = options.scratch.as_deref().unwrap_or(store::folder(&target));
@@ -76,12 +76,21 @@ pub(super) fn sort<F: Store + Borrow<File> + Send + Sync>(
         let mut runs = medium(file, format!("runs in {}", folder.display()));
         engine::beyond(&plan, &mut from, &mut runs, None, &mut to, monitor)?
     };
-    at(output, to.into_store().publish())?;
-    match &options.resume {
-        Some(path) if !plan.fits() => at(path, fs::remove_file(path))?,
-        _ => {}
+    Ok(Pending::new(found, to.into_store(), output, kept))
+}
+
+/// What tells a file from others, as far as the system says.
+fn origin(about: &Metadata) -> Origin {
+    let modified = about.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
+    let modified = modified.map_or(0, |since| since.as_nanos() as u64);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let seconds = about.ctime().wrapping_mul(1_000_000_000);
+        [modified, seconds.wrapping_add(about.ctime_nsec()) as u64, about.ino()]
     }
-    Ok(found)
+    #[cfg(not(unix))]
+    [modified, 0, 0]
 }
 
 /// Names the file that an error is about.
@@ -98,6 +107,9 @@ fn whereabouts(path: &Path) -> PathBuf {
 
 /// Opens the file of runs; two processes must not share it.
 fn open_or_create(path: &Path) -> io::Result<File> {
+    if path.exists() {
+        store::regular(path)?;
+    }
     let file = File::options().read(true).write(true).create(true).truncate(false).open(path)?;
     file.try_lock().map_err(io::Error::from)?;
     Ok(file)

@@ -2,8 +2,12 @@
 //!
 //! *Idea.* The file begins with slots: one says of which sort it is, one for each run that the run is complete, and the
 //! certificate so far. A slot is written when its run has reached the disk.
-//! *Guarantee.* A crash at any moment leaves slots that are whole and true, or fail their checksum and count as absent.
+//! *Guarantee.* A crash at any moment leaves slots that are whole and true, or fail their checksum and count as absent. So
+//! does a run that the file is too short for.
 //! *Trap.* A slot must not vouch for another sort: its checksum covers what the first slot says.
+//! *Trap.* A file of the same length, time and number may have other content: times are set, numbers used again. So an
+//! entry holds a hash of the part of the input that its run was made of, byte for byte, and that part is read and compared
+//! before the run counts.
 
 use super::Multiset;
 use super::digest;
@@ -15,25 +19,28 @@ use crate::store::{PAGE, Store};
 
 const SLOT: usize = 128;
 /// What is looked for at the start of the file; the last byte is the version.
-const MAGIC: u64 = u64::from_le_bytes(*b"tautrun\x02");
+const MAGIC: u64 = u64::from_le_bytes(*b"tautrun\x03");
 
 /// The words that tell one sort from another.
-type Identity = [u64; 8];
+type Identity = [u64; 10];
+
+/// What the system says of a file that tells it from others: when it was modified, when anything about it changed, and its
+/// number, in any unit. Not the number of its device, which may be another one when the machine has started again.
+pub(super) type Origin = [u64; 3];
 
 pub(super) struct Journal {
     identity: Identity,
     runs: u64,
-    runs_done: u64,
+    /// For each run that is complete the hash of what it was made of.
+    made_of: Vec<u128>,
     certificate: Multiset,
 }
 
 impl Journal {
     /// Reads the journal of a file of `length` bytes, or starts one if there is none yet.
-    ///
-    /// `modified` is when the input was, in any unit.
     pub(super) fn open<S: Store>(
         plan: &Plan,
-        modified: u64,
+        origin: Origin,
         length: u64,
         file: &mut Medium<S>,
     ) -> Result<Self, Error> {
@@ -46,39 +53,48 @@ impl Journal {
         };
         let [width, start, end, chunk] =
             [layout.width, layout.key.start, layout.key.end, plan.chunk].map(|size| size as u64);
-        let identity = [MAGIC, plan.records, modified, width, start, end, kind, chunk];
+        let [modified, changed, number] = origin;
+        let identity =
+            [MAGIC, plan.records, modified, changed, number, width, start, end, kind, chunk];
         let (runs, certificate) = (plan.runs(), Multiset::default());
-        let mut journal = Self { identity, runs, runs_done: 0, certificate };
+        let mut journal = Self { identity, runs, made_of: vec![], certificate };
         let (first, mut slot) = (journal.slot(&identity), [0; SLOT]);
         let start = &mut slot[..length.min(SLOT as u64) as usize];
         file.read(start, 0)?;
         if !first.starts_with(start) {
-            return Err(Error::Option {
-                name: "resume",
-                value: file.path().to_owned(),
-                expected: "a file of the same sort: same input, layout and memory; or none",
-            });
+            return Err(Self::other(file.path()));
         }
         // Nothing yet, or what a disk had room for that then was full.
         if start.len() < SLOT {
             file.write(&first, 0)?;
             return Ok(journal);
         }
-        for run in 0..runs {
+        let made = plan.made(journal.data_start());
+        for (run, made) in (0..).zip(made) {
             let at = Self::place(run);
-            if at + SLOT as u64 > length {
+            if made.end(plan) > length {
                 break;
             }
             file.read(&mut slot, at)?;
             let word = |i: usize| u64::from_le_bytes(slot.as_chunks::<8>().0[i]);
-            let hash = u128::from(word(3)) << 64 | u128::from(word(2));
-            let certificate = Multiset { records: word(1), hash };
-            if slot != journal.entry(run, &certificate) {
+            let long = |i: usize| u128::from(word(i + 1)) << 64 | u128::from(word(i));
+            let certificate = Multiset { records: word(1), hash: long(2) };
+            if slot != journal.entry(run, &certificate, long(4)) {
                 break;
             }
-            (journal.runs_done, journal.certificate) = (run + 1, certificate);
+            journal.made_of.push(long(4));
+            journal.certificate = certificate;
         }
         Ok(journal)
+    }
+
+    /// The file to resume is of another sort.
+    pub(super) fn other(path: &str) -> Error {
+        Error::Option {
+            name: "resume",
+            value: path.to_owned(),
+            expected: "a file of the same sort (the input as it was, layout and memory), or a new one to begin again",
+        }
     }
 
     /// Where runs start.
@@ -88,7 +104,12 @@ impl Journal {
 
     /// Runs that are complete.
     pub(super) fn runs_done(&self) -> u64 {
-        self.runs_done
+        self.made_of.len() as u64
+    }
+
+    /// The hash of what a complete run was made of.
+    pub(super) fn made_of(&self, run: u64) -> u128 {
+        self.made_of[run as usize]
     }
 
     /// Of the records in these.
@@ -96,23 +117,25 @@ impl Journal {
         self.certificate
     }
 
-    /// Says that `run` is complete, after which all runs so far have this certificate.
+    /// Says that `run` is complete, after which all runs so far have this certificate, and of what it was made.
     pub(super) fn enter<S: Store>(
         &self,
         run: u64,
         certificate: &Multiset,
+        made_of: u128,
         file: &mut Medium<S>,
     ) -> Result<(), Error> {
-        file.write(&self.entry(run, certificate), Self::place(run))
+        file.write(&self.entry(run, certificate, made_of), Self::place(run))
     }
 
     fn place(run: u64) -> u64 {
         (run + 1) * SLOT as u64
     }
 
-    fn entry(&self, run: u64, certificate: &Multiset) -> [u8; SLOT] {
-        let [low, high] = [certificate.hash as u64, (certificate.hash >> 64) as u64];
-        self.slot(&[run, certificate.records, low, high])
+    fn entry(&self, run: u64, certificate: &Multiset, made_of: u128) -> [u8; SLOT] {
+        let halves = |hash: u128| [hash as u64, (hash >> 64) as u64];
+        let ([low, high], [first, second]) = (halves(certificate.hash), halves(made_of));
+        self.slot(&[run, certificate.records, low, high, first, second])
     }
 
     /// Words, zeros, and a checksum of them and of the identity.

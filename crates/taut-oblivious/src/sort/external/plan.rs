@@ -3,6 +3,7 @@
 use super::chunk;
 use super::layout::RecordLayout;
 use crate::error::Error;
+use crate::sort::records::room_bytes;
 use crate::store::PAGE;
 
 /// Blocks of this size keep a disk busy.
@@ -13,8 +14,8 @@ const WRITE_BLOCK: usize = 512 << 10;
 const PAST_CACHE_MIN: usize = 64 << 10;
 /// From this limit on, there is room for what sorting records in their own place takes, ...
 const IN_PLACE_MIN: usize = 16 << 20;
-/// ... which is this, and a fortieth of the records.
-const IN_PLACE_ROOM: usize = 4 << 20;
+/// ... which is this or that share of the memory, for as many threads as it holds rooms for, and a fortieth of the records.
+const IN_PLACE_ROOM: (usize, usize) = (6 << 20, 16);
 /// Bytes that are collected from runs at once: half of a second-level cache.
 const BATCH_BYTES: usize = 512 << 10;
 /// Fewest records that are looked at in each run, where there is room.
@@ -34,8 +35,8 @@ pub(super) struct Plan {
     pub(super) write_block: usize,
     /// Whether runs and blocks are whole pages but for the last one, and large.
     pub(super) past_cache: bool,
-    /// Whether records are sorted in their own place, not by words.
-    pub(super) in_place: bool,
+    /// On how many threads records are sorted in their own place; 0 if they are sorted by words.
+    pub(super) in_place: usize,
     /// What blocks are multiples of.
     unit: usize,
     memory: usize,
@@ -46,11 +47,11 @@ impl Plan {
         layout.check()?;
         let width = layout.width;
         let mut write_block = whole((memory / 32).min(WRITE_BLOCK), width);
-        let in_place = memory >= IN_PLACE_MIN && chunk::sorts(layout);
-        let mut chunk = if in_place {
-            (memory - IN_PLACE_ROOM) / 41 * 40 / width
+        let (in_place, mut chunk) = if memory >= IN_PLACE_MIN && chunk::sorts(layout) {
+            let room = IN_PLACE_ROOM.0.max(memory / IN_PLACE_ROOM.1);
+            (room / room_bytes(width), (memory - room) / 41 * 40 / width)
         } else {
-            memory.saturating_sub(2 * write_block) / (width + size_of::<u64>())
+            (0, memory.saturating_sub(2 * write_block) / (width + size_of::<u64>()))
         };
         if memory < 64 << 10 || chunk < 64 {
             return Err(Error::Option {

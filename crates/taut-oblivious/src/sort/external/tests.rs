@@ -223,6 +223,25 @@ fn wrong_calls_are_answered_by_name() {
     assert!(error.expect_err("refused").to_string().contains("not a regular file"));
 }
 
+/// To open a pipe that nobody writes to would be to wait for ever.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_pipe_is_refused_at_once() {
+    use rustix::fs::{CWD, FileType, Mode, mknodat};
+    let folder = Folder::with(&records(5000, 16, 0, u64::MAX));
+    mknodat(CWD, folder.path("pipe"), FileType::Fifo, Mode::RUSR | Mode::WUSR, 0).expect("a pipe");
+    let said = |input: &str, resume: Option<&str>| {
+        let resume = resume.map(|name| folder.path(name));
+        let options = FileSortOptions { memory: LEAST, resume, ..Default::default() };
+        let (input, output) = (folder.path(input), folder.path("out"));
+        let found = sort_file(&input, &output, &whole_number(16), &options, &Monitor::silent());
+        found.expect_err("refused").to_string()
+    };
+    assert!(said("pipe", None).contains("not a regular file"));
+    assert!(said("in", Some("pipe")).contains("not a regular file"));
+    assert_eq!(folder.names(), ["in", "pipe"]);
+}
+
 /// Stopped at any block, the work leaves nothing; and no more than three files are open at any time.
 #[test]
 #[cfg_attr(miri, ignore = "files")]

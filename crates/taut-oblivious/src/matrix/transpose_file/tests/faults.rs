@@ -43,7 +43,8 @@ impl Case {
             false => Faulty::new(file, None, &silent),
         };
         let found =
-            transpose_through(&from, MATRIX, &to, HEADER, &OPTIONS, &Monitor::silent(), through);
+            transpose_through(&from, MATRIX, &to, HEADER, &OPTIONS, &Monitor::silent(), through)
+                .and_then(Pending::finish);
         assert_eq!(std::fs::read_dir(self.folder.path()).unwrap().count(), 2, "{fault:?}");
         found
     }

@@ -5,6 +5,7 @@ use std::sync::Mutex;
 
 use super::*;
 use crate::sort::external::engine;
+use crate::sort::external::journal::Journal;
 use crate::sort::external::medium::Medium;
 use crate::sort::external::plan::Plan;
 use crate::store::Store;
@@ -167,4 +168,48 @@ fn an_input_that_ends_too_soon_is_an_error() {
     let error = engine::beyond(&plan, &mut input, &mut runs, None, &mut output, &monitor);
     assert!(matches!(error, Err(Error::File { path, source })
         if path == "input" && source.kind() == io::ErrorKind::UnexpectedEof));
+}
+
+/// The system says that the input is as it was, and it is not: one bit in a run that is there, or the places of two records
+/// with the same key, which leave the multiset of the run as it was.
+#[test]
+fn an_input_that_changed_unseen_is_found_out() {
+    let layout = whole_number(16);
+    let bytes = records(20_000, 16, 0, 0xFF);
+    let plan = Plan::new(&layout, 20_000, LEAST).expect("a plan");
+    let resume = |input: &[u8], kept: &[u8], limit: u64| {
+        let (cancel, told) = (AtomicBool::new(false), AtomicU64::new(0));
+        let count = |more: u64| {
+            let told = told.fetch_add(more, Ordering::Relaxed) + more;
+            cancel.store(told >= limit, Ordering::Relaxed);
+        };
+        let monitor =
+            Monitor { on_points: Some(&count), cancel: Some(&cancel), ..Monitor::silent() };
+        let [mut input, mut runs, mut output] =
+            [(Disk::with(input), "input"), (Disk::with(kept), "runs"), (Disk::default(), "output")]
+                .map(|(disk, path)| Medium::new(disk, path.into()));
+        let found = Journal::open(&plan, [1, 2, 3], kept.len() as u64, &mut runs).and_then(|j| {
+            engine::beyond(&plan, &mut input, &mut runs, Some(&j), &mut output, &monitor)
+        });
+        let [runs, output] =
+            [runs, output].map(|m| m.into_store().bytes.into_inner().expect("no panic"));
+        (found, runs, output)
+    };
+    let (stopped, kept, _) = resume(&bytes, &[], 10_000);
+    assert!(matches!(stopped, Err(Error::Cancelled(_))));
+    let (found, _, output) = resume(&bytes, &kept, u64::MAX);
+    assert!(found.expect("sorted").runs_resumed > 1);
+    assert!(output == expected(&bytes, &layout));
+    let mut flipped = bytes.clone();
+    flipped[16 * 100 + 12] ^= 1;
+    let mut swapped = bytes.clone();
+    let second = (1..1000).find(|&i| bytes[16 * i..][..8] == bytes[..8]).expect("equal keys");
+    let (head, tail) = swapped.split_at_mut(16 * second);
+    head[..16].swap_with_slice(&mut tail[..16]);
+    for changed in [flipped, swapped] {
+        let (found, after, output) = resume(&changed, &kept, u64::MAX);
+        let error = found.expect_err("found out").to_string();
+        assert!(error.contains("`resume`"), "{error}");
+        assert!(output.is_empty() && after == kept);
+    }
 }

@@ -39,7 +39,7 @@ impl Case {
             if is_it { Faulty::new(file, fault, record) } else { Faulty::new(file, None, &silent) }
         };
         let monitor = Monitor::silent();
-        files::sort(&input, &output, &self.layout, &self.options, &monitor, open)
+        files::sort(&input, &output, &self.layout, &self.options, &monitor, open)?.finish()
     }
 
     /// How a file is called in errors.
