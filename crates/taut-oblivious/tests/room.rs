@@ -71,7 +71,7 @@ type Wide = [u64; 8192];
 #[test]
 fn wide_records_are_dealt_into_few_buckets() {
     let _alone = ALONE.lock();
-    let key = |i: u64| if i % 20 == 0 { random(i) } else { random(i) % 1000 };
+    let key = |i: u64| if i.is_multiple_of(20) { random(i) } else { random(i) % 1000 };
     let mut records: Vec<Wide> = (0..600).map(|i| [key(i); 8192]).collect();
     let mut expected: Vec<u64> = (0..600).map(key).collect();
     expected.sort_unstable();
