@@ -134,13 +134,13 @@ pub(crate) fn dictionary(
     }
 }
 
-/// The value of a key of a header.
+/// The value of a key of a header; of a doubled one the last, as in Python.
 pub(crate) fn entry<'a>(
     path: &str,
     entries: &'a [(String, Literal)],
     key: &str,
 ) -> Result<&'a Literal, Error> {
-    let found = entries.iter().find(|(name, _)| name == key).map(|(_, value)| value);
+    let found = entries.iter().rfind(|(name, _)| name == key).map(|(_, value)| value);
     found.ok_or_else(|| damaged(path, format!("its header has no `{key}`")))
 }
 
