@@ -388,7 +388,8 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
             self.counts.pop();
         }
         let windows = self.windows();
-        if self.len < windows.fewest_of_all() {
+        // Too many also: the leaf that went may have been what let the others be fuller.
+        if self.len < windows.fewest_of_all() || self.len > windows.most_of_all() {
             self.respread(Windows::leaves_for(self.len), probe);
             return;
         }

@@ -84,6 +84,21 @@ proptest! {
     }
 }
 
+/// Leaves that are as full as all may be, and more behind them for as long as there is one more leaf.
+#[test]
+fn when_the_last_leaf_goes_the_others_are_not_too_full() {
+    for (last, more) in [(240, 1), (240, 40), (480, 40)] {
+        let mut set = PackedSet::<u64>::new();
+        (1..=last).for_each(|key| assert!(set.insert(key << 8)));
+        set.insert(1 << 40);
+        (1..=more).for_each(|key| assert!(set.insert((key << 8) + 1)));
+        assert!(set.check().is_ok());
+        assert!(set.remove(1 << 40));
+        assert!(set.check().is_ok(), "{last} and {more}: {:?}", set.check());
+        assert_eq!(set.len(), (last + more) as usize);
+    }
+}
+
 #[test]
 fn nothing_one_key_and_extreme_keys() {
     let mut set = PackedSet::<f64>::new();
