@@ -69,7 +69,8 @@ fn take_turns(context: &Context, rows: usize, columns: usize) -> Result<Lanes> {
     let from: Vec<f64> = (0..rows * columns).map(|i| i as f64).collect();
     let mut to = vec![f64::NAN; from.len()];
     let mut lanes = Lanes::default();
-    for _ in 0..context.runs {
+    // Short ones are disturbed more easily.
+    for _ in 0..context.runs * (100_000_000 / (rows * columns)).max(1) {
         to.fill(f64::NAN);
         lanes.time("taut", || taut_oblivious::transpose(&from, rows, columns, &mut to))?;
         ensure!(right(&to, rows, columns), "taut: a wrong transpose of {rows} × {columns}");
