@@ -103,8 +103,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Nothing but names lives here, and in [`files`] what joins two crates that do not know each other; each crate behind the door can be used on its own. Files are read and written by
-//! `taut-io`, pictures drawn by `taut-draw`, and the command `taut` is the crate `taut-cli`.
+//! Nothing but names lives here, and in [`files`] what joins two crates that do not know each other; each crate behind the
+//! door can be used on its own. Files are read and written by `taut-io`, pictures drawn by `taut-draw`, and the command `taut`
+//! is the crate `taut-cli`.
 //!
 //! Not for: distances other than Euclidean, or weights other than those of centres.
 #![forbid(unsafe_code)]

@@ -63,8 +63,9 @@ impl<'a> Panels<'a> {
                 let places = used[j * width..].chunks_mut(width * depth);
                 probe.read(run);
                 for (piece, place) in run.chunks(width).zip(places) {
-                    copy(piece, place);
-                    probe.write(&place[..piece.len()]);
+                    let place = &mut place[..piece.len()];
+                    place.copy_from_slice(piece);
+                    probe.write(place);
                 }
             }
         } else {
@@ -89,7 +90,7 @@ impl<'a> Panels<'a> {
 
     /// The panel after the one whose first row this is; nothing after the last.
     pub(super) fn after(&self, row: usize) -> &[f64] {
-        let used = self.rows.next_multiple_of(self.width) * self.depth;
+        let used = Self::room(self.width, self.rows, self.depth);
         let panel = self.width * self.depth;
         let begin = (row * self.depth + panel).min(used);
         &self.room[begin..used.min(begin + panel)]
@@ -98,13 +99,5 @@ impl<'a> Panels<'a> {
     /// The memory of the panels.
     pub(super) fn all(&self) -> &[f64] {
         self.room
-    }
-}
-
-/// Copies a piece of a run to the beginning of its place; whole pieces without a call.
-fn copy(piece: &[f64], place: &mut [f64]) {
-    match (piece.as_array::<24>(), place.first_chunk_mut::<24>()) {
-        (Some(piece), Some(place)) => *place = *piece,
-        _ => place[..piece.len()].copy_from_slice(piece),
     }
 }
