@@ -8,7 +8,7 @@
 use super::{BUCKET, IS_BUCKET, KdTree, Node, wide};
 use crate::Error;
 use crate::layout::{NONE, TreeOrder, permute};
-use crate::search::Pages;
+use crate::pages::Pages;
 
 /// Points below which a part is not shared among threads.
 const ALONE_BELOW: usize = 1 << 14;

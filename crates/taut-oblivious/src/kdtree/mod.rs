@@ -23,7 +23,7 @@ pub use query::Nearest;
 
 use crate::Error;
 use crate::layout::TreeOrder;
-use crate::search::Pages;
+use crate::pages::Pages;
 
 /// Points of a bucket: four vectors of 8 coordinates for each axis.
 const BUCKET: usize = 32;

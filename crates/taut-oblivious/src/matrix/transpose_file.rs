@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 use taut_points::Monitor;
 
 use crate::Error;
-use crate::room::Pages;
+use crate::pages::Pages;
 use crate::store::{self, Draft, Pending, Store};
 
 pub(crate) mod check;

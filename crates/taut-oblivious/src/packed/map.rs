@@ -19,10 +19,12 @@ use std::ops::Range;
 use super::density::{LEAF, LEAF_MIN, SEQUENTIAL, Windows};
 use super::separators::Separators;
 use super::spread;
-use crate::search::{Pages, prefetch};
+use crate::pages::Pages;
+use crate::search::prefetch;
 use crate::{Key, NoProbe, Probe, Word};
 
-/// Insertions into one leaf, one after the other, after which it counts as hammered.
+/// Insertions into one leaf, one after the other, after which it counts as hammered. Of 4 to 128 each is as good: a quarter
+/// of the moves, or fewer, where all keys go to one place, and the same as without where they are random.
 const HAMMERED: u32 = 32;
 
 /// An ordered map in one array with gaps: ranges at the speed of memory, insertion and deletion in O(log² n) moves.

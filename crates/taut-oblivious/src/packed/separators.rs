@@ -7,7 +7,8 @@
 //! leaf, and that is known without a search.
 
 use crate::level::Level;
-use crate::search::{Pages, Tree};
+use crate::pages::Pages;
+use crate::search::Tree;
 use crate::{Probe, Word};
 
 /// More levels than any array that fits a memory has.

@@ -7,8 +7,8 @@
 //! *Guarantee.* One page for each factor 504 of n, one large page for each factor 504²; 8/7 of the memory of the keys.
 //! *Trap.* Cuts are counted from the leaves up, or the last page of each walk would hold one level.
 
-use super::Pages;
 use super::{SortedIndex, check_sorted};
+use crate::pages::Pages;
 use crate::{Error, Key, Probe, Word};
 
 /// Children of the first line of a page.

@@ -6,10 +6,10 @@
 //! Guarantee: ⌊log₂ n⌋ + 1 comparisons; no memory beside the keys.
 //! Reference: P.-V. Khuong and P. Morin, Array layouts for comparison-based searching, ACM J. Exp. Algorithmics 22, 2017.
 
-use super::Pages;
 use super::lanes::prefetch;
 use super::{SortedIndex, check_sorted};
 use crate::layout::CompleteTree;
+use crate::pages::Pages;
 use crate::{Error, Key, Probe, Word};
 
 /// Sorted keys as a complete binary tree in breadth-first order.

@@ -160,10 +160,10 @@ pub(crate) fn prefetch<W>(words: &[W], at: usize) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Pages;
     use super::*;
     use crate::Word;
     use crate::level::Level;
+    use crate::pages::Pages;
 
     #[allow(unsafe_code, reason = "calls the kernels one by one")]
     fn count<W: Word>(level: Level, words: &[W], first: usize, word: W) -> usize {

@@ -22,7 +22,6 @@ mod veb;
 
 use std::ops::Range;
 
-pub(crate) use crate::room::Pages;
 pub use blocked::BlockedVanEmdeBoas;
 pub use eytzinger::Eytzinger;
 pub(crate) use lanes::{Lanes, prefetch};

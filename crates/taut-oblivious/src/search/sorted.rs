@@ -6,8 +6,8 @@
 
 use std::hint::select_unpredictable;
 
-use super::Pages;
 use super::{SortedIndex, sorted_words};
+use crate::pages::Pages;
 use crate::{Error, Key, Probe};
 
 /// Sorted keys in one array, searched by halving.

@@ -10,15 +10,16 @@
 //! and no walk leaves the tree. Prefetches belong into the second cache, see `lanes`.
 //! *Reference.* R. Groot Koerkamp, Static search trees: 40× faster than binary search, 2024; after S. Slotin, 2021.
 
-use super::Pages;
 use super::lanes::{Count, Portable, prefetch};
 use super::{SortedIndex, sorted_words};
 use crate::level::Level;
+use crate::pages::Pages;
 use crate::{Error, Key, Probe, Word};
 
 /// Searches that walk together.
 const GROUP: usize = 4;
-/// Groups between the prefetch of a line and its use.
+/// Groups between the prefetch of a line and its use. In 2²⁴ keys, with 1, 2, 4, 8, 16 and 32 of them, a search of a batch
+/// takes 3.2, 1.6, 1.1, 1, 1 and 1.1 times the time of 8.
 const LAG: usize = 8;
 /// Levels above the leaves whose lines are waited for, as they are outside the near caches.
 const WAITED: usize = 2;

@@ -9,9 +9,9 @@
 //! *Reference.* H. Prokop, Cache-oblivious algorithms, 1999; Brodal, Fagerberg and Jacob, Cache oblivious search trees via
 //! binary trees of small height, SODA 2002 (places by arithmetic); section 5.5 of the thesis.
 
-use super::Pages;
 use super::{SortedIndex, check_sorted};
 use crate::layout::VanEmdeBoasOrder;
+use crate::pages::Pages;
 use crate::{Error, Key, Probe};
 
 /// Sorted keys as a complete binary tree in the van Emde Boas layout.

@@ -6,7 +6,7 @@
 
 use std::cell::Cell;
 
-use crate::room::Pages;
+use crate::pages::Pages;
 
 /// Numbers that a thread keeps at most: 2 MiB.
 const KEPT: usize = 1 << 18;

@@ -14,8 +14,8 @@ use taut_points::Monitor;
 
 use super::{FileMatrix, failed, open};
 use crate::Error;
+use crate::pages::Pages;
 use crate::random::mix;
-use crate::room::Pages;
 use crate::store::Store;
 
 /// How much of the files to compare.

@@ -10,7 +10,7 @@ use super::merge::Merge;
 use super::plan::{Plan, Run, steps};
 use super::{FileSort, Multiset};
 use crate::error::Error;
-use crate::room::Pages;
+use crate::pages::Pages;
 use crate::store::Store;
 
 /// Bytes that are read at once while a run is made.

@@ -19,7 +19,7 @@ use super::layout::RecordLayout;
 use super::medium::Medium;
 use super::plan::{Plan, Run};
 use crate::error::Error;
-use crate::room::Pages;
+use crate::pages::Pages;
 use crate::store::Store;
 
 /// Where a run is being read.

@@ -226,6 +226,7 @@ fn wrong_calls_are_answered_by_name() {
 /// To open a pipe that nobody writes to would be to wait for ever.
 #[cfg(target_os = "linux")]
 #[test]
+#[cfg_attr(miri, ignore = "files")]
 fn a_pipe_is_refused_at_once() {
     use rustix::fs::{CWD, FileType, Mode, mknodat};
     let folder = Folder::with(&records(5000, 16, 0, u64::MAX));
