@@ -9,8 +9,11 @@ use taut_oblivious::simulate::Simulator;
 
 use crate::{Shape, largest, log, misses, numbers, row, trace};
 
-/// M ≥ B², at least 1024 words and 32 blocks.
-const TALL: [Shape; 11] = [
+/// M ≥ B², and at least 32 blocks.
+const TALL: [Shape; 14] = [
+    (256, 8),
+    (512, 8),
+    (512, 16),
     (1024, 8),
     (4096, 8),
     (16384, 8),
