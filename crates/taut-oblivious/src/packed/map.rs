@@ -23,8 +23,10 @@ use crate::pages::Pages;
 use crate::search::prefetch;
 use crate::{Key, NoProbe, Probe, Word};
 
-/// Insertions into one leaf, one after the other, after which it counts as hammered. Of 4 to 128 each is as good: a quarter
-/// of the moves, or fewer, where all keys go to one place, and the same as without where they are random.
+/// Insertions into one leaf, one after the other, after which it counts as hammered.
+///
+/// Any number from 4 to 128 is as good by the moves that `bench oblivious packed` counts: where all keys go to one place, a
+/// quarter of those without it, or fewer; where they are random, the same.
 const HAMMERED: u32 = 32;
 
 /// An ordered map in one array with gaps: ranges at the speed of memory, insertion and deletion in O(log² n) moves.

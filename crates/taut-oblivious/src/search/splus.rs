@@ -18,8 +18,10 @@ use crate::{Error, Key, Probe, Word};
 
 /// Searches that walk together.
 const GROUP: usize = 4;
-/// Groups between the prefetch of a line and its use. In 2²⁴ keys, with 1, 2, 4, 8, 16 and 32 of them, a search of a batch
-/// takes 3.2, 1.6, 1.1, 1, 1 and 1.1 times the time of 8.
+/// Groups between the prefetch of a line and its use.
+///
+/// In batches among 2²⁴ words, with 1, 2, 4, 16 and 32 of them a search took 3.2, 1.6, 1.1, 1 and 1.1 times as long as with 8
+/// (AVX-512, EPYC).
 const LAG: usize = 8;
 /// Levels above the leaves whose lines are waited for, as they are outside the near caches.
 const WAITED: usize = 2;
