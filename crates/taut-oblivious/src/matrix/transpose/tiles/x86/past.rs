@@ -5,6 +5,9 @@
 //! that waited and those that came.
 //! *Guarantee.* Lines of the target are written whole, once; the elements before the first and after the last line of a
 //! row go one at a time.
+//! *Trap.* Each side walks over pages of 4 KiB, and the processor translates the address of a page only when it is touched:
+//! where narrow rows are split or joined, a touch of each page two pages early makes 15 GB/s of 10⁷ × 3 into 19, above a plain
+//! copy past the caches. Lines that are fetched early within their page gain nothing there.
 //! *Trap.* Reading a block and then writing it costs the sum of both, not the longer: measured, copying in blocks of
 //! 16 KiB runs at two thirds of copying line by line.
 #![allow(unsafe_code, reason = "loads, stores and shuffles of whole vectors")]
@@ -18,6 +21,8 @@ pub(in crate::matrix::transpose) const STRIP: usize = 128;
 /// Columns from the tile to what is fetched early, in its own rows and, at the end of the strip, in the next ones: rows
 /// whose stride is a power of two share a set of the cache, which eight lines fill.
 const AHEAD: usize = 40;
+/// Elements of a page of memory.
+const PAGE: usize = 512;
 
 /// Element (i, c) of a strip of `rows` rows, row i at `from + i · stride`, goes to `to[c · stride_to + i]`; any width.
 ///
@@ -89,6 +94,12 @@ pub(super) unsafe fn split<const D: usize>(rows: usize, from: *const f64, to: *m
     // SAFETY: whole groups of eight rows; lines as in `walk`.
     unsafe {
         for i in (0..rows / 8 * 8).step_by(8) {
+            if i % PAGE == 0 {
+                for c in 0..D {
+                    touch_early(from.wrapping_add(i * D + (c + 2 * D) * PAGE));
+                    touch_early(to.wrapping_add(c * rows + i + 2 * PAGE));
+                }
+            }
             let columns = split_eight::<D>(&table, from.add(i * D));
             for c in 0..D {
                 if i > 0 {
@@ -127,6 +138,12 @@ pub(super) unsafe fn join<const D: usize>(
     // SAFETY: whole groups of eight columns; a line ends before the last element that came.
     unsafe {
         for j in 0..groups {
+            if 8 * j % PAGE == 0 {
+                for c in 0..D {
+                    touch_early(from.wrapping_add(c * stride + 8 * j + 2 * PAGE));
+                    touch_early(to.wrapping_add(8 * j * D + (c + 2 * D) * PAGE));
+                }
+            }
             let parts = join_eight::<D>(&table, (from.add(8 * j), stride));
             for m in 0..D {
                 let at = 8 * (j * D + m);
@@ -139,6 +156,13 @@ pub(super) unsafe fn join<const D: usize>(
         }
     }
     (head + (8 * groups * D).saturating_sub(8)..columns * D).for_each(single);
+}
+
+/// Has the processor translate an address, by asking for its line: no access, so that it may be beyond the matrix.
+#[inline(always)]
+fn touch_early(address: *const f64) {
+    // SAFETY: every x86-64 has the instruction, and it never faults.
+    unsafe { _mm_prefetch::<_MM_HINT_NTA>(address.cast()) };
 }
 
 /// The elements of column c that are in no whole line.
