@@ -13,6 +13,7 @@ use taut_points::Monitor;
 use tempfile::TempDir;
 
 use super::draw::Draw;
+use super::lanes::have_memory;
 use super::one::{FileCost, WIDTH, Work, layout};
 use crate::context::Context;
 use crate::goals::Goals;
@@ -179,6 +180,8 @@ fn by_turns(
             arguments
                 .extend([format!("--memory={memory}").into(), format!("--rows={rows}").into()]);
             arguments.extend([from.into(), to.into()]);
+            // A host that took free memory back gives it again at the cost of whoever touches it first.
+            have_memory(memory)?;
             let cost: FileCost = alone(&arguments)?;
             judge(work, &cost)?;
             std::fs::remove_file(to)?;

@@ -7,14 +7,14 @@ use super::digest;
 use super::journal::Journal;
 use super::medium::Medium;
 use super::merge::Merge;
-use super::plan::{Plan, Run, steps};
+use super::plan::{Plan, Run, steps, whole};
 use super::{FileSort, Multiset};
 use crate::error::Error;
 use crate::pages::Pages;
 use crate::store::Store;
 
-/// Bytes that are read at once while a run is made.
-const READ_BLOCK: usize = 1 << 20;
+/// Bytes that are read at once while a run is made, or one record: half a second-level cache.
+const READ_BLOCK: usize = 1 << 19;
 
 /// Sorts records that fit into memory.
 pub(super) fn within<I: Store, O: Store + Sync + Send>(
@@ -27,8 +27,8 @@ pub(super) fn within<I: Store, O: Store + Sync + Send>(
     let mut certificate = Multiset::default();
     let mut maker = Maker::new(plan)?;
     output.reserve(plan.bytes())?;
-    maker.read(0, input, monitor)?;
-    maker.make(0, output, 0, &mut certificate, monitor)?;
+    maker.read(0, input, &mut certificate, monitor)?;
+    maker.make(0, output, 0, monitor)?;
     Ok(FileSort {
         certificate,
         runs: plan.runs(),
@@ -62,14 +62,17 @@ pub(super) fn beyond<I: Store, R: Store + Send + Sync, O: Store + Send + Sync>(
     let mut certificate = journal.map_or(Multiset::default(), Journal::certificate);
     monitor.pass(1, plan.records);
     for (i, run) in (0..).zip(&made) {
-        maker.read(i, input, monitor)?;
+        // Those of runs that are done are in the journal's.
+        let mut again = Multiset::default();
+        let multiset = if i < done { &mut again } else { &mut certificate };
+        maker.read(i, input, multiset, monitor)?;
         let Some(journal) = journal else {
-            maker.make(i, runs, run.offset, &mut certificate, monitor)?;
+            maker.make(i, runs, run.offset, monitor)?;
             continue;
         };
         let made_of = digest::hash(maker.read_of(i));
         if i >= done {
-            maker.make(i, runs, run.offset, &mut certificate, monitor)?;
+            maker.make(i, runs, run.offset, monitor)?;
             runs.sync()?;
             journal.enter(i, &certificate, made_of, runs)?;
         } else if made_of == journal.made_of(i) {
@@ -187,20 +190,23 @@ impl<'a> Maker<'a> {
         &self.records.words()[..self.records_of(run) * self.plan.layout.width]
     }
 
-    /// Reads run number `run`.
+    /// Reads run number `run`, and adds its records to a multiset while they are in the cache.
     fn read<I: Store>(
         &mut self,
         run: u64,
         input: &mut Medium<I>,
+        multiset: &mut Multiset,
         monitor: &Monitor<'_>,
     ) -> Result<(), Error> {
         let (records, width) = (self.records_of(run), self.plan.layout.width);
         let most = self.plan.chunk as u64 * width as u64;
         let bytes = &mut self.records.words_mut()[..records * width];
         let from = run * most;
-        for (i, part) in bytes.chunks_mut(READ_BLOCK).enumerate() {
+        let block = whole(READ_BLOCK, width);
+        for (i, part) in bytes.chunks_mut(block).enumerate() {
             monitor.check()?;
-            input.read(part, from + (i * READ_BLOCK) as u64)?;
+            input.read(part, from + (i * block) as u64)?;
+            multiset.add(part, width);
         }
         let after = from + bytes.len() as u64;
         input.soon(after, most.min(self.plan.bytes() - after));
@@ -213,13 +219,11 @@ impl<'a> Maker<'a> {
         run: u64,
         to: &mut Medium<S>,
         mut offset: u64,
-        certificate: &mut Multiset,
         monitor: &Monitor<'_>,
     ) -> Result<(), Error> {
         let (layout, records) = (&self.plan.layout, self.records_of(run));
         let (width, write_block) = (layout.width, self.plan.write_block);
         let bytes = &mut self.records.words_mut()[..records * width];
-        certificate.add(bytes, width);
         if self.plan.in_place > 0 {
             chunk::sort(bytes, layout, self.plan.in_place);
             for block in bytes.chunks(write_block) {

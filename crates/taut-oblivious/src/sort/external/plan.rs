@@ -123,7 +123,7 @@ fn pages_of(width: usize) -> usize {
 }
 
 /// The largest multiple of `width` that is at most `bytes`, but one `width` at least.
-fn whole(bytes: usize, width: usize) -> usize {
+pub(super) fn whole(bytes: usize, width: usize) -> usize {
     (bytes / width).max(1) * width
 }
 
