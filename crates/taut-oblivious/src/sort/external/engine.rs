@@ -27,7 +27,7 @@ pub(super) fn within<I: Store, O: Store + Sync + Send>(
     let mut certificate = Multiset::default();
     let mut maker = Maker::new(plan)?;
     output.reserve(plan.bytes())?;
-    maker.read(0, input, &mut certificate, monitor)?;
+    maker.read(0, input, Some(&mut certificate), monitor)?;
     maker.make(0, output, 0, monitor)?;
     Ok(FileSort {
         certificate,
@@ -62,9 +62,8 @@ pub(super) fn beyond<I: Store, R: Store + Send + Sync, O: Store + Send + Sync>(
     let mut certificate = journal.map_or(Multiset::default(), Journal::certificate);
     monitor.pass(1, plan.records);
     for (i, run) in (0..).zip(&made) {
-        // Those of runs that are done are in the journal's.
-        let mut again = Multiset::default();
-        let multiset = if i < done { &mut again } else { &mut certificate };
+        // The journal's certificate has the records of runs that are done.
+        let multiset = (i >= done).then_some(&mut certificate);
         maker.read(i, input, multiset, monitor)?;
         let Some(journal) = journal else {
             maker.make(i, runs, run.offset, monitor)?;
@@ -190,12 +189,12 @@ impl<'a> Maker<'a> {
         &self.records.words()[..self.records_of(run) * self.plan.layout.width]
     }
 
-    /// Reads run number `run`, and adds its records to a multiset while they are in the cache.
+    /// Reads run number `run`, and adds its records to a multiset, if there is one, while they are in the cache.
     fn read<I: Store>(
         &mut self,
         run: u64,
         input: &mut Medium<I>,
-        multiset: &mut Multiset,
+        mut multiset: Option<&mut Multiset>,
         monitor: &Monitor<'_>,
     ) -> Result<(), Error> {
         let (records, width) = (self.records_of(run), self.plan.layout.width);
@@ -206,7 +205,9 @@ impl<'a> Maker<'a> {
         for (i, part) in bytes.chunks_mut(block).enumerate() {
             monitor.check()?;
             input.read(part, from + (i * block) as u64)?;
-            multiset.add(part, width);
+            if let Some(multiset) = &mut multiset {
+                multiset.add(part, width);
+            }
         }
         let after = from + bytes.len() as u64;
         input.soon(after, most.min(self.plan.bytes() - after));
