@@ -98,7 +98,7 @@ fn measure(context: &Context, sizes: &Sizes) -> Result<Value> {
     let ratio = sort[1].cpu / sort[0].cpu;
     goals.at_least("sort: processor time of extsort over taut's", ratio, (3.0, None));
     goals.aim(
-        "sort: clock at most 1.3 times that of two copies".into(),
+        "sort: clock at most 1.3 times that of the disk for as many bytes".into(),
         times(sort[0].wall / (2.0 * sort[3].wall)),
         sort[0].wall <= 1.3 * 2.0 * sort[3].wall,
     );
@@ -108,7 +108,7 @@ fn measure(context: &Context, sizes: &Sizes) -> Result<Value> {
     Ok(json!({ "rounds": rounds, "goals": goals.json() }))
 }
 
-/// taut, extsort, taut's queue, a copy; each output is judged by taut's certificate, whose checker shares no code with the sort.
+/// taut, extsort, taut's queue, the disk alone, a copy; each output is judged by taut's certificate, whose checker shares no code with the sort.
 fn sort(
     context: &Context,
     sizes: &Sizes,
@@ -119,7 +119,7 @@ fn sort(
     write(from, sizes.records * WIDTH / 8, || draw.word())?;
     let mut certificate = None;
     let judge = |work, cost: &FileCost| -> Result<()> {
-        if work == Work::Copy {
+        if matches!(work, Work::Disk | Work::Copy) {
             return Ok(());
         }
         if let Some((records, [high, low])) = cost.certificate {
@@ -130,7 +130,7 @@ fn sort(
         ensure!(certificate.records == sizes.records as u64, "records are missing");
         Ok(verify(to, &layout(), certificate, &Monitor::silent())?)
     };
-    let works = [Work::Sort, Work::Extsort, Work::Queue, Work::Copy];
+    let works = [Work::Sort, Work::Extsort, Work::Queue, Work::Disk, Work::Copy];
     let file = (sizes.records * WIDTH) as u64;
     by_turns(context, &works, [from, to], (sizes.sort_memory, 1, file, 2.0), judge, table)
 }

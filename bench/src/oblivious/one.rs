@@ -2,10 +2,12 @@
 
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};
+use std::os::unix::fs::{FileExt as _, OpenOptionsExt as _};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, anyhow};
 use extsort::{ExternalSorter, Sortable};
+use rustix::fs::OFlags;
 use serde::{Deserialize, Serialize};
 use taut_oblivious::external::{FileSortOptions, KeyKind, RecordLayout, sort_file};
 use taut_oblivious::{FileMatrix, SpillingQueue, TransposeFileOptions, transpose_file};
@@ -27,6 +29,8 @@ pub(super) enum Work {
     Queue,
     /// Transpose doubles by taut.
     Transpose,
+    /// Read and write as many bytes past the page cache: what the disk allows.
+    Disk,
     /// Copy: what the disk and the page cache allow.
     Copy,
 }
@@ -94,6 +98,7 @@ pub(crate) fn run(arguments: &OneArguments) -> Result<()> {
             let done = transpose_file(from, matrix, to, &[], &options, &monitor)?;
             counted = Some(done.bytes_read + done.bytes_written);
         }
+        Work::Disk => disk(from, to)?,
         Work::Copy => copy(from, to)?,
     }
     let cost = meter.stop();
@@ -173,6 +178,24 @@ fn queue(from: &Path, to: &Path, memory: usize) -> Result<()> {
     }
     output.flush()?;
     Ok(output.get_ref().sync_data()?)
+}
+
+/// Reads and writes past the page cache, by large blocks in turn, but for what is less than a page at the end.
+fn disk(from: &Path, to: &Path) -> Result<()> {
+    const PAGE: usize = 4096;
+    const BLOCK: usize = 8 << 20;
+    let direct = OFlags::DIRECT.bits() as i32;
+    let from = File::options().read(true).custom_flags(direct).open(from)?;
+    let to = File::options().write(true).create(true).custom_flags(direct).open(to)?;
+    let whole = from.metadata()?.len() / PAGE as u64 * PAGE as u64;
+    let mut room = vec![0; BLOCK + PAGE];
+    let first = room.as_ptr().align_offset(PAGE);
+    for at in (0..whole).step_by(BLOCK) {
+        let block = &mut room[first..][..(whole - at).min(BLOCK as u64) as usize];
+        from.read_exact_at(block, at)?;
+        to.write_all_at(block, at)?;
+    }
+    Ok(to.sync_data()?)
 }
 
 /// Reads and writes, a mebibyte at a time, and brings it to the disk.

@@ -17,6 +17,7 @@
 use std::ops::Range;
 
 use crate::probe::Probe;
+use crate::search::prefetch;
 
 /// Bytes of a block: enough for a memory to deliver them at its speed.
 const BLOCK_BYTES: usize = 1 << 10;
@@ -24,6 +25,11 @@ const BLOCK_BYTES: usize = 1 << 10;
 const BLOCK_MIN: usize = 4;
 /// Bytes that are put in their places at once: they stay in the second-level cache.
 const PIECE_BYTES: usize = 1 << 18;
+/// Blocks are asked for when so many others are still to be copied before. They lie apart, each in a page whose address is yet
+/// to be translated: without it, sorting 7.3 million records of 32 bytes took a fifth longer.
+const AHEAD: usize = 4;
+/// A line of memory.
+const LINE: usize = 64;
 /// Instead of the block in a slot.
 const NONE: u32 = u32::MAX;
 
@@ -132,6 +138,19 @@ impl<'a, T: Copy> Dealt<'a, T> {
         copy: &mut Vec<T>,
         probe: &mut P,
     ) -> Option<(usize, Range<usize>)> {
+        let (bucket, range) = self.take_out(most, copy, probe)?;
+        self.clear(range.clone(), probe);
+        Some((bucket, range))
+    }
+
+    /// The same for items that are not to be written back: their place is not cleared of others. After it, [`Self::take`]
+    /// must not be called.
+    pub(crate) fn take_out<P: Probe>(
+        &mut self,
+        most: usize,
+        copy: &mut Vec<T>,
+        probe: &mut P,
+    ) -> Option<(usize, Range<usize>)> {
         while self.bucket < self.ends.len()
             && self.next == self.first[self.bucket + 1]
             && self.ends[self.bucket] == self.bucket * self.block
@@ -146,6 +165,9 @@ impl<'a, T: Copy> Dealt<'a, T> {
         copy.clear();
         for i in self.next..self.next + blocks {
             let slot = self.slots[i];
+            if let Some(&later) = self.slots.get(i + AHEAD) {
+                self.fetch(later);
+            }
             let from = self.slot(slot);
             copy.extend_from_slice(from);
             probe.read(from);
@@ -161,8 +183,22 @@ impl<'a, T: Copy> Dealt<'a, T> {
         }
         let range = self.taken..self.taken + copy.len();
         self.taken = range.end;
-        self.clear(range.clone(), probe);
         Some((bucket, range))
+    }
+
+    /// Items of the bucket of which some are taken next; 0 if none is left.
+    pub(crate) fn next_size(&self) -> usize {
+        (self.bucket..self.ends.len()).map(|bucket| self.size(bucket)).find(|&n| n > 0).unwrap_or(0)
+    }
+
+    /// Items of the largest bucket.
+    pub(crate) fn largest(&self) -> usize {
+        (0..self.ends.len()).map(|bucket| self.size(bucket)).max().unwrap_or(0)
+    }
+
+    /// The items, if all were put in their places.
+    pub(crate) fn into_items(self) -> &'a mut [T] {
+        self.items
     }
 
     /// A part of the items, to be written.
@@ -207,6 +243,14 @@ impl<'a, T: Copy> Dealt<'a, T> {
             probe.write(self.slot(to));
             self.holds[to as usize] = held;
             self.slots[held as usize] = to;
+        }
+    }
+
+    /// Asks for the items in a slot.
+    fn fetch(&self, slot: u32) {
+        let from = self.slot(slot);
+        for at in (0..from.len()).step_by((LINE / size_of::<T>().max(1)).max(1)) {
+            prefetch(from, at);
         }
     }
 

@@ -28,7 +28,7 @@ fn the_limit_holds_for_any_number_of_threads() {
     let mut sorted: Vec<u8> = vec![];
     for (width, memory) in [(32, 16 << 20), (8, 16 << 20), (64, 16 << 20), (32, 64 << 20)] {
         // Nearly as much as fits into the memory, so that all of it is one run.
-        let room = (6 << 20).max(memory / 16);
+        let room = (7 << 20).max(memory / 16);
         let bytes = (memory - room) / 41 * 40 - (64 << 10);
         fs::write(&input, clusters(width, bytes, (bytes >> 21) as u64)).expect("written");
         for threads in [1, 8, 64] {

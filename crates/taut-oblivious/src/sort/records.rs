@@ -13,6 +13,7 @@
 //! misleads does no harm twice.
 //! *Reference.* D. Knuth, *The Art of Computer Programming* 3, 5.2.5 (distribution), 5.2 (address table sorting).
 
+mod parts;
 mod rooms;
 
 use std::ops::Range;
@@ -39,6 +40,7 @@ const SAMPLE: (usize, usize) = (64, 1 << 12);
 /// Buckets of fewer ranks than this are sorted by counting.
 const FEW_RANKS: u64 = 256;
 
+pub(super) use parts::{Parts, bucket_bytes, parts};
 use rooms::Room;
 pub(super) use rooms::{Rooms, room_bytes};
 
@@ -103,9 +105,30 @@ fn divide<T: Copy, P: Probe>(
     room: &mut Room<T>,
     probe: &mut P,
 ) -> Vec<Range<usize>> {
+    match deal(records, rank, look, room, probe) {
+        Deal::Sorted(_) => Vec::new(),
+        Deal::Dealt(mut dealt) => put(&mut dealt, rank, alone, room, probe),
+    }
+}
+
+/// What became of records that were to be dealt.
+enum Deal<'a, T> {
+    /// They are in order.
+    Sorted(&'a mut [T]),
+    Dealt(Dealt<'a, T>),
+}
+
+/// Sorts a part of the records if that is easily done, else deals it into buckets.
+fn deal<'a, T: Copy, P: Probe>(
+    records: &'a mut [T],
+    rank: &impl Fn(&T) -> u64,
+    look: Look,
+    room: &mut Room<T>,
+    probe: &mut P,
+) -> Deal<'a, T> {
     if records.len() <= FEW {
         few(records, rank, probe);
-        return Vec::new();
+        return Deal::Sorted(records);
     }
     probe.read(records);
     if let Some(run) = super::run(records, rank) {
@@ -114,11 +137,11 @@ fn divide<T: Copy, P: Probe>(
             records.reverse();
             probe.write(records);
         }
-        return Vec::new();
+        return Deal::Sorted(records);
     }
     if size_of_val(records) <= LARGE_BYTES {
         unknown(records, rank, room, probe);
-        return Vec::new();
+        return Deal::Sorted(records);
     }
     let sample = if look == Look::Sample { sample(records, rank) } else { Vec::new() };
     let (mut low, mut high) = ends(sample.iter().copied());
@@ -130,10 +153,26 @@ fn divide<T: Copy, P: Probe>(
     if scale.crowds(&sample) {
         scale = Scale::new::<T>(low, high, DEAL_BITS);
     }
-    let most = LARGE_BYTES / size_of::<T>();
+    Deal::Dealt(Dealt::new(records, scale.buckets(), |r| scale.bucket(rank(r)), probe))
+}
+
+/// Most records of a bucket that is not dealt again.
+fn most<T>() -> usize {
+    LARGE_BYTES / size_of::<T>()
+}
+
+/// Puts buckets in their places and, if one thread is `alone` with them, sorts those that are small; what is left to be
+/// sorted.
+fn put<T: Copy, P: Probe>(
+    dealt: &mut Dealt<'_, T>,
+    rank: &impl Fn(&T) -> u64,
+    alone: bool,
+    room: &mut Room<T>,
+    probe: &mut P,
+) -> Vec<Range<usize>> {
+    let most = most::<T>();
     room.copy(most);
     let mut large: Vec<Range<usize>> = vec![];
-    let mut dealt = Dealt::new(records, scale.buckets(), |r| scale.bucket(rank(r)), probe);
     let mut before = None;
     while let Some((bucket, range)) = dealt.take(most, &mut room.copy, probe) {
         let (is_whole, to) = (dealt.size(bucket) <= most, dealt.items(range.clone()));

@@ -1,4 +1,4 @@
-//! The order of the records of one chunk, by one word for each; or in their own place.
+//! The order of the records of one chunk, by one word for each; or by dealing them in their own place.
 //!
 //! *Idea.* A word holds the leading bits of a rank above the lowest one, and the number of the record; the words are
 //! sorted by vectors. Where words agree in these bits, the keys themselves are compared.
@@ -6,27 +6,41 @@
 //! *Trap.* The numbers take the room of trailing bits of ranks: 22 bits of 64 for four million records, so that
 //! ranks closer than that must be looked up.
 
-use super::layout::RecordLayout;
-use crate::probe::NoProbe;
-use crate::sort::{self, records::Rooms};
+use std::ops::Range;
 
-/// Replaces `words`, one for each record, by the numbers of the records in order, in the lower [`number_bits`] bits.
-pub(super) fn order(records: &[u8], layout: &RecordLayout, words: &mut [u64]) {
-    for (word, record) in words.iter_mut().zip(records.chunks_exact(layout.width)) {
-        *word = layout.rank(record);
-    }
+use super::layout::RecordLayout;
+use crate::error::Error;
+use crate::pages::Pages;
+use crate::sort::{
+    self,
+    records::{self, Parts, Rooms, bucket_bytes},
+};
+
+/// Replaces `words`, the ranks of the records whose numbers are in `parts`, by these numbers in order, in their lower bits.
+pub(super) fn order(
+    records: &[u8],
+    parts: &[Range<usize>],
+    layout: &RecordLayout,
+    words: &mut [u64],
+) {
+    let width = layout.width;
     let ends = |(low, high): (u64, u64), &rank: &u64| (low.min(rank), high.max(rank));
     let (low, high) = words.iter().fold((u64::MAX, 0), ends);
-    let number_bits = number_bits(words.len());
-    let span = 64 - high.saturating_sub(low).leading_zeros();
-    let shift = (span + number_bits).saturating_sub(64);
-    for (number, word) in words.iter_mut().enumerate() {
-        *word = (*word - low) >> shift << number_bits | number as u64;
+    let number_bits = number_bits(records, width);
+    let span = u64::BITS - high.saturating_sub(low).leading_zeros();
+    let shift = (span + number_bits).saturating_sub(u64::BITS);
+    let mut rest = &mut *words;
+    for part in parts {
+        let words;
+        (words, rest) = rest.split_at_mut(part.len());
+        for (number, word) in part.clone().zip(words) {
+            *word = (*word - low) >> shift << number_bits | number as u64;
+        }
     }
     sort::sort(words);
     if shift > 0 || layout.is_long() {
         let mask = (1 << number_bits) - 1;
-        let record = |word: u64| &records[(word & mask) as usize * layout.width..][..layout.width];
+        let record = |word: u64| &records[(word & mask) as usize * width..][..width];
         for run in words.chunk_by_mut(|a, b| (a ^ b) >> number_bits == 0) {
             if run.len() > 1 {
                 run.sort_unstable_by(|&a, &b| {
@@ -39,14 +53,14 @@ pub(super) fn order(records: &[u8], layout: &RecordLayout, words: &mut [u64]) {
     }
 }
 
-/// Bits that number so many records.
-fn number_bits(records: usize) -> u32 {
-    usize::BITS - records.saturating_sub(1).leading_zeros()
+/// Bits that number all records.
+fn number_bits(records: &[u8], width: usize) -> u32 {
+    usize::BITS - (records.len() / width).saturating_sub(1).leading_zeros()
 }
 
-/// Copies the records whose numbers are in `words` to the front of `to`; [`order`] was given `all` records.
-pub(super) fn gather(records: &[u8], words: &[u64], all: usize, to: &mut [u8], width: usize) {
-    let mask = (1 << number_bits(all)) - 1;
+/// Copies the records whose numbers are in `words`, from [`order`] for the same records, to the front of `to`.
+pub(super) fn gather(records: &[u8], words: &[u64], to: &mut [u8], width: usize) {
+    let mask = (1 << number_bits(records, width)) - 1;
     match width {
         8 => gather_width::<8>(records, words, mask, to),
         16 => gather_width::<16>(records, words, mask, to),
@@ -71,18 +85,73 @@ pub(super) fn sorts(layout: &RecordLayout) -> bool {
     matches!(layout.width, 8 | 16 | 24 | 32 | 64) && !layout.is_long()
 }
 
-/// Sorts records of which [`sorts`] is true in their own place, on so many threads at most.
-pub(super) fn sort(records: &mut [u8], layout: &RecordLayout, threads: usize) {
-    match layout.width {
-        8 => sort_width::<8>(records, layout, threads),
-        16 => sort_width::<16>(records, layout, threads),
-        24 => sort_width::<24>(records, layout, threads),
-        32 => sort_width::<32>(records, layout, threads),
-        _ => sort_width::<64>(records, layout, threads),
+/// Where sorted records wait until they are written: while one of two places is written, the other one is filled.
+pub(super) struct Stage {
+    places: [Pages<u8>; 2],
+    /// What is written is a multiple of so many bytes, but for the end.
+    unit: usize,
+    /// Once a place holds so many bytes, it is written.
+    enough: usize,
+}
+
+impl Stage {
+    /// Empty places, which take [`stage_bytes`] each.
+    pub(super) fn new(unit: usize, enough: usize) -> Result<Self, Error> {
+        let place = || Pages::try_zeroed(stage_bytes(unit));
+        Ok(Self { places: [place()?, place()?], unit, enough })
     }
 }
 
-fn sort_width<const W: usize>(records: &mut [u8], layout: &RecordLayout, threads: usize) {
+/// A place has room for a bucket behind what is left over of a unit.
+pub(super) fn stage_bytes(unit: usize) -> usize {
+    bucket_bytes() + unit
+}
+
+/// Sorts records of which [`sorts`] is true, on so many threads at most, and hands them to `write` in order, part by part.
+pub(super) fn sort<E: Send>(
+    records: &mut [u8],
+    layout: &RecordLayout,
+    threads: usize,
+    stage: &mut Stage,
+    write: impl FnMut(&[u8]) -> Result<(), E> + Send,
+) -> Result<(), E> {
+    match layout.width {
+        8 => sort_width::<8, E>(records, layout, threads, stage, write),
+        16 => sort_width::<16, E>(records, layout, threads, stage, write),
+        24 => sort_width::<24, E>(records, layout, threads, stage, write),
+        32 => sort_width::<32, E>(records, layout, threads, stage, write),
+        _ => sort_width::<64, E>(records, layout, threads, stage, write),
+    }
+}
+
+fn sort_width<const W: usize, E: Send>(
+    records: &mut [u8],
+    layout: &RecordLayout,
+    threads: usize,
+    stage: &mut Stage,
+    mut write: impl FnMut(&[u8]) -> Result<(), E> + Send,
+) -> Result<(), E> {
     let (records, rooms) = (records.as_chunks_mut::<W>().0, Rooms::most(threads));
-    sort::records::sort(records, &|record: &[u8; W]| layout.rank(record), &rooms, &mut NoProbe);
+    let rank = |record: &[u8; W]| layout.rank(record);
+    let mut buckets = match records::parts(records, &rank, &rooms) {
+        Parts::Whole(records) => return write(records.as_flattened()),
+        Parts::Buckets(buckets) => buckets,
+    };
+    let Stage { places: [full, next], unit, enough } = stage;
+    // Bytes of the full place to be written, and those that wait in the next one.
+    let (mut filled, mut waiting) = (0, 0);
+    loop {
+        let to = next.words_mut()[waiting..].as_chunks_mut::<W>().0;
+        let fill = || buckets.next(to, *enough / W, &rank, &rooms);
+        let (put, more) = rayon::join(|| write(&full.words()[..filled]), fill);
+        put?;
+        let end = waiting + more * W;
+        if more == 0 {
+            return write(&next.words()[..end]);
+        }
+        filled = end - end % *unit;
+        waiting = end - filled;
+        full.words_mut()[..waiting].copy_from_slice(&next.words()[filled..end]);
+        std::mem::swap(full, next);
+    }
 }

@@ -2,7 +2,7 @@
 
 use taut_points::Monitor;
 
-use super::chunk;
+use super::chunk::{self, Stage};
 use super::digest;
 use super::journal::Journal;
 use super::medium::Medium;
@@ -160,22 +160,28 @@ impl<'a> Merging<'a> {
 struct Maker<'a> {
     plan: &'a Plan,
     records: Pages<u8>,
-    /// Empty if records are sorted in their own place, as the blocks are.
-    words: Pages<u64>,
-    /// One block is filled while the other is written.
-    blocks: [Pages<u8>; 2],
+    room: Room,
+}
+
+/// What sorting takes beside the records.
+enum Room {
+    /// Where they are dealt in their own place.
+    Stage(Stage),
+    /// A word for each, and two blocks: one is filled while the other is written.
+    Words { words: Pages<u64>, blocks: [Pages<u8>; 2] },
 }
 
 impl<'a> Maker<'a> {
     fn new(plan: &'a Plan) -> Result<Self, Error> {
         let most = plan.records.min(plan.chunk as u64) as usize;
-        let (words, block) = if plan.in_place > 0 { (0, 0) } else { (most, plan.write_block) };
-        Ok(Self {
-            plan,
-            records: Pages::try_zeroed(most * plan.layout.width)?,
-            words: Pages::try_zeroed(words)?,
-            blocks: [Pages::try_zeroed(block)?, Pages::try_zeroed(block)?],
-        })
+        let records = Pages::try_zeroed(most * plan.layout.width)?;
+        let room = if plan.in_place > 0 {
+            Room::Stage(Stage::new(plan.unit, plan.write_block / 2)?)
+        } else {
+            let block = || Pages::try_zeroed(plan.write_block);
+            Room::Words { words: Pages::try_zeroed(most)?, blocks: [block()?, block()?] }
+        };
+        Ok(Self { plan, records, room })
     }
 
     /// Records of run number `run`.
@@ -225,24 +231,28 @@ impl<'a> Maker<'a> {
         let (layout, records) = (&self.plan.layout, self.records_of(run));
         let (width, write_block) = (layout.width, self.plan.write_block);
         let bytes = &mut self.records.words_mut()[..records * width];
-        if self.plan.in_place > 0 {
-            chunk::sort(bytes, layout, self.plan.in_place);
-            for block in bytes.chunks(write_block) {
-                monitor.check()?;
-                to.write(block, offset)?;
-                offset += block.len() as u64;
-                monitor.points((block.len() / width) as u64);
+        let (words, [full, next]) = match &mut self.room {
+            Room::Words { words, blocks } => (&mut words.words_mut()[..records], blocks),
+            Room::Stage(stage) => {
+                let put = |part: &[u8]| {
+                    for block in part.chunks(write_block) {
+                        monitor.check()?;
+                        to.write(block, offset)?;
+                        offset += block.len() as u64;
+                        monitor.points((block.len() / width) as u64);
+                    }
+                    Ok(())
+                };
+                return chunk::sort(bytes, layout, self.plan.in_place, stage, put);
             }
-            return Ok(());
-        }
-        let words = &mut self.words.words_mut()[..records];
-        chunk::order(bytes, layout, words);
-        let [full, next] = &mut self.blocks;
+        };
+        layout.ranks(bytes, words);
+        chunk::order(bytes, std::slice::from_ref(&(0..records)), layout, words);
         let mut filled = 0;
         for words in words.chunks(write_block / width) {
             monitor.check()?;
             let block = &mut next.words_mut()[..words.len() * width];
-            let fill = || chunk::gather(bytes, words, records, block, width);
+            let fill = || chunk::gather(bytes, words, block, width);
             let (put, ()) = rayon::join(|| to.write(&full.words()[..filled], offset), fill);
             put?;
             offset += filled as u64;

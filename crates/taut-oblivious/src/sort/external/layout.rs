@@ -64,6 +64,21 @@ impl RecordLayout {
         u64::from_be_bytes(word)
     }
 
+    /// The ranks of some records, one for each word.
+    pub(super) fn ranks(&self, records: &[u8], words: &mut [u64]) {
+        let (start, width) = (self.key.start, self.width);
+        // The kind of the key is looked at once, not for each record.
+        if self.key.len() == 8 && self.kind == KeyKind::U64 {
+            for (word, record) in words.iter_mut().zip(records.chunks_exact(width)) {
+                *word = u64::from_le_bytes(record[start..].as_chunks().0[0]);
+            }
+            return;
+        }
+        for (word, record) in words.iter_mut().zip(records.chunks_exact(width)) {
+            *word = self.rank(record);
+        }
+    }
+
     /// Whether ranks may be equal where keys are not.
     pub(super) fn is_long(&self) -> bool {
         self.key.len() > 8

@@ -1,10 +1,11 @@
 //! Merging runs by sorting what is next in them.
 //!
 //! *Idea.* Of each run the next records stand in a window of its block. The smallest of the last keys of all windows is a
-//! bound: no run has a record below it that is not in a window. The records up to the bound are collected and sorted by
-//! the vector kernels, as in [`super::chunk`], and the windows move on.
-//! *Guarantee.* Stable. One block of memory for each run, and what is collected, which is no more than all windows. The
-//! window whose last key is the bound is used up, so each step has one run at least move by a window. A record that comes
+//! bound: no run has a record below it that is not in a window. The records up to the bound are represented by a word each,
+//! with their places in the blocks; the words are sorted by the vector kernels, as in [`super::chunk`], and the windows
+//! move on.
+//! *Guarantee.* Stable: the blocks stand in the order of the runs, so places are in the order of equal records. One block of
+//! memory for each run, and a word for each record of the windows. The window whose last key is the bound is used up, so each step has one run at least move by a window. A record that comes
 //! before the one it follows in its run is an error.
 //! *Trap.* Keys equal to the bound: more of them may follow behind the window that ends with it. So records of later runs
 //! must be below the bound, those of this run and of earlier ones up to it.
@@ -13,6 +14,7 @@
 //! which waits for the one before: 20 ns for 16 runs, where collecting and sorting takes 13 for any number of runs.
 
 use std::cmp::Ordering;
+use std::ops::Range;
 
 use super::chunk;
 use super::layout::RecordLayout;
@@ -28,7 +30,7 @@ struct Input {
     offset: u64,
     /// What is left in the file.
     left: Run,
-    /// What is left in its block.
+    /// What is left in its block, in bytes of all blocks.
     at: usize,
     end: usize,
     /// Whether the last record that was collected is in `Merge::last`.
@@ -45,10 +47,10 @@ pub(super) struct Merge<'a> {
     window: usize,
     /// The last record that was collected of each run.
     last: Vec<u8>,
-    /// Records that were collected, and a word for each, in order.
-    batch: Pages<u8>,
+    /// Which records were collected, by numbers in all blocks, and a word for each, in order.
+    parts: Vec<Range<usize>>,
     words: Pages<u64>,
-    /// Records in the batch, and those of them that were taken.
+    /// Records that were collected, and those of them that were taken.
     collected: usize,
     taken: usize,
 }
@@ -67,7 +69,7 @@ impl<'a> Merge<'a> {
             block,
             window: window * width,
             last: vec![0; runs.len() * width],
-            batch: Pages::try_zeroed(records * width)?,
+            parts: Vec::with_capacity(runs.len()),
             words: Pages::try_zeroed(records)?,
             collected: 0,
             taken: 0,
@@ -91,8 +93,7 @@ impl<'a> Merge<'a> {
             let room = (to.len() - filled) / width;
             let words = &self.words.words()[self.taken..self.collected];
             let words = &words[..words.len().min(room)];
-            let batch = &self.batch.words()[..self.collected * width];
-            chunk::gather(batch, words, self.collected, &mut to[filled..], width);
+            chunk::gather(self.blocks.words(), words, &mut to[filled..], width);
             self.taken += words.len();
             filled += words.len() * width;
         }
@@ -120,7 +121,7 @@ impl<'a> Merge<'a> {
             }
         }
         let Some((first, bound)) = bound else { return Ok(()) };
-        let batch = self.batch.words_mut();
+        self.parts.clear();
         for (run, input) in self.inputs.iter_mut().enumerate() {
             let window = window(input);
             let is_next = |record: &[u8]| match compare(layout, record, bound) {
@@ -133,20 +134,23 @@ impl<'a> Merge<'a> {
                 continue;
             }
             let part = &window[..records * width];
+            let words = &mut self.words.words_mut()[self.collected..][..records];
+            layout.ranks(part, words);
             let last = &mut self.last[run * width..][..width];
             let falls = input.begun && compare(layout, last, &part[..width]).is_gt();
-            if falls || !is_in_order(layout, part) {
+            if falls || !is_in_order(layout, part, words) {
                 let path = source.path().to_owned();
                 return Err(Error::UnsortedRun { path, offset: input.offset });
             }
             last.copy_from_slice(&part[part.len() - width..]);
-            batch[self.collected * width..][..part.len()].copy_from_slice(part);
+            let number = input.at / width;
+            self.parts.push(number..number + records);
             input.begun = true;
             input.at += part.len();
             self.collected += records;
         }
         let words = &mut self.words.words_mut()[..self.collected];
-        chunk::order(&batch[..self.collected * width], layout, words);
+        chunk::order(blocks, &self.parts, layout, words);
         Ok(())
     }
 
@@ -189,13 +193,11 @@ fn partition(records: &[u8], width: usize, holds: impl Fn(&[u8]) -> bool) -> usi
     low
 }
 
-/// Whether no record comes before the one before it.
-fn is_in_order(layout: &RecordLayout, records: &[u8]) -> bool {
-    let width = layout.width;
-    let (front, back) = (&records[..records.len() - width], &records[width..]);
-    let pairs = || front.chunks_exact(width).zip(back.chunks_exact(width));
-    if layout.is_long() {
-        return pairs().all(|(a, b)| compare(layout, a, b).is_le());
-    }
-    pairs().fold(true, |holds, (a, b)| holds & (layout.rank(a) <= layout.rank(b)))
+/// Whether no record comes before the one before it; `ranks` are theirs.
+fn is_in_order(layout: &RecordLayout, records: &[u8], ranks: &[u64]) -> bool {
+    let pairs = ranks.iter().zip(&ranks[1..]);
+    let rise = pairs.fold(true, |holds, (a, b)| holds & (a <= b));
+    let (front, back) = (&records[..records.len() - layout.width], &records[layout.width..]);
+    let mut pairs = front.chunks_exact(layout.width).zip(back.chunks_exact(layout.width));
+    rise && (!layout.is_long() || pairs.all(|(a, b)| compare(layout, a, b).is_le()))
 }

@@ -1,5 +1,6 @@
 //! On files, on disks that fail, and against the checker, which is shown doctored files first.
 
+mod dealt;
 mod disk;
 mod faults;
 mod hash;
