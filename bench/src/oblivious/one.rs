@@ -29,7 +29,7 @@ pub(super) enum Work {
     Queue,
     /// Transpose doubles by taut.
     Transpose,
-    /// Read and write as many bytes past the page cache: what the disk allows.
+    /// Read and write as many bytes in turn past the page cache: what the disk allows who does one thing at a time.
     Disk,
     /// Copy: what the disk and the page cache allow.
     Copy,

@@ -8,7 +8,7 @@ use counting::peak;
 use taut_oblivious::external::{FileSortOptions, KeyKind, RecordLayout, sort_file};
 use taut_points::Monitor;
 
-/// Records in clusters, of which each is dealt again, on all threads at once.
+/// Records in clusters, of which each is dealt again, on all threads at once; with 2¹⁶ of them, keys spread.
 fn clusters(width: usize, bytes: usize, clusters: u64) -> Vec<u8> {
     let mut records = vec![0; bytes / width * width];
     let mut state = 1u64;
@@ -30,21 +30,26 @@ fn the_limit_holds_for_any_number_of_threads() {
         // Nearly as much as fits into the memory, so that all of it is one run.
         let room = (7 << 20).max(memory / 16);
         let bytes = (memory - room) / 41 * 40 - (64 << 10);
-        fs::write(&input, clusters(width, bytes, (bytes >> 21) as u64)).expect("written");
-        for threads in [1, 8, 64] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-            let layout = RecordLayout { width, key: 0..8, kind: KeyKind::U64 };
-            let options = FileSortOptions { memory, ..Default::default() };
-            let sort = || sort_file(&input, &output, &layout, &options, &Monitor::silent());
-            let pool = pool.expect("a pool");
-            let (found, peak) = peak(|| pool.install(sort));
-            assert_eq!(found.expect("sorted").runs, 1);
-            // The records lie in pages of their own, which the allocator does not see.
-            let peak = peak + bytes;
-            assert!(peak <= memory, "{width} bytes, {threads} threads: {peak} of {memory} bytes");
-            let found = fs::read(&output).expect("an output");
-            assert!(threads == 1 || found == sorted, "{width} bytes, {threads} threads");
-            sorted = found;
+        for groups in [(bytes >> 21) as u64, 1 << 16] {
+            fs::write(&input, clusters(width, bytes, groups)).expect("written");
+            for threads in [1, 2, 64] {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+                let layout = RecordLayout { width, key: 0..8, kind: KeyKind::U64 };
+                let options = FileSortOptions { memory, ..Default::default() };
+                let sort = || sort_file(&input, &output, &layout, &options, &Monitor::silent());
+                let pool = pool.expect("a pool");
+                let (found, peak) = peak(|| pool.install(sort));
+                assert_eq!(found.expect("sorted").runs, 1);
+                // The records lie in pages of their own, which the allocator does not see.
+                let peak = peak + bytes;
+                assert!(
+                    peak <= memory,
+                    "{width} bytes, {threads} threads: {peak} of {memory} bytes"
+                );
+                let found = fs::read(&output).expect("an output");
+                assert!(threads == 1 || found == sorted, "{width} bytes, {threads} threads");
+                sorted = found;
+            }
         }
     }
 }

@@ -12,7 +12,8 @@
 //! [`verify`] shares no code with the sort.
 //! *Trap.* Waiting for the disk and sorting in turn wastes both: a block is written while the next one is filled, and the
 //! next blocks are asked for before they are needed.
-//! *Trap.* Memory that is allowed need not be taken: runs are no longer than it takes for their merge to need as much memory.
+//! *Trap.* Memory that is allowed need not be taken: where the file does not fit, runs are made as long as lets their merge
+//! need as much memory as they did.
 //! *Trap.* A limit on memory counts everything: the numbers of the records, the block that is being written.
 //! *References.* D. Knuth, *The Art of Computer Programming* 3, 5.4.1 (multiway merging), 5.4.9;
 //! A. Aggarwal, J. Vitter, *The input/output complexity of sorting*, CACM 31(9), 1988; D. Clarke et al., *Incremental

@@ -1,8 +1,8 @@
-//! The order of the records of one chunk, by one word for each; or by dealing them in their own place.
+//! The order of records in memory, by one word for each; or by dealing them in their own place.
 //!
 //! *Idea.* A word holds the leading bits of a rank above the lowest one, and the number of the record; the words are
 //! sorted by vectors. Where words agree in these bits, the keys themselves are compared.
-//! *Guarantee.* Stable. Eight bytes beside each record, and nothing else.
+//! *Guarantee.* Stable. [`order`] takes eight bytes beside each record, and nothing else.
 //! *Trap.* The numbers take the room of trailing bits of ranks: 22 bits of 64 for four million records, so that
 //! ranks closer than that must be looked up.
 
@@ -95,10 +95,14 @@ pub(super) struct Stage {
 }
 
 impl Stage {
-    /// Empty places, which take [`stage_bytes`] each.
-    pub(super) fn new(unit: usize, enough: usize) -> Result<Self, Error> {
-        let place = || Pages::try_zeroed(stage_bytes(unit));
-        Ok(Self { places: [place()?, place()?], unit, enough })
+    /// Empty places for some bytes of records, of at most [`stage_bytes`] each: none where there is but one bucket.
+    ///
+    /// Half a block of what is written is `enough`: that is a bucket of the usual size, which is in the cache, and two of them
+    /// would push each other out.
+    pub(super) fn new(bytes: usize, unit: usize, write_block: usize) -> Result<Self, Error> {
+        let size = if bytes > bucket_bytes() { stage_bytes(unit) } else { 0 };
+        let place = || Pages::try_zeroed(size);
+        Ok(Self { places: [place()?, place()?], unit, enough: write_block / 2 })
     }
 }
 

@@ -160,11 +160,11 @@ impl<'a> Merging<'a> {
 struct Maker<'a> {
     plan: &'a Plan,
     records: Pages<u8>,
-    room: Room,
+    beside: Beside,
 }
 
 /// What sorting takes beside the records.
-enum Room {
+enum Beside {
     /// Where they are dealt in their own place.
     Stage(Stage),
     /// A word for each, and two blocks: one is filled while the other is written.
@@ -175,13 +175,13 @@ impl<'a> Maker<'a> {
     fn new(plan: &'a Plan) -> Result<Self, Error> {
         let most = plan.records.min(plan.chunk as u64) as usize;
         let records = Pages::try_zeroed(most * plan.layout.width)?;
-        let room = if plan.in_place > 0 {
-            Room::Stage(Stage::new(plan.unit, plan.write_block / 2)?)
+        let beside = if plan.in_place > 0 {
+            Beside::Stage(Stage::new(most * plan.layout.width, plan.unit, plan.write_block)?)
         } else {
             let block = || Pages::try_zeroed(plan.write_block);
-            Room::Words { words: Pages::try_zeroed(most)?, blocks: [block()?, block()?] }
+            Beside::Words { words: Pages::try_zeroed(most)?, blocks: [block()?, block()?] }
         };
-        Ok(Self { plan, records, room })
+        Ok(Self { plan, records, beside })
     }
 
     /// Records of run number `run`.
@@ -231,9 +231,9 @@ impl<'a> Maker<'a> {
         let (layout, records) = (&self.plan.layout, self.records_of(run));
         let (width, write_block) = (layout.width, self.plan.write_block);
         let bytes = &mut self.records.words_mut()[..records * width];
-        let (words, [full, next]) = match &mut self.room {
-            Room::Words { words, blocks } => (&mut words.words_mut()[..records], blocks),
-            Room::Stage(stage) => {
+        let (words, [full, next]) = match &mut self.beside {
+            Beside::Words { words, blocks } => (&mut words.words_mut()[..records], blocks),
+            Beside::Stage(stage) => {
                 let put = |part: &[u8]| {
                     for block in part.chunks(write_block) {
                         monitor.check()?;

@@ -93,7 +93,7 @@ impl Journal {
         Error::Option {
             name: "resume",
             value: path.to_owned(),
-            expected: "a file of the same sort (the input as it was, layout and memory), or a new one to begin again",
+            expected: "a file of the same sort (the input as it was, layout, length of runs), or a new one to begin again",
         }
     }
 

@@ -4,9 +4,10 @@
 //! bound: no run has a record below it that is not in a window. The records up to the bound are represented by a word each,
 //! with their places in the blocks; the words are sorted by the vector kernels, as in [`super::chunk`], and the windows
 //! move on.
-//! *Guarantee.* Stable: the blocks stand in the order of the runs, so places are in the order of equal records. One block of
-//! memory for each run, and a word for each record of the windows. The window whose last key is the bound is used up, so each step has one run at least move by a window. A record that comes
-//! before the one it follows in its run is an error.
+//! *Guarantee.* Stable: the blocks stand in the order of the runs, so places are in the order of equal records. One
+//! block of memory for each run, and a word for each record of the windows. The window whose last key is the bound is
+//! used up, so each step has one run at least move by a window. A record that comes before the one it follows in its
+//! run is an error.
 //! *Trap.* Keys equal to the bound: more of them may follow behind the window that ends with it. So records of later runs
 //! must be below the bound, those of this run and of earlier ones up to it.
 //! *Trap.* Runs may have been written by another process, and their multiset says nothing of their order.

@@ -1,10 +1,11 @@
 //! Sorted records that are handed on from the front to the back, and need not come back to their own place.
 //!
 //! *Problem.* Who writes sorted records to a file has no use for them in memory. To bring them back, blocks of later
-//! buckets are moved out of the way first: two moves of each record more.
+//! buckets are moved out of the way first, about one move of each record more, and all are written once more.
 //! *Idea.* The records are dealt as always; then buckets are copied out in turn and gathered where the caller wants them.
 //! *Guarantee.* The order is that of [`super::sort`]. Where a bucket is too large for that, the records are sorted in their
 //! own place.
+//! *Trap.* One thread gathers while another one writes. More than two are better used by sorting in place, all buckets at once.
 
 use rayon::prelude::*;
 
@@ -28,11 +29,12 @@ pub(in crate::sort) fn parts<'a, T: Copy + Send + Sync>(
     rank: &(impl Fn(&T) -> u64 + Sync),
     rooms: &Rooms<T>,
 ) -> Parts<'a, T> {
-    let is_alone = rayon::current_num_threads() == 1;
+    let threads = rayon::current_num_threads();
+    let is_alone = threads == 1;
     let (mut parts, large) =
         rooms.within(|room| match super::deal(records, rank, Look::Sample, room, &mut NoProbe) {
             Deal::Sorted(records) => (Parts::Whole(records), Vec::new()),
-            Deal::Dealt(dealt) if dealt.largest() <= most::<T>() => {
+            Deal::Dealt(dealt) if threads <= 2 && dealt.largest() <= most::<T>() => {
                 (Parts::Buckets(Buckets(dealt)), Vec::new())
             }
             Deal::Dealt(mut dealt) => {
@@ -56,7 +58,7 @@ pub(in crate::sort) fn parts<'a, T: Copy + Send + Sync>(
 
 impl<T: Copy> Buckets<'_, T> {
     /// Writes the records of the next buckets in order to the front of `to`, until it holds `enough` or has no room for
-    /// another bucket; their number. If it has room for [`bucket_bytes`], that is 0 at the end only.
+    /// another bucket; their number. If it has room for [`bucket_bytes`] and `enough` is not 0, that is 0 at the end only.
     pub(in crate::sort) fn next(
         &mut self,
         to: &mut [T],
