@@ -109,7 +109,8 @@ fn measure(context: &Context, sizes: &Sizes) -> Result<Value> {
     Ok(json!({ "rounds": rounds, "goals": goals.json() }))
 }
 
-/// taut, extsort, taut's queue, the disk alone, a copy; each output is judged by taut's certificate, whose checker shares no code with the sort.
+/// taut, extsort, taut's queue, the disk alone, a copy; each sorted output is judged by taut's certificate, whose checker
+/// shares no code with the sort. The disk alone needs a file system that can pass the cache.
 fn sort(
     context: &Context,
     sizes: &Sizes,

@@ -6,9 +6,9 @@
 //! items have already been read. Then buckets are taken one by one, in order: the blocks of a bucket are copied out,
 //! which frees their places; blocks of others that lie where the bucket belongs move to places that are free; the bucket
 //! is written, in whatever order its owner wants.
-//! *Guarantee.* Each item is moved four times: to its block, to the front, to the copy, and from there to its place; and about
-//! once more out of the way of others. Room for a block a bucket, a block to spare, and four numbers of 32 bits for each block of the array. A block has
-//! more than half a KiB, and at least four items however wide they are.
+//! *Guarantee.* Each item is moved four times: to its block, to the front, to the copy, and from there to its place;
+//! and about once more out of the way of others. Room for a block a bucket, a block to spare, and four numbers of 32
+//! bits for each block of the array. A block has more than half a KiB, and at least four items however wide they are.
 //! *Trap.* Buckets do not start where blocks do. Behind a place e of n items there are ⌊n/b⌋ − ⌈e/b⌉ whole blocks, and
 //! the n − e items that belong there fill at most one block more: that is the block to spare.
 //! *Reference.* M. Axtmann, S. Witt, D. Ferizovic, P. Sanders, *In-place parallel super scalar samplesort*, ESA 2017
