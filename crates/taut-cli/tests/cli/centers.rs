@@ -70,10 +70,10 @@ fn answers_are_verified_and_lies_rejected() {
     desk.taut("centers towns.csv -k 2 --epsilon 1e-6 -o centers.json").ends(0);
     desk.taut("verify centers.json towns.csv --epsilon 1e-6").ends(0).says(&[
         "Verified within a gap of ",
-        ": centres, k = 2, of radius 1",
-        "\n  of        6 points in 2 dimensions\n",
-        "\n  centres   2, anywhere; of at most 2\n",
-        "\n  left out  none\n",
+        ": centres, k = 2, anywhere, of radius 1",
+        ", around 6 points in 2 dimensions\n",
+        "\n  centres   2, anywhere; proved: of at most 2\n",
+        "\n  left out  none; proved\n",
         " ≤ least radius ≤ ",
         "\n  nodes ",
     ]);

@@ -44,7 +44,7 @@ fn the_summary_names_every_number() {
         "\n  curves    5; 5 closed, 0 open\n",
         "\n  vertices  490; each is a point of the input\n",
         "\n  band      0; no point is farther from the curves\n",
-        "\n  certified yes; sampled at ε ≤ 0.",
+        "\n  certified yes; evidence: sampled at ε ≤ 0.",
         "\n  verified  yes; no two edges meet, and the band holds\n",
         "\n  method    hnn-crust\n",
         "s; reading ",
@@ -87,10 +87,10 @@ fn answers_are_verified_and_lies_rejected() {
     let desk = desk();
     desk.taut("curve islands.csv --method nn-crust -o curve.json").ends(0);
     desk.taut("verify curve.json islands.csv").ends(0).says(&[
-        "Verified: 5 curves\n",
-        "\n  band      0; no point but outliers is farther off\n",
-        "\n  simple    yes; no two edges meet, by exact predicates\n",
-        "\n  certified yes; sampled at ε ≤ 0.",
+        "Verified: 5 curves through ",
+        "\n  band      0; proved: no point but outliers is farther off\n",
+        "\n  simple    yes; proved: no two edges meet, by exact predicates\n",
+        "\n  certified yes; evidence: sampled at ε ≤ 0.",
     ]);
     let sound = document(&desk.text("curve.json"));
     let lie = |change: &dyn Fn(&mut Value)| {
@@ -136,9 +136,11 @@ fn what_is_not_certified_says_why() {
     for ends in ["", " --open"] {
         desk.taut(&format!("curve half.csv --method nn-crust{ends} -o half.json")).ends(0).says(&[
             "\n  curves    1; open\n",
-            "\n  certified no; curve 0 has ends, which may be those of a gap\n",
+            "\n  certified no; evidence: curve 0 has ends, which may be those of a gap\n",
         ]);
-        desk.taut("verify half.json half.csv").ends(0).says(&["certified no; curve 0 has ends"]);
+        desk.taut("verify half.json half.csv")
+            .ends(0)
+            .says(&["certified no; evidence: curve 0 has ends"]);
     }
 }
 
@@ -333,7 +335,7 @@ fn the_sample_has_four_curves() {
         "\n  curves    4; 3 closed, 1 open\n",
         "half the width of its band, as estimated\n",
     ]);
-    desk.taut("verify loops.json loops.csv").ends(0).says(&["Verified: 4 curves\n"]);
+    desk.taut("verify loops.json loops.csv").ends(0).says(&["Verified: 4 curves through "]);
     desk.taut("curve loops.csv -o loops.geojson").ends(0);
     let found = document(&desk.text("loops.geojson"));
     let kinds: Vec<(&str, usize)> = found["features"]

@@ -46,8 +46,8 @@ fn the_json_has_the_names_at_the_door() {
     assert_eq!(desk.text("mesh.json"), run.out);
     assert_eq!(desk.taut("delaunay points.csv -o -").ends(0).out, run.out);
     desk.taut("verify mesh.json points.csv").ends(0).says(&[
-        "Verified: the Delaunay triangulation of the points, in the plane\n",
-        "\n  sites     5; distinct points\n",
+        "Verified: the Delaunay triangulation of 6 points in the plane\n",
+        "\n  sites     5; proved: distinct points\n",
     ]);
     desk.taut("delaunay points.csv -o short.json --no-neighbors").ends(0);
     assert!(desk.bytes("short.json").len() < desk.bytes("mesh.json").len());
@@ -65,7 +65,7 @@ fn every_format_of_meshes_is_written_and_verified() {
             desk.taut(&format!("delaunay points.csv -o mesh.{name}")).ends(0);
             desk.taut(&format!("verify mesh.{name} points.csv"))
                 .ends(0)
-                .says(&["Verified", "5; distinct"]);
+                .says(&["Verified", "5; proved: distinct"]);
         }
     }
     for name in ["ply", "vtu", "parquet"] {
@@ -149,7 +149,7 @@ fn flat_points_are_an_answer() {
         ),
         ("0,0,0\n1,1,1\n", 2, ["simplices 1 edge\n", "dimension 1; all points are on a line\n"]),
     ] {
-        let sites = format!("\n  sites     {sites}; distinct points\n");
+        let sites = format!("\n  sites     {sites}; proved: distinct points\n");
         desk.put("flat.csv", points);
         desk.taut("delaunay flat.csv -o flat.json --draw flat.svg")
             .ends(0)

@@ -28,7 +28,7 @@ fn is_verified(desk: &Desk, points: &str, sites: &str) {
     let distinct = sites.split(';').next().unwrap();
     desk.taut(&format!("verify mesh.ply {points}"))
         .ends(0)
-        .says(&["Verified", &format!("\n  sites     {distinct}; distinct points\n")]);
+        .says(&["Verified", &format!("\n  sites     {distinct}; proved: distinct points\n")]);
 }
 
 #[test]

@@ -43,9 +43,10 @@ fn outliers_are_named_and_all_is_verified() {
         assert_eq!(found["kind"], "robust-ellipsoid");
         assert_eq!(found["answer"]["flagged"], serde_json::json!([25, 26, 27, 28, 29, 30]));
         desk.taut("verify robust.json points.csv").ends(0).says(&[
-            "Verified: robust ellipsoid by ",
-            "of 31 points",
-            "\n  outliers  6;",
+            "Verified",
+            ": robust ellipsoid by ",
+            "of 31 points in 2 dimensions\n",
+            " 6; proved: exactly the points outside",
         ]);
         desk.put("other.csv", grid().replacen("0,0\n", "0,0.5\n", 1));
         desk.taut("verify robust.json other.csv").ends(1).says(&["Rejected: other.csv"]);

@@ -88,9 +88,9 @@ fn answers_are_verified_and_lies_rejected() {
     let desk = desk();
     desk.taut("surface torus.csv -o surface.json").ends(0);
     desk.taut("verify surface.json torus.csv").ends(0).says(&[
-        "Verified: a closed surface with 1 handle\n",
-        "yes; it meets itself nowhere\n",
-        "yes; each triangle has an empty ball\n",
+        "Verified: a closed surface with 1 handle through ",
+        "yes; proved: it meets itself nowhere\n",
+        "yes; proved: each triangle has an empty ball\n",
     ]);
     let sound = document(&desk.text("surface.json"));
     let lie = |change: &dyn Fn(&mut Value)| {
@@ -198,4 +198,28 @@ fn bad_input_is_named_and_leaves_files_as_they_were() {
     desk.taut("surface torus.csv --method thesis --epsilon 1").ends(2).complains(&["epsilon", "1"]);
     desk.taut("surface torus.csv --method alpha --alpha -1").ends(2).complains(&["alpha", "-1"]);
     desk.taut("surface missing.csv").ends(2).complains(&["missing.csv"]);
+}
+
+/// Rows that are left out as outliers are no part of what is certified, and the verdict says how many they are.
+#[test]
+fn a_verdict_names_the_share_of_rows_left_out() {
+    let desk = Desk::new();
+    let (one, two) = (torus([0.0; 3], 40), torus([9.0, 0.0, 0.0], 40));
+    desk.put("one.csv", csv(&one));
+    desk.taut("surface one.csv -o surface.json").ends(0);
+    let both: Vec<[f64; 3]> = one.iter().chain(&two).copied().collect();
+    desk.put("both.csv", csv(&both));
+    desk.taut("surface both.csv -o both.json").ends(0);
+    // The second half is left out: the surface is that of the first, the hash that of both.
+    let mut forged = document(&desk.text("surface.json"));
+    let outliers: Vec<u64> = (800..1600).collect();
+    forged["answer"]["unused"]["outliers"] = serde_json::json!(outliers);
+    forged["certificate"]["points_hash"] =
+        document(&desk.text("both.json"))["certificate"]["points_hash"].clone();
+    desk.put("forged.json", forged.to_string());
+    desk.taut("verify forged.json both.csv").ends(0).says(&[
+        "through 800 of 1,600 points in space; 800 (50 %) left out as outliers\n",
+        "800 (50 %); proved: left out: nothing is claimed of them\n",
+        "yes, of 800 of 1,600 points; proved: ",
+    ]);
 }

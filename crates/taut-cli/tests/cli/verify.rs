@@ -24,9 +24,11 @@ fn a_true_answer_is_proved_with_its_bracket() {
     let run = desk.taut("verify ball.json points.csv").ends(0).says(&[
         "Verified within a gap of ",
         ": ball of radius 1.41421356",
+        " points in 2 dimensions\n",
         "\n  bracket   1.41421356",
         " ≤ smallest radius ≤ 1.41421356",
         "\n  gap       ",
+        "; proved: relative, from the points alone\n",
     ]);
     assert_eq!(run.err, "");
     let quiet = desk.taut("verify ball.json points.csv --quiet").ends(0);
@@ -203,4 +205,22 @@ fn what_is_no_answer_is_named() {
     desk.taut("verify missing.json points.csv").ends(2).complains(&["missing.json"]);
     desk.put("binary.json", [0xff, 0xfe, 0x00]);
     desk.taut("verify binary.json points.csv").ends(2).complains(&["binary.json"]);
+}
+
+/// One file read as points and as balls has two answers, both true: the report says of which inputs each is.
+#[test]
+fn what_the_rows_stand_for_is_said() {
+    let desk = Desk::new();
+    desk.put("rows.csv", "0,0,1\n4,0,0.5\n0,3,0.25\n");
+    desk.taut("ball rows.csv -o points.json").ends(0);
+    desk.taut("ball rows.csv --balls -o balls.json").ends(0);
+    let said = |answer: &str| desk.taut(&format!("verify {answer} rows.csv")).ends(0).out;
+    let first = |text: &str| text.lines().next().unwrap_or_default().to_owned();
+    let (points, balls) = (first(&said("points.json")), first(&said("balls.json")));
+    assert!(
+        points.contains("within a gap of ") && points.ends_with("around 3 points in 3 dimensions")
+    );
+    assert!(
+        balls.contains("within a gap of ") && balls.ends_with("around 3 balls in 2 dimensions")
+    );
 }

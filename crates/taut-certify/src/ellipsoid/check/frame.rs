@@ -24,6 +24,45 @@ pub(crate) struct Frame<'a> {
     spans: Vec<Range<usize>>,
     /// s.
     pub(crate) scale: f64,
+    /// What is known of points off the hull of a flat set; all 0 where there is none.
+    tilt: Tilt,
+}
+
+/// How far rows of F may lean out of a hull, and points lie off it: the claim is about projections to the hull, whose images
+/// F(x − c) misses by the product of the two.
+#[derive(Default)]
+struct Tilt {
+    /// The root of the sum of squares of the parts of the rows of F/s off the hull, at most.
+    factor: f64,
+    /// The distance of points from the hull times s, beside a part of their offsets and widths.
+    distance: f64,
+    part: f64,
+}
+
+impl Tilt {
+    fn of(ellipsoid: &Ellipsoid, scale: f64) -> Self {
+        let Some(hull) = &ellipsoid.hull else { return Tilt::default() };
+        let rounding = span_rounding(ellipsoid.center.len(), ellipsoid.factor.len());
+        let square: f64 = ellipsoid.factor.iter().flatten().map(|f| (f / scale).powi(2)).sum();
+        Tilt {
+            factor: rounding * square.sqrt() * (1.0 + 1e-9),
+            distance: hull.distance * scale,
+            part: rounding.sqrt() * (1.0 + 1e-9),
+        }
+    }
+
+    /// What images miss for a point whose offset and width together have this length at most.
+    fn error(&self, reach: f64) -> f64 {
+        match self.factor == 0.0 {
+            true => 0.0,
+            false => self.factor * (self.distance + self.part * (self.distance + reach)),
+        }
+    }
+}
+
+/// 32(d + 4)√(r + 1)·u: what of a row of F, and of an offset, may appear to lie off a hull with a basis in `f64`.
+pub(crate) fn span_rounding(dim: usize, rank: usize) -> f64 {
+    32.0 * (dim + 4) as f64 * ((rank + 1) as f64).sqrt() * U
 }
 
 impl<'a> Frame<'a> {
@@ -43,6 +82,7 @@ impl<'a> Frame<'a> {
             factor: rows.iter().flatten().map(|v| v / scale).collect(),
             spans: rows.iter().map(span).collect(),
             scale,
+            tilt: Tilt::of(ellipsoid, scale),
         }
     }
 
@@ -141,7 +181,8 @@ impl<'a> Frame<'a> {
                 .sum();
             square += (error + UNDERFLOW) * (error + UNDERFLOW);
         }
-        square.sqrt() * (1.0 + (self.dim + self.rank + 16) as f64 * U)
+        let off_hull = self.tilt.error(sizes.iter().sum());
+        (square.sqrt() + off_hull) * (1.0 + (self.dim + self.rank + 16) as f64 * U)
     }
 }
 

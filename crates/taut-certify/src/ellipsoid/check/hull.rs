@@ -15,7 +15,7 @@ use taut_points::ScalarKind;
 
 use super::super::Hull;
 use super::enclosure::Enclosed;
-use super::frame::Frame;
+use super::frame::{Frame, span_rounding};
 use super::item::Item;
 use crate::arithmetic::{Compensated, Known, U};
 use crate::{Items, Violation};
@@ -29,8 +29,7 @@ pub(crate) struct HullTest<'a> {
 
 impl<'a> HullTest<'a> {
     pub(crate) fn of(frame: &Frame<'_>, hull: &'a Hull) -> Self {
-        let rounding = 32.0 * (frame.dim + 4) as f64 * ((frame.rank + 1) as f64).sqrt() * U;
-        HullTest { hull, rounding }
+        HullTest { hull, rounding: span_rounding(frame.dim, frame.rank) }
     }
 
     /// Whether the basis is orthonormal and spans the rows of the factor.

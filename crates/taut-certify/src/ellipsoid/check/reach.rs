@@ -31,7 +31,8 @@ pub(crate) fn excess(frame: &Frame<'_>, item: &Item<'_>) -> f64 {
 
 fn bound<N: Field>(frame: &Frame<'_>, item: &Item<'_>) -> f64 {
     let offset: Vec<N> = frame.offset(item.center());
-    let sizes: Vec<f64> = offset.iter().map(|x| x.rounded().abs()).collect();
+    let size = |(j, x): (usize, &N)| x.rounded().abs() + item.width(j, frame.scale);
+    let sizes: Vec<f64> = offset.iter().enumerate().map(size).collect();
     let error = frame.image_error::<N>(&sizes, None);
     let image = frame.image(&offset);
     let square = image.iter().fold(N::of(-1.0), |sum, y| sum.plus(&y.times(y)));
