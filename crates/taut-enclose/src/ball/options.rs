@@ -73,7 +73,7 @@ pub struct BallOptions {
     /// of the thesis, which read thrice before their first ball. Default 1,000,000.
     /// A read or two more are made where nothing could be said of the radius otherwise.
     pub max_passes: u64,
-    /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
+    /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
     /// Chooses the point from which the thesis' methods start. Default 0.
     pub seed: u64,

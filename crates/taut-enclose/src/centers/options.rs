@@ -86,7 +86,7 @@ pub struct CentersOptions {
     pub max_nodes: u64,
     /// Whether the answer is to say which centre each item has. Default no.
     pub assignment: bool,
-    /// Threads; `None` for those of the surrounding pool. The answer does not depend on it.
+    /// Threads, 1 to 1024; `None` for those of the surrounding pool. The answer does not depend on it.
     pub threads: Option<usize>,
 }
 

@@ -80,7 +80,7 @@ pub struct EllipsoidOptions {
     /// Most reads of all points; then the best ellipsoid so far is returned with its gap. At least 2. Default 1,000,000.
     /// Where points turn out to be flat, or so large or small that squares are no `f64`, a read or two more are made.
     pub max_passes: u64,
-    /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
+    /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
     /// Chooses the directions of Algorithm 3. Default 0.
     pub seed: u64,

@@ -23,7 +23,7 @@ pub struct RobustOptions {
     /// Wanted gap of the smallest ellipsoids of `mve` and `trim`, as in
     /// [`EllipsoidOptions::epsilon`](crate::EllipsoidOptions::epsilon). Range (0, 1), default 1e-9.
     pub epsilon: f64,
-    /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
+    /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
 }
 

@@ -84,7 +84,7 @@ fn dimension(job: &Job<'_>, lines: &mut Lines<'_>) -> Result<u64, Error> {
 /// Whether a line is a node: EOF, `-1` and the next section end the list.
 fn is_node(line: &[u8]) -> bool {
     let line = line.trim_ascii();
-    line != b"-1" && line.split(|b| b.is_ascii_whitespace()).next().is_some_and(|f| is_number(f))
+    line != b"-1" && line.split(|b| b.is_ascii_whitespace()).next().is_some_and(is_number)
 }
 
 fn damaged(job: &Job<'_>, problem: String) -> Error {

@@ -30,7 +30,7 @@ pub struct ThesisOptions {
     /// Moves the points a little before anything else is done with them, as the thesis did for Qhull: by a random number that this
     /// seeds. The answer is that of the moved points. Default none.
     pub joggle: Option<u64>,
-    /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
+    /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
 }
 
