@@ -36,7 +36,7 @@ pub(crate) fn ball(
             max_passes,
             "at least 3, and 4 for the methods of the thesis",
         )?,
-        threads: whole("threads", threads, "at least 1, or None")?,
+        threads: whole("threads", threads, "1 to 1024, or None")?,
         seed: whole("seed", seed, "0 to 2**64 - 1")?,
     };
     let rows = Rows::borrow(rows)?;

@@ -42,7 +42,7 @@ pub(crate) fn centers(
         weights,
         max_nodes: whole("max_nodes", max_nodes, "0 to 2**64 - 1")?,
         assignment,
-        threads: whole("threads", threads, "at least 1, or None")?,
+        threads: whole("threads", threads, "1 to 1024, or None")?,
     };
     let rows = Rows::borrow(rows)?;
     let source = rows.source()?;

@@ -37,7 +37,7 @@ pub(crate) fn curve(
         omega,
         feature,
         places,
-        threads: whole("threads", threads, "at least 1, or None")?,
+        threads: whole("threads", threads, "1 to 1024, or None")?,
     };
     let rows = Rows::borrow(rows)?;
     let source = rows.source()?;

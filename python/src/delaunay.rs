@@ -26,7 +26,7 @@ pub(crate) fn delaunay(
             let names = InsertionOrder::NAMES.map(|(name, _)| name).join(", ");
             PyValueError::new_err(format!("option `order` is {order:?}: expected one of {names}"))
         })?,
-        threads: whole("threads", threads, "at least 1, or None")?,
+        threads: whole("threads", threads, "1 to 1024, or None")?,
         seed: whole("seed", seed, "0 to 2**64 - 1")?,
         ..DelaunayOptions::default()
     };

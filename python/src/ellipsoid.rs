@@ -73,7 +73,7 @@ fn options(
         epsilon,
         method,
         max_passes: whole("max_passes", max_passes, "at least 2")?,
-        threads: whole("threads", threads, "at least 1, or None")?,
+        threads: whole("threads", threads, "1 to 1024, or None")?,
         seed: whole("seed", seed, "0 to 2**64 - 1")?,
     })
 }

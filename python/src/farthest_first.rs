@@ -22,7 +22,7 @@ pub(crate) fn farthest_first(
     let count: u64 = whole("count", count, "at least 1")?;
     let options = FarthestFirstOptions {
         start: whole("start", start, "the number of a row, from 0")?,
-        threads: whole("threads", threads, "at least 1, or None")?,
+        threads: whole("threads", threads, "1 to 1024, or None")?,
     };
     let rows = Rows::borrow(rows)?;
     let source = rows.source()?;

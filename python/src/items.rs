@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 use taut::Items;
 use taut::certify::{CentersViolation, Violation};
 use taut::enclose::Error;
+use taut::points::shown_number;
 
 /// What the rows are, in a word.
 pub(crate) fn name_of_items(items: Items) -> &'static str {
@@ -71,11 +72,11 @@ fn not_finite(items: Items, row: u64, column: usize, value: f64, dim: usize) -> 
 }
 
 fn negative_radius(row: u64, value: f64) -> String {
-    format!("the radius of ball {row} is {value}: all radii must be at least 0")
+    format!("the radius of ball {row} is {}: all radii must be at least 0", shown_number(value))
 }
 
 /// A weight that is NaN, infinite or not above 0.
 pub(crate) fn weight(row: u64, value: f64) -> String {
     let expected = if value.is_finite() { "more than 0" } else { "finite" };
-    format!("the weight of point {row} is {value}: all weights must be {expected}")
+    format!("the weight of point {row} is {}: all weights must be {expected}", shown_number(value))
 }

@@ -32,7 +32,7 @@ pub(crate) fn robust_ellipsoid(
         coverage,
         level,
         epsilon,
-        threads: whole("threads", threads, "at least 1, or None")?,
+        threads: whole("threads", threads, "1 to 1024, or None")?,
     };
     let rows = Rows::borrow(rows)?;
     let source = rows.source()?;

@@ -23,7 +23,7 @@ pub(crate) fn sphere_tree(
     let options = SphereTreeOptions {
         leaf_size: whole("leaf_size", leaf_size, "at least 1")?,
         epsilon,
-        threads: whole("threads", threads, "at least 1, or None")?,
+        threads: whole("threads", threads, "1 to 1024, or None")?,
     };
     let rows = Rows::borrow(rows)?;
     let refused = |error: Error| raise(error, Items::Points, 0);

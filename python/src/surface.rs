@@ -91,7 +91,7 @@ pub(crate) fn surface(
         alpha: alpha.filter(|_| method == SurfaceMethod::Alpha),
         thesis,
         denoise: denoise.then_some(noise),
-        threads: whole("threads", threads, "at least 1, or None")?,
+        threads: whole("threads", threads, "1 to 1024, or None")?,
     };
     let rows = Rows::borrow(rows)?;
     let source = rows.source()?;

@@ -47,7 +47,7 @@ def ball(
     max_passes : int >= 3, default 1,000,000
         Reads of all points before the best ball so far is returned with its gap; at least 4 for the methods of the
         literature.
-    threads : int >= 1, optional
+    threads : int in [1, 1024], optional
         Threads to use, by default all cores. The answer does not depend on it.
     seed : int >= 0, default 0
         Chooses the point from which the methods of the literature start.

@@ -59,7 +59,7 @@ def centers(
         has a budget of its own, some twenty times what the search took; ``stop`` is then "proof-budget".
     assignment : bool, default False
         Whether the answer is to say which centre each point has.
-    threads : int >= 1, optional
+    threads : int in [1, 1024], optional
         Threads to use, by default all cores. The answer does not depend on it.
 
     Returns
@@ -139,7 +139,7 @@ def farthest_first(
         How many points to put in order; n or more give all that are not copies.
     start : int, default 0
         The row of the first point.
-    threads : int >= 1, optional
+    threads : int in [1, 1024], optional
         Threads to use, by default all cores. The order does not depend on it.
 
     Returns
@@ -191,7 +191,7 @@ def sphere_tree(
         Most points of a leaf, unless they are all equal.
     epsilon : float in [0, 1), default 1e-9
         Relative gap of the ball of each node.
-    threads : int >= 1, optional
+    threads : int in [1, 1024], optional
         Threads to use, by default all cores. The tree does not depend on it.
 
     Returns

@@ -59,7 +59,7 @@ def curve(
         Of "thesis" and "thesis-crude": the least distance of the curves from their medial axis. Estimated if not given.
     places : bool, default False
         Whether the answer is to tell the place of each row on the curves.
-    threads : int >= 1, optional
+    threads : int in [1, 1024], optional
         Threads to use, by default all cores. The answer does not depend on it.
 
     Returns

@@ -32,7 +32,7 @@ def delaunay(
         converted by NumPy, as by `ball`. Other threads must not write to it meanwhile.
     order : {"strided", "random", "local-ric", "hilbert"}, default "strided"
         In which order points are inserted. The answer does not depend on it.
-    threads : int >= 1, optional
+    threads : int in [1, 1024], optional
         Threads to use, by default all cores. The answer does not depend on it.
     seed : int >= 0, default 0
         Chooses the random orders. The answer does not depend on it.

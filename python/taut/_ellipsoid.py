@@ -49,7 +49,7 @@ def ellipsoid(
         epsilon > 0.
     max_passes : int >= 2, default 1,000,000
         Reads of all points before the best ellipsoid so far is returned with its gap.
-    threads : int >= 1, optional
+    threads : int in [1, 1024], optional
         Threads to use, by default all cores. The answer does not depend on it.
     seed : int >= 0, default 0
         Chooses the directions in which the methods of the literature look for their first points.
@@ -134,7 +134,7 @@ def ellipsoids(
         The way to find them, as of `ellipsoid`.
     max_passes : int >= 2, default 1,000,000
         Reads of all points of a set before its best ellipsoid so far is returned with its gap.
-    threads : int >= 1, optional
+    threads : int in [1, 1024], optional
         Threads to use, by default all cores. No answer depends on it.
     seed : int >= 0, default 0
         As of `ellipsoid`, for each of them.

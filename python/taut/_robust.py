@@ -38,7 +38,7 @@ def robust_ellipsoid(
         The part of normal points that the ellipsoid of "mcd" and "mve" is to hold.
     epsilon : float in (0, 1), default 1e-9
         Gap in log-volume of the ellipsoids of "mve" and "trim".
-    threads : int >= 1, optional
+    threads : int in [1, 1024], optional
         Threads to use, by default all cores. The answer does not depend on it.
 
     Returns

@@ -65,7 +65,7 @@ def surface(
         Of "thesis", what the front prefers: "circumcentre-distance", "circumradius" or "empty-ball".
     restarts : bool, default False
         Of "thesis": whether another front starts where no triangle reaches.
-    threads : int >= 1, optional
+    threads : int in [1, 1024], optional
         Threads to use, by default all cores. The answer does not depend on it.
 
     Returns

@@ -102,7 +102,7 @@ def test_extreme_coordinates(scale):
         (np.zeros((3, 4)), {}, "points have 4 coordinates"),
         ([[0.0, 0.0], [1.0, np.nan]], {}, "coordinate 1 of point 1 is NaN"),
         ([[0.0, 0.0], [np.inf, 0.0]], {}, "coordinate 0 of point 1 is inf"),
-        ([[0.0, 0.0]], {"threads": 0}, "option `threads` is 0: expected at least 1"),
+        ([[0.0, 0.0]], {"threads": 0}, "option `threads` is 0: expected 1 to 1024"),
         ([[0.0, 0.0]], {"threads": -1}, "option `threads` is -1"),
         ([[0.0, 0.0]], {"seed": -1}, "option `seed` is -1"),
         ([[0.0, 0.0]], {"order": "sorted"}, 'option `order` is "sorted": expected one of strided'),

@@ -1,6 +1,7 @@
 //! How much of the machine is used and how much is said on the way, the same for every subcommand.
 
 use anyhow::{anyhow, bail};
+use taut::points::{THREADS_MAX, check_threads};
 
 use crate::watch::Watch;
 
@@ -46,14 +47,11 @@ impl Effort {
     }
 }
 
-/// More threads than any machine has processors only cost memory, and starting them takes ever longer.
-const THREADS_MOST: usize = 1024;
-
 fn threads(text: &str) -> Result<usize, String> {
     text.parse()
         .ok()
-        .filter(|threads| (1..=THREADS_MOST).contains(threads))
-        .ok_or_else(|| format!("expected a whole number from 1 to {THREADS_MOST}"))
+        .filter(|&threads| check_threads(threads).is_ok())
+        .ok_or_else(|| format!("expected a whole number from 1 to {THREADS_MAX}"))
 }
 
 /// What the variable `TAUT_THREADS` asks for, if it is set and not empty.

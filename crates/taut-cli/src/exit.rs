@@ -1,8 +1,12 @@
 //! How the command ends: one exit code, and for a failure one line on standard error.
 
+use std::io::Write;
 use std::process::ExitCode;
 
 use crate::{watch, writing};
+
+/// The exit code for bad input or usage, and for what the system refuses.
+pub(crate) const FAILED: u8 = 2;
 
 /// How a subcommand that did not fail ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +29,18 @@ pub(crate) fn code(end: anyhow::Result<Outcome>) -> ExitCode {
         Err(error) => {
             // The outermost sentence is complete; the causes below it say parts of it again.
             writing::complain(&error.to_string());
-            ExitCode::from(2)
+            ExitCode::from(FAILED)
         }
     }
+}
+
+/// Says why there is no command to run: help and the version on standard output, or what is wrong with the words given.
+pub(crate) fn unparsed(unparsed: &clap::Error) -> ExitCode {
+    if unparsed.use_stderr() {
+        // Whether anybody hears it changes nothing.
+        unparsed.print().ok();
+        return ExitCode::from(FAILED);
+    }
+    let printed = unparsed.print().and_then(|()| std::io::stdout().flush());
+    code(writing::said(printed).map(|()| Outcome::Done))
 }

@@ -3,8 +3,8 @@
 //! Each subcommand is a file of its own and the same four steps: open, solve, write, say. What they share (how
 //! points are read, how much effort is spent, how files are replaced) lies beside them, one thought per file.
 //! Nothing is calculated here: the answers are those of the library crates, and so are the checks.
-#![forbid(unsafe_code)]
 
+mod answer_file;
 mod ball;
 mod ball_report;
 mod centers;
@@ -30,6 +30,7 @@ mod inscribed_report;
 mod man;
 mod memory;
 mod numbers;
+mod out_of_memory;
 mod picture;
 mod radii;
 mod reading;
@@ -50,7 +51,10 @@ use std::process::ExitCode;
 use clap::Parser;
 
 fn main() -> ExitCode {
-    let cli = cli::Cli::parse();
+    let cli = match cli::Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(unparsed) => return exit::unparsed(&unparsed),
+    };
     watch::stop_on_interrupt();
     watch::survive_file_limits();
     exit::code(cli.run())

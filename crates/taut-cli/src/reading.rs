@@ -10,7 +10,7 @@ use taut::certify::{
 };
 use taut::delaunay::Error as DelaunayError;
 use taut::enclose::Error as SolveError;
-use taut::points::{ReadError, ScalarKind};
+use taut::points::{ReadError, ScalarKind, shown_number};
 use taut::reconstruct::Error as CurveError;
 use taut::{PointSource, Violation};
 use taut_io::{Columns, Format, Header, Input, RawLayout, ReadOptions};
@@ -128,9 +128,10 @@ impl Opened {
         match error {
             SolveError::NonFinite { row, column, value } => self.not_finite(row, column, value),
             SolveError::NegativeRadius { row, value } => anyhow!(
-                "{}: the radius is {value}, and radii (the last column with --balls) must be at least 0: repair \
+                "{}: the radius is {}, and radii (the last column with --balls) must be at least 0: repair \
                  or remove that row, or choose the columns with --columns",
-                self.input.describe_cell(row, last)
+                self.input.describe_cell(row, last),
+                shown_number(value)
             ),
             SolveError::NoRadius { .. } => anyhow!(
                 "{}: a ball needs a centre and a radius, at least two columns, but there is one: leave out --balls \
@@ -138,9 +139,10 @@ impl Opened {
                 self.name()
             ),
             SolveError::NonPositiveWeight { row, value } => anyhow!(
-                "{}: the weight is {value}, and weights (the last column with --weights) must be more than 0: repair \
+                "{}: the weight is {}, and weights (the last column with --weights) must be more than 0: repair \
                  or remove that row, or choose the columns with --columns",
-                self.input.describe_cell(row, last)
+                self.input.describe_cell(row, last),
+                shown_number(value)
             ),
             SolveError::NoWeight { .. } => anyhow!(
                 "{}: a point with a weight needs a coordinate and a weight, at least two columns, but there is one: \

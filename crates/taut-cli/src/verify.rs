@@ -1,6 +1,5 @@
 //! `taut verify`: judges an answer from the points and its certificate alone.
 
-use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
@@ -13,6 +12,7 @@ use taut::points::{Blocks, Scratch};
 use taut::{Answer, AnySolution, Order, OrderVerdict, Solution, Violation};
 use taut_io::{Mesh, MeshFormat, open_mesh};
 
+use crate::answer_file;
 use crate::ball_report::claims_of_ball;
 use crate::centers_report::claims_of_centers;
 use crate::curve_report::claims_of_curve;
@@ -247,24 +247,12 @@ pub(crate) fn read_answer(path: &Path, points: &Path) -> anyhow::Result<AnySolut
 
 /// Reads an answer of any kind.
 fn read_document(path: &Path, points: &Path) -> anyhow::Result<AnyDocument> {
-    let name = shown(path);
-    let mut text = String::new();
-    let read = match writing::is_stream(path) {
-        true if writing::is_stream(points) => {
-            bail!("only one of answer and points can be standard input: give a file for the other")
-        }
-        true => std::io::stdin().read_to_string(&mut text),
-        false => std::fs::File::open(path).and_then(|mut file| file.read_to_string(&mut text)),
-    };
-    let order = "the answer comes first, then the points";
-    read.map_err(|source| match source.kind() {
-        ErrorKind::NotFound => anyhow!("{name}: no such file"),
-        ErrorKind::IsADirectory => anyhow!("{name} is a folder: name the file of the answer"),
-        ErrorKind::InvalidData => anyhow!("{name}: not an answer of taut: it is no text; {order}"),
-        _ => anyhow!("{name}: the answer could not be read: {source}"),
-    })?;
+    if writing::is_stream(path) && writing::is_stream(points) {
+        bail!("only one of answer and points can be standard input: give a file for the other")
+    }
+    let (name, text) = (shown(path), answer_file::read(path)?);
     AnyDocument::from_json(&text).map_err(|error| match error {
-        JsonError::Syntax { .. } => anyhow!("{name}: {error}; {order}"),
+        JsonError::Syntax { .. } => anyhow!("{name}: {error}; {}", answer_file::ORDER),
         error => anyhow!("{name}: {error}"),
     })
 }

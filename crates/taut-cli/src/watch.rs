@@ -31,6 +31,7 @@ const PATIENCE: Duration = Duration::from_millis(300);
 pub(crate) fn stop_on_interrupt() {
     let handler = || {
         if !WATCHED.load(Ordering::SeqCst) || STOP.swap(true, Ordering::SeqCst) {
+            taut_io::remove_unfinished();
             std::process::exit(INTERRUPTED.into());
         }
     };

@@ -156,7 +156,12 @@ pub(crate) fn replace(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
 /// Writes to standard output, at once.
 pub(crate) fn say(bytes: &[u8]) -> anyhow::Result<()> {
     let mut out = std::io::stdout().lock();
-    match out.write_all(bytes).and_then(|()| out.flush()) {
+    said(out.write_all(bytes).and_then(|()| out.flush()))
+}
+
+/// What it means how writing to standard output went.
+pub(crate) fn said(written: std::io::Result<()>) -> anyhow::Result<()> {
+    match written {
         // Whoever reads has enough: that changes neither what is written to files nor how the command ends.
         Err(source) if source.kind() == ErrorKind::BrokenPipe => Ok(()),
         written => written.map_err(|source| failed("standard output", &source)),

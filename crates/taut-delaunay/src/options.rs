@@ -3,7 +3,7 @@
 /// How to build a triangulation; [`Default`] is what most people want.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DelaunayOptions {
-    /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
+    /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
     /// In which order one thread inserts its sites. The answer does not depend on it.
     pub order: InsertionOrder,

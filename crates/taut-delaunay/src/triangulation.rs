@@ -1,6 +1,6 @@
 //! The finished triangulation in memory, for walking around in.
 
-use taut_points::{Monitor, Points, Scalar};
+use taut_points::{Monitor, Points, Scalar, ThreadsError, thread_pool};
 
 use crate::affine::{Span, apex, span_of_plane, span_of_space};
 use crate::cells::{self, Geometry, InPlane, InSpace};
@@ -159,13 +159,9 @@ fn build<T: Scalar, const D: usize, const V: usize>(
     };
     match options.threads {
         None => solve(),
-        Some(0) => {
-            Err(Error::Option { name: "threads", value: "0".into(), expected: "at least 1" })
-        }
-        Some(threads) => match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+        Some(threads) => match thread_pool(threads) {
             Ok(pool) => pool.install(solve),
-            Err(_) => {
-                let expected = "as many threads as the system grants";
+            Err(ThreadsError { expected }) => {
                 Err(Error::Option { name: "threads", value: threads.to_string(), expected })
             }
         },

@@ -1,6 +1,6 @@
 //! What drawing can refuse.
 
-use taut_points::ReadError;
+use taut_points::{ReadError, shown_number};
 
 /// Why there is no picture.
 #[derive(Debug, thiserror::Error)]
@@ -27,7 +27,7 @@ pub enum Error {
         value: f64,
     },
     /// A radius is below 0.
-    #[error("{what} is {value}: a radius is at least 0")]
+    #[error("{what} is {}: a radius is at least 0", shown_number(*value))]
     NegativeRadius {
         /// Which radius.
         what: String,

@@ -1,5 +1,7 @@
 //! How to draw an answer.
 
+use taut_points::shown_number;
+
 use crate::{Axis, Error};
 
 /// How to draw. Write `DrawOptions { max_points: 5_000, ..Default::default() }`.
@@ -29,10 +31,10 @@ impl DrawOptions {
             return wrong("max_points", "0".into(), "at least 1");
         }
         if !(240.0..=10_000.0).contains(&self.width) {
-            return wrong("width", self.width.to_string(), "240 to 10,000");
+            return wrong("width", shown_number(self.width), "240 to 10,000");
         }
         if !(180.0..=10_000.0).contains(&self.height) {
-            return wrong("height", self.height.to_string(), "180 to 10,000");
+            return wrong("height", shown_number(self.height), "180 to 10,000");
         }
         Ok(())
     }

@@ -24,7 +24,7 @@ pub fn to_png(figure: &Figure, style: &Style, scale: f32) -> Result<Vec<u8>, Err
     if !(0.1..=10.0).contains(&scale) {
         return Err(Error::Option {
             name: "scale",
-            value: scale.to_string(),
+            value: format!("{scale:?}"),
             expected: "0.1 to 10",
         });
     }

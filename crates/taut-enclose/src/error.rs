@@ -1,6 +1,6 @@
 //! What an enclosing solver can refuse.
 
-use taut_points::ReadError;
+use taut_points::{ReadError, shown_number};
 
 /// Why there is no answer.
 #[derive(Debug, thiserror::Error)]
@@ -20,7 +20,10 @@ pub enum Error {
         value: f64,
     },
     /// A ball of the input has a negative radius.
-    #[error("ball {row} has radius {value}: radii are the last column and must be at least 0")]
+    #[error(
+        "ball {row} has radius {}: radii are the last column and must be at least 0",
+        shown_number(*value)
+    )]
     NegativeRadius {
         /// Ball, from 0.
         row: u64,
@@ -42,7 +45,10 @@ pub enum Error {
         columns: usize,
     },
     /// A weight of the input is not positive.
-    #[error("point {row} has weight {value}: weights are the last column and must be more than 0")]
+    #[error(
+        "point {row} has weight {}: weights are the last column and must be more than 0",
+        shown_number(*value)
+    )]
     NonPositiveWeight {
         /// Point, from 0.
         row: u64,

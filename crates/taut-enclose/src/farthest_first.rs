@@ -33,7 +33,7 @@ const DIM_OF_BOXES_MAX: usize = 3;
 pub struct FarthestFirstOptions {
     /// The row of the first point, below n. Default 0.
     pub start: u64,
-    /// Threads; `None` for those of the surrounding pool. The order does not depend on it.
+    /// Threads, 1 to 1024; `None` for those of the surrounding pool. The order does not depend on it.
     pub threads: Option<usize>,
 }
 

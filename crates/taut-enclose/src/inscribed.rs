@@ -12,7 +12,9 @@ mod path;
 mod start;
 
 use taut_certify::{InscribedCertificate, InscribedEllipsoid, PassBounds, Solution, Stop, Trace};
-use taut_points::{Monitor, PointSource, Points, PointsHash, Rows, Scalar, hash_block, map_blocks};
+use taut_points::{
+    Monitor, PointSource, Points, PointsHash, Rows, Scalar, hash_block, map_blocks, shown_number,
+};
 
 use crate::Error;
 use crate::kernel::DoubleDouble;
@@ -98,7 +100,7 @@ pub fn inscribed_ellipsoid_of_source(
 ) -> Result<Solution<InscribedEllipsoid>, Error> {
     let wrong = |name, value: String, expected| Err(Error::Option { name, value, expected });
     if !(options.epsilon > 0.0 && options.epsilon < 1.0) {
-        return wrong("epsilon", options.epsilon.to_string(), "a number in (0, 1)");
+        return wrong("epsilon", shown_number(options.epsilon), "a number in (0, 1)");
     }
     if options.max_steps == 0 {
         return wrong("max_steps", "0".into(), "at least 1");

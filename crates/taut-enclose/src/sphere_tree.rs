@@ -27,7 +27,7 @@ pub struct SphereTreeOptions {
     pub leaf_size: usize,
     /// Wanted relative gap of the ball of each node, R ≤ (1 + ε)·R*. Range [0, 1), default 1e-9.
     pub epsilon: f64,
-    /// Threads; `None` for those of the surrounding pool. The tree does not depend on it.
+    /// Threads, 1 to 1024; `None` for those of the surrounding pool. The tree does not depend on it.
     pub threads: Option<usize>,
 }
 

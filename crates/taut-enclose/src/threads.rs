@@ -1,5 +1,7 @@
 //! Work on a chosen number of threads.
 
+use taut_points::{ThreadsError, thread_pool};
+
 use crate::Error;
 
 /// Does `work` on that many threads, or on those of the surrounding pool.
@@ -8,10 +10,10 @@ pub(crate) fn on_threads<R: Send>(
     work: impl FnOnce() -> Result<R, Error> + Send,
 ) -> Result<R, Error> {
     let Some(threads) = threads else { return work() };
-    let wrong = |expected| Error::Option { name: "threads", value: threads.to_string(), expected };
-    if threads == 0 {
-        return Err(wrong("at least 1"));
-    }
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.map_err(|_| wrong("as many threads as the system grants"))?.install(work)
+    let wrong = |refused: ThreadsError| Error::Option {
+        name: "threads",
+        value: threads.to_string(),
+        expected: refused.expected,
+    };
+    thread_pool(threads).map_err(wrong)?.install(work)
 }

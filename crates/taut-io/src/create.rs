@@ -3,16 +3,21 @@
 //! *Idea.* Bytes go to a temporary file in the same folder; [`AtomicFile::commit`] brings them to the disk and
 //! renames. So a full disk, an error or an interruption leaves the earlier file as it was.
 //! The new file has the permissions of the earlier one, and an earlier file that may not be written is not replaced.
+//! A process that is killed leaves its temporary file, `.taut-tmp-` and six letters; the next output in that folder removes it.
 //! *Trap.* Renaming onto a device would replace it: what exists and is no regular file is written in place.
+
+mod draft;
 
 use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, Stdout, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
+use draft::Draft;
 
 use crate::Error;
 use crate::error::shown_path;
+
+pub use draft::remove_unfinished;
 
 /// A file in the making; see [`create`]. Dropped without [`commit`](Self::commit), it leaves no trace.
 #[derive(Debug)]
@@ -24,7 +29,7 @@ pub struct AtomicFile {
 #[derive(Debug)]
 enum Target {
     /// A temporary file and the name it will take.
-    Rename(BufWriter<NamedTempFile>, PathBuf),
+    Rename(BufWriter<Draft>, PathBuf),
     /// A device or a pipe.
     InPlace(BufWriter<File>),
     Stdout(BufWriter<Stdout>),
@@ -70,6 +75,17 @@ fn end_of_links(path: &Path) -> PathBuf {
     end
 }
 
+/// The folder that an output is written to; `None` where it is a device, a pipe, standard output, or in no folder.
+pub(crate) fn folder_of_output(path: &Path) -> Option<PathBuf> {
+    let behind = match fs::metadata(path) {
+        _ if path.as_os_str() == "-" => return None,
+        Ok(meta) if !meta.is_file() => return None,
+        Ok(_) => fs::canonicalize(path).ok()?,
+        Err(_) => end_of_links(path),
+    };
+    Some(folder(&behind).to_owned())
+}
+
 /// Whether a file can be made or replaced where `path` says, as far as that shows without doing it; nothing is left.
 ///
 /// # Errors
@@ -110,18 +126,7 @@ fn refused(error: io::Error, folder: &Path) -> io::Error {
 /// A temporary file beside `path`, with the permissions of the earlier file, or those of any new one.
 fn rename_to(path: PathBuf, earlier: Option<Permissions>) -> io::Result<Target> {
     let folder = folder(&path);
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".taut-");
-    // Temporary files are private unless told otherwise; the umask is applied to this by the system.
-    #[cfg(unix)]
-    if earlier.is_none() {
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    }
-    let file = builder.tempfile_in(folder).map_err(|error| refused(error, folder))?;
-    if let Some(permissions) = earlier {
-        // Set before the first byte is written: what was private is so at every moment.
-        file.as_file().set_permissions(permissions)?;
-    }
+    let file = Draft::new(folder, earlier).map_err(|error| refused(error, folder))?;
     Ok(Target::Rename(BufWriter::with_capacity(1 << 16, file), path))
 }
 
@@ -145,8 +150,7 @@ impl AtomicFile {
             Target::Rename(file, path) => file
                 .into_inner()
                 .map_err(io::IntoInnerError::into_error)
-                .and_then(|file| file.as_file().sync_all().map(|()| file))
-                .and_then(|file| file.persist(path).map(drop).map_err(|e| e.error)),
+                .and_then(|file| file.publish(&path)),
         };
         done.map_err(|source| match replaces {
             true => Error::replacing(&shown, source),

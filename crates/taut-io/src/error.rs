@@ -3,6 +3,7 @@
 mod place;
 mod refuse;
 mod shown;
+mod system;
 
 use std::io;
 
@@ -32,6 +33,24 @@ pub enum Error {
     Directory {
         /// The folder.
         path: String,
+    },
+    /// A device stands where a file was expected, and may never end.
+    #[error("{path} is a device, which may never end: name a file or a pipe")]
+    Device {
+        /// The device.
+        path: String,
+    },
+    /// The file system has no room for the output.
+    #[error(
+        "{path}: at least {bytes} bytes would be written, but its file system has {free} bytes left: write fewer points, or name a folder with more room"
+    )]
+    NoSpace {
+        /// The file.
+        path: String,
+        /// Fewest bytes of the output.
+        bytes: u64,
+        /// Bytes that are left.
+        free: u64,
     },
     /// The operating system forbids it.
     #[error("{path}: no permission to {action} it")]
@@ -190,6 +209,14 @@ pub enum Error {
         /// The value.
         value: String,
     },
+    /// A number other than 0 that would be read as 0.
+    #[error("{place}: `{value}` {}: write 0, or scale that column", crate::number::UNDERFLOW)]
+    Underflow {
+        /// Where.
+        place: Place,
+        /// The field, shortened if long.
+        value: String,
+    },
     /// A value is missing (null).
     #[error(
         "{place}: the value is missing (null), and all coordinates must be given: fill or remove that row"
@@ -233,6 +260,19 @@ pub enum Error {
         column: usize,
         /// Its text.
         value: String,
+    },
+    /// A line of text is too long to be one.
+    #[error(
+        "{path}: line {line} is longer than {limit} bytes, the longest line that is read{}: write a point per line, or check that the file is text",
+        if *limit < crate::LONGEST_LINE { " with so little memory" } else { "" }
+    )]
+    LongLine {
+        /// The file.
+        path: String,
+        /// The line, from 1.
+        line: u64,
+        /// Most bytes of a line: [`LONGEST_LINE`](crate::LONGEST_LINE), or less where memory is limited.
+        limit: usize,
     },
     /// A quoted field has no end.
     #[error(
@@ -316,6 +356,16 @@ pub enum Error {
         /// What is wrong.
         problem: String,
     },
+    /// A problem of TSPLIB whose coordinates are places on the earth.
+    #[error(
+        "{path}: line {line} says `EDGE_WEIGHT_TYPE: GEO`: its coordinates are latitude and longitude, written as degrees and minutes (DDD.MM), not points of the plane; project them, and write `EDGE_WEIGHT_TYPE: EUC_2D`"
+    )]
+    Geographic {
+        /// The file.
+        path: String,
+        /// The line, from 1.
+        line: u64,
+    },
     /// The file holds another number of values or rows than it says.
     #[error(
         "{path} is {}: its {format} header promises {expected} {}, but there {} {found}",
@@ -344,21 +394,31 @@ pub enum Error {
         /// How to make it points.
         remedy: &'static str,
     },
-    /// The points must fit into memory to be brought into order, and do not.
+    /// A part of the file must be held in memory as a whole, and is larger than allowed.
     #[error(
-        "{path}: its {problem} must be transposed in memory, which takes {bytes} bytes, but {memory} are allowed: {remedy}"
+        "{path}: {problem} must be held in memory, which takes at least {bytes} bytes, but {memory} are allowed: {remedy}"
     )]
     TooLarge {
         /// The file.
         path: String,
-        /// What asks for it.
+        /// The part.
         problem: &'static str,
-        /// Bytes needed.
+        /// Bytes needed, as far as they are known.
         bytes: u64,
-        /// Bytes allowed.
+        /// Bytes allowed for it.
         memory: u64,
         /// What to do.
         remedy: &'static str,
+    },
+    /// The system gives no memory for the points.
+    #[error(
+        "{path}: out of memory: its points take {bytes} bytes or more, which the system does not give: limit the memory for points (--memory), so that they are read from disk"
+    )]
+    OutOfMemory {
+        /// The file.
+        path: String,
+        /// Bytes of the points read so far.
+        bytes: u64,
     },
     /// Raw values without a layout, or with a dimension of 0.
     #[error(
@@ -611,40 +671,4 @@ pub enum Error {
     /// A block of points could not be delivered.
     #[error(transparent)]
     Points(#[from] ReadError),
-}
-
-impl Error {
-    /// What an error of opening or reading the file shown as `path` means, for those who read it themselves.
-    pub fn reading(path: &str, source: io::Error) -> Error {
-        let path = path.to_owned();
-        match source.kind() {
-            io::ErrorKind::NotFound => Error::NotFound { path },
-            io::ErrorKind::IsADirectory => Error::Directory { path },
-            io::ErrorKind::PermissionDenied => Error::Permission { path, action: "read" },
-            // A decoder of ours has said it better, at the place where it happened.
-            _ => match source.downcast::<Error>() {
-                Ok(inner) => inner,
-                Err(source) => Error::Read { path, source },
-            },
-        }
-    }
-
-    /// What an error of creating or writing `path` means.
-    pub(crate) fn writing(path: &str, source: io::Error) -> Error {
-        let path = path.to_owned();
-        match source.kind() {
-            io::ErrorKind::NotFound => Error::NotFound { path },
-            io::ErrorKind::IsADirectory => Error::Directory { path },
-            io::ErrorKind::PermissionDenied => Error::Permission { path, action: "write" },
-            _ => Error::Write { path, source },
-        }
-    }
-
-    /// What an error of writing a file means that would have replaced `path`.
-    pub(crate) fn replacing(path: &str, source: io::Error) -> Error {
-        match Error::writing(path, source) {
-            Error::Write { path, source } => Error::Replace { path, source },
-            other => other,
-        }
-    }
 }

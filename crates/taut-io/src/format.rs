@@ -104,7 +104,7 @@ impl Format {
             Format::Arrow => {
                 "Arrow IPC (Feather), file or stream, numeric columns or one list column"
             }
-            Format::Tsplib => "TSPLIB problem with a NODE_COORD_SECTION",
+            Format::Tsplib => "TSPLIB problem with a NODE_COORD_SECTION, not on the earth (GEO)",
             Format::Xyz => {
                 "x y z per line, optional element symbol, optional count and comment lines"
             }

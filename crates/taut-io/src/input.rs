@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use bytes::Bytes;
 use taut_points::PointSource;
 
+use crate::device::refuse_device;
 use crate::error::shown_path;
 use crate::read::{self, Decoded};
 use crate::{Compression, Error, Format, Place, ReadOptions, ShapeFormat, compress};
@@ -134,6 +135,7 @@ impl Medium {
 /// reports what it finds there, and [`Input::describe_cell`] says where that is.
 pub fn open(path: &Path, options: &ReadOptions) -> Result<Input, Error> {
     if path.as_os_str() == "-" {
+        refuse_device_at_stdin()?;
         let stream = Box::new(BufReader::with_capacity(1 << 18, io::stdin()));
         return open_medium(Medium::Stream(stream), None, "standard input", options);
     }
@@ -144,12 +146,25 @@ pub fn open(path: &Path, options: &ReadOptions) -> Result<Input, Error> {
         return Err(Error::Directory { path: shown });
     }
     let file = File::open(path).map_err(failed)?;
+    refuse_device(&file, &shown)?;
     // A pipe has a path on some systems, but no place to go back to.
     let medium = match kind.is_file() {
         true => Medium::File(file, path.to_owned()),
         false => Medium::Stream(Box::new(BufReader::with_capacity(1 << 18, file))),
     };
     open_medium(medium, Some(path).filter(|_| kind.is_file()), &shown, options)
+}
+
+/// Refuses a device as standard input, which no path would name.
+pub(crate) fn refuse_device_at_stdin() -> Result<(), Error> {
+    #[cfg(unix)]
+    {
+        use std::os::fd::AsFd;
+        if let Ok(descriptor) = io::stdin().as_fd().try_clone_to_owned() {
+            refuse_device(&File::from(descriptor), "standard input")?;
+        }
+    }
+    Ok(())
 }
 
 /// Opens the points of a file whose bytes are in memory; `name` tells the format as a path would.

@@ -29,6 +29,7 @@ use std::path::Path;
 use taut_points::{FileSource, MappedSource, PointSource, ScalarKind};
 
 use crate::input::{Job, Medium};
+use crate::limits;
 use crate::{Error, Format, ShapeFormat};
 
 /// Points, and what the file says of them.
@@ -118,7 +119,10 @@ fn in_place(
 ) -> Result<Decoded, Error> {
     let bytes = n.saturating_mul(dim as u64).saturating_mul(scalar.size() as u64);
     let source: Box<dyn PointSource> = match job.options.memory {
-        Some(memory) if memory < bytes => Box::new(FileSource::open(path, offset, n, dim, scalar)?),
+        Some(memory) if memory < bytes => {
+            limits::check_point(job.path, bytes / n.max(1), Some(memory))?;
+            Box::new(FileSource::open(path, offset, n, dim, scalar)?)
+        }
         _ => Box::new(MappedSource::open(path, offset, n, dim, scalar)?),
     };
     Ok(Decoded { source, columns: Vec::new(), numbers: None })

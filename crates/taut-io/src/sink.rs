@@ -7,7 +7,7 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use taut_points::{FileSource, OwnedPoints, PointSource, Scalar};
+use taut_points::{FileSource, OwnedPoints, PointSource, Scalar, try_reserve_exact};
 
 use crate::Error;
 use crate::input::Job;
@@ -69,7 +69,14 @@ impl<'a, T: Scalar> Sink<'a, T> {
         if wanted > self.values.capacity() {
             // Doubling, as a Vec does by itself, but never past what is allowed.
             let grown = self.values.capacity().saturating_mul(2).min(self.limit).max(wanted);
-            self.values.reserve_exact(grown - self.values.len());
+            let more = grown - self.values.len();
+            // Where twice as much is too much, exactly as much may still be there.
+            try_reserve_exact(&mut self.values, more)
+                .or_else(|_| try_reserve_exact(&mut self.values, rows.len()))
+                .map_err(|_| Error::OutOfMemory {
+                    path: self.job.path.to_owned(),
+                    bytes: (wanted as u64).saturating_mul(size_of::<T>() as u64),
+                })?;
         }
         self.values.extend_from_slice(rows);
         Ok(())

@@ -1,8 +1,10 @@
 //! Lines of words, and numbers as text, with the errors of a text that is cut short.
 
-use std::io::BufRead;
+use std::io::{BufRead, Read};
 
 use crate::error::Refuse;
+use crate::number::{self, Misread, UNDERFLOW};
+use crate::ply::printable;
 use crate::{Error, MeshPlace};
 
 /// A line, its comment, and where it stands.
@@ -50,9 +52,17 @@ impl Lines {
             self.line.clear();
             loop {
                 self.number += 1;
-                self.stream
+                let limit = mesh.longest_line();
+                // One byte more than a line may have shows that it has too many.
+                let most = (limit as u64 + 1).saturating_sub(self.line.len() as u64);
+                (&mut self.stream)
+                    .take(most)
                     .read_until(b'\n', &mut self.line)
                     .map_err(|source| Error::reading(mesh.path(), source))?;
+                if self.line.len() > limit {
+                    let (path, line) = (mesh.path().to_owned(), self.number);
+                    return Err(Error::LongLine { path, line, limit });
+                }
                 let words = self.line.trim_ascii_end();
                 match self.joined && self.line.ends_with(b"\n") && words.ends_with(b"\\") {
                     true => self.line.truncate(words.len() - 1),
@@ -119,18 +129,32 @@ pub(crate) fn whole(word: &[u8]) -> Option<i64> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
 
-/// Words of at least three coordinates; further ones are colours or weights.
-pub(crate) fn place<'a>(words: impl Iterator<Item = &'a [u8]>) -> Option<[f64; 3]> {
+/// Reads at least three coordinates; further words are colours or weights.
+pub(crate) fn place<'a>(
+    mesh: &impl Refuse,
+    line: MeshPlace,
+    words: impl Iterator<Item = &'a [u8]>,
+) -> Result<[f64; 3], Error> {
+    let no_place = || mesh.damaged(line, "a vertex needs three numbers, and nothing but numbers");
     let mut at = [0.0; 3];
     let mut count = 0;
     for word in words {
-        let value = fast_float2::parse(word).ok()?;
+        let value = number::parse(word).map_err(|misread| match misread {
+            Misread::NotANumber => no_place(),
+            Misread::Underflow => underflow(mesh, line, word),
+        })?;
         if let Some(slot) = at.get_mut(count) {
             *slot = value;
         }
         count += 1;
     }
-    (count >= 3).then_some(at)
+    if count >= 3 { Ok(at) } else { Err(no_place()) }
+}
+
+/// Refuses a number that would be read as 0.
+pub(crate) fn underflow(mesh: &impl Refuse, at: MeshPlace, word: &[u8]) -> Error {
+    let word = printable(&String::from_utf8_lossy(word));
+    mesh.damaged(at, format!("`{word}` {UNDERFLOW}"))
 }
 
 /// Writes three coordinates as [`put_number`], with blanks between them, and ends the line.

@@ -16,6 +16,7 @@ use taut_points::{Blocks, Monitor, PointSource, ReadError, Rows, Scratch};
 use crate::compress::Encoder;
 use crate::create::{AtomicFile, create};
 use crate::error::shown_path;
+use crate::space::{check_space, least_bytes};
 use crate::{Compression, Error, Format};
 
 /// Bytes gathered before they are written.
@@ -55,6 +56,7 @@ pub fn write_points(
             false => Error::NotBuilt { path: shown, format },
         });
     }
+    check_space(path, &shown, least_bytes(source, format, compression))?;
     let mut out = Out::create(path, &shown, compression)?;
     let points = Points { source, columns, monitor };
     match format {

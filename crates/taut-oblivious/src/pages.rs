@@ -9,6 +9,7 @@
 
 use bytemuck::Pod;
 use memmap2::{MmapMut, MmapOptions};
+use taut_points::try_reserve_exact;
 
 use crate::error::Error;
 
@@ -45,7 +46,7 @@ impl<W: Pod> Pages<W> {
             return Ok(pages);
         }
         let (words, mut heap) = (len.saturating_add(Self::spare(len)), Vec::new());
-        heap.try_reserve_exact(words).map_err(|_| Error::Option {
+        try_reserve_exact(&mut heap, words).map_err(|_| Error::Option {
             name: "memory",
             value: format!("enough for {len} × {} bytes at once", size_of::<W>()),
             expected: "no more than the system can give",

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::{Cancelled, ScalarKind};
+use crate::{Cancelled, ScalarKind, shown_number};
 
 /// Why a view or a generator could not be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -43,7 +43,8 @@ pub enum Error {
     },
     /// A drawn coordinate is beyond the largest number of its type.
     #[error(
-        "coordinate {column} of point {row}, both counted from 0, is {value}, and {kind} does not reach that far: choose smaller parameters or a wider type"
+        "coordinate {column} of point {row}, both counted from 0, is {}, and {kind} does not reach that far: choose smaller parameters or a wider type",
+        shown_number(*value)
     )]
     Overflow {
         /// The point, from 0.

@@ -17,6 +17,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::room::try_reserve_exact;
 use crate::source::check_range;
 use crate::{Blocks, Error, PointSource, Points, ReadError, Rows, Scalar, ScalarKind, Scratch};
 
@@ -27,7 +28,7 @@ pub use radii::RadiusLaw;
 /// Memory for one point.
 fn point_of(dim: usize) -> Result<Vec<f64>, Error> {
     let mut point = Vec::new();
-    point.try_reserve_exact(dim).map_err(|_| Error::Parameter {
+    try_reserve_exact(&mut point, dim).map_err(|_| Error::Parameter {
         name: "dim",
         value: dim.to_string(),
         expected: "a dimension of which a point fits into memory",
@@ -149,7 +150,7 @@ pub fn generate<T: Scalar>(
     // Refuses what is wrong with the parameters before any memory is asked for.
     GeneratedSource::new(distribution, n as u64, dim, seed, T::KIND)?;
     let mut values = Vec::new();
-    values.try_reserve_exact(n * dim).map_err(|_| Error::Parameter {
+    try_reserve_exact(&mut values, n * dim).map_err(|_| Error::Parameter {
         name: "n",
         value: n.to_string(),
         expected: "a number of points that fits into memory",

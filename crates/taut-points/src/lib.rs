@@ -27,7 +27,10 @@ pub mod generate;
 mod hash;
 mod monitor;
 mod points;
+mod room;
+mod shown;
 mod source;
+mod threads;
 
 pub use blocks::{Blocks, map_blocks};
 pub use error::{Error, ReadError};
@@ -35,4 +38,7 @@ pub use generate::{Distribution, GeneratedSource, generate, generate_into};
 pub use hash::{BlockHash, HashFormError, PointsHash, hash_block, hash_points};
 pub use monitor::{Cancelled, Monitor};
 pub use points::{Points, Rows, Scalar, ScalarKind};
+pub use room::{failure_is_handled, try_reserve_exact};
+pub use shown::shown_number;
 pub use source::{FileSource, MappedSource, OwnedPoints, PointSource, Scratch, gather};
+pub use threads::{THREADS_MAX, ThreadsError, check_threads, thread_pool};

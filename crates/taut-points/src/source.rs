@@ -13,6 +13,7 @@ pub use file::FileSource;
 pub use mapped::MappedSource;
 pub use owned::OwnedPoints;
 
+use crate::room::try_reserve_exact;
 use crate::{Points, ReadError, Rows, Scalar, ScalarKind};
 
 /// A rewindable set of n points of dimension d, read a range of rows at a time.
@@ -69,7 +70,7 @@ impl Scratch {
         let wanted = bytes.div_ceil(8);
         if wanted > self.words.len() {
             let more = wanted - self.words.len();
-            self.words.try_reserve_exact(more).map_err(|_| too_large())?;
+            try_reserve_exact(&mut self.words, more).map_err(|_| too_large())?;
             self.words.resize(wanted, 0);
         }
         Ok(&mut bytemuck::cast_slice_mut(&mut self.words)[..count])
@@ -112,7 +113,7 @@ pub fn gather(source: &dyn PointSource, ids: &[u64]) -> Result<Vec<f64>, ReadErr
     let (mut scratch, mut out) = (Scratch::new(), Vec::new());
     let too_large = || ReadError::TooLarge { rows: ids.len() as u64, dim };
     let count = ids.len().checked_mul(dim).ok_or_else(too_large)?;
-    out.try_reserve_exact(count).map_err(|_| too_large())?;
+    try_reserve_exact(&mut out, count).map_err(|_| too_large())?;
     out.resize(count, 0.0);
     for (&id, row) in ids.iter().zip(out.chunks_exact_mut(dim)) {
         source.read(id..id.saturating_add(1), &mut scratch)?.copy_row(0, row);

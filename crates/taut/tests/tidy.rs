@@ -36,7 +36,8 @@ const LEVEL: [(&str, &str); 3] =
 const BESIDE: [&str; 2] = ["bench", "fuzz"];
 
 /// The crates with named kernels, where `unsafe` is denied but can be allowed with a reason.
-const KERNELS: [&str; 4] = ["taut-points", "taut-enclose", "taut-delaunay", "taut-oblivious"];
+const KERNELS: [&str; 5] =
+    ["taut-points", "taut-enclose", "taut-delaunay", "taut-oblivious", "taut-cli"];
 
 /// Lines a source file may have before it must be two.
 const LINES_MAX: usize = 700;
@@ -132,6 +133,11 @@ fn unsafe_code_stays_in_the_kernels() {
             let kernel = KERNELS.contains(&package.name.as_str());
             assert!(forbids != kernel, "{}: forbid(unsafe_code) or be a kernel", path.display());
         }
+    }
+    // The command has no kernel, only an allocator.
+    for path in sources(&root().join("crates/taut-cli/src")) {
+        let is_allocator = path.ends_with("out_of_memory.rs");
+        assert_eq!(read(&path).contains("unsafe"), is_allocator, "{}", path.display());
     }
 }
 

@@ -12,7 +12,7 @@ fn an_interrupt_leaves_the_earlier_file_and_nothing_else() {
     desk.put("points.csv", "earlier points");
     let mut child = Command::new(assert_cmd::cargo::cargo_bin!("taut"))
         .current_dir(desk.path(""))
-        .args("generate normal -n 100000000000 -d 3 -o points.csv --threads 1".split(' '))
+        .args("generate normal -n 100000000 -d 3 -o points.csv --threads 1".split(' '))
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();

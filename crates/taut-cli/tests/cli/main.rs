@@ -11,6 +11,7 @@ mod generate;
 mod inscribe;
 #[cfg(unix)]
 mod interrupt;
+mod limits;
 mod memory;
 mod pictures;
 mod places;

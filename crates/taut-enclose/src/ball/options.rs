@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use taut_points::{check_threads, shown_number};
+
 use crate::Error;
 
 /// The ways to find the ball; all of them end in the same certificate.
@@ -71,7 +73,7 @@ pub struct BallOptions {
     /// of the thesis, which read thrice before their first ball. Default 1,000,000.
     /// A read or two more are made where nothing could be said of the radius otherwise.
     pub max_passes: u64,
-    /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
+    /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
     /// Chooses the point from which the thesis' methods start. Default 0.
     pub seed: u64,
@@ -94,7 +96,7 @@ impl BallOptions {
     pub(super) fn check(&self) -> Result<(), Error> {
         let wrong = |name, value: String, expected| Err(Error::Option { name, value, expected });
         if !(0.0..1.0).contains(&self.epsilon) {
-            return wrong("epsilon", self.epsilon.to_string(), "a number in [0, 1)");
+            return wrong("epsilon", shown_number(self.epsilon), "a number in [0, 1)");
         }
         if self.epsilon == 0.0 && self.method == BallMethod::BadoiuClarkson {
             return wrong(
@@ -120,8 +122,10 @@ impl BallOptions {
                 "at least 4 for the methods of the thesis, which read thrice before their first ball",
             );
         }
-        if self.threads == Some(0) {
-            return wrong("threads", "0".into(), "at least 1");
+        if let Some(threads) = self.threads
+            && let Err(refused) = check_threads(threads)
+        {
+            return wrong("threads", threads.to_string(), refused.expected);
         }
         Ok(())
     }

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use taut_certify::Placement;
+use taut_points::{check_threads, shown_number};
 
 use crate::Error;
 
@@ -85,7 +86,7 @@ pub struct CentersOptions {
     pub max_nodes: u64,
     /// Whether the answer is to say which centre each item has. Default no.
     pub assignment: bool,
-    /// Threads; `None` for those of the surrounding pool. The answer does not depend on it.
+    /// Threads, 1 to 1024; `None` for those of the surrounding pool. The answer does not depend on it.
     pub threads: Option<usize>,
 }
 
@@ -111,10 +112,12 @@ impl CentersOptions {
             return wrong("k", "0".into(), "at least 1");
         }
         if !(0.0..1.0).contains(&self.epsilon) {
-            return wrong("epsilon", self.epsilon.to_string(), "a number in [0, 1)");
+            return wrong("epsilon", shown_number(self.epsilon), "a number in [0, 1)");
         }
-        if self.threads == Some(0) {
-            return wrong("threads", "0".into(), "at least 1");
+        if let Some(threads) = self.threads
+            && let Err(refused) = check_threads(threads)
+        {
+            return wrong("threads", threads.to_string(), refused.expected);
         }
         if self.method == CentersMethod::Thesis {
             if self.placement == Placement::Rows {

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use taut_points::{check_threads, shown_number};
+
 use crate::Error;
 
 /// The ways to find the ellipsoid; all of them end in the same certificate.
@@ -78,7 +80,7 @@ pub struct EllipsoidOptions {
     /// Most reads of all points; then the best ellipsoid so far is returned with its gap. At least 2. Default 1,000,000.
     /// Where points turn out to be flat, or so large or small that squares are no `f64`, a read or two more are made.
     pub max_passes: u64,
-    /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
+    /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
     /// Chooses the directions of Algorithm 3. Default 0.
     pub seed: u64,
@@ -100,7 +102,7 @@ impl EllipsoidOptions {
     pub(super) fn check(&self) -> Result<(), Error> {
         let wrong = |name, value: String, expected| Err(Error::Option { name, value, expected });
         if !(0.0..1.0).contains(&self.epsilon) {
-            return wrong("epsilon", self.epsilon.to_string(), "a number in [0, 1)");
+            return wrong("epsilon", shown_number(self.epsilon), "a number in [0, 1)");
         }
         let exact = [EllipsoidMethod::Newton, EllipsoidMethod::ThesisInitial];
         if self.epsilon == 0.0 && !exact.contains(&self.method) {
@@ -117,8 +119,10 @@ impl EllipsoidOptions {
                 "at least 2: one to choose points, one to prove",
             );
         }
-        if self.threads == Some(0) {
-            return wrong("threads", "0".into(), "at least 1");
+        if let Some(threads) = self.threads
+            && let Err(refused) = check_threads(threads)
+        {
+            return wrong("threads", threads.to_string(), refused.expected);
         }
         Ok(())
     }

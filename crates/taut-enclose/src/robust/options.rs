@@ -1,6 +1,7 @@
 //! What to keep, and how sure to be.
 
 use taut_certify::RobustMethod;
+use taut_points::{check_threads, shown_number};
 
 use crate::Error;
 
@@ -23,7 +24,7 @@ pub struct RobustOptions {
     /// [`EllipsoidOptions::epsilon`](crate::EllipsoidOptions::epsilon). Range (0, 0.01], default 1e-9: around a
     /// looser ellipsoid a local optimum cannot be told.
     pub epsilon: f64,
-    /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
+    /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
 }
 
@@ -51,16 +52,18 @@ impl RobustOptions {
             (_, Some(part)) => ((0.5..=1.0).contains(&part), "a number in [0.5, 1]"),
         };
         if !inside {
-            return wrong("coverage", self.coverage.unwrap_or(0.0).to_string(), expected);
+            return wrong("coverage", shown_number(self.coverage.unwrap_or(0.0)), expected);
         }
         if !(0.5..1.0).contains(&self.level) {
-            return wrong("level", self.level.to_string(), "a number in [0.5, 1)");
+            return wrong("level", shown_number(self.level), "a number in [0.5, 1)");
         }
         if !(self.epsilon > 0.0 && self.epsilon <= EPSILON_MAX) {
-            return wrong("epsilon", format!("{:?}", self.epsilon), "a number in (0, 0.01]");
+            return wrong("epsilon", shown_number(self.epsilon), "a number in (0, 0.01]");
         }
-        if self.threads == Some(0) {
-            return wrong("threads", "0".into(), "at least 1");
+        if let Some(threads) = self.threads
+            && let Err(refused) = check_threads(threads)
+        {
+            return wrong("threads", threads.to_string(), refused.expected);
         }
         Ok(())
     }

@@ -43,9 +43,7 @@ pub(super) fn read(mesh: &mut Building<'_>, stream: Box<dyn BufRead>) -> Result<
         let keyword = rest.next().unwrap_or_default();
         match keyword {
             b"v" => {
-                let vertex = place(rest).ok_or_else(|| {
-                    mesh.damaged(at, "a vertex needs three numbers, and nothing but numbers")
-                })?;
+                let vertex = place(mesh, at, rest)?;
                 mesh.vertex(at, vertex)?;
             }
             b"p" | b"l" | b"f" => {

@@ -47,9 +47,7 @@ pub(super) fn read(mesh: &mut Building<'_>, stream: Box<dyn BufRead>) -> Result<
     };
     for vertex in 0..vertices {
         let (at, line) = next(&mut lines, mesh, || format!("vertex {vertex} of {vertices}"))?;
-        let found = place(words(line)).ok_or_else(|| {
-            mesh.damaged(at, "a vertex needs three numbers, and nothing but numbers")
-        })?;
+        let found = place(mesh, at, words(line))?;
         mesh.vertex(at, found)?;
     }
     let mut numbers = Vec::new();

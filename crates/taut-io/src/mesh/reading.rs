@@ -6,6 +6,7 @@ use std::path::Path;
 
 use super::{MeshFormat, obj, off, ply, vtu};
 use crate::cursor::Cursor;
+use crate::device::refuse_device;
 use crate::error::{Refuse, shown_path};
 use crate::input::Medium;
 use crate::{Compression, Error, MeshPlace, compress};
@@ -39,6 +40,7 @@ pub fn open_mesh(path: &Path) -> Result<Mesh, Error> {
         return Err(Error::Directory { path: shown });
     }
     let file = File::open(path).map_err(failed)?;
+    refuse_device(&file, &shown)?;
     let medium = match kind.is_file() {
         true => Medium::File(file, path.to_owned()),
         false => Medium::Stream(Box::new(BufReader::with_capacity(1 << 18, file))),

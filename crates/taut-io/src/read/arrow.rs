@@ -17,6 +17,7 @@ use arrow_schema::{Schema, SchemaRef};
 use super::columnar::Plan;
 use super::{Decoded, first_line, guarded};
 use crate::input::Job;
+use crate::limits;
 use crate::{Error, Format};
 
 const MAGIC: &[u8] = b"ARROW1";
@@ -79,6 +80,13 @@ impl<'a> Batches<'a> {
             let message = self.parse(&bytes)?;
             let length = u64::try_from(message.bodyLength())
                 .map_err(|_| damaged(self.job, "a message has a negative length"))?;
+            limits::check_held(
+                self.job.path,
+                "each batch of rows",
+                length,
+                self.job.options.memory,
+                "allow more memory, or write it in smaller batches",
+            )?;
             let body = Buffer::from_vec(self.exactly(length)?);
             match message.header_type() {
                 MessageHeader::RecordBatch => {

@@ -10,13 +10,13 @@ use std::io::BufRead;
 
 use super::Decoded;
 use super::lines::Lines;
-use super::rows::{Delimiter, Rows, number, shown, split};
+use super::rows::{Delimiter, Rows, is_number, shown, split};
 use crate::input::Job;
 use crate::sink::Sink;
 use crate::{Columns, Error, Format, Header};
 
 pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, Error> {
-    let mut lines = Lines::new(stream, job.path, job.format);
+    let mut lines = Lines::new(stream, job);
     let Some((line, text)) = lines.next_data()? else {
         return Err(Error::NoRows { path: job.path.to_owned() });
     };
@@ -50,7 +50,7 @@ fn find_delimiter(line: &[u8]) -> Delimiter {
     const CANDIDATES: [Delimiter; 4] =
         [Delimiter::Byte(b','), Delimiter::Byte(b';'), Delimiter::Byte(b'\t'), Delimiter::White];
     let numeric =
-        |&delimiter: &Delimiter| split(line, delimiter).iter().all(|field| number(field).is_some());
+        |&delimiter: &Delimiter| split(line, delimiter).iter().all(|field| is_number(field));
     if let Some(found) = CANDIDATES.into_iter().find(numeric) {
         return found;
     }
@@ -91,13 +91,13 @@ fn is_header(job: &Job<'_>, first: &[Cow<'_, [u8]>], line: u64) -> Result<bool, 
     // Who asks for names says that there are some, unless the row holds nothing but numbers.
     let numbers = match columns {
         Some(columns) if columns.has_names() => {
-            return Ok(!first.iter().all(|field| number(field).is_some()));
+            return Ok(!first.iter().all(|field| is_number(field)));
         }
         Some(columns) => Columns::resolve(columns, job.path, &[], first.len())?,
         None => (0..first.len()).collect(),
     };
-    let text = numbers.iter().copied().find(|&column| number(&first[column]).is_none());
-    let value = numbers.iter().copied().find(|&column| number(&first[column]).is_some());
+    let text = numbers.iter().copied().find(|&column| !is_number(&first[column]));
+    let value = numbers.iter().copied().find(|&column| is_number(&first[column]));
     match (text, value) {
         (None, _) => Ok(false),
         (Some(_), None) => Ok(true),
@@ -114,7 +114,7 @@ fn is_header(job: &Job<'_>, first: &[Cow<'_, [u8]>], line: u64) -> Result<bool, 
 fn holds_names(job: &Job<'_>, columns: &Columns, first: &[Cow<'_, [u8]>]) -> bool {
     let names: Vec<String> =
         first.iter().map(|name| String::from_utf8_lossy(name).into_owned()).collect();
-    let may_be_name = |field: &[u8]| number(field).is_none() && !is_failed_value(field);
+    let may_be_name = |field: &[u8]| !is_number(field) && !is_failed_value(field);
     let numbers = columns.resolve(job.path, &names, first.len());
     numbers.is_ok_and(|numbers| numbers.iter().all(|&column| may_be_name(&first[column])))
 }
@@ -122,13 +122,13 @@ fn holds_names(job: &Job<'_>, columns: &Columns, first: &[Cow<'_, [u8]>]) -> boo
 /// Whether all selected fields are numbers.
 fn all_numbers(job: &Job<'_>, columns: &Columns, first: &[Cow<'_, [u8]>]) -> Result<bool, Error> {
     let numbers = columns.resolve(job.path, &[], first.len())?;
-    Ok(numbers.iter().all(|&column| number(&first[column]).is_some()))
+    Ok(numbers.iter().all(|&column| is_number(&first[column])))
 }
 
 /// Whether a field is no number but begins as one, or is what tables write where a number is missing.
 pub(crate) fn is_failed_value(field: &[u8]) -> bool {
     const MISSING: [&[u8]; 6] = [b"", b"NA", b"N/A", b"null", b"none", b"?"];
     let starts = matches!(field.first(), Some(b'0'..=b'9' | b'+' | b'-' | b'.'));
-    number(field).is_none()
+    !is_number(field)
         && (starts || MISSING.iter().any(|missing| field.eq_ignore_ascii_case(missing)))
 }

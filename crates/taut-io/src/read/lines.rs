@@ -4,10 +4,15 @@ use std::io::{BufRead, ErrorKind};
 
 use memchr::{memchr, memchr_iter};
 
+use crate::input::Job;
+use crate::limits::longest_line;
 use crate::{Error, Format};
 
 /// A quote that is still open after this many bytes is a mistake, not a field.
 const LONGEST_QUOTE: usize = 1 << 20;
+
+/// Most bytes taken from the stream at once.
+const CHUNK: usize = 1 << 18;
 
 /// Lines without their ends (`\n` or `\r\n`) and without the byte order mark of UTF-8.
 pub(super) struct Lines<'a> {
@@ -20,11 +25,22 @@ pub(super) struct Lines<'a> {
     ended: bool,
     /// Lines handed out.
     number: u64,
+    /// Most bytes of a line.
+    longest: usize,
 }
 
 impl<'a> Lines<'a> {
-    pub(super) fn new(stream: Box<dyn BufRead>, path: &'a str, format: Format) -> Self {
-        Lines { stream, path, format, buffer: Vec::new(), start: 0, ended: false, number: 0 }
+    pub(super) fn new(stream: Box<dyn BufRead>, job: &'a Job<'_>) -> Self {
+        Lines {
+            stream,
+            path: job.path,
+            format: job.format,
+            buffer: Vec::new(),
+            start: 0,
+            ended: false,
+            number: 0,
+            longest: longest_line(job.options.memory),
+        }
     }
 
     /// The next line and its number.
@@ -85,6 +101,10 @@ impl<'a> Lines<'a> {
                 return Ok(from + at);
             }
             from = self.buffer.len() - self.start;
+            if from > self.longest {
+                let (path, line, limit) = (self.path.to_owned(), self.number + 1, self.longest);
+                return Err(Error::LongLine { path, line, limit });
+            }
             if self.ended {
                 return Ok(from);
             }
@@ -112,8 +132,9 @@ impl<'a> Lines<'a> {
             });
         }
         self.ended = chunk.is_empty();
-        self.buffer.extend_from_slice(chunk);
-        let used = chunk.len();
+        // Bytes in memory come all at once, and must not be copied all at once.
+        let used = chunk.len().min(CHUNK);
+        self.buffer.extend_from_slice(&chunk[..used]);
         self.stream.consume(used);
         Ok(())
     }

@@ -12,6 +12,7 @@ use taut_points::{Scalar, ScalarKind};
 use super::Decoded;
 use super::literal::{self, Literal};
 use crate::input::Job;
+use crate::limits;
 use crate::sink::Sink;
 use crate::{Error, Format, Place};
 
@@ -256,6 +257,7 @@ impl<'a, T: Scalar> Decoder<'a, T> {
         // d values must be there in either order; from here on, memory of size d is paid for by bytes that exist.
         let mut first = Vec::new();
         let size = (header.dim as u64).saturating_mul(header.element.size() as u64);
+        limits::check_point(job.path, size, job.options.memory)?;
         (&mut stream)
             .take(size)
             .read_to_end(&mut first)
@@ -317,7 +319,7 @@ impl<'a, T: Scalar> Decoder<'a, T> {
         if let Some(memory) = self.job.options.memory.filter(|&memory| memory < bytes) {
             return Err(Error::TooLarge {
                 path: self.job.path.to_owned(),
-                problem: "Fortran order",
+                problem: "an array in Fortran order",
                 bytes,
                 memory,
                 remedy: "allow more memory, or save it in C order (`numpy.ascontiguousarray`)",

@@ -6,6 +6,7 @@ use taut_points::{Scalar, ScalarKind};
 
 use super::Decoded;
 use crate::input::Job;
+use crate::limits;
 use crate::sink::Sink;
 use crate::{Error, Place, RawLayout};
 
@@ -55,6 +56,7 @@ fn decode_as<T: Scalar>(
     let mut sink: Option<Sink<'_, T>> = None;
     let (mut bytes, mut chosen, mut read) = (Vec::new(), Vec::new(), 0);
     let size = dim.saturating_mul(size_of::<T>());
+    limits::check_point(job.path, size as u64, job.options.memory)?;
     loop {
         bytes.clear();
         (&mut stream).take(size as u64).read_to_end(&mut bytes).map_err(read_failed)?;

@@ -9,6 +9,7 @@ use std::borrow::Cow;
 use memchr::memchr;
 
 use crate::input::Job;
+use crate::number::{self, Misread};
 use crate::sink::Sink;
 use crate::{Error, Place};
 
@@ -84,9 +85,9 @@ fn skip_white(mut text: &[u8], delimiter: Delimiter) -> &[u8] {
     text
 }
 
-/// The number a field holds, NaN and infinities included.
-pub(super) fn number(field: &[u8]) -> Option<f64> {
-    fast_float2::parse(field.trim_ascii()).ok()
+/// Whether a field is written as a number; NaN, infinities and what is too small for an `f64` are numbers too.
+pub(super) fn is_number(field: &[u8]) -> bool {
+    number::parse(field.trim_ascii()) != Err(Misread::NotANumber)
 }
 
 /// Appends the numbers of a row to `out`; false (and some rubbish in `out`) when it is not all plain finite numbers.
@@ -94,7 +95,7 @@ fn walk(line: &[u8], delimiter: Delimiter, out: &mut Vec<f64>) -> bool {
     let mut rest = line;
     loop {
         rest = skip_white(rest, delimiter);
-        let Ok((value, used)) = fast_float2::parse_partial::<f64, _>(rest) else { return false };
+        let Ok((value, used)) = number::parse_start(rest) else { return false };
         if !value.is_finite() {
             return false;
         }
@@ -195,10 +196,13 @@ impl<'a> Rows<'a> {
                 column,
                 name: self.names.get(column).cloned(),
             };
-            match number(text) {
-                Some(value) if value.is_finite() => self.row.push(value),
-                Some(_) => return Err(Error::NonFinite { place: place(), value: shown(text) }),
-                None => {
+            match number::parse(text.trim_ascii()) {
+                Ok(value) if value.is_finite() => self.row.push(value),
+                Ok(_) => return Err(Error::NonFinite { place: place(), value: shown(text) }),
+                Err(Misread::Underflow) => {
+                    return Err(Error::Underflow { place: place(), value: shown(text) });
+                }
+                Err(Misread::NotANumber) => {
                     return Err(Error::NotANumber {
                         place: place(),
                         value: shown(text),

@@ -7,7 +7,8 @@ use crate::sink::Sink;
 use crate::{Error, ShapeFormat};
 
 pub(super) fn read(job: &Job<'_>, medium: Medium, format: ShapeFormat) -> Result<Decoded, Error> {
-    let shape = read_stream(medium.stream(), format, job.path.as_ref(), job.path)?;
+    let memory = job.options.memory;
+    let shape = read_stream(medium.stream(), format, job.path.as_ref(), job.path, memory)?;
     let names = ["x", "y", "z"].map(str::to_owned);
     let numbers = match &job.options.columns {
         Some(columns) => columns.resolve(job.path, &names, 3)?,

@@ -1,19 +1,21 @@
 //! Problems of TSPLIB: keywords, then a NODE_COORD_SECTION of `number x y` or `number x y z` lines.
 //!
-//! *Trap.* GEO problems give degrees and minutes as one number; it is read as it stands.
+//! *Trap.* Problems of type GEO give latitude and longitude, degrees and minutes as one number. They are no points of the
+//! plane and are refused. All other types with coordinates (EUC, MAX, MAN, CEIL, ATT, XRAY; 2D and 3D) differ in how the
+//! length of an edge is rounded or measured, and their coordinates are points as they stand.
 //! *Reference.* Reinelt, TSPLIB 95 (file format, section 1).
 
 use std::io::BufRead;
 
 use super::Decoded;
 use super::lines::Lines;
-use super::rows::{Delimiter, Rows, number, shown, split};
+use super::rows::{Delimiter, Rows, is_number, shown, split};
 use crate::input::Job;
 use crate::sink::Sink;
 use crate::{Error, Format};
 
 pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, Error> {
-    let mut lines = Lines::new(stream, job.path, Format::Tsplib);
+    let mut lines = Lines::new(stream, job);
     let n = dimension(job, &mut lines)?;
     let Some(first) = lines.next_data()?.filter(|(_, line)| is_node(line)) else {
         return Err(Error::NoRows { path: job.path.to_owned() });
@@ -54,7 +56,7 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
     Ok(Decoded { source: sink.finish()?, columns, numbers })
 }
 
-/// Reads up to the coordinates; returns what DIMENSION says.
+/// Reads up to the coordinates and returns what DIMENSION says; refuses coordinates on a sphere.
 fn dimension(job: &Job<'_>, lines: &mut Lines<'_>) -> Result<u64, Error> {
     let mut n = None;
     while let Some((number, line)) = lines.next_data()? {
@@ -63,6 +65,9 @@ fn dimension(job: &Job<'_>, lines: &mut Lines<'_>) -> Result<u64, Error> {
         match key.trim() {
             "NODE_COORD_SECTION" => {
                 return n.ok_or_else(|| damaged(job, "it has no DIMENSION".to_owned()));
+            }
+            "EDGE_WEIGHT_TYPE" if value.trim() == "GEO" => {
+                return Err(Error::Geographic { path: job.path.to_owned(), line: number });
             }
             "DIMENSION" => {
                 n = Some(value.trim().parse().map_err(|_| {
@@ -79,8 +84,7 @@ fn dimension(job: &Job<'_>, lines: &mut Lines<'_>) -> Result<u64, Error> {
 /// Whether a line is a node: EOF, `-1` and the next section end the list.
 fn is_node(line: &[u8]) -> bool {
     let line = line.trim_ascii();
-    line != b"-1"
-        && line.split(|b| b.is_ascii_whitespace()).next().is_some_and(|f| number(f).is_some())
+    line != b"-1" && line.split(|b| b.is_ascii_whitespace()).next().is_some_and(is_number)
 }
 
 fn damaged(job: &Job<'_>, problem: String) -> Error {

@@ -6,13 +6,13 @@ use std::io::BufRead;
 
 use super::Decoded;
 use super::lines::Lines;
-use super::rows::{Delimiter, Rows, number, split};
+use super::rows::{Delimiter, Rows, is_number, split};
 use crate::input::Job;
 use crate::sink::Sink;
 use crate::{Error, Format};
 
 pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, Error> {
-    let mut lines = Lines::new(stream, job.path, Format::Xyz);
+    let mut lines = Lines::new(stream, job);
     let none = || Error::NoRows { path: job.path.to_owned() };
     let (line, text) = lines.next_data()?.ok_or_else(none)?;
     let count = std::str::from_utf8(text).ok().and_then(|text| text.trim().parse::<u64>().ok());
@@ -30,7 +30,7 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
         }
     };
     let fields = split(&first.1, Delimiter::White);
-    let skip = usize::from(fields.first().is_some_and(|symbol| number(symbol).is_none()));
+    let skip = usize::from(fields.first().is_some_and(|symbol| !is_number(symbol)));
     let width = fields.len() - skip;
     if width < 3 {
         let problem = format!("line {} has {width} coordinates, not at least 3", first.0);
@@ -65,6 +65,6 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
 /// Whether a line holds a point: at least three numbers, and nothing else but a symbol before them.
 fn is_row(line: &[u8]) -> bool {
     let fields = split(line, Delimiter::White);
-    let numbers = fields.iter().rev().take_while(|field| number(field).is_some()).count();
+    let numbers = fields.iter().rev().take_while(|field| is_number(field)).count();
     numbers >= 3 && fields.len() - numbers <= 1
 }

@@ -3,15 +3,24 @@
 use super::colors::Colors;
 use super::{Shape, ShapeFormat};
 use crate::error::Refuse;
+use crate::limits;
+use crate::number::{self, Misread};
 use crate::ply::printable;
+use crate::words::underflow;
 use crate::{Error, MeshPlace};
 
 /// Most triangles, so that the number of a corner fits into 32 bits: the same as of a mesh.
 const TRIANGLES_MAX: usize = (u32::MAX / 3) as usize;
 
+/// Bytes of a vertex and of a triangle.
+const VERTEX: u64 = size_of::<[f64; 3]>() as u64;
+const TRIANGLE: u64 = size_of::<[u32; 3]>() as u64;
+
 pub(super) struct Building<'a> {
     path: &'a str,
     format: ShapeFormat,
+    /// Most bytes of vertices and triangles; all where none.
+    memory: Option<u64>,
     /// The id of the first vertex in this format.
     pub(super) first: i64,
     pub(super) vertices: Vec<[f64; 3]>,
@@ -25,6 +34,10 @@ impl Refuse for Building<'_> {
         self.path
     }
 
+    fn longest_line(&self) -> usize {
+        limits::longest_line(self.memory)
+    }
+
     fn damaged(&self, place: MeshPlace, problem: impl Into<String>) -> Error {
         let (path, format) = (self.path.to_owned(), self.format);
         Error::Shape { path, format, place, problem: problem.into() }
@@ -32,10 +45,11 @@ impl Refuse for Building<'_> {
 }
 
 impl<'a> Building<'a> {
-    pub(super) fn new(path: &'a str, format: ShapeFormat) -> Self {
+    pub(super) fn new(path: &'a str, format: ShapeFormat, memory: Option<u64>) -> Self {
         Building {
             path,
             format,
+            memory,
             first: 0,
             vertices: Vec::new(),
             triangles: Vec::new(),
@@ -56,7 +70,7 @@ impl<'a> Building<'a> {
             return Err(self.damaged(place, "there are more vertices than ids of 32 bits"));
         }
         self.vertices.push(at);
-        Ok(())
+        self.check_memory()
     }
 
     /// Adds a normal.
@@ -101,7 +115,22 @@ impl<'a> Building<'a> {
         }
         let id = |corner: usize| corners[corner] as u32;
         self.triangles.extend((2..corners.len()).map(|k| [id(0), id(k - 1), id(k)]));
-        Ok(())
+        self.check_memory()
+    }
+
+    /// Refuses a shape that outgrows the allowed memory: triangles name any vertex, so all are held.
+    fn check_memory(&self) -> Result<(), Error> {
+        // Corners of stl are looked up by their coordinates, in a table of at most twice their size.
+        let vertex = if self.format == ShapeFormat::Stl { 3 * VERTEX } else { VERTEX };
+        let normals = self.normals.len() as u64 * VERTEX;
+        let bytes = self.vertices.len() as u64 * vertex + self.triangles.len() as u64 * TRIANGLE;
+        limits::check_held(
+            self.path,
+            "all its vertices and triangles",
+            bytes + normals,
+            self.memory.map(|memory| memory / 2),
+            "allow twice as much memory as these take, or convert it to npy",
+        )
     }
 
     /// Refuses a count that does not hold.
@@ -142,9 +171,12 @@ impl<'a> Building<'a> {
 
     /// A word as a number.
     pub(super) fn number(&self, place: MeshPlace, word: &[u8]) -> Result<f64, Error> {
-        fast_float2::parse(word).map_err(|_| {
-            let word = printable(&String::from_utf8_lossy(word));
-            self.damaged(place, format!("`{word}` is no number"))
+        number::parse(word).map_err(|misread| match misread {
+            Misread::Underflow => underflow(self, place, word),
+            Misread::NotANumber => {
+                let word = printable(&String::from_utf8_lossy(word));
+                self.damaged(place, format!("`{word}` is no number"))
+            }
         })
     }
 

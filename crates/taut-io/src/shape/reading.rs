@@ -7,8 +7,9 @@ use std::path::Path;
 use super::building::Building;
 use super::{Shape, ShapeFormat, obj, off, ply, stl, xyz};
 use crate::cursor::Cursor;
+use crate::device::refuse_device;
 use crate::error::shown_path;
-use crate::input::Medium;
+use crate::input::{Medium, refuse_device_at_stdin};
 use crate::{Compression, Error, compress};
 
 /// Reads the shape of `path` in the given format, or in that of the extension; `-` is standard input. What is compressed is
@@ -24,6 +25,7 @@ use crate::{Compression, Error, compress};
 /// line or element, of what the file holds; [`Error::NoVertices`]; and those of opening a file.
 pub fn open_shape(path: &Path, format: Option<ShapeFormat>) -> Result<Shape, Error> {
     if path.as_os_str() == "-" {
+        refuse_device_at_stdin()?;
         let stream = Box::new(BufReader::with_capacity(1 << 18, io::stdin()));
         return read(Medium::Stream(stream), Path::new(""), format, "standard input");
     }
@@ -34,6 +36,7 @@ pub fn open_shape(path: &Path, format: Option<ShapeFormat>) -> Result<Shape, Err
         return Err(Error::Directory { path: shown });
     }
     let file = File::open(path).map_err(failed)?;
+    refuse_device(&file, &shown)?;
     let stream = Box::new(BufReader::with_capacity(1 << 18, file));
     read(Medium::Stream(stream), path, format, &shown)
 }
@@ -77,17 +80,19 @@ fn read(
     if head.is_empty() {
         return Err(Error::Empty { path: path() });
     }
-    read_stream(medium.stream(), format, name, shown)
+    read_stream(medium.stream(), format, name, shown, None)
 }
 
-/// Reads a shape from bytes that are not compressed; `name` tells the columns of a file without a header as a path would.
+/// Reads a shape from bytes that are not compressed; `name` tells the columns of a file without a header as a path would, and
+/// `memory` how many bytes may be held.
 pub(crate) fn read_stream(
     stream: Box<dyn BufRead>,
     format: ShapeFormat,
     name: &Path,
     shown: &str,
+    memory: Option<u64>,
 ) -> Result<Shape, Error> {
-    let mut shape = Building::new(shown, format);
+    let mut shape = Building::new(shown, format, memory);
     match format {
         ShapeFormat::Ply => ply::read(&mut shape, Cursor::new(stream, shown))?,
         ShapeFormat::Obj => obj::read(&mut shape, stream)?,

@@ -130,9 +130,7 @@ fn read_text(shape: &mut Building<'_>, stream: Box<dyn BufRead>) -> Result<(), E
             "facet" => &["outer"],
             "outer" => &["vertex"],
             "vertex" => {
-                let found = place(rest).ok_or_else(|| {
-                    shape.damaged(at, "a vertex needs three numbers, and nothing but numbers")
-                })?;
+                let found = place(shape, at, rest)?;
                 corners.push(weld.id(shape, at, found)?);
                 if corners.len() < 3 { &["vertex"] } else { &["endloop"] }
             }

@@ -10,6 +10,8 @@
 //! *Reference.* P. Sanders, S. Lamm, L. Hübschle-Schneider, E. Schrade, C. Dachsbacher, *Efficient parallel random
 //! sampling: vectorized, cache-efficient, and online*, TOMS 44(3), 2018.
 
+use taut_points::{shown_number, try_reserve_exact};
+
 use super::random::Random;
 use super::weights::{binomial, hypergeometric};
 use crate::error::Error;
@@ -51,7 +53,7 @@ pub fn sample(seed: u64, n: u64, k: u64) -> Result<Vec<u64>, Error> {
 /// Room for `k` numbers, empty.
 fn room(k: u64) -> Result<Vec<u64>, Error> {
     let mut room = Vec::new();
-    if usize::try_from(k).is_ok_and(|k| room.try_reserve_exact(k).is_ok()) {
+    if usize::try_from(k).is_ok_and(|k| try_reserve_exact(&mut room, k).is_ok()) {
         return Ok(room);
     }
     let expected = "as many numbers as there is memory for";
@@ -67,7 +69,7 @@ fn room(k: u64) -> Result<Vec<u64>, Error> {
 pub fn bernoulli(seed: u64, n: u64, p: f64) -> Result<Vec<u64>, Error> {
     if !(0.0..=1.0).contains(&p) {
         let expected = "a probability, 0 to 1";
-        return Err(Error::Option { name: "p", value: p.to_string(), expected });
+        return Err(Error::Option { name: "p", value: shown_number(p), expected });
     }
     // Before a number is drawn with so large a variance.
     room((n as f64 * p) as u64)?;

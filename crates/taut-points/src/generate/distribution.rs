@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::Error;
+use crate::{Error, shown_number};
 
 /// From what points are drawn, independently of each other.
 ///
@@ -207,11 +207,11 @@ impl Distribution {
     pub(super) fn check(&self) -> Result<(), Error> {
         let finite = |name, value: f64| match value.is_finite() {
             true => Ok(()),
-            false => Err((name, value.to_string(), "a finite number")),
+            false => Err((name, shown_number(value), "a finite number")),
         };
         let size = |name, value: f64| match value >= 0.0 && value.is_finite() {
             true => Ok(()),
-            false => Err((name, value.to_string(), "a finite number, at least 0")),
+            false => Err((name, shown_number(value), "a finite number, at least 0")),
         };
         let positive = |name, value: u64| match value {
             0 => Err((name, "0".to_owned(), "at least 1")),

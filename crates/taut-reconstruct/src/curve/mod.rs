@@ -13,7 +13,7 @@ mod thesis;
 mod tour;
 
 use taut_certify::{Curve, Solution};
-use taut_points::{Monitor, PointSource, Points, Scalar};
+use taut_points::{Monitor, PointSource, Points, Scalar, shown_number};
 
 use crate::Error;
 use crate::threads::on_threads;
@@ -43,7 +43,7 @@ pub fn curve_of_source(
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Curve>, Error> {
     let wrong =
-        |name, value: f64, expected| Error::Option { name, value: value.to_string(), expected };
+        |name, value: f64, expected| Error::Option { name, value: shown_number(value), expected };
     if !(options.rho >= 1.0 && options.rho.is_finite()) {
         return Err(wrong("rho", options.rho, "a number of at least 1"));
     }

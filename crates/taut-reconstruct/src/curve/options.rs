@@ -16,7 +16,7 @@ pub struct CurveOptions {
     pub feature: Option<f64>,
     /// Whether the answer tells the place of each row on the curves; default false.
     pub places: bool,
-    /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
+    /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
 }
 

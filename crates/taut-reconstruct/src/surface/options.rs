@@ -21,7 +21,7 @@ pub struct SurfaceOptions {
     pub thesis: ThesisOptions,
     /// Whether noise is taken out of the points first, and how; default `None`, which leaves them as they are.
     pub denoise: Option<Denoise>,
-    /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
+    /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
 }
 

@@ -2,8 +2,9 @@
 
 use crate::cursor::{Cursor, Kind};
 use crate::error::Refuse;
+use crate::number::{self, Misread};
 use crate::ply::{self, Encoding, Header, Property};
-use crate::words::{Lines, whole};
+use crate::words::{Lines, underflow, whole};
 use crate::{Error, MeshPlace};
 
 use super::super::building::Building;
@@ -61,7 +62,10 @@ impl<'a> Values<'a> {
             Values::Binary(cursor) => cursor.real(kind, shape, place),
             Values::Text(lines, at) => {
                 let word = next_word(lines.bytes(), at).ok_or_else(|| too_few(shape, place))?;
-                fast_float2::parse(word).map_err(|_| no_number(shape, place, word))
+                number::parse(word).map_err(|misread| match misread {
+                    Misread::Underflow => underflow(shape, place, word),
+                    Misread::NotANumber => no_number(shape, place, word),
+                })
             }
         }
     }

@@ -5,7 +5,9 @@ use std::ops::Range;
 use super::sample::Law;
 use super::{CurveNoise, TruthCurves};
 use crate::source::check_range;
-use crate::{Error, PointSource, Points, ReadError, Rows, Scalar, ScalarKind, Scratch};
+use crate::{
+    Error, PointSource, Points, ReadError, Rows, Scalar, ScalarKind, Scratch, shown_number,
+};
 
 /// Rows near curves that are never stored: those of [`sample_curve`](super::sample_curve).
 #[derive(Clone, Debug)]
@@ -29,7 +31,7 @@ impl CurveSource {
         scalar: ScalarKind,
     ) -> Result<Self, Error> {
         let wrong = |name, value: f64, expected| {
-            Err(Error::Parameter { name, value: value.to_string(), expected })
+            Err(Error::Parameter { name, value: shown_number(value), expected })
         };
         if !(noise.delta >= 0.0 && noise.delta.is_finite()) {
             return wrong("noise", noise.delta, "a finite number of at least 0");

@@ -19,6 +19,8 @@ pub use hull::{FilteredHull, filtered_hull};
 pub use optimal::optimal_alpha;
 pub use shape::{AlphaShape, FacetClass, alpha_shape};
 
+use taut_points::shown_number;
+
 use crate::Error;
 
 /// The radius, unless it is none.
@@ -26,6 +28,6 @@ fn checked(alpha: f64) -> Result<f64, Error> {
     if alpha >= 0.0 {
         return Ok(alpha);
     }
-    let (value, expected) = (alpha.to_string(), "a radius of at least 0");
+    let (value, expected) = (shown_number(alpha), "a radius of at least 0");
     Err(Error::Option { name: "alpha", value, expected })
 }

@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
+use taut_points::{check_threads, shown_number};
+
 use crate::Error;
 use crate::surface::filter::{AlphaFilter, Emptiness, Filter};
 
@@ -28,7 +30,7 @@ pub struct ThesisOptions {
     /// Moves the points a little before anything else is done with them, as the thesis did for Qhull: by a random number that this
     /// seeds. The answer is that of the moved points. Default none.
     pub joggle: Option<u64>,
-    /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
+    /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
 }
 
@@ -108,11 +110,13 @@ impl ThesisOptions {
         for (name, angle) in angles {
             if !(0.0..=FRAC_PI_2).contains(&angle) {
                 let expected = "an angle from 0 to π/2 in radians";
-                return Err(Error::Option { name, value: angle.to_string(), expected });
+                return Err(Error::Option { name, value: shown_number(angle), expected });
             }
         }
-        if self.threads == Some(0) {
-            let (value, expected) = ("0".into(), "at least 1");
+        if let Some(threads) = self.threads
+            && let Err(refused) = check_threads(threads)
+        {
+            let (value, expected) = (threads.to_string(), refused.expected);
             return Err(Error::Option { name: "threads", value, expected });
         }
         Filter::new(self.epsilon, self.emptiness, self.alpha)

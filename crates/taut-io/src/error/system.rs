@@ -1,0 +1,41 @@
+//! What errors of the operating system mean for a file.
+
+use std::io;
+
+use crate::Error;
+
+impl Error {
+    /// What an error of opening or reading the file shown as `path` means, for those who read it themselves.
+    pub fn reading(path: &str, source: io::Error) -> Error {
+        let path = path.to_owned();
+        match source.kind() {
+            io::ErrorKind::NotFound => Error::NotFound { path },
+            io::ErrorKind::IsADirectory => Error::Directory { path },
+            io::ErrorKind::PermissionDenied => Error::Permission { path, action: "read" },
+            // A decoder of ours has said it better, at the place where it happened.
+            _ => match source.downcast::<Error>() {
+                Ok(inner) => inner,
+                Err(source) => Error::Read { path, source },
+            },
+        }
+    }
+
+    /// What an error of creating or writing `path` means.
+    pub(crate) fn writing(path: &str, source: io::Error) -> Error {
+        let path = path.to_owned();
+        match source.kind() {
+            io::ErrorKind::NotFound => Error::NotFound { path },
+            io::ErrorKind::IsADirectory => Error::Directory { path },
+            io::ErrorKind::PermissionDenied => Error::Permission { path, action: "write" },
+            _ => Error::Write { path, source },
+        }
+    }
+
+    /// What an error of writing a file means that would have replaced `path`.
+    pub(crate) fn replacing(path: &str, source: io::Error) -> Error {
+        match Error::writing(path, source) {
+            Error::Write { path, source } => Error::Replace { path, source },
+            other => other,
+        }
+    }
+}

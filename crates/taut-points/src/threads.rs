@@ -1,0 +1,56 @@
+//! Pools of threads of a chosen size: the one place where their number is bounded.
+
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// Most threads of a pool. More than any machine has processors only cost memory, and starting them takes ever longer.
+pub const THREADS_MAX: usize = 1024;
+
+/// Why there is no pool of this size.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("expected {expected}")]
+pub struct ThreadsError {
+    /// The numbers of threads that would have been accepted.
+    pub expected: &'static str,
+}
+
+/// Refuses a number of threads that is 0 or more than [`THREADS_MAX`].
+///
+/// # Errors
+/// [`ThreadsError`] with the range.
+pub fn check_threads(threads: usize) -> Result<(), ThreadsError> {
+    match (1..=THREADS_MAX).contains(&threads) {
+        true => Ok(()),
+        false => Err(ThreadsError { expected: "1 to 1024" }),
+    }
+}
+
+/// Starts a pool of that many threads, 1 to [`THREADS_MAX`].
+///
+/// ```
+/// assert_eq!(taut_points::thread_pool(2)?.current_num_threads(), 2);
+/// assert!(taut_points::thread_pool(1_000_000_000).is_err());
+/// # Ok::<(), taut_points::ThreadsError>(())
+/// ```
+///
+/// # Errors
+/// [`ThreadsError`] where the number is out of range, or the system grants fewer threads.
+pub fn thread_pool(threads: usize) -> Result<ThreadPool, ThreadsError> {
+    check_threads(threads)?;
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|_| ThreadsError { expected: "as many threads as the system grants" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn threads_are_capped_before_one_is_started() {
+        for wrong in [0, THREADS_MAX + 1, 65_536, 1_000_000_000, usize::MAX] {
+            let refused = thread_pool(wrong).unwrap_err();
+            assert_eq!(refused.to_string(), format!("expected 1 to {THREADS_MAX}"), "{wrong}");
+        }
+        assert_eq!(check_threads(THREADS_MAX), Ok(()));
+        assert_eq!(thread_pool(3).unwrap().current_num_threads(), 3);
+    }
+}
