@@ -211,8 +211,7 @@ mod tests {
             let open = |area: &Area| {
                 asked += 1;
                 assert!(area.least[0] <= area.most[0]);
-                // True of a box without items as well.
-                !(area.most[0] < last.least[0])
+                area.meets(&last)
             };
             assert_eq!(tree.find(open, |item| item == count - 1), Some(count - 1));
             assert!(asked <= 2 * count.ilog2() + 2 * LEAF as u32, "{asked} of {count}");
