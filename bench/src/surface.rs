@@ -1,6 +1,7 @@
 //! Surfaces: topology, distances, times and memory of reconstructions beside CGAL's.
 
 mod accuracy;
+mod checking;
 mod components;
 mod distances;
 mod found;
@@ -12,6 +13,7 @@ pub(crate) mod one;
 mod open;
 mod others;
 mod samples;
+mod solids;
 mod speed;
 mod table_one;
 pub(crate) mod thesis_surface;
@@ -110,6 +112,12 @@ const SECTIONS: &[Section] = &[
         about: "The bunny with noise of a thousandth of its diagonal, with the pre-pass, beside CGAL's interpolation.",
         seeds: 1,
         run: noise::run,
+    },
+    Section {
+        name: "check",
+        about: "Checking beside solving: four meshes, solids with flat faces at random, a million points of a smooth body.",
+        seeds: 1,
+        run: checking::run,
     },
     Section {
         name: "others",

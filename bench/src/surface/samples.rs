@@ -10,7 +10,7 @@ use taut_points::{Distribution, generate};
 pub(super) type Point = [f64; 3];
 
 /// Rows of `N` numbers in [0, 1).
-fn chances<const N: usize>(count: usize, seed: u64) -> Result<Vec<[f64; N]>> {
+pub(super) fn chances<const N: usize>(count: usize, seed: u64) -> Result<Vec<[f64; N]>> {
     let flat = generate(Distribution::Uniform, count, N, seed)?;
     Ok(flat.as_chunks().0.to_vec())
 }

@@ -6,8 +6,10 @@
 //! 1. *Lists.* Triangles name three different rows, no three twice; every other row is in just one list of unused ones; rows in one
 //!    place are known as duplicates, all of them. [`structure`], [`usage`]
 //! 2. *Topology.* Edges are sorted sides; components, fans at vertices and loops are sets joined along them. [`topology`]
-//! 3. *Balls.* A tree over the points leaves out boxes that are surely outside; exact signs decide about the others. [`balls`]
-//! 4. *Embedding.* A tree over the triangles lists the pairs that can meet; exact signs decide. [`crossing`], [`meet`]
+//! 3. *Balls.* A tree over the points leaves out boxes that are surely outside; exact signs decide about the others. [`balls`],
+//!    [`sphere`], [`ball`]
+//! 4. *Embedding.* Two triangles with empty balls cannot meet unless both have further points on their spheres. A tree over those, or
+//!    over all where there are no balls, lists the pairs that can; exact signs decide. [`crossing`], [`separated`], [`meet`]
 //! 5. *Sides.* The sign of the volume tells which way a closed component faces, rays through the others how deep it lies. [`sides`]
 //!
 //! *Delaunay.* A triangle with an empty ball is a face of a Delaunay cell, or lies in one whose sphere has more than four points:
@@ -20,12 +22,15 @@
 
 mod ball;
 mod balls;
+mod buckets;
 mod crossing;
 mod meet;
 mod places;
 mod radius;
+mod separated;
 mod sets;
 mod sides;
+mod sphere;
 mod structure;
 mod topology;
 mod tree;
@@ -57,7 +62,7 @@ pub(super) fn check(
         return Err(SurfaceViolation::Displacement { claimed, found: displacement }.into());
     }
     let sites = usage::check(surface, &places)?;
-    let shape = Shape::of(&surface.triangles);
+    let shape = Shape::of(&surface.triangles, places.all.len());
     topology::compare(&surface.topology, &shape.topology)?;
     match (certificate.mode, shape.bare) {
         (SurfaceMode::Closed, Some(edge)) => return Err(SurfaceViolation::Open { edge }.into()),
@@ -65,13 +70,19 @@ pub(super) fn check(
         _ => {}
     }
     let faces = crossing::Faces::of(&surface.triangles, &places);
-    let crossing = faces.crossing(monitor)?;
+    // Where some ball is not what it is said to be, nothing follows from any; two triangles that meet are named first.
+    let (independent, balls) = match balls::check(surface, certificate, &places, sites, monitor) {
+        Ok(independent) => (independent, Ok(())),
+        Err(CheckError::Rejected(violation)) => (vec![], Err(violation)),
+        Err(unread) => return Err(unread),
+    };
+    let crossing = faces.crossing(&independent, monitor)?;
     match (crossing, certificate.embedded) {
         (Some(doubt), true) => return Err(SurfaceViolation::NotEmbedded { doubt }.into()),
         (None, false) => return Err(SurfaceViolation::Embedded.into()),
         _ => {}
     }
-    balls::check(surface, certificate, &places, sites, monitor)?;
+    balls?;
     sides::interior(surface, &shape, &faces)?;
     let inward = match shape.doubt.or(crossing) {
         None => sides::inward(&shape, &faces),

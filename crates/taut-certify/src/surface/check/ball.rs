@@ -26,9 +26,11 @@ pub(super) struct Ball {
     a: [f64; 3],
     normal: [f64; 3],
     weight: f64,
-    /// What components of N, and O, are off by.
-    normal_error: f64,
-    weight_error: f64,
+    /// Where the shares are least: N/2O, infinite or NaN for a half-space.
+    apex: [f64; 3],
+    /// What the share of x is off by, over |x|² and over |x|.
+    square_error: f64,
+    line_errors: [f64; 3],
 }
 
 impl Ball {
@@ -61,18 +63,17 @@ impl Ball {
     ) -> Self {
         let (normal, weight) = (lifted.normal.map(|x| x.high), lifted.orientation.high);
         let largest = normal.iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
+        // What components of N, and O, are off by.
+        let normal_error = 2.0 * U * largest + TWICE * normal_size + UNDERFLOW;
+        let weight_error = 2.0 * U * weight.abs() + TWICE * weight_size + UNDERFLOW;
         Ball {
             a: *a,
             normal,
             weight,
-            normal_error: 2.0 * U * largest + TWICE * normal_size + UNDERFLOW,
-            weight_error: 2.0 * U * weight.abs() + TWICE * weight_size + UNDERFLOW,
+            apex: normal.map(|x| x / (2.0 * weight)),
+            square_error: SHARE * weight.abs() + weight_error,
+            line_errors: normal.map(|x| SHARE * x.abs() + normal_error),
         }
-    }
-
-    /// [`Ball::misses`] of this ball.
-    pub(super) fn outside(self) -> impl Fn(&Area) -> bool {
-        move |area| self.misses(area)
     }
 
     /// Whether all of a box is surely strictly outside. All sizes are below 1.
@@ -84,11 +85,9 @@ impl Ball {
             let reach = low.abs().max(high.abs());
             let share = |x: f64| (self.weight * x - self.normal[k]) * x;
             // O as rounded may be negative though it is not: then there is no least value but at the ends.
-            let apex = (self.normal[k] / (2.0 * self.weight)).max(low).min(high);
+            let apex = self.apex[k].max(low).min(high);
             least += if self.weight < 0.0 { share(low).min(share(high)) } else { share(apex) };
-            let (square, line) = (self.weight.abs() * reach, self.normal[k].abs());
-            error += reach * (SHARE * (square + line));
-            error += reach * (self.weight_error * reach + self.normal_error);
+            error += reach * (self.square_error * reach + self.line_errors[k]);
         }
         least > error
     }

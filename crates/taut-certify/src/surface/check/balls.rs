@@ -7,7 +7,11 @@
 //! *Facets of the hull.* A half-space is the limit of balls with the three vertices on their spheres; these lose the points of the
 //! plane but those in the circle. So no point may be beyond the plane, and none in the circle, which is where the plane cuts the
 //! smallest ball. Where a face of the hull has many points, boxes of them lie in its plane: these are told by their corners, exactly.
+//! *Ties.* The same signs tell which sites lie on a sphere without being vertices of its triangle. Triangles whose spheres have no
+//! such site, or one beside their plane, cannot meet any other triangle with an empty ball: see [`crossing`](super::crossing). Of a
+//! facet of the hull those on the circle count: the balls that tend to the half-space have no other site in common.
 
+use std::cell::LazyCell;
 use std::cmp::Ordering;
 
 use rayon::prelude::*;
@@ -16,6 +20,7 @@ use taut_points::{Monitor, ReadError};
 use super::super::{Apex, Surface, SurfaceCertificate, SurfaceViolation};
 use super::ball::Ball;
 use super::places::{Places, axes, side};
+use super::sphere::Sphere;
 use super::tree::{Area, Tree};
 use crate::CheckError;
 use crate::triangulation::{Gabriel, Tetrahedra};
@@ -23,33 +28,33 @@ use crate::triangulation::{Gabriel, Tetrahedra};
 /// Triangles in a block of work.
 const BLOCK: usize = 1 << 10;
 
-/// Checks the balls, each of them empty of `sites`.
+/// Checks the balls, each of them empty of `sites`. For each triangle whether its vertices and the other sites on the sphere of its
+/// ball are affinely independent; empty where no balls are claimed.
 pub(super) fn check(
     surface: &Surface,
     certificate: &SurfaceCertificate,
     places: &Places,
     sites: Vec<u32>,
     monitor: &Monitor<'_>,
-) -> Result<(), CheckError> {
+) -> Result<Vec<bool>, CheckError> {
     let apexes = &certificate.apexes;
     if apexes.is_empty() {
-        return Ok(());
+        return Ok(vec![]);
     }
     let areas: Vec<Area> = sites.iter().map(|&row| Area::of(&[places.all[row as usize]])).collect();
     let search = Search { places, tree: Tree::of(&areas), sites };
     let blocks = surface.triangles.par_chunks(BLOCK).zip(apexes.par_chunks(BLOCK)).enumerate();
-    let judged: Vec<Result<(), CheckError>> = blocks
+    let judged: Vec<Result<Vec<bool>, CheckError>> = blocks
         .map(|(block, (triangles, apexes))| {
             monitor.check().map_err(ReadError::from)?;
-            for (number, (&triangle, &apex)) in (block * BLOCK..).zip(triangles.iter().zip(apexes))
-            {
-                search.judge(number, triangle, apex)?;
-            }
-            Ok(())
+            let numbered = (block * BLOCK..).zip(triangles.iter().zip(apexes));
+            let judge = |(number, (&triangle, &apex))| search.judge(number, triangle, apex);
+            Ok(numbered.map(judge).collect::<Result<_, SurfaceViolation>>()?)
         })
         .collect();
     // The first violation by position, whichever thread met it.
-    judged.into_iter().collect()
+    let blocks: Vec<Vec<bool>> = judged.into_iter().collect::<Result<_, CheckError>>()?;
+    Ok(blocks.concat())
 }
 
 struct Search<'a> {
@@ -59,8 +64,17 @@ struct Search<'a> {
     sites: Vec<u32>,
 }
 
+/// The sites on a sphere that are neither vertices nor the apex of its triangle.
+#[derive(Default)]
+struct Ties {
+    count: usize,
+    /// The place of one of them.
+    last: Option<[f64; 3]>,
+}
+
 impl Search<'_> {
-    fn judge(&self, triangle: usize, rows: [u32; 3], apex: Apex) -> Result<(), SurfaceViolation> {
+    /// Whether the triangle and all sites on its sphere are affinely independent; the violation if its ball is not empty, or none.
+    fn judge(&self, triangle: usize, rows: [u32; 3], apex: Apex) -> Result<bool, SurfaceViolation> {
         let no_ball = |problem| Err(SurfaceViolation::NoBall { triangle, problem });
         let (signs, corners) = (&self.places.signs, self.places.corners(rows));
         if axes(signs, &corners).is_none() {
@@ -81,31 +95,35 @@ impl Search<'_> {
                     return no_ball("its apex is a duplicate or an outlier");
                 }
                 let own = |other: u32| other == row || rows.contains(&other);
-                let inside =
-                    |q: &[f64; 3]| signs.in_sphere::<Tetrahedra, 3, 4>(&tetrahedron, q).is_gt();
-                ("through its apex", self.first(Ball::around(&tetrahedron).outside(), own, inside))
+                let place = |q: &[f64; 3]| signs.in_sphere::<Tetrahedra, 3, 4>(&tetrahedron, q);
+                let ball = LazyCell::new(|| Ball::around(&tetrahedron));
+                let ties = self.ties_of(&Sphere::around(&tetrahedron), &ball, own, place);
+                // Any five points of space are dependent.
+                ("through its apex", ties.map(|ties| ties.count == 0))
             }
             Apex::Gabriel => {
                 let own = |other: u32| rows.contains(&other);
-                let inside = |q: &[f64; 3]| signs.in_sphere::<Gabriel, 3, 3>(&corners, q).is_gt();
-                ("the smallest", self.first(Ball::smallest(&corners).outside(), own, inside))
+                let place = |q: &[f64; 3]| signs.in_sphere::<Gabriel, 3, 3>(&corners, q);
+                let ball = LazyCell::new(|| Ball::smallest(&corners));
+                let ties = self.ties_of(&Sphere::smallest(&corners), &ball, own, place);
+                let is_independent = |ties: Ties| match (ties.count, ties.last) {
+                    (1, Some(q)) => side(signs, &corners, &q).is_ne(),
+                    (count, _) => count == 0,
+                };
+                ("the smallest", ties.map(is_independent))
             }
             Apex::Hull => return self.hull(triangle, rows),
         };
-        match found {
-            Some(row) => Err(SurfaceViolation::Ball { triangle, ball, row }),
-            None => Ok(()),
-        }
+        found.map_err(|row| SurfaceViolation::Ball { triangle, ball, row })
     }
 
-    /// Whether one side of a triangle, and its circle, are empty.
-    fn hull(&self, triangle: usize, rows: [u32; 3]) -> Result<(), SurfaceViolation> {
+    /// [`judge`](Self::judge) for a facet of the hull: one side of it, and its circle, are empty.
+    fn hull(&self, triangle: usize, rows: [u32; 3]) -> Result<bool, SurfaceViolation> {
         let (signs, [a, b, c]) = (&self.places.signs, self.places.corners(rows));
         let beyond = |corners: [[f64; 3]; 3]| {
-            let inside = |q: &[f64; 3]| match side(signs, &corners, q) {
-                Ordering::Greater => true,
-                Ordering::Less => false,
-                Ordering::Equal => signs.in_sphere::<Gabriel, 3, 3>(&corners, q).is_gt(),
+            let place = |q: &[f64; 3]| match side(signs, &corners, q) {
+                Ordering::Equal => signs.in_sphere::<Gabriel, 3, 3>(&corners, q),
+                beside => beside,
             };
             let (half_space, smallest) = (Ball::beyond(&corners), Ball::smallest(&corners));
             let is_beneath = |q: [f64; 3]| side(signs, &corners, &q).is_le();
@@ -113,31 +131,60 @@ impl Search<'_> {
                 half_space.misses(area)
                     || smallest.misses(area) && area.corners().into_iter().all(is_beneath)
             };
-            self.first(outside, |other| rows.contains(&other), inside)
+            self.ties(outside, |_| false, |other| rows.contains(&other), place)
         };
         // A triangle that runs the wrong way round is on the hull all the same: its direction is judged elsewhere.
-        match beyond([a, b, c]).map(|row| (row, beyond([a, c, b]))) {
-            Some((row, Some(other))) => {
-                Err(SurfaceViolation::Hull { triangle, rows: [row, other] })
-            }
-            _ => Ok(()),
+        let found = beyond([a, b, c]).or_else(|row| {
+            beyond([a, c, b])
+                .map_err(|other| SurfaceViolation::Hull { triangle, rows: [row, other] })
+        });
+        // Those on the circle are in the plane of the triangle.
+        found.map(|ties| ties.count == 0)
+    }
+
+    /// [`ties`](Self::ties) of a ball, whose sphere may tell more boxes to be outside at less cost.
+    fn ties_of<F: FnOnce() -> Ball>(
+        &self,
+        sphere: &Sphere,
+        ball: &LazyCell<Ball, F>,
+        own: impl Fn(u32) -> bool,
+        place: impl Fn(&[f64; 3]) -> Ordering,
+    ) -> Result<Ties, u32> {
+        let near = |area: &Area| ball.misses(area);
+        match sphere.is_known() {
+            true => self.ties(|area| sphere.misses(area), near, own, place),
+            false => self.ties(near, |_| false, own, place),
         }
     }
 
-    /// The first site, in the order of the tree, that is inside and not one of the ball's own, for boxes surely outside.
-    fn first(
+    /// The sites on a sphere but for its own, if none is inside; else the first one inside, in the order of the tree. Boxes that `far`
+    /// tells to be outside are left out, and then points that `near` does; of the others `place` tells whether they are inside, on
+    /// the sphere or outside.
+    fn ties(
         &self,
-        outside: impl Fn(&Area) -> bool,
+        far: impl Fn(&Area) -> bool,
+        near: impl Fn(&Area) -> bool,
         own: impl Fn(u32) -> bool,
-        inside: impl Fn(&[f64; 3]) -> bool,
-    ) -> Option<u32> {
+        place: impl Fn(&[f64; 3]) -> Ordering,
+    ) -> Result<Ties, u32> {
         // Bounds hold where nothing over- or underflows by much.
         let is_bounded = self.places.signs.is_filtered;
+        let mut ties = Ties::default();
         let wanted = |item: u32| {
             let row = self.sites[item as usize];
-            !own(row) && inside(&self.places.all[row as usize])
+            let q = self.places.all[row as usize];
+            if own(row) || is_bounded && near(&Area::of(&[q])) {
+                return false;
+            }
+            let place = place(&q);
+            if place.is_eq() {
+                ties = Ties { count: ties.count + 1, last: Some(q) };
+            }
+            place.is_gt()
         };
-        let found = self.tree.find(|area| !(is_bounded && outside(area)), wanted);
-        found.map(|item| self.sites[item as usize])
+        match self.tree.find(|area| !(is_bounded && far(area)), wanted) {
+            Some(item) => Err(self.sites[item as usize]),
+            None => Ok(ties),
+        }
     }
 }

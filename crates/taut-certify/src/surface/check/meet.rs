@@ -8,6 +8,7 @@
 use std::cmp::Ordering;
 
 use super::places::{axes, side};
+use super::separated::are_separated;
 use super::tree::Area;
 use crate::triangulation::{Signs, turn};
 
@@ -37,6 +38,9 @@ impl Face {
 
 /// Whether two triangles, not flat and not of the same vertices, share a point that is not on a common vertex or edge.
 pub(super) fn meet(signs: &Signs, one: &Face, other: &Face) -> bool {
+    if are_separated(signs, one, other) {
+        return false;
+    }
     let common = |k: usize| other.place(one.rows[k]).map(|place| (k, place));
     let (first, second) = match [0, 1, 2].map(common) {
         [None, None, None] => return meet_apart(signs, &one.corners, &other.corners),

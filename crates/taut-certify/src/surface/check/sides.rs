@@ -41,15 +41,18 @@ pub(super) fn interior(
 /// The first closed component that does not face as it should. The surface is an embedded oriented manifold.
 pub(super) fn inward(shape: &Shape, faces: &Faces<'_>) -> Option<SurfaceDoubt> {
     let volumes = volumes(shape, faces);
+    let closed = shape.is_closed.iter().filter(|&&is_closed| is_closed).count();
     for (component, volume) in volumes.into_iter().enumerate() {
         if !shape.is_closed[component] {
             continue;
         }
         let first = shape.topology.components[component].first_triangle;
         let vertex = faces.face(first).corners[0];
-        // No other component passes through a vertex of this one.
-        let depth =
-            around(shape, faces, &vertex, Some(component as u32)).map_or(0, |all| all.len());
+        let depth = match closed {
+            1 => 0,
+            // No other component passes through a vertex of this one.
+            _ => around(shape, faces, &vertex, Some(component as u32)).map_or(0, |all| all.len()),
+        };
         let expected = if depth.is_multiple_of(2) { Ordering::Greater } else { Ordering::Less };
         if volume != expected {
             return Some(SurfaceDoubt::Inward { component, depth });
@@ -61,7 +64,7 @@ pub(super) fn inward(shape: &Shape, faces: &Faces<'_>) -> Option<SurfaceDoubt> {
 /// The closed components around a point, but for one of them; `None` for a point on one.
 fn around(shape: &Shape, faces: &Faces<'_>, p: &[f64; 3], but: Option<u32>) -> Option<Vec<u32>> {
     let (signs, mut crossed) = (&faces.places.signs, vec![]);
-    let on = faces.tree.find(
+    let on = faces.tree().find(
         |area| {
             area.most[0] >= p[0] && (1..3).all(|k| area.least[k] <= p[k] && p[k] <= area.most[k])
         },

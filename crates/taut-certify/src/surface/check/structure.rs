@@ -3,6 +3,7 @@
 use taut_points::PointSource;
 
 use super::super::{Surface, SurfaceCertificate, SurfaceMode, SurfaceViolation};
+use super::buckets;
 use crate::Violation;
 
 /// Most triangles of a surface: with so many, the number of a corner fits into 32 bits.
@@ -68,8 +69,9 @@ fn twice(triangles: &[[u32; 3]]) -> Result<(), SurfaceViolation> {
         rows.sort_unstable();
         (rows, number)
     };
-    let mut all: Vec<([u32; 3], u32)> = (0..).zip(triangles).map(sorted).collect();
-    all.sort_unstable();
+    let all: Vec<([u32; 3], u32)> = (0..).zip(triangles).map(sorted).collect();
+    let rows = all.iter().map(|(rows, _)| rows[0] as usize + 1).max().unwrap_or(0);
+    let all = buckets::sorted(&all, rows, |(rows, _)| rows[0]);
     let pairs = all.windows(2).filter(|pair| pair[0].0 == pair[1].0);
     match pairs.min_by_key(|pair| pair[1].1) {
         None => Ok(()),

@@ -7,6 +7,7 @@
 //! *Trap.* The formula for the genus holds for surfaces only: where a component is none, it is not evaluated.
 
 use super::super::{SurfaceComponent, SurfaceDoubt, SurfaceTopology, SurfaceViolation};
+use super::buckets;
 use super::sets::Sets;
 
 /// A side of a triangle. Corner k of triangle t is number 3t + k.
@@ -43,8 +44,9 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    pub(super) fn of(triangles: &[[u32; 3]]) -> Self {
-        let sides = sides(triangles);
+    /// Of triangles on so many rows.
+    pub(super) fn of(triangles: &[[u32; 3]], rows: usize) -> Self {
+        let sides = sides(triangles, rows);
         let edges = || sides.chunk_by(|a, b| a.ends == b.ends);
         let count = triangles.len();
         let (mut together, mut turned) = (Sets::new(count), Sets::new(count));
@@ -107,7 +109,7 @@ impl Shape {
             parts[own].is_manifold &= edge.len() <= 2;
         }
         let crowds = edges().filter(|edge| edge.len() > 2).flat_map(|edge| edge[0].ends).collect();
-        let corners = Corners { triangles, component: &component, fans: &mut fans };
+        let corners = Corners { triangles, rows, component: &component, fans: &mut fans };
         let pinched = corners.count(&mut topology, &mut parts, crowds);
         loops(
             edges().filter(|edge| edge.len() == 1).map(|edge| edge[0]),
@@ -130,24 +132,24 @@ struct Part {
     is_closed: bool,
 }
 
-fn sides(triangles: &[[u32; 3]]) -> Vec<Side> {
+fn sides(triangles: &[[u32; 3]], rows: usize) -> Vec<Side> {
     let mut sides = Vec::with_capacity(3 * triangles.len());
-    for (triangle, rows) in (0u32..).zip(triangles) {
+    for (triangle, own) in (0u32..).zip(triangles) {
         for k in 0..3 {
             let next = (k + 1) % 3;
             let (from, to) =
-                ((rows[k], 3 * triangle + k as u32), (rows[next], 3 * triangle + next as u32));
+                ((own[k], 3 * triangle + k as u32), (own[next], 3 * triangle + next as u32));
             let (low, high) = (from.min(to), from.max(to));
             sides.push(Side { ends: [low.0, high.0], corners: [low.1, high.1] });
         }
     }
-    sides.sort_unstable();
-    sides
+    buckets::sorted(&sides, rows, |side| side.ends[0])
 }
 
 /// Corners by vertex and component: each pair of these is a vertex of the component, and should be one fan.
 struct Corners<'a> {
     triangles: &'a [[u32; 3]],
+    rows: usize,
     component: &'a [u32],
     fans: &'a mut Sets,
 }
@@ -164,8 +166,8 @@ impl Corners<'_> {
         let corner =
             |(number, &row): (u32, &u32)| (row, self.component[number as usize / 3], number);
         let flat = self.triangles.as_flattened();
-        let mut corners: Vec<(u32, u32, u32)> = (0..).zip(flat).map(corner).collect();
-        corners.sort_unstable();
+        let corners: Vec<(u32, u32, u32)> = (0..).zip(flat).map(corner).collect();
+        let corners = buckets::sorted(&corners, self.rows, |corner| corner.0);
         let mut pinched = None;
         for at_row in corners.chunk_by(|a, b| a.0 == b.0) {
             let (row, mut fans) = (at_row[0].0, 0);

@@ -2,6 +2,9 @@
 //!
 //! *Idea.* The items are halved at the median of the longest side of the box around their centres, again and again; so all leaves are
 //! full but the last, and the nodes need no links: node 1 is the root, the children of node i are 2i and 2i + 1.
+//! *Trap.* As the number of leaves is a power of two, up to half of them have no items. Their boxes are empty, and comparisons with the
+//! infinite ends of those say nothing: such nodes are passed over before the caller is asked. When they were not, a third of the
+//! searches for the balls of a surface visited a third of all nodes, which was 85 % of the time of the whole check.
 
 use taut_points::Cancelled;
 
@@ -37,6 +40,10 @@ impl Area {
             self.least[k] = self.least[k].min(other.least[k]);
             self.most[k] = self.most[k].max(other.most[k]);
         }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.least[0] > self.most[0]
     }
 
     #[inline(always)]
@@ -95,17 +102,17 @@ impl Tree {
         mut open: impl FnMut(&Area) -> bool,
         mut wanted: impl FnMut(u32) -> bool,
     ) -> Option<u32> {
-        // One of two children waits on each level.
-        let (mut waiting, mut count) = ([0usize; usize::BITS as usize], 1);
-        waiting[0] = 1;
+        // One of two children waits on each level. Items have numbers of 32 bits, and so have nodes.
+        let (mut waiting, mut count) = ([1u32; u32::BITS as usize], 1);
         while count > 0 {
             count -= 1;
-            let node = waiting[count];
-            if self.order.is_empty() || !open(&self.nodes[node]) {
+            let node = waiting[count] as usize;
+            if self.nodes[node].is_empty() || !open(&self.nodes[node]) {
                 continue;
             }
             if node < self.leaves {
-                (waiting[count], waiting[count + 1]) = (2 * node + 1, 2 * node);
+                let first = 2 * node as u32;
+                (waiting[count], waiting[count + 1]) = (first + 1, first);
                 count += 2;
                 continue;
             }
@@ -190,6 +197,25 @@ mod tests {
     fn points(count: u32) -> Vec<Area> {
         let point = |k: u32| [f64::from(k * 7 % 5), f64::from(k * 13 % 11), 2.0];
         (0..count).map(|k| Area::of(&[point(k)])).collect()
+    }
+
+    /// A search that opens one box in each level visits few boxes, however few leaves of the last ones have items.
+    #[test]
+    fn boxes_without_items_are_never_asked_about() {
+        for count in [1u32, 9, 65, 129, 1000, 1025] {
+            let areas: Vec<Area> =
+                (0..count).map(|k| Area::of(&[[f64::from(k), 1.0, 2.0]])).collect();
+            let tree = Tree::of(&areas);
+            let last = areas[count as usize - 1];
+            let mut asked = 0;
+            let open = |area: &Area| {
+                asked += 1;
+                assert!(area.least[0] <= area.most[0]);
+                area.meets(&last)
+            };
+            assert_eq!(tree.find(open, |item| item == count - 1), Some(count - 1));
+            assert!(asked <= 2 * count.ilog2() + 2 * LEAF as u32, "{asked} of {count}");
+        }
     }
 
     #[test]

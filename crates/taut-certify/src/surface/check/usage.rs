@@ -74,15 +74,30 @@ fn enter(list: &'static str, rows: &[u32], uses: &mut [Use]) -> Result<(), Surfa
 
 /// For each row the first one in its place.
 fn firsts(places: &Places) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..places.all.len() as u32).collect();
     let place = |row: u32| places.all[row as usize];
-    order.sort_unstable_by(|&a, &b| {
-        // All are finite, and 0 has one sign.
-        place(a).partial_cmp(&place(b)).unwrap_or(std::cmp::Ordering::Equal).then(a.cmp(&b))
-    });
+    // Rows in one place have one number, as 0 has one sign; few others share it. Numbers are sorted faster than places.
+    let numbered = |row: u32| (number(&place(row)), row);
+    let mut order: Vec<(u64, u32)> = (0..places.all.len() as u32).map(numbered).collect();
+    order.sort_unstable();
     let mut firsts = vec![0; order.len()];
-    for same in order.chunk_by(|&a, &b| place(a) == place(b)) {
-        same.iter().for_each(|&row| firsts[row as usize] = same[0]);
+    for alike in order.chunk_by_mut(|a, b| a.0 == b.0) {
+        // All are finite. Each of few numbers has rows in different places, and then they are sorted apart.
+        alike.sort_unstable_by(|&(_, a), &(_, b)| {
+            place(a).partial_cmp(&place(b)).unwrap_or(std::cmp::Ordering::Equal).then(a.cmp(&b))
+        });
+        for same in alike.chunk_by(|&(_, a), &(_, b)| place(a) == place(b)) {
+            same.iter().for_each(|&(_, row)| firsts[row as usize] = same[0].1);
+        }
     }
     firsts
+}
+
+/// A number of a place, by which places are sorted: any function will do that tells most of them apart.
+fn number(place: &[f64; 3]) -> u64 {
+    // An odd factor far from powers of two: 2⁶⁴ over the golden ratio.
+    const FACTOR: u64 = 0x9E37_79B9_7F4A_7C15;
+    place.iter().fold(0u64, |number, x| {
+        let mixed = (number ^ x.to_bits()).wrapping_mul(FACTOR);
+        mixed ^ mixed >> 29
+    })
 }
