@@ -1,0 +1,3 @@
+//! Forged answers against the checkers, and exact oracles that judge what the checkers let pass.
+
+mod oracle;
