@@ -1,5 +1,20 @@
 //! The oracles: each decides, by exact arithmetic, whether what a checker let pass is true.
 
+pub mod ball;
+pub mod centers;
+pub mod dyadic;
+pub mod enclosing;
+pub mod shapes;
+
+use std::collections::BTreeMap;
+
+use taut::AnySolution;
+use taut::certify::AnyVerdict;
+
+use self::ball::BallOracle;
+use self::centers::CentersOracle;
+use crate::cases::Input;
+
 /// What an oracle says of an accepted answer and of every field of its verdict.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Truth {
@@ -9,4 +24,88 @@ pub enum Truth {
     False(String),
     /// The oracle cannot decide, and why. This must be rare.
     Undecided(String),
+}
+
+impl Truth {
+    /// Combines two findings: false beats undecided, and that beats true.
+    pub fn and(self, other: impl FnOnce() -> Truth) -> Truth {
+        match self {
+            Truth::False(_) => self,
+            Truth::True => other(),
+            Truth::Undecided(_) => match other() {
+                found @ Truth::False(_) => found,
+                _ => self,
+            },
+        }
+    }
+
+    /// Returns `True`, or `False` for the reason given.
+    pub fn claim(holds: bool, reason: impl FnOnce() -> String) -> Truth {
+        if holds { Truth::True } else { Truth::False(reason()) }
+    }
+}
+
+/// The oracles of one input: each finds the truth once, when it is asked for the first time.
+pub struct CaseOracle<'a> {
+    input: &'a Input,
+    balls: BTreeMap<u8, BallOracle>,
+    centers: Option<CentersOracle>,
+}
+
+/// A verified bracket of an optimum.
+pub struct Interval {
+    /// Which optimum, of all that one input has.
+    pub optimum: String,
+    /// Its lower bound.
+    pub lower: f64,
+    /// Its upper bound.
+    pub upper: f64,
+}
+
+impl<'a> CaseOracle<'a> {
+    /// Prepares to judge answers for the input.
+    pub fn new(input: &'a Input) -> Self {
+        CaseOracle { input, balls: BTreeMap::new(), centers: None }
+    }
+
+    /// Judges every claim of an answer that the checker let pass.
+    pub fn judge(&mut self, solution: &AnySolution, verdict: &AnyVerdict) -> Truth {
+        let Input { values, columns, .. } = self.input;
+        match (solution, verdict) {
+            (AnySolution::Ball(found), AnyVerdict::Ball(verdict)) => {
+                let items = found.certificate.items;
+                let oracle = self
+                    .balls
+                    .entry(items as u8)
+                    .or_insert_with(|| BallOracle::new(values, *columns, items));
+                oracle.judge(found, verdict)
+            }
+            (AnySolution::Centers(found), AnyVerdict::Centers(verdict)) => {
+                let oracle =
+                    self.centers.get_or_insert_with(|| CentersOracle::new(values, *columns));
+                oracle.judge(found, verdict)
+            }
+            _ => Truth::False("the verdict is of another kind than the answer".into()),
+        }
+    }
+
+    /// Returns the brackets that a verdict states: those of one optimum must not exclude each other.
+    pub fn intervals(&self, solution: &AnySolution, verdict: &AnyVerdict) -> Vec<Interval> {
+        match (solution, verdict) {
+            (AnySolution::Ball(found), AnyVerdict::Ball(verdict)) => {
+                let optimum = format!("the least radius around {:?}", found.certificate.items);
+                vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
+            }
+            (AnySolution::Centers(found), AnyVerdict::Centers(verdict)) => {
+                let of = &found.certificate;
+                let weights = if of.weights { " with weights" } else { "" };
+                let optimum = format!(
+                    "the least radius of {} balls, {:?}, around {:?}{weights} but {}",
+                    of.k, of.placement, of.items, of.outliers
+                );
+                vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
+            }
+            _ => vec![],
+        }
+    }
 }
