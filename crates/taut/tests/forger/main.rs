@@ -1,0 +1,3 @@
+//! An attacker on the checkers, and the exact oracles that judge what it gets accepted.
+
+mod oracle;
