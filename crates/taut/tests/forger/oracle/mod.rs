@@ -2,9 +2,13 @@
 
 pub mod ball;
 pub mod centers;
+pub mod curve;
 pub mod dyadic;
 pub mod enclosing;
+mod lattice;
+mod numbers;
 pub mod shapes;
+pub mod triangulation;
 
 use std::collections::BTreeMap;
 
