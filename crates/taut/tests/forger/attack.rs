@@ -121,7 +121,10 @@ pub fn attack(kind: &str, cases: &[Case]) -> Tally {
             let solution = AnySolution::from_json(&forgery.text).expect("a solver writes JSON");
             match case.input.check(&solution) {
                 Ok(verdict) => tally.note(oracle.judge(&solution, &verdict), &told),
-                Err(error) => panic!("the answer of a solver is refused: {error}\n{}", told()),
+                // That is a fault of the solver or of the checker, and no false claim.
+                Err(error) => {
+                    println!("{kind}: the answer of a solver is refused: {error}\n{}", told())
+                }
             }
         }
     }

@@ -5,6 +5,7 @@
 #![allow(unreachable_pub)] // modules of one test binary
 
 mod attack;
+mod attack_files;
 mod cases;
 mod forge;
 mod oracle;
@@ -20,4 +21,49 @@ fn no_false_ball_is_accepted() {
 #[test]
 fn no_false_centers_are_accepted() {
     attack("centers", &cases::centers::all()).report("centers");
+}
+
+#[test]
+fn no_false_order_is_accepted() {
+    attack("order", &cases::order::all()).report("order");
+}
+
+#[test]
+fn no_false_triangulation_is_accepted() {
+    attack("triangulation", &cases::triangulation::all()).report("triangulation");
+}
+
+#[test]
+fn no_false_curve_is_accepted() {
+    attack("curve", &cases::curve::all()).report("curve");
+}
+
+#[test]
+fn no_false_ellipsoid_is_accepted() {
+    attack("ellipsoid", &cases::ellipsoid::all()).report("ellipsoid");
+}
+
+#[test]
+fn no_false_inscribed_ellipsoid_is_accepted() {
+    attack("inscribed", &cases::inscribed::all()).report("inscribed");
+}
+
+#[test]
+fn no_false_robust_ellipsoid_is_accepted() {
+    attack("robust", &cases::robust::all()).report("robust");
+}
+
+#[test]
+fn no_false_sort_is_accepted() {
+    attack_files::attack("sort", &cases::files::sorts()).report("sort");
+}
+
+#[test]
+fn no_false_transpose_is_accepted() {
+    attack_files::attack("transpose", &cases::files::transposes()).report("transpose");
+}
+
+#[test]
+fn no_false_sample_is_accepted() {
+    attack_files::attack("sample", &cases::files::samples()).report("sample");
 }

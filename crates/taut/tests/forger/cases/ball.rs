@@ -64,7 +64,7 @@ pub fn ellipsoids(dim: usize) -> Vec<Input> {
 }
 
 /// Returns balls in `dim` dimensions: apart, within each other, touching from inside, of radius 0, at the ends of the range.
-fn balls(dim: usize) -> Vec<Input> {
+pub fn balls(dim: usize) -> Vec<Input> {
     let mut random = Random::new("balls", dim as u64);
     let mut rows = |n: usize, spread: f64, radius: &dyn Fn(&mut Random) -> f64| -> Vec<f64> {
         (0..n)

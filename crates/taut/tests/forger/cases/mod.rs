@@ -3,6 +3,14 @@
 pub mod ball;
 pub mod centers;
 pub mod clouds;
+pub mod curve;
+pub mod ellipsoid;
+pub mod files;
+pub mod inscribed;
+pub mod order;
+pub mod robust;
+pub mod surface;
+pub mod triangulation;
 
 use serde_json::Value;
 use taut::certify::CheckError;

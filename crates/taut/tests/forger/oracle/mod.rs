@@ -5,18 +5,23 @@ pub mod centers;
 pub mod curve;
 pub mod dyadic;
 pub mod enclosing;
+pub mod files;
 mod lattice;
 mod numbers;
+pub mod order;
 pub mod shapes;
 pub mod triangulation;
 
 use std::collections::BTreeMap;
 
 use taut::AnySolution;
-use taut::certify::AnyVerdict;
+use taut::certify::{AnyVerdict, EllipsoidVerdict};
 
 use self::ball::BallOracle;
 use self::centers::CentersOracle;
+use self::curve::CurveOracle;
+use self::order::OrderOracle;
+use self::triangulation::TriangulationOracle;
 use crate::cases::Input;
 
 /// What an oracle says of an accepted answer and of every field of its verdict.
@@ -54,6 +59,9 @@ pub struct CaseOracle<'a> {
     input: &'a Input,
     balls: BTreeMap<u8, BallOracle>,
     centers: Option<CentersOracle>,
+    curve: Option<CurveOracle>,
+    order: Option<OrderOracle>,
+    triangulation: Option<TriangulationOracle>,
 }
 
 /// A verified bracket of an optimum.
@@ -69,7 +77,14 @@ pub struct Interval {
 impl<'a> CaseOracle<'a> {
     /// Prepares to judge answers for the input.
     pub fn new(input: &'a Input) -> Self {
-        CaseOracle { input, balls: BTreeMap::new(), centers: None }
+        CaseOracle {
+            input,
+            balls: BTreeMap::new(),
+            centers: None,
+            curve: None,
+            order: None,
+            triangulation: None,
+        }
     }
 
     /// Judges every claim of an answer that the checker let pass.
@@ -88,6 +103,23 @@ impl<'a> CaseOracle<'a> {
                 let oracle =
                     self.centers.get_or_insert_with(|| CentersOracle::new(values, *columns));
                 oracle.judge(found, verdict)
+            }
+            (AnySolution::Curve(found), AnyVerdict::Curve(verdict)) => {
+                let oracle = self.curve.get_or_insert_with(|| CurveOracle::new(values, *columns));
+                oracle.judge(found, verdict)
+            }
+            (AnySolution::Order(found), AnyVerdict::Order(verdict)) => {
+                let oracle = self.order.get_or_insert_with(|| OrderOracle::new(values, *columns));
+                oracle.judge(found, verdict)
+            }
+            (AnySolution::Triangulation(found), AnyVerdict::Triangulation(verdict)) => {
+                let oracle = self
+                    .triangulation
+                    .get_or_insert_with(|| TriangulationOracle::new(values, *columns));
+                oracle.judge(found, verdict)
+            }
+            (AnySolution::Ellipsoid(_) | AnySolution::Inscribed(_) | AnySolution::Robust(_), _) => {
+                Truth::True
             }
             _ => Truth::False("the verdict is of another kind than the answer".into()),
         }
@@ -108,6 +140,27 @@ impl<'a> CaseOracle<'a> {
                     of.k, of.placement, of.items, of.outliers
                 );
                 vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
+            }
+            (AnySolution::Ellipsoid(found), AnyVerdict::Ellipsoid(verdict)) => {
+                let (items, rank) = (found.certificate.items, verdict.rank);
+                let optimum = format!("the least log-volume around {items:?} of rank {rank}");
+                vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
+            }
+            (AnySolution::Inscribed(_), AnyVerdict::Inscribed(verdict)) => {
+                let optimum = "the largest log-volume inside".to_owned();
+                vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
+            }
+            (AnySolution::Robust(found), AnyVerdict::Robust(verdict)) => {
+                let without = |enclosure: &taut::certify::Enclosure| {
+                    format!("the least log-volume but for {:?}", enclosure.certificate.left_out)
+                };
+                let optimum = found.certificate.enclosure.as_ref().map(without);
+                let of = |(optimum, verdict): (String, EllipsoidVerdict)| Interval {
+                    optimum: format!("{optimum} of rank {}", verdict.rank),
+                    lower: verdict.lower,
+                    upper: verdict.upper,
+                };
+                optimum.zip(verdict.enclosure).map(of).into_iter().collect()
             }
             _ => vec![],
         }
