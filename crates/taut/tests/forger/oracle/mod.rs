@@ -3,6 +3,7 @@
 pub(crate) mod curve;
 mod lattice;
 mod numbers;
+pub(crate) mod surface;
 pub(crate) mod triangulation;
 
 /// What an oracle says about the claims of an accepted answer.
