@@ -39,6 +39,11 @@ fn no_false_curve_is_accepted() {
 }
 
 #[test]
+fn no_false_surface_is_accepted() {
+    attack("surface", &cases::surface::all()).report("surface");
+}
+
+#[test]
 fn no_false_ellipsoid_is_accepted() {
     attack("ellipsoid", &cases::ellipsoid::all()).report("ellipsoid");
 }

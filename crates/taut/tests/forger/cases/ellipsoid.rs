@@ -27,6 +27,14 @@ fn solve(input: &Input, items: Items) -> Vec<Solved> {
     let ways = [
         ("exact", EllipsoidOptions { epsilon: 0.0, ..base.clone() }),
         ("1e-3", EllipsoidOptions { epsilon: 1e-3, ..base.clone() }),
+        (
+            "few passes",
+            EllipsoidOptions {
+                method: EllipsoidMethod::ThesisKhachiyan,
+                epsilon: 0.5,
+                ..base.clone()
+            },
+        ),
         ("initial", EllipsoidOptions { method: EllipsoidMethod::ThesisInitial, ..base.clone() }),
     ];
     ways.into_iter()

@@ -89,7 +89,9 @@ fn solve(input: &Input) -> Vec<Solved> {
     let ways = [
         ("1e-9", base.clone()),
         ("1e-2", InscribedOptions { epsilon: 1e-2, ..base.clone() }),
-        ("1e-13", InscribedOptions { epsilon: 1e-13, ..base }),
+        ("1e-13", InscribedOptions { epsilon: 1e-13, ..base.clone() }),
+        ("one step", InscribedOptions { max_steps: 1, ..base.clone() }),
+        ("four steps", InscribedOptions { max_steps: 4, ..base }),
     ];
     ways.into_iter()
         .map(|(way, options)| {

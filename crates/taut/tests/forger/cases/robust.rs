@@ -41,12 +41,12 @@ fn on_a_flat(dim: usize) -> Input {
 fn solve(input: &Input) -> Vec<Solved> {
     let mut found = vec![];
     for method in [RobustMethod::Mcd, RobustMethod::Mve, RobustMethod::Trim] {
-        for coverage in [None, Some(0.75)] {
-            let options = RobustOptions { method, coverage, ..Default::default() };
+        for (coverage, epsilon) in [(None, 1e-9), (Some(0.75), 1e-9), (None, 0.5)] {
+            let options = RobustOptions { method, coverage, epsilon, ..Default::default() };
             let monitor = Monitor::silent();
             let solution =
                 input.with(|source| robust_ellipsoid_of_source(source, &options, &monitor));
-            let way = format!("{method:?} of {coverage:?}");
+            let way = format!("{method:?} of {coverage:?}, {epsilon}");
             found.push((way, solution.ok().map(|solution| document(&solution))));
         }
     }

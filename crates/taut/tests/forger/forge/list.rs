@@ -72,13 +72,13 @@ pub fn forge(random: &mut Random, list: &mut Vec<Value>) -> String {
         });
         return format!("put {} into an empty list", list[0]);
     }
-    match random.below(10) {
+    match random.below(11) {
         0 | 1 => {
             let factor = number::power(random);
             list.iter_mut().for_each(|value| each_number(value, &mut |x| x * factor));
             format!("scale by {factor:e}")
         }
-        2 => {
+        2 | 10 => {
             let constant = number::extreme(random);
             list.iter_mut().for_each(|value| each_number(value, &mut |_| constant));
             format!("set all to {constant:e}")

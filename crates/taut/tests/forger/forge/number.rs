@@ -72,6 +72,7 @@ pub fn extreme(random: &mut Random) -> f64 {
     let size = match random.below(8) {
         0 => 0.0,
         1 => 1.0,
+        2 => 5e-324,
         _ => *random.pick(&EXTREMES),
     };
     if random.chance(25) { -size } else { size }

@@ -10,6 +10,7 @@ mod lattice;
 mod numbers;
 pub mod order;
 pub mod shapes;
+pub mod surface;
 pub mod triangulation;
 
 use std::collections::BTreeMap;
@@ -21,6 +22,7 @@ use self::ball::BallOracle;
 use self::centers::CentersOracle;
 use self::curve::CurveOracle;
 use self::order::OrderOracle;
+use self::surface::SurfaceOracle;
 use self::triangulation::TriangulationOracle;
 use crate::cases::Input;
 
@@ -61,6 +63,7 @@ pub struct CaseOracle<'a> {
     centers: Option<CentersOracle>,
     curve: Option<CurveOracle>,
     order: Option<OrderOracle>,
+    surface: Option<SurfaceOracle>,
     triangulation: Option<TriangulationOracle>,
 }
 
@@ -83,6 +86,7 @@ impl<'a> CaseOracle<'a> {
             centers: None,
             curve: None,
             order: None,
+            surface: None,
             triangulation: None,
         }
     }
@@ -110,6 +114,11 @@ impl<'a> CaseOracle<'a> {
             }
             (AnySolution::Order(found), AnyVerdict::Order(verdict)) => {
                 let oracle = self.order.get_or_insert_with(|| OrderOracle::new(values, *columns));
+                oracle.judge(found, verdict)
+            }
+            (AnySolution::Surface(found), AnyVerdict::Surface(verdict)) => {
+                let oracle =
+                    self.surface.get_or_insert_with(|| SurfaceOracle::new(values, *columns));
                 oracle.judge(found, verdict)
             }
             (AnySolution::Triangulation(found), AnyVerdict::Triangulation(verdict)) => {
