@@ -3,21 +3,33 @@
 use taut::enclose::EllipsoidMethod;
 use taut::{EllipsoidOptions, Items, Monitor, ellipsoid_of_items};
 
-use super::{Case, Input, Solved, ball, cases, clouds, document};
+use super::{Case, Input, Solved, ball, cases, clouds, document, hand};
 
 /// Returns the cases of the minimum-volume enclosing ellipsoid.
 pub fn all() -> Vec<Case> {
     let mut found = vec![];
     for (dim, count) in [(1, 5), (2, 12), (3, 10), (5, 10)] {
-        found.extend(cases(clouds::points(dim, count), |input| solve(input, Items::Points)));
+        found.extend(around(clouds::points(dim, count), dim, Items::Points));
     }
     for dim in 2..=3 {
-        found.extend(cases(ball::balls(dim), |input| solve(input, Items::Balls)));
+        found.extend(around(ball::balls(dim), dim, Items::Balls));
         let shapes = ball::ellipsoids(dim);
         let single: Vec<Input> = shapes.iter().map(Input::single).collect();
-        for inputs in [shapes, single] {
-            found.extend(cases(inputs, |input| solve(input, Items::Ellipsoids)));
-        }
+        found.extend(around(shapes, dim, Items::Ellipsoids));
+        found.extend(around(single, dim, Items::Ellipsoids));
+    }
+    found
+}
+
+fn around(inputs: Vec<Input>, dim: usize, items: Items) -> Vec<Case> {
+    let mut found = cases(inputs, |input| solve(input, items));
+    let word = match items {
+        Items::Points => "points",
+        Items::Balls => "balls",
+        Items::Ellipsoids => "ellipsoids",
+    };
+    for case in &mut found {
+        case.foreign.extend(hand::flat_ellipsoids(&case.input, dim, word));
     }
     found
 }

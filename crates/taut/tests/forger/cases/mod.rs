@@ -6,6 +6,7 @@ pub mod clouds;
 pub mod curve;
 pub mod ellipsoid;
 pub mod files;
+pub mod hand;
 pub mod inscribed;
 pub mod order;
 pub mod robust;

@@ -67,15 +67,16 @@ fn raw(text: &str) -> Value {
     Value::String(format!("{RAW}{text}"))
 }
 
-/// Returns one of the doubles at the ends of the range, a sign, or 0.
+/// The doubles that most checks have to think of.
+const EDGES: [f64; 8] = [0.0, -0.0, 5e-324, 1e-308, f64::MIN_POSITIVE, 1e308, f64::MAX, 1.0];
+
+/// Returns one of the doubles at the ends of the range, of either sign.
 pub fn extreme(random: &mut Random) -> f64 {
-    let size = match random.below(8) {
-        0 => 0.0,
-        1 => 1.0,
-        2 => 5e-324,
-        _ => *random.pick(&EXTREMES),
-    };
-    if random.chance(25) { -size } else { size }
+    if random.chance(60) {
+        return *random.pick(&EDGES);
+    }
+    let size = *random.pick(&EXTREMES);
+    if random.chance(40) { -size } else { size }
 }
 
 /// Moves a double by a few units in the last place.
@@ -128,8 +129,8 @@ pub fn forged(random: &mut Random, old: &Number, others: &[Number]) -> Value {
 
 /// Returns a forged double.
 pub fn double(random: &mut Random, old: f64) -> f64 {
-    match random.below(10) {
-        0 | 1 => extreme(random),
+    match random.below(11) {
+        0 | 1 | 10 => extreme(random),
         2 | 3 => by_ulps(random, old),
         4 => -old,
         5 => old * power(random),

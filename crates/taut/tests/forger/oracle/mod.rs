@@ -1,12 +1,22 @@
 //! The oracles: each decides, by exact arithmetic, whether what a checker let pass is true.
 
 pub mod ball;
+mod body;
 pub mod centers;
+mod claims;
 pub mod curve;
 pub mod dyadic;
+pub mod ellipsoid;
 pub mod enclosing;
+mod exchange;
 pub mod files;
+mod flat;
+pub mod inscribed;
+mod interval;
 mod lattice;
+mod linear;
+mod mvee;
+mod mvie;
 mod numbers;
 pub mod order;
 pub mod shapes;
@@ -21,6 +31,8 @@ use taut::certify::{AnyVerdict, EllipsoidVerdict};
 use self::ball::BallOracle;
 use self::centers::CentersOracle;
 use self::curve::CurveOracle;
+use self::ellipsoid::EllipsoidOracle;
+use self::inscribed::InscribedOracle;
 use self::order::OrderOracle;
 use self::surface::SurfaceOracle;
 use self::triangulation::TriangulationOracle;
@@ -62,6 +74,8 @@ pub struct CaseOracle<'a> {
     balls: BTreeMap<u8, BallOracle>,
     centers: Option<CentersOracle>,
     curve: Option<CurveOracle>,
+    ellipsoids: BTreeMap<u8, EllipsoidOracle>,
+    inscribed: Option<InscribedOracle>,
     order: Option<OrderOracle>,
     surface: Option<SurfaceOracle>,
     triangulation: Option<TriangulationOracle>,
@@ -85,6 +99,8 @@ impl<'a> CaseOracle<'a> {
             balls: BTreeMap::new(),
             centers: None,
             curve: None,
+            ellipsoids: BTreeMap::new(),
+            inscribed: None,
             order: None,
             surface: None,
             triangulation: None,
@@ -112,6 +128,19 @@ impl<'a> CaseOracle<'a> {
                 let oracle = self.curve.get_or_insert_with(|| CurveOracle::new(values, *columns));
                 oracle.judge(found, verdict)
             }
+            (AnySolution::Ellipsoid(found), AnyVerdict::Ellipsoid(verdict)) => {
+                let items = found.certificate.items;
+                let oracle = self
+                    .ellipsoids
+                    .entry(items as u8)
+                    .or_insert_with(|| EllipsoidOracle::new(values, *columns, items));
+                oracle.judge(found, verdict)
+            }
+            (AnySolution::Inscribed(found), AnyVerdict::Inscribed(verdict)) => {
+                let oracle =
+                    self.inscribed.get_or_insert_with(|| InscribedOracle::new(values, *columns));
+                oracle.judge(found, verdict)
+            }
             (AnySolution::Order(found), AnyVerdict::Order(verdict)) => {
                 let oracle = self.order.get_or_insert_with(|| OrderOracle::new(values, *columns));
                 oracle.judge(found, verdict)
@@ -127,9 +156,7 @@ impl<'a> CaseOracle<'a> {
                     .get_or_insert_with(|| TriangulationOracle::new(values, *columns));
                 oracle.judge(found, verdict)
             }
-            (AnySolution::Ellipsoid(_) | AnySolution::Inscribed(_) | AnySolution::Robust(_), _) => {
-                Truth::True
-            }
+            (AnySolution::Robust(_), _) => Truth::True,
             _ => Truth::False("the verdict is of another kind than the answer".into()),
         }
     }
