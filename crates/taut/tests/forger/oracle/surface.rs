@@ -13,7 +13,7 @@ mod shape;
 mod sides;
 mod tests;
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::OnceLock;
 
 use taut::certify::SurfaceVerdict;
 use taut::points::{Monitor, Points, PointsHash, hash_points};
@@ -28,9 +28,10 @@ type Point = [f64; 3];
 pub(crate) struct SurfaceOracle {
     rows: Vec<Point>,
     points_hash: PointsHash,
-    /// The rows as they are given, and the places that the last answer with moved vertices had.
+    /// The rows as they are given.
     given: Scene,
-    moved: Mutex<Scene>,
+    /// The places of the first answer with moved vertices: others are told from them by what differs.
+    moved: OnceLock<Scene>,
 }
 
 /// Nothing, or the lie that was found.
@@ -48,7 +49,7 @@ impl SurfaceOracle {
         let points_hash = hash_points(&points, &Monitor::silent()).expect("points in memory");
         let rows: Vec<Point> = values.as_chunks().0.to_vec();
         let given = Scene::of(rows.clone());
-        SurfaceOracle { rows, points_hash, given, moved: Mutex::new(Scene::of(vec![])) }
+        SurfaceOracle { rows, points_hash, given, moved: OnceLock::new() }
     }
 
     /// Whether every claim of an accepted answer and of its verdict is true.
@@ -66,10 +67,12 @@ impl SurfaceOracle {
         if solution.answer.vertices.is_empty() {
             return claims::judge(solution, verdict, &self.given);
         }
-        let mut moved = self.moved.lock().unwrap_or_else(PoisonError::into_inner);
-        if moved.places != solution.answer.vertices {
-            *moved = Scene::of(solution.answer.vertices.clone());
+        let places = &solution.answer.vertices;
+        let first = self.moved.get_or_init(|| Scene::of(places.clone()));
+        if first.places == *places {
+            return claims::judge(solution, verdict, first);
         }
+        let moved = first.moved_to(places.clone());
         claims::judge(solution, verdict, &moved)
     }
 }

@@ -10,12 +10,19 @@ use super::convex::{Place, cross};
 use super::scene::{Scene, kept, sorted};
 use super::{Judged, ensure};
 
-/// Rows strictly inside of the ball, or, of a facet of the hull, of the half-space and circle to each side.
-#[derive(Clone, Debug)]
-pub(super) enum Inside {
-    /// There is no such ball.
-    NoBall(&'static str),
-    Of(Vec<Vec<u32>>),
+/// The ball of a triangle: lower rows first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Ball {
+    pub(super) triangle: [u32; 3],
+    pub(super) apex: Apex,
+}
+
+/// Rows strictly inside of a ball; of a facet of the hull, beyond its plane or in its circle, to either side.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Inside {
+    /// Why there is no such ball.
+    problem: Option<&'static str>,
+    sides: Vec<(Sign, Vec<u32>)>,
 }
 
 /// Each triangle has the empty ball that it is said to have.
@@ -26,72 +33,86 @@ pub(super) fn judge(solution: &Solution<Surface>, scene: &Scene, is_site: &[bool
     }
     ensure(apexes.len() == triangles.len(), || "not an apex for each triangle".into())?;
     for (&triangle, &apex) in triangles.iter().zip(apexes) {
-        let code = match apex {
-            Apex::Row(row) => i64::from(row),
-            Apex::Hull => -1,
-            Apex::Gabriel => -2,
-        };
         if let Apex::Row(row) = apex {
             let is_there = is_site.get(row as usize).is_some_and(|&is_site| is_site);
             ensure(is_there, || format!("apex {row} is no point"))?;
         }
-        let triangle = sorted(triangle);
-        match kept(&scene.balls, (triangle, code), || inside(scene, triangle, apex)) {
-            Inside::NoBall(why) => {
-                return Err(format!("triangle {triangle:?} has no ball {apex:?}: {why}"));
-            }
-            Inside::Of(rows) => {
-                let is_empty = |rows: &Vec<u32>| !rows.iter().any(|&row| is_site[row as usize]);
-                ensure(rows.iter().any(is_empty), || {
-                    format!("the ball {apex:?} of triangle {triangle:?} holds {rows:?}")
-                })?;
-            }
-        }
+        let ball = Ball { triangle: sorted(triangle), apex };
+        let Inside { problem, sides } = kept(&scene.balls, ball, || ball.inside(scene));
+        ensure(problem.is_none(), || format!("{ball:?} is none: {problem:?}"))?;
+        let is_empty = |rows: &[u32]| !rows.iter().any(|&row| is_site[row as usize]);
+        ensure(sides.iter().any(|(_, rows)| is_empty(rows)), || {
+            format!("{ball:?} holds rows {sides:?}")
+        })?;
     }
     Ok(())
 }
 
-fn inside(scene: &Scene, triangle: [u32; 3], apex: Apex) -> Inside {
-    if scene.is_flat(triangle) {
-        return Inside::NoBall("it is flat");
+impl Ball {
+    /// Whether it depends on the place of a row, other than that the row may be inside.
+    pub(super) fn names(&self, row: u32) -> bool {
+        self.triangle.contains(&row) || self.apex == Apex::Row(row)
     }
-    let corners = scene.corners(triangle);
-    let rows = |is_inside: &dyn Fn(&Place) -> bool| -> Vec<u32> {
-        let others = (0..scene.places.len() as u32).filter(|row| !triangle.contains(row));
-        others.filter(|&row| is_inside(scene.at(row))).collect()
-    };
-    match apex {
-        Apex::Gabriel => Inside::Of(vec![rows(&|q| is_in_smallest(corners, q))]),
-        Apex::Hull => {
-            let beyond = |side: Sign| {
-                rows(&|q| match orientation(corners, q) {
-                    Sign::NoSign => is_in_smallest(corners, q),
-                    other => other == side,
-                })
-            };
-            Inside::Of(vec![beyond(Sign::Plus), beyond(Sign::Minus)])
+
+    fn inside(&self, scene: &Scene) -> Inside {
+        if scene.is_flat(self.triangle) {
+            return Inside { problem: Some("it is flat"), sides: vec![] };
         }
-        Apex::Row(row) => match orientation(corners, scene.at(row)) {
-            Sign::NoSign => Inside::NoBall("its apex is in its plane"),
-            side => Inside::Of(vec![rows(&|q| {
-                // (a − q, |a − q|²) of the four corners: negative inside of a positive tetrahedron.
-                let [a, b, c] = corners;
-                let row = |p: &Place| {
+        let corners = scene.corners(self.triangle);
+        let sides = match self.apex {
+            Apex::Gabriel => vec![Sign::NoSign],
+            Apex::Hull => vec![Sign::Plus, Sign::Minus],
+            Apex::Row(row) => vec![orientation(corners, scene.at(row))],
+        };
+        if matches!(self.apex, Apex::Row(_)) && sides == [Sign::NoSign] {
+            return Inside { problem: Some("its apex is in its plane"), sides: vec![] };
+        }
+        let mut inside =
+            Inside { problem: None, sides: sides.into_iter().map(|side| (side, vec![])).collect() };
+        (0..scene.places.len() as u32).for_each(|row| self.enter(&mut inside, row, scene));
+        inside
+    }
+
+    /// Enters a row where it is inside.
+    fn enter(&self, inside: &mut Inside, row: u32, scene: &Scene) {
+        for (side, rows) in &mut inside.sides {
+            if !self.triangle.contains(&row) && self.holds(*side, scene.at(row), scene) {
+                rows.push(row);
+            }
+        }
+    }
+
+    /// What is inside where some rows, none of them named, have other places than before.
+    pub(super) fn renewed(&self, before: &Inside, changed: &[u32], scene: &Scene) -> Inside {
+        let mut inside = before.clone();
+        for (_, rows) in &mut inside.sides {
+            rows.retain(|row| !changed.contains(row));
+        }
+        changed.iter().for_each(|&row| self.enter(&mut inside, row, scene));
+        inside
+    }
+
+    /// Whether a place that is no corner is strictly inside: of the half-space on `side` of the triangle, if it is one.
+    fn holds(&self, side: Sign, q: &Place, scene: &Scene) -> bool {
+        let corners = scene.corners(self.triangle);
+        match self.apex {
+            Apex::Gabriel => is_in_smallest(corners, q),
+            Apex::Hull => match orientation(corners, q) {
+                Sign::NoSign => is_in_smallest(corners, q),
+                other => other == side,
+            },
+            Apex::Row(row) => {
+                // (p − q, |p − q|²) of the four vertices: negative inside of a positive tetrahedron.
+                let lifted = |p: &Place| {
                     let mut edge = difference(p, q);
                     edge.push(dot(&edge, &edge));
                     edge
                 };
-                let lifted = determinant(&[row(a), row(b), row(c), row(scene.at(row_of(apex)))]);
-                !lifted.is_zero() && lifted.sign() != side
-            })]),
-        },
-    }
-}
-
-fn row_of(apex: Apex) -> u32 {
-    match apex {
-        Apex::Row(row) => row,
-        Apex::Hull | Apex::Gabriel => 0,
+                let [a, b, c] = corners;
+                let value = determinant(&[a, b, c, scene.at(row)].map(lifted));
+                !value.is_zero() && value.sign() != side
+            }
+        }
     }
 }
 

@@ -1,13 +1,13 @@
 //! Places of rows in whole numbers, and what is known of triangles and of pairs of them.
 
 use std::collections::HashMap;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use num_traits::Signed;
 
 use super::super::lattice::{Lattice, dot};
 use super::Point;
-use super::balls::Inside;
+use super::balls::{Ball, Inside};
 use super::convex::{Place, cross, is_zero, meet, normal};
 
 /// The places, and what was found out about them.
@@ -16,7 +16,7 @@ pub(super) struct Scene {
     pub(super) exact: Vec<Place>,
     flat: Mutex<HashMap<[u32; 3], bool>>,
     meeting: Mutex<HashMap<[[u32; 3]; 2], bool>>,
-    pub(super) balls: Mutex<HashMap<([u32; 3], i64), Inside>>,
+    pub(super) balls: Mutex<HashMap<Ball, Inside>>,
 }
 
 /// What is kept under a key, found now if it is not there.
@@ -25,8 +25,17 @@ pub(super) fn kept<K: Eq + std::hash::Hash, V: Clone>(
     key: K,
     find: impl FnOnce() -> V,
 ) -> V {
-    let mut all = all.lock().unwrap_or_else(PoisonError::into_inner);
-    all.entry(key).or_insert_with(find).clone()
+    // Not locked while it is found, as that may ask for other things that are kept.
+    if let Some(found) = locked(all).get(&key) {
+        return found.clone();
+    }
+    let found = find();
+    locked(all).insert(key, found.clone());
+    found
+}
+
+fn locked<T>(all: &Mutex<T>) -> MutexGuard<'_, T> {
+    all.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 pub(super) fn sorted(mut triangle: [u32; 3]) -> [u32; 3] {
@@ -39,6 +48,38 @@ impl Scene {
         let exact = Lattice::of(places.as_flattened(), 3).points;
         let (flat, meeting, balls) = Default::default();
         Scene { places, exact, flat, meeting, balls }
+    }
+
+    /// The same with other places, and what is known of rows that stayed.
+    pub(super) fn moved_to(&self, places: Vec<Point>) -> Self {
+        let moved = Scene::of(places);
+        let is_changed: Vec<bool> =
+            moved.places.iter().zip(&self.places).map(|(to, from)| to != from).collect();
+        if self.places.len() != moved.places.len() {
+            return moved;
+        }
+        let have_stayed = |rows: &[u32]| !rows.iter().any(|&row| is_changed[row as usize]);
+        let changed: Vec<u32> =
+            (0u32..).zip(&is_changed).filter(|one| *one.1).map(|one| one.0).collect();
+        locked(&moved.flat).extend(
+            locked(&self.flat)
+                .iter()
+                .filter(|(rows, _)| have_stayed(&rows[..]))
+                .map(|(k, v)| (*k, *v)),
+        );
+        locked(&moved.meeting).extend(
+            locked(&self.meeting)
+                .iter()
+                .filter(|(pair, _)| have_stayed(pair.as_flattened()))
+                .map(|(k, v)| (*k, *v)),
+        );
+        locked(&moved.balls).extend(
+            locked(&self.balls)
+                .iter()
+                .filter(|(ball, _)| !changed.iter().any(|&row| ball.names(row)))
+                .map(|(ball, inside)| (*ball, ball.renewed(inside, &changed, &moved))),
+        );
+        moved
     }
 
     pub(super) fn at(&self, row: u32) -> &Place {

@@ -278,6 +278,32 @@ fn balls_that_hold_a_row_are_lies() {
     assert!(kept > 20 && refused > 100, "{kept} {refused}");
 }
 
+/// What is kept of the places of one answer changes nothing of what is said about the next.
+#[test]
+fn answers_in_turn_are_judged_as_each_alone() {
+    let values = flat(sphere(30, 1.0));
+    let denoise = Some(Denoise { neighbors: 8, iterations: 1, positions: Positions::Projected });
+    let points = Points::new(&values, 3).expect("rows");
+    let options = SurfaceOptions { denoise, ..Default::default() };
+    let found = surface(&points, &options).expect("solved");
+    let honest = found.check(&points).expect("accepted");
+    let in_turn = SurfaceOracle::new(&values, 3);
+    let [mut kept, mut refused] = [0, 0];
+    for row in 0..30 {
+        for factor in [0.0, 0.5, 0.99, 1.0, 1.01, 1.5, 4.0] {
+            let mut moved = found.clone();
+            moved.answer.vertices[row] = moved.answer.vertices[row].map(|x| x * factor);
+            // So far that no displacement is a lie.
+            let verdict = SurfaceVerdict { displacement: 9.0, ..honest };
+            moved.certificate.displacement = 9.0;
+            let alone = SurfaceOracle::new(&values, 3).judge(&moved, &verdict);
+            assert_eq!(in_turn.judge(&moved, &verdict) == Truth::True, alone == Truth::True);
+            *(if alone == Truth::True { &mut kept } else { &mut refused }) += 1;
+        }
+    }
+    assert!(kept > 60 && refused > 60, "{kept} {refused}");
+}
+
 /// The band of Möbius, a pinched pair of pyramids, an edge of three triangles and a bottle of Klein, by their topology.
 #[test]
 fn shapes_of_one_side_and_no_surfaces_are_counted() {
