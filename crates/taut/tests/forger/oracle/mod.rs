@@ -134,12 +134,16 @@ impl<'a> CaseOracle<'a> {
                     .ellipsoids
                     .entry(items as u8)
                     .or_insert_with(|| EllipsoidOracle::new(values, *columns, items));
-                oracle.judge(found, verdict)
+                oracle.judge(found, &finite(verdict))
             }
             (AnySolution::Inscribed(found), AnyVerdict::Inscribed(verdict)) => {
                 let oracle =
                     self.inscribed.get_or_insert_with(|| InscribedOracle::new(values, *columns));
-                oracle.judge(found, verdict)
+                let mut verdict = *verdict;
+                if verdict.gap == f64::INFINITY {
+                    (verdict.upper, verdict.gap) = (f64::MAX, f64::MAX);
+                }
+                oracle.judge(found, &verdict)
             }
             (AnySolution::Order(found), AnyVerdict::Order(verdict)) => {
                 let oracle = self.order.get_or_insert_with(|| OrderOracle::new(values, *columns));
@@ -200,5 +204,13 @@ impl<'a> CaseOracle<'a> {
             }
             _ => vec![],
         }
+    }
+}
+
+/// The verdict with an infinite gap, which claims nothing, replaced by the largest that is a number.
+fn finite(verdict: &EllipsoidVerdict) -> EllipsoidVerdict {
+    match verdict.gap {
+        f64::INFINITY => EllipsoidVerdict { lower: -f64::MAX, gap: f64::MAX, ..*verdict },
+        _ => *verdict,
     }
 }
