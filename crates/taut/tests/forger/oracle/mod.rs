@@ -10,6 +10,7 @@ mod interval;
 mod linear;
 mod mvee;
 mod mvie;
+pub(crate) mod robust;
 
 /// Whether the claims of one verdict hold.
 #[derive(Clone, Debug, PartialEq)]
