@@ -4,6 +4,9 @@ use super::Truth;
 use super::interval::Interval;
 use super::mvee::Bracket;
 
+/// Numbers that differ by less than 2⁻¹⁰⁰ are not told apart from an optimum: a gap of 0 may be exact.
+const GRAIN: i64 = -100;
+
 /// The first claim found false, and the first one left open.
 #[derive(Default)]
 pub(super) struct Claims {
@@ -41,13 +44,15 @@ impl Claims {
 
     /// Claims that a number is at most the optimum: it is at the near end of the bracket, and is not beyond the far one.
     pub(super) fn below(&mut self, what: &str, value: &Interval, optimum: &Bracket) {
-        let holds = decided(value.at_most(&optimum.lower), value.at_most(&optimum.upper));
+        let least = value.minus(&Interval::integer(1).scaled(GRAIN));
+        let holds = decided(least.at_most(&optimum.lower), least.at_most(&optimum.upper));
         self.holds(holds, || beside(what, value, optimum));
     }
 
     /// Claims that a number is at least the optimum.
     pub(super) fn above(&mut self, what: &str, value: &Interval, optimum: &Bracket) {
-        let holds = decided(optimum.upper.at_most(value), optimum.lower.at_most(value));
+        let most = value.plus(&Interval::integer(1).scaled(GRAIN));
+        let holds = decided(optimum.upper.at_most(&most), optimum.lower.at_most(&most));
         self.holds(holds, || beside(what, value, optimum));
     }
 

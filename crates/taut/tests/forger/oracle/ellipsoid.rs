@@ -12,7 +12,7 @@
 #[cfg(test)]
 mod tests;
 
-use std::sync::Mutex;
+use std::sync::{Mutex, OnceLock};
 
 use taut::certify::Hull;
 use taut::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Items, Solution};
@@ -36,8 +36,10 @@ pub(crate) struct EllipsoidOracle {
     items: Items,
     dim: usize,
     bodies: Option<Vec<Body>>,
-    /// Of full dimension.
-    optimum: Option<Bracket>,
+    /// The numbers that a certificate has for these bodies, ascending.
+    rows: Vec<u64>,
+    /// Of full dimension, found when it is first asked for.
+    optimum: OnceLock<Option<Bracket>>,
     /// Weights of earlier hulls.
     weights: Mutex<Vec<Vector>>,
 }
@@ -46,15 +48,25 @@ impl EllipsoidOracle {
     pub(crate) fn new(values: &[f64], columns: usize, items: Items) -> Self {
         let dim = items.dim(columns);
         let rows = values.chunks_exact(columns.max(1));
-        let bodies: Option<Vec<Body>> = rows.map(|row| Body::of(items, dim, row)).collect();
-        let optimum = bodies.as_ref().and_then(|bodies| optimum(bodies, items));
-        EllipsoidOracle { items, dim, bodies, optimum, weights: Mutex::new(vec![]) }
+        let count = rows.len() as u64;
+        let bodies = rows.map(|row| Body::of(items, dim, row)).collect();
+        EllipsoidOracle::of_bodies(bodies, (0..count).collect(), dim, items)
     }
 
-    /// As `new`, for the items of an input that are not left out.
-    pub(super) fn of_bodies(bodies: Vec<Body>, dim: usize, items: Items) -> Self {
-        let optimum = optimum(&bodies, items);
-        EllipsoidOracle { items, dim, bodies: Some(bodies), optimum, weights: Mutex::new(vec![]) }
+    /// As `new`, for some rows of an input.
+    pub(super) fn of_bodies(
+        bodies: Option<Vec<Body>>,
+        rows: Vec<u64>,
+        dim: usize,
+        items: Items,
+    ) -> Self {
+        let (optimum, weights) = (OnceLock::new(), Mutex::new(vec![]));
+        EllipsoidOracle { items, dim, bodies, rows, optimum, weights }
+    }
+
+    fn whole(&self) -> Option<&Bracket> {
+        let find = || optimum(self.bodies.as_ref()?, self.items);
+        self.optimum.get_or_init(find).as_ref()
     }
 
     pub(crate) fn judge(
@@ -119,15 +131,15 @@ impl EllipsoidOracle {
         let Some(mut optimum) = self.optimum_for(answer.hull.as_ref(), &exactly.lower) else {
             return claims.undecided("the least log-volume is not known");
         };
-        if let Some(lower) = dual(bodies, certificate, answer.hull.as_ref()) {
+        if let Some(lower) = dual(bodies, &self.rows, certificate, answer.hull.as_ref()) {
             optimum.lower = larger(optimum.lower, lower).lower();
         }
         about_optimum(claims, &exactly, &volume, &optimum, answer);
     }
 
     /// The bracket for the whole space or a hull, narrow enough to tell whether `lower` is below it, if possible.
-    fn optimum_for(&self, hull: Option<&Hull>, lower: &Interval) -> Option<Bracket> {
-        let Some(hull) = hull else { return self.optimum.clone() };
+    pub(super) fn optimum_for(&self, hull: Option<&Hull>, lower: &Interval) -> Option<Bracket> {
+        let Some(hull) = hull else { return self.whole().cloned() };
         let bodies = self.bodies.as_ref()?;
         let basis = exact_rows(&hull.basis)?;
         let metric = Factor::of(&gram(&basis), Way::Proved)?.determinant().ln()?.scaled(-1);
@@ -162,7 +174,7 @@ impl EllipsoidOracle {
     /// The lower end of the bracket for the whole space, and how wide that is.
     #[cfg(test)]
     pub(crate) fn bracket_for_tests(&self) -> Option<(f64, f64)> {
-        let Bracket { lower, upper } = self.optimum.as_ref()?;
+        let Bracket { lower, upper } = self.whole()?;
         Some((lower.rounded(), upper.minus(lower).rounded()))
     }
 }
@@ -170,12 +182,13 @@ impl EllipsoidOracle {
 /// What the multipliers of a certificate prove, whatever the checker makes of them.
 fn dual(
     bodies: &[Body],
+    rows: &[u64],
     certificate: &EllipsoidCertificate,
     hull: Option<&Hull>,
 ) -> Option<Interval> {
     let mut points: Matrix = vec![];
     for (position, &row) in certificate.support.iter().enumerate() {
-        let body = bodies.get(usize::try_from(row).ok()?)?;
+        let body = &bodies[rows.binary_search(&row).ok()?];
         let direction = exact(certificate.directions.get(position).map_or(&[], Vec::as_slice))?;
         points.push(match direction.iter().any(Interval::is_nonzero) {
             true => body.touching(&direction, Way::Proved)?,

@@ -4,6 +4,7 @@
 //! offsets of points, off the hull by ρ = 32(d + 4)√(r + 1)·u of their length, and widths of bodies by √ρ of them. A set is flat if the
 //! distance stated is at most 1e-10 of its extent (1e-6 for ellipsoids) and what rounding its coordinates explains.
 
+use taut::certify::Hull;
 use taut::{Ellipsoid, Items};
 
 use super::body::Body;
@@ -96,6 +97,24 @@ pub(super) fn judge(
     let allowed = allowed(bodies, &subspace, dim, share)?.times(&Interval::exact(wider * ROUNDED)?);
     claims.at_most("distance of a hull, with what is flat", &distance, &allowed);
     Some(())
+}
+
+/// Whether a point at this offset from the center is as near to the hull as stated; `Some(None)` where what the
+/// checker rounds may decide.
+pub(super) fn is_near(hull: &Hull, offset: &[Interval]) -> Option<Option<bool>> {
+    let basis = exact_rows(&hull.basis)?;
+    let (dim, rank) = (offset.len(), basis.len());
+    let subspace = Subspace { metric: Factor::of(&gram(&basis), Way::Proved)?, basis };
+    let off = subspace.squared_distance(offset)?.upper().root()?;
+    let rounding = 32.0 * (dim + 4) as f64 * ((rank + 1) as f64).sqrt() * U * ROUNDED;
+    let rounding = squared_length(offset).root()?.times(&Interval::exact(rounding)?);
+    let distance = Interval::exact(hull.distance)?;
+    // A solver states twice the distance of the rows that it kept, so that rounding does not decide about these.
+    let is_on = [off.plus(&rounding), off.scaled(1)];
+    if is_on.iter().any(|reach| reach.at_most(&distance) == Some(true)) {
+        return Some(Some(true));
+    }
+    Some((off.at_most(&distance.plus(&rounding)) == Some(false)).then_some(false))
 }
 
 /// BSBᵀ.

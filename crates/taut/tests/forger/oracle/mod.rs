@@ -19,6 +19,7 @@ mod mvee;
 mod mvie;
 mod numbers;
 pub mod order;
+pub mod robust;
 pub mod shapes;
 pub mod surface;
 pub mod triangulation;
@@ -26,7 +27,7 @@ pub mod triangulation;
 use std::collections::BTreeMap;
 
 use taut::AnySolution;
-use taut::certify::{AnyVerdict, EllipsoidVerdict};
+use taut::certify::{AnyVerdict, EllipsoidVerdict, RobustVerdict};
 
 use self::ball::BallOracle;
 use self::centers::CentersOracle;
@@ -34,6 +35,7 @@ use self::curve::CurveOracle;
 use self::ellipsoid::EllipsoidOracle;
 use self::inscribed::InscribedOracle;
 use self::order::OrderOracle;
+use self::robust::RobustOracle;
 use self::surface::SurfaceOracle;
 use self::triangulation::TriangulationOracle;
 use crate::cases::Input;
@@ -77,6 +79,7 @@ pub struct CaseOracle<'a> {
     ellipsoids: BTreeMap<u8, EllipsoidOracle>,
     inscribed: Option<InscribedOracle>,
     order: Option<OrderOracle>,
+    robust: Option<RobustOracle>,
     surface: Option<SurfaceOracle>,
     triangulation: Option<TriangulationOracle>,
 }
@@ -102,6 +105,7 @@ impl<'a> CaseOracle<'a> {
             ellipsoids: BTreeMap::new(),
             inscribed: None,
             order: None,
+            robust: None,
             surface: None,
             triangulation: None,
         }
@@ -160,7 +164,11 @@ impl<'a> CaseOracle<'a> {
                     .get_or_insert_with(|| TriangulationOracle::new(values, *columns));
                 oracle.judge(found, verdict)
             }
-            (AnySolution::Robust(_), _) => Truth::True,
+            (AnySolution::Robust(found), AnyVerdict::Robust(verdict)) => {
+                let oracle = self.robust.get_or_insert_with(|| RobustOracle::new(values, *columns));
+                let enclosure = verdict.enclosure.map(|enclosure| finite(&enclosure));
+                oracle.judge(found, &RobustVerdict { enclosure, ..*verdict })
+            }
             _ => Truth::False("the verdict is of another kind than the answer".into()),
         }
     }

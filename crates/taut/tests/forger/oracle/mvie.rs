@@ -216,7 +216,8 @@ fn solve(sides: &[Side], inside: &[Interval]) -> Option<Guess> {
                 .zip(sides)
                 .zip(y.iter().zip(&h))
                 .map(|((unit, side), (y, h))| {
-                    let largest = (0..d).max_by_key(|&j| side.normal[j].binary_order())?;
+                    let used = (0..d).filter(|&j| side.normal[j].is_nonzero());
+                    let largest = used.max_by_key(|&j| side.normal[j].binary_order())?;
                     let part = unit.normal[largest].over(&side.normal[largest])?;
                     Some(way.keep(y.times(h).times(&part)))
                 })

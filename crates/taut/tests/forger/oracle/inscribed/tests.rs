@@ -22,7 +22,7 @@ fn solved(rows: &[f64], dim: usize) -> Solved {
 
 /// The verdict with a lower end that is rounded down.
 fn rounded_down(verdict: InscribedVerdict) -> InscribedVerdict {
-    InscribedVerdict { lower: verdict.lower - 1e-13, ..verdict }
+    InscribedVerdict { lower: verdict.lower - 2e-14 * (1.0 + verdict.lower.abs()), ..verdict }
 }
 
 fn sides_of_box(center: &[f64], widths: &[f64]) -> Vec<f64> {
@@ -148,7 +148,7 @@ fn half_the_largest_ellipsoid_is_not_the_largest() {
             points_hash: hash_points(&points, &Monitor::silent()).unwrap(),
         };
         let verdict =
-            InscribedVerdict { lower: log_volume - 1e-13, upper: log_volume + 1e-12, gap: 0.0 };
+            InscribedVerdict { lower: log_volume - 3e-14, upper: log_volume + 1e-12, gap: 0.0 };
         let solution = Solution { answer, certificate, trace: Trace::default() };
         InscribedOracle::new(&rows, dim + 1).judge(&solution, &verdict)
     };
