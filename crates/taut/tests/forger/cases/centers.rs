@@ -62,6 +62,7 @@ fn solve(input: &Input, items: Items, weights: bool) -> Vec<Solved> {
         ("three", 3, CentersOptions { assignment: true, ..base }),
         ("two, loosely", 2, CentersOptions { epsilon: 0.3, ..base }),
         ("two, without one", 2, CentersOptions { outliers: 1, ..base }),
+        ("four, without two", 4, CentersOptions { outliers: 2, ..base }),
         ("two of the rows", 2, rows),
         ("one of the rows, without two", 1, CentersOptions { outliers: 2, ..rows }),
         ("two, one by one", 2, CentersOptions { method: CentersMethod::FarthestFirst, ..base }),

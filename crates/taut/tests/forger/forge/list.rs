@@ -11,6 +11,7 @@ enum Shuffle {
     Swap(usize, usize),
     Drop(usize),
     Repeat(usize, usize),
+    Split(usize),
     Overwrite(usize, usize),
     Move(usize, usize),
     Rotate(usize),
@@ -21,7 +22,7 @@ enum Shuffle {
 impl Shuffle {
     fn random(random: &mut Random, length: usize) -> Self {
         let at = |random: &mut Random| random.below(length);
-        match random.below(9) {
+        match random.below(10) {
             0 | 1 => Shuffle::Swap(at(random), at(random)),
             2 => Shuffle::Drop(at(random)),
             3 => Shuffle::Repeat(at(random), at(random)),
@@ -29,6 +30,7 @@ impl Shuffle {
             5 => Shuffle::Move(at(random), at(random)),
             6 => Shuffle::Rotate(1 + random.below(length)),
             7 => Shuffle::Reverse,
+            8 => Shuffle::Split(at(random)),
             _ => Shuffle::Truncate(at(random)),
         }
     }
@@ -38,6 +40,13 @@ impl Shuffle {
             Shuffle::Swap(a, b) => list.swap(a, b),
             Shuffle::Drop(a) => drop(list.remove(a)),
             Shuffle::Repeat(a, b) => list.insert(b, list[a].clone()),
+            Shuffle::Split(a) => {
+                // Doubles are parted, so that their sum stays.
+                if let Some(x) = list[a].as_f64().filter(|_| list[a].is_f64()) {
+                    list[a] = number::value(0.5 * x);
+                }
+                list.insert(a, list[a].clone());
+            }
             Shuffle::Overwrite(a, b) => list[b] = list[a].clone(),
             Shuffle::Move(a, b) => {
                 let value = list.remove(a);
@@ -70,6 +79,9 @@ pub fn forge(random: &mut Random, list: &mut Vec<Value>) -> String {
             1 => Value::from(random.next() % 10),
             _ => Value::Array(vec![]),
         });
+        if random.chance(30) {
+            list.push(list[0].clone());
+        }
         return format!("put {} into an empty list", list[0]);
     }
     match random.below(11) {

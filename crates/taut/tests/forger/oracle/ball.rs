@@ -7,7 +7,7 @@ use taut::{Ball, Items, Solution, Verdict};
 
 use super::Truth;
 use super::dyadic::{Dyadic, exact, sum};
-use super::enclosing::{Body, Bracket, bracket};
+use super::enclosing::{Body, Bracket, bracket, digits, dual};
 use super::shapes::Shape;
 
 /// Unit roundoff of `f64`, 2⁻⁵³.
@@ -91,6 +91,7 @@ impl BallOracle {
                 })
             })
             .and(|| self.multipliers(solution, &center, &radius))
+            .and(|| self.proved(solution, verdict.lower))
     }
 
     /// No ellipsoid is seen to reach beyond the radius.
@@ -99,6 +100,23 @@ impl BallOracle {
             None => Truth::True,
             Some((row, _)) => Truth::False(format!("ellipsoid {row} reaches beyond the radius")),
         }
+    }
+
+    /// The lower bound is no larger than what the multipliers prove, or the radius of a ball of the support.
+    fn proved(&self, solution: &Solution<Ball>, lower: f64) -> Truth {
+        if self.bodies.is_empty() {
+            return Truth::True;
+        }
+        let certificate = &solution.certificate;
+        let support: Vec<&Body> =
+            certificate.support.iter().map(|&row| &self.bodies[row as usize]).collect();
+        let bits = digits(&self.bodies);
+        let by_lambda = dual(&support, &exact(&certificate.multipliers), bits);
+        let largest = support.iter().map(|body| &body.radius).max().into_iter().cloned();
+        let most = largest.fold(by_lambda, Dyadic::max);
+        Truth::claim(Dyadic::of(lower) <= &most + &most.scaled(-100), || {
+            format!("the lower bound {lower:e} exceeds {}, which the multipliers prove", most.text())
+        })
     }
 
     /// The multipliers are convex, and the center is their combination of the support.

@@ -243,7 +243,7 @@ pub fn proved(all: &[&Body], support: &[&Body], ball: &Touching, bits: u64) -> B
 }
 
 /// Returns the lower bound that multipliers prove, rounded down.
-fn dual(support: &[&Body], lambda: &[Dyadic], bits: u64) -> Dyadic {
+pub fn dual(support: &[&Body], lambda: &[Dyadic], bits: u64) -> Dyadic {
     // λ = ν·w² exactly, so that the sum of λ/w² is that of ν.
     let nu: Vec<Dyadic> = support
         .iter()
