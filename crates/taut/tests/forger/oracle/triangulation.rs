@@ -91,9 +91,10 @@ impl TriangulationOracle {
         if verdict.ties != self.built.ties {
             return is("ties", &verdict.ties, &self.built.ties);
         }
-        // How many signs a filter leaves open is a matter of the filter; ties are among them.
-        if !(self.built.ties..=self.built.inner_facets).contains(&verdict.refined) {
-            return is("refined", &verdict.refined, &(self.built.ties, self.built.inner_facets));
+        // How many signs a filter leaves open is a matter of the filter: of facets, ties among them, and orientations.
+        let signs = self.built.inner_facets + self.counts.simplices;
+        if !(self.built.ties..=signs).contains(&verdict.refined) {
+            return is("refined", &verdict.refined, &(self.built.ties, signs));
         }
         self.lists(answer).or_else(|| self.neighbors(answer, &certificate.neighbors))
     }
