@@ -91,11 +91,10 @@ impl TriangulationOracle {
         if verdict.ties != self.built.ties {
             return is("ties", &verdict.ties, &self.built.ties);
         }
-        // How many signs a filter leaves open is a matter of the filter; ties are among them, and no more than one sign of
-        // each facet and one of each simplex are looked at.
-        let most = self.built.inner_facets + self.counts.simplices + self.counts.hull;
-        if !(self.built.ties..=most).contains(&verdict.refined) {
-            return is("refined", &verdict.refined, &(self.built.ties, most));
+        // How many signs a filter leaves open is a matter of the filter: of facets, ties among them, and orientations.
+        let signs = self.built.inner_facets + self.counts.simplices;
+        if !(self.built.ties..=signs).contains(&verdict.refined) {
+            return is("refined", &verdict.refined, &(self.built.ties, signs));
         }
         self.lists(answer).or_else(|| self.neighbors(answer, &certificate.neighbors))
     }

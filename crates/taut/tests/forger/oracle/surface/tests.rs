@@ -59,6 +59,8 @@ fn inputs() -> Vec<Vec<f64>> {
         inputs.push((0..75).map(|_| random()).collect());
         inputs.push((0..75).map(|_| (random() * 3.0).floor()).collect());
     }
+    inputs.push(flat(sphere(20, 1e-100).chain(sphere(20, 1e100))));
+    inputs.push(flat(sphere(30, 1.0).chain([[1e20, 1e-20, 0.0]])));
     for scale in [1e-150, 1e150, 1e-300] {
         inputs.push(flat(sphere(24, scale)));
         inputs.push(flat(whole(2).map(|p| p.map(|x| f64::from(x) * scale))));

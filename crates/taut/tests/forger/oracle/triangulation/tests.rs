@@ -37,6 +37,16 @@ fn inputs() -> Vec<(usize, Vec<f64>)> {
     let circle = [(5, 0), (4, 3), (3, 4), (0, 5), (-3, 4), (-4, 3), (-5, 0), (-4, -3), (0, -5)];
     inputs.push((2, circle.iter().flat_map(|&(x, y)| [f64::from(x), f64::from(y)]).collect()));
     inputs.push((2, vec![0.0, 1.0, -0.0, 1.0, 1.0, -0.0, 2.0, 2.0, 0.0, 1.0]));
+    // A far point among near ones, and coordinates of all sizes.
+    for far in [1e6, 1e16, 1e300] {
+        let near = circle.iter().flat_map(|&(x, y)| [f64::from(x) / 3.0, f64::from(y)]);
+        inputs.push((2, near.chain([far, far / 3.0]).collect()));
+    }
+    for columns in [2, 3] {
+        let mut random = numbers(11);
+        let sized = |_| random() * 10f64.powf((random() * 40.0 - 20.0).floor());
+        inputs.push((columns, (0..12 * columns).map(sized).collect()));
+    }
     // The sphere of radius 3, the planes x + y = z and x = 1 with grids, and the unit cube twice.
     let sphere = |_: usize| {
         let whole = -3i32..=3;
