@@ -9,7 +9,9 @@
 //! *The smallest.* A verdict calls an ellipsoid around the points kept a local optimum, so its volume may exceed the least by
 //! no more than [`LOOSE`], whatever gap is stated for it.
 
+mod factors;
 mod moments;
+mod passes;
 #[cfg(test)]
 mod tests;
 
@@ -22,16 +24,14 @@ use taut::{
 };
 
 use self::moments::Moments;
+use self::passes::{distances, flags, rows, slack};
 use super::Truth;
 use super::body::Body;
 use super::claims::Claims;
 use super::ellipsoid::{EllipsoidOracle, U, center, log_volume, log_volume_tolerance};
 use super::flat;
 use super::interval::Interval;
-use super::linear::{
-    Matrix, Vector, congruent, difference, exact, exact_rows, image, squared_length,
-};
-use super::mvee::larger;
+use super::linear::{Matrix, Vector, congruent, exact_rows};
 
 /// By how much the log-volume of an ellipsoid around the points kept may exceed the least one.
 const LOOSE: f64 = 1e-3;
@@ -39,8 +39,6 @@ const LOOSE: f64 = 1e-3;
 const ON_BORDER: f64 = 1e-6;
 /// The checker's least slack.
 const LEAST: f64 = 1e-9;
-/// Differences in |F(x − c)| below this are not told apart.
-const GRAIN: f64 = 1e-25;
 
 /// The truth about robust ellipsoids of one input.
 pub(crate) struct RobustOracle {
@@ -48,15 +46,6 @@ pub(crate) struct RobustOracle {
     points: Option<Vec<Body>>,
     /// The oracles of the points kept, by the rows left out.
     enclosures: Mutex<HashMap<Vec<u64>, Arc<EllipsoidOracle>>>,
-}
-
-/// Where a row is.
-struct Row {
-    /// |F(x − c)|² of the answer.
-    square: Interval,
-    /// Whether it is on the hull; `None` where rounding may decide.
-    on_hull: Option<bool>,
-    y: Vector,
 }
 
 impl RobustOracle {
@@ -148,6 +137,7 @@ impl RobustOracle {
         });
         flags(claims, answer, verdict, &rows)?;
         slack(claims, answer, verdict, points, &kept)?;
+        factors::claims(claims, certificate, verdict, points.len());
         let slack = verdict.slack;
         if rank > 0 {
             let volume = log_volume(&ellipsoid, &factor)?;
@@ -315,135 +305,4 @@ impl RobustOracle {
         };
         Some(known.entry(certificate.left_out.clone()).or_insert_with(make).clone())
     }
-}
-
-/// Where all rows are.
-fn rows(
-    ellipsoid: &Ellipsoid,
-    at: &[Interval],
-    factor: &Matrix,
-    points: &[Body],
-) -> Option<Vec<Row>> {
-    points
-        .iter()
-        .map(|point| {
-            let offset = difference(&point.center, at);
-            let y = image(factor, &offset);
-            let on_hull = match &ellipsoid.hull {
-                None => Some(true),
-                Some(hull) => flat::is_near(hull, &offset)?,
-            };
-            Some(Row { square: squared_length(&y), on_hull, y })
-        })
-        .collect()
-}
-
-/// Rows flagged are those outside, up to the excess stated, and those off the hull.
-fn flags(
-    claims: &mut Claims,
-    answer: &RobustEllipsoid,
-    verdict: &RobustVerdict,
-    rows: &[Row],
-) -> Option<()> {
-    let excess = Interval::exact(verdict.flag_excess * (1.0 + 1e-9) + GRAIN)?;
-    let (most, least) = (Interval::integer(1).plus(&excess), Interval::integer(1).minus(&excess));
-    let (most, least) =
-        (most.square(), if least.is_positive() { least.square() } else { Interval::zero() });
-    for (number, row) in rows.iter().enumerate() {
-        let is_flagged = answer.flagged.binary_search(&(number as u64)).is_ok();
-        match (is_flagged, row.on_hull) {
-            (false, Some(false)) => {
-                claims
-                    .holds(Some(false), || format!("row {number} is off the hull and not flagged"));
-            }
-            (true, Some(true)) => {
-                claims.at_most(
-                    &format!("the border, for row {number} flagged"),
-                    &least,
-                    &row.square,
-                );
-            }
-            (false, _) => {
-                claims.at_most(&format!("row {number}, not flagged"), &row.square, &most);
-            }
-            (true, _) => {}
-        }
-    }
-    Some(())
-}
-
-/// The slack is 1e-9, and 16(d + 4)u of what |F| makes of the extents of the points kept, and 8u of what it makes of the center.
-fn slack(
-    claims: &mut Claims,
-    answer: &RobustEllipsoid,
-    verdict: &RobustVerdict,
-    points: &[Body],
-    kept: &[usize],
-) -> Option<()> {
-    let at = exact(&answer.center)?;
-    let mut extents = vec![Interval::zero(); at.len()];
-    for &row in kept {
-        for (most, x) in extents.iter_mut().zip(difference(&points[row].center, &at)) {
-            *most = larger(most.clone(), x.absolute());
-        }
-    }
-    let seen = |sizes: &[Interval]| -> Option<f64> {
-        let along = |row: &Vec<f64>| -> Option<f64> {
-            let terms = exact(row)?
-                .iter()
-                .zip(sizes)
-                .map(|(f, x)| f.times(x).absolute())
-                .collect::<Vec<_>>();
-            Some(terms.iter().fold(Interval::zero(), |sum, t| sum.plus(t)).rounded())
-        };
-        answer.factor.iter().map(along).try_fold(0.0f64, |most, v| Some(most.max(v?)))
-    };
-    let thin = 16.0 * (at.len() + 4) as f64 * U * seen(&extents)?;
-    let far = 8.0 * U * seen(&at)?;
-    let wanted = (LEAST + thin + far).min(0.1);
-    claims.holds(Some(verdict.slack <= 1.001 * wanted), || {
-        format!("the slack is {:e} in place of {wanted:e}", verdict.slack)
-    });
-    Some(())
-}
-
-/// No row kept is farther than one left out, and rows are weighed out beyond the quantile.
-fn distances(
-    claims: &mut Claims,
-    certificate: &RobustCertificate,
-    verdict: &RobustVerdict,
-    rows: &[Row],
-    squares: &[Interval],
-) -> Option<()> {
-    let slack = Interval::exact(1.01 * verdict.slack)?;
-    let one = Interval::integer(1);
-    let border =
-        Interval::exact(certificate.cutoff)?.times(&Interval::exact(certificate.raw_scale)?);
-    let named = |list: &[u64], row: usize| list.binary_search(&(row as u64)).is_ok();
-    let on_hull = || (0..squares.len()).filter(|&row| rows[row].on_hull == Some(true));
-    let kept = on_hull().filter(|&row| !named(&certificate.left_out, row));
-    let far = kept.fold(Interval::zero(), |far, row| larger(far, squares[row].clone()));
-    for row in on_hull() {
-        if named(&certificate.left_out, row) {
-            let limit = squares[row].times(&one.plus(&slack)).plus(&slack);
-            let what =
-                format!("squared distance of the farthest row kept, and of row {row} left out");
-            claims.at_most(&what, &far, &limit);
-        }
-        if !verdict.reweighted || certificate.method == RobustMethod::Trim {
-            continue;
-        }
-        let what = format!("row {row} and the quantile");
-        match named(&certificate.weighed_out, row) {
-            true => {
-                let inner = one.minus(&slack).square().times(&border);
-                claims.at_most(&what, &inner, &squares[row]);
-            }
-            false => {
-                let outer = one.plus(&slack).square().times(&border);
-                claims.at_most(&what, &squares[row], &outer);
-            }
-        }
-    }
-    Some(())
 }

@@ -108,6 +108,8 @@ fn answers_of_the_solver_are_true_and_doctored_ones_are_false() {
             Some(enclosure) => enclosure.lower = enclosure.upper + 1e-9,
             None => v.objective = f64::NAN,
         });
+        is_false("another factor of the points kept", &|_, c, _| c.raw_scale *= 1.0 + 1e-8);
+        is_false("another level", &|_, c, _| c.level *= 1.0 - 1e-8);
         // The first row kept for the last one left out.
         is_false("others kept", &|_, c, _| {
             let first = (0..u64::MAX).find(|row| !c.left_out.contains(row)).unwrap();
@@ -160,6 +162,8 @@ fn trimmed(axes: [f64; 2], gap: f64) -> (Vec<f64>, Solution<RobustEllipsoid>, Ro
         matrix_excess: 1e-12,
         rank: 2,
     };
+    // (1 + 15/(9 − 2))² over the quantile −2·ln(1 − 8/10) in the plane.
+    let raw_scale = (22.0f64 / 7.0).powi(2) / (-2.0 * 0.2f64.ln());
     let answer = RobustEllipsoid {
         center: vec![0.0; 2],
         center_tail: vec![],
@@ -167,8 +171,8 @@ fn trimmed(axes: [f64; 2], gap: f64) -> (Vec<f64>, Solution<RobustEllipsoid>, Ro
         factor: ellipsoid.factor.clone(),
         hull: None,
         log_volume,
-        scatter: diagonal(f.map(|f| 1.0 / (f * f))),
-        log_det: -2.0 * (f[0].ln() + f[1].ln()),
+        scatter: diagonal(f.map(|f| raw_scale / (f * f))),
+        log_det: -2.0 * (f[0].ln() + f[1].ln()) + 2.0 * raw_scale.ln(),
         flagged: vec![8],
     };
     let certificate = RobustCertificate {
@@ -178,7 +182,7 @@ fn trimmed(axes: [f64; 2], gap: f64) -> (Vec<f64>, Solution<RobustEllipsoid>, Ro
         objective: log_volume,
         level: 1.0,
         cutoff: 0.0,
-        raw_scale: 1.0,
+        raw_scale,
         scale: 0.0,
         weighed_out: vec![],
         unweighted: Some(Unweighted::Trimmed),
