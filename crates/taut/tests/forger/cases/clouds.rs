@@ -27,6 +27,9 @@ pub fn points(dim: usize, count: usize) -> Vec<Input> {
         .flat_map(|row| [&row[..dim - 1], &[row[dim - 1] * 1e-9]].concat())
         .collect();
     let copies = [&uniform[..dim], &uniform[..2 * dim], &uniform[..dim]].concat();
+    let along_axis: Vec<f64> = (0..count)
+        .flat_map(|i| (0..dim).map(move |j| if j == 0 { (i * i) as f64 - 9.0 } else { 0.0 }))
+        .collect();
     let scaled = |factor: f64| uniform.iter().map(|x| x * factor).collect::<Vec<f64>>();
     let far = |offset: f64| uniform.iter().map(|x| x + offset).collect::<Vec<f64>>();
     let mixed = drawn(count.min(8), &mut |random| {
@@ -42,6 +45,7 @@ pub fn points(dim: usize, count: usize) -> Vec<Input> {
         ("lattice", lattice),
         ("corners", corners),
         ("line", line),
+        ("along an axis", along_axis),
         ("flat", flat),
         ("nearly flat", nearly_flat),
         ("copies", copies),

@@ -4,7 +4,8 @@ use serde_json::{Value, json};
 
 use super::Input;
 
-/// Returns ellipsoids of dimension 0 and of dimension 1 along each axis, about one place, with hulls at several distances.
+/// Returns ellipsoids of dimension 0 and of dimension 1 along each axis, about one place, with hulls at several distances; the
+/// factor of some leans out of the hull.
 pub fn flat_ellipsoids(input: &Input, dim: usize, items: &str) -> Vec<(String, Value)> {
     let rows: Vec<&[f64]> = input.values.chunks_exact(input.columns).collect();
     let zeros = vec![0.0; dim];
@@ -13,7 +14,7 @@ pub fn flat_ellipsoids(input: &Input, dim: usize, items: &str) -> Vec<(String, V
     let directions: Vec<&[f64]> = if items == "points" { vec![] } else { vec![&zeros; rows.len()] };
     let mut found = vec![];
     for axis in [None].into_iter().chain((0..dim).map(Some)) {
-        for center in [&zeros[..], &rows[0][..dim]] {
+        for (center, lean) in [(&zeros[..], 0.0), (&rows[0][..dim], 0.0), (&zeros[..], 0.5)] {
             let reach = axis.map_or(1.0, |axis| {
                 let reaches = rows.iter().map(|row| (row[axis] - center[axis]).abs());
                 reaches.fold(0.0f64, f64::max).min(f64::MAX)
@@ -22,10 +23,13 @@ pub fn flat_ellipsoids(input: &Input, dim: usize, items: &str) -> Vec<(String, V
                 None => (vec![], vec![], 0.0),
                 Some(_) if reach == 0.0 => continue,
                 Some(axis) => {
-                    let along = |length: f64| {
-                        (0..dim).map(|j| if j == axis { length } else { 0.0 }).collect::<Vec<f64>>()
+                    let along = |length: f64, lean: f64| {
+                        let rest = lean * length;
+                        let entry = |j| if j == axis { length } else { rest };
+                        (0..dim).map(entry).collect::<Vec<f64>>()
                     };
-                    (vec![along(1.0 / reach)], vec![along(1.0)], (2.0 * reach).ln().min(709.0))
+                    let volume = (2.0 * reach).ln().min(709.0);
+                    (vec![along(1.0 / reach, lean)], vec![along(1.0, 0.0)], volume)
                 }
             };
             let square = |j: usize, k: usize| factor.iter().map(|row| row[j] * row[k]).sum::<f64>();

@@ -115,7 +115,10 @@ impl BallOracle {
         let largest = support.iter().map(|body| &body.radius).max().into_iter().cloned();
         let most = largest.fold(by_lambda, Dyadic::max);
         Truth::claim(Dyadic::of(lower) <= &most + &most.scaled(-100), || {
-            format!("the lower bound {lower:e} exceeds {}, which the multipliers prove", most.text())
+            format!(
+                "the lower bound {lower:e} exceeds {}, which the multipliers prove",
+                most.text()
+            )
         })
     }
 
