@@ -38,11 +38,6 @@ impl Shape {
         &self.least
     }
 
-    /// Whether N is known.
-    pub(super) fn is_definite(&self) -> bool {
-        self.most.is_none()
-    }
-
     pub(super) fn most(&self) -> &Matrix {
         self.most.as_ref().unwrap_or(&self.least)
     }

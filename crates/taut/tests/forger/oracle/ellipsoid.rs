@@ -18,7 +18,7 @@ use taut::certify::Hull;
 use taut::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Items, Solution};
 
 use super::Truth;
-use super::body::{Body, Framed, Shape};
+use super::body::{Body, Framed};
 use super::claims::Claims;
 use super::interval::{Interval, log_unit_ball};
 use super::linear::{
@@ -279,20 +279,12 @@ fn enclosed(claims: &mut Claims, exactly: &Exact, bodies: &[Body], matrix: &[Vec
     let limit = one.plus(&exactly.excess).square();
     let limit_of_matrix = one.plus(&exactly.matrix_excess);
     for (row, body) in bodies.iter().enumerate() {
-        for most in [false, true] {
-            if most && body.shape.as_ref().is_none_or(Shape::is_definite) {
-                continue;
-            }
-            let framed = Framed::of(&exactly.factor, &exactly.center, body, most);
-            let mut within = framed.is_within(&limit);
-            if most && within == Some(false) {
-                within = None;
-            }
-            claims.holds(within, || {
-                let norm = squared_length(&framed.g).rounded().sqrt();
-                format!("row {row} lies outside (its center at {norm:?})")
-            });
-        }
+        // The narrowest shape must be enclosed, whichever of those that rounding explains is meant.
+        let framed = Framed::of(&exactly.factor, &exactly.center, body, false);
+        claims.holds(framed.is_within(&limit), || {
+            let norm = squared_length(&framed.g).rounded().sqrt();
+            format!("row {row} lies outside (its center at {norm:?})")
+        });
         matrix_claim(claims, exactly, row, body, &matrix, &limit, &limit_of_matrix);
     }
 }
