@@ -42,6 +42,8 @@ pub(crate) struct EllipsoidOracle {
     optimum: OnceLock<Option<Bracket>>,
     /// Weights of earlier hulls.
     weights: Mutex<Vec<Vector>>,
+    /// The oracle of the widest shapes that rounding explains, where some are not those of the rows.
+    widest: Option<Box<EllipsoidOracle>>,
 }
 
 impl EllipsoidOracle {
@@ -60,8 +62,14 @@ impl EllipsoidOracle {
         dim: usize,
         items: Items,
     ) -> Self {
+        let is_open = bodies.iter().flatten().any(|body| body.widest().is_some());
+        let widest = is_open.then(|| {
+            let widest = |body: &Body| body.widest().unwrap_or_else(|| body.clone());
+            let bodies = bodies.as_ref().map(|bodies| bodies.iter().map(widest).collect());
+            Box::new(EllipsoidOracle::of_bodies(bodies, rows.clone(), dim, items))
+        });
         let (optimum, weights) = (OnceLock::new(), Mutex::new(vec![]));
-        EllipsoidOracle { items, dim, bodies, rows, optimum, weights }
+        EllipsoidOracle { items, dim, bodies, rows, optimum, weights, widest }
     }
 
     fn whole(&self) -> Option<&Bracket> {
@@ -79,7 +87,25 @@ impl EllipsoidOracle {
             return Truth::False("an ellipsoid by itself leaves rows out".into());
         }
         self.claims(&mut claims, &solution.answer, &solution.certificate, verdict);
-        claims.truth()
+        match (claims.truth(), &self.widest) {
+            // All that is said may be about the widest shapes.
+            (Truth::Undecided(why), Some(widest)) => match widest.judge(solution, verdict) {
+                Truth::True => Truth::True,
+                _ if widest.is_below(solution, verdict) => {
+                    Truth::False(format!("{why}; and of the widest shapes it is less as well"))
+                }
+                _ => Truth::Undecided(why),
+            },
+            (truth, _) => truth,
+        }
+    }
+
+    /// Whether the least log-volume, of full dimension, is below the lower end.
+    fn is_below(&self, solution: &Solution<Ellipsoid>, verdict: &EllipsoidVerdict) -> bool {
+        let (Some(optimum), Some(lower)) = (self.whole(), Interval::exact(verdict.lower)) else {
+            return false;
+        };
+        solution.answer.hull.is_none() && lower.at_most(&optimum.upper) == Some(false)
     }
 
     /// Takes in the claims about an answer and its verdict.
