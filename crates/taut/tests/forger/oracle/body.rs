@@ -1,8 +1,8 @@
 //! Rows as points, balls and ellipsoids {m + v : vvᵀ ⪯ N}, and how far they reach in the frame of an ellipsoid.
 //!
 //! *Shapes.* A ball has N = r²I, an ellipsoid N = S. Where rounding has made S indefinite, N = S + 2τD for its diagonal D and
-//! a τ with S + τD ⪰ 0. The documentation fixes τ between the least such number and four times that and 16du more, so N is
-//! known between two shapes, `least` and `most`.
+//! a τ with S + τD ⪰ 0. The documentation allows any from the least such number to four times that and 16du more: `least` has
+//! the former, and `most` twice the least of u/8, u/4, … that helps, and 16du more.
 //! *Reach.* With g = F(m − c) and A = FNFᵀ, each μ with μI − A positive definite proves |F(x − c)|² ≤ μ·(1 + gᵀ(μI − A)⁻¹g)
 //! for all points x of the body (S-lemma); the least of these is the maximum. For each t, w = At/√(tᵀAt) is the image of a
 //! point of the body less that of m, and |g + w|² a lower bound on the maximum.
@@ -36,11 +36,6 @@ pub(super) struct Shape {
 impl Shape {
     pub(super) fn least(&self) -> &Matrix {
         &self.least
-    }
-
-    /// Whether N is known.
-    pub(super) fn is_definite(&self) -> bool {
-        self.most.is_none()
     }
 
     pub(super) fn most(&self) -> &Matrix {
@@ -80,8 +75,13 @@ impl Shape {
             let middle = low.plus(&high).scaled(-1);
             if with(&middle) { high = middle } else { low = middle }
         }
+        // The least of u/8, u/4, … that helps, doubled, and 16du.
+        let mut found = one.scaled(-56);
+        while !with(&found) {
+            found = found.scaled(1);
+        }
         let more = Interval::integer(16 * wide.len() as i64).scaled(-53);
-        let widest = high.scaled(2).plus(&more);
+        let widest = found.scaled(1).plus(&more);
         let raised = |tau: &Interval| -> Matrix {
             let mut raised = matrix.clone();
             for (j, row) in raised.iter_mut().enumerate() {
@@ -113,6 +113,13 @@ impl Body {
             }
         };
         Some(Body { center, shape: Some(Shape::of(matrix)?) })
+    }
+
+    /// The body of the widest shape; `None` where that is the narrowest.
+    pub(super) fn widest(&self) -> Option<Self> {
+        let most = self.shape.as_ref()?.most.clone()?;
+        let shape = Some(Shape { least: most, most: None });
+        Some(Body { center: self.center.clone(), shape })
     }
 
     /// The image under a linear map.

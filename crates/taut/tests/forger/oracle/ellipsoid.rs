@@ -18,7 +18,7 @@ use taut::certify::Hull;
 use taut::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Items, Solution};
 
 use super::Truth;
-use super::body::{Body, Framed, Shape};
+use super::body::{Body, Framed};
 use super::claims::Claims;
 use super::interval::{Interval, log_unit_ball};
 use super::linear::{
@@ -42,6 +42,8 @@ pub(crate) struct EllipsoidOracle {
     optimum: OnceLock<Option<Bracket>>,
     /// Weights of earlier hulls.
     weights: Mutex<Vec<Vector>>,
+    /// The oracle of the widest shapes that rounding explains, where some are not those of the rows.
+    widest: Option<Box<EllipsoidOracle>>,
 }
 
 impl EllipsoidOracle {
@@ -60,8 +62,14 @@ impl EllipsoidOracle {
         dim: usize,
         items: Items,
     ) -> Self {
+        let is_open = bodies.iter().flatten().any(|body| body.widest().is_some());
+        let widest = is_open.then(|| {
+            let widest = |body: &Body| body.widest().unwrap_or_else(|| body.clone());
+            let bodies = bodies.as_ref().map(|bodies| bodies.iter().map(widest).collect());
+            Box::new(EllipsoidOracle::of_bodies(bodies, rows.clone(), dim, items))
+        });
         let (optimum, weights) = (OnceLock::new(), Mutex::new(vec![]));
-        EllipsoidOracle { items, dim, bodies, rows, optimum, weights }
+        EllipsoidOracle { items, dim, bodies, rows, optimum, weights, widest }
     }
 
     fn whole(&self) -> Option<&Bracket> {
@@ -79,7 +87,25 @@ impl EllipsoidOracle {
             return Truth::False("an ellipsoid by itself leaves rows out".into());
         }
         self.claims(&mut claims, &solution.answer, &solution.certificate, verdict);
-        claims.truth()
+        match (claims.truth(), &self.widest) {
+            // All that is said may be about the widest shapes.
+            (Truth::Undecided(why), Some(widest)) => match widest.judge(solution, verdict) {
+                Truth::True => Truth::True,
+                _ if widest.is_below(solution, verdict) => {
+                    Truth::False(format!("{why}; and of the widest shapes it is less as well"))
+                }
+                _ => Truth::Undecided(why),
+            },
+            (truth, _) => truth,
+        }
+    }
+
+    /// Whether the least log-volume, of full dimension, is below the lower end.
+    fn is_below(&self, solution: &Solution<Ellipsoid>, verdict: &EllipsoidVerdict) -> bool {
+        let (Some(optimum), Some(lower)) = (self.whole(), Interval::exact(verdict.lower)) else {
+            return false;
+        };
+        solution.answer.hull.is_none() && lower.at_most(&optimum.upper) == Some(false)
     }
 
     /// Takes in the claims about an answer and its verdict.
@@ -279,20 +305,12 @@ fn enclosed(claims: &mut Claims, exactly: &Exact, bodies: &[Body], matrix: &[Vec
     let limit = one.plus(&exactly.excess).square();
     let limit_of_matrix = one.plus(&exactly.matrix_excess);
     for (row, body) in bodies.iter().enumerate() {
-        for most in [false, true] {
-            if most && body.shape.as_ref().is_none_or(Shape::is_definite) {
-                continue;
-            }
-            let framed = Framed::of(&exactly.factor, &exactly.center, body, most);
-            let mut within = framed.is_within(&limit);
-            if most && within == Some(false) {
-                within = None;
-            }
-            claims.holds(within, || {
-                let norm = squared_length(&framed.g).rounded().sqrt();
-                format!("row {row} lies outside (its center at {norm:?})")
-            });
-        }
+        // The narrowest shape must be enclosed, whichever of those that rounding explains is meant.
+        let framed = Framed::of(&exactly.factor, &exactly.center, body, false);
+        claims.holds(framed.is_within(&limit), || {
+            let norm = squared_length(&framed.g).rounded().sqrt();
+            format!("row {row} lies outside (its center at {norm:?})")
+        });
         matrix_claim(claims, exactly, row, body, &matrix, &limit, &limit_of_matrix);
     }
 }

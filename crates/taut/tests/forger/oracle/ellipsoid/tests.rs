@@ -288,12 +288,12 @@ fn sets_that_are_flat_by_overflow_alone_are_refused() {
 /// Of a shape that rounding made indefinite, the item is that of S + 2τD, and an ellipsoid around S alone does not hold it.
 #[test]
 fn an_ellipsoid_around_an_indefinite_shape_holds_what_the_lower_bound_is_about() {
-    // Correlation 1 + τ with τ = 1e-14: S + 2τD has the axes √2 and √τ.
-    let tau: f64 = 1e-14;
+    // Correlation 1 + τ with τ near 1e-14: S + 2τD has the axes √2 and √τ.
+    let tau: f64 = (1.0 + 1e-14) - 1.0;
     let values = [0.0, 0.0, 1.0, 1.0 + tau, 1.0];
     let oracle = EllipsoidOracle::new(&values, 5, Items::Ellipsoids);
     // x ≈ y: the short axis is off by the root of τ, so that an ellipsoid with one of √τ/2 is too thin.
-    let judge = |short: f64| {
+    let judge = |short: f64, below: f64| {
         let (a, b) =
             (0.5f64.sqrt() / (2.0 + 10.0 * tau).sqrt() / (1.0 + 1e-15), 0.5f64.sqrt() / short);
         let factor = vec![vec![a, a], vec![b, -b]];
@@ -318,17 +318,24 @@ fn an_ellipsoid_around_an_indefinite_shape_holds_what_the_lower_bound_is_about()
             points_hash: hash_points(&points, &Monitor::silent()).unwrap(),
         };
         let verdict = EllipsoidVerdict {
-            lower: log_volume - 3.0,
+            lower: log_volume - below,
             upper: log_volume + 1e-10,
-            gap: 3.0,
+            gap: below,
             excess: 1e-12,
             matrix_excess: 1e-2,
             rank: 2,
         };
         oracle.judge(&Solution { answer, certificate, trace: Trace::default() }, &verdict)
     };
-    let thin = judge(0.5 * tau.sqrt());
+    let thin = judge(0.5 * tau.sqrt(), 3.0);
     assert!(matches!(thin, Truth::False(_)), "{thin:?}");
-    let wide = judge(4.0 * tau.sqrt());
+    let wide = judge(4.0 * tau.sqrt(), 3.0);
     assert_eq!(wide, Truth::True, "{wide:?}");
+    // The widest shape that the documentation allows: 1024·u/8 is the first power that helps. The least log-volume around it
+    // is a true lower end, and a number above it is not.
+    let deficit = 2.0 * 128.0 * U + 32.0 * U;
+    let short = (2.0 * deficit - tau).sqrt() * (1.0 + 1e-9);
+    assert_eq!(judge(short, 1e-8), Truth::True);
+    let above = judge(short, -1e-8);
+    assert!(matches!(above, Truth::False(_)), "{above:?}");
 }
