@@ -1,14 +1,15 @@
 //! The oracle of the minimum enclosing ball.
 //!
 //! The optimum of the input lies in a bracket of relative width 2⁻¹⁰⁰ or less, whatever the answer says; everything else is
-//! decided exactly. Of rows that are ellipsoids, points that lie outside are looked for, and no bracket is known here.
+//! decided exactly. Of rows that are ellipsoids no bracket is
+//! known here: the largest lower bound that was verified and the smallest ball must agree.
 
 use taut::{Ball, Items, Solution, Verdict};
 
 use super::Truth;
 use super::dyadic::{Dyadic, exact, sum};
 use super::enclosing::{Body, Bracket, bracket, digits, dual};
-use super::shapes::Shape;
+use super::shapes::{Shape, shapes};
 
 /// Unit roundoff of `f64`, 2⁻⁵³.
 const UNIT: i64 = -53;
@@ -20,8 +21,8 @@ pub struct BallOracle {
     rows: usize,
     bodies: Vec<Body>,
     bracket: Option<Bracket>,
-    /// Rows that are ellipsoids beyond doubt, each with its number.
-    shapes: Vec<(usize, Shape)>,
+    /// Rows that are ellipsoids.
+    shapes: Option<Vec<Shape>>,
 }
 
 impl BallOracle {
@@ -30,22 +31,18 @@ impl BallOracle {
         let dim = items.dim(columns);
         let bodies = bodies(values, columns, items).unwrap_or_default();
         let bracket = (!bodies.is_empty()).then(|| bracket(&bodies));
-        let rows = values.chunks_exact(columns);
+        let rows = values.len() / columns;
         let shapes = match items {
-            Items::Ellipsoids if dim > 0 => rows
-                .clone()
-                .enumerate()
-                .filter_map(|(i, row)| Some((i, Shape::of(row, dim)?)))
-                .collect(),
-            _ => vec![],
+            Items::Ellipsoids if dim > 0 => shapes(values, columns),
+            _ => None,
         };
-        BallOracle { items, dim, rows: rows.len(), bodies, bracket, shapes }
+        BallOracle { items, dim, rows, bodies, bracket, shapes }
     }
 
     /// Judges every claim of an accepted answer.
     pub fn judge(&self, solution: &Solution<Ball>, verdict: &Verdict) -> Truth {
         let are_ellipsoids = self.items == Items::Ellipsoids;
-        if self.dim == 0 || self.bracket.is_none() && !are_ellipsoids {
+        if self.dim == 0 || self.bracket.is_none() && self.shapes.is_none() {
             return Truth::False("the rows are no items that a ball is the smallest around".into());
         }
         let (ball, certificate) = (&solution.answer, &solution.certificate);
@@ -82,7 +79,7 @@ impl BallOracle {
         let sizes = match &self.bracket {
             Some(bracket) => enclosed(&self.bodies, &center, &radius)
                 .and(|| bounded(bracket, verdict.lower, &radius, verdict.gap)),
-            None => self.shapes_enclosed(&center, &radius),
+            None => self.shapes_enclosed(ball),
         };
         sizes
             .and(|| {
@@ -94,12 +91,16 @@ impl BallOracle {
             .and(|| self.proved(solution, verdict.lower))
     }
 
-    /// No ellipsoid is seen to reach beyond the radius.
-    fn shapes_enclosed(&self, center: &[Dyadic], radius: &Dyadic) -> Truth {
-        match self.shapes.iter().find(|(_, shape)| shape.reaches_beyond(center, radius)) {
-            None => Truth::True,
-            Some((row, _)) => Truth::False(format!("ellipsoid {row} reaches beyond the radius")),
-        }
+    /// Every ellipsoid lies in the ball.
+    fn shapes_enclosed(&self, ball: &Ball) -> Truth {
+        let shapes = self.shapes.iter().flatten().enumerate();
+        shapes.fold(Truth::True, |truth, (row, shape)| {
+            truth.and(|| match shape.is_within(&ball.center, &ball.center_tail, ball.radius) {
+                Some(true) => Truth::True,
+                Some(false) => Truth::False(format!("ellipsoid {row} reaches beyond the radius")),
+                None => Truth::Undecided(format!("ellipsoid {row} may reach beyond the radius")),
+            })
+        })
     }
 
     /// The lower bound is no larger than what the multipliers prove, or the radius of a ball of the support.
