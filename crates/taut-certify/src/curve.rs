@@ -96,13 +96,18 @@ pub struct CurveCertificate {
 pub struct TourBound {
     /// A number for each distinct point, in the order of the tour.
     pub potentials: Vec<f64>,
-    /// No tour is shorter.
+    /// The bound claimed: no tour is shorter. Accepted when at most 1e-9 of it above what the potentials prove, as sums in
+    /// another order are; the gap of the verdict is that of the lesser.
     pub lower: f64,
 }
 
 /// What was proved of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurveVerdict {
+    /// Rows there are.
+    pub rows: u64,
+    /// Rows that were left out as outliers: band and evidence say nothing about them.
+    pub outliers: u64,
     /// The largest distance of a row that is no outlier from the curve, rounded up.
     pub band: f64,
     /// Whether no two edges meet but neighbours at their vertex. Of tours alone it may be false; other answers are refused then.

@@ -80,7 +80,7 @@ pub struct Ellipsoid {
 ///
 /// The claim of the answer is then about the projections of the points to it: no ellipsoid of dimension r that encloses
 /// them has less volume. The checker takes a set for flat when `distance` is at most 1e-10 of its extent (1e-6 for
-/// ellipsoids, whose shape matrices know half as many digits of a short axis), or what rounding the coordinates explains:
+/// ellipsoids, whose shape matrices know half as many digits of a short axis, 1e-3·√d in single precision), or what rounding the coordinates explains:
 /// 128√d·2⁻⁵³ times the root of the sum of the squares of maxᵢ |xᵢⱼ|·|(I − BᵀB)eⱼ| over the coordinates j.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a hull: an object with basis and distance")]
@@ -143,10 +143,8 @@ pub struct EllipsoidCertificate {
     ///
     /// It is the point of the item that lies farthest in the direction a, p = m + Sa/√(aᵀSa), or m where Sa = 0. So it
     /// belongs to the item whatever a is, and a bound for these points is a bound for the items. The length of a does
-    /// not matter. Where an item touches the answer at p, a = Q(p − c) is its direction. Empty for points.
-    ///
-    /// Where rounding of the entries has made S indefinite, with S + τD semidefinite for its diagonal D and some small τ,
-    /// the item is taken to be that of N = S + 2τD here, and v = Sa is divided by √(vᵀN⁻¹v) if that is larger.
+    /// not matter. Where an item touches the answer at p, a = Q(p − c) is its direction. Empty for points. For the S of a
+    /// row that rounding has made indefinite see [`Items::Ellipsoids`].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub directions: Vec<Vec<f64>>,
     /// Row numbers of the items that the ellipsoid leaves out, ascending: the rest is claimed to be enclosed tightly.

@@ -52,10 +52,9 @@ pub struct InscribedCertificate {
 /// What was proved of an inscribed ellipsoid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InscribedVerdict {
-    /// The log-volume of the answer, which was found to lie in every half-space.
+    /// The log-volume of the answer, rounded down as found here: it lies in every half-space, so the optimum is no less.
     pub lower: f64,
-    /// No ellipsoid in the polytope has a log-volume above this: that of the answer as found here, what rounding may take
-    /// of it, and the gap.
+    /// No ellipsoid in the polytope has a log-volume above this: that of the answer as found here, rounded up, and the gap.
     pub upper: f64,
     /// By how much the log-volume of an ellipsoid in the polytope can exceed that of the answer.
     pub gap: f64,

@@ -53,6 +53,7 @@ mod centers;
 mod curve;
 mod ellipsoid;
 mod files;
+mod hashed_pass;
 mod inscribed;
 mod items;
 mod json;

@@ -129,6 +129,8 @@ pub struct SurfaceCertificate {
 /// What was proved of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceVerdict {
+    /// Rows there are.
+    pub rows: u64,
     /// Triangles.
     pub triangles: u64,
     /// Rows that triangles name.

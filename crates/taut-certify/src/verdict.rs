@@ -321,6 +321,17 @@ pub enum Violation {
         /// h, how many points were asked for.
         kept: u64,
     },
+    /// The ellipsoid around the points kept is proved minimal only within so wide a gap that a C-step may lead on.
+    #[error(
+        "the ellipsoid around the points kept is proved the smallest only within a gap of {gap:e}, too loose to tell that no \
+         C-step leads on: expected at most {most}"
+    )]
+    LooseEnclosure {
+        /// The gap proved.
+        gap: f64,
+        /// The largest gap from which the points inside can be counted.
+        most: f64,
+    },
     /// A robust estimate says that nothing was weighed out for a reason that does not hold.
     #[error("points are said not to be weighed anew because {reason}, which is not so")]
     Reweighting {

@@ -473,3 +473,57 @@ fn documents_survive_json_and_its_damage() {
         }
     }
 }
+
+/// Rows 1e-152 off a small circle, beside which one vertex is moved out to 1e308: when all are scaled alike, the small
+/// coordinates underflow, and the distances with them.
+#[test]
+fn no_band_is_narrow_because_coordinates_underflow() {
+    let unit = 1e-150;
+    let small = circle([0.0, 0.0], unit, 40);
+    let mut rows = small.clone();
+    rows[17] = [rows[17][0] * 1.01, rows[17][1] * 1.01];
+    let mut vertices = small;
+    vertices[3][0] = 1e308;
+    let mut case = Case::of(vec![component(vertices, true, None)], rows, vec![], 1e-150);
+    match case.check() {
+        Ok(verdict) => assert!(verdict.band >= 1e-152, "{verdict:?}"),
+        Err(violation) => assert!(violation.to_string().contains("band"), "{violation}"),
+    }
+    case.solution.certificate.band = 0.0;
+    assert!(case.check().is_err());
+}
+
+/// A row far out widens the tolerance of no place but its own.
+#[test]
+fn places_are_near_their_rows_beside_a_far_outlier() {
+    let mut case = noisy();
+    case.rows.push([1e16, 3.3e15]);
+    let far = nearest(&case.solution.answer, [1e16, 3.3e15]);
+    case.solution.answer.places.push(far);
+    case.solution.answer.outliers.push(801);
+    let flat: Vec<f64> = case.rows.iter().flatten().copied().collect();
+    let points = Points::new(&flat, 2).unwrap();
+    case.solution.certificate.points_hash = hash_points(&points, &Monitor::silent()).unwrap();
+    case.check().unwrap();
+    case.solution.answer.places.swap(10, 300);
+    match case.check() {
+        Err(Violation::Curve(CurveViolation::FarPlace { row: 10, .. })) => {}
+        other => panic!("{other:?}"),
+    }
+}
+
+/// A bound of 0 proves nothing of a tour, whatever its sign.
+#[test]
+fn a_lower_bound_of_zero_leaves_a_tour_without_a_gap() {
+    let rows: Loop = (0..8).map(|k| [f64::from(k % 4) * 1.5, f64::from(k / 4)]).collect();
+    let tour: Loop = [0, 5, 2, 7, 1, 4, 3, 6].into_iter().map(|k| rows[k]).collect();
+    let numbers: Vec<u64> = vec![0, 5, 2, 7, 1, 4, 3, 6];
+    let mut component = component(tour, true, Some(0));
+    component.rows = numbers;
+    let mut case = Case::of(vec![component], rows, vec![], 0.0);
+    for lower in [0.0, -0.0] {
+        case.solution.certificate.tour = Some(TourBound { potentials: vec![0.0; 8], lower });
+        let gap = case.check().unwrap().tour_gap.unwrap();
+        assert_eq!(gap, f64::INFINITY, "{lower:?}");
+    }
+}

@@ -6,7 +6,9 @@ use std::sync::atomic::AtomicBool;
 
 use common::ellipsoids::{Case, cube, hash, solve, uniform};
 use common::numbers;
-use taut_certify::{Answer, CheckError, Violation};
+use taut_certify::{
+    Answer, CheckError, Ellipsoid, EllipsoidCertificate, Hull, Items, Solution, Trace, Violation,
+};
 use taut_points::{Monitor, Points, ReadError};
 
 #[test]
@@ -71,5 +73,53 @@ fn the_verdict_is_the_same_for_every_number_of_threads() {
         for threads in [2, 3, 8] {
             assert_eq!(one, said(case, threads));
         }
+    }
+}
+
+/// A claim that all points are one, or lie on a line, for sets whose differences overflow.
+#[test]
+fn no_set_is_flat_because_its_differences_overflow() {
+    let certificate = |values: &[f64], dim, support: &[u64]| EllipsoidCertificate {
+        items: Items::Points,
+        support: support.to_vec(),
+        multipliers: vec![1.0 / support.len() as f64; support.len()],
+        directions: vec![],
+        left_out: vec![],
+        gap: 0.0,
+        points_hash: hash(values, dim),
+    };
+    let refused = |name: &str, values: Vec<f64>, columns, answer: Ellipsoid, support: &[u64]| {
+        let certificate = certificate(&values, columns, support);
+        let solution = Solution { answer, certificate, trace: Trace::default() };
+        Case { name: name.into(), values, columns, solution }.violation()
+    };
+    for distance in [0.0, 1.0, f64::MAX] {
+        for center in [-1.7e308, 0.0, 1.7e308] {
+            let answer = Ellipsoid {
+                center: vec![center],
+                center_tail: vec![],
+                matrix: vec![vec![0.0]],
+                factor: vec![],
+                hull: Some(Hull { basis: vec![], distance }),
+                log_volume: 0.0,
+            };
+            let violation = refused("two points", vec![-1.7e308, 1.7e308], 1, answer, &[0]);
+            let names_it =
+                matches!(violation, Violation::OffHull { .. } | Violation::NotFlat { .. });
+            assert!(names_it, "{center:e}, {distance:e}: {violation}");
+        }
+        // A rectangle 1e210 wide and 1e-100 high as the segment of its height.
+        let values = vec![-1e210, 0.0, 1e210, 0.0, -1e210, 1e-100, 1e210, 1e-100];
+        let answer = Ellipsoid {
+            center: vec![0.0, 0.5e-100],
+            center_tail: vec![],
+            matrix: vec![vec![0.0, 0.0], vec![0.0, 4e200]],
+            factor: vec![vec![0.0, 2e100]],
+            hull: Some(Hull { basis: vec![vec![0.0, 1.0]], distance }),
+            log_volume: 1e-100f64.ln(),
+        };
+        let violation = refused("rectangle", values, 2, answer, &[0, 2]);
+        let names_it = matches!(violation, Violation::OffHull { .. } | Violation::NotFlat { .. });
+        assert!(names_it, "{distance:e}: {violation}");
     }
 }

@@ -1,10 +1,11 @@
 //! What is said about a ball.
 
-use taut::{Ball, Items};
+use taut::points::PointSource;
+use taut::{Ball, Items, Solution, Verdict};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, ball_figures};
 
-use crate::numbers::{count, counted, exact};
-use crate::report::{Fact, Report, Tell, centre, gap_and_verified, noun, stopped};
+use crate::numbers::{count, counted, exact, gap};
+use crate::report::{Claims, Fact, Report, Tell, centre, gap_and_verified, inputs, noun, stopped};
 
 /// Why some balls are not drawn.
 pub(crate) const NO_PICTURE: &str = "there are no pictures of balls around ellipsoids";
@@ -51,5 +52,23 @@ impl Tell for Report<'_, Ball> {
 impl Report<'_, Ball> {
     fn items(&self) -> Items {
         self.found.certificate.items
+    }
+}
+
+/// What the checker proved.
+pub(crate) fn claims_of_ball(
+    found: &Solution<Ball>,
+    verdict: &Verdict,
+    source: &dyn PointSource,
+) -> Claims {
+    let inputs = inputs(found.certificate.items, source.len(), source.dim());
+    let bracket = format!("{} ≤ smallest radius ≤ {}", exact(verdict.lower), exact(verdict.upper));
+    Claims {
+        what: format!("ball of radius {} around {inputs}", exact(found.answer.radius)),
+        gap: Some(verdict.gap),
+        facts: vec![
+            Fact::proved("bracket", bracket),
+            Fact::proved("gap", gap(verdict.gap)).remark("relative, from the points alone"),
+        ],
     }
 }

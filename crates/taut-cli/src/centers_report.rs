@@ -6,7 +6,7 @@ use taut::{Centers, Items, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, centers_figures};
 
 use crate::numbers::{abridged, coordinates, count, counted, exact, gap};
-use crate::report::{Fact, Report, Tell, noun, rows_of, stopped};
+use crate::report::{Claims, Fact, Report, Tell, noun, rows_of, share, stopped};
 
 /// Centres whose coordinates are shown; more are in the JSON.
 const SHOWN: usize = 20;
@@ -148,11 +148,11 @@ fn dim_of(certificate: &CentersCertificate, columns: usize) -> usize {
 }
 
 /// Of which problem what was proved of centres: a certificate of another one is as true.
-pub(crate) fn proved_of_centers(
+pub(crate) fn claims_of_centers(
     found: &Solution<Centers>,
     source: &dyn PointSource,
     proved: &CentersVerdict,
-) -> Vec<Fact> {
+) -> Claims {
     let certificate = &found.certificate;
     let items = items_of(certificate, source.len(), dim_of(certificate, source.dim()));
     let noun = noun(certificate.items);
@@ -160,21 +160,26 @@ pub(crate) fn proved_of_centers(
         Placement::Free => "anywhere".to_owned(),
         Placement::Rows => format!("among the {noun}s"),
     };
-    let left_out = match certificate.outliers {
-        0 => Fact::new("left out", "none"),
+    let (left_out, rests_on) = match certificate.outliers {
+        0 => (Fact::proved("left out", "none"), String::new()),
         most => {
-            let left_out = count(found.answer.outliers.len() as u64);
-            Fact::new("left out", left_out).remark(format!("of at most {}", counted(most, noun)))
+            let left_out = found.answer.outliers.len() as u64;
+            let fact = Fact::proved("left out", share(left_out, source.len()));
+            let fact = fact.remark(format!("of at most {}", counted(most, noun)));
+            (fact, format!(", all but at most {}", count(most)))
         }
     };
     let bracket = format!("{} ≤ least radius ≤ {}", exact(proved.lower), exact(proved.upper));
+    let (k, radius) = (count(certificate.k), exact(found.answer.radius));
     let mut facts = vec![
-        Fact::new("of", items),
-        Fact::new("centres", format!("{}, {placement}", count(found.answer.centers.len() as u64)))
-            .remark(format!("of at most {}", count(certificate.k))),
+        Fact::proved(
+            "centres",
+            format!("{}, {placement}", count(found.answer.centers.len() as u64)),
+        )
+        .remark(format!("of at most {k}")),
         left_out,
-        Fact::new("bracket", bracket),
-        Fact::new("gap", gap(proved.gap)).remark("relative, proved from the points alone"),
+        Fact::proved("bracket", bracket),
+        Fact::proved("gap", gap(proved.gap)).remark("relative, from the points alone"),
         Fact::new("nodes", count(proved.nodes)).remark("of the search for the lower bound"),
     ];
     if let Some(nodes) = proved.cover_nodes {
@@ -183,5 +188,11 @@ pub(crate) fn proved_of_centers(
                 .remark("of a second search, over candidate balls, which agrees"),
         );
     }
-    facts
+    Claims {
+        what: format!(
+            "centres, k = {k}, {placement}, of radius {radius}, around {items}{rests_on}"
+        ),
+        gap: Some(proved.gap),
+        facts,
+    }
 }

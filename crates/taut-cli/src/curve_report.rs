@@ -5,7 +5,7 @@ use taut::{Curve, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, curve_figures};
 
 use crate::numbers::{count, counted, exact, gap, short};
-use crate::report::{Fact, Report, Tell, rows_of};
+use crate::report::{Claims, Fact, Report, Tell, rows_of, without_outliers};
 
 impl Tell for Report<'_, Curve> {
     const FOUND: &'static str = "the curves found";
@@ -87,32 +87,47 @@ pub(crate) fn curves_of(found: &Solution<Curve>) -> String {
     }
 }
 
-/// What the checker proved.
-pub(crate) fn proved_of_curve(verdict: &CurveVerdict) -> Vec<Fact> {
+/// What the checker proved, and what evidence it found.
+pub(crate) fn claims_of_curve(found: &Solution<Curve>, verdict: &CurveVerdict) -> Claims {
+    let band = Fact::proved("band", exact(verdict.band));
     let mut facts = vec![
-        Fact::new("band", exact(verdict.band)).remark("no point but outliers is farther off"),
+        match verdict.outliers {
+            0 => band.remark("no point is farther off"),
+            _ => band.remark("no point but outliers is farther off"),
+        },
         match verdict.is_simple {
-            true => Fact::new("simple", "yes").remark("no two edges meet, by exact predicates"),
-            false => Fact::new("simple", "no").remark("edges of the tour meet"),
+            true => Fact::proved("simple", "yes").remark("no two edges meet, by exact predicates"),
+            false => Fact::proved("simple", "no").remark("edges of the tour meet"),
         },
     ];
     facts.extend(judged(verdict));
-    facts
+    let used = verdict.rows - verdict.outliers;
+    let rows = without_outliers(used, verdict.rows, verdict.outliers, "in the plane");
+    Claims { what: format!("{} through {rows}", curves_of(found)), gap: verdict.tour_gap, facts }
 }
 
 /// Whether the sampling is dense enough, and of a tour how short it is.
 fn judged(verdict: &CurveVerdict) -> Vec<Fact> {
     let mut facts = vec![match &verdict.doubt {
-        None => Fact::new("certified", "yes").remark(format!(
-            "sampled at ε ≤ {}, noise at {} of the feature size",
-            short_ratio(verdict.sampling_ratio),
-            short_ratio(verdict.noise_ratio)
-        )),
-        Some(doubt) => Fact::new("certified", "no").remark(doubt.to_string()),
+        None => {
+            let value = match verdict.outliers {
+                0 => "yes".to_owned(),
+                left_out => {
+                    let (used, all) = (verdict.rows - left_out, counted(verdict.rows, "point"));
+                    format!("yes, of {} of {all}", count(used))
+                }
+            };
+            Fact::evidence("certified", value).remark(format!(
+                "sampled at ε ≤ {}, noise at {} of the feature size",
+                short_ratio(verdict.sampling_ratio),
+                short_ratio(verdict.noise_ratio)
+            ))
+        }
+        Some(doubt) => Fact::evidence("certified", "no").remark(doubt.to_string()),
     }];
     if let Some(proved) = verdict.tour_gap {
-        facts
-            .push(Fact::new("tour gap", gap(proved)).remark("length over its lower bound, less 1"));
+        let meaning = "length over its lower bound, less 1";
+        facts.push(Fact::proved("tour gap", gap(proved)).remark(meaning));
     }
     facts
 }

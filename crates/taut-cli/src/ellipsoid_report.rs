@@ -1,11 +1,12 @@
 //! What is said about an ellipsoid.
 
 use taut::certify::Stop;
-use taut::{Ellipsoid, EllipsoidMethod, EllipsoidVerdict};
+use taut::points::PointSource;
+use taut::{Ellipsoid, EllipsoidMethod, EllipsoidVerdict, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, ellipsoid_figures};
 
-use crate::numbers::{count, counted, exact, gap};
-use crate::report::{Fact, Report, Tell, centre, gap_and_verified, noun, stopped};
+use crate::numbers::{count, counted, exact, gap, short};
+use crate::report::{Claims, Fact, Report, Tell, centre, gap_and_verified, inputs, noun, stopped};
 
 impl Tell for Report<'_, Ellipsoid> {
     const FOUND: &'static str = "the ellipsoid found";
@@ -84,15 +85,33 @@ impl Report<'_, Ellipsoid> {
 }
 
 /// What the checker proved.
-pub(crate) fn proved_of_ellipsoid(verdict: &EllipsoidVerdict) -> Vec<Fact> {
+pub(crate) fn claims_of_ellipsoid(
+    found: &Solution<Ellipsoid>,
+    verdict: &EllipsoidVerdict,
+    source: &dyn PointSource,
+) -> Claims {
+    let (answer, certificate) = (&found.answer, &found.certificate);
+    let inputs = inputs(certificate.items, source.len(), source.dim());
     let bracket = format!("{} ≤ least log-volume ≤ {}", exact(verdict.lower), exact(verdict.upper));
-    vec![
-        Fact::new("bracket", bracket),
-        Fact::new("gap", gap(verdict.gap)).remark("in log-volume, proved from the points alone"),
-        Fact::new("dimension", verdict.rank.to_string()),
-        Fact::new("excess", gap(verdict.excess))
-            .remark("by which |F(x − c)| exceeds 1 at worst; it is part of the gap"),
-        Fact::new("matrix", gap(verdict.matrix_excess))
-            .remark("by which (x − c)ᵀQ(x − c) can exceed 1 at worst"),
-    ]
+    let dimension = Fact::proved("dimension", verdict.rank.to_string());
+    let dimension = match &answer.hull {
+        Some(hull) => dimension.remark(format!(
+            "all lie within {} of a flat, and the bracket is about their projections to it",
+            short(hull.distance)
+        )),
+        None => dimension,
+    };
+    Claims {
+        what: format!("ellipsoid of log-volume {} around {inputs}", exact(answer.log_volume)),
+        gap: Some(verdict.gap),
+        facts: vec![
+            Fact::proved("bracket", bracket),
+            Fact::proved("gap", gap(verdict.gap)).remark("in log-volume, from the points alone"),
+            dimension,
+            Fact::proved("excess", gap(verdict.excess))
+                .remark("by which |F(x − c)| exceeds 1 at worst; it is part of the gap"),
+            Fact::proved("matrix", gap(verdict.matrix_excess))
+                .remark("by which (x − c)ᵀQ(x − c) can exceed 1 at worst"),
+        ],
+    }
 }

@@ -173,8 +173,8 @@ pub(crate) fn told(found: &AnyFileSolution, verdict: &FileVerdict) -> (String, V
                 false => "those of the certificate",
             };
             let facts = vec![
-                Fact::new("key", key).remark("no key is below the one before it"),
-                Fact::new("records", records).remark(by_hash),
+                Fact::proved("key", key).remark("no key is below the one before it"),
+                Fact::proved("records", records).remark(by_hash),
                 Fact::new("equal keys", "order not proved"),
             ];
             (title, facts)
@@ -183,9 +183,9 @@ pub(crate) fn told(found: &AnyFileSolution, verdict: &FileVerdict) -> (String, V
             let (rows, columns) = (count(found.answer.columns), count(found.answer.rows));
             let title = format!("{rows} × {columns}, the transpose");
             let elements = match verdict.compared {
-                true => Fact::new("elements", count(verdict.items))
+                true => Fact::proved("elements", count(verdict.items))
                     .remark("each compared with the one of the input"),
-                false => Fact::new("elements", count(verdict.items)).remark(by_hash),
+                false => Fact::proved("elements", count(verdict.items)).remark(by_hash),
             };
             let mut facts = vec![elements];
             let [input, output] = [found.answer.input_offset, found.answer.output_offset];
@@ -202,7 +202,7 @@ pub(crate) fn told(found: &AnyFileSolution, verdict: &FileVerdict) -> (String, V
         AnyFileSolution::Sample(found) => {
             let of = count(found.answer.of);
             let title = format!("{} of {of}", counted(verdict.items, "number"));
-            let seed = Fact::new("seed", found.certificate.seed.to_string())
+            let seed = Fact::proved("seed", found.certificate.seed.to_string())
                 .remark("each number was drawn again: different, in order, in range");
             (title, vec![seed])
         }

@@ -1,11 +1,12 @@
 //! What is said about an ellipsoid inside a polytope.
 
 use taut::certify::Stop;
-use taut::{InscribedEllipsoid, InscribedVerdict};
+use taut::points::PointSource;
+use taut::{InscribedEllipsoid, InscribedVerdict, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, inscribed_figures};
 
 use crate::numbers::{count, counted, exact, gap};
-use crate::report::{Fact, Report, Tell, centre, gap_and_verified, stopped};
+use crate::report::{Claims, Fact, Report, Tell, centre, gap_and_verified, stopped};
 
 impl Tell for Report<'_, InscribedEllipsoid> {
     const FOUND: &'static str = "the ellipsoid found";
@@ -53,11 +54,22 @@ impl Tell for Report<'_, InscribedEllipsoid> {
 }
 
 /// What the checker proved.
-pub(crate) fn proved_of_inscribed(verdict: &InscribedVerdict) -> Vec<Fact> {
+pub(crate) fn claims_of_inscribed(
+    found: &Solution<InscribedEllipsoid>,
+    verdict: &InscribedVerdict,
+    source: &dyn PointSource,
+) -> Claims {
     let (lower, upper) = (exact(verdict.lower), exact(verdict.upper));
-    vec![
-        Fact::new("bracket", format!("{lower} ≤ largest log-volume ≤ {upper}")),
-        Fact::new("gap", gap(verdict.gap))
-            .remark("in log-volume, proved from the half-spaces alone"),
-    ]
+    let sides = counted(source.len(), "half-space");
+    let dim = counted(found.answer.center.len() as u64, "dimension");
+    let volume = exact(found.answer.log_volume);
+    Claims {
+        what: format!("inscribed ellipsoid of log-volume {volume} within {sides} in {dim}"),
+        gap: Some(verdict.gap),
+        facts: vec![
+            Fact::proved("bracket", format!("{lower} ≤ largest log-volume ≤ {upper}")),
+            Fact::proved("gap", gap(verdict.gap))
+                .remark("in log-volume, from the half-spaces alone"),
+        ],
+    }
 }

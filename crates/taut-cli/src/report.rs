@@ -5,7 +5,7 @@ use taut::{Answer, Items, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure};
 
 use crate::exit::Outcome;
-use crate::numbers::{abridged, coordinates, count, gap};
+use crate::numbers::{abridged, coordinates, count, counted, gap};
 use crate::picture::{self, Drawing, Look};
 use crate::reading::Opened;
 
@@ -57,17 +57,100 @@ pub(crate) struct Fact {
     pub(crate) name: &'static str,
     pub(crate) value: String,
     pub(crate) remark: Option<String>,
+    /// How far the checker stands behind it; `None` for what is only told.
+    pub(crate) standing: Option<Standing>,
+}
+
+/// How far the checker stands behind a claim: `docs/certificates.md` says for each why.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Standing {
+    /// Derived from the input and the certificate alone.
+    Proved,
+    /// Found in the data by a test that can be wrong.
+    Evidence,
+}
+
+impl Standing {
+    fn word(self) -> &'static str {
+        match self {
+            Standing::Proved => "proved",
+            Standing::Evidence => "evidence",
+        }
+    }
 }
 
 impl Fact {
     pub(crate) fn new(name: &'static str, value: impl Into<String>) -> Self {
-        Fact { name, value: value.into(), remark: None }
+        Fact { name, value: value.into(), remark: None, standing: None }
+    }
+
+    /// A claim that the checker derived.
+    pub(crate) fn proved(name: &'static str, value: impl Into<String>) -> Self {
+        Fact { standing: Some(Standing::Proved), ..Fact::new(name, value) }
+    }
+
+    /// A claim that a test found likely.
+    pub(crate) fn evidence(name: &'static str, value: impl Into<String>) -> Self {
+        Fact { standing: Some(Standing::Evidence), ..Fact::new(name, value) }
     }
 
     pub(crate) fn remark(mut self, remark: impl Into<String>) -> Self {
         self.remark = Some(remark.into());
         self
     }
+}
+
+/// What a checker found to be so of an answer: what it is about in one line, and claim by claim.
+pub(crate) struct Claims {
+    /// The answer, the inputs that it is about and how many of them, and the options it rests on.
+    pub(crate) what: String,
+    /// The gap proved, for answers that have one.
+    pub(crate) gap: Option<f64>,
+    pub(crate) facts: Vec<Fact>,
+}
+
+impl Claims {
+    /// All of it as text, the gap in the first line.
+    pub(crate) fn text(&self) -> String {
+        let within = match self.gap {
+            Some(proved) => format!("Verified within a gap of {}", gap(proved)),
+            None => "Verified".to_owned(),
+        };
+        text(&format!("{within}: {}", self.what), &self.facts)
+    }
+}
+
+/// How many inputs there are, of which kind, and in how many dimensions: "5,000 points in 3 dimensions".
+pub(crate) fn inputs(items: Items, rows: u64, columns: usize) -> String {
+    let dim = counted(items.dim(columns) as u64, "dimension");
+    format!("{} in {dim}", counted(rows, noun(items)))
+}
+
+/// Which part of the rows a claim is about, where outliers are left out of it: "200 of 400 points; 200 (50 %) are …".
+pub(crate) fn without_outliers(used: u64, rows: u64, outliers: u64, place: &str) -> String {
+    let about = match used == rows {
+        true => format!("{} {place}", counted(rows, "point")),
+        false => format!("{} of {} {place}", count(used), counted(rows, "point")),
+    };
+    match outliers {
+        0 => about,
+        _ => format!("{about}; {} left out as {}", share(outliers, rows), plural(outliers)),
+    }
+}
+
+fn plural(outliers: u64) -> &'static str {
+    if outliers == 1 { "an outlier" } else { "outliers" }
+}
+
+/// A number of rows and which part of all rows that is: "200 (50 %)".
+pub(crate) fn share(some: u64, all: u64) -> String {
+    let percent = 100.0 * some as f64 / all.max(1) as f64;
+    let percent = match percent {
+        small if small < 0.1 => "less than 0.1".to_owned(),
+        small if small < 10.0 => format!("{small:.1}"),
+        large => format!("{large:.0}"),
+    };
+    format!("{} ({percent} %)", count(some))
 }
 
 /// What one item is called.
@@ -136,9 +219,14 @@ pub(crate) fn stopped(stop: Stop) -> &'static str {
 /// Title and facts as text, a fact a line, the values in one column.
 pub(crate) fn text(title: &str, facts: &[Fact]) -> String {
     let width = facts.iter().map(|fact| fact.name.len() + 1).max().unwrap_or(0).max(10);
-    let lines = facts.iter().map(|Fact { name, value, remark }| match remark {
-        Some(remark) => format!("  {name:<width$}{value}; {remark}\n"),
-        None => format!("  {name:<width$}{value}\n"),
+    let lines = facts.iter().map(|Fact { name, value, remark, standing }| {
+        let said = match (standing, remark) {
+            (Some(standing), Some(remark)) => format!("; {}: {remark}", standing.word()),
+            (Some(standing), None) => format!("; {}", standing.word()),
+            (None, Some(remark)) => format!("; {remark}"),
+            (None, None) => String::new(),
+        };
+        format!("  {name:<width$}{value}{said}\n")
     });
     std::iter::once(format!("{title}\n")).chain(lines).collect()
 }

@@ -1,10 +1,11 @@
 //! What is said about a robust ellipsoid.
 
+use taut::points::PointSource;
 use taut::{RobustEllipsoid, RobustMethod, RobustVerdict, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, robust_figures};
 
 use crate::numbers::{count, counted, exact, gap};
-use crate::report::{Fact, Report, Tell, centre, rows_of};
+use crate::report::{Claims, Fact, Report, Tell, centre, rows_of};
 
 impl Tell for Report<'_, RobustEllipsoid> {
     const FOUND: &'static str = "the ellipsoid found";
@@ -74,10 +75,12 @@ impl Tell for Report<'_, RobustEllipsoid> {
 }
 
 /// What was proved of a robust ellipsoid, and what was not.
-pub(crate) fn proved_of_robust(
+pub(crate) fn claims_of_robust(
     found: &Solution<RobustEllipsoid>,
     verdict: &RobustVerdict,
-) -> Vec<Fact> {
+    source: &dyn PointSource,
+) -> Claims {
+    let (answer, certificate) = (&found.answer, &found.certificate);
     let off = verdict.flag_excess;
     let flags = if off > 0.0 {
         format!("the points outside the ellipsoid, but for rounding by {off:.0e} of its size")
@@ -85,18 +88,34 @@ pub(crate) fn proved_of_robust(
         "exactly the points outside the ellipsoid".to_owned()
     };
     let mut facts = vec![
-        Fact::new("objective", exact(verdict.objective))
-            .remark("a local optimum: no C-step leads on; other points kept might do better"),
-        Fact::new("kept", verdict.kept.to_string())
-            .remark(format!("at least {} were to be kept", verdict.wanted)),
-        Fact::new("outliers", found.answer.flagged.len().to_string()).remark(flags),
-        Fact::new("dimension", verdict.rank.to_string()),
+        Fact::proved("objective", exact(verdict.objective))
+            .remark(format!("that of the points kept, within {:.0e}", verdict.slack)),
+        Fact::proved("local optimum", "yes").remark("no C-step leads on"),
+        Fact::evidence("optimum", "not judged").remark("other points kept might do better"),
+        Fact::proved("kept", count(verdict.kept))
+            .remark(format!("at least {} were to be kept", count(verdict.wanted))),
+        Fact::proved("outliers", count(answer.flagged.len() as u64)).remark(flags),
+        Fact::proved("dimension", verdict.rank.to_string()),
     ];
+    if certificate.method != RobustMethod::Trim {
+        let level = format!("{} of normal points", certificate.level);
+        facts.push(Fact::new("level", level).remark("which the ellipsoid is to hold"));
+    }
     if let Some(enclosure) = &verdict.enclosure {
         facts.push(
-            Fact::new("gap", gap(enclosure.gap))
+            Fact::proved("gap", gap(enclosure.gap))
                 .remark("in log-volume, of the ellipsoid around the points kept"),
         );
     }
-    facts
+    let dim = counted(answer.center.len() as u64, "dimension");
+    Claims {
+        what: format!(
+            "robust ellipsoid by {} of {} of {} in {dim}",
+            certificate.method,
+            count(certificate.kept),
+            counted(source.len(), "point")
+        ),
+        gap: verdict.enclosure.map(|enclosure| enclosure.gap),
+        facts,
+    }
 }

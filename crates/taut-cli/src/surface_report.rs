@@ -5,7 +5,7 @@ use taut::{Solution, Surface, looks_one_sided};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, surface_figures};
 
 use crate::numbers::{count, counted, exact, short};
-use crate::report::{Fact, Report, Tell, rows_of};
+use crate::report::{Claims, Fact, Report, Tell, rows_of, share, without_outliers};
 
 impl Tell for Report<'_, Surface> {
     const FOUND: &'static str = "the surface found";
@@ -134,38 +134,68 @@ fn unused(rows: &Unused) -> Vec<Fact> {
 }
 
 /// What the checker proved.
-pub(crate) fn proved_of_surface(verdict: &SurfaceVerdict) -> Vec<Fact> {
+pub(crate) fn claims_of_surface(found: &Solution<Surface>, verdict: &SurfaceVerdict) -> Claims {
     let word = |is| if is { "yes" } else { "no" };
     // What a word means is said where it is so.
-    let shown = |name, is, meaning| match is {
-        true => Fact::new(name, word(is)).remark(meaning),
-        false => Fact::new(name, word(is)),
+    let shown = |name, is, meaning: &str| match is {
+        true => Fact::proved(name, word(is)).remark(meaning),
+        false => Fact::proved(name, word(is)),
+    };
+    let empty_balls = match verdict.outliers {
+        0 => "each triangle has an empty ball",
+        _ => "each triangle has a ball without points but outliers",
     };
     let mut facts = vec![
-        Fact::new("triangles", count(verdict.triangles)),
-        Fact::new("components", count(verdict.components)),
-        Fact::new("boundary loops", count(verdict.boundary_loops)),
-        Fact::new("manifold", word(verdict.is_manifold)),
+        Fact::proved("triangles", count(verdict.triangles)),
+        Fact::proved("components", count(verdict.components)),
+        Fact::proved("boundary loops", count(verdict.boundary_loops)),
+        Fact::proved("manifold", word(verdict.is_manifold)),
         shown("embedded", verdict.is_embedded, "it meets itself nowhere"),
-        shown("delaunay", verdict.is_delaunay, "each triangle has an empty ball"),
+        shown("delaunay", verdict.is_delaunay, empty_balls),
     ];
     if let Some(genus) = verdict.genus {
-        facts.insert(3, Fact::new("handles", count(genus)));
+        facts.insert(3, Fact::proved("handles", count(genus)));
     }
     if verdict.displacement > 0.0 {
         facts.push(
-            Fact::new("displacement", exact(verdict.displacement))
+            Fact::proved("displacement", exact(verdict.displacement))
                 .remark("no vertex is farther from its point"),
         );
     }
+    let unused = &found.answer.unused;
+    let lists = [
+        ("duplicates", unused.duplicates.len(), "equal to an earlier row"),
+        ("outliers", unused.outliers.len(), "left out: nothing is claimed of them"),
+        ("inside", unused.interior.len(), "points that no triangle has, inside the surface"),
+        ("unreferenced", unused.unreferenced.len(), "points that no triangle has"),
+    ];
+    for (name, rows, meaning) in lists {
+        if rows > 0 {
+            facts.push(Fact::proved(name, share(rows as u64, verdict.rows)).remark(meaning));
+        }
+    }
     facts.push(certified(verdict));
-    facts
+    let (used, all, left_out) = (verdict.vertices, verdict.rows, verdict.outliers);
+    let rows = without_outliers(used, all, left_out, "in space");
+    Claims { what: format!("{} through {rows}", surface_of(found)), gap: None, facts }
 }
 
+/// Whether the surface is all that one could ask for; of which points, where some are left out.
 fn certified(verdict: &SurfaceVerdict) -> Fact {
     match &verdict.doubt {
-        None => Fact::new("certified", "yes")
-            .remark("an oriented manifold of Delaunay triangles that meets itself nowhere"),
-        Some(doubt) => Fact::new("certified", "no").remark(format!("{doubt}; all counted from 0")),
+        None => {
+            let value = match verdict.outliers {
+                0 => "yes".to_owned(),
+                left_out => {
+                    let (used, all) = (verdict.rows - left_out, counted(verdict.rows, "point"));
+                    format!("yes, of {} of {all}", count(used))
+                }
+            };
+            Fact::proved("certified", value)
+                .remark("an oriented manifold of Delaunay triangles that meets itself nowhere")
+        }
+        Some(doubt) => {
+            Fact::proved("certified", "no").remark(format!("{doubt}; all counted from 0"))
+        }
     }
 }

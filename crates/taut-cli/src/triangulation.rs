@@ -5,7 +5,7 @@ use taut::certify::TriangulationVerdict;
 use taut_draw::{DrawOptions, Error as DrawError, Figure, delaunay_figures};
 
 use crate::numbers::{count, counted};
-use crate::report::{Fact, Report, Tell};
+use crate::report::{Claims, Fact, Report, Tell};
 
 impl Tell for Report<'_, Triangulation> {
     const FOUND: &'static str = "the triangulation found";
@@ -72,16 +72,26 @@ impl Tell for Report<'_, Triangulation> {
 }
 
 /// What the checker proved, where there is nothing but simplices.
-pub(crate) fn proved(verdict: &TriangulationVerdict) -> Vec<Fact> {
+pub(crate) fn claims_of_triangulation(
+    verdict: &TriangulationVerdict,
+    rows: u64,
+    dim: usize,
+) -> Claims {
     let counts = verdict.counts;
-    vec![
-        Fact::new("sites", count(counts.sites)).remark("distinct points"),
-        Fact::new("simplices", count(counts.simplices)),
-        Fact::new("hull", counted(counts.hull, "facet")),
-        Fact::new("ties", count(verdict.ties)).remark("facets with both simplices on one sphere"),
-        Fact::new("refined", count(verdict.refined))
-            .remark("signs that double precision left open, decided exactly"),
-        Fact::new("hash", verdict.fingerprint.to_string())
-            .remark("of the simplices, whatever their order"),
-    ]
+    let place = if dim == 2 { "the plane" } else { "space" };
+    Claims {
+        what: format!("the Delaunay triangulation of {} in {place}", counted(rows, "point")),
+        gap: None,
+        facts: vec![
+            Fact::proved("sites", count(counts.sites)).remark("distinct points"),
+            Fact::proved("simplices", count(counts.simplices)),
+            Fact::proved("hull", counted(counts.hull, "facet")),
+            Fact::proved("ties", count(verdict.ties))
+                .remark("facets with both simplices on one sphere"),
+            Fact::new("refined", count(verdict.refined))
+                .remark("signs that double precision left open, decided exactly"),
+            Fact::proved("hash", verdict.fingerprint.to_string())
+                .remark("of the simplices, whatever their order"),
+        ],
+    }
 }

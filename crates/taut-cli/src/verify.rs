@@ -10,22 +10,23 @@ use taut::certify::{
 };
 use taut::enclose::Error as SolveError;
 use taut::points::{Blocks, Scratch};
-use taut::{Answer, AnySolution, Solution, Verdict, Violation};
+use taut::{Answer, AnySolution, Order, OrderVerdict, Solution, Violation};
 use taut_io::{Mesh, MeshFormat, open_mesh};
 
-use crate::centers_report::proved_of_centers;
-use crate::curve_report::{curves_of, proved_of_curve};
+use crate::ball_report::claims_of_ball;
+use crate::centers_report::claims_of_centers;
+use crate::curve_report::claims_of_curve;
 use crate::effort::Effort;
-use crate::ellipsoid_report::proved_of_ellipsoid;
+use crate::ellipsoid_report::claims_of_ellipsoid;
 use crate::exit::Outcome;
 use crate::files;
-use crate::inscribed_report::proved_of_inscribed;
-use crate::numbers::{count, counted, exact, gap};
+use crate::inscribed_report::claims_of_inscribed;
+use crate::numbers::{count, counted};
 use crate::reading::{Opened, Reading};
-use crate::report::{self, Fact};
-use crate::robust_report::proved_of_robust;
-use crate::surface_report::{proved_of_surface, surface_of};
-use crate::triangulation::proved;
+use crate::report::{self, Claims, Fact};
+use crate::robust_report::claims_of_robust;
+use crate::surface_report::claims_of_surface;
+use crate::triangulation::claims_of_triangulation;
 use crate::watch::Watch;
 use crate::writing;
 
@@ -66,78 +67,39 @@ impl Args {
             AnyDocument::Points(answer) => *answer,
         };
         let points = self.open_points()?;
-        let rejected = |why: String| {
-            (Outcome::CheckFailed, format!("Rejected: {}\n", writing::printable(&why)))
+        let source = points.source();
+        let judged = match &answer {
+            AnySolution::Ball(found) => judge(found, &points, &watch)?
+                .map(|verdict| claims_of_ball(found, &verdict, source)),
+            AnySolution::Ellipsoid(found) => judge(found, &points, &watch)?
+                .map(|verdict| claims_of_ellipsoid(found, &verdict, source)),
+            AnySolution::Inscribed(found) => judge(found, &points, &watch)?
+                .map(|verdict| claims_of_inscribed(found, &verdict, source)),
+            AnySolution::Robust(found) => judge(found, &points, &watch)?
+                .map(|verdict| claims_of_robust(found, &verdict, source)),
+            AnySolution::Centers(found) => judge(found, &points, &watch)?
+                .map(|verdict| claims_of_centers(found, source, &verdict)),
+            AnySolution::Curve(found) => {
+                judge(found, &points, &watch)?.map(|verdict| claims_of_curve(found, &verdict))
+            }
+            AnySolution::Surface(found) => {
+                judge(found, &points, &watch)?.map(|verdict| claims_of_surface(found, &verdict))
+            }
+            AnySolution::Order(found) => judge(found, &points, &watch)?
+                .map(|verdict| claims_of_order(found, &verdict, source.dim())),
+            AnySolution::Triangulation(found) => judge(found, &points, &watch)?
+                .map(|verdict| claims_of_triangulation(&verdict, source.len(), source.dim())),
         };
         let name = shown(&self.answer);
-        let most = self.epsilon.unwrap_or(f64::INFINITY);
         // A loose certificate is as true as a tight one: how tight it is belongs to what is said.
-        let within = |proved: f64, what: String, facts: Vec<Fact>| match proved > most {
-            true => rejected(too_loose(&name, proved, most)),
-            false => {
-                let title = format!("Verified within a gap of {}: {what}", gap(proved));
-                (Outcome::Done, report::text(&title, &facts))
-            }
+        let most = self.epsilon.unwrap_or(f64::INFINITY);
+        let (outcome, said) = match judged {
+            Err(violation) => rejected(&points.explain_violation(&violation, &name)),
+            Ok(claims) => match claims.gap.filter(|&proved| proved > most) {
+                Some(proved) => rejected(&too_loose(&name, proved, most)),
+                None => (Outcome::Done, claims.text()),
+            },
         };
-        let judged = match &answer {
-            AnySolution::Ball(found) => judge(found, &points, &watch)?.map(|verdict| {
-                let what = format!("ball of radius {}", exact(found.answer.radius));
-                within(verdict.gap, what, facts(&verdict))
-            }),
-            AnySolution::Ellipsoid(found) => judge(found, &points, &watch)?.map(|verdict| {
-                let what = format!("ellipsoid of log-volume {}", exact(found.answer.log_volume));
-                within(verdict.gap, what, proved_of_ellipsoid(&verdict))
-            }),
-            AnySolution::Inscribed(found) => judge(found, &points, &watch)?.map(|verdict| {
-                let volume = exact(found.answer.log_volume);
-                let what = format!("inscribed ellipsoid of log-volume {volume}");
-                within(verdict.gap, what, proved_of_inscribed(&verdict))
-            }),
-            AnySolution::Robust(found) => judge(found, &points, &watch)?.map(|verdict| {
-                if let Some(enclosure) = verdict.enclosure.filter(|proved| proved.gap > most) {
-                    return rejected(too_loose(&name, enclosure.gap, most));
-                }
-                let title = format!(
-                    "Verified: robust ellipsoid by {} of {} of {} points",
-                    found.certificate.method,
-                    found.certificate.kept,
-                    points.source().len()
-                );
-                (Outcome::Done, report::text(&title, &proved_of_robust(found, &verdict)))
-            }),
-            AnySolution::Centers(found) => judge(found, &points, &watch)?.map(|verdict| {
-                let (k, radius) = (count(found.certificate.k), exact(found.answer.radius));
-                let what = format!("centres, k = {k}, of radius {radius}");
-                within(verdict.gap, what, proved_of_centers(found, points.source(), &verdict))
-            }),
-            AnySolution::Curve(found) => judge(found, &points, &watch)?.map(|verdict| {
-                let (what, facts) = (curves_of(found), proved_of_curve(&verdict));
-                match verdict.tour_gap {
-                    Some(gap) => within(gap, what, facts),
-                    None => (Outcome::Done, report::text(&format!("Verified: {what}"), &facts)),
-                }
-            }),
-            AnySolution::Surface(found) => judge(found, &points, &watch)?.map(|verdict| {
-                let title = format!("Verified: {}", surface_of(found));
-                (Outcome::Done, report::text(&title, &proved_of_surface(&verdict)))
-            }),
-            AnySolution::Order(found) => judge(found, &points, &watch)?.map(|verdict| {
-                let along = match found.answer.curve {
-                    OrderCurve::Hilbert => "along a Hilbert curve",
-                    OrderCurve::Morton => "in Z-order",
-                };
-                let title = format!("Verified: {} {along}", counted(verdict.points, "point"));
-                let grids = Fact::new("grids", count(verdict.grids))
-                    .remark("no place on the curve is below the one before it");
-                (Outcome::Done, report::text(&title, &[grids]))
-            }),
-            AnySolution::Triangulation(found) => judge(found, &points, &watch)?.map(|verdict| {
-                let title = triangulation(points.source().dim());
-                (Outcome::Done, report::text(&title, &proved(&verdict)))
-            }),
-        };
-        let (outcome, said) = judged
-            .unwrap_or_else(|violation| rejected(points.explain_violation(&violation, &name)));
         if !self.effort.quiet {
             writing::say(said.as_bytes())?;
         }
@@ -173,8 +135,7 @@ impl Args {
                 (Outcome::Done, report::text(&format!("Verified: {what}"), &facts))
             }
             Err(violation) => {
-                let why = files::explain(&violation, input, output, &shown(&self.answer));
-                (Outcome::CheckFailed, format!("Rejected: {}\n", writing::printable(&why)))
+                rejected(&files::explain(&violation, input, output, &shown(&self.answer)))
             }
         };
         if !self.effort.quiet {
@@ -199,10 +160,11 @@ impl Args {
         };
         let (outcome, said) = match judged {
             Ok(verdict) => {
-                let title = triangulation(points.source().dim());
-                (Outcome::Done, report::text(&title, &proved(&verdict)))
+                let source = points.source();
+                let claims = claims_of_triangulation(&verdict, source.len(), source.dim());
+                (Outcome::Done, claims.text())
             }
-            Err(why) => (Outcome::CheckFailed, format!("Rejected: {}\n", writing::printable(&why))),
+            Err(why) => rejected(&why),
         };
         if !self.effort.quiet {
             writing::say(said.as_bytes())?;
@@ -319,20 +281,28 @@ fn epsilon(text: &str) -> Result<f64, String> {
     }
 }
 
-fn triangulation(dimension: usize) -> String {
-    let place = if dimension == 2 { "the plane" } else { "space" };
-    format!("Verified: the Delaunay triangulation of the points, in {place}")
+/// The outcome of an answer that is refused, with the reason.
+fn rejected(why: &str) -> (Outcome, String) {
+    (Outcome::CheckFailed, format!("Rejected: {}\n", writing::printable(why)))
+}
+
+/// What the checker proved of an order of points.
+fn claims_of_order(found: &Solution<Order>, verdict: &OrderVerdict, dim: usize) -> Claims {
+    let along = match found.answer.curve {
+        OrderCurve::Hilbert => "along a Hilbert curve",
+        OrderCurve::Morton => "in Z-order",
+    };
+    let dim = counted(dim as u64, "dimension");
+    let grids = Fact::proved("grids", count(verdict.grids))
+        .remark("no place on the curve is below the one before it");
+    Claims {
+        what: format!("{} {along} in {dim}", counted(verdict.points, "point")),
+        gap: None,
+        facts: vec![grids],
+    }
 }
 
 /// All digits: rounded to a few, the gap could look like the one allowed.
 fn too_loose(name: &str, proved: f64, most: f64) -> String {
     format!("{name}: a gap of {proved:e} is proved, larger than --epsilon {most:e}")
-}
-
-fn facts(verdict: &Verdict) -> Vec<Fact> {
-    let bracket = format!("{} ≤ smallest radius ≤ {}", exact(verdict.lower), exact(verdict.upper));
-    vec![
-        Fact::new("bracket", bracket),
-        Fact::new("gap", gap(verdict.gap)).remark("relative, proved from the points alone"),
-    ]
 }

@@ -6,12 +6,13 @@
 //! p = m + Sa/√(a′Sa), which belongs to the item whatever a is.
 //! *Trap.* A shape matrix knows half as many digits of a short axis as of a long one, so what lies far apart in size is
 //! brought to a common frame with twice the digits ([`frame`]).
-//! *Trap.* Rounding the entries of a singular S makes some of its eigenvalues negative; across such an item a′Sa is nothing
-//! but rounding. What Sa is divided by then, says [`Indefinite`].
+//! *Trap.* Rounding the entries of a singular S makes some of its eigenvalues negative. Such a row stands for an S that is
+//! a little thicker ([`thickening`]), and all that is asked of S here is asked of that.
 
 pub(crate) mod eigen;
 pub(crate) mod frame;
 pub(crate) mod reach;
+mod thickening;
 
 use rayon::prelude::*;
 use taut_certify::Items;
@@ -31,15 +32,8 @@ pub(crate) struct Shapes {
     values: Vec<f64>,
     hash: PointsHash,
     factors: Vec<Vec<f64>>,
-    indefinite: Vec<Option<Indefinite>>,
-}
-
-/// An item with eigenvalues that are not known to be positive: the pairs of D^−½SD^−½, for D the diagonal of S.
-struct Indefinite {
-    /// τ with S + τD positive semidefinite.
-    deficit: f64,
-    values: Vec<f64>,
-    vectors: Vec<f64>,
+    /// 2τ of each item.
+    thickenings: Vec<f64>,
 }
 
 impl Shapes {
@@ -64,13 +58,13 @@ impl Shapes {
         let hash = PointsHash::of_blocks(source.len(), columns, blocks.iter().map(|block| block.0));
         let values: Vec<f64> = blocks.into_iter().flat_map(|block| block.1).collect();
         let mut shapes =
-            Shapes { dim, items, columns, values, hash, factors: vec![], indefinite: vec![] };
+            Shapes { dim, items, columns, values, hash, factors: vec![], thickenings: vec![] };
         let kind = source.scalar();
         let factors = (0..shapes.len()).into_par_iter().with_min_len(32);
         let factors: Vec<_> = factors.map(|i| shapes.factorise(i, kind)).collect();
         // The first item refused, not the first that a thread met.
         let factors: Vec<_> = factors.into_iter().collect::<Result<_, _>>()?;
-        (shapes.factors, shapes.indefinite) = factors.into_iter().unzip();
+        (shapes.factors, shapes.thickenings) = factors.into_iter().unzip();
         Ok(shapes)
     }
 
@@ -110,12 +104,19 @@ impl Shapes {
         self.described(i).iter().all(|&v| v == 0.0)
     }
 
-    /// Entry (j, k) of S, exactly.
+    /// Entry (j, k) of S, thickened.
     #[inline(always)]
     pub(crate) fn entry(&self, i: usize, j: usize, k: usize) -> DoubleDouble {
         let (j, k) = (j.max(k), j.min(k));
         match self.items {
-            Items::Ellipsoids => self.described(i)[j * (j + 1) / 2 + k].into(),
+            Items::Ellipsoids => {
+                let entry = self.described(i)[j * (j + 1) / 2 + k];
+                let added = if j == k { self.thickenings[i] } else { 0.0 };
+                if added == 0.0 {
+                    return entry.into();
+                }
+                DoubleDouble::from(entry).add(DoubleDouble::product(entry, added))
+            }
             Items::Balls if j == k => {
                 let radius = self.described(i)[0];
                 DoubleDouble::product(radius, radius)
@@ -127,7 +128,9 @@ impl Shapes {
     /// √Sⱼⱼ: how far the item reaches from its own centre along axis j.
     pub(crate) fn width(&self, i: usize, j: usize) -> f64 {
         match self.items {
-            Items::Ellipsoids => self.described(i)[j * (j + 3) / 2].sqrt(),
+            Items::Ellipsoids => {
+                (self.described(i)[j * (j + 3) / 2] * (1.0 + self.thickenings[i])).sqrt()
+            }
             Items::Balls => self.described(i)[0],
             Items::Points => 0.0,
         }
@@ -138,31 +141,9 @@ impl Shapes {
         self.factors[i].chunks_exact(self.dim)
     }
 
-    /// Whether S is not known to be positive semidefinite.
-    pub(crate) fn is_indefinite(&self, i: usize) -> bool {
-        self.indefinite[i].is_some()
-    }
-
-    /// What to add to q = a′Sa so that m + Sa/√q belongs to the item: with N = S + 2τD it is (Sa)′N⁻¹Sa − q where that is
-    /// positive, and 0 where S is positive semidefinite.
-    pub(crate) fn missing(&self, i: usize, a: &[f64]) -> f64 {
-        let Some(Indefinite { deficit, values, vectors }) = &self.indefinite[i] else { return 0.0 };
-        let scaled: Vec<f64> = a.iter().enumerate().map(|(j, a)| a * self.width(i, j)).collect();
-        // With b the parts of D^½a, q = Σ λb² and (Sa)′N⁻¹Sa = Σ λ²b²/(λ + 2τ).
-        let each = values.iter().zip(vectors.chunks_exact(self.dim)).map(|(l, v)| {
-            let b: f64 = v.iter().zip(&scaled).map(|(v, a)| v * a).sum();
-            -2.0 * deficit * l * b * b / (l + 2.0 * deficit)
-        });
-        each.sum::<f64>().max(0.0)
-    }
-
-    /// The factor of item i, which comes from the eigenvectors of D^−½SD^−½, D being the diagonal of S, so that units of
+    /// The factor and the thickening of item i. The factor comes from the eigenvectors of D^−½SD^−½, D being the diagonal of S, so that units of
     /// coordinates do not matter. Fails where an eigenvalue is negative beyond rounding.
-    fn factorise(
-        &self,
-        i: usize,
-        kind: ScalarKind,
-    ) -> Result<(Vec<f64>, Option<Indefinite>), Error> {
+    fn factorise(&self, i: usize, kind: ScalarKind) -> Result<(Vec<f64>, f64), Error> {
         let dim = self.dim;
         if self.items == Items::Balls {
             let radius = self.described(i)[0];
@@ -171,20 +152,21 @@ impl Shapes {
             }
             let entry = |at: usize| if at / dim == at % dim { radius } else { 0.0 };
             let rows = if radius == 0.0 { vec![] } else { (0..dim * dim).map(entry).collect() };
-            return Ok((rows, None));
+            return Ok((rows, 0.0));
         }
         let refused = || Error::NegativeShape { row: i as u64 };
         if self.is_point(i) {
-            return Ok((vec![], None));
+            return Ok((vec![], 0.0));
         }
-        let widths: Vec<f64> = (0..dim).map(|j| self.width(i, j)).collect();
+        let described = self.described(i);
+        let widths: Vec<f64> = (0..dim).map(|j| described[j * (j + 3) / 2].sqrt()).collect();
         if widths.iter().any(|w| w.is_nan()) {
             return Err(refused());
         }
         let mut correlations = vec![0.0; dim * dim];
         for j in 0..dim {
             for k in 0..=j {
-                let value = self.entry(i, j, k).high;
+                let value = described[j * (j + 1) / 2 + k];
                 if widths[j] == 0.0 || widths[k] == 0.0 {
                     if value != 0.0 {
                         return Err(refused());
@@ -214,12 +196,8 @@ impl Shapes {
                 rows.extend(vector.iter().zip(&widths).map(|(v, w)| root * v * w));
             }
         }
-        // As found here, eigenvalues are off by some units in the last place of the largest.
-        let known = 4.0 * dim as f64 * f64::EPSILON;
-        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let deficit = (2.0 * known - least).max(0.0);
-        let indefinite = (deficit > 0.0).then_some(Indefinite { deficit, values, vectors });
-        Ok((rows, indefinite))
+        let thickening = thickening::thickening(described, dim).ok_or_else(refused)?;
+        Ok((rows, thickening))
     }
 }
 

@@ -273,3 +273,49 @@ fn units_of_any_ratio_are_borne() {
     let values = [0.0, 0.0, 1e-160, 0.0, 1e160, 0.0, 0.0, 1e-160, 3e-1, 1e160];
     solved("1e160", &values, 5);
 }
+
+/// Rows of single precision whose shape matrices are indefinite: whatever ellipsoid or ball is accepted, smaller ones too,
+/// is no smaller than what other multipliers prove of the same rows.
+#[test]
+fn no_two_verdicts_on_one_file_exclude_each_other() {
+    let mut accepted = 0;
+    for seed in 0..40 {
+        let mut rng = Random::of(100 + seed);
+        let dim: usize = rng.below(2, 4);
+        let mut values: Vec<f32> = vec![];
+        for _ in 0..rng.below(1, 4) {
+            let center = normals(&mut rng, dim);
+            let columns: Vec<Vec<f64>> = (0..dim - 1).map(|_| normals(&mut rng, dim)).collect();
+            values.extend(item(&center, &columns).iter().map(|&v| v as f32));
+        }
+        let columns = dim + dim * (dim + 1) / 2;
+        let rows = Points::new(&values, columns).unwrap();
+        let honest = ellipsoid_of_ellipsoids(&rows, &EllipsoidOptions::default()).unwrap();
+        let lower = honest.check(&rows).unwrap().lower;
+        let ball = ball_of_ellipsoids(&rows, &BallOptions::default()).unwrap();
+        let radius = ball.check(&rows).unwrap().lower;
+        for exponent in 4..40 {
+            let shrink = 10f64.powf(-0.4 * f64::from(exponent));
+            let mut forged = honest.clone();
+            let rank = forged.answer.rank();
+            forged.answer.factor.iter_mut().flatten().for_each(|f| *f *= 1.0 + shrink);
+            let factor = &forged.answer.factor;
+            let entry = |j: usize, k: usize| factor.iter().map(|row| row[j] * row[k]).sum::<f64>();
+            forged.answer.matrix =
+                (0..dim).map(|j| (0..dim).map(|k| entry(j, k)).collect()).collect();
+            forged.answer.log_volume -= rank as f64 * shrink.ln_1p();
+            forged.certificate.gap = 1.0;
+            if let Ok(verdict) = forged.check(&rows) {
+                accepted += 1;
+                assert!(verdict.upper >= lower, "seed {seed}, {shrink:e}: {verdict:?}, {lower}");
+            }
+            let mut forged = ball.clone();
+            forged.answer.radius *= 1.0 - shrink;
+            forged.certificate.gap = 1.0;
+            if let Ok(verdict) = forged.check(&rows) {
+                assert!(verdict.upper >= radius, "seed {seed}, {shrink:e}: {verdict:?}, {radius}");
+            }
+        }
+    }
+    assert!(accepted > 0);
+}

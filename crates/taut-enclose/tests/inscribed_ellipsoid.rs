@@ -391,3 +391,59 @@ fn what_is_said_of_thin_and_open_polytopes_is_proved() {
         }
     }
 }
+
+/// Subnormal multipliers times slacks underflow: they must not prove that an ellipsoid half as wide is the largest.
+#[test]
+fn multipliers_that_underflow_prove_nothing() {
+    let dim = 10;
+    let rows = sides_of_box(&vec![0.0; dim], &vec![1.0; dim]);
+    let honest = solved(&rows, dim);
+    let points = Points::new(&rows, dim + 1).unwrap();
+    let mut forged = honest.clone();
+    let axis = |j: usize, width: f64| (0..dim).map(|k| if k == j { width } else { 0.0 }).collect();
+    forged.answer.axes = (0..dim).map(|j| axis(j, 0.51)).collect();
+    forged.answer.center = vec![0.0; dim];
+    forged.answer.log_volume = log_ball(dim) + dim as f64 * 0.51f64.ln();
+    forged.certificate.support = (0..2 * dim as u64).collect();
+    forged.certificate.gap = 0.0;
+    for lambda in [5e-324, 1e-310, 1e-300, 1.0, 1e300] {
+        forged.certificate.multipliers = vec![lambda; 2 * dim];
+        match forged.check(&points) {
+            Err(CheckError::Rejected(Violation::LogGap { proved, .. })) => {
+                assert!((proved + dim as f64 * 0.51f64.ln()).abs() < 1e-9, "{lambda:e}: {proved}");
+            }
+            other => panic!("{lambda:e}: {other:?}"),
+        }
+    }
+    // The ball of radius 1 is the largest, in whatever unit its multipliers are written down.
+    let radius = 1.0 - 1e-12;
+    forged.answer.axes = (0..dim).map(|j| axis(j, radius)).collect();
+    forged.answer.log_volume = log_ball(dim) + dim as f64 * radius.ln();
+    forged.certificate.gap = 1e-10;
+    for lambda in [5e-324, 1e-310, 1e-300, 1.0, 1e300] {
+        forged.certificate.multipliers = vec![lambda; 2 * dim];
+        let gap = forged.check(&points).unwrap().gap;
+        assert!(gap < 2e-11, "{lambda:e}: {gap:e}");
+    }
+}
+
+/// The stated log-volume may be off by rounding; the bracket is not.
+#[test]
+fn the_lower_end_of_the_bracket_is_not_above_the_optimum() {
+    for dim in 2..=8 {
+        let rows = sides_of_box(&vec![0.0; dim], &vec![1.0; dim]);
+        let points = Points::new(&rows, dim + 1).unwrap();
+        let mut found = solved(&rows, dim);
+        let optimum = log_ball(dim);
+        let mut accepted = 0;
+        for ulps in 0..400 {
+            found.answer.log_volume = found.answer.log_volume.next_up();
+            let Ok(verdict) = found.check(&points) else { continue };
+            accepted += 1;
+            // The optimum is known to some units in the last place here.
+            assert!(verdict.lower <= optimum + 2e-15, "d = {dim}, {ulps}: {verdict:?}");
+            assert!(verdict.upper >= optimum - 2e-15);
+        }
+        assert!(accepted > 0, "d = {dim}");
+    }
+}

@@ -480,3 +480,41 @@ fn why_nothing_is_weighed_anew_must_be_true() {
     let found = solve("all", &values, 2, &all);
     assert_eq!(found.certificate.unweighted, Some(Unweighted::AllKept));
 }
+
+/// A circle around the points kept, with the multipliers of the smallest ellipse and the gap that these prove for it: true
+/// as a bracket, but no proof that a C-step leads nowhere.
+#[test]
+fn a_loose_ellipsoid_around_the_points_kept_is_no_local_optimum() {
+    let mut values = contaminated(100, 2, 20, 12.0, 5);
+    values[1..160].iter_mut().step_by(2).for_each(|y| *y *= 0.1);
+    let options = RobustOptions { coverage: Some(0.8), ..by(RobustMethod::Trim) };
+    let mut forged = solve("trim", &values, 2, &options);
+    let center = forged.answer.center.clone();
+    let kept = (0..100).filter(|row| forged.certificate.left_out.binary_search(row).is_err());
+    let reach = |row: u64| {
+        let point = &values[2 * row as usize..][..2];
+        (point[0] - center[0]).hypot(point[1] - center[1])
+    };
+    let radius = kept.map(reach).fold(0.0, f64::max) * (1.0 + 1e-9);
+    let diagonal = |v: f64| vec![vec![v, 0.0], vec![0.0, v]];
+    let size = radius * radius;
+    let circle = taut_certify::Ellipsoid {
+        factor: diagonal(1.0 / radius),
+        matrix: diagonal((1.0 / radius) * (1.0 / radius)),
+        log_volume: (std::f64::consts::PI * size).ln(),
+        ..forged.answer.ellipsoid()
+    };
+    forged.answer.factor = circle.factor.clone();
+    forged.answer.matrix = circle.matrix.clone();
+    forged.answer.log_volume = circle.log_volume;
+    forged.answer.scatter = diagonal(size * forged.certificate.raw_scale);
+    forged.answer.log_det = 2.0 * (size * forged.certificate.raw_scale).ln();
+    forged.certificate.objective = circle.log_volume;
+    let enclosure = forged.certificate.enclosure.as_mut().unwrap();
+    enclosure.ellipsoid = circle;
+    enclosure.certificate.gap = 5.0;
+    match refused("circle", &forged, &values, 2) {
+        Violation::LooseEnclosure { gap, most } => assert!(gap > 1.0 && most == 0.01, "{gap}"),
+        other => panic!("{other}"),
+    }
+}

@@ -65,7 +65,7 @@ fn whatever_is_answered_is_proved() {
                 base.clone(),
                 RobustOptions { coverage: Some(1.0), ..base.clone() },
                 RobustOptions { coverage: Some(0.75), level: 1.0 - 1e-10, ..base.clone() },
-                RobustOptions { level: 0.5, epsilon: 0.2, ..base.clone() },
+                RobustOptions { level: 0.5, epsilon: 0.01, ..base.clone() },
                 RobustOptions { coverage: Some(0.6), epsilon: 1e-4, ..base },
             ] {
                 match robust_ellipsoid(&points, &options) {

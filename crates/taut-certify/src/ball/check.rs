@@ -16,7 +16,7 @@
 //! from small numbers and without cancellation, for balls that touch from inside just as for points: [`lower_bound`].
 //! Where the root does not exist, x = g. And x ≤ R − rᵢ, as no enclosing ball is smaller than what it encloses.
 //! *Ellipsoids.* Both bounds in [`ellipsoids`].
-//! *Order.* Structure, then one pass (finite rows, hash, enclosure), then the support rows (centre, gap).
+//! *Order.* Structure, then one pass (finite rows, hash, enclosure), then the support rows as that pass read them (centre, gap).
 //! *Scale.* Where squares could leave the range of `f64`, differences pᵢ − c are multiplied by the power of two that
 //! brings R to [1, 2): exactly, but for what underflows beside R.
 //! *Tolerances.* Enclosure has none. The others only ask that stated numbers are what they are said to be, up to the
@@ -55,11 +55,12 @@ pub(super) fn check(
         ellipsoids::prove(ball, certificate, source, monitor)?
     } else {
         let enclosure = Enclosure::of(ball, certificate.items);
-        enclosure.check(source, certificate.points_hash, monitor)?;
-        lower_bound::prove(ball, certificate, source, monitor)?
+        let support = enclosure.check(source, certificate, monitor)?;
+        lower_bound::prove(ball, certificate, &support, monitor)?
     };
     let (relative, absolute) = GAP_SLACK;
-    if bound.gap > certificate.gap * (1.0 + relative) + absolute {
+    let is_proved = bound.gap <= certificate.gap * (1.0 + relative) + absolute;
+    if !is_proved {
         return Err(Violation::Gap { claimed: certificate.gap, proved: bound.gap }.into());
     }
     Ok(Verdict { lower: bound.lower, upper: ball.radius, gap: bound.gap })

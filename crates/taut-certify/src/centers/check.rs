@@ -9,8 +9,9 @@
 //! another kind ([`cover`]), over all sets that one ball can hold; and the branches of the solver's search, gone through
 //! again ([`replay`]). What a ball can hold is decided with bounds on all that is rounded ([`free`]), or exactly, where
 //! centres are rows ([`rows`]).
-//! *Order.* Structure and the gap between the bounds, one pass (finite rows, hash, balls, assignment), the rows of the
-//! core-set, then the lower bound. Centres among the rows may take one pass more.
+//! *Order.* Structure and the gap between the bounds, one pass (finite rows, hash, balls, assignment), then the
+//! lower bound, from the rows of the core-set as that pass read them. Centres among the rows may take one pass more, which
+//! hashes all rows again.
 //! *Tolerances.* The balls have none. The gap claimed may differ from that of the two bounds as quotients differ by
 //! rounding. An assignment may name any of centres that are equally near but for rounding.
 
@@ -28,7 +29,7 @@ mod rows;
 mod search;
 mod structure;
 
-use taut_points::{Monitor, PointSource, gather};
+use taut_points::{Monitor, PointSource};
 
 use self::core::{Core, Pairs};
 use self::enclosure::Enclosure;
@@ -40,6 +41,7 @@ use self::rows::Places;
 use self::search::Outcome;
 use super::{Centers, CentersCertificate, CentersVerdict, CentersViolation, LowerBound, Placement};
 use crate::CheckError;
+use crate::hashed_pass::KeptRows;
 
 pub(super) fn check(
     answer: &Centers,
@@ -49,12 +51,13 @@ pub(super) fn check(
 ) -> Result<CentersVerdict, CheckError> {
     let (kind, gap) = structure::check(answer, certificate, source)?;
     monitor.pass(1, source.len());
-    Enclosure::of(answer, kind).check(source, certificate.points_hash, monitor)?;
-    are_rows(answer, kind, source)?;
+    let kept = Enclosure::of(answer, kind).check(source, certificate, monitor)?;
+    are_rows(answer, kind, &kept)?;
     let (lower, upper) = (answer.lower_bound, answer.radius);
     let mut verdict = CentersVerdict { lower, upper, gap, nodes: 0, cover_nodes: None };
     if lower > 0.0 {
-        let rows = gather(source, &certificate.core_set)?;
+        let rows: Vec<f64> =
+            certificate.core_set.iter().flat_map(|&id| kept.row(id)).copied().collect();
         let core = Core::of(&rows, source.dim(), kind, lower);
         (verdict.nodes, verdict.cover_nodes) = prove(&core, kind, certificate, source, monitor)?;
     }
@@ -62,11 +65,10 @@ pub(super) fn check(
 }
 
 /// Centres among the rows are the rows they are said to be, to the last bit.
-fn are_rows(answer: &Centers, kind: Kind, source: &dyn PointSource) -> Result<(), CheckError> {
-    let rows = gather(source, &answer.rows)?;
-    for (center, (row, place)) in rows.chunks_exact(source.dim()).zip(&answer.centers).enumerate() {
-        if kind.item(row).position != place {
-            let (row, problem) = (answer.rows[center], "which has other coordinates");
+fn are_rows(answer: &Centers, kind: Kind, kept: &KeptRows) -> Result<(), CheckError> {
+    for (center, (&row, place)) in answer.rows.iter().zip(&answer.centers).enumerate() {
+        if kind.item(kept.row(row)).position != place {
+            let problem = "which has other coordinates";
             return Err(CentersViolation::Row { center, row, problem }.into());
         }
     }
@@ -88,7 +90,7 @@ fn prove(
     }
     let places = || {
         monitor.pass(2, source.len());
-        Places::of(core, kind, source, monitor)
+        Places::of(core, kind, certificate.points_hash, source, monitor)
     };
     let limited = |most, proof| match rows > most {
         true => refused(CentersViolation::CoreSetSize { rows, most, proof }),

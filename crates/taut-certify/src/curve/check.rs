@@ -25,12 +25,13 @@ pub(super) mod tour;
 mod tree;
 mod valley;
 
-use taut_points::{BlockHash, Monitor, PointSource, PointsHash, hash_block, map_blocks};
+use taut_points::{Monitor, PointSource, PointsHash};
 
 use self::edges::Edges;
 use self::tour::{tour_bound, tour_length};
 use super::{Curve, CurveCertificate, CurveVerdict, CurveViolation};
-use crate::{CheckError, Violation};
+use crate::CheckError;
+use crate::hashed_pass::{WantedRows, all_finite, hashed_pass};
 
 /// How much less than found a figure may be claimed to be, relatively: φ is told up to a 64th.
 const FIGURE_SLACK: f64 = 0.05;
@@ -61,6 +62,8 @@ pub(super) fn check(
     claims(certificate, &evidence)?;
     let tour_gap = tour_gap(curve, certificate, &edges, monitor)?;
     Ok(CurveVerdict {
+        rows: source.len(),
+        outliers: curve.outliers.len() as u64,
         band: placed.band,
         is_simple: crossing.is_none(),
         sampling_ratio: evidence.sampling_ratio,
@@ -77,11 +80,8 @@ fn read(
     claimed: PointsHash,
     monitor: &Monitor<'_>,
 ) -> Result<Vec<[f64; 2]>, CheckError> {
-    let blocks = map_blocks(source, monitor, |first, rows| {
-        if let Some((row, column, value)) = rows.first_non_finite() {
-            let row = first + row as u64;
-            return Err(CheckError::from(Violation::NonFinite { row, column, value }));
-        }
+    let (blocks, _) = hashed_pass(source, claimed, WantedRows::none(), monitor, |first, rows| {
+        all_finite(first, rows)?;
         let mut point = [0.0; 2];
         let points: Vec<[f64; 2]> = (0..rows.len())
             .map(|row| {
@@ -89,15 +89,9 @@ fn read(
                 point
             })
             .collect();
-        Ok((hash_block(&rows), points))
+        Ok(points)
     })?;
-    let hashes: Vec<BlockHash> = blocks.iter().map(|block| block.0).collect();
-    let found = PointsHash::of_blocks(source.len(), source.dim(), hashes);
-    if found != claimed {
-        let (claimed, found) = (claimed.to_string(), found.to_string());
-        return Err(Violation::Hash { claimed, found }.into());
-    }
-    Ok(blocks.into_iter().flat_map(|block| block.1).collect())
+    Ok(blocks.into_iter().flatten().collect())
 }
 
 /// Whether no more is claimed than the evidence gives.
@@ -135,13 +129,17 @@ fn tour_gap(
     let scaled: Vec<f64> = bound.potentials.iter().map(|p| p * edges.scale).collect();
     let lower = tour_bound(&edges.points, &scaled, is_open, monitor).map_err(cancelled)?;
     let claimed = bound.lower * edges.scale;
-    if claimed > lower * (1.0 + BOUND_SLACK) {
+    let is_proved = claimed <= lower * (1.0 + BOUND_SLACK);
+    if !is_proved {
         let proved = lower / edges.scale;
         return Err(CurveViolation::TourBound { claimed: bound.lower, proved }.into());
     }
     let (length, lower) = (tour_length(&edges.points, is_open), lower.min(claimed));
+    let gap = length / lower * (1.0 + 4.0 * f64::EPSILON) - 1.0;
     Ok(Some(match length <= lower {
         true => 0.0,
-        false => (length / lower * (1.0 + 4.0 * f64::EPSILON) - 1.0).max(0.0),
+        // A bound of 0, of either sign, says nothing.
+        false if gap.is_nan() || lower <= 0.0 => f64::INFINITY,
+        false => gap.max(0.0),
     }))
 }

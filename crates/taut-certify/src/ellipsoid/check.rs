@@ -14,7 +14,7 @@
 //! no ellipsoid of dimension r that encloses the projections has less volume. That the set is flat is itself judged.
 //! *Rows left out.* They take no part in anything but the hash; each must reach outside, so that the list is exactly
 //! that of the rows not enclosed.
-//! *Order.* Structure, agreement, one pass (finite rows, hash, enclosure), then the support rows (gap).
+//! *Order.* Structure, agreement, one pass (finite rows, hash, enclosure), then the support rows as that pass read them (gap).
 //! *Cost.* A pass of nr(d + 1)/2 multiplications for a triangular F and points, O(n(rd² + r³)) for ellipsoids;
 //! O(kr²) for k rows of support and O(dr² + r³), in doubled precision. Memory: O(d²) beside a block for each thread.
 //! *Tolerances.* They only ask that stated numbers are what they are said to be, up to what writing them down as `f64`
@@ -68,16 +68,16 @@ pub(crate) fn check(
     let log_volume = agreement::log_volume(ellipsoid, &frame)?;
     monitor.pass(pass, source.len());
     let enclosure = Enclosure::of(&frame, hull.as_ref(), certificate);
-    let enclosed = enclosure.check(source, certificate.points_hash, monitor)?;
+    let (enclosed, support) = enclosure.check(source, certificate, monitor)?;
     if let Some(hull) = &hull {
-        hull.is_flat(certificate.items, &enclosed)?;
+        hull.is_flat(certificate.items, source.scalar(), &enclosed)?;
     }
     let rank = frame.rank as f64;
     let enlarged = rank * enclosed.excess;
     let gap =
-        (lower_bound::gap(&frame, certificate, source, monitor)? + enlarged) * (1.0 + 4.0 * U);
+        (lower_bound::gap(&frame, certificate, &support, monitor)? + enlarged) * (1.0 + 4.0 * U);
     let (relative, absolute) = GAP_SLACK;
-    let is_proved = gap <= certificate.gap * (1.0 + relative) + absolute * rank;
+    let is_proved = gap <= certificate.gap * (1.0 + relative) + absolute * rank && gap.is_finite();
     if !is_proved {
         return Err(Violation::LogGap { claimed: certificate.gap, proved: gap }.into());
     }
@@ -97,12 +97,13 @@ pub(crate) fn check(
         }
     };
     let twice = enclosed.excess * (2.0 + enclosed.excess);
+    let matrix_excess = (difference.bound(&enclosed.extents) + twice) * (1.0 + 16.0 * U);
     Ok(EllipsoidVerdict {
         lower,
         upper,
         gap,
         excess: enclosed.excess,
-        matrix_excess: (difference.bound(&enclosed.extents) + twice) * (1.0 + 16.0 * U),
+        matrix_excess: if matrix_excess.is_nan() { f64::INFINITY } else { matrix_excess },
         rank: frame.rank,
     })
 }

@@ -10,7 +10,8 @@
 //! 3. By `mve` and `trim`, the checker of ellipsoids judges that around the rows kept.
 //! 4. Distances in the metric of the rows kept, or of the ellipsoid around them, but where r = 0. No row kept may be
 //!    farther than a row left out, and the rows weighed out must be those beyond the quantile. Fewer than h rows may lie
-//!    strictly inside that ellipsoid, as a C-step would lead on otherwise.
+//!    strictly inside that ellipsoid, as a C-step would lead on otherwise; one that is not known to be nearly the smallest is
+//!    refused, since no row would be known to lie inside.
 //!
 //! *Not judged.* Whether other rows would do better than those kept: no polynomial proof of that is known.
 //! *Tolerances.* [`slack`]: numbers may be off by what `f64` leaves of them.
@@ -38,6 +39,9 @@ use crate::{CheckError, Enclosure, Violation};
 
 /// Rows nearer than this to the border of the ellipsoid around the rows kept may be on it.
 const ON_BORDER: f64 = 1e-6;
+/// The largest gap in log-volume of the ellipsoid around the rows kept: with a looser one, too few rows are known to lie
+/// strictly inside to tell that no C-step leads on.
+const ENCLOSURE_GAP_MAX: f64 = 0.01;
 /// A hull that was laid through some rows may be stated wider by this, so that it holds others as near to it.
 const WIDER: f64 = 4.0;
 /// What 1 − level may be off by beside its last digits: `level` and the probability of a quantile are numbers near 1.
@@ -108,6 +112,10 @@ pub(super) fn check(
         }
         None => None,
     };
+    if let Some(proved) = enclosure.filter(|proved| rank > 0 && proved.gap > ENCLOSURE_GAP_MAX) {
+        let (gap, most) = (proved.gap, ENCLOSURE_GAP_MAX);
+        return Err(Violation::LooseEnclosure { gap, most }.into());
+    }
     if rank > 0 {
         let frame = certificate.enclosure.as_ref().map(|e| Frame::of(&e.ellipsoid));
         let around = match (&frame, &raw) {

@@ -20,11 +20,15 @@ pub struct RobustOptions {
     /// by `trim`.
     pub level: f64,
     /// Wanted gap of the smallest ellipsoids of `mve` and `trim`, as in
-    /// [`EllipsoidOptions::epsilon`](crate::EllipsoidOptions::epsilon). Range (0, 1), default 1e-9.
+    /// [`EllipsoidOptions::epsilon`](crate::EllipsoidOptions::epsilon). Range (0, 0.01], default 1e-9: around a
+    /// looser ellipsoid a local optimum cannot be told.
     pub epsilon: f64,
     /// Threads to use; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
 }
+
+/// Largest gap of the smallest ellipsoids for which a local optimum can be told; the checker refuses a larger one.
+const EPSILON_MAX: f64 = 0.01;
 
 impl Default for RobustOptions {
     fn default() -> Self {
@@ -52,8 +56,8 @@ impl RobustOptions {
         if !(0.5..1.0).contains(&self.level) {
             return wrong("level", self.level.to_string(), "a number in [0.5, 1)");
         }
-        if !(self.epsilon > 0.0 && self.epsilon < 1.0) {
-            return wrong("epsilon", self.epsilon.to_string(), "a number in (0, 1)");
+        if !(self.epsilon > 0.0 && self.epsilon <= EPSILON_MAX) {
+            return wrong("epsilon", format!("{:?}", self.epsilon), "a number in (0, 0.01]");
         }
         if self.threads == Some(0) {
             return wrong("threads", "0".into(), "at least 1");

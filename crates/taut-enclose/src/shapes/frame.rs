@@ -72,7 +72,7 @@ impl Map<'_> {
     }
 }
 
-/// Sa/√(a′Sa), or 0 where Sa = 0; less where S is indefinite, so that it belongs to the item.
+/// Sa/√(a′Sa), or 0 where Sa = 0.
 pub(crate) fn step(shapes: &Shapes, i: usize, a: &[f64]) -> Vec<DoubleDouble> {
     let dim = shapes.dim();
     let mut v = vec![DoubleDouble::ZERO; dim];
@@ -82,7 +82,6 @@ pub(crate) fn step(shapes: &Shapes, i: usize, a: &[f64]) -> Vec<DoubleDouble> {
         }
     }
     let q = v.iter().zip(a).fold(DoubleDouble::ZERO, |sum, (v, &a)| sum.add(v.mul(a.into())));
-    let q = q.add(shapes.missing(i, a).into());
     if q.high <= 0.0 {
         return vec![DoubleDouble::ZERO; dim];
     }

@@ -15,9 +15,7 @@
 //! coordinates passes at most k + d + 16 roundings.
 //! *Trap.* A ball of radius 0 has no such frame: then all ellipsoids must be the point c.
 
-use taut_points::{
-    BlockHash, Monitor, PointSource, PointsHash, ReadError, Rows, Scratch, hash_block, map_blocks,
-};
+use taut_points::{Monitor, PointSource, ReadError, Rows};
 
 use super::super::{Ball, BallCertificate};
 use super::lower_bound::Bound;
@@ -27,6 +25,7 @@ use crate::ellipsoid::check::frame::Frame;
 use crate::ellipsoid::check::item::Item;
 use crate::ellipsoid::check::lower_bound::touching;
 use crate::ellipsoid::check::reach;
+use crate::hashed_pass::{KeptRows, WantedRows, all_finite, hashed_pass};
 use crate::{CheckError, Ellipsoid, Items, Violation};
 
 /// By how much σ may be negative, in units of R²: what rounding the entries of a singular shape matrix does to the points
@@ -53,36 +52,17 @@ pub(super) fn prove(
         log_volume: 0.0,
     };
     let frame = Frame::of(&as_ellipsoid);
-    enclosed(ball, certificate.points_hash, &frame, source, monitor)?;
+    let wanted = WantedRows::of(&certificate.support);
+    let claimed = certificate.points_hash;
+    let (blocks, support) = hashed_pass(source, claimed, wanted, monitor, |first, rows| {
+        all_finite(first, rows)?;
+        Ok(block(ball, &frame, first, rows))
+    })?;
+    blocks.into_iter().collect::<Result<(), _>>()?;
     if ball.radius == 0.0 {
         return Ok(Bound { lower: 0.0, gap: 0.0 });
     }
-    lower_bound(ball, certificate, &frame, source, monitor)
-}
-
-fn enclosed(
-    ball: &Ball,
-    claimed: PointsHash,
-    frame: &Frame<'_>,
-    source: &dyn PointSource,
-    monitor: &Monitor<'_>,
-) -> Result<(), CheckError> {
-    let blocks = map_blocks(source, monitor, |first, rows| {
-        if let Some((row, column, value)) = rows.first_non_finite() {
-            let row = first + row as u64;
-            return Err(CheckError::from(Violation::NonFinite { row, column, value }));
-        }
-        let found = block(ball, frame, first, &rows);
-        Ok((hash_block(&rows), found))
-    })?;
-    let hashes: Vec<BlockHash> = blocks.iter().map(|block| block.0).collect();
-    let found = PointsHash::of_blocks(source.len(), source.dim(), hashes);
-    if found != claimed {
-        let (claimed, found) = (claimed.to_string(), found.to_string());
-        return Err(Violation::Hash { claimed, found }.into());
-    }
-    blocks.into_iter().try_for_each(|block| block.1)?;
-    Ok(())
+    lower_bound(ball, certificate, &frame, &support, monitor)
 }
 
 fn block(ball: &Ball, frame: &Frame<'_>, first: u64, rows: &Rows<'_>) -> Result<(), Violation> {
@@ -131,7 +111,7 @@ fn lower_bound(
     ball: &Ball,
     certificate: &BallCertificate,
     frame: &Frame<'_>,
-    source: &dyn PointSource,
+    support: &KeptRows,
     monitor: &Monitor<'_>,
 ) -> Result<Bound, CheckError> {
     let zero = DoubleDouble::of(0.0);
@@ -146,13 +126,10 @@ fn lower_bound(
     };
     let radius = DoubleDouble::of(ball.radius).scaled(frame.scale);
     let square = radius.times(&radius);
-    let mut values = vec![0.0; source.dim()];
-    let mut scratch = Scratch::new();
     let each = certificate.support.iter().zip(&certificate.multipliers);
     for ((&id, &lambda), direction) in each.zip(&certificate.directions) {
         monitor.check().map_err(ReadError::from)?;
-        source.read(id..id + 1, &mut scratch)?.copy_row(0, &mut values);
-        let item = Item::of(Items::Ellipsoids, frame.dim, &values);
+        let item = Item::of(Items::Ellipsoids, frame.dim, support.row(id));
         let (offset, errors) = touching(frame, &item, direction);
         sums.add(lambda, &offset, errors.as_deref(), &square, frame);
     }
@@ -205,6 +182,10 @@ impl Sums {
         let error =
             (roundings * self.size + self.excess_error) / weight + (2.0 * mean + moved) * moved;
         let sigma = (sigma.rounded() + error * (1.0 + 16.0 * U)) * (1.0 + 8.0 * U);
+        if !(sigma.is_finite() && square.is_finite()) {
+            // Sums beyond the largest number prove nothing.
+            return Ok(Bound { lower: 0.0, gap: f64::INFINITY });
+        }
         // Points that lie within R of c have tᵢ ≤ 0, so σ ≥ 0.
         if sigma < -SQUARE_BELOW * square {
             return Err(Violation::NegativeGap { gap: 0.5 * sigma / square });

@@ -16,14 +16,13 @@
 
 use std::cmp::Ordering;
 
-use taut_points::{
-    BlockHash, Monitor, PointSource, Points, PointsHash, Rows, Scalar, hash_block, map_blocks,
-};
+use taut_points::{Monitor, PointSource, Points, Rows, Scalar};
 
-use super::super::Ball;
+use super::super::{Ball, BallCertificate};
 use super::difference::{Difference, is_tame_number, underflow};
 use super::scale::Scale;
 use crate::arithmetic::{ExactSum, Known, U, two_sum};
+use crate::hashed_pass::{KeptRows, WantedRows, hashed_pass};
 use crate::{CheckError, Items, Violation};
 
 const LANES: usize = 8;
@@ -37,12 +36,6 @@ pub(super) struct Enclosure<'a> {
     kappa: f64,
     /// |t| of stage 1, scaled and rounded up.
     tail: f64,
-}
-
-/// What one block of rows has to say.
-struct Block {
-    hash: BlockHash,
-    outside: Option<Violation>,
 }
 
 impl<'a> Enclosure<'a> {
@@ -59,34 +52,31 @@ impl<'a> Enclosure<'a> {
         Enclosure { ball, items, scale, kappa, tail }
     }
 
-    /// Reads all rows once.
+    /// Reads all rows once; returns those of the support.
     pub(super) fn check(
         &self,
         source: &dyn PointSource,
-        claimed: PointsHash,
+        certificate: &BallCertificate,
         monitor: &Monitor<'_>,
-    ) -> Result<(), CheckError> {
-        let blocks = map_blocks(source, monitor, |first, rows| self.block(first, &rows))?;
-        let found =
-            PointsHash::of_blocks(source.len(), source.dim(), blocks.iter().map(|b| b.hash));
-        if found != claimed {
-            let (claimed, found) = (claimed.to_string(), found.to_string());
-            return Err(Violation::Hash { claimed, found }.into());
-        }
-        match blocks.into_iter().find_map(|block| block.outside) {
+    ) -> Result<KeptRows, CheckError> {
+        let wanted = WantedRows::of(&certificate.support);
+        let claimed = certificate.points_hash;
+        let (blocks, kept) = hashed_pass(source, claimed, wanted, monitor, |first, rows| {
+            Ok(self.block(first, rows)?)
+        })?;
+        match blocks.into_iter().flatten().next() {
             Some(violation) => Err(violation.into()),
-            None => Ok(()),
+            None => Ok(kept),
         }
     }
 
-    fn block(&self, first: u64, rows: &Rows<'_>) -> Result<Block, CheckError> {
-        let outside = match (rows, self.scale.is_needed()) {
+    fn block(&self, first: u64, rows: &Rows<'_>) -> Result<Option<Violation>, Violation> {
+        match (rows, self.scale.is_needed()) {
             (Rows::F32(points), false) => self.rows::<f32, false>(first, points),
             (Rows::F32(points), true) => self.rows::<f32, true>(first, points),
             (Rows::F64(points), false) => self.rows::<f64, false>(first, points),
             (Rows::F64(points), true) => self.rows::<f64, true>(first, points),
-        }?;
-        Ok(Block { hash: hash_block(rows), outside })
+        }
     }
 
     /// The first row outside; an error if a row is no point or ball at all.

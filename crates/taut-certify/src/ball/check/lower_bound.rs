@@ -18,13 +18,14 @@
 //!   some origin c₀ within the points;
 //! - in both cases 2⁻¹⁰⁷⁴, the distance of subnormal numbers.
 
-use taut_points::{Monitor, PointSource, ReadError, Rows, Scalar, Scratch};
+use taut_points::{Monitor, ReadError};
 
 use super::super::{Ball, BallCertificate};
 use super::difference::{Difference, is_tame_number, underflow};
 use super::enclosure::{excess_square, item};
 use super::scale::Scale;
 use crate::arithmetic::{Compensated, Known, U, two_product, two_sum};
+use crate::hashed_pass::KeptRows;
 use crate::{CheckError, Items, Violation};
 
 /// Multipliers below this count as 0.
@@ -42,20 +43,16 @@ pub(super) struct Bound {
 pub(super) fn prove(
     ball: &Ball,
     certificate: &BallCertificate,
-    source: &dyn PointSource,
+    support: &KeptRows,
     monitor: &Monitor<'_>,
 ) -> Result<Bound, CheckError> {
     let mut sums = Sums::new(ball, certificate);
-    let mut scratch = Scratch::new();
     for (&id, &lambda) in certificate.support.iter().zip(&certificate.multipliers) {
         monitor.check().map_err(ReadError::from)?;
         if lambda < LEAST_MULTIPLIER {
             continue;
         }
-        match source.read(id..id + 1, &mut scratch)? {
-            Rows::F32(points) => sums.add(lambda, points.row(0)),
-            Rows::F64(points) => sums.add(lambda, points.row(0)),
-        }
+        sums.add(lambda, support.row(id));
     }
     let moment = sums.moment_square()?;
     Ok(sums.bound(&moment))
@@ -104,7 +101,7 @@ impl<'a> Sums<'a> {
     }
 
     /// Takes in one row of the support.
-    fn add<T: Scalar>(&mut self, lambda: f64, row: &[T]) {
+    fn add(&mut self, lambda: f64, row: &[f64]) {
         let (position, r) = item(self.items, row);
         self.difference.fill(position, self.ball, self.scale);
         let excess = excess_square(&self.difference, self.ball.radius, r, self.scale);
@@ -211,6 +208,13 @@ impl<'a> Sums<'a> {
     fn surplus(&self, moment: &MomentSquare) -> f64 {
         let (weight, excess) =
             (self.weight_min(), self.widened(self.excess.known(), self.excess_error));
+        let slack = self.widened(self.slack.known(), 0.0);
+        let known =
+            [weight, excess.high, excess.error, moment.max, moment.error, slack.high, slack.error];
+        if known.iter().any(|v| !v.is_finite()) {
+            // Sums beyond the largest number prove no more than that a radius is not negative.
+            return self.ball.radius * self.scale.up;
+        }
         // −T, rounded up; where it is not positive, rounding is all there is.
         let shortfall = excess.error - excess.high * (1.0 - 4.0 * U * excess.high.signum());
         let shortfall = if shortfall <= 0.0 { 0.0 } else { shortfall };
@@ -218,7 +222,6 @@ impl<'a> Sums<'a> {
         if sigma == 0.0 {
             return 0.0;
         }
-        let slack = self.widened(self.slack.known(), 0.0);
         let slack_min = (slack.high - slack.error) / self.weight.known().high * (1.0 - 16.0 * U);
         let slack_max = slack.size() / weight * (1.0 + 8.0 * U);
         let radicand = slack_min * slack_min * (1.0 - 8.0 * U) - sigma;

@@ -11,17 +11,16 @@
 
 use std::cmp::Ordering;
 
-use taut_points::{
-    BlockHash, Monitor, PointSource, Points, PointsHash, Rows, Scalar, hash_block, map_blocks,
-};
+use taut_points::{Monitor, PointSource, Points, Rows, Scalar};
 
-use super::super::{Centers, CentersViolation};
+use super::super::{Centers, CentersCertificate, CentersViolation};
 use super::distance::{Scale, compare, factors, is_same_place, kappa, square, thresholds};
 use super::halves::Halves;
 use super::item::{Item, Kind};
 use super::meter::{Meter, Stop};
+use crate::CheckError;
 use crate::arithmetic::U;
-use crate::{CheckError, Violation};
+use crate::hashed_pass::{KeptRows, WantedRows, hashed_pass};
 
 /// The balls, ready to be compared with rows.
 pub(super) struct Enclosure<'a> {
@@ -32,12 +31,6 @@ pub(super) struct Enclosure<'a> {
     halves: Halves,
 }
 
-/// What one block of rows has to say.
-struct Block {
-    hash: BlockHash,
-    problem: Option<CentersViolation>,
-}
-
 impl<'a> Enclosure<'a> {
     pub(super) fn of(answer: &'a Centers, kind: Kind) -> Self {
         let dim = answer.centers[0].len();
@@ -46,30 +39,25 @@ impl<'a> Enclosure<'a> {
         Enclosure { answer, kind, scale, kappa: kappa(dim), halves }
     }
 
-    /// Reads all rows once.
+    /// Reads all rows once; returns those of the core-set and those that are centres.
     pub(super) fn check(
         &self,
         source: &dyn PointSource,
-        claimed: PointsHash,
+        certificate: &CentersCertificate,
         monitor: &Monitor<'_>,
-    ) -> Result<(), CheckError> {
-        let blocks = map_blocks(source, monitor, |first, rows| {
+    ) -> Result<KeptRows, CheckError> {
+        let wanted = WantedRows::of(certificate.core_set.iter().chain(&self.answer.rows));
+        let claimed = certificate.points_hash;
+        let (blocks, kept) = hashed_pass(source, claimed, wanted, monitor, |first, rows| {
             let mut meter = Meter::endless(monitor);
-            let problem = match &rows {
+            match rows {
                 Rows::F32(points) => self.rows(first, points, &mut meter),
                 Rows::F64(points) => self.rows(first, points, &mut meter),
-            }?;
-            Ok::<_, CheckError>(Block { hash: hash_block(&rows), problem })
+            }
         })?;
-        let found =
-            PointsHash::of_blocks(source.len(), source.dim(), blocks.iter().map(|b| b.hash));
-        if found != claimed {
-            let (claimed, found) = (claimed.to_string(), found.to_string());
-            return Err(Violation::Hash { claimed, found }.into());
-        }
-        match blocks.into_iter().find_map(|block| block.problem) {
+        match blocks.into_iter().flatten().next() {
             Some(problem) => Err(problem.into()),
-            None => Ok(()),
+            None => Ok(kept),
         }
     }
 
@@ -248,6 +236,7 @@ mod tests {
 
     use super::super::distance::tests::EXACTLY;
     use super::*;
+    use crate::{Items, LowerBound, Placement};
 
     /// Whether rows are held, and how many comparisons took whole numbers.
     fn held(
@@ -268,8 +257,18 @@ mod tests {
             assignment: vec![],
         };
         let before = EXACTLY.get();
-        let hash = hash_points(&points, &monitor).unwrap();
-        let is_held = Enclosure::of(&answer, kind).check(&points, hash, &monitor).is_ok();
+        let certificate = CentersCertificate {
+            items: Items::Points,
+            weights: false,
+            placement: Placement::Free,
+            k: answer.centers.len() as u64,
+            outliers: 0,
+            core_set: vec![],
+            proof: LowerBound::Apart,
+            gap: 0.0,
+            points_hash: hash_points(&points, &monitor).unwrap(),
+        };
+        let is_held = Enclosure::of(&answer, kind).check(&points, &certificate, &monitor).is_ok();
         (is_held, EXACTLY.get() - before)
     }
 

@@ -10,7 +10,7 @@
 use std::collections::HashSet;
 use std::sync::{Mutex, PoisonError};
 
-use taut_points::{Monitor, PointSource, map_blocks};
+use taut_points::{Monitor, PointSource, PointsHash};
 
 use super::super::CentersViolation;
 use super::core::{Bits, Core, is_set, items, set};
@@ -18,6 +18,7 @@ use super::item::Kind;
 use super::meter::{Meter, Stop};
 use super::room::Room;
 use crate::CheckError;
+use crate::hashed_pass::{WantedRows, hashed_pass};
 
 /// Most bytes for the sets of all places.
 const MEMORY: u64 = 1 << 30;
@@ -42,12 +43,13 @@ impl Places {
     pub(super) fn of(
         core: &Core,
         kind: Kind,
+        claimed: PointsHash,
         source: &dyn PointSource,
         monitor: &Monitor<'_>,
     ) -> Result<Self, CheckError> {
         let words = core.len().div_ceil(64);
         let sets: Mutex<HashSet<Bits>> = Mutex::default();
-        map_blocks(source, monitor, |_, rows| {
+        hashed_pass(source, claimed, WantedRows::none(), monitor, |_, rows| {
             let mut found = HashSet::new();
             let (mut row, mut meter) = (vec![0.0; source.dim()], Meter::endless(monitor));
             for number in 0..rows.len() {

@@ -3,6 +3,7 @@
 //! *Distance.* The foot of a row on an edge is found in `f64`; any number t in [0, 1] names a point of the edge, so the distance
 //! to it, with all its roundings added, is no less than that of the curve. A vector p − a is right to u of its size, and
 //! w = (p − a) − t·(b − a) to 4u of |p − a| and |b − a|.
+//! *Trap.* Beside a vertex of 1e308 coordinates of 1e-150 underflow when all are scaled alike: what scaling takes is added.
 
 use std::collections::HashMap;
 
@@ -57,13 +58,14 @@ pub(super) fn place(
         true => at_vertices(edges, rows, &inliers)?,
         false => next_to(edges, &inliers, scaled, monitor)?,
     };
-    let outside = feet.iter().find(|foot| foot.offset.abs() > certificate.band * edges.scale);
-    if let Some(foot) = outside {
-        let (row, distance) = (foot.row as u64, foot.offset.abs() / edges.scale);
+    let off = |foot: &Foot| edges.unscaled(foot.offset.abs());
+    let is_within = |foot: &&Foot| off(foot) <= certificate.band;
+    if let Some(foot) = feet.iter().find(|foot| !is_within(foot)) {
+        let (row, distance) = (foot.row as u64, off(foot));
         return Err(CurveViolation::OutsideBand { row, distance, band: certificate.band }.into());
     }
     let widest = feet.iter().fold(0.0f64, |most, foot| most.max(foot.offset.abs()));
-    let band = (widest / edges.scale).min(certificate.band);
+    let band = edges.unscaled(widest);
     if !curve.places.is_empty() {
         places(curve, edges, rows, monitor)?;
     }
@@ -196,8 +198,13 @@ fn distance(edges: &Edges, p: [f64; 2], edge: usize, t: f64) -> f64 {
         _ => (0..2).map(|k| (p[k] - a[k]).abs() + (b[k] - a[k]).abs()).sum(),
     };
     match x == 0.0 && y == 0.0 && (t == 0.0 || t == 1.0) {
-        true => 0.0,
-        false => (x.hypot(y) * (1.0 + 8.0 * U) + 8.0 * U * sizes).next_up(),
+        // Each of the two is off by what was lost of two coordinates.
+        true => 4.0 * edges.lost,
+        // Each operation on numbers near the least may lose half of it besides.
+        false => {
+            let lost = 8.0 * (edges.lost + f64::from_bits(1));
+            x.hypot(y) * (1.0 + 8.0 * U) + 8.0 * U * sizes + lost
+        }
     }
 }
 
@@ -208,14 +215,15 @@ fn side(edges: &Edges, p: [f64; 2], edge: usize) -> f64 {
     if turn < 0.0 { -1.0 } else { 1.0 }
 }
 
-/// Whether places named are next to their rows, as far as rounding of coordinates as large as the largest tells.
+/// Whether places named are next to their rows, as far as rounding of the coordinates of row and edges tells.
 fn places(
     curve: &Curve,
     edges: &Edges,
     rows: &[[f64; 2]],
     monitor: &Monitor<'_>,
 ) -> Result<(), CheckError> {
-    let largest = rows.iter().flatten().fold(0.0, |most: f64, x| most.max((x * edges.scale).abs()));
+    let largest =
+        |points: &[[f64; 2]]| points.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
     let pairs: Vec<usize> = (0..rows.len()).collect();
     pairs.par_chunks(ROWS).try_for_each(|block| {
         monitor.check().map_err(ReadError::from)?;
@@ -227,12 +235,15 @@ fn places(
             let edge = (place.1 as usize).min(count - 1);
             let claimed =
                 distance(edges, p, first + edge, place.1.fract().max(place.1 - edge as f64));
-            let next =
-                nearest(edges, p, f64::INFINITY).map(|(edge, t)| distance(edges, p, edge, t));
-            let next = next.unwrap_or(f64::INFINITY);
-            let size = 2.0 * largest + next + f64::MIN_POSITIVE;
-            // The sum of a vertex' number and a share has fewer digits than the share.
+            let Some((near, t)) = nearest(edges, p, f64::INFINITY) else {
+                let (row, far) = (row as u64, f64::INFINITY);
+                return Err(CurveViolation::FarPlace { row, distance: far, nearest: far });
+            };
+            let next = distance(edges, p, near, t);
             let [a, b] = edges.segment(first + edge);
+            let [c, d] = edges.segment(near);
+            let size = 2.0 * largest(&[p, a, b, c, d]) + next + f64::MIN_POSITIVE;
+            // The sum of a vertex' number and a share has fewer digits than the share.
             let moved = place.1 * (b[0] - a[0]).hypot(b[1] - a[1]);
             match claimed <= next * (1.0 + 1e-9) + 64.0 * U * size + 4.0 * U * moved {
                 true => Ok(()),

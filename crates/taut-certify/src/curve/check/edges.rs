@@ -11,6 +11,8 @@ pub(super) struct Edges {
     pub(super) points: Vec<[f64; 2]>,
     /// A power of two that keeps squares in range; 1 for all but extreme inputs.
     pub(super) scale: f64,
+    /// What scaling may have taken of a coordinate: 0 where all scaled coordinates of vertices and rows are exact.
+    pub(super) lost: f64,
     /// The vertices of each edge; of a curve of one vertex, twice the same.
     pub(super) ends: Vec<[usize; 2]>,
     /// Where the vertices of each curve begin; one more entry at the end.
@@ -45,9 +47,19 @@ impl Edges {
             largest if largest > 1e-100 && largest < 1e100 || largest == 0.0 => 1.0,
             largest => 2f64.powi(-(largest.log2() as i32).clamp(-1000, 1000)),
         };
+        // Coordinates far smaller than the largest underflow beside it.
+        let is_exact = |x: &f64| x * scale / scale == *x || (x * scale).is_infinite();
+        let all_exact = exact.iter().chain(rows).flatten().all(is_exact);
+        let lost = if all_exact { 0.0 } else { f64::from_bits(1) };
         let points: Vec<[f64; 2]> = exact.iter().map(|p| p.map(|x| x * scale)).collect();
         let tree = Tree::of(ends.iter().map(|&[a, b]| [points[a], points[b]]));
-        Edges { exact, points, scale, ends, first_vertex, first_edge, tree }
+        Edges { exact, points, scale, lost, ends, first_vertex, first_edge, tree }
+    }
+
+    /// A scaled length in units of the input, rounded up.
+    pub(super) fn unscaled(&self, length: f64) -> f64 {
+        let found = length / self.scale;
+        if found * self.scale < length { found.next_up() } else { found }
     }
 
     /// The curve of an edge, and the vertex that it begins at, counted within the curve.

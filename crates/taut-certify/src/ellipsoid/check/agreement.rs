@@ -103,21 +103,29 @@ pub(crate) fn log_volume(ellipsoid: &Ellipsoid, frame: &Frame<'_>) -> Result<Log
         log_determinant(ellipsoid.hull.as_ref(), frame).ok_or(singular)?.iter().map(|l| -l),
     );
     logs.push(-(frame.rank as f64) * frame.scale.ln());
+    // The basis is orthonormal to 16(d + 4)u in each product.
+    let of_basis = match ellipsoid.hull {
+        Some(_) => 16.0 * (frame.rank * (frame.dim + 4)) as f64 * U,
+        None => 0.0,
+    };
+    claimed_log_volume(claimed, &logs, frame.rank, of_basis)
+}
+
+/// Compares a log-volume with the sum of the logarithms it is made of, which is off by `other` beside its rounding.
+pub(crate) fn claimed_log_volume(
+    claimed: f64,
+    logs: &[f64],
+    rank: usize,
+    other: f64,
+) -> Result<LogVolume, Violation> {
     let size: f64 = logs.iter().map(|l| l.abs()).sum();
     let found: f64 = logs.iter().sum();
-    let mut tolerance = 32.0 * U * (size + frame.rank as f64);
-    // The basis is orthonormal to 16(d + 4)u in each product.
-    let of_basis = 16.0 * (frame.rank * (frame.dim + 4)) as f64 * U;
-    let mut error = (logs.len() + 4) as f64 * U * (size + frame.rank as f64);
-    if ellipsoid.hull.is_some() {
-        tolerance += of_basis;
-        error += of_basis;
-    }
-    let agrees = (found - claimed).abs() <= tolerance;
-    if agrees {
-        Ok(LogVolume { value: found, error })
-    } else {
-        Err(Violation::LogVolume { claimed, found })
+    let tolerance = 32.0 * U * (size + rank as f64) + other;
+    let error = (logs.len() + 4) as f64 * U * (size + rank as f64) + other;
+    let agrees = (found - claimed).abs() <= tolerance && tolerance.is_finite();
+    match agrees {
+        true => Ok(LogVolume { value: found, error }),
+        false => Err(Violation::LogVolume { claimed, found }),
     }
 }
 

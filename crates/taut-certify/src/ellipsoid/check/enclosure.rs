@@ -9,9 +9,7 @@
 //! *Guarantee.* No row is judged by a rounded number: all that is accepted is inside up to the excess reported.
 //! *Trap.* NaN satisfies no comparison, but is skipped by `f64::max`: rows are searched for it first.
 
-use taut_points::{
-    BlockHash, Monitor, PointSource, PointsHash, Rows, ScalarKind, hash_block, map_blocks,
-};
+use taut_points::{Monitor, PointSource, Rows, ScalarKind};
 
 use super::super::EllipsoidCertificate;
 use super::frame::Frame;
@@ -20,12 +18,16 @@ use super::item::Item;
 use super::panel::Panel;
 use super::reach;
 use crate::arithmetic::{DoubleDouble, Field, Ring, U};
+use crate::hashed_pass::{KeptRows, WantedRows, all_finite, hashed_pass};
 use crate::{CheckError, Items, Violation};
 
 /// By how much |F(x − c)| may exceed 1; what it does exceed by is charged to the gap.
 ///
 /// A solver in plain `f64` knows where its ellipsoid ends to some 1e-13, even for points near its surface.
 const EXCESS_MAX: f64 = 1e-12;
+
+/// 2³⁰⁰: a length from which on squares are not formed, as they could overflow.
+pub(crate) const FAR_OUT: f64 = f64::from_bits((1023 + 300) << 52);
 
 /// What the pass finds.
 pub(super) struct Enclosed {
@@ -46,12 +48,6 @@ pub(super) struct Enclosure<'a> {
     hull: Option<&'a HullTest<'a>>,
 }
 
-/// What one block of rows has to say.
-struct Block {
-    hash: BlockHash,
-    found: Result<Enclosed, Violation>,
-}
-
 impl<'a> Enclosure<'a> {
     pub(super) fn of(
         frame: &'a Frame<'a>,
@@ -61,33 +57,26 @@ impl<'a> Enclosure<'a> {
         Enclosure { frame, items: certificate.items, left_out: &certificate.left_out, hull }
     }
 
-    /// Reads all rows once.
+    /// Reads all rows once; returns those of the support too.
     pub(super) fn check(
         &self,
         source: &dyn PointSource,
-        claimed: PointsHash,
+        certificate: &EllipsoidCertificate,
         monitor: &Monitor<'_>,
-    ) -> Result<Enclosed, CheckError> {
-        let blocks = map_blocks(source, monitor, |first, rows| {
-            if !is_finite(&rows)
-                && let Some((row, column, value)) = rows.first_non_finite()
-            {
-                let row = first + row as u64;
-                return Err(CheckError::from(Violation::NonFinite { row, column, value }));
+    ) -> Result<(Enclosed, KeptRows), CheckError> {
+        let wanted = WantedRows::of(&certificate.support);
+        let claimed = certificate.points_hash;
+        let (blocks, support) = hashed_pass(source, claimed, wanted, monitor, |first, rows| {
+            if !is_finite(rows) {
+                all_finite(first, rows)?;
             }
-            Ok(Block { hash: hash_block(&rows), found: self.block(first, &rows) })
+            Ok(self.block(first, rows))
         })?;
-        let found =
-            PointsHash::of_blocks(source.len(), source.dim(), blocks.iter().map(|b| b.hash));
-        if found != claimed {
-            let (claimed, found) = (claimed.to_string(), found.to_string());
-            return Err(Violation::Hash { claimed, found }.into());
-        }
         let mut all = Enclosed::nothing(self.frame.dim);
         for block in blocks {
-            all.merge(&block.found?);
+            all.merge(&block?);
         }
-        Ok(all)
+        Ok((all, support))
     }
 
     fn block(&self, first: u64, rows: &Rows<'_>) -> Result<Enclosed, Violation> {
@@ -153,12 +142,16 @@ impl<'a> Enclosure<'a> {
         Ok(())
     }
 
-    /// |F(x − c)| − 1, rounded up where it is positive.
+    /// |F(x − c)| − 1, rounded up where it is positive; a lower bound where it is far above 1, NaN where it is not known.
     fn excess(&self, point: &[f64]) -> f64 {
         let offset: Vec<DoubleDouble> = self.frame.offset(point);
         let sizes: Vec<f64> = offset.iter().map(|x| x.rounded().abs()).collect();
         let error = self.frame.image_error::<DoubleDouble>(&sizes, None);
         let image = self.frame.image(&offset);
+        let has_square = image.iter().all(|y| y.rounded().abs() < FAR_OUT);
+        if !has_square {
+            return if self.frame.is_far_out(point) { FAR_OUT } else { f64::NAN };
+        }
         let square = image.iter().fold(DoubleDouble::of(-1.0), |sum, y| sum.plus(&y.times(y)));
         excess_of_square(square, image.len()) + error
     }
@@ -219,13 +212,10 @@ fn is_finite(rows: &Rows<'_>) -> bool {
     }
 }
 
-/// Refuses to leave out what lies inside.
+/// Refuses to leave out what lies inside, or what is not known to lie outside.
 fn reaches_outside(row: u64, excess: f64) -> Result<(), Violation> {
-    if excess < -EXCESS_MAX {
-        Err(Violation::NotOutside { row, norm: 1.0 + excess })
-    } else {
-        Ok(())
-    }
+    let is_outside = excess >= -EXCESS_MAX && excess.is_finite();
+    if is_outside { Ok(()) } else { Err(Violation::NotOutside { row, norm: 1.0 + excess }) }
 }
 
 impl Enclosed {

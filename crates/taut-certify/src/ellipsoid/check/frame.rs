@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use super::super::Ellipsoid;
+use super::enclosure::FAR_OUT;
 use crate::arithmetic::{Field, U};
 
 /// More than what underflow can add to a sum of products.
@@ -83,6 +84,43 @@ impl<'a> Frame<'a> {
                     .fold(N::of(0.0), |sum, (&f, x)| sum.plus(&N::of(f).times(x)))
             })
             .collect()
+    }
+
+    /// (x − c)/2ᵏ with all entries below 2 in size, and k; also where x − c lies beyond the largest number.
+    pub(crate) fn small_offset(&self, point: &[f64]) -> (Vec<f64>, i32) {
+        let large = |v: &f64| v.abs() >= 2f64.powi(1000);
+        let is_large = point.iter().chain(self.center).any(large);
+        let (part, shift) = if is_large { (0.25, 2) } else { (1.0, 0) };
+        let offset: Vec<f64> = (0..self.dim)
+            .map(|b| (point[b] * part - self.center[b] * part) - self.tail(b) * part)
+            .collect();
+        let largest = offset.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        if largest == 0.0 {
+            return (offset, 0);
+        }
+        // Subnormal numbers have a field of 0 and become no larger than 2.
+        let k = ((largest.to_bits() >> 52) as i32 - 1023).max(-1022);
+        let (half, rest) = (2f64.powi(-(k / 2)), 2f64.powi(-(k - k / 2)));
+        (offset.iter().map(|v| v * half * rest).collect(), k + shift)
+    }
+
+    /// Whether |F(x − c)| is known to be above [`FAR_OUT`], for a point that lies too far out for anything finer.
+    pub(crate) fn is_far_out(&self, point: &[f64]) -> bool {
+        let (offset, k) = self.small_offset(point);
+        let mut square = 0.0;
+        for a in 0..self.rank {
+            let (row, span) = self.row(a);
+            let (mut value, mut size) = (0.0, 0.0);
+            for (f, x) in row.iter().zip(&offset[span]) {
+                value += f * x;
+                size += (f * x).abs();
+            }
+            let least = value.abs() - 4.0 * (self.dim + 8) as f64 * U * size - UNDERFLOW;
+            square += least.max(0.0).powi(2);
+        }
+        // Entries of F/s and of the offset are below 2, so that nothing overflows.
+        0.5 * square.log2() + f64::from(k) > FAR_OUT.log2() + 1.0 - self.scale.log2()
+            && square > f64::MIN_POSITIVE
     }
 
     /// What [`Frame::image`] may be off by, in length: for a point whose offset has the sizes `sizes`, when offsets are

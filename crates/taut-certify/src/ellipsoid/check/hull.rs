@@ -5,10 +5,13 @@
 //! than 16(d + 4)u; a point of such a hull then appears to lie off it by up to 32(d + 4)√(r + 1)·u times its distance
 //! from c, and so do the rows of F. The width of a flat ellipsoid is a root, so that of this part it is the root.
 //! *What counts as flat.* A set whose distance from the hull is less than 1e-10 of its extent (for ellipsoids 1e-6, since a
-//! shape matrix knows half as many digits of a short axis), or could come from rounding its coordinates. Rounding moves
+//! shape matrix knows half as many digits of a short axis, and 1e-3·√d in single precision, where a row may stand for a
+//! shape thicker by √(16d·2⁻²⁴)), or could come from rounding its coordinates. Rounding moves
 //! coordinate j by u·|xⱼ|, and so a point off the hull by u·|xⱼ|·|(I − BᵀB)eⱼ|, and that of a point of the basis is seen
 //! several times larger at others: 128√d·u·√Σⱼ(max |xⱼ|·|(I − BᵀB)eⱼ|)² is granted. A large coordinate along the hull
 //! excuses nothing.
+
+use taut_points::ScalarKind;
 
 use super::super::Hull;
 use super::enclosure::Enclosed;
@@ -82,7 +85,8 @@ impl<'a> HullTest<'a> {
             tolerance += length(&widths) / self.rounding.sqrt();
         }
         let allowed = self.hull.distance * frame.scale + self.rounding * tolerance;
-        let is_near = distance <= allowed;
+        // Where either overflows nothing is known of how far the item lies off.
+        let is_near = distance <= allowed && allowed.is_finite();
         if is_near {
             return Ok(());
         }
@@ -93,30 +97,46 @@ impl<'a> HullTest<'a> {
     /// Whether a point is farther off the hull than stated, whatever rounding does.
     pub(super) fn is_off(&self, point: &[f64], frame: &Frame<'_>) -> bool {
         let offset = frame.offset::<f64>(point);
-        length(&self.off(&offset))
-            > self.hull.distance * frame.scale + self.rounding * length(&offset)
+        let (distance, reach) = (length(&self.off(&offset)), length(&offset));
+        distance > self.hull.distance * frame.scale + self.rounding * reach && distance.is_finite()
+    }
+
+    /// Whether a point lies within the stated distance of the hull, as plain arithmetic finds it, whatever its size.
+    pub(crate) fn is_within(&self, point: &[f64], frame: &Frame<'_>) -> bool {
+        let (offset, k) = frame.small_offset(point);
+        let allowed = self.hull.distance * 2f64.powi(-(k / 2)) * 2f64.powi(-(k - k / 2));
+        length(&self.off(&offset)) <= allowed
     }
 
     /// The root of the trace of (I − BᵀB)S(I − BᵀB), times s: how far the item reaches off its own centre at most.
     fn thickness(&self, item: &Item<'_>, frame: &Frame<'_>) -> f64 {
         let dim = frame.dim;
-        let entry = |j: usize, k: usize| item.shape::<f64>(j.max(k), j.min(k), frame.scale);
+        let entry = |j: usize, k: usize| item.shape::<f64>(j.max(k), j.min(k), [frame.scale; 2]);
         let columns: Vec<Vec<f64>> = (0..dim)
             .map(|k| self.off(&(0..dim).map(|j| entry(j, k)).collect::<Vec<_>>()))
             .collect();
         let trace: f64 = (0..dim)
             .map(|j| self.off(&columns.iter().map(|column| column[j]).collect::<Vec<_>>())[j])
             .sum();
-        trace.max(0.0).sqrt()
+        if trace.is_nan() { f64::INFINITY } else { trace.max(0.0).sqrt() }
     }
 
     /// Whether the set is flat enough to be called so.
-    pub(super) fn is_flat(&self, items: Items, enclosed: &Enclosed) -> Result<(), Violation> {
+    pub(super) fn is_flat(
+        &self,
+        items: Items,
+        kind: ScalarKind,
+        enclosed: &Enclosed,
+    ) -> Result<(), Violation> {
         let extents: Vec<f64> =
             enclosed.lows.iter().zip(&enclosed.highs).map(|(l, h)| 0.5 * h - 0.5 * l).collect();
         let largest: Vec<f64> =
             enclosed.lows.iter().zip(&enclosed.highs).map(|(l, h)| l.abs().max(h.abs())).collect();
-        let part = if items == Items::Ellipsoids { 1e-6 } else { 1e-10 };
+        let part = match (items, kind) {
+            (Items::Ellipsoids, ScalarKind::F64) => 1e-6,
+            (Items::Ellipsoids, ScalarKind::F32) => 1e-3 * (extents.len() as f64).sqrt(),
+            _ => 1e-10,
+        };
         self.is_thin(part * length(&extents) + self.rounding_of(&largest))
     }
 
@@ -144,18 +164,34 @@ impl<'a> HullTest<'a> {
     }
 
     fn is_thin(&self, allowed: f64) -> Result<(), Violation> {
-        match self.hull.distance <= allowed {
+        // A set whose extent is beyond the largest number is not known to be flat.
+        match self.hull.distance <= allowed && allowed.is_finite() {
             true => Ok(()),
             false => Err(Violation::NotFlat { distance: self.hull.distance, allowed }),
         }
     }
 }
 
-/// The length of a vector, whatever its size.
+/// The length of a vector, whatever its size; NaN if an entry is.
 pub(crate) fn length(x: &[f64]) -> f64 {
+    if x.iter().any(|v| v.is_nan()) {
+        return f64::NAN;
+    }
     let largest = x.iter().fold(0.0f64, |m, v| m.max(v.abs()));
     if largest == 0.0 || largest.is_infinite() {
         return largest;
     }
     largest * x.iter().map(|v| (v / largest).powi(2)).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_entry_is_dropped_from_a_length() {
+        assert_eq!(length(&[3e300, 0.0, -4e300]), 5e300);
+        assert_eq!(length(&[f64::NEG_INFINITY, 1.0]), f64::INFINITY);
+        assert!(length(&[1.0, f64::NAN]).is_nan() && length(&[f64::NAN, f64::INFINITY]).is_nan());
+    }
 }

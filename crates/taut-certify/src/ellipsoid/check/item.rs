@@ -1,8 +1,9 @@
 //! One row as a point, a ball or an ellipsoid {m + v : vvᵀ ⪯ S}.
 //!
-//! *Trap.* Rounding the entries of a singular S to numbers of u makes some of its eigenvalues negative, and no v has
-//! vvᵀ ⪯ S then. With D the diagonal of S, what is meant is taken to be {m + v : vvᵀ ⪯ S + 2τD} for the τ that
-//! [`Item::deficit`] finds: a few u where the entries are right to the last digit. Nothing else is added to any item.
+//! *Trap.* Rounding the entries of a singular S makes some of its eigenvalues negative, and no v has vvᵀ ⪯ S then. With D
+//! the diagonal of S, such a row stands for {m + v : vvᵀ ⪯ S + 2τD}, where τ is the least of the powers 2⁻⁵⁶, 2⁻⁵⁵, … with
+//! S + τD positive semidefinite, as factorising in doubled precision finds it. Enclosure and lower bound both take this one
+//! shape: two shapes would prove two answers that exclude each other.
 
 use taut_points::ScalarKind;
 
@@ -15,8 +16,16 @@ pub(crate) enum Item<'a> {
     Point(&'a [f64]),
     /// Centre and radius: S = r²I.
     Ball(&'a [f64], f64),
-    /// Centre and the lower triangle of S, row by row.
-    Ellipsoid(&'a [f64], &'a [f64]),
+    Ellipsoid(Shape<'a>),
+}
+
+/// An ellipsoid {m + v : vvᵀ ⪯ S + 2τD}.
+pub(crate) struct Shape<'a> {
+    center: &'a [f64],
+    /// The lower triangle of S, row by row.
+    lower: &'a [f64],
+    /// 2τ: 0 where S is known to be positive semidefinite, infinite where no τ ≤ 1 makes it so.
+    thickening: f64,
 }
 
 impl<'a> Item<'a> {
@@ -25,13 +34,17 @@ impl<'a> Item<'a> {
         match items {
             Items::Points => Item::Point(center),
             Items::Balls => Item::Ball(center, shape[0]),
-            Items::Ellipsoids => Item::Ellipsoid(center, shape),
+            Items::Ellipsoids => {
+                let thickening = thickening(shape, dim);
+                Item::Ellipsoid(Shape { center, lower: shape, thickening })
+            }
         }
     }
 
     pub(crate) fn center(&self) -> &'a [f64] {
         match self {
-            Item::Point(center) | Item::Ball(center, _) | Item::Ellipsoid(center, _) => center,
+            Item::Point(center) | Item::Ball(center, _) => center,
+            Item::Ellipsoid(shape) => shape.center,
         }
     }
 
@@ -40,33 +53,36 @@ impl<'a> Item<'a> {
         match self {
             Item::Point(_) => true,
             Item::Ball(_, radius) => *radius == 0.0,
-            Item::Ellipsoid(_, shape) => shape.iter().all(|&v| v == 0.0),
+            Item::Ellipsoid(shape) => shape.lower.iter().all(|&v| v == 0.0),
         }
     }
 
-    /// Entry (j, k) of S·s², for j ≥ k.
+    /// Entry (j, k) of S + 2τD times two powers of two, for j ≥ k.
     #[inline(always)]
-    pub(crate) fn shape<N: Field>(&self, j: usize, k: usize, scale: f64) -> N {
+    pub(crate) fn shape<N: Field>(&self, j: usize, k: usize, [first, second]: [f64; 2]) -> N {
         match self {
-            Item::Ball(_, radius) if j == k => {
-                let radius = N::of(radius * scale);
-                radius.times(&radius)
-            }
-            Item::Ellipsoid(_, shape) => {
-                N::of(shape[j * (j + 1) / 2 + k]).scaled(scale).scaled(scale)
+            Item::Ball(_, radius) if j == k => N::of(radius * first).times(&N::of(radius * second)),
+            Item::Ellipsoid(shape) => {
+                let entry = N::of(shape.lower[j * (j + 1) / 2 + k]).scaled(first).scaled(second);
+                match j == k && shape.thickening > 0.0 {
+                    true => entry.plus(&N::of(shape.thickening).times(&entry)),
+                    false => entry,
+                }
             }
             Item::Point(_) | Item::Ball(..) => N::of(0.0),
         }
     }
 
-    /// √Sⱼⱼ·s: how far the item reaches from its own centre along axis j. Rounded up.
+    /// √((1 + 2τ)Sⱼⱼ)·s: how far the item reaches from its own centre along axis j. Rounded up.
     pub(crate) fn width(&self, j: usize, scale: f64) -> f64 {
         let width = match self {
             Item::Point(_) => 0.0,
             Item::Ball(_, radius) => *radius,
-            Item::Ellipsoid(_, shape) => shape[j * (j + 3) / 2].sqrt(),
+            Item::Ellipsoid(shape) => {
+                (shape.lower[j * (j + 3) / 2] * (1.0 + shape.thickening)).sqrt()
+            }
         };
-        width * scale * (1.0 + 4.0 * U)
+        width * scale * (1.0 + 8.0 * U)
     }
 
     /// How far the item reaches from the centre of the frame, by coordinate, times s; rounded up.
@@ -77,52 +93,58 @@ impl<'a> Item<'a> {
         offset.iter().enumerate().map(reach).collect()
     }
 
-    /// A τ such that S + τD is positive semidefinite, D being the diagonal of S: 0 where S is known to be.
-    ///
-    /// Rows and columns are brought to sizes of about 1 by powers of two, S′ = PSP and D′ = PDP. The pivots of
-    /// S′ + (τ − e)D′ being positive proves the claim, as factorising is off by less than e·D′. The τ found is at most
-    /// four times the least and 16du more, so that who knows eigenvalues in plain `f64` need not find it exactly.
-    pub(crate) fn deficit(&self) -> f64 {
-        let Item::Ellipsoid(center, shape) = self else { return 0.0 };
-        let dim = center.len();
-        let width = |j: usize| shape[j * (j + 3) / 2].sqrt();
-        let wide: Vec<usize> = (0..dim).filter(|&j| width(j) > 0.0).collect();
-        let n = wide.len();
-        let mut lower = Vec::with_capacity(n * (n + 1) / 2);
-        for (a, &j) in wide.iter().enumerate() {
-            for &k in &wide[..=a] {
-                let (j, k, entry) =
-                    (j.max(k), j.min(k), shape[j.max(k) * (j.max(k) + 1) / 2 + j.min(k)]);
-                lower.push(entry / power_of_two_below(width(j)) / power_of_two_below(width(k)));
-            }
-        }
-        if is_semidefinite_by::<f64>(&lower, n, 0.0)
-            || is_semidefinite_by::<DoubleDouble>(&lower, n, 0.0)
-        {
-            return 0.0;
-        }
-        let mut tau = U / 8.0;
-        while !is_semidefinite_by::<DoubleDouble>(&lower, n, tau) {
-            tau *= 2.0;
-            if tau > 1.0 {
-                return f64::INFINITY;
-            }
-        }
-        2.0 * tau + 16.0 * n as f64 * U
-    }
-
     /// Refuses negative radii, and shapes with negative eigenvalues beyond what rounding of entries of this kind explains.
     pub(crate) fn is_valid(&self, row: u64, kind: ScalarKind) -> Result<(), Violation> {
         match self {
             Item::Ball(_, value) if *value < 0.0 => {
                 Err(Violation::NegativeRadius { row, value: *value })
             }
-            Item::Ellipsoid(center, shape) if !is_semidefinite(shape, center.len(), kind) => {
-                Err(Violation::NegativeShape { row })
+            Item::Ellipsoid(Shape { thickening: 0.0, .. }) => Ok(()),
+            Item::Ellipsoid(shape) => {
+                let is_valid = shape.thickening.is_finite()
+                    && is_semidefinite(shape.lower, shape.center.len(), kind);
+                if is_valid { Ok(()) } else { Err(Violation::NegativeShape { row }) }
             }
             _ => Ok(()),
         }
     }
+}
+
+/// 2τ for the lower triangle of S, row by row.
+///
+/// Rows and columns are brought to sizes of about 1 by powers of two, S′ = PSP and D′ = PDP. The pivots of S′ + (τ − e)D′
+/// being positive proves that S + τD is positive semidefinite, as factorising is off by less than e·D′.
+fn thickening(shape: &[f64], dim: usize) -> f64 {
+    let diagonal = |j: usize| shape[j * (j + 3) / 2];
+    let wide: Vec<usize> = (0..dim).filter(|&j| diagonal(j) > 0.0).collect();
+    let zeros = (0..dim).filter(|&j| diagonal(j) <= 0.0);
+    // Beside a diagonal entry of 0 nothing else may stand in its row and column, and none may be negative.
+    let has_other =
+        |j: usize| (0..dim).any(|k| shape[j.max(k) * (j.max(k) + 1) / 2 + j.min(k)] != 0.0);
+    if zeros.into_iter().any(has_other) {
+        return f64::INFINITY;
+    }
+    let powers: Vec<f64> = wide.iter().map(|&j| power_of_two_below(diagonal(j).sqrt())).collect();
+    let n = wide.len();
+    let mut lower = Vec::with_capacity(n * (n + 1) / 2);
+    for (a, &j) in wide.iter().enumerate() {
+        for (b, &k) in wide[..=a].iter().enumerate() {
+            lower.push(shape[j * (j + 1) / 2 + k] / powers[a] / powers[b]);
+        }
+    }
+    if is_semidefinite_by::<f64>(&lower, n, 0.0)
+        || is_semidefinite_by::<DoubleDouble>(&lower, n, 0.0)
+    {
+        return 0.0;
+    }
+    let mut tau = U / 8.0;
+    while !is_semidefinite_by::<DoubleDouble>(&lower, n, tau) {
+        tau *= 2.0;
+        if tau > 1.0 {
+            return f64::INFINITY;
+        }
+    }
+    2.0 * tau
 }
 
 /// Whether the pivots of S + (τ − e)D are positive, for a lower triangle with diagonal entries in [1, 4].
@@ -194,20 +216,23 @@ mod tests {
         }
     }
 
-    /// Of a matrix of two rows and correlation 1 + τ, τ is the least that helps.
+    /// For a matrix of two rows and correlation 1 + δ, the least τ that helps is δ.
     #[test]
-    fn the_deficit_is_that_of_the_least_eigenvalue() {
-        for (shape, tau) in [
+    fn the_thickening_is_that_of_the_least_eigenvalue() {
+        for (shape, least) in [
             ([1.0, 0.5, 1.0], 0.0),
             ([1e300, 0.0, 1e-300], 0.0),
             ([0.0, 0.0, 3.0], 0.0),
             ([1.0, 1.0 + 1e-9, 1.0], 1e-9),
             ([4e200, 2.0 * (1.0 + 3e-12), 1e-200], 3e-12),
         ] {
-            let found = Item::Ellipsoid(&[0.0, 0.0], &shape).deficit();
-            assert!(found >= tau && found <= 4.1 * tau, "{shape:?}: {found}");
+            let found = thickening(&shape, 2);
+            assert!(found >= 2.0 * least && found <= 4.0 * least, "{shape:?}: {found}");
         }
         // Singular to the last bit, which no factorisation in rounded numbers shows.
-        assert!(Item::Ellipsoid(&[0.0, 0.0], &[4.0, 2.0, 1.0]).deficit() <= 33.0 * U);
+        assert_eq!(thickening(&[4.0, 2.0, 1.0], 2), U / 4.0);
+        for bad in [[-1.0, 0.0, 1.0], [0.0, 1e-9, 1.0], [0.0, 0.0, -1e-9]] {
+            assert_eq!(thickening(&bad, 2), f64::INFINITY, "{bad:?}");
+        }
     }
 }

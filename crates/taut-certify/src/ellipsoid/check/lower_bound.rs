@@ -15,33 +15,29 @@
 //! factorised in place of W, which makes the determinant smaller. Then −½ log det W ≤ −½ Σ log Dᵢ.
 //! *Reference.* Todd, Minimum-Volume Ellipsoids, SIAM 2016, chapter 2.
 
-use taut_points::{Monitor, PointSource, ReadError, Rows, Scratch};
+use taut_points::{Monitor, ReadError};
 
 use super::super::EllipsoidCertificate;
 use super::frame::{Frame, power_of_two_below};
 use super::item::Item;
 use crate::CheckError;
 use crate::arithmetic::{DoubleDouble, Field, Ring, U, factorise};
+use crate::hashed_pass::KeptRows;
 
 /// −½ log det W, rounded up; infinite where W is singular. Every row is already known to be valid and inside, so that it
 /// is not negative but for the excess.
 pub(super) fn gap(
     frame: &Frame<'_>,
     certificate: &EllipsoidCertificate,
-    source: &dyn PointSource,
+    support: &KeptRows,
     monitor: &Monitor<'_>,
 ) -> Result<f64, CheckError> {
     let mut sums = Sums::new(frame.rank);
-    let mut scratch = Scratch::new();
     for (position, (&id, &u)) in
         certificate.support.iter().zip(&certificate.multipliers).enumerate()
     {
         monitor.check().map_err(ReadError::from)?;
-        let row: Vec<f64> = match source.read(id..id + 1, &mut scratch)? {
-            Rows::F32(points) => points.row(0).iter().map(|&v| v.into()).collect(),
-            Rows::F64(points) => points.row(0).to_vec(),
-        };
-        let item = Item::of(certificate.items, frame.dim, &row);
+        let item = Item::of(certificate.items, frame.dim, support.row(id));
         let direction = certificate.directions.get(position).map_or(&[][..], Vec::as_slice);
         let (offset, errors) = touching(frame, &item, direction);
         let sizes: Vec<f64> = offset.iter().map(|x| x.rounded().abs()).collect();
@@ -53,11 +49,8 @@ pub(super) fn gap(
 
 /// A point of the item, less the centre, times s; and what that may be off by.
 ///
-/// With v = Sa and q = aᵀv it is m + v/√t for a t ≥ q, or m where that t is not known to be positive. Where S is positive
-/// semidefinite, t = q: the point that lies farthest in the direction a, since vᵀS⁺v = q. Where it is not, but N = S + 2τD
-/// is, the item stands for {m + w : wwᵀ ⪯ N}, and vvᵀ/t ⪯ N holds for t ≥ vᵀN⁻¹v. So t is the larger of q and vᵀN⁻¹v: of
-/// a direction in which S has no negative part, q but for rounding; of one in which q is what cancellation left, so much
-/// more that the point stays in the item.
+/// With v = Na and q = aᵀv, for the N = S + 2τD that the row stands for, it is the point m + v/√q that lies farthest in the
+/// direction a; or m where q is not known to be positive. As N is positive semidefinite, vvᵀ/q ⪯ N whatever a is.
 pub(crate) fn touching(
     frame: &Frame<'_>,
     item: &Item<'_>,
@@ -87,15 +80,6 @@ pub(crate) fn touching(
         errors.push(error);
         v.push(sum);
     }
-    let deficit = item.deficit();
-    if deficit > 0.0 {
-        let Some((t, t_error)) = scaled.square_within(deficit, &v, &errors) else {
-            return (offset, None);
-        };
-        if t.minus(&q).rounded() > 0.0 {
-            (q, q_error) = (t, t_error);
-        }
-    }
     let is_known = q.rounded() > 1e6 * q_error && q.rounded().is_finite();
     if !is_known {
         return (offset, None);
@@ -116,7 +100,7 @@ pub(crate) fn touching(
     (offset, Some(all))
 }
 
-/// P⁻¹SP⁻¹ for powers of two P that bring the diagonal to [1, 4], without the rows and columns of zeros.
+/// P⁻¹NP⁻¹ for powers of two P that bring the diagonal to [1, 4], without the rows and columns of zeros.
 struct Scaled {
     columns: Vec<usize>,
     powers: Vec<f64>,
@@ -136,8 +120,7 @@ impl Scaled {
         let mut lower = Vec::with_capacity(columns.len() * (columns.len() + 1) / 2);
         for (a, &j) in columns.iter().enumerate() {
             for (b, &k) in columns[..=a].iter().enumerate() {
-                let entry: DoubleDouble = item.shape(j, k, 1.0);
-                lower.push(entry.scaled(1.0 / powers[a]).scaled(1.0 / powers[b]));
+                lower.push(item.shape(j, k, [1.0 / powers[a], 1.0 / powers[b]]));
             }
         }
         Some(Scaled { columns, powers, lower })
@@ -159,46 +142,6 @@ impl Scaled {
         let a: Vec<f64> = each.map(|(&j, p)| direction[j] / longest * (p / widest)).collect();
         let longest = a.iter().fold(0.0f64, |m, v| m.max(v.abs()));
         if longest == 0.0 { a } else { a.iter().map(|v| v / longest).collect() }
-    }
-
-    /// vᵀN⁻¹v for N = S + 2τD, rounded up, and by how much at most; `None` where that cannot be told.
-    ///
-    /// With z = N⁻¹v, entries of v off by ε move it by at most 2zᵀε + εᵀN⁻¹ε, where N ⪰ τD. Factorising and solving are off
-    /// by eD in N with e far below τ, and move it by little more than e·zᵀDz. Sums of squares are as long as D allows.
-    fn square_within(
-        &self,
-        deficit: f64,
-        v: &[DoubleDouble],
-        errors: &[f64],
-    ) -> Option<(DoubleDouble, f64)> {
-        let n = v.len();
-        let mut factor = self.lower.clone();
-        for j in 0..n {
-            let at = j * (j + 3) / 2;
-            factor[at] = factor[at].plus(&factor[at].times(&DoubleDouble::of(2.0 * deficit)));
-        }
-        let e = 128.0 * ((n + 4) * (n + 4)) as f64 * DoubleDouble::ROUNDOFF;
-        if !factorise(&mut factor, n) || 16.0 * e > deficit {
-            return None;
-        }
-        let row = |i: usize| &factor[i * (i + 1) / 2..][..=i];
-        let mut z: Vec<DoubleDouble> = Vec::with_capacity(n);
-        let mut square = DoubleDouble::of(0.0);
-        for (i, v) in v.iter().enumerate() {
-            let value = z.iter().zip(row(i)).fold(*v, |rest, (t, l)| rest.minus(&t.times(l)));
-            z.push(value);
-            square = square.plus(&value.times(&value).over(&row(i)[i]));
-        }
-        for i in (0..n).rev() {
-            let known = (i + 1..n)
-                .fold(z[i].over(&row(i)[i]), |rest, j| rest.minus(&row(j)[i].times(&z[j])));
-            z[i] = known;
-        }
-        let length = 2.0 * z.iter().map(|z| z.rounded().powi(2)).sum::<f64>().sqrt();
-        let moved = errors.iter().map(|e| e * e).sum::<f64>().sqrt();
-        let error = 4.0 * (e * length * length + length * moved + moved * moved / deficit)
-            + 64.0 * n as f64 * DoubleDouble::ROUNDOFF * square.rounded();
-        Some((square.plus(&DoubleDouble::of(error)), 2.0 * error))
     }
 }
 
@@ -287,8 +230,10 @@ impl Sums {
         let rank = self.rank as f64;
         let of_sums = (2 * self.count + 32) as f64 * DoubleDouble::ROUNDOFF * self.size;
         let of_factors = (4 * self.rank + 16) as f64 * DoubleDouble::ROUNDOFF * self.size;
+        // What products of numbers far below 1 may lose, in each of the entries.
+        let underflow = (self.count + 4) as f64 * (rank + 4.0) * f64::MIN_POSITIVE;
         let weight = self.weight.rounded();
-        rank * (of_sums + of_factors + 2.0 * self.error) / weight
+        rank * (of_sums + of_factors + 2.0 * self.error + underflow) / weight
             * (1.0 + (self.count + 16) as f64 * U)
     }
 }

@@ -19,7 +19,7 @@
 //! Stat. Comput. 4(3), 1983, for the Newton steps.
 
 use super::enclosure::excess_of_square;
-use super::frame::Frame;
+use super::frame::{Frame, power_of_two_below};
 use super::item::Item;
 use crate::arithmetic::{DoubleDouble, Field, U, factorise};
 
@@ -65,33 +65,42 @@ struct Shape<N> {
 impl<N: Field> Shape<N> {
     fn of(frame: &Frame<'_>, item: &Item<'_>) -> Self {
         let (n, dim) = (frame.rank, frame.dim);
-        let entry = |j: usize, k: usize| item.shape::<N>(j.max(k), j.min(k), frame.scale);
+        // Axis by axis in the unit of the item: S·s² may overflow where the axes of F differ by many orders.
+        let powers: Vec<f64> = (0..dim).map(|j| power_of_two_below(item.width(j, 1.0))).collect();
+        let widths: Vec<f64> = (0..dim).map(|j| item.width(j, 1.0 / powers[j])).collect();
+        let entry = |j: usize, k: usize| {
+            let (j, k) = (j.max(k), j.min(k));
+            item.shape::<N>(j, k, [1.0 / powers[j], 1.0 / powers[k]])
+        };
         let shape: Vec<N> = (0..dim * dim).map(|at| entry(at / dim, at % dim)).collect();
-        let widths: Vec<f64> = (0..dim).map(|j| item.width(j, frame.scale)).collect();
         let mut lower = Vec::with_capacity(n * (n + 1) / 2);
         let mut products = vec![N::of(0.0); n * dim];
+        let factor: Vec<f64> = (0..n).flat_map(|a| in_units(frame, a, &powers)).collect();
         let (mut trace, mut sizes) = (0.0, 0.0);
         for a in 0..n {
             let product = &mut products[a * dim..(a + 1) * dim];
-            let (row, span) = frame.row(a);
-            for (&f, j) in row.iter().zip(span.clone()) {
-                let f = N::of(f);
+            let span = frame.row(a).1;
+            for j in span.clone() {
+                let f = N::of(factor[a * dim + j]);
                 for (sum, s) in product.iter_mut().zip(&shape[j * dim..(j + 1) * dim]) {
                     *sum = sum.plus(&f.times(s));
                 }
             }
             for b in 0..=a {
-                let (row, span) = frame.row(b);
+                let span = frame.row(b).1;
+                let row = &factor[b * dim..][span.clone()];
                 let terms = row.iter().zip(&products[a * dim..(a + 1) * dim][span]);
                 lower.push(terms.fold(N::of(0.0), |sum, (&f, p)| sum.plus(&N::of(f).times(p))));
             }
             trace += lower[lower.len() - 1].rounded();
-            let size: f64 = row.iter().zip(span).map(|(f, j)| f.abs() * widths[j]).sum();
+            let row = &factor[a * dim..(a + 1) * dim];
+            let size: f64 = row.iter().zip(&widths).map(|(f, width)| f.abs() * width).sum();
             sizes += size * size;
         }
         // |Sⱼₖ| ≤ √(SⱼⱼSₖₖ), so no sum of sizes in the entry (a, b) exceeds the product of two of these.
-        let error = (2 * dim + 16) as f64 * N::ROUNDOFF * sizes + f64::MIN_POSITIVE;
-        let trace = trace.max(0.0) * (1.0 + (n + 8) as f64 * U) + n as f64 * error;
+        let error = (2 * dim + 20) as f64 * N::ROUNDOFF * sizes + f64::MIN_POSITIVE;
+        let trace = if trace.is_nan() { f64::INFINITY } else { trace.max(0.0) };
+        let trace = trace * (1.0 + (n + 8) as f64 * U) + n as f64 * error;
         Shape { n, lower, trace, error }
     }
 
@@ -144,6 +153,18 @@ impl<N: Field> Shape<N> {
         let excess = mu.minus(&N::of(1.0)).plus(&mu.times(&square).times(&N::of(rounding)));
         excess_of_square(excess, n)
     }
+}
+
+/// Row a of F for coordinates that are divided by these powers of two.
+fn in_units(frame: &Frame<'_>, a: usize, powers: &[f64]) -> Vec<f64> {
+    let exponent = |power: f64| ((power.to_bits() >> 52) & 0x7ff) as i32 - 1023;
+    let scale = exponent(frame.scale);
+    let in_unit = |(f, &power): (&f64, &f64)| {
+        // Both powers at once may leave the range where each half of their product does not.
+        let k = scale + exponent(power);
+        f * 2f64.powi(k / 2) * 2f64.powi(k - k / 2)
+    };
+    frame.full_row(a).iter().zip(powers).map(in_unit).collect()
 }
 
 /// μ where φ is least, or a little more; nothing that is proved depends on how good it is.

@@ -21,7 +21,7 @@ pub(super) struct Side {
 }
 
 /// The k of a number in [2ᵏ, 2ᵏ⁺¹), or a little less for subnormal ones; 0 for 0.
-fn exponent(value: f64) -> i32 {
+pub(super) fn exponent(value: f64) -> i32 {
     if value == 0.0 { 0 } else { ((value.to_bits() >> 52) & 0x7ff) as i32 - 1023 }
 }
 
@@ -64,7 +64,33 @@ impl Side {
         let slack_error = rounding * size + 2.0 * slack_lost + f64::MIN_POSITIVE;
         Side { normal, length, slack, normal_error, slack_error }
     }
+
+    /// The same half-space divided by the power 2ᵏ that brings |ã| to [1, 2), and k; `None` where |ã| is not known.
+    ///
+    /// Errors are at least the least normal number, so a length that is known is far above what underflows.
+    pub(super) fn normalised(&self) -> Option<(i32, Side)> {
+        let length = self.length.rounded();
+        let is_known = length > LEAST_KNOWN * self.normal_error && length.is_finite();
+        if !is_known {
+            return None;
+        }
+        let k = exponent(length);
+        let (half, rest) = (2f64.powi(-(k / 2)), 2f64.powi(-(k - k / 2)));
+        let scaled = |v: &DoubleDouble| v.scaled(half).scaled(rest);
+        let up = |error: f64| error * half * rest + f64::MIN_POSITIVE;
+        let side = Side {
+            normal: self.normal.iter().map(scaled).collect(),
+            length: scaled(&self.length),
+            slack: scaled(&self.slack),
+            normal_error: up(self.normal_error),
+            slack_error: up(self.slack_error),
+        };
+        Some((k, side))
+    }
 }
+
+/// How many times its error a length must be to count as known.
+const LEAST_KNOWN: f64 = 1e6;
 
 /// |ã|, whatever its size.
 fn length(normal: &[DoubleDouble]) -> DoubleDouble {

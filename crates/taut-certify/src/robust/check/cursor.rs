@@ -21,7 +21,7 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// Whether a row is listed just when it lies beyond the border, at 1.
+/// Refuses a list that does not name a row just when it lies beyond the border, at 1. NaN is on neither side.
 pub(super) fn compare(
     list: &'static str,
     is_listed: bool,
@@ -29,11 +29,11 @@ pub(super) fn compare(
     distance: f64,
     slack: f64,
 ) -> Result<(), Violation> {
-    let inside = distance <= 1.0 + slack;
-    if !is_listed && !inside {
+    let (is_inside, is_outside) = (distance <= 1.0 + slack, distance >= 1.0 - slack);
+    if !is_listed && !is_inside {
         return Err(lacks(list, row, distance));
     }
-    if is_listed && distance < 1.0 - slack {
+    if is_listed && !is_outside {
         return Err(Violation::Listed { list, problem: "names", row, distance });
     }
     Ok(())

@@ -2,15 +2,17 @@
 //!
 //! Each pass hashes what it reads, so that a source that changes between two of them is found out.
 
-use taut_points::{BlockHash, Monitor, PointSource, PointsHash, Rows, hash_block, map_blocks};
+use taut_points::{Monitor, PointSource, Rows};
 
 use super::super::{RobustCertificate, RobustEllipsoid, RobustMethod, Unweighted};
 use super::cursor::{Cursor, compare, lacks};
 use super::slack::Slack;
 use super::sums::{Metric, Sums};
 use crate::arithmetic::{DoubleDouble, Field, Ring, U};
+use crate::ellipsoid::check::enclosure::FAR_OUT;
 use crate::ellipsoid::check::frame::Frame;
 use crate::ellipsoid::check::hull::{HullTest, length};
+use crate::hashed_pass::{WantedRows, all_finite, hashed_pass};
 use crate::{CheckError, Violation};
 
 /// What the checker of ellipsoids grants at a border, from both sides.
@@ -61,20 +63,12 @@ impl Scan<'_> {
         monitor: &Monitor<'_>,
         block: impl Fn(u64, &Rows<'_>) -> Result<T, Violation> + Sync + Send,
     ) -> Result<Vec<T>, CheckError> {
-        let blocks = map_blocks(source, monitor, |first, rows| {
-            if let Some((row, column, value)) = rows.first_non_finite() {
-                let row = first + row as u64;
-                return Err(CheckError::from(Violation::NonFinite { row, column, value }));
-            }
-            Ok((hash_block(&rows), block(first, &rows)))
+        let (claimed, wanted) = (self.certificate.points_hash, WantedRows::none());
+        let (blocks, _) = hashed_pass(source, claimed, wanted, monitor, |first, rows| {
+            all_finite(first, rows)?;
+            Ok(block(first, rows))
         })?;
-        let hashes: Vec<BlockHash> = blocks.iter().map(|block| block.0).collect();
-        let found = PointsHash::of_blocks(source.len(), source.dim(), hashes);
-        if found != self.certificate.points_hash {
-            let claimed = self.certificate.points_hash.to_string();
-            return Err(Violation::Hash { claimed, found: found.to_string() }.into());
-        }
-        Ok(blocks.into_iter().map(|block| block.1).collect::<Result<_, _>>()?)
+        Ok(blocks.into_iter().collect::<Result<_, _>>()?)
     }
 
     /// Moments of the rows kept and of those not weighed out.
@@ -143,9 +137,7 @@ impl Scan<'_> {
     }
 
     fn is_on_hull(&self, row: &[f64]) -> bool {
-        let (Some(test), Some(hull)) = (self.hull, &self.answer.hull) else { return true };
-        let offset = self.frame.offset::<f64>(row);
-        length(&test.off(&offset)) <= hull.distance * self.frame.scale
+        self.hull.is_none_or(|hull| hull.is_within(row, self.frame))
     }
 
     /// Whether the rows flagged are those outside the ellipsoid or off the hull, as a user would find in `f64`. Returns by
@@ -176,13 +168,12 @@ impl Scan<'_> {
             return Ok(0.0);
         }
         let offset = self.frame.offset::<f64>(row);
-        let image = self.frame.image(&offset);
-        if image.iter().any(|y| !y.is_finite()) {
-            // So far out that the largest number is exceeded.
-            compare("flagged", is_flagged, id, f64::INFINITY, 0.0)?;
+        let norm = length(&self.frame.image(&offset));
+        let has_square = norm < FAR_OUT;
+        if !has_square {
+            compare("flagged", is_flagged, id, far_out(self.frame, row), 0.0)?;
             return Ok(0.0);
         }
-        let norm = length(&image);
         let sizes: Vec<f64> = offset.iter().map(|x| x.abs()).collect();
         let mut slack = self.frame.image_error::<f64>(&sizes, None) + 8.0 * U;
         if self.certificate.method == RobustMethod::Trim {
@@ -235,9 +226,13 @@ impl Scan<'_> {
                 let y = || self.frame.image(&self.frame.offset::<DoubleDouble>(&row));
                 let square = match around {
                     Around::Ellipsoid { frame, .. } => {
-                        length(&frame.image(&frame.offset::<f64>(&row))).powi(2)
+                        let norm = length(&frame.image(&frame.offset::<f64>(&row)));
+                        if norm < FAR_OUT { norm * norm } else { far_out(frame, &row) }
                     }
-                    Around::Moments(metric) => metric.square(&y()),
+                    Around::Moments(metric) => match metric.square(&y()) {
+                        square if square.is_nan() => far_out(self.frame, &row),
+                        square => square,
+                    },
                 };
                 found.take(id, is_out, square);
                 if !is_out && square.sqrt() < inside {
@@ -273,7 +268,7 @@ impl Distances {
     }
 
     fn take(&mut self, row: u64, is_out: bool, square: f64) {
-        if is_out && square < self.near.0 {
+        if is_out && (square < self.near.0 || square.is_nan()) {
             self.near = (square, row);
         }
         if !is_out && (square > self.far.0 || square.is_nan()) {
@@ -285,7 +280,7 @@ impl Distances {
         if other.far.0 > self.far.0 || other.far.0.is_nan() {
             self.far = other.far;
         }
-        if other.near.0 < self.near.0 {
+        if other.near.0 < self.near.0 || other.near.0.is_nan() {
             self.near = other.near;
         }
         self.inside += other.inside;
@@ -313,6 +308,11 @@ impl Distances {
             _ => Ok(()),
         }
     }
+}
+
+/// An infinite distance for a row that lies far outside; NaN, which is refused, for one of which nothing is known.
+fn far_out(frame: &Frame<'_>, row: &[f64]) -> f64 {
+    if frame.is_far_out(row) { f64::INFINITY } else { f64::NAN }
 }
 
 fn widen(most: &mut [f64], sizes: impl Iterator<Item = f64>) {

@@ -51,7 +51,8 @@ pub(super) fn check(
             let wanted = if a == b { 1.0 / border } else { 0.0 };
             // Entries of S are rounded, each relative to its deviations.
             let rounding = 8.0 * (dim + 4) as f64 * U * terms(&factor[a]) * terms(row);
-            let agrees = (entry.rounded() - wanted).abs() <= slack / border + rounding;
+            let tolerance = slack / border + rounding;
+            let agrees = (entry.rounded() - wanted).abs() <= tolerance && tolerance.is_finite();
             if !agrees {
                 let what = format!("entry ({a}, {b}) of FSF′");
                 return wrong(what, entry.rounded(), wanted);

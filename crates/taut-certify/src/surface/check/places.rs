@@ -44,10 +44,12 @@ pub(super) fn read(
     }
 }
 
-/// The distance of two points, rounded up.
+/// The distance of two points, rounded up; infinite where it is beyond the largest number.
 fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     let apart = (b[0] - a[0]).hypot(b[1] - a[1]).hypot(b[2] - a[2]);
-    if apart == 0.0 { 0.0 } else { (apart * (1.0 + 8.0 * f64::EPSILON)).min(f64::MAX) }
+    // Each of two roots of subnormal numbers may lose the least of them, which no factor makes up for.
+    let raised = (apart * (1.0 + 8.0 * f64::EPSILON)).next_up().next_up();
+    if a == b { 0.0 } else { raised }
 }
 
 impl Places {

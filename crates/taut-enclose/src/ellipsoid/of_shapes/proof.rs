@@ -18,10 +18,6 @@ use crate::shapes::reach::farthest;
 /// Items that reach this near the border, relatively, are measured again with twice the digits.
 const NEAR: f64 = 1e-8;
 
-/// What the claimed gap may lack of the proved one, for each dimension, where rounding has made an item indefinite: its
-/// eigenvalues, which say what its touching points are divided by, are those of plain `f64`.
-const INDEFINITE: f64 = 1e-13;
-
 impl Base {
     /// From multipliers to an answer: containment is measured with F as it will be returned.
     pub(super) fn prove(
@@ -67,9 +63,7 @@ impl Base {
             support.iter().flat_map(|(i, a, _)| map.touching(shapes, *i, a)).collect();
         let multipliers: Vec<f64> = support.iter().map(|entry| entry.2).collect();
         let lower = lower_gap(&images, &multipliers, rank);
-        let is_indefinite = support.iter().any(|entry| shapes.is_indefinite(entry.0));
-        let doubt = if is_indefinite { INDEFINITE } else { LOGARITHMS };
-        let gap = (lower + rank as f64 * (excess + doubt)).min(f64::MAX);
+        let gap = (lower + rank as f64 * (excess + LOGARITHMS)).min(f64::MAX);
         let hull = self.hull(shapes, &center);
         let log_volume = match self.directions {
             None => log_unit_ball(rank) - (0..rank).map(|a| factor[a * dim + a].ln()).sum::<f64>(),
