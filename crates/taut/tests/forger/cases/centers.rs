@@ -1,0 +1,79 @@
+//! Few centers of few rows: anywhere or at rows, with outliers, weights and assignments.
+
+use taut::enclose::CentersMethod;
+use taut::{CentersOptions, Items, Monitor, Placement, centers_of_source};
+
+use super::{Case, Input, Solved, cases, clouds, document};
+use crate::random::Random;
+
+/// Returns the cases of k centers.
+pub fn all() -> Vec<Case> {
+    let mut found = vec![];
+    for (dim, count) in [(1, 6), (2, 8), (3, 7)] {
+        let mut inputs = clouds::points(dim, count);
+        inputs.truncate(if dim == 2 { inputs.len() } else { 4 });
+        found.extend(cases(inputs, |input| solve(input, Items::Points, false)));
+    }
+    found.extend(cases(weighted(), |input| solve(input, Items::Points, true)));
+    found.extend(cases(balls(), |input| solve(input, Items::Balls, false)));
+    found
+}
+
+/// Returns rows of a point and a last number above 0.
+fn rows(random: &mut Random, dim: usize, n: usize, last: &dyn Fn(&mut Random) -> f64) -> Vec<f64> {
+    (0..n)
+        .flat_map(|_| {
+            let mut row: Vec<f64> = (0..dim).map(|_| random.signed() * 5.0).collect();
+            row.push(last(random));
+            row
+        })
+        .collect()
+}
+
+fn weighted() -> Vec<Input> {
+    let mut random = Random::new("weighted", 0);
+    let plain = rows(&mut random, 2, 7, &|random| 0.5 + 2.0 * random.unit());
+    let whole = rows(&mut random, 2, 6, &|random| random.between(1, 4) as f64);
+    let wide = rows(&mut random, 1, 6, &|random| 10f64.powi(random.between(-9, 9) as i32));
+    vec![
+        Input::new("weights", plain, 3),
+        Input::new("whole weights", whole, 3),
+        Input::new("weights of all sizes", wide, 2),
+    ]
+}
+
+fn balls() -> Vec<Input> {
+    let mut random = Random::new("balls to cover", 0);
+    let plain = rows(&mut random, 2, 7, &|random| random.unit());
+    let large = rows(&mut random, 2, 6, &|random| 6.0 * random.unit());
+    let tiny: Vec<f64> = plain.iter().map(|x| x * 1e-300).collect();
+    vec![
+        Input::new("balls to cover", plain, 3),
+        Input::new("large balls to cover", large, 3),
+        Input::new("balls of 1e-300 to cover", tiny, 3),
+    ]
+}
+
+fn solve(input: &Input, items: Items, weights: bool) -> Vec<Solved> {
+    let base = CentersOptions { epsilon: 1e-9, weights, ..Default::default() };
+    let rows = CentersOptions { placement: Placement::Rows, ..base };
+    let ways = [
+        ("two", 2, base),
+        ("three", 3, CentersOptions { assignment: true, ..base }),
+        ("two, loosely", 2, CentersOptions { epsilon: 0.3, ..base }),
+        ("two, without one", 2, CentersOptions { outliers: 1, ..base }),
+        ("four, without two", 4, CentersOptions { outliers: 2, ..base }),
+        ("two of the rows", 2, rows),
+        ("one of the rows, without two", 1, CentersOptions { outliers: 2, ..rows }),
+        ("two, one by one", 2, CentersOptions { method: CentersMethod::FarthestFirst, ..base }),
+        ("two of a stream", 2, CentersOptions { method: CentersMethod::Stream, ..base }),
+    ];
+    ways.into_iter()
+        .map(|(way, k, options)| {
+            let monitor = Monitor::silent();
+            let found =
+                input.with(|source| centers_of_source(source, items, k, &options, &monitor));
+            (format!("{way} centers"), found.ok().map(|found| document(&found)))
+        })
+        .collect()
+}

@@ -1,0 +1,19 @@
+//! Delaunay triangulations in the plane and in space.
+
+use taut::{DelaunayOptions, Monitor, delaunay_of_source};
+
+use super::{Case, cases, clouds, document};
+
+/// Returns the cases of triangulations.
+pub fn all() -> Vec<Case> {
+    let mut found = vec![];
+    for (dim, count) in [(2, 14), (3, 10)] {
+        found.extend(cases(clouds::points(dim, count), |input| {
+            let options = DelaunayOptions::default();
+            let found =
+                input.with(|source| delaunay_of_source(source, &options, &Monitor::silent()));
+            vec![("delaunay".to_owned(), found.ok().map(|found| document(&found)))]
+        }));
+    }
+    found
+}

@@ -1,0 +1,74 @@
+//! Forged answers against the checkers, and exact oracles that judge what the checkers let pass.
+//!
+//! `cargo test -p taut --test forger -- --nocapture` makes 10⁴ forgeries of each kind of answer and prints what came of
+//! them; `TAUT_FORGERIES=100000` makes so many of each kind, and `TAUT_FORGER_REASONS=1` lists why they were refused.
+#![allow(unreachable_pub)] // modules of one test binary
+
+mod attack;
+mod attack_files;
+mod cases;
+mod forge;
+mod oracle;
+mod random;
+
+use attack::attack;
+
+#[test]
+fn no_false_ball_is_accepted() {
+    attack("ball", &cases::ball::all()).report("ball");
+}
+
+#[test]
+fn no_false_centers_are_accepted() {
+    attack("centers", &cases::centers::all()).report("centers");
+}
+
+#[test]
+fn no_false_order_is_accepted() {
+    attack("order", &cases::order::all()).report("order");
+}
+
+#[test]
+fn no_false_triangulation_is_accepted() {
+    attack("triangulation", &cases::triangulation::all()).report("triangulation");
+}
+
+#[test]
+fn no_false_curve_is_accepted() {
+    attack("curve", &cases::curve::all()).report("curve");
+}
+
+#[test]
+fn no_false_surface_is_accepted() {
+    attack("surface", &cases::surface::all()).report("surface");
+}
+
+#[test]
+fn no_false_ellipsoid_is_accepted() {
+    attack("ellipsoid", &cases::ellipsoid::all()).report("ellipsoid");
+}
+
+#[test]
+fn no_false_inscribed_ellipsoid_is_accepted() {
+    attack("inscribed", &cases::inscribed::all()).report("inscribed");
+}
+
+#[test]
+fn no_false_robust_ellipsoid_is_accepted() {
+    attack("robust", &cases::robust::all()).report("robust");
+}
+
+#[test]
+fn no_false_sort_is_accepted() {
+    attack_files::attack("sort", &cases::files::sorts()).report("sort");
+}
+
+#[test]
+fn no_false_transpose_is_accepted() {
+    attack_files::attack("transpose", &cases::files::transposes()).report("transpose");
+}
+
+#[test]
+fn no_false_sample_is_accepted() {
+    attack_files::attack("sample", &cases::files::samples()).report("sample");
+}

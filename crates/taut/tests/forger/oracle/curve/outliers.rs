@@ -1,0 +1,153 @@
+//! Whether outliers of curves whose vertices are rows could be the samples of a curve that was missed.
+
+use std::collections::HashSet;
+use std::f64::consts::PI;
+
+use taut::Curve;
+
+use super::lists::key;
+use super::planar::Point;
+use super::{Edge, Judged, ensure};
+
+/// The most of the rows that may be outliers.
+const MOST: f64 = 0.2;
+
+/// Outliers that may be linked, and how near two that are linked lie, over the gap that 95 of 100 samples have at most.
+const CLUSTER_MOST: usize = 9;
+const LINK: f64 = 1.5;
+
+/// Fewest outliers of which it is asked whether they lie nearer to each other than chance would put them, and how near.
+const FEWEST: usize = 8;
+const NEAR_LEAST: f64 = 0.75;
+
+/// Circles in which chance puts so many, and ln of how seldom it may fill one of them so.
+const EXPECTED: [f64; 7] = [0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
+const SELDOM: f64 = 6.0;
+
+/// Relative error of a distance or a threshold.
+const ROUNDING: f64 = 1e-9;
+
+/// Distinct outliers with their first rows, and what is known of them.
+pub(super) struct Outliers {
+    all: Vec<(u64, Point)>,
+    /// Distinct rows, outliers among them.
+    rows: u64,
+    link: f64,
+    /// Their mean distance from the next, over what chance makes it.
+    near: f64,
+    /// By how much the fullest circle is fuller than chance makes it, over the most that is granted.
+    fullest: f64,
+}
+
+impl Outliers {
+    /// `lengths` are those of the edges, ascending.
+    pub(super) fn of(
+        curve: &Curve,
+        rows: &[Point],
+        scaled: impl Fn(Point) -> Point,
+        edges: &[Edge],
+        lengths: &[f64],
+    ) -> Result<Self, String> {
+        let (mut seen, mut all, mut others) = (HashSet::new(), vec![], HashSet::new());
+        for (row, &p) in (0u64..).zip(rows) {
+            if curve.outliers.binary_search(&row).is_err() {
+                others.insert(key(p));
+            } else if seen.insert(key(p)) {
+                all.push((row, scaled(p)));
+            }
+        }
+        let usual = lengths.get(lengths.len() * 19 / 20).copied().unwrap_or(0.0);
+        let mut outliers = Outliers {
+            rows: (all.len() + others.len()) as u64,
+            all,
+            link: LINK * usual,
+            near: f64::INFINITY,
+            fullest: 0.0,
+        };
+        let many = outliers.all.len() as f64;
+        if outliers.all.len() >= FEWEST {
+            let places = || {
+                let of_edges = edges.iter().flat_map(|edge| edge.ends);
+                of_edges.chain(outliers.all.iter().map(|&(_, p)| p))
+            };
+            let span = |k: usize| {
+                let of = || places().map(|p| p[k]);
+                of().fold(f64::MIN, f64::max) - of().fold(f64::MAX, f64::min)
+            };
+            let area = span(0) * span(1);
+            if !area.is_normal() {
+                return Err("the box around curves and outliers has no area in doubles".into());
+            }
+            let usual = 0.5 * (area / many).sqrt();
+            let most = (many * EXPECTED.len() as f64).ln() + SELDOM;
+            let (mut sum, mut fullest) = (0.0, 0.0f64);
+            for &(_, p) in &outliers.all {
+                let apart = || {
+                    let all = outliers.all.iter().map(|(_, q)| (p[0] - q[0]).hypot(p[1] - q[1]));
+                    all.filter(|&apart| apart > 0.0)
+                };
+                sum += apart().fold(4.0 * usual, f64::min);
+                for expected in EXPECTED {
+                    let reach = (expected * area / (PI * many)).sqrt();
+                    let count = apart().filter(|&apart| apart <= reach).count() as f64;
+                    if count > expected {
+                        let evidence = count * (count / expected).ln() - (count - expected);
+                        fullest = fullest.max(evidence / most);
+                    }
+                }
+            }
+            (outliers.near, outliers.fullest) = (sum / many / usual, fullest);
+        }
+        Ok(outliers)
+    }
+
+    pub(super) fn are_many(&self, outliers: u64, rows: u64) -> bool {
+        let is_so = outliers == self.all.len() as u64 && rows == self.rows;
+        is_so && outliers as f64 > MOST * rows as f64
+    }
+
+    /// Outliers linked with a given one, itself among them.
+    fn linked(&self, start: usize, link: f64) -> usize {
+        let mut found = vec![start];
+        let mut at = 0;
+        while at < found.len() {
+            let p = self.all[found[at]].1;
+            for (k, (_, q)) in self.all.iter().enumerate() {
+                if !found.contains(&k) && (p[0] - q[0]).hypot(p[1] - q[1]) <= link {
+                    found.push(k);
+                }
+            }
+            at += 1;
+        }
+        found.len()
+    }
+
+    pub(super) fn are_cluster(&self, row: u64, rows: usize) -> bool {
+        let start = self.all.iter().position(|one| one.0 == row);
+        let most = start.map_or(0, |start| self.linked(start, self.link * (1.0 + ROUNDING)));
+        rows > CLUSTER_MOST && rows <= most
+    }
+
+    /// How near they may be on average.
+    fn near_least(&self) -> f64 {
+        NEAR_LEAST.min(1.0 - 4.0 * 0.52 / (self.all.len() as f64).sqrt())
+    }
+
+    pub(super) fn are_gathered(&self, row: u64, rows: usize, near: f64) -> bool {
+        let is_gathered = self.near < self.near_least() * (1.0 + ROUNDING);
+        let is_told = (near - self.near).abs() <= ROUNDING * self.near;
+        let is_there = rows == self.all.len() && self.all.iter().any(|one| one.0 == row);
+        is_told && is_there && (is_gathered || self.fullest > 1.0 - ROUNDING)
+    }
+
+    /// None of the reasons holds.
+    pub(super) fn are_few(&self) -> Judged {
+        let count = self.all.len();
+        ensure(count as f64 <= MOST * self.rows as f64, || format!("{count} outliers"))?;
+        let is_cluster = |k: usize| self.linked(k, self.link * (1.0 - ROUNDING)) > CLUSTER_MOST;
+        ensure(!(0..count).any(is_cluster), || "a cluster of outliers".into())?;
+        let is_gathered = count >= FEWEST && self.near < self.near_least() * (1.0 - ROUNDING);
+        let is_full = self.fullest > 1.0 + ROUNDING;
+        ensure(!is_gathered && !is_full, || "outliers nearer to each other than by chance".into())
+    }
+}
