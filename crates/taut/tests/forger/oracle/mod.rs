@@ -144,9 +144,8 @@ impl<'a> CaseOracle<'a> {
                 let oracle =
                     self.inscribed.get_or_insert_with(|| InscribedOracle::new(values, *columns));
                 let mut verdict = *verdict;
-                if verdict.gap == f64::INFINITY {
-                    (verdict.upper, verdict.gap) = (f64::MAX, f64::MAX);
-                }
+                verdict.upper = verdict.upper.min(f64::MAX);
+                verdict.gap = verdict.gap.min(f64::MAX);
                 oracle.judge(found, &verdict)
             }
             (AnySolution::Order(found), AnyVerdict::Order(verdict)) => {
