@@ -17,9 +17,10 @@ pub enum Items {
     /// It is the set {m + v : vvᵀ ⪯ S}, which is {m + S^½ w : |w| ≤ 1}. S has the units of a covariance: the ball of
     /// radius r has S = r²I, and a point has S = 0. S must be positive semidefinite.
     ///
-    /// Rounding the entries of a singular S leaves some of its eigenvalues negative. Where S is not known to be positive
-    /// semidefinite, but S + τD is, with D the diagonal of S and τ the least of 2⁻⁵⁶, 2⁻⁵⁵, … for which it is, the row stands
-    /// for S + 2τD, for enclosure and lower bound alike. A τ beyond what rounding explains is refused.
+    /// Rounding the entries of a singular S leaves some of its eigenvalues negative. With D the diagonal of S, the row stands
+    /// for S itself where S − eD is positive definite, e = 64(d + 4)²·2⁻¹⁰⁰ for the d columns with a width; else for S + 2τD,
+    /// with τ the least of 2⁻⁵⁶, 2⁻⁵⁵, … for which S + (τ − e)D is, for enclosure and lower bound alike. A τ beyond what
+    /// rounding explains is refused.
     Ellipsoids,
 }
 

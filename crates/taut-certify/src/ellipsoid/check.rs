@@ -92,8 +92,8 @@ pub(crate) fn check(
         _ => {
             let below = error + (gap - enlarged).max(0.0);
             let above = error + enlarged;
-            let rounding = 4.0 * U * (value.abs() + below + above);
-            (value - (below + rounding), value + (above + rounding))
+            let rounding = |side: f64| 4.0 * U * (value.abs() + side);
+            (value - (below + rounding(below)), value + (above + rounding(above)))
         }
     };
     let twice = enclosed.excess * (2.0 + enclosed.excess);

@@ -41,8 +41,8 @@ pub(super) fn check(
         return Err(Violation::LogGap { claimed: certificate.gap, proved: gap }.into());
     }
     let LogVolume { value, error } = volume;
-    let rounding = 4.0 * U * (value.abs() + error + gap);
-    let (lower, upper) = (value - (error + rounding), value + (error + gap + rounding));
+    let rounding = |other: f64| 4.0 * U * (value.abs() + error + other);
+    let (lower, upper) = (value - (error + rounding(0.0)), value + (error + gap + rounding(gap)));
     Ok(InscribedVerdict { lower, upper, gap })
 }
 

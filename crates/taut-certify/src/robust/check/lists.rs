@@ -35,8 +35,9 @@ pub(super) fn check(
     number("the log-determinant", answer.log_det, true)?;
     number("the objective", certificate.objective, true)?;
     let is_trimmed = certificate.method == RobustMethod::Trim;
-    let most = if is_trimmed { 1.0 } else { 1f64.next_down() };
-    number("the level", certificate.level, certificate.level > 0.0 && certificate.level <= most)?;
+    let level = certificate.level;
+    let is_level = if is_trimmed { level == 1.0 } else { level > 0.0 && level < 1.0 };
+    number("the level", level, is_level)?;
     number("the quantile", certificate.cutoff, certificate.cutoff >= 0.0)?;
     number("the first factor", certificate.raw_scale, certificate.raw_scale > 0.0)?;
     number("the factor of the scatter", certificate.scale, certificate.scale >= 0.0)?;

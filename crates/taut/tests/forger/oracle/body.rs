@@ -1,8 +1,7 @@
 //! Rows as points, balls and ellipsoids {m + v : vvᵀ ⪯ N}, and how far they reach in the frame of an ellipsoid.
 //!
-//! *Shapes.* A ball has N = r²I, an ellipsoid N = S. Where rounding has made S indefinite, N = S + 2τD for its diagonal D and
-//! a τ with S + τD ⪰ 0. The documentation allows any from the least such number to four times that and 16du more: `least` has
-//! the former, and `most` twice the least of u/8, u/4, … that helps, and 16du more.
+//! *Shapes.* A ball has N = r²I, an ellipsoid N = S where S − eD is positive definite, for the diagonal D of S and
+//! e = 64(d + 4)²·2⁻¹⁰⁰; else N = S + 2τD for the least τ of 2⁻⁵⁶, 2⁻⁵⁵, … with S + (τ − e)D positive definite.
 //! *Reach.* With g = F(m − c) and A = FNFᵀ, each μ with μI − A positive definite proves |F(x − c)|² ≤ μ·(1 + gᵀ(μI − A)⁻¹g)
 //! for all points x of the body (S-lemma); the least of these is the maximum. For each t, w = At/√(tᵀAt) is the image of a
 //! point of the body less that of m, and |g + w|² a lower bound on the maximum.
@@ -14,9 +13,6 @@ use super::linear::{
     Factor, Matrix, Vector, Way, congruent, difference, dot, exact, image, squared_length,
 };
 
-/// A shape with S + 2⁻²⁰⁰·D positive definite counts as semidefinite.
-const SEMIDEFINITE: i64 = -200;
-
 /// One row.
 #[derive(Clone)]
 pub(super) struct Body {
@@ -25,25 +21,15 @@ pub(super) struct Body {
     pub(super) shape: Option<Shape>,
 }
 
-/// Between which shapes N lies.
+/// N.
 #[derive(Clone)]
 pub(super) struct Shape {
-    least: Matrix,
-    /// `None` where it is `least`.
-    most: Option<Matrix>,
+    matrix: Matrix,
 }
 
 impl Shape {
-    pub(super) fn least(&self) -> &Matrix {
-        &self.least
-    }
-
-    pub(super) fn most(&self) -> &Matrix {
-        self.most.as_ref().unwrap_or(&self.least)
-    }
-
-    fn map(&self, by: impl Fn(&Matrix) -> Matrix) -> Self {
-        Shape { least: by(&self.least), most: self.most.as_ref().map(by) }
+    pub(super) fn matrix(&self) -> &Matrix {
+        &self.matrix
     }
 
     /// `None` for a matrix that is far from semidefinite.
@@ -58,38 +44,25 @@ impl Shape {
             }
             Factor::of(&raised, Way::Proved).is_some()
         };
-        let one = Interval::integer(1);
-        if with(&one.scaled(SEMIDEFINITE)) {
-            return Some(Shape { least: matrix, most: None });
+        let n = wide.len() as i64;
+        let e = Interval::integer(64 * (n + 4) * (n + 4)).scaled(-100);
+        if with(&Interval::zero().minus(&e)) {
+            return Some(Shape { matrix });
         }
-        // The least τ, by doubling and halving.
-        let mut k = SEMIDEFINITE;
-        while !with(&one.scaled(k)) {
-            k += 1;
-            if k > 0 {
+        let mut tau = Interval::integer(1).scaled(-56);
+        let mut doublings = 0;
+        while !with(&tau.minus(&e)) {
+            tau = tau.scaled(1);
+            doublings += 1;
+            if doublings > 56 {
                 return None;
             }
         }
-        let (mut low, mut high) = (one.scaled(k - 1), one.scaled(k));
-        for _ in 0..30 {
-            let middle = low.plus(&high).scaled(-1);
-            if with(&middle) { high = middle } else { low = middle }
+        let mut raised = matrix;
+        for (j, row) in raised.iter_mut().enumerate() {
+            row[j] = row[j].plus(&row[j].times(&tau.scaled(1)));
         }
-        // The least of u/8, u/4, … that helps, doubled, and 16du.
-        let mut found = one.scaled(-56);
-        while !with(&found) {
-            found = found.scaled(1);
-        }
-        let more = Interval::integer(16 * wide.len() as i64).scaled(-53);
-        let widest = found.scaled(1).plus(&more);
-        let raised = |tau: &Interval| -> Matrix {
-            let mut raised = matrix.clone();
-            for (j, row) in raised.iter_mut().enumerate() {
-                row[j] = row[j].plus(&row[j].times(&tau.scaled(1)));
-            }
-            raised
-        };
-        Some(Shape { least: raised(&low), most: Some(raised(&widest)) })
+        Some(Shape { matrix: raised })
     }
 }
 
@@ -115,25 +88,18 @@ impl Body {
         Some(Body { center, shape: Some(Shape::of(matrix)?) })
     }
 
-    /// The body of the widest shape; `None` where that is the narrowest.
-    pub(super) fn widest(&self) -> Option<Self> {
-        let most = self.shape.as_ref()?.most.clone()?;
-        let shape = Some(Shape { least: most, most: None });
-        Some(Body { center: self.center.clone(), shape })
-    }
-
     /// The image under a linear map.
     pub(super) fn mapped(&self, by: &[Vector]) -> Self {
         Body {
             center: image(by, &self.center),
-            shape: self.shape.as_ref().map(|shape| shape.map(|s| congruent(by, s))),
+            shape: self.shape.as_ref().map(|shape| Shape { matrix: congruent(by, &shape.matrix) }),
         }
     }
 
-    /// The point that lies farthest in a direction, for the narrowest shape.
+    /// The point that lies farthest in a direction.
     pub(super) fn touching(&self, direction: &[Interval], way: Way) -> Option<Vector> {
         let Some(shape) = &self.shape else { return Some(self.center.clone()) };
-        let along = image(&shape.least, direction);
+        let along = image(&shape.matrix, direction);
         let length = dot(direction, &along).root()?;
         let steps = along.iter().map(|v| v.over(&length));
         let point = self.center.iter().zip(steps).map(|(m, step)| Some(way.keep(m.plus(&step?))));
@@ -141,19 +107,16 @@ impl Body {
     }
 }
 
-/// A body in the frame of an ellipsoid: g, and A for one of its shapes.
+/// A body in the frame of an ellipsoid: g and A.
 pub(super) struct Framed {
     pub(super) g: Vector,
     shape: Option<Matrix>,
 }
 
 impl Framed {
-    pub(super) fn of(factor: &[Vector], center: &[Interval], body: &Body, most: bool) -> Self {
+    pub(super) fn of(factor: &[Vector], center: &[Interval], body: &Body) -> Self {
         let g = image(factor, &difference(&body.center, center));
-        let shape = body
-            .shape
-            .as_ref()
-            .map(|shape| congruent(factor, if most { shape.most() } else { &shape.least }));
+        let shape = body.shape.as_ref().map(|shape| congruent(factor, &shape.matrix));
         Framed { g, shape }
     }
 

@@ -42,8 +42,6 @@ pub(crate) struct EllipsoidOracle {
     optimum: OnceLock<Option<Bracket>>,
     /// Weights of earlier hulls.
     weights: Mutex<Vec<Vector>>,
-    /// The oracle of the widest shapes that rounding explains, where some are not those of the rows.
-    widest: Option<Box<EllipsoidOracle>>,
 }
 
 impl EllipsoidOracle {
@@ -62,14 +60,8 @@ impl EllipsoidOracle {
         dim: usize,
         items: Items,
     ) -> Self {
-        let is_open = bodies.iter().flatten().any(|body| body.widest().is_some());
-        let widest = is_open.then(|| {
-            let widest = |body: &Body| body.widest().unwrap_or_else(|| body.clone());
-            let bodies = bodies.as_ref().map(|bodies| bodies.iter().map(widest).collect());
-            Box::new(EllipsoidOracle::of_bodies(bodies, rows.clone(), dim, items))
-        });
         let (optimum, weights) = (OnceLock::new(), Mutex::new(vec![]));
-        EllipsoidOracle { items, dim, bodies, rows, optimum, weights, widest }
+        EllipsoidOracle { items, dim, bodies, rows, optimum, weights }
     }
 
     fn whole(&self) -> Option<&Bracket> {
@@ -87,25 +79,7 @@ impl EllipsoidOracle {
             return Truth::False("an ellipsoid by itself leaves rows out".into());
         }
         self.claims(&mut claims, &solution.answer, &solution.certificate, verdict);
-        match (claims.truth(), &self.widest) {
-            // All that is said may be about the widest shapes.
-            (Truth::Undecided(why), Some(widest)) => match widest.judge(solution, verdict) {
-                Truth::True => Truth::True,
-                _ if widest.is_below(solution, verdict) => {
-                    Truth::False(format!("{why}; and of the widest shapes it is less as well"))
-                }
-                _ => Truth::Undecided(why),
-            },
-            (truth, _) => truth,
-        }
-    }
-
-    /// Whether the least log-volume, of full dimension, is below the lower end.
-    fn is_below(&self, solution: &Solution<Ellipsoid>, verdict: &EllipsoidVerdict) -> bool {
-        let (Some(optimum), Some(lower)) = (self.whole(), Interval::exact(verdict.lower)) else {
-            return false;
-        };
-        solution.answer.hull.is_none() && lower.at_most(&optimum.upper) == Some(false)
+        claims.truth()
     }
 
     /// Takes in the claims about an answer and its verdict.
@@ -306,7 +280,7 @@ fn enclosed(claims: &mut Claims, exactly: &Exact, bodies: &[Body], matrix: &[Vec
     let limit_of_matrix = one.plus(&exactly.matrix_excess);
     for (row, body) in bodies.iter().enumerate() {
         // The narrowest shape must be enclosed, whichever of those that rounding explains is meant.
-        let framed = Framed::of(&exactly.factor, &exactly.center, body, false);
+        let framed = Framed::of(&exactly.factor, &exactly.center, body);
         claims.holds(framed.is_within(&limit), || {
             let norm = squared_length(&framed.g).rounded().sqrt();
             format!("row {row} lies outside (its center at {norm:?})")
@@ -335,7 +309,7 @@ fn matrix_claim(
     let reach: Option<Vector> = offset
         .iter()
         .enumerate()
-        .map(|(j, x)| Some(x.absolute().plus(&shape.most()[j][j].root()?)))
+        .map(|(j, x)| Some(x.absolute().plus(&shape.matrix()[j][j].root()?)))
         .collect();
     let Some(reach) = reach else { return claims.undecided(format!("row {row} has no width")) };
     let mut bound = within.clone();
@@ -355,7 +329,7 @@ fn matrix_claim(
 
 /// Whether a point of the body that may be the farthest by F exceeds Q.
 fn exceeds_matrix(exactly: &Exact, body: &Body, matrix: &Matrix, limit: &Interval) -> bool {
-    let framed = Framed::of(&exactly.factor, &exactly.center, body, false);
+    let framed = Framed::of(&exactly.factor, &exactly.center, body);
     let directions = framed.upper().and_then(|upper| framed.touching(&upper)).unwrap_or_default();
     let exceeds = |point: Vector| {
         let offset = difference(&point, &exactly.center);

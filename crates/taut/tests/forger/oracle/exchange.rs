@@ -38,7 +38,7 @@ pub(super) fn bracket(bodies: &[Body]) -> Option<Bracket> {
         let (mut far, mut joining) = (Interval::zero(), vec![]);
         let limit = Interval::integer(rank as i64);
         for (index, body) in bodies.iter().enumerate() {
-            let framed = Framed::of(&frame, &trial.mean, body, true);
+            let framed = Framed::of(&frame, &trial.mean, body);
             let upper = framed.upper()?;
             let near = limit.minus(&limit.scaled(-30));
             if upper.at_most(&near) != Some(true) {
@@ -86,7 +86,7 @@ fn first_contacts(bodies: &[Body], rank: usize) -> Vec<Contact> {
             contacts.push(Contact { body, direction: vec![] });
             continue;
         };
-        for j in (0..rank).filter(|&j| shape.least()[j][j].is_positive()) {
+        for j in (0..rank).filter(|&j| shape.matrix()[j][j].is_positive()) {
             for sign in [1, -1] {
                 let unit = |k| Interval::integer(if k == j { sign } else { 0 });
                 contacts.push(Contact { body, direction: (0..rank).map(unit).collect() });

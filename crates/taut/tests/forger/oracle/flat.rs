@@ -81,7 +81,7 @@ pub(super) fn judge(
         let mut reach = subspace.squared_distance(&offset)?.upper().root()?;
         let mut granted = distance.plus(&squared_length(&offset).root()?.times(&part));
         if let Some(shape) = &body.shape {
-            let shape = shape.least();
+            let shape = shape.matrix();
             let trace = (0..dim).fold(Interval::zero(), |sum, j| sum.plus(&shape[j][j]));
             // tr S − tr G⁻¹BSBᵀ.
             let mut off = trace.clone();
@@ -129,7 +129,7 @@ fn allowed(bodies: &[Body], subspace: &Subspace, dim: usize, share: f64) -> Opti
         let (mut low, mut high): (Option<Interval>, Option<Interval>) = (None, None);
         for body in bodies {
             let width = match &body.shape {
-                Some(shape) => shape.least()[j][j].root()?,
+                Some(shape) => shape.matrix()[j][j].root()?,
                 None => Interval::zero(),
             };
             let (from, to) =

@@ -33,9 +33,9 @@ use super::flat;
 use super::interval::Interval;
 use super::linear::{Matrix, Vector, congruent, exact_rows};
 
-/// By how much the log-volume of an ellipsoid around the points kept may exceed the least one. A solver may be asked for any
-/// gap below 1, and the gap reached is told; beyond, the test for rows strictly inside says nothing.
-const LOOSE: f64 = 1.0;
+/// By how much the log-volume of an ellipsoid around the points kept may exceed the least one: with a wider gap nothing tells
+/// that no C-step leads on.
+const LOOSE: f64 = 0.01;
 /// Rows nearer than this to the border of the ellipsoid around the points kept may be on it.
 const ON_BORDER: f64 = 1e-6;
 /// The checker's least slack.

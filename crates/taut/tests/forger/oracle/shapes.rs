@@ -29,7 +29,7 @@ impl Shape {
         };
         let frame: Vec<Vec<Interval>> = (0..dim).map(unit).collect();
         let limit = Interval::exact(radius)?.square();
-        Framed::of(&frame, &center, &self.0, false).is_within(&limit)
+        Framed::of(&frame, &center, &self.0).is_within(&limit)
     }
 }
 

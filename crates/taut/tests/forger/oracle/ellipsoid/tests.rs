@@ -331,10 +331,9 @@ fn an_ellipsoid_around_an_indefinite_shape_holds_what_the_lower_bound_is_about()
     assert!(matches!(thin, Truth::False(_)), "{thin:?}");
     let wide = judge(4.0 * tau.sqrt(), 3.0);
     assert_eq!(wide, Truth::True, "{wide:?}");
-    // The widest shape that the documentation allows: 1024·u/8 is the first power that helps. The least log-volume around it
-    // is a true lower end, and a number above it is not.
-    let deficit = 2.0 * 128.0 * U + 32.0 * U;
-    let short = (2.0 * deficit - tau).sqrt() * (1.0 + 1e-9);
+    // The first power that helps is 128u. The least log-volume around S + 256uD is a true lower end, and a number above it
+    // is not.
+    let short = (256.0 * U - tau).sqrt() * (1.0 + 1e-9);
     assert_eq!(judge(short, 1e-8), Truth::True);
     let above = judge(short, -1e-8);
     assert!(matches!(above, Truth::False(_)), "{above:?}");
