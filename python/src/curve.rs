@@ -185,6 +185,8 @@ impl CurveCertificate {
 ///
 /// Attributes
 /// ----------
+/// rows, outliers : int
+///     How many rows there are, and how many of them were left out as outliers: nothing is claimed of these.
 /// band : float
 ///     The largest distance of a row that is no outlier from the curves, rounded up.
 /// simple : bool
@@ -199,6 +201,8 @@ impl CurveCertificate {
 ///     Of a tour, its length over the lower bound, less 1, rounded up.
 #[pyclass(frozen, get_all, module = "taut")]
 pub(crate) struct CurveVerdict {
+    rows: u64,
+    outliers: u64,
     band: f64,
     simple: bool,
     sampling_ratio: f64,
@@ -211,6 +215,8 @@ pub(crate) struct CurveVerdict {
 impl CurveVerdict {
     pub(crate) fn new(proved: &certify::CurveVerdict) -> Self {
         CurveVerdict {
+            rows: proved.rows,
+            outliers: proved.outliers,
             band: proved.band,
             simple: proved.is_simple,
             sampling_ratio: proved.sampling_ratio,
@@ -227,7 +233,9 @@ impl CurveVerdict {
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         let word = |yes: bool| if yes { "True" } else { "False" };
         let (certified, simple) = (word(self.certified), word(self.simple));
-        let band = float(py, self.band)?;
-        Ok(format!("CurveVerdict(certified={certified}, simple={simple}, band={band})"))
+        let (band, outliers, rows) = (float(py, self.band)?, self.outliers, self.rows);
+        Ok(format!(
+            "CurveVerdict(certified={certified}, simple={simple}, band={band}, outliers={outliers} of {rows})"
+        ))
     }
 }

@@ -291,6 +291,8 @@ impl SurfaceCertificate {
 ///
 /// Attributes
 /// ----------
+/// rows, outliers : int
+///     How many rows there are, and how many of them were left out as outliers: nothing is claimed of these.
 /// triangles, vertices, components, boundary_loops : int
 ///     How many there are.
 /// genus : int or None
@@ -306,6 +308,8 @@ impl SurfaceCertificate {
 ///     Where it is not, the first reason.
 #[pyclass(frozen, get_all, module = "taut")]
 pub(crate) struct SurfaceVerdict {
+    rows: u64,
+    outliers: u64,
     triangles: u64,
     vertices: u64,
     components: u64,
@@ -325,6 +329,8 @@ pub(crate) struct SurfaceVerdict {
 impl SurfaceVerdict {
     pub(crate) fn new(proved: &certify::SurfaceVerdict) -> Self {
         SurfaceVerdict {
+            rows: proved.rows,
+            outliers: proved.outliers,
             triangles: proved.triangles,
             vertices: proved.vertices,
             components: proved.components,
@@ -349,8 +355,9 @@ impl SurfaceVerdict {
         let word = |yes: bool| if yes { "True" } else { "False" };
         let (certified, closed) = (word(self.certified), word(self.closed));
         let displacement = float(py, self.displacement)?;
+        let (outliers, rows) = (self.outliers, self.rows);
         Ok(format!(
-            "SurfaceVerdict(certified={certified}, closed={closed}, displacement={displacement})"
+            "SurfaceVerdict(certified={certified}, closed={closed}, displacement={displacement}, outliers={outliers} of {rows})"
         ))
     }
 }

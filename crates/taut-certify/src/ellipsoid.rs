@@ -87,7 +87,8 @@ pub struct Ellipsoid {
 pub struct Hull {
     /// B, r orthonormal rows of d numbers that span the rows of `factor`; none when all points are one.
     pub basis: Vec<Vec<f64>>,
-    /// No point lies farther than this from the subspace: |(I − BᵀB)(x − c)| ≤ distance.
+    /// No point lies farther than this from the subspace, |(I − BᵀB)(x − c)| ≤ distance, but for rounding: how far they are
+    /// with that is [`EllipsoidVerdict::off_hull`].
     pub distance: f64,
 }
 
@@ -172,6 +173,9 @@ pub struct EllipsoidVerdict {
     pub excess: f64,
     /// By how much (x − c)ᵀQ(x − c) can exceed 1 at worst, Q being `matrix` as it stands.
     pub matrix_excess: f64,
+    /// No item is farther than this from the hull, rounded up: [`Hull::distance`] and what rounding adds to it; 0 where there
+    /// is no hull.
+    pub off_hull: f64,
     /// r, the dimension of the ellipsoid.
     pub rank: usize,
 }

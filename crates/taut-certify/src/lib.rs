@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | [`Ball`] | [`BallCertificate`] | every point is inside; no smaller ball than r/(1 + gap) holds them all |
 //! | [`Ellipsoid`] | [`EllipsoidCertificate`] | every point is inside; no ellipsoid of a log-volume less by more than the gap holds them all |
-//! | [`RobustEllipsoid`] | [`RobustCertificate`] | centre, scatter, factors and flags are those of the points kept; no C-step leads on from them; by `mve` and `trim`, no smaller ellipsoid holds them |
+//! | [`RobustEllipsoid`] | [`RobustCertificate`] | centre, scatter, factors and flags are those of the points kept; by `mcd`, no C-step leads on from them; by `mve` and `trim`, no much smaller ellipsoid holds them |
 //! | [`InscribedEllipsoid`] | [`InscribedCertificate`] | it lies in every half-space; no ellipsoid in the polytope has a log-volume larger by more than the gap |
 //! | [`Centers`] | [`CentersCertificate`] | every item that counts is within the radius of a centre; no k equal balls much smaller hold the core-set |
 //! | [`Curve`] | [`CurveCertificate`] | it meets neither itself nor others; every point but the outliers is within the band; whether sampling was dense enough |

@@ -5,7 +5,7 @@ use taut::points::PointSource;
 use taut::{Ellipsoid, EllipsoidMethod, EllipsoidVerdict, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, ellipsoid_figures};
 
-use crate::numbers::{count, counted, exact, gap, short};
+use crate::numbers::{count, counted, exact, gap};
 use crate::report::{Claims, Fact, Report, Tell, centre, gap_and_verified, inputs, noun, stopped};
 
 impl Tell for Report<'_, Ellipsoid> {
@@ -95,9 +95,9 @@ pub(crate) fn claims_of_ellipsoid(
     let bracket = format!("{} ≤ least log-volume ≤ {}", exact(verdict.lower), exact(verdict.upper));
     let dimension = Fact::proved("dimension", verdict.rank.to_string());
     let dimension = match &answer.hull {
-        Some(hull) => dimension.remark(format!(
+        Some(_) => dimension.remark(format!(
             "all lie within {} of a flat, and the bracket is about their projections to it",
-            short(hull.distance)
+            gap(verdict.off_hull)
         )),
         None => dimension,
     };

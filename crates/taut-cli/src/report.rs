@@ -126,7 +126,7 @@ pub(crate) fn inputs(items: Items, rows: u64, columns: usize) -> String {
     format!("{} in {dim}", counted(rows, noun(items)))
 }
 
-/// Which part of the rows a claim is about, where outliers are left out of it: "200 of 400 points; 200 (50 %) are …".
+/// Says which part of the rows a claim is about, where outliers are left out of it: "200 of 400 points; 200 (50 %) are …".
 pub(crate) fn without_outliers(used: u64, rows: u64, outliers: u64, place: &str) -> String {
     let about = match used == rows {
         true => format!("{} {place}", counted(rows, "point")),
@@ -144,9 +144,13 @@ fn plural(outliers: u64) -> &'static str {
 
 /// A number of rows and which part of all rows that is: "200 (50 %)".
 pub(crate) fn share(some: u64, all: u64) -> String {
+    if some == 0 {
+        return "none".to_owned();
+    }
     let percent = 100.0 * some as f64 / all.max(1) as f64;
     let percent = match percent {
         small if small < 0.1 => "less than 0.1".to_owned(),
+        nearly if some < all && nearly > 99.0 => format!("more than {:.0}", nearly.floor()),
         small if small < 10.0 => format!("{small:.1}"),
         large => format!("{large:.0}"),
     };

@@ -90,8 +90,13 @@ pub(crate) fn claims_of_robust(
     let mut facts = vec![
         Fact::proved("objective", exact(verdict.objective))
             .remark(format!("that of the points kept, within {:.0e}", verdict.slack)),
-        Fact::proved("local optimum", "yes").remark("no C-step leads on"),
-        Fact::evidence("optimum", "not judged").remark("other points kept might do better"),
+        match verdict.enclosure {
+            None => Fact::proved("local optimum", "yes").remark("no C-step leads on"),
+            Some(_) => Fact::evidence("local optimum", "yes").remark(
+                "no C-step leads on from the ellipsoid told, which is the smallest within the gap",
+            ),
+        },
+        Fact::new("optimum", "not judged").remark("other points kept might do better"),
         Fact::proved("kept", count(verdict.kept))
             .remark(format!("at least {} were to be kept", count(verdict.wanted))),
         Fact::proved("outliers", count(answer.flagged.len() as u64)).remark(flags),

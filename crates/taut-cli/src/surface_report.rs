@@ -164,7 +164,7 @@ pub(crate) fn claims_of_surface(found: &Solution<Surface>, verdict: &SurfaceVerd
     }
     let unused = &found.answer.unused;
     let lists = [
-        ("duplicates", unused.duplicates.len(), "equal to an earlier row"),
+        ("duplicates", unused.duplicates.len(), "in the place of an earlier row"),
         ("outliers", unused.outliers.len(), "left out: nothing is claimed of them"),
         ("inside", unused.interior.len(), "points that no triangle has, inside the surface"),
         ("unreferenced", unused.unreferenced.len(), "points that no triangle has"),

@@ -104,6 +104,7 @@ pub(crate) fn check(
         gap,
         excess: enclosed.excess,
         matrix_excess: if matrix_excess.is_nan() { f64::INFINITY } else { matrix_excess },
+        off_hull: enclosed.off_hull,
         rank: frame.rank,
     })
 }

@@ -40,8 +40,8 @@ use crate::{CheckError, Enclosure, Violation};
 /// Rows nearer than this to the border of the ellipsoid around the rows kept may be on it.
 const ON_BORDER: f64 = 1e-6;
 /// The largest gap in log-volume of the ellipsoid around the rows kept: with a looser one, too few rows are known to lie
-/// strictly inside to tell that no C-step leads on.
-const ENCLOSURE_GAP_MAX: f64 = 0.01;
+/// strictly inside to tell whether a C-step leads on. A little more than the 0.01 that solvers may be asked for.
+const ENCLOSURE_GAP_MAX: f64 = 0.011;
 /// A hull that was laid through some rows may be stated wider by this, so that it holds others as near to it.
 const WIDER: f64 = 4.0;
 /// What 1 − level may be off by beside its last digits: `level` and the probability of a quantile are numbers near 1.

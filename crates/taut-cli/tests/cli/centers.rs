@@ -123,7 +123,7 @@ fn centres_among_the_points_are_named_by_their_rows() {
     close(&found["answer"]["radius"], 1.0);
     desk.taut("verify centers.json towns.csv")
         .ends(0)
-        .says(&["\n  centres   2, among the points; of at most 2\n"]);
+        .says(&["\n  centres   2, among the points; proved: of at most 2\n"]);
 }
 
 #[test]
@@ -135,7 +135,9 @@ fn outliers_weights_and_balls_are_asked_for() {
         "no point that counts is farther",
         "\n  radius      1",
     ]);
-    desk.taut("verify out.json far.csv").ends(0).says(&["\n  left out  1; of at most 1 point\n"]);
+    desk.taut("verify out.json far.csv")
+        .ends(0)
+        .says(&["\n  left out  1 (14 %); proved: of at most 1 point\n"]);
     desk.put("heavy.csv", "x,w\n0,2\n3,1\n");
     desk.taut("centers heavy.csv -k 1 --weights --epsilon 1e-9 -o heavy.json")
         .ends(0)

@@ -88,7 +88,7 @@ fn answers_are_verified_and_lies_rejected() {
     desk.taut("curve islands.csv --method nn-crust -o curve.json").ends(0);
     desk.taut("verify curve.json islands.csv").ends(0).says(&[
         "Verified: 5 curves through ",
-        "\n  band      0; proved: no point but outliers is farther off\n",
+        "\n  band      0; proved: no point is farther off\n",
         "\n  simple    yes; proved: no two edges meet, by exact predicates\n",
         "\n  certified yes; evidence: sampled at ε ≤ 0.",
     ]);
@@ -152,7 +152,9 @@ fn tours_come_with_a_bound() {
         "\n  tour gap  ",
         "length over its lower bound, less 1\n",
     ]);
-    desk.taut("verify tour.json islands.csv --epsilon 0.1").ends(0).says(&[": a tour\n"]);
+    desk.taut("verify tour.json islands.csv --epsilon 0.1")
+        .ends(0)
+        .says(&[": a tour through 490 points in the plane\n"]);
     desk.taut("verify tour.json islands.csv --epsilon 1e-9").ends(1).says(&["a gap of "]);
     desk.taut("curve islands.csv --method tour --open").ends(0).says(&["in the plane: a path\n"]);
 }

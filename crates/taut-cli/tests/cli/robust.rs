@@ -131,7 +131,7 @@ fn exact_fits_are_reported() {
         "\n  exact fit  20 of 22 points in a flat of dimension 1; ",
         "\n  outliers   2; rows 21, 22\n",
     ]);
-    desk.taut("verify robust.json line.csv").ends(0).says(&["\n  dimension 1\n"]);
+    desk.taut("verify robust.json line.csv").ends(0).says(&["\n  dimension     1; proved\n"]);
 }
 
 #[test]
@@ -143,7 +143,7 @@ fn wrong_input_and_options_are_named() {
         ("points.csv --robust mcd --coverage 0.4", &["--coverage` is 0.4", "[0.5, 1]"]),
         ("points.csv --robust trim --coverage 0", &["--coverage` is 0", "(0, 1]"]),
         ("points.csv --robust mve --level 1", &["--level` is 1", "[0.5, 1)"]),
-        ("points.csv --robust mve --epsilon 0", &["--epsilon` is 0", "(0, 1)"]),
+        ("points.csv --robust mve --epsilon 0", &["--epsilon` is 0", "(0, 0.01]"]),
         ("points.csv --robust trim --level 0.9", &["--level", "trim"]),
         ("points.csv --coverage 0.9", &["--robust"]),
         ("points.csv --robust mad", &["mad", "mcd, mve, trim"]),

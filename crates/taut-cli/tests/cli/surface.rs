@@ -43,7 +43,7 @@ fn the_summary_names_every_number() {
         "each is a point of the input\n",
         "1; closed\n",
         "certified",
-        "yes; an oriented manifold of Delaunay triangles that meets itself nowhere\n",
+        "yes; proved: an oriented manifold of Delaunay triangles that meets itself nowhere\n",
         "method",
         "tree\n",
         "s; reading ",
@@ -218,8 +218,8 @@ fn a_verdict_names_the_share_of_rows_left_out() {
         document(&desk.text("both.json"))["certificate"]["points_hash"].clone();
     desk.put("forged.json", forged.to_string());
     desk.taut("verify forged.json both.csv").ends(0).says(&[
-        "through 800 of 1,600 points in space; 800 (50 %) left out as outliers\n",
+        "through 800 of 1600 points in space; 800 (50 %) left out as outliers\n",
         "800 (50 %); proved: left out: nothing is claimed of them\n",
-        "yes, of 800 of 1,600 points; proved: ",
+        "yes, of 800 of 1600 points; proved: ",
     ]);
 }

@@ -229,7 +229,10 @@ impl<'a> Sums<'a> {
             true => sigma / (slack_min + radicand.sqrt()) * (1.0 + 16.0 * U),
             false => slack_max,
         };
-        let by_root = (slack_max - self.root(moment, excess, slack)).max(0.0) * (1.0 + 8.0 * U);
+        let by_root = match self.root(moment, excess, slack) {
+            root if root.is_finite() => (slack_max - root).max(0.0) * (1.0 + 8.0 * U),
+            _ => slack_max,
+        };
         directly.min(by_root).min(self.slack_min * (1.0 + 8.0 * U))
     }
 

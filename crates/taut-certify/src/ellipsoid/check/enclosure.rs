@@ -35,6 +35,8 @@ pub(super) struct Enclosed {
     pub(super) excess: f64,
     /// How far items reach from c, by coordinate, times the scale of the frame; rounded up.
     pub(super) extents: Vec<f64>,
+    /// How far the farthest row lies off the hull, rounded up; 0 when there is none.
+    pub(super) off_hull: f64,
     /// From where to where the set reaches, by coordinate; −∞ to ∞ backwards when there is no hull.
     pub(super) lows: Vec<f64>,
     pub(super) highs: Vec<f64>,
@@ -134,7 +136,8 @@ impl<'a> Enclosure<'a> {
             let mut left_out = self.left_out_of(first, panel.rows()).peekable();
             for (row, point) in values.chunks_exact(dim).enumerate() {
                 if left_out.next_if_eq(&row).is_none() {
-                    hull.judge(first + row as u64, &Item::Point(point), self.frame)?;
+                    let off = hull.judge(first + row as u64, &Item::Point(point), self.frame)?;
+                    found.off_hull = found.off_hull.max(off);
                     found.reach(&Item::Point(point));
                 }
             }
@@ -176,7 +179,8 @@ impl<'a> Enclosure<'a> {
             }
             found.widen(&item.extents(self.frame));
             if let Some(hull) = &self.hull {
-                hull.judge(number, &item, self.frame)?;
+                let off = hull.judge(number, &item, self.frame)?;
+                found.off_hull = found.off_hull.max(off);
                 found.reach(&item);
             }
             found.take(number, reach::excess(self.frame, &item))?;
@@ -222,6 +226,7 @@ impl Enclosed {
     fn nothing(dim: usize) -> Self {
         Enclosed {
             excess: 0.0,
+            off_hull: 0.0,
             extents: vec![0.0; dim],
             lows: vec![f64::INFINITY; dim],
             highs: vec![f64::NEG_INFINITY; dim],
@@ -251,6 +256,7 @@ impl Enclosed {
 
     fn merge(&mut self, other: &Enclosed) {
         self.excess = self.excess.max(other.excess);
+        self.off_hull = self.off_hull.max(other.off_hull);
         self.widen(&other.extents);
         self.lows.iter_mut().zip(&other.lows).for_each(|(low, v)| *low = low.min(*v));
         self.highs.iter_mut().zip(&other.highs).for_each(|(high, v)| *high = high.max(*v));

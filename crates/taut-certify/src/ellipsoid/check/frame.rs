@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use super::super::Ellipsoid;
 use super::enclosure::FAR_OUT;
-use crate::arithmetic::{Field, U};
+use crate::arithmetic::{DoubleDouble, Field, Ring, U};
 
 /// More than what underflow can add to a sum of products.
 const UNDERFLOW: f64 = f64::from_bits((1023 - 900) << 52);
@@ -28,36 +28,65 @@ pub(crate) struct Frame<'a> {
     tilt: Tilt,
 }
 
-/// How far rows of F may lean out of a hull, and points lie off it: the claim is about projections to the hull, whose images
-/// F(x − c) misses by the product of the two.
+/// How far the rows of F lean out of a hull, and inputs lie off it. The claim is about projections to the hull: F(x − c) differs
+/// from the image of the projection of x by at most the product of the two.
 #[derive(Default)]
 struct Tilt {
-    /// The root of the sum of squares of the parts of the rows of F/s off the hull, at most.
+    /// The root of the sum of squares of |(I − BᵀB)f| over the rows f of F/s, rounded up. No part of f off the hull is longer,
+    /// whatever B lacks of being orthonormal.
     factor: f64,
-    /// The distance of points from the hull times s, beside a part of their offsets and widths.
+    /// The distance stated for the hull, times s.
     distance: f64,
-    part: f64,
+    /// What the checker grants beside that distance, as a part of offsets and of widths.
+    of_offset: f64,
+    of_width: f64,
 }
 
 impl Tilt {
     fn of(ellipsoid: &Ellipsoid, scale: f64) -> Self {
         let Some(hull) = &ellipsoid.hull else { return Tilt::default() };
         let rounding = span_rounding(ellipsoid.center.len(), ellipsoid.factor.len());
-        let square: f64 = ellipsoid.factor.iter().flatten().map(|f| (f / scale).powi(2)).sum();
+        let rows = ellipsoid.factor.iter();
+        let square: f64 = rows.map(|row| off_hull(&hull.basis, row, scale).powi(2)).sum();
         Tilt {
-            factor: rounding * square.sqrt() * (1.0 + 1e-9),
+            factor: square.sqrt() * (1.0 + 1e-9),
             distance: hull.distance * scale,
-            part: rounding.sqrt() * (1.0 + 1e-9),
+            // Plain arithmetic finds the distance of an input to as much again.
+            of_offset: 2.0 * rounding,
+            of_width: 2.0 * rounding.sqrt(),
         }
     }
 
-    /// What images miss for a point whose offset and width together have this length at most.
-    fn error(&self, reach: f64) -> f64 {
+    /// What images miss for an input whose offset and width have these lengths at most.
+    fn error(&self, offset: f64, width: f64) -> f64 {
         match self.factor == 0.0 {
             true => 0.0,
-            false => self.factor * (self.distance + self.part * (self.distance + reach)),
+            false => {
+                let beside = self.of_offset * offset + self.of_width * width;
+                self.factor * (self.distance + beside) * (1.0 + 1e-9)
+            }
         }
     }
+}
+
+/// |(I − BᵀB)f|/s for a row f of F, in doubled precision and rounded up.
+fn off_hull(basis: &[Vec<f64>], row: &[f64], scale: f64) -> f64 {
+    let of = |v: f64| DoubleDouble::of(v / scale);
+    let mut rest: Vec<DoubleDouble> = row.iter().map(|&f| of(f)).collect();
+    for direction in basis {
+        let along = direction.iter().zip(row).fold(DoubleDouble::of(0.0), |sum, (&b, &f)| {
+            sum.plus(&DoubleDouble::of(b).times(&of(f)))
+        });
+        for (rest, &b) in rest.iter_mut().zip(direction) {
+            *rest = rest.minus(&along.times(&DoubleDouble::of(b)));
+        }
+    }
+    let size: f64 = row.iter().map(|f| (f / scale).abs()).sum();
+    let steps = (basis.len() + 1) * (row.len() + 8);
+    let rounding = 4.0 * steps as f64 * DoubleDouble::ROUNDOFF * size;
+    let square: f64 = rest.iter().map(|v| v.rounded() * v.rounded()).sum();
+    // A row along the hull to the last bit has no part off it.
+    if square == 0.0 { 0.0 } else { square.sqrt() * (1.0 + 1e-9) + rounding }
 }
 
 /// 32(d + 4)√(r + 1)·u: what of a row of F, and of an offset, may appear to lie off a hull with a basis in `f64`.
@@ -158,7 +187,7 @@ impl<'a> Frame<'a> {
             let least = value.abs() - 4.0 * (self.dim + 8) as f64 * U * size - UNDERFLOW;
             square += least.max(0.0).powi(2);
         }
-        // Entries of F/s and of the offset are below 2, so that nothing overflows.
+        // Entries of the offset are below 2 and those of F/s below 2²⁵, so that nothing overflows.
         0.5 * square.log2() + f64::from(k) > FAR_OUT.log2() + 1.0 - self.scale.log2()
             && square > f64::MIN_POSITIVE
     }
@@ -181,8 +210,13 @@ impl<'a> Frame<'a> {
                 .sum();
             square += (error + UNDERFLOW) * (error + UNDERFLOW);
         }
-        let off_hull = self.tilt.error(sizes.iter().sum());
+        let off_hull = self.tilt.error(sizes.iter().sum(), 0.0);
         (square.sqrt() + off_hull) * (1.0 + (self.dim + self.rank + 16) as f64 * U)
+    }
+
+    /// What [`Frame::image_error`] lacks for points of an input that reaches so far from its center along the axes, times s.
+    pub(crate) fn width_error(&self, widths: f64) -> f64 {
+        self.tilt.error(widths, widths)
     }
 }
 

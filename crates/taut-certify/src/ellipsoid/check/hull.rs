@@ -69,13 +69,15 @@ impl<'a> HullTest<'a> {
         rest
     }
 
-    /// Whether the item is as near to the hull as it must be.
+    /// Checks that the item is as near to the hull as it must be; returns how far off it is at most.
+    ///
+    /// The distance as plain arithmetic finds it may exceed the stated one by rounding, and be off by as much again.
     pub(super) fn judge(
         &self,
         row: u64,
         item: &Item<'_>,
         frame: &Frame<'_>,
-    ) -> Result<(), Violation> {
+    ) -> Result<f64, Violation> {
         let offset = frame.offset::<f64>(item.center());
         let (mut distance, mut tolerance) = (length(&self.off(&offset)), length(&offset));
         if !item.is_point() {
@@ -87,7 +89,8 @@ impl<'a> HullTest<'a> {
         // Where either overflows nothing is known of how far the item lies off.
         let is_near = distance <= allowed && allowed.is_finite();
         if is_near {
-            return Ok(());
+            let proved = (distance + 2.0 * self.rounding * tolerance) * (1.0 + 16.0 * U);
+            return Ok((proved / frame.scale).next_up());
         }
         let (distance, claimed) = (distance / frame.scale, self.hull.distance);
         Err(Violation::OffHull { row, distance, claimed })
@@ -136,7 +139,9 @@ impl<'a> HullTest<'a> {
             (Items::Ellipsoids, ScalarKind::F32) => 1e-3 * (extents.len() as f64).sqrt(),
             _ => 1e-10,
         };
-        self.is_thin(part * length(&extents) + self.rounding_of(&largest))
+        // A quarter of the extents has a length where that of the extents itself overflows.
+        let quarters: Vec<f64> = extents.iter().map(|x| 0.25 * x).collect();
+        self.is_thin(4.0 * part * length(&quarters) + self.rounding_of(&largest))
     }
 
     /// As [`HullTest::is_flat`] for points that were picked because they lie near a hull of others: these reach up to

@@ -41,7 +41,9 @@ pub(super) fn gap(
         let direction = certificate.directions.get(position).map_or(&[][..], Vec::as_slice);
         let (offset, errors) = touching(frame, &item, direction);
         let sizes: Vec<f64> = offset.iter().map(|x| x.rounded().abs()).collect();
-        let error = frame.image_error::<DoubleDouble>(&sizes, errors.as_deref());
+        let widths: f64 = (0..frame.dim).map(|j| item.width(j, frame.scale)).sum();
+        let error = frame.image_error::<DoubleDouble>(&sizes, errors.as_deref())
+            + frame.width_error(widths);
         sums.add(u, &frame.image(&offset), error);
     }
     Ok(sums.gap())

@@ -31,9 +31,9 @@ pub(crate) fn excess(frame: &Frame<'_>, item: &Item<'_>) -> f64 {
 
 fn bound<N: Field>(frame: &Frame<'_>, item: &Item<'_>) -> f64 {
     let offset: Vec<N> = frame.offset(item.center());
-    let size = |(j, x): (usize, &N)| x.rounded().abs() + item.width(j, frame.scale);
-    let sizes: Vec<f64> = offset.iter().enumerate().map(size).collect();
-    let error = frame.image_error::<N>(&sizes, None);
+    let sizes: Vec<f64> = offset.iter().map(|x| x.rounded().abs()).collect();
+    let widths: f64 = (0..frame.dim).map(|j| item.width(j, frame.scale)).sum();
+    let error = frame.image_error::<N>(&sizes, None) + frame.width_error(widths);
     let image = frame.image(&offset);
     let square = image.iter().fold(N::of(-1.0), |sum, y| sum.plus(&y.times(y)));
     if item.is_point() {

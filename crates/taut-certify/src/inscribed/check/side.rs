@@ -7,7 +7,8 @@
 use super::super::InscribedEllipsoid;
 use crate::arithmetic::{DoubleDouble, Field, Ring};
 
-/// ã = Gᵀa and s = b − aᵀc for the row (a, b) over 2ᵏ, where the largest entry of a is in [2ᵏ, 2ᵏ⁺¹).
+/// ã = Gᵀa and s = b − aᵀc for the row (a, b) over 2ᵏ, where the largest entry of a is in [2ᵏ, 2ᵏ⁺¹), or smaller where b would
+/// overflow.
 pub(super) struct Side {
     /// ã.
     pub(super) normal: Vec<DoubleDouble>,
@@ -39,7 +40,9 @@ impl Side {
         let dim = answer.center.len();
         let zero = DoubleDouble::of(0.0);
         let rounding = 4.0 * (dim + 8) as f64 * DoubleDouble::ROUNDOFF;
-        let k = exponent(row[..dim].iter().fold(0.0f64, |m, a| m.max(a.abs())));
+        let largest = row[..dim].iter().fold(0.0f64, |m, a| m.max(a.abs()));
+        // An offset far beyond the largest entry must stay in range, whatever entries lose.
+        let k = exponent(largest).max(exponent(row[dim]) - OFFSET_EXPONENT_MAX);
         let mut normal = vec![zero; dim];
         let (mut sizes, mut lost) = (0.0, 0.0);
         let (offset, mut slack_lost) = divided(row[dim], k);
@@ -88,6 +91,9 @@ impl Side {
         Some((k, side))
     }
 }
+
+/// Offsets of half-spaces are brought below 2 to this.
+const OFFSET_EXPONENT_MAX: i32 = 1000;
 
 /// How many times its error a length must be to count as known.
 const LEAST_KNOWN: f64 = 1e6;

@@ -293,7 +293,8 @@ impl Distances {
         slack: f64,
         rank: usize,
     ) -> Result<(), Violation> {
-        let is_nearest = self.far.0 <= self.near.0 * (1.0 + slack) + slack;
+        let is_nearest =
+            self.far.0 <= self.near.0 * (1.0 + slack) + slack && self.far.0 < f64::INFINITY;
         if !is_nearest {
             let ((distance, kept), (nearer, other)) = (self.far, self.near);
             return Err(Violation::NotNearest { kept, distance, other, nearer });

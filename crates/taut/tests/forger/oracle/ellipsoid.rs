@@ -113,7 +113,7 @@ impl EllipsoidOracle {
             claims.at_most("lower end of a single point", &exactly.lower, &zero);
             claims.at_most("upper end of a single point", &zero, &exactly.upper);
             claims.holds(Some(answer.log_volume == 0.0), || "log-volume of a single point".into());
-            flat::claims(claims, answer, &exactly.center, bodies, self.items);
+            flat::claims(claims, answer, &exactly.center, bodies, self.items, verdict.off_hull);
             return;
         }
         let Some(volume) = log_volume(answer, &exactly.factor) else {
@@ -126,7 +126,7 @@ impl EllipsoidOracle {
         let granted = log_volume_tolerance(&answer.factor, volume.rounded()) + of_basis;
         claims.near("log-volume", &exactly.log_volume, &volume, granted);
         if answer.hull.is_some() {
-            flat::claims(claims, answer, &exactly.center, bodies, self.items);
+            flat::claims(claims, answer, &exactly.center, bodies, self.items, verdict.off_hull);
         }
         let Some(mut optimum) = self.optimum_for(answer.hull.as_ref(), &exactly.lower) else {
             return claims.undecided("the least log-volume is not known");

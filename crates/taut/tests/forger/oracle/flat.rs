@@ -37,14 +37,16 @@ pub(super) fn claims(
     center: &[Interval],
     bodies: &[Body],
     items: Items,
+    told: f64,
 ) {
-    let found = judge(claims, answer, center, bodies, items, 1.0);
+    let found = judge(claims, answer, center, bodies, items, 1.0, Some(told));
     if found.is_none() {
         claims.undecided("the hull is not one");
     }
 }
 
-/// As [`claims`] where the distance may be `wider` times as large; `None` where nothing is known.
+/// As [`claims`] where the distance may be `wider` times as large, and how far bodies lie off the hull at most may be `told`;
+/// `None` where nothing is known.
 pub(super) fn judge(
     claims: &mut Claims,
     answer: &Ellipsoid,
@@ -52,6 +54,7 @@ pub(super) fn judge(
     bodies: &[Body],
     items: Items,
     wider: f64,
+    told: Option<f64>,
 ) -> Option<()> {
     let hull = answer.hull.as_ref()?;
     let (dim, rank) = (center.len(), hull.basis.len());
@@ -92,6 +95,10 @@ pub(super) fn judge(
             granted = granted.plus(&trace.root()?.times(&part.root()?));
         }
         claims.at_most(&format!("distance of row {row} from the hull"), &reach, &granted);
+        if let Some(told) = told {
+            let told = Interval::exact(told)?;
+            claims.at_most(&format!("distance of row {row} from the hull, told"), &reach, &told);
+        }
     }
     let share = if items == Items::Ellipsoids { 1e-6 } else { 1e-10 };
     let allowed = allowed(bodies, &subspace, dim, share)?.times(&Interval::exact(wider * ROUNDED)?);

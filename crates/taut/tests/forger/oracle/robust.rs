@@ -35,7 +35,7 @@ use super::linear::{Matrix, Vector, congruent, exact_rows};
 
 /// By how much the log-volume of an ellipsoid around the points kept may exceed the least one: with a wider gap nothing tells
 /// that no C-step leads on.
-const LOOSE: f64 = 0.01;
+const LOOSE: f64 = 0.011;
 /// Rows nearer than this to the border of the ellipsoid around the points kept may be on it.
 const ON_BORDER: f64 = 1e-6;
 /// The checker's least slack.
@@ -127,7 +127,7 @@ impl RobustOracle {
             (0..points.len()).filter(|&row| !is_out(&certificate.left_out, row)).collect();
         if answer.hull.is_some() {
             let near: Vec<Body> = kept.iter().map(|&row| points[row].clone()).collect();
-            flat::judge(claims, &ellipsoid, &at, &near, Items::Points, 4.0)?;
+            flat::judge(claims, &ellipsoid, &at, &near, Items::Points, 4.0, None)?;
         }
         let rows = rows(&ellipsoid, &at, &factor, points)?;
         let sure = rows.iter().filter(|row| row.on_hull == Some(true)).count() as u64;

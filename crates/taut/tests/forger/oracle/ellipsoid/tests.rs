@@ -245,6 +245,7 @@ fn sets_that_are_flat_by_overflow_alone_are_refused() {
         gap: 0.0,
         excess: 0.0,
         matrix_excess: 0.0,
+        off_hull: f64::MAX,
         rank: 0,
     };
     let values = [-1.7e308, 1.7e308];
@@ -277,6 +278,7 @@ fn sets_that_are_flat_by_overflow_alone_are_refused() {
         gap: 1e-9,
         excess: 1e-12,
         matrix_excess: 1e-9,
+        off_hull: f64::MAX,
         rank: 1,
     };
     let solution =
@@ -323,6 +325,7 @@ fn an_ellipsoid_around_an_indefinite_shape_holds_what_the_lower_bound_is_about()
             gap: below,
             excess: 1e-12,
             matrix_excess: 1e-2,
+            off_hull: 0.0,
             rank: 2,
         };
         oracle.judge(&Solution { answer, certificate, trace: Trace::default() }, &verdict)

@@ -160,6 +160,7 @@ fn trimmed(axes: [f64; 2], gap: f64) -> (Vec<f64>, Solution<RobustEllipsoid>, Ro
         gap,
         excess: 0.0,
         matrix_excess: 1e-12,
+        off_hull: 0.0,
         rank: 2,
     };
     // (1 + 15/(9 − 2))² over the quantile −2·ln(1 − 8/10) in the plane.
