@@ -12,6 +12,8 @@ use taut_points::PointsHash;
 
 use super::cells::Cells;
 use super::changes::Changes;
+use super::circles;
+use super::facing;
 use super::outward;
 use super::scaled::Scale;
 use super::spheres::Point;
@@ -114,15 +116,20 @@ pub(super) fn finish(
     }
     unused.outliers = changes.outliers;
     let triangles = facets.triangles.iter().map(|triangle| triangle.map(|site| sites.row(site)));
-    let triangles: Vec<[u32; 3]> = triangles.collect();
-    // Facets of one triangulation share their common edges and vertices and nothing else, but where they were found.
-    let embedded = match &changes.elsewhere {
-        None => true,
-        Some(places) => {
-            let mesh = TriangleMesh::new(places, &triangles).map_err(refused)?;
-            self_intersections(&mesh).is_embedded()
+    let mut triangles: Vec<[u32; 3]> = triangles.collect();
+    // Facets of one triangulation share their common edges and vertices and nothing else. In other places than those where they were
+    // found they can meet, face the other way and have other circles.
+    let (mut mode, mut embedded) = (mode, true);
+    if let Some(places) = &changes.elsewhere {
+        let mesh = TriangleMesh::new(places, &triangles).map_err(refused)?;
+        embedded = self_intersections(&mesh).is_embedded();
+        if is_surface && embedded {
+            facing::turn(places, &mut triangles, &found);
         }
-    };
+        if let Promise::Alpha { radius } = mode {
+            mode = circles::promise(places, &triangles, radius);
+        }
+    }
     let answer = Surface { vertices: changes.moved, triangles, topology: numbers(&found), unused };
     let certificate = SurfaceCertificate {
         method,

@@ -98,6 +98,8 @@ pub enum Positions {
     /// Where the points were moved to.
     #[default]
     Projected,
-    /// Where the points were given. The triangles are those of the moved points: they can meet each other.
+    /// Where the points were given. The triangles are those of the moved points, so they can meet each other. The certificate is about
+    /// the given positions: closed components face outwards there if no triangles meet, and the radius that it names for an alpha
+    /// shape is larger than that of the shape if the circle of a triangle is; it names none if a triangle is flat.
     Original,
 }

@@ -16,6 +16,7 @@ mod shape;
 pub use super::filter::{AlphaFilter, Emptiness};
 pub(super) use hull::passing;
 pub use hull::{FilteredHull, filtered_hull};
+pub(super) use optimal::least;
 pub use optimal::optimal_alpha;
 pub use shape::{AlphaShape, FacetClass, alpha_shape};
 

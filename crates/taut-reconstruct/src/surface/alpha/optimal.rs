@@ -106,7 +106,7 @@ fn radius(sides: &Sides, cell: u32) -> f64 {
 }
 
 /// The least of the numbers, by their bits, from 0 to infinity, that are enough, given one next to it: by steps that double, then halve.
-fn least(guess: u64, enough: impl Fn(u64) -> bool) -> f64 {
+pub(in crate::surface) fn least(guess: u64, enough: impl Fn(u64) -> bool) -> f64 {
     let end = f64::INFINITY.to_bits();
     // `low` is not enough, or 0 has not been asked; `high` is.
     let (mut low, mut high, mut step) = (None, end, 1);
