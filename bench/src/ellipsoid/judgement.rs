@@ -89,6 +89,7 @@ mod tests {
             gap: 2e-15,
             excess: 0.0,
             matrix_excess: 0.0,
+            off_hull: 0.0,
             rank: 2,
         };
         let values = [1.0, 0.0, -1.0, 0.0, 0.0, 1.0];
