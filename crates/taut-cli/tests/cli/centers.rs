@@ -146,7 +146,7 @@ fn outliers_weights_and_balls_are_asked_for() {
     close(&found["answer"]["radius"], 2.0);
     desk.taut("verify heavy.json heavy.csv")
         .ends(0)
-        .says(&["\n  of        2 points with weights in 1 dimension\n"]);
+        .says(&[", around 2 points with weights in 1 dimension\n"]);
     desk.put("discs.csv", "x,y,r\n0,0,1\n4,0,2\n100,0,3\n");
     desk.taut("centers discs.csv -k 2 --balls --epsilon 1e-9 -o discs.json")
         .ends(0)
@@ -155,7 +155,7 @@ fn outliers_weights_and_balls_are_asked_for() {
     close(&found["answer"]["radius"], 3.5);
     desk.taut("verify discs.json discs.csv")
         .ends(0)
-        .says(&["\n  of        3 balls in 2 dimensions\n"]);
+        .says(&[", around 3 balls in 2 dimensions\n"]);
 }
 
 #[test]
