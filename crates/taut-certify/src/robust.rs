@@ -69,7 +69,9 @@ impl FromStr for RobustMethod {
 pub struct RobustEllipsoid {
     /// The d coordinates of the centre c.
     pub center: Vec<f64>,
-    /// What is to be added to `center` for the exact centre, as in [`Ellipsoid::center_tail`]; empty but by `trim`.
+    /// What is to be added to `center` for the exact centre, as in [`Ellipsoid::center_tail`]. By `mcd` and `mve` it is empty
+    /// unless the points are so far from the origin that rounding the centre to `f64` would move it by a visible part of
+    /// their spread.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub center_tail: Vec<f64>,
     /// Q, d rows of d numbers: (x − c)ᵀQ(x − c) ≤ 1 is the ellipsoid.

@@ -144,11 +144,11 @@ fn answer(
     divide_rows(&estimate.matrix, rank, &mut inverse);
     let border = (scale * cutoff).sqrt();
     let factor: Vec<f64> = estimate.matrix.iter().map(|m| m / border).collect();
-    let (center, factor, lower) = match &placed.flat {
-        None => (estimate.center.clone(), factor, inverse),
+    let (center, center_tail, factor, lower) = match &placed.flat {
+        None => (estimate.center.clone(), estimate.tail.clone(), factor, inverse),
         Some(flat) => {
             let transposed = flat.rotated_columns(&inverse);
-            (flat.lifted(&estimate.center), flat.rotated_rows(&factor), transposed)
+            (flat.lifted(&estimate.center), vec![], flat.rotated_rows(&factor), transposed)
         }
     };
     // `lower` is d × r: S = lower·lower′.
@@ -197,14 +197,14 @@ fn answer(
             flagged,
         });
     }
-    let flagged = flagged(data, placed, &center, &factor)?;
+    let flagged = flagged(data, placed, (&center, &center_tail), &factor)?;
     let hull = placed.flat.as_ref().map(|flat| Hull {
         basis: flat.basis.chunks_exact(dim).map(<[f64]>::to_vec).collect(),
         distance: flat.distance,
     });
     Ok(RobustEllipsoid {
         center,
-        center_tail: vec![],
+        center_tail,
         matrix,
         factor,
         hull,
@@ -219,7 +219,7 @@ fn answer(
 fn flagged(
     data: &mut Survey<'_>,
     placed: &Placed,
-    center: &[f64],
+    (center, tail): (&[f64], &[f64]),
     factor: &[Vec<f64>],
 ) -> Result<Vec<u64>, Error> {
     let dim = data.dim();
@@ -228,6 +228,7 @@ fn flagged(
         let mut offset = vec![0.0; dim];
         for (id, row) in (first..).zip(rows.chunks_exact(dim)) {
             offset.iter_mut().zip(row).zip(center).for_each(|((o, x), c)| *o = x - c);
+            offset.iter_mut().zip(tail).for_each(|(o, tail)| *o -= tail);
             let image =
                 factor.iter().map(|f| f.iter().zip(&offset).map(|(f, o)| f * o).sum::<f64>());
             let square: f64 = image.map(|y| y * y).sum();

@@ -52,7 +52,10 @@ pub(super) fn estimate(
     let answer = around(data, &ids, epsilon)?.answer;
     Ok(match answer.hull {
         Some(hull) => Err(Flat::of_hull(answer.center, &hull)),
-        None => Ok(Estimate { center: answer.center, matrix: answer.factor.concat() }),
+        None => {
+            let (center, tail) = (answer.center, answer.center_tail);
+            Ok(Estimate { center, tail, matrix: answer.factor.concat() }.with_needed_tail())
+        }
     })
 }
 
@@ -83,12 +86,12 @@ pub(super) fn enclose(
             kept = all;
             continue;
         }
-        let (center, part) = match flat {
-            None => (answer.center.clone(), None),
+        let (center, tail, part) = match flat {
+            None => (answer.center.clone(), answer.center_tail.clone(), None),
             Some(flat) => {
                 let center = vec![0.0; flat.rank()];
                 let (ids, values) = flat.rows_on(data)?;
-                (center, Some(Part { flat, ids, values }))
+                (center, vec![], Some(Part { flat, ids, values }))
             }
         };
         let matrix = match &answer.hull {
@@ -111,6 +114,8 @@ pub(super) fn enclose(
         certificate.left_out = left_out;
         certificate.points_hash = data.hash();
         let enclosure = Enclosure { ellipsoid: found.answer, certificate };
-        return Ok(Around { enclosure, kept, part, metric: Estimate { center, matrix } });
+        let metric = Estimate { center, tail, matrix };
+        let metric = if metric.dim() > 0 { metric.with_needed_tail() } else { metric };
+        return Ok(Around { enclosure, kept, part, metric });
     }
 }

@@ -13,9 +13,9 @@
 use crate::Error;
 use crate::ellipsoid::dense::{cholesky, divide_rows, forward};
 use crate::ellipsoid::survey::Survey;
-use crate::kernel::Center;
 use crate::kernel::triangle::{POINTS, Triangle, images, leverages, moments};
 use crate::kernel::vector::dot;
+use crate::kernel::{Center, DoubleDouble};
 
 /// Turns of shifting after which rows count as flat: each takes off some ten digits of a condition number.
 const TURNS: usize = 40;
@@ -23,10 +23,18 @@ const TURNS: usize = 40;
 /// Part of a deviation that rounding of coordinates may make up before the direction counts as flat.
 const NOISE: f64 = 1.0 / 16.0;
 
+/// Largest part of a deviation by which rounding the center to `f64` may move points; the center has a tail where it is more.
+///
+/// The checker grants 8 roundings of the center, and at most a tenth of the distance to the border. This is less than a
+/// tenth of what it grants at most.
+const COARSE: f64 = 1.0 / 128.0;
+
 /// c and M.
 #[derive(Clone, Debug)]
 pub(super) struct Estimate {
     pub(super) center: Vec<f64>,
+    /// What is to be added to `center` for c; empty stands for zeros.
+    pub(super) tail: Vec<f64>,
     /// Lower triangular by rows, zeros above: M′M = S⁻¹.
     pub(super) matrix: Vec<f64>,
 }
@@ -98,7 +106,25 @@ impl Estimate {
             }
             matrix[j * dim + j] = scale;
         }
-        Ok(Estimate { center, matrix })
+        Ok(Estimate { center, tail: vec![], matrix })
+    }
+
+    /// Drops the tail of the center where rounding it away moves no point by a large part of a deviation.
+    pub(super) fn with_needed_tail(mut self) -> Self {
+        let is_fine = |row: &[f64]| {
+            let moved: f64 = row.iter().zip(&self.center).map(|(m, c)| (m * c).abs()).sum();
+            0.5 * f64::EPSILON * moved <= COARSE
+        };
+        if self.matrix.chunks_exact(self.dim()).all(is_fine) {
+            self.tail.clear();
+        }
+        self
+    }
+
+    /// x − c for coordinate j.
+    fn offset(&self, j: usize, x: f64) -> f64 {
+        let offset = x - self.center[j];
+        self.tail.get(j).map_or(offset, |tail| offset - tail)
     }
 
     pub(super) fn dim(&self) -> usize {
@@ -113,13 +139,13 @@ impl Estimate {
 
     /// M(x − c).
     pub(super) fn image(&self, row: &[f64]) -> Vec<f64> {
-        let offset: Vec<f64> = row.iter().zip(&self.center).map(|(x, c)| x - c).collect();
+        let offset: Vec<f64> = row.iter().enumerate().map(|(j, x)| self.offset(j, *x)).collect();
         self.matrix.chunks_exact(self.dim()).map(|m| dot(m, &offset)).collect()
     }
 
     /// |M(x − c)|² of all rows.
     pub(super) fn distances(&self, data: &mut Survey<'_>) -> Result<Vec<f64>, Error> {
-        let center = Center { high: self.center.clone(), low: vec![] };
+        let center = Center { high: self.center.clone(), low: self.tail.clone() };
         let dim = self.dim();
         let blocks = data.visit(|_, rows| {
             let mut squares = vec![0.0; rows.len() / dim];
@@ -149,8 +175,8 @@ impl Estimate {
             let mut squares = [0.0; POINTS];
             for (chosen, y) in chosen.chunks(POINTS).zip(y.chunks_exact_mut(dim * POINTS)) {
                 for (i, row) in chosen.iter().enumerate() {
-                    for (j, (&value, c)) in row.iter().zip(&self.center).enumerate() {
-                        x[j * POINTS + i] = value - c;
+                    for (j, &value) in row.iter().enumerate() {
+                        x[j * POINTS + i] = self.offset(j, value);
                         found.lows[j] = found.lows[j].min(value);
                         found.highs[j] = found.highs[j].max(value);
                     }
@@ -198,11 +224,16 @@ impl Estimate {
                 return Err(Error::Overflow);
             };
             forward(&next.matrix, dim, &mut mean);
-            next.center.iter_mut().zip(&mean).for_each(|(c, m)| *c += m);
+            next.tail.resize(dim, 0.0);
+            for ((c, tail), m) in next.center.iter_mut().zip(&mut next.tail).zip(&mean) {
+                let sum = DoubleDouble::sum(*c, *tail + m);
+                (*c, *tail) = (sum.high, sum.low);
+            }
             divide_rows(&lower, dim, &mut next.matrix);
             if next.matrix.iter().any(|m| !m.is_finite()) {
                 return Ok(Look::Singular);
             }
+            next = next.with_needed_tail();
             if is_near {
                 let is_noise = next.is_noise(&found.sizes());
                 return Ok(if is_noise { Look::Noise(next) } else { Look::Full(next) });

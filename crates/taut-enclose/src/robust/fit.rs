@@ -159,7 +159,7 @@ fn point(rows: usize, h: usize) -> Fit {
         objective: 0.0,
         raw_scale: 1.0,
         weighed: vec![true; rows],
-        estimate: Estimate { center: vec![], matrix: vec![] },
+        estimate: Estimate { center: vec![], tail: vec![], matrix: vec![] },
         scale: 1.0,
         cutoff: 0.0,
         unweighted: None,
