@@ -153,9 +153,7 @@ fn outliers_weights_and_balls_are_asked_for() {
         .says(&["3 balls in 2 dimensions: 2 centres\n", "every ball is in a ball"]);
     let found: serde_json::Value = serde_json::from_str(&desk.text("discs.json")).unwrap();
     close(&found["answer"]["radius"], 3.5);
-    desk.taut("verify discs.json discs.csv")
-        .ends(0)
-        .says(&[", around 3 balls in 2 dimensions\n"]);
+    desk.taut("verify discs.json discs.csv").ends(0).says(&[", around 3 balls in 2 dimensions\n"]);
 }
 
 #[test]
