@@ -215,6 +215,10 @@ fn side(edges: &Edges, p: [f64; 2], edge: usize) -> f64 {
     if turn < 0.0 { -1.0 } else { 1.0 }
 }
 
+/// Distances below this have squares that underflow, in scaled units: beside a vertex of 1e300 nothing tells which of two
+/// edges is the nearer one when both are 1e140 off.
+const SQUARES_LEAST: f64 = f64::from_bits((1023 - 530) << 52);
+
 /// Whether places named are next to their rows, as far as rounding of the coordinates of row and edges tells.
 fn places(
     curve: &Curve,
@@ -242,6 +246,7 @@ fn places(
             let [a, b] = edges.segment(first + edge);
             let [c, d] = edges.segment(near);
             let size = 2.0 * largest(&[p, a, b, c, d]) + next + f64::MIN_POSITIVE;
+            let size = size + SQUARES_LEAST / (64.0 * U);
             // The sum of a vertex' number and a share has fewer digits than the share.
             let moved = place.1 * (b[0] - a[0]).hypot(b[1] - a[1]);
             match claimed <= next * (1.0 + 1e-9) + 64.0 * U * size + 4.0 * U * moved {
