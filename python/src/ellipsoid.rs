@@ -312,6 +312,8 @@ impl EllipsoidCertificate {
 ///     By how much |F(x - c)| exceeds 1 at worst, rounded up; 0 when every row is inside without any tolerance.
 /// matrix_excess : float
 ///     By how much (x - c) @ Q @ (x - c) can exceed 1 at worst, Q being `matrix` as it stands.
+/// off_hull : float
+///     No row is farther than this from the flat of a flat set, rounded up; 0 where there is no flat.
 /// rank : int
 ///     The dimension of the ellipsoid itself.
 #[pyclass(frozen, get_all, module = "taut")]
@@ -321,13 +323,15 @@ pub(crate) struct EllipsoidVerdict {
     gap: f64,
     excess: f64,
     matrix_excess: f64,
+    off_hull: f64,
     rank: usize,
 }
 
 impl EllipsoidVerdict {
     pub(crate) fn new(proved: certify::EllipsoidVerdict) -> Self {
-        let certify::EllipsoidVerdict { lower, upper, gap, excess, matrix_excess, rank } = proved;
-        EllipsoidVerdict { lower, upper, gap, excess, matrix_excess, rank }
+        let certify::EllipsoidVerdict { lower, upper, gap, excess, matrix_excess, off_hull, rank } =
+            proved;
+        EllipsoidVerdict { lower, upper, gap, excess, matrix_excess, off_hull, rank }
     }
 }
 
