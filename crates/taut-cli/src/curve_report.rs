@@ -5,7 +5,7 @@ use taut::{Curve, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, curve_figures};
 
 use crate::numbers::{count, counted, exact, gap, short};
-use crate::report::{Claims, Fact, Report, Tell, rows_of, without_outliers};
+use crate::report::{Claims, Fact, Report, Tell, rows_of, without_outliers, yes_without_outliers};
 
 impl Tell for Report<'_, Curve> {
     const FOUND: &'static str = "the curves found";
@@ -110,13 +110,7 @@ pub(crate) fn claims_of_curve(found: &Solution<Curve>, verdict: &CurveVerdict) -
 fn judged(verdict: &CurveVerdict) -> Vec<Fact> {
     let mut facts = vec![match &verdict.doubt {
         None => {
-            let value = match verdict.outliers {
-                0 => "yes".to_owned(),
-                left_out => {
-                    let (used, all) = (verdict.rows - left_out, counted(verdict.rows, "point"));
-                    format!("yes, of {} of {all}", count(used))
-                }
-            };
+            let value = yes_without_outliers(verdict.rows, verdict.outliers);
             Fact::evidence("certified", value).remark(format!(
                 "sampled at ε ≤ {}, noise at {} of the feature size",
                 short_ratio(verdict.sampling_ratio),

@@ -138,6 +138,14 @@ pub(crate) fn without_outliers(used: u64, rows: u64, outliers: u64, place: &str)
     }
 }
 
+/// "yes", and of how many points where outliers are left out of the claim.
+pub(crate) fn yes_without_outliers(rows: u64, outliers: u64) -> String {
+    match outliers {
+        0 => "yes".to_owned(),
+        _ => format!("yes, of {} of {}", count(rows - outliers), counted(rows, "point")),
+    }
+}
+
 fn plural(outliers: u64) -> &'static str {
     if outliers == 1 { "an outlier" } else { "outliers" }
 }

@@ -5,7 +5,9 @@ use taut::{Solution, Surface, looks_one_sided};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, surface_figures};
 
 use crate::numbers::{count, counted, exact, short};
-use crate::report::{Claims, Fact, Report, Tell, rows_of, share, without_outliers};
+use crate::report::{
+    Claims, Fact, Report, Tell, rows_of, share, without_outliers, yes_without_outliers,
+};
 
 impl Tell for Report<'_, Surface> {
     const FOUND: &'static str = "the surface found";
@@ -184,13 +186,7 @@ pub(crate) fn claims_of_surface(found: &Solution<Surface>, verdict: &SurfaceVerd
 fn certified(verdict: &SurfaceVerdict) -> Fact {
     match &verdict.doubt {
         None => {
-            let value = match verdict.outliers {
-                0 => "yes".to_owned(),
-                left_out => {
-                    let (used, all) = (verdict.rows - left_out, counted(verdict.rows, "point"));
-                    format!("yes, of {} of {all}", count(used))
-                }
-            };
+            let value = yes_without_outliers(verdict.rows, verdict.outliers);
             Fact::proved("certified", value)
                 .remark("an oriented manifold of Delaunay triangles that meets itself nowhere")
         }
