@@ -22,7 +22,6 @@ use crate::Trace;
 
 pub use bytes::{Data, Files};
 pub use hash::{Hash128, Hash128FormError};
-pub use json::{AnyDocument, AnyFileSolution};
 pub use sample::{DrawnSample, SampleCertificate};
 pub use sort::{KeyKind, SortCertificate, SortedFile};
 pub use transpose::{ElementOrder, TransposeCertificate, TransposedFile};

@@ -4,12 +4,9 @@ use std::io;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::DeserializeOwned};
 use serde_json::ser::{Formatter, PrettyFormatter};
-use taut_points::{Monitor, PointSource, PointsHash};
+use taut_points::PointsHash;
 
-use crate::{
-    Answer, AnyVerdict, Ball, Centers, CheckError, Curve, Ellipsoid, InscribedEllipsoid, Order,
-    RobustEllipsoid, Solution, Surface, Trace, Triangulation,
-};
+use crate::{Answer, Solution, Trace};
 
 /// Version of the document; it grows by one when a reader of the old one would misread the new.
 pub const SCHEMA: u32 = 1;
@@ -184,117 +181,6 @@ pub(crate) fn hash_from_hex<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<PointsHash, D::Error> {
     String::deserialize(deserializer)?.parse().map_err(serde::de::Error::custom)
-}
-
-/// A solution of any kind, as read from a file.
-#[derive(Clone, Debug, PartialEq)]
-pub enum AnySolution {
-    /// A minimum enclosing ball.
-    Ball(Solution<Ball>),
-    /// A minimum volume enclosing ellipsoid.
-    Ellipsoid(Solution<Ellipsoid>),
-    /// A maximum volume inscribed ellipsoid.
-    Inscribed(Solution<InscribedEllipsoid>),
-    /// A robust ellipsoid.
-    Robust(Box<Solution<RobustEllipsoid>>),
-    /// k centres.
-    Centers(Solution<Centers>),
-    /// Curves of the plane.
-    Curve(Solution<Curve>),
-    /// A surface through points of space.
-    Surface(Solution<Surface>),
-    /// Points in the order of a curve.
-    Order(Solution<Order>),
-    /// A Delaunay triangulation.
-    Triangulation(Solution<Triangulation>),
-}
-
-impl AnySolution {
-    /// Reads a document, whatever its kind.
-    ///
-    /// # Errors
-    /// [`JsonError`].
-    pub fn from_json(text: &str) -> Result<Self, JsonError> {
-        let text = without_mark(text);
-        Self::of_kind(kind_of(text)?, text)
-    }
-
-    /// Reads a document of a kind that is known to be stated.
-    pub(crate) fn of_kind(kind: String, text: &str) -> Result<Self, JsonError> {
-        match kind.as_str() {
-            Ball::KIND => Ok(AnySolution::Ball(parse(text)?)),
-            Ellipsoid::KIND => Ok(AnySolution::Ellipsoid(parse(text)?)),
-            InscribedEllipsoid::KIND => Ok(AnySolution::Inscribed(parse(text)?)),
-            RobustEllipsoid::KIND => Ok(AnySolution::Robust(Box::new(parse(text)?))),
-            Centers::KIND => Ok(AnySolution::Centers(parse(text)?)),
-            Curve::KIND => Ok(AnySolution::Curve(parse(text)?)),
-            Surface::KIND => Ok(AnySolution::Surface(parse(text)?)),
-            Order::KIND => Ok(AnySolution::Order(parse(text)?)),
-            Triangulation::KIND => Ok(AnySolution::Triangulation(parse(text)?)),
-            _ => Err(JsonError::Kind { found: kind }),
-        }
-    }
-
-    /// The document, as [`Solution::to_json`] writes it.
-    pub fn to_json(&self) -> String {
-        match self {
-            AnySolution::Ball(found) => found.to_json(),
-            AnySolution::Ellipsoid(found) => found.to_json(),
-            AnySolution::Inscribed(found) => found.to_json(),
-            AnySolution::Robust(found) => found.to_json(),
-            AnySolution::Centers(found) => found.to_json(),
-            AnySolution::Curve(found) => found.to_json(),
-            AnySolution::Surface(found) => found.to_json(),
-            AnySolution::Order(found) => found.to_json(),
-            AnySolution::Triangulation(found) => found.to_json(),
-        }
-    }
-
-    /// Judges the answer over `source`, whatever its kind.
-    ///
-    /// # Errors
-    /// As [`Solution::check`].
-    pub fn check(
-        &self,
-        source: &dyn PointSource,
-        monitor: &Monitor<'_>,
-    ) -> Result<AnyVerdict, CheckError> {
-        match self {
-            AnySolution::Ball(found) => {
-                found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Ball)
-            }
-            AnySolution::Ellipsoid(found) => {
-                found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Ellipsoid)
-            }
-            AnySolution::Inscribed(found) => {
-                found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Inscribed)
-            }
-            AnySolution::Robust(found) => {
-                found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Robust)
-            }
-            AnySolution::Centers(found) => {
-                found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Centers)
-            }
-            AnySolution::Curve(found) => {
-                found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Curve)
-            }
-            AnySolution::Surface(found) => {
-                found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Surface)
-            }
-            AnySolution::Order(found) => {
-                found.answer.check(&found.certificate, source, monitor).map(AnyVerdict::Order)
-            }
-            AnySolution::Triangulation(found) => found
-                .answer
-                .check(&found.certificate, source, monitor)
-                .map(AnyVerdict::Triangulation),
-        }
-    }
-}
-
-fn parse<A: Answer>(text: &str) -> Result<Solution<A>, JsonError> {
-    let (answer, certificate, trace) = parse_document(text)?;
-    Ok(Solution { answer, certificate, trace })
 }
 
 /// Answer, certificate and trace of a document whose kind is known.

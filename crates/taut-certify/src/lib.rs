@@ -58,6 +58,7 @@ mod inscribed;
 mod items;
 mod json;
 mod order;
+mod registry;
 mod robust;
 mod solution;
 mod surface;
@@ -76,15 +77,15 @@ pub use ellipsoid::{
     EllipseSupport, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipse_support,
 };
 pub use files::{
-    AnyDocument, AnyFileSolution, Data, DrawnSample, ElementOrder, FileAnswer, FileCheckError,
-    FileSolution, FileVerdict, FileViolation, Files, Hash128, Hash128FormError, KeyKind,
-    SampleCertificate, SortCertificate, SortedFile, TransposeCertificate, TransposedFile,
-    WhichFile,
+    Data, DrawnSample, ElementOrder, FileAnswer, FileCheckError, FileSolution, FileVerdict,
+    FileViolation, Files, Hash128, Hash128FormError, KeyKind, SampleCertificate, SortCertificate,
+    SortedFile, TransposeCertificate, TransposedFile, WhichFile,
 };
 pub use inscribed::{InscribedCertificate, InscribedEllipsoid, InscribedVerdict};
 pub use items::Items;
-pub use json::{AnySolution, JsonError, SCHEMA};
+pub use json::{JsonError, SCHEMA};
 pub use order::{Order, OrderCertificate, OrderCurve, OrderVerdict, OrderViolation};
+pub use registry::{AnyDocument, AnyFileSolution, AnySolution, AnyVerdict};
 pub use robust::{
     Enclosure, RobustCertificate, RobustEllipsoid, RobustMethod, RobustMethodError, RobustVerdict,
     Unweighted,
@@ -99,4 +100,4 @@ pub use triangulation::{
     TriangulationCertificate, TriangulationCounts, TriangulationVerdict, check_simplices,
     fingerprint,
 };
-pub use verdict::{AnyVerdict, CheckError, Verdict, Violation};
+pub use verdict::{CheckError, Fault, Verdict, Violation};

@@ -2,34 +2,7 @@
 
 use taut_points::ReadError;
 
-use crate::{
-    CentersVerdict, CentersViolation, CurveVerdict, CurveViolation, EllipsoidVerdict,
-    InscribedVerdict, MeshViolation, OrderVerdict, OrderViolation, RobustVerdict, SurfaceVerdict,
-    SurfaceViolation, TriangulationVerdict,
-};
-
-/// What was proved of an answer of any kind.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AnyVerdict {
-    /// Of a minimum enclosing ball.
-    Ball(Verdict),
-    /// Of a minimum volume enclosing ellipsoid.
-    Ellipsoid(EllipsoidVerdict),
-    /// Of a maximum volume inscribed ellipsoid.
-    Inscribed(InscribedVerdict),
-    /// Of a robust ellipsoid.
-    Robust(RobustVerdict),
-    /// Of k centres.
-    Centers(CentersVerdict),
-    /// Of curves.
-    Curve(CurveVerdict),
-    /// Of a surface.
-    Surface(SurfaceVerdict),
-    /// Of an order of points.
-    Order(OrderVerdict),
-    /// Of a Delaunay triangulation.
-    Triangulation(TriangulationVerdict),
-}
+use crate::{CentersViolation, CurveViolation, MeshViolation, OrderViolation, SurfaceViolation};
 
 /// What was proved of an enclosing shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -397,6 +370,70 @@ pub enum Violation {
     /// Something is wrong with a triangulation.
     #[error(transparent)]
     Mesh(#[from] MeshViolation),
+}
+
+/// In what the fault lies that a violation tells of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// The answer or its certificate.
+    Answer,
+    /// A point contradicts the answer: its row, from 0.
+    Row(u64),
+    /// The points are not those that the answer was found for.
+    Points,
+}
+
+impl Violation {
+    /// In what the fault lies, where there are `rows` points.
+    pub fn fault(&self, rows: u64) -> Fault {
+        let of_list = |row: u64| if row < rows { Fault::Answer } else { Fault::Points };
+        match *self {
+            Violation::Outside { row, .. }
+            | Violation::OutsideEllipsoid { row, .. }
+            | Violation::OutsideHalfSpace { row, .. }
+            | Violation::NotOutside { row, .. }
+            | Violation::Listed { row, .. }
+            | Violation::OffHull { row, .. } => Fault::Row(row),
+            Violation::Hash { .. }
+            | Violation::Dimension { .. }
+            | Violation::NoRadius { .. }
+            | Violation::NoShape { .. }
+            | Violation::Order(OrderViolation::Dimension { .. })
+            | Violation::Mesh(MeshViolation::Dimension { .. } | MeshViolation::Id { .. }) => {
+                Fault::Points
+            }
+            Violation::Support { point: row, .. } | Violation::LeftOut { row, .. } => of_list(row),
+            Violation::Centers(ref violation) => match *violation {
+                CentersViolation::Outside { row, .. }
+                | CentersViolation::NoSuchCenter { row, .. }
+                | CentersViolation::Assignment { row, .. } => Fault::Row(row),
+                CentersViolation::Dimension { .. } | CentersViolation::NoWeight { .. } => {
+                    Fault::Points
+                }
+                CentersViolation::CoreSet { row, .. } | CentersViolation::Row { row, .. } => {
+                    of_list(row)
+                }
+                _ => Fault::Answer,
+            },
+            Violation::Curve(ref violation) => match *violation {
+                CurveViolation::OutsideBand { row, .. }
+                | CurveViolation::NoVertex { row }
+                | CurveViolation::NoPlace { row, .. }
+                | CurveViolation::FarPlace { row, .. } => Fault::Row(row),
+                CurveViolation::Plane { .. } => Fault::Points,
+                _ => Fault::Answer,
+            },
+            Violation::Surface(ref violation) => match *violation {
+                SurfaceViolation::Missing { row }
+                | SurfaceViolation::MissingDuplicate { row, .. }
+                | SurfaceViolation::Interior { row, .. }
+                | SurfaceViolation::Ball { row, .. } => Fault::Row(row.into()),
+                SurfaceViolation::Space { .. } => Fault::Points,
+                _ => Fault::Answer,
+            },
+            _ => Fault::Answer,
+        }
+    }
 }
 
 /// A count with its noun.

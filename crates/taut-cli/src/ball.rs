@@ -1,13 +1,14 @@
 //! `taut ball`: the smallest ball around points or balls.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::{Ball, BallMethod, BallOptions, Items, Solution, ball_of_source};
+use taut::{Ball, BallMethod, BallOptions, Items, Monitor, Solution, ball_of_source};
 
-use crate::delivery::{Delivery, Desk};
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::reading::{Points, Reading};
+use crate::pipeline::{self, Find, Input, Output, OutputOptions};
+use crate::reading::{Opened, Points, Reading};
 use crate::report;
+use crate::watch::Watch;
 
 /// Find the smallest ball around a point set, with proof.
 #[derive(Debug, clap::Args)]
@@ -43,7 +44,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", default_value_t = BallOptions::default().seed)]
     seed: u64,
     #[command(flatten)]
-    delivery: Delivery,
+    output: OutputOptions,
     #[command(flatten)]
     reading: Reading,
     #[command(flatten)]
@@ -64,18 +65,35 @@ fn methods() -> impl TypedValueParser<Value = BallMethod> {
     PossibleValuesParser::new(explained).try_map(|name| name.parse::<BallMethod>())
 }
 
+impl Find for Args {
+    type Answer = Ball;
+    type Extra = ();
+
+    fn input(&self) -> Input<'_> {
+        Input { path: &self.points.path, reading: &self.reading, effort: &self.effort }
+    }
+
+    fn output(&self) -> Output<'_> {
+        self.output.output()
+    }
+
+    fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Ball>, ())> {
+        let items = items(self.balls, self.ellipsoids);
+        let solve = |monitor: &Monitor<'_>| {
+            ball_of_source(points.source(), items, &self.options(), monitor)
+        };
+        let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
+        Ok((found, ()))
+    }
+
+    fn outcome(&self, found: &Solution<Ball>) -> Outcome {
+        report::outcome(found.trace.stop, found.certificate.gap, self.epsilon)
+    }
+}
+
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
-        let (options, items) = (self.options(), items(self.balls, self.ellipsoids));
-        let (reading, effort) = (&self.reading, &self.effort);
-        let desk = Desk { path: &self.points.path, reading, effort };
-        let found = self.delivery.deliver(&desk, |points, monitor| {
-            ball_of_source(points.source(), items, &options, monitor)
-        })?;
-        let ended = |found: Solution<Ball>| {
-            report::outcome(found.trace.stop, found.certificate.gap, self.epsilon)
-        };
-        Ok(found.map_or(Outcome::CheckFailed, ended))
+        pipeline::run(self)
     }
 
     fn options(&self) -> BallOptions {

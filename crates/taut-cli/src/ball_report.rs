@@ -1,28 +1,30 @@
 //! What is said about a ball.
 
 use taut::points::PointSource;
-use taut::{Ball, Items, Solution, Verdict};
+use taut::{Ball, Items, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, ball_figures};
 
 use crate::numbers::{count, counted, exact, gap};
-use crate::report::{Claims, Fact, Report, Tell, centre, gap_and_verified, inputs, noun, stopped};
+use crate::report::{
+    Claims, Fact, Report, Summary, centre, gap_and_verified, inputs, noun, stopped,
+};
 
-/// Why some balls are not drawn.
-pub(crate) const NO_PICTURE: &str = "there are no pictures of balls around ellipsoids";
-
-impl Tell for Report<'_, Ball> {
+impl Summary for Ball {
     const FOUND: &'static str = "the ball found";
 
-    fn title(&self) -> String {
-        let around = counted(self.points.source().len(), noun(self.items()));
-        format!("Smallest ball around {around} in {}", counted(self.dim() as u64, "dimension"))
+    fn title(report: &Report<'_, Self>) -> String {
+        let around = counted(report.points.source().len(), noun(report.items()));
+        format!(
+            "Smallest ball around {around} in {}",
+            counted(Self::dim(report) as u64, "dimension")
+        )
     }
 
-    fn facts(&self) -> Vec<Fact> {
-        let (answer, trace) = (&self.found.answer, &self.found.trace);
-        let (certificate, noun) = (&self.found.certificate, noun(self.items()));
+    fn facts(report: &Report<'_, Self>) -> Vec<Fact> {
+        let (answer, trace) = (&report.found.answer, &report.found.trace);
+        let (certificate, noun) = (&report.found.certificate, noun(report.items()));
         let support = count(certificate.support.len() as u64);
-        let proved = self.verdict.as_ref().map(|proved| {
+        let proved = report.verdict.as_ref().map(|proved| {
             let lower = exact(proved.lower);
             (proved.gap, format!("no enclosing ball has a radius below {lower}"))
         });
@@ -40,35 +42,36 @@ impl Tell for Report<'_, Ball> {
         ]
     }
 
-    fn dim(&self) -> usize {
-        self.items().dim(self.points.source().dim())
+    fn dim(report: &Report<'_, Self>) -> usize {
+        report.items().dim(report.points.source().dim())
     }
 
-    fn figures(&self, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
-        ball_figures(self.found, self.points.source(), options)
+    fn no_picture(found: &Solution<Self>) -> Option<&'static str> {
+        let is_around_ellipsoids = found.certificate.items == Items::Ellipsoids;
+        is_around_ellipsoids.then_some("there are no pictures of balls around ellipsoids")
+    }
+
+    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
+        ball_figures(report.found, report.points.source(), options)
+    }
+
+    fn claims(found: &Solution<Self>, verdict: &Self::Verdict, source: &dyn PointSource) -> Claims {
+        let inputs = inputs(found.certificate.items, source.len(), source.dim());
+        let bracket =
+            format!("{} ≤ smallest radius ≤ {}", exact(verdict.lower), exact(verdict.upper));
+        Claims {
+            what: format!("ball of radius {} around {inputs}", exact(found.answer.radius)),
+            gap: Some(verdict.gap),
+            facts: vec![
+                Fact::proved("bracket", bracket),
+                Fact::proved("gap", gap(verdict.gap)).remark("relative, from the points alone"),
+            ],
+        }
     }
 }
 
 impl Report<'_, Ball> {
     fn items(&self) -> Items {
         self.found.certificate.items
-    }
-}
-
-/// What the checker proved.
-pub(crate) fn claims_of_ball(
-    found: &Solution<Ball>,
-    verdict: &Verdict,
-    source: &dyn PointSource,
-) -> Claims {
-    let inputs = inputs(found.certificate.items, source.len(), source.dim());
-    let bracket = format!("{} ≤ smallest radius ≤ {}", exact(verdict.lower), exact(verdict.upper));
-    Claims {
-        what: format!("ball of radius {} around {inputs}", exact(found.answer.radius)),
-        gap: Some(verdict.gap),
-        facts: vec![
-            Fact::proved("bracket", bracket),
-            Fact::proved("gap", gap(verdict.gap)).remark("relative, from the points alone"),
-        ],
     }
 }

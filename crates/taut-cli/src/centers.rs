@@ -3,14 +3,15 @@
 use anyhow::bail;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use taut::certify::Placement;
-use taut::{Centers, CentersMethod, CentersOptions, Items, Solution, centers_of_source};
+use taut::{Centers, CentersMethod, CentersOptions, Items, Monitor, Solution, centers_of_source};
 
-use crate::delivery::{Delivery, Desk};
 use crate::effort::Effort;
 use crate::elbow::{self, Range};
 use crate::exit::Outcome;
-use crate::reading::{Points, Reading};
+use crate::pipeline::{self, Find, Input, Output, OutputOptions};
+use crate::reading::{Opened, Points, Reading};
 use crate::report;
+use crate::watch::Watch;
 
 /// Find k centres such that the farthest point is as near to one of them as can be, with proof.
 #[derive(Debug, clap::Args)]
@@ -63,7 +64,7 @@ pub(crate) struct Args {
     #[arg(long)]
     assignment: bool,
     #[command(flatten)]
-    delivery: Delivery,
+    output: OutputOptions,
     #[command(flatten)]
     reading: Reading,
     #[command(flatten)]
@@ -89,21 +90,46 @@ fn methods() -> impl TypedValueParser<Value = CentersMethod> {
     PossibleValuesParser::new(explained).try_map(|name| name.parse::<CentersMethod>())
 }
 
+impl Find for Args {
+    type Answer = Centers;
+    type Extra = ();
+
+    fn input(&self) -> Input<'_> {
+        Input { path: &self.points.path, reading: &self.reading, effort: &self.effort }
+    }
+
+    fn output(&self) -> Output<'_> {
+        self.output.output()
+    }
+
+    fn check_options(&self) -> anyhow::Result<()> {
+        self.check_method()?;
+        self.output().refuse_pictures_as_json()
+    }
+
+    fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Centers>, ())> {
+        let k = self.k.expect("one of -k and --elbow is required");
+        let solve = |monitor: &Monitor<'_>| {
+            centers_of_source(points.source(), self.items(), k, &self.options(), monitor)
+        };
+        let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
+        Ok((found, ()))
+    }
+
+    fn outcome(&self, found: &Solution<Centers>) -> Outcome {
+        report::outcome(found.trace.stop, found.certificate.gap, self.epsilon)
+    }
+}
+
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
-        self.check_method()?;
-        let (options, items) = (self.options(), self.items());
-        let (reading, effort) = (&self.reading, &self.effort);
-        let desk = Desk { path: &self.points.path, reading, effort };
-        let Some(k) = self.k else {
-            let range = self.elbow.as_ref().expect("one of -k and --elbow is required");
-            return elbow::run(range, items, &options, &desk, &self.delivery);
-        };
-        let found = self.delivery.deliver(&desk, |points, monitor| {
-            centers_of_source(points.source(), items, k, &options, monitor)
-        })?;
-        let ended = |found: Solution<Centers>| outcome(&found, self.epsilon);
-        Ok(found.map_or(Outcome::CheckFailed, ended))
+        match &self.elbow {
+            Some(range) => {
+                self.check_options()?;
+                elbow::run(range, self.items(), &self.options(), self.input(), self.output())
+            }
+            None => pipeline::run(self),
+        }
     }
 
     fn options(&self) -> CentersOptions {
@@ -150,11 +176,6 @@ impl Args {
             None => Ok(()),
         }
     }
-}
-
-/// Whether centres are what was asked for.
-pub(crate) fn outcome(found: &Solution<Centers>, epsilon: f64) -> Outcome {
-    report::outcome(found.trace.stop, found.certificate.gap, epsilon)
 }
 
 #[cfg(test)]

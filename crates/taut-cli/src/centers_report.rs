@@ -1,33 +1,33 @@
 //! What is said about centres.
 
-use taut::certify::{CentersCertificate, CentersVerdict, LowerBound, Placement};
+use taut::certify::{CentersCertificate, LowerBound, Placement};
 use taut::points::PointSource;
 use taut::{Centers, Items, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, centers_figures};
 
 use crate::numbers::{abridged, coordinates, count, counted, exact, gap};
-use crate::report::{Claims, Fact, Report, Tell, noun, rows_of, share, stopped};
+use crate::report::{Claims, Fact, Report, Summary, noun, rows_of, share, stopped};
 
 /// Centres whose coordinates are shown; more are in the JSON.
 const SHOWN: usize = 20;
 
-impl Tell for Report<'_, Centers> {
+impl Summary for Centers {
     const FOUND: &'static str = "the centres found";
 
-    fn title(&self) -> String {
-        let certificate = &self.found.certificate;
+    fn title(report: &Report<'_, Self>) -> String {
+        let certificate = &report.found.certificate;
         let centres = match certificate.placement {
             Placement::Free => counted(certificate.k, "centre"),
             Placement::Rows => format!("{} among them", counted(certificate.k, "centre")),
         };
-        let items = items_of(certificate, self.points.source().len(), self.dim());
+        let items = items_of(certificate, report.points.source().len(), Self::dim(report));
         format!("{items}: {centres}")
     }
 
-    fn facts(&self) -> Vec<Fact> {
-        let (answer, certificate) = (&self.found.answer, &self.found.certificate);
-        let (trace, noun) = (&self.found.trace, noun(certificate.items));
-        let mut facts = self.centres();
+    fn facts(report: &Report<'_, Self>) -> Vec<Fact> {
+        let (answer, certificate) = (&report.found.answer, &report.found.certificate);
+        let (trace, noun) = (&report.found.trace, noun(certificate.items));
+        let mut facts = report.centres();
         let [radius, lower] = [answer.radius, answer.lower_bound].map(exact);
         let counts = if answer.outliers.is_empty() { "" } else { " that counts" };
         facts.extend([
@@ -36,11 +36,11 @@ impl Tell for Report<'_, Centers> {
             Fact::new("lower bound", &*lower)
                 .remark(format!("no {} have a smaller radius", counted(certificate.k, "centre"))),
         ]);
-        facts.push(match &self.verdict {
+        facts.push(match &report.verdict {
             Some(proved) => gap_of(answer, proved.gap),
             None => gap_of(answer, certificate.gap).remark("as the solver says"),
         });
-        facts.push(match &self.verdict {
+        facts.push(match &report.verdict {
             Some(_) => Fact::new("verified", "yes")
                 .remark(format!("every {noun}{counts} is in a ball, and the gap is proved")),
             None => Fact::new("verified", "not checked"),
@@ -68,12 +68,57 @@ impl Tell for Report<'_, Centers> {
         facts
     }
 
-    fn dim(&self) -> usize {
-        dim_of(&self.found.certificate, self.points.source().dim())
+    fn dim(report: &Report<'_, Self>) -> usize {
+        dim_of(&report.found.certificate, report.points.source().dim())
     }
 
-    fn figures(&self, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
-        centers_figures(self.found, self.points.source(), options)
+    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
+        centers_figures(report.found, report.points.source(), options)
+    }
+
+    fn claims(found: &Solution<Self>, proved: &Self::Verdict, source: &dyn PointSource) -> Claims {
+        let certificate = &found.certificate;
+        let items = items_of(certificate, source.len(), dim_of(certificate, source.dim()));
+        let noun = noun(certificate.items);
+        let placement = match certificate.placement {
+            Placement::Free => "anywhere".to_owned(),
+            Placement::Rows => format!("among the {noun}s"),
+        };
+        let (left_out, rests_on) = match certificate.outliers {
+            0 => (Fact::proved("left out", "none"), String::new()),
+            most => {
+                let left_out = found.answer.outliers.len() as u64;
+                let fact = Fact::proved("left out", share(left_out, source.len()));
+                let fact = fact.remark(format!("of at most {}", counted(most, noun)));
+                (fact, format!(", all but at most {}", count(most)))
+            }
+        };
+        let bracket = format!("{} ≤ least radius ≤ {}", exact(proved.lower), exact(proved.upper));
+        let (k, radius) = (count(certificate.k), exact(found.answer.radius));
+        let mut facts = vec![
+            Fact::proved(
+                "centres",
+                format!("{}, {placement}", count(found.answer.centers.len() as u64)),
+            )
+            .remark(format!("of at most {k}")),
+            left_out,
+            Fact::proved("bracket", bracket),
+            Fact::proved("gap", gap(proved.gap)).remark("relative, from the points alone"),
+            Fact::new("nodes", count(proved.nodes)).remark("of the search for the lower bound"),
+        ];
+        if let Some(nodes) = proved.cover_nodes {
+            facts.push(
+                Fact::new("again", format!("{} nodes", count(nodes)))
+                    .remark("of a second search, over candidate balls, which agrees"),
+            );
+        }
+        Claims {
+            what: format!(
+                "centres, k = {k}, {placement}, of radius {radius}, around {items}{rests_on}"
+            ),
+            gap: Some(proved.gap),
+            facts,
+        }
     }
 }
 
@@ -144,55 +189,5 @@ fn dim_of(certificate: &CentersCertificate, columns: usize) -> usize {
     match certificate.weights {
         true => columns.saturating_sub(1),
         false => certificate.items.dim(columns),
-    }
-}
-
-/// Of which problem what was proved of centres: a certificate of another one is as true.
-pub(crate) fn claims_of_centers(
-    found: &Solution<Centers>,
-    source: &dyn PointSource,
-    proved: &CentersVerdict,
-) -> Claims {
-    let certificate = &found.certificate;
-    let items = items_of(certificate, source.len(), dim_of(certificate, source.dim()));
-    let noun = noun(certificate.items);
-    let placement = match certificate.placement {
-        Placement::Free => "anywhere".to_owned(),
-        Placement::Rows => format!("among the {noun}s"),
-    };
-    let (left_out, rests_on) = match certificate.outliers {
-        0 => (Fact::proved("left out", "none"), String::new()),
-        most => {
-            let left_out = found.answer.outliers.len() as u64;
-            let fact = Fact::proved("left out", share(left_out, source.len()));
-            let fact = fact.remark(format!("of at most {}", counted(most, noun)));
-            (fact, format!(", all but at most {}", count(most)))
-        }
-    };
-    let bracket = format!("{} ≤ least radius ≤ {}", exact(proved.lower), exact(proved.upper));
-    let (k, radius) = (count(certificate.k), exact(found.answer.radius));
-    let mut facts = vec![
-        Fact::proved(
-            "centres",
-            format!("{}, {placement}", count(found.answer.centers.len() as u64)),
-        )
-        .remark(format!("of at most {k}")),
-        left_out,
-        Fact::proved("bracket", bracket),
-        Fact::proved("gap", gap(proved.gap)).remark("relative, from the points alone"),
-        Fact::new("nodes", count(proved.nodes)).remark("of the search for the lower bound"),
-    ];
-    if let Some(nodes) = proved.cover_nodes {
-        facts.push(
-            Fact::new("again", format!("{} nodes", count(nodes)))
-                .remark("of a second search, over candidate balls, which agrees"),
-        );
-    }
-    Claims {
-        what: format!(
-            "centres, k = {k}, {placement}, of radius {radius}, around {items}{rests_on}"
-        ),
-        gap: Some(proved.gap),
-        facts,
     }
 }

@@ -4,17 +4,16 @@ use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::{Curve, CurveMethod, CurveOptions, Ends, Solution, curve_of_source};
+use taut::{Curve, CurveMethod, CurveOptions, Ends, Monitor, Solution, curve_of_source};
 use taut_io::{Polyline, PolylineFormat, polylines_file};
 
-use crate::clock::Clock;
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::picture::{Look, Picture};
-use crate::reading::{Points, Reading};
-use crate::report::{self, Report, Tell};
-use crate::verify::judge;
-use crate::writing::{self, Outputs};
+use crate::picture::Picture;
+use crate::pipeline::{self, Find, Input, Output};
+use crate::reading::{Opened, Points, Reading};
+use crate::watch::Watch;
+use crate::writing::Outputs;
 
 /// Find the curves that points of the plane were sampled from, noisy or not, and say whether the sampling was dense enough.
 #[derive(Debug, clap::Args)]
@@ -96,68 +95,73 @@ fn methods() -> impl TypedValueParser<Value = CurveMethod> {
     })
 }
 
+impl Find for Args {
+    type Answer = Curve;
+    type Extra = ();
+
+    fn input(&self) -> Input<'_> {
+        Input { path: &self.points.path, reading: &self.reading, effort: &self.effort }
+    }
+
+    fn output(&self) -> Output<'_> {
+        Output {
+            no_verify: self.no_verify,
+            out: self.out.as_deref(),
+            json: self.json,
+            draw: self.draw.as_deref(),
+        }
+    }
+
+    fn check_options(&self) -> anyhow::Result<()> {
+        self.line_format()?;
+        match &self.svg_path {
+            Some(path) if PolylineFormat::of_path(path).0 != Some(PolylineFormat::Svg) => {
+                bail!("{}: --path writes SVG; name it .svg", path.display())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn side_files(&self) -> Vec<&Path> {
+        self.svg_path.as_deref().into_iter().collect()
+    }
+
+    fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Curve>, ())> {
+        let solve =
+            |monitor: &Monitor<'_>| curve_of_source(points.source(), &self.options(), monitor);
+        let found = watch.during("solving", solve).map_err(|error| points.explain_curve(error))?;
+        Ok((found, ()))
+    }
+
+    fn write(
+        &self,
+        found: &mut Solution<Curve>,
+        _: &(),
+        _: &Opened,
+        outputs: &mut Outputs,
+        _: &Monitor<'_>,
+    ) -> anyhow::Result<()> {
+        let curves: Vec<Polyline<'_>> = found
+            .answer
+            .curves
+            .iter()
+            .map(|curve| Polyline { vertices: &curve.vertices, closed: curve.closed })
+            .collect();
+        match (&self.out, self.line_format()?) {
+            (Some(out), lines @ Some(_)) => outputs.hold(polylines_file(&curves, out, lines)?),
+            (Some(out), None) => outputs.add_json(out, found)?,
+            (None, _) => {}
+        }
+        if let Some(path) = &self.svg_path {
+            outputs.hold(polylines_file(&curves, path, Some(PolylineFormat::Svg))?);
+        }
+        Ok(())
+    }
+}
+
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
-        let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
-        let lines = self.line_format()?;
-        if let Some(path) = &self.svg_path
-            && PolylineFormat::of_path(path).0 != Some(PolylineFormat::Svg)
-        {
-            bail!("{}: --path writes SVG; name it .svg", path.display());
-        }
-        let outputs: Vec<&Path> = [&self.out, &self.svg_path, &self.draw]
-            .into_iter()
-            .flatten()
-            .map(|path| &**path)
-            .collect();
-        writing::look_at(&outputs, &[&self.points.path])?;
-        let watch = self.effort.start()?;
-        let mut clock = Clock::start();
-        let points = self.reading.open(&self.points.path)?;
-        clock.lap("reading");
-
-        let found = watch
-            .during("solving", |monitor| curve_of_source(points.source(), &self.options(), monitor))
-            .map_err(|error| points.explain_curve(error))?;
-        clock.lap("solving");
-
-        let mut verdict = None;
-        if !self.no_verify {
-            match judge(&found, &points, &watch)? {
-                Ok(proved) => verdict = Some(proved),
-                Err(violation) => {
-                    let violation = points.explain_violation(&violation, Report::<Curve>::FOUND);
-                    writing::complain(&format!("the check failed: {violation}"));
-                    return Ok(Outcome::CheckFailed);
-                }
-            }
-            clock.lap("checking");
-        }
-        let report = Report { found: &found, points: &points, verdict };
-        let drawn = picture
-            .map(|picture| picture.draw(report.drawing(&Look::default())?, &Look::default()))
-            .transpose()?;
-        if picture.is_some() {
-            clock.lap("drawing");
-        }
-
-        let mut outputs = Outputs::default();
-        self.write(&mut outputs, &found, lines)?;
-        if let (Some(path), Some(bytes)) = (&self.draw, drawn) {
-            outputs.add(path, &bytes)?;
-        }
-        // Where the answer goes to standard output, nothing else does.
-        if self.out.as_deref().is_none_or(|out| !writing::is_stream(out)) {
-            if self.json {
-                outputs.say(&(found.to_json() + "\n"));
-            } else if !self.effort.quiet {
-                let mut facts = report.facts();
-                facts.push(clock.fact());
-                outputs.say(&report::text(&report.title(), &facts));
-            }
-        }
-        outputs.finish()?;
-        Ok(Outcome::Done)
+        pipeline::run(self)
     }
 
     /// The format of the curves that go to `--out`; none where JSON does.
@@ -177,29 +181,6 @@ impl Args {
             }
             None => bail!("{shown}: -o writes .json, .csv or .geojson; name one of these"),
         }
-    }
-
-    fn write(
-        &self,
-        outputs: &mut Outputs,
-        found: &Solution<Curve>,
-        lines: Option<PolylineFormat>,
-    ) -> anyhow::Result<()> {
-        let curves: Vec<Polyline<'_>> = found
-            .answer
-            .curves
-            .iter()
-            .map(|curve| Polyline { vertices: &curve.vertices, closed: curve.closed })
-            .collect();
-        match &self.out {
-            Some(out) if lines.is_some() => outputs.hold(polylines_file(&curves, out, lines)?),
-            Some(out) => outputs.add_json(out, found)?,
-            None => {}
-        }
-        if let Some(path) = &self.svg_path {
-            outputs.hold(polylines_file(&curves, path, Some(PolylineFormat::Svg))?);
-        }
-        Ok(())
     }
 
     fn options(&self) -> CurveOptions {

@@ -1,22 +1,24 @@
 //! What is said about curves.
 
 use taut::certify::CurveVerdict;
-use taut::{Curve, Solution};
+use taut::{Curve, PointSource, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, curve_figures};
 
 use crate::numbers::{count, counted, exact, gap, short};
-use crate::report::{Claims, Fact, Report, Tell, rows_of, without_outliers, yes_without_outliers};
+use crate::report::{
+    Claims, Fact, Report, Summary, rows_of, without_outliers, yes_without_outliers,
+};
 
-impl Tell for Report<'_, Curve> {
+impl Summary for Curve {
     const FOUND: &'static str = "the curves found";
 
-    fn title(&self) -> String {
-        let points = counted(self.points.source().len(), "point");
-        format!("{points} in the plane: {}", curves_of(self.found))
+    fn title(report: &Report<'_, Self>) -> String {
+        let points = counted(report.points.source().len(), "point");
+        format!("{points} in the plane: {}", curves_of(report.found))
     }
 
-    fn facts(&self) -> Vec<Fact> {
-        let (answer, certificate) = (&self.found.answer, &self.found.certificate);
+    fn facts(report: &Report<'_, Self>) -> Vec<Fact> {
+        let (answer, certificate) = (&report.found.answer, &report.found.certificate);
         let closed = answer.curves.iter().filter(|curve| curve.closed).count() as u64;
         let all = answer.curves.len() as u64;
         let vertices: usize = answer.curves.iter().map(|curve| curve.vertices.len()).sum();
@@ -40,8 +42,8 @@ impl Tell for Report<'_, Curve> {
                     .remark("half the width of its band, as estimated"),
             );
         }
-        let band = self.verdict.as_ref().map_or(certificate.band, |proved| proved.band);
-        facts.push(match (&self.verdict, answer.outliers.is_empty()) {
+        let band = report.verdict.as_ref().map_or(certificate.band, |proved| proved.band);
+        facts.push(match (&report.verdict, answer.outliers.is_empty()) {
             (None, _) => Fact::new("band", exact(band)).remark("as the solver says"),
             (Some(_), true) => {
                 Fact::new("band", exact(band)).remark("no point is farther from the curves")
@@ -52,30 +54,58 @@ impl Tell for Report<'_, Curve> {
         if !answer.outliers.is_empty() {
             facts.push(rows_of("outliers", &answer.outliers));
         }
-        match &self.verdict {
+        match &report.verdict {
             Some(proved) => facts.extend(judged(proved)),
             None => facts.push(match certificate.certified {
                 true => Fact::new("certified", "yes").remark("as the solver says"),
                 false => Fact::new("certified", "no").remark("as the solver says"),
             }),
         }
-        facts.push(match &self.verdict {
+        facts.push(match &report.verdict {
             Some(proved) if proved.is_simple => {
                 Fact::new("verified", "yes").remark("no two edges meet, and the band holds")
             }
             Some(_) => Fact::new("verified", "yes").remark("a tour, and its bound"),
             None => Fact::new("verified", "not checked"),
         });
-        facts.push(Fact::new("method", &*self.found.trace.method));
+        facts.push(Fact::new("method", &*report.found.trace.method));
         facts
     }
 
-    fn dim(&self) -> usize {
-        self.points.source().dim()
+    fn dim(report: &Report<'_, Self>) -> usize {
+        report.points.source().dim()
     }
 
-    fn figures(&self, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
-        curve_figures(self.found, self.points.source(), options)
+    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
+        curve_figures(report.found, report.points.source(), options)
+    }
+
+    fn claims(
+        found: &Solution<Self>,
+        verdict: &Self::Verdict,
+        _source: &dyn PointSource,
+    ) -> Claims {
+        let band = Fact::proved("band", exact(verdict.band));
+        let mut facts = vec![
+            match verdict.outliers {
+                0 => band.remark("no point is farther off"),
+                _ => band.remark("no point but outliers is farther off"),
+            },
+            match verdict.is_simple {
+                true => {
+                    Fact::proved("simple", "yes").remark("no two edges meet, by exact predicates")
+                }
+                false => Fact::proved("simple", "no").remark("edges of the tour meet"),
+            },
+        ];
+        facts.extend(judged(verdict));
+        let used = verdict.rows - verdict.outliers;
+        let rows = without_outliers(used, verdict.rows, verdict.outliers, "in the plane");
+        Claims {
+            what: format!("{} through {rows}", curves_of(found)),
+            gap: verdict.tour_gap,
+            facts,
+        }
     }
 }
 
@@ -85,25 +115,6 @@ pub(crate) fn curves_of(found: &Solution<Curve>) -> String {
         (Some(_), [tour]) => if tour.closed { "a tour" } else { "a path" }.to_owned(),
         (_, curves) => counted(curves.len() as u64, "curve"),
     }
-}
-
-/// What the checker proved, and what evidence it found.
-pub(crate) fn claims_of_curve(found: &Solution<Curve>, verdict: &CurveVerdict) -> Claims {
-    let band = Fact::proved("band", exact(verdict.band));
-    let mut facts = vec![
-        match verdict.outliers {
-            0 => band.remark("no point is farther off"),
-            _ => band.remark("no point but outliers is farther off"),
-        },
-        match verdict.is_simple {
-            true => Fact::proved("simple", "yes").remark("no two edges meet, by exact predicates"),
-            false => Fact::proved("simple", "no").remark("edges of the tour meet"),
-        },
-    ];
-    facts.extend(judged(verdict));
-    let used = verdict.rows - verdict.outliers;
-    let rows = without_outliers(used, verdict.rows, verdict.outliers, "in the plane");
-    Claims { what: format!("{} through {rows}", curves_of(found)), gap: verdict.tour_gap, facts }
 }
 
 /// Whether the sampling is dense enough, and of a tour how short it is.

@@ -13,13 +13,13 @@ use taut_io::{MeshFormat, mesh_file};
 
 use self::alpha::Alpha;
 use self::built::Built;
-use crate::clock::Clock;
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::picture::{Look, Picture};
+use crate::picture::Picture;
+use crate::pipeline::{self, Find, Input, Output};
 use crate::reading::{Opened, Points, Reading};
-use crate::report::{self, Report, Tell};
-use crate::verify::judge;
+use crate::report::Fact;
+use crate::watch::Watch;
 use crate::writing::{self, Outputs};
 
 /// Triangulate points in the plane or in space, with proof.
@@ -94,10 +94,31 @@ fn orders() -> impl TypedValueParser<Value = InsertionOrder> {
     })
 }
 
-impl Args {
-    pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
-        let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
-        let mesh = self.mesh_format()?;
+/// What side outputs of a triangulation are made from.
+pub(crate) struct Extra {
+    built: Built,
+    complex: Option<alpha::Complex>,
+}
+
+impl Find for Args {
+    type Answer = Triangulation;
+    type Extra = Extra;
+
+    fn input(&self) -> Input<'_> {
+        Input { path: &self.points.path, reading: &self.reading, effort: &self.effort }
+    }
+
+    fn output(&self) -> Output<'_> {
+        Output {
+            no_verify: self.no_verify,
+            out: self.out.as_deref(),
+            json: self.json,
+            draw: self.draw.as_deref(),
+        }
+    }
+
+    fn check_options(&self) -> anyhow::Result<()> {
+        self.mesh_format()?;
         for path in self.hull.iter().chain(self.alpha.files()) {
             if MeshFormat::of_path(path).0.is_none() {
                 return Err(taut_io::Error::UnknownMesh { path: path.display().to_string() }.into());
@@ -109,82 +130,77 @@ impl Args {
                 bail!("{}: Voronoi cells are .geojson or .json; name one of these", path.display());
             }
         }
-        let outputs: Vec<&Path> = [&self.out, &self.draw, &self.hull, &self.voronoi]
-            .into_iter()
-            .flatten()
-            .chain(self.alpha.files())
-            .map(|path| &**path)
-            .collect();
-        writing::look_at(&outputs, &[&self.points.path])?;
-        let watch = self.effort.start()?;
-        let mut clock = Clock::start();
-        let points = self.reading.open(&self.points.path)?;
-        clock.lap("reading");
+        Ok(())
+    }
 
+    fn side_files(&self) -> Vec<&Path> {
+        let files = [&self.hull, &self.voronoi].into_iter().flatten().chain(self.alpha.files());
+        files.map(|path| &**path).collect()
+    }
+
+    fn solve(
+        &self,
+        points: &Opened,
+        watch: &Watch,
+    ) -> anyhow::Result<(Solution<Triangulation>, Extra)> {
+        let (source, options) = (points.source(), self.options());
         let built = watch
-            .during("solving", |monitor| Built::new(points.source(), &self.options(), monitor))
+            .during("solving", |monitor| Built::new(source, &options, monitor))
             .map_err(|error| points.explain_delaunay(error))?;
-        let mut found = watch
-            .during("ordering", |monitor| built.solution(points.source(), monitor))
+        let found = watch
+            .during("ordering", |monitor| built.solution(source, monitor))
             .map_err(|error| points.explain_delaunay(error))?;
-        clock.lap("solving");
-
-        let mut verdict = None;
-        if !self.no_verify {
-            match judge(&found, &points, &watch)? {
-                Ok(proved) => verdict = Some(proved),
-                Err(violation) => {
-                    let violation = points.explain_violation(&violation, "the triangulation found");
-                    writing::complain(&format!("the check failed: {violation}"));
-                    return Ok(Outcome::CheckFailed);
-                }
-            }
-            clock.lap("checking");
-        }
         let complex = self.alpha.complex(&built);
-        let report = Report { found: &found, points: &points, verdict };
-        let mut facts = report.facts();
-        facts.extend(complex.as_ref().map(alpha::Complex::fact));
-        facts.push(built.signs());
-        let drawn = picture
-            .map(|picture| picture.draw(report.drawing(&Look::default())?, &Look::default()))
-            .transpose()?;
-        if picture.is_some() {
-            clock.lap("drawing");
-        }
-        let title = report.title();
+        Ok((found, Extra { built, complex }))
+    }
 
+    fn side_fields(&self, extra: &Extra) -> Vec<Fact> {
+        let complex = extra.complex.as_ref().map(alpha::Complex::fact);
+        complex.into_iter().chain([extra.built.signs()]).collect()
+    }
+
+    fn write(
+        &self,
+        found: &mut Solution<Triangulation>,
+        extra: &Extra,
+        points: &Opened,
+        outputs: &mut Outputs,
+        monitor: &Monitor<'_>,
+    ) -> anyhow::Result<()> {
         if self.no_neighbors {
             found.certificate.neighbors = Vec::new();
         }
-        let cells = self.voronoi.as_ref().map(|_| voronoi::cells(&built, points.source()));
-        let cells = cells.transpose()?;
-        let mut outputs = Outputs::default();
-        // Watched to the end, so that an interrupt leaves no half of a file.
-        watch.during("writing", |monitor| {
-            self.write(&mut outputs, &found, mesh, &points, monitor)?;
-            if let Some(complex) = &complex {
-                complex.write(&mut outputs, &self.alpha, points.source(), monitor)?;
+        let answer = &found.answer;
+        let file = |simplices: &[u32], width: usize, path: &Path| {
+            mesh_file(points.source(), simplices, width, path, None, monitor)
+        };
+        match (&self.out, self.mesh_format()?) {
+            (Some(out), Some(_)) => {
+                outputs.hold(file(&answer.simplices, answer.vertices_per_simplex(), out)?);
             }
-            for (path, bytes) in [(&self.voronoi, cells), (&self.draw, drawn)] {
-                if let (Some(path), Some(bytes)) = (path, bytes) {
-                    outputs.add(path, &bytes)?;
-                }
-            }
-            anyhow::Ok(())
-        })?;
-        clock.lap("writing");
-        // Where the answer goes to standard output, nothing else does.
-        if self.out.as_deref().is_none_or(|out| !writing::is_stream(out)) {
-            if self.json {
-                outputs.say(&(found.to_json() + "\n"));
-            } else if !self.effort.quiet {
-                facts.push(clock.fact());
-                outputs.say(&report::text(&title, &facts));
-            }
+            (Some(out), None) => outputs.add_json(out, found)?,
+            (None, _) => {}
         }
-        outputs.finish()?;
-        Ok(Outcome::Done)
+        if let Some(hull) = &self.hull {
+            let width = answer.hull_dimension.map_or(0, usize::from);
+            if width == 0 {
+                bail!("{}: all points are equal, so there is no hull to write", points.name());
+            }
+            outputs.hold(file(&answer.hull, width, hull)?);
+        }
+        if let Some(complex) = &extra.complex {
+            complex.write(outputs, &self.alpha, points.source(), monitor)?;
+        }
+        match &self.voronoi {
+            Some(path) => outputs.add(path, &voronoi::cells(&extra.built, points.source())?),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
+        pipeline::run(self)
     }
 
     /// The format of the mesh that goes to `--out`; none where JSON does.
@@ -206,35 +222,6 @@ impl Args {
                 )
             }
         }
-    }
-
-    fn write(
-        &self,
-        outputs: &mut Outputs,
-        found: &Solution<Triangulation>,
-        mesh: Option<MeshFormat>,
-        points: &Opened,
-        monitor: &Monitor<'_>,
-    ) -> anyhow::Result<()> {
-        let answer = &found.answer;
-        let file = |simplices: &[u32], width: usize, path: &Path| {
-            mesh_file(points.source(), simplices, width, path, None, monitor)
-        };
-        match (&self.out, mesh) {
-            (Some(out), Some(_)) => {
-                outputs.hold(file(&answer.simplices, answer.vertices_per_simplex(), out)?);
-            }
-            (Some(out), None) => outputs.add_json(out, found)?,
-            (None, _) => {}
-        }
-        if let Some(hull) = &self.hull {
-            let width = answer.hull_dimension.map_or(0, usize::from);
-            if width == 0 {
-                bail!("{}: all points are equal, so there is no hull to write", points.name());
-            }
-            outputs.hold(file(&answer.hull, width, hull)?);
-        }
-        Ok(())
     }
 
     fn options(&self) -> DelaunayOptions {

@@ -2,14 +2,15 @@
 
 use std::path::PathBuf;
 
-use taut::{Answer, AnySolution, Items, Solution, Violation};
+use anyhow::bail;
+use taut::certify::with_solution;
+use taut::{Solution, Violation};
 
-use crate::ball_report::NO_PICTURE;
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::picture::{Drawing, Look, Picture};
 use crate::reading::{Opened, Points, Reading};
-use crate::report::{Report, Tell};
+use crate::report::{Report, Summary};
 use crate::verify::{judge, read_answer, shown};
 use crate::watch::Watch;
 use crate::writing;
@@ -45,22 +46,7 @@ impl Args {
         let watch = self.effort.start()?;
         let answer = read_answer(&self.answer, &self.points.path)?;
         let points = self.reading.open(&self.points.path)?;
-        let drawing = match &answer {
-            AnySolution::Ball(found) if found.certificate.items == Items::Ellipsoids => {
-                anyhow::bail!("{}: {NO_PICTURE}", shown(&self.answer))
-            }
-            AnySolution::Ball(found) => self.drawing(found, &points, &watch)?,
-            AnySolution::Ellipsoid(found) => self.drawing(found, &points, &watch)?,
-            AnySolution::Inscribed(found) => self.drawing(found, &points, &watch)?,
-            AnySolution::Robust(found) => self.drawing(found, &points, &watch)?,
-            AnySolution::Centers(found) => self.drawing(found, &points, &watch)?,
-            AnySolution::Curve(found) => self.drawing(found, &points, &watch)?,
-            AnySolution::Surface(found) => self.drawing(found, &points, &watch)?,
-            AnySolution::Order(_) => {
-                anyhow::bail!("{}: an order of points has no picture", shown(&self.answer))
-            }
-            AnySolution::Triangulation(found) => self.drawing(found, &points, &watch)?,
-        };
+        let drawing = with_solution!(&answer, found => self.drawing(found, &points, &watch)?);
         match drawing {
             Ok(drawing) => {
                 writing::replace(&self.out, &picture.draw(drawing, &self.look)?)?;
@@ -75,15 +61,15 @@ impl Args {
     }
 
     /// The pictures of an answer that fits the points, or what is wrong with it.
-    fn drawing<A: Answer>(
+    fn drawing<A: Summary>(
         &self,
         found: &Solution<A>,
         points: &Opened,
         watch: &Watch,
-    ) -> anyhow::Result<Result<Drawing, Violation>>
-    where
-        for<'a> Report<'a, A>: Tell,
-    {
+    ) -> anyhow::Result<Result<Drawing, Violation>> {
+        if let Some(why) = A::no_picture(found) {
+            bail!("{}: {why}", shown(&self.answer))
+        }
         let verdict = match self.no_verify {
             true => None,
             false => match judge(found, points, watch)? {

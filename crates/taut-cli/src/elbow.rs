@@ -9,14 +9,13 @@ use taut::{Centers, CentersOptions, Items, Solution, centers_of_source};
 use taut_draw::{ElbowStep, elbow_figure};
 
 use crate::clock::Clock;
-use crate::delivery::{Delivery, Desk};
 use crate::exit::Outcome;
 use crate::numbers::{count, counted, exact, gap, short};
 use crate::picture::{self, Drawing, Look};
+use crate::pipeline::{Input, Output, check};
 use crate::reading::Opened;
 use crate::report::{self, Fact, noun};
-use crate::verify::judge;
-use crate::writing::{self, Outputs};
+use crate::writing::Outputs;
 
 /// From the first k to the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,11 +96,11 @@ pub(crate) fn run(
     range: &Range,
     items: Items,
     options: &CentersOptions,
-    desk: &Desk<'_>,
-    delivery: &Delivery,
+    input: Input<'_>,
+    output: Output<'_>,
 ) -> anyhow::Result<Outcome> {
-    let picture = delivery.look_at_places(desk.path)?;
-    if let Some(out) = &delivery.out
+    let picture = output.check_files(input.path, &[])?;
+    if let Some(out) = output.out
         && out.extension().is_some_and(|extension| extension == "json")
     {
         bail!(
@@ -109,9 +108,9 @@ pub(crate) fn run(
             out.display()
         );
     }
-    let watch = desk.effort.start()?;
+    let watch = input.effort.start()?;
     let mut clock = Clock::start();
-    let points = desk.reading.open(desk.path)?;
+    let points = input.reading.open(input.path)?;
     clock.lap("reading");
     let mut rows = Vec::new();
     for k in range.first..=range.last {
@@ -120,11 +119,7 @@ pub(crate) fn run(
                 centers_of_source(points.source(), items, k, options, monitor)
             })
             .map_err(|error| points.explain(error))?;
-        if delivery.is_verified()
-            && let Err(violation) = judge(&found, &points, &watch)?
-        {
-            let violation = points.explain_violation(&violation, "the centres found");
-            writing::complain(&format!("the check failed for k = {k}: {violation}"));
+        if check(&found, &points, &watch, output)?.is_err() {
             return Ok(Outcome::CheckFailed);
         }
         let row = Row::of(k, &found);
@@ -136,27 +131,26 @@ pub(crate) fn run(
         }
     }
     carry_over(&mut rows);
-    let checked = if delivery.is_verified() { "solving and checking" } else { "solving" };
+    let checked = if output.no_verify { "solving" } else { "solving and checking" };
     clock.lap(checked);
 
     let title = title(&points, items);
-    let verified = match delivery.is_verified() {
-        true => Fact::new("verified", "yes").remark("both bounds, for each k"),
-        false => Fact::new("verified", "not checked"),
+    let verified = match output.no_verify {
+        false => Fact::new("verified", "yes").remark("both bounds, for each k"),
+        true => Fact::new("verified", "not checked"),
     };
     let drawn = picture
         .map(|picture| picture.draw(drawing(&title, &points, &rows, &verified)?, &Look::default()))
         .transpose()?;
     let mut outputs = Outputs::default();
-    if let Some(out) = &delivery.out {
+    if let Some(out) = output.out {
         outputs.add(out, csv(&rows).as_bytes())?;
     }
-    if let (Some(path), Some(drawn)) = (&delivery.draw, drawn) {
+    if let (Some(path), Some(drawn)) = (output.draw, drawn) {
         outputs.add(path, &drawn)?;
     }
     // Where the table goes to standard output, nothing else does.
-    let is_free = delivery.out.as_deref().is_none_or(|out| !writing::is_stream(out));
-    if is_free && !desk.effort.quiet {
+    if !output.is_standard_output() && !input.effort.quiet {
         outputs.say(&format!("{title}\n{}", table(&rows, options.epsilon)));
         let facts: Vec<Fact> = [end_of(&rows, range), Some(verified), Some(clock.fact())]
             .into_iter()

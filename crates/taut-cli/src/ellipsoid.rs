@@ -2,17 +2,18 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use taut::{
-    Ellipsoid, EllipsoidMethod, EllipsoidOptions, RobustEllipsoid, RobustOptions, Solution,
-    ellipsoid_of_items, robust_ellipsoid_of_source,
+    Ellipsoid, EllipsoidMethod, EllipsoidOptions, Monitor, RobustEllipsoid, RobustOptions,
+    Solution, ellipsoid_of_items, robust_ellipsoid_of_source,
 };
 
 use crate::ball::items;
-use crate::delivery::{Delivery, Desk};
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::reading::{Points, Reading};
+use crate::pipeline::{self, Find, Input, Output, OutputOptions};
+use crate::reading::{Opened, Points, Reading};
 use crate::report;
 use crate::robust::Robust;
+use crate::watch::Watch;
 
 /// Find the ellipsoid of least volume around a point set, with proof.
 #[derive(Debug, clap::Args)]
@@ -50,7 +51,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", default_value_t = EllipsoidOptions::default().seed)]
     seed: u64,
     #[command(flatten)]
-    delivery: Delivery,
+    output: OutputOptions,
     #[command(flatten)]
     robust: Robust,
     #[command(flatten)]
@@ -78,30 +79,78 @@ fn methods() -> impl TypedValueParser<Value = EllipsoidMethod> {
     PossibleValuesParser::new(explained).try_map(|name| name.parse::<EllipsoidMethod>())
 }
 
+/// The ellipsoid around all rows.
+struct Enclosing<'a>(&'a Args);
+
+impl Find for Enclosing<'_> {
+    type Answer = Ellipsoid;
+    type Extra = ();
+
+    fn input(&self) -> Input<'_> {
+        self.0.input()
+    }
+
+    fn output(&self) -> Output<'_> {
+        self.0.output.output()
+    }
+
+    fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Ellipsoid>, ())> {
+        let (items, options) = (items(self.0.balls, self.0.ellipsoids), self.0.options());
+        let solve =
+            |monitor: &Monitor<'_>| ellipsoid_of_items(points.source(), items, &options, monitor);
+        let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
+        Ok((found, ()))
+    }
+
+    fn outcome(&self, found: &Solution<Ellipsoid>) -> Outcome {
+        report::outcome(found.trace.stop, found.certificate.gap, self.0.epsilon)
+    }
+}
+
+/// The ellipsoid of most of the points.
+struct OfMost<'a>(&'a Args, RobustOptions);
+
+impl Find for OfMost<'_> {
+    type Answer = RobustEllipsoid;
+    type Extra = ();
+
+    fn input(&self) -> Input<'_> {
+        self.0.input()
+    }
+
+    fn output(&self) -> Output<'_> {
+        self.0.output.output()
+    }
+
+    fn solve(
+        &self,
+        points: &Opened,
+        watch: &Watch,
+    ) -> anyhow::Result<(Solution<RobustEllipsoid>, ())> {
+        let solve =
+            |monitor: &Monitor<'_>| robust_ellipsoid_of_source(points.source(), &self.1, monitor);
+        let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
+        Ok((found, ()))
+    }
+
+    fn outcome(&self, found: &Solution<RobustEllipsoid>) -> Outcome {
+        // The minimum covariance determinant has no gap that could be missed.
+        found.certificate.enclosure.as_ref().map_or(Outcome::Done, |enclosure| {
+            report::outcome(found.trace.stop, enclosure.certificate.gap, self.1.epsilon)
+        })
+    }
+}
+
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
-        let (reading, effort) = (&self.reading, &self.effort);
-        let desk = Desk { path: &self.points.path, reading, effort };
-        if let Some(options) = self.robust()? {
-            let found = self.delivery.deliver(&desk, |points, monitor| {
-                robust_ellipsoid_of_source(points.source(), &options, monitor)
-            })?;
-            let ended = |found: Solution<RobustEllipsoid>| {
-                // The minimum covariance determinant has no gap that could be missed.
-                found.certificate.enclosure.map_or(Outcome::Done, |enclosure| {
-                    report::outcome(found.trace.stop, enclosure.certificate.gap, options.epsilon)
-                })
-            };
-            return Ok(found.map_or(Outcome::CheckFailed, ended));
+        match self.robust()? {
+            Some(options) => pipeline::run(&OfMost(self, options)),
+            None => pipeline::run(&Enclosing(self)),
         }
-        let (options, items) = (self.options(), items(self.balls, self.ellipsoids));
-        let found = self.delivery.deliver(&desk, |points, monitor| {
-            ellipsoid_of_items(points.source(), items, &options, monitor)
-        })?;
-        let ended = |found: Solution<Ellipsoid>| {
-            report::outcome(found.trace.stop, found.certificate.gap, self.epsilon)
-        };
-        Ok(found.map_or(Outcome::CheckFailed, ended))
+    }
+
+    fn input(&self) -> Input<'_> {
+        Input { path: &self.points.path, reading: &self.reading, effort: &self.effort }
     }
 
     pub(crate) fn robust(&self) -> anyhow::Result<Option<RobustOptions>> {

@@ -2,29 +2,31 @@
 
 use taut::certify::Stop;
 use taut::points::PointSource;
-use taut::{Ellipsoid, EllipsoidMethod, EllipsoidVerdict, Solution};
+use taut::{Ellipsoid, EllipsoidMethod, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, ellipsoid_figures};
 
 use crate::numbers::{count, counted, exact, gap};
-use crate::report::{Claims, Fact, Report, Tell, centre, gap_and_verified, inputs, noun, stopped};
+use crate::report::{
+    Claims, Fact, Report, Summary, centre, gap_and_verified, inputs, noun, stopped,
+};
 
-impl Tell for Report<'_, Ellipsoid> {
+impl Summary for Ellipsoid {
     const FOUND: &'static str = "the ellipsoid found";
 
-    fn title(&self) -> String {
-        let (source, left_out) = (self.points.source(), &self.found.certificate.left_out);
-        let inside = counted(source.len().saturating_sub(left_out.len() as u64), self.noun());
+    fn title(report: &Report<'_, Self>) -> String {
+        let (source, left_out) = (report.points.source(), &report.found.certificate.left_out);
+        let inside = counted(source.len().saturating_sub(left_out.len() as u64), report.noun());
         let of = match left_out.len() {
             0 => String::new(),
             _ => format!(" of {}", count(source.len())),
         };
-        let dim = counted(self.dim() as u64, "dimension");
+        let dim = counted(<Self as Summary>::dim(report) as u64, "dimension");
         format!("Smallest ellipsoid around {inside}{of} in {dim}")
     }
 
-    fn facts(&self) -> Vec<Fact> {
-        let (answer, certificate) = (&self.found.answer, &self.found.certificate);
-        let trace = &self.found.trace;
+    fn facts(report: &Report<'_, Self>) -> Vec<Fact> {
+        let (answer, certificate) = (&report.found.answer, &report.found.certificate);
+        let trace = &report.found.trace;
         // The points may lie far from the origin: digits of the centre count beside the extent of the ellipsoid.
         let longest = answer.factor.iter().flatten().fold(0.0f64, |m, f| m.max(f.abs()));
         let size = if longest > 0.0 { 1.0 / longest } else { 1.0 };
@@ -36,35 +38,64 @@ impl Tell for Report<'_, Ellipsoid> {
             }
             _ => volume,
         };
-        let proved = self.verdict.as_ref().map(|proved| {
+        let proved = report.verdict.as_ref().map(|proved| {
             let lower = exact(proved.lower);
             (proved.gap, format!("no enclosing ellipsoid has a log-volume below {lower}"))
         });
-        let verified = format!("every {} is inside, and the gap is proved", self.noun());
+        let verified = format!("every {} is inside, and the gap is proved", report.noun());
         let [gap, verified] = gap_and_verified(proved, certificate.gap, verified);
         let support = count(certificate.support.len() as u64);
         let mut facts = vec![volume, centre(&answer.center, size), gap, verified];
         if !certificate.left_out.is_empty() {
             facts.push(Fact::new(
                 "left out",
-                counted(certificate.left_out.len() as u64, self.noun()),
+                counted(certificate.left_out.len() as u64, report.noun()),
             ));
         }
         facts.extend([
-            Fact::new("method", &*trace.method).remark(self.ended()),
-            Fact::new("core-set", counted(trace.core_set, self.noun()))
+            Fact::new("method", &*trace.method).remark(report.ended()),
+            Fact::new("core-set", counted(trace.core_set, report.noun()))
                 .remark(format!("{support} of them in the support")),
             Fact::new("passes", count(trace.passes)).remark(counted(trace.iterations, "iteration")),
         ]);
         facts
     }
 
-    fn dim(&self) -> usize {
-        self.found.answer.dim()
+    fn dim(report: &Report<'_, Self>) -> usize {
+        report.found.answer.dim()
     }
 
-    fn figures(&self, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
-        ellipsoid_figures(self.found, self.points.source(), options)
+    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
+        ellipsoid_figures(report.found, report.points.source(), options)
+    }
+
+    fn claims(found: &Solution<Self>, verdict: &Self::Verdict, source: &dyn PointSource) -> Claims {
+        let (answer, certificate) = (&found.answer, &found.certificate);
+        let inputs = inputs(certificate.items, source.len(), source.dim());
+        let bracket =
+            format!("{} ≤ least log-volume ≤ {}", exact(verdict.lower), exact(verdict.upper));
+        let dimension = Fact::proved("dimension", verdict.rank.to_string());
+        let dimension = match &answer.hull {
+            Some(_) => dimension.remark(format!(
+                "all lie within {} of a flat, and the bracket is about their projections to it",
+                gap(verdict.off_hull)
+            )),
+            None => dimension,
+        };
+        Claims {
+            what: format!("ellipsoid of log-volume {} around {inputs}", exact(answer.log_volume)),
+            gap: Some(verdict.gap),
+            facts: vec![
+                Fact::proved("bracket", bracket),
+                Fact::proved("gap", gap(verdict.gap))
+                    .remark("in log-volume, from the points alone"),
+                dimension,
+                Fact::proved("excess", gap(verdict.excess))
+                    .remark("by which |F(x − c)| exceeds 1 at worst; it is part of the gap"),
+                Fact::proved("matrix", gap(verdict.matrix_excess))
+                    .remark("by which (x − c)ᵀQ(x − c) can exceed 1 at worst"),
+            ],
+        }
     }
 }
 
@@ -81,37 +112,5 @@ impl Report<'_, Ellipsoid> {
 
     fn noun(&self) -> &'static str {
         noun(self.found.certificate.items)
-    }
-}
-
-/// What the checker proved.
-pub(crate) fn claims_of_ellipsoid(
-    found: &Solution<Ellipsoid>,
-    verdict: &EllipsoidVerdict,
-    source: &dyn PointSource,
-) -> Claims {
-    let (answer, certificate) = (&found.answer, &found.certificate);
-    let inputs = inputs(certificate.items, source.len(), source.dim());
-    let bracket = format!("{} ≤ least log-volume ≤ {}", exact(verdict.lower), exact(verdict.upper));
-    let dimension = Fact::proved("dimension", verdict.rank.to_string());
-    let dimension = match &answer.hull {
-        Some(_) => dimension.remark(format!(
-            "all lie within {} of a flat, and the bracket is about their projections to it",
-            gap(verdict.off_hull)
-        )),
-        None => dimension,
-    };
-    Claims {
-        what: format!("ellipsoid of log-volume {} around {inputs}", exact(answer.log_volume)),
-        gap: Some(verdict.gap),
-        facts: vec![
-            Fact::proved("bracket", bracket),
-            Fact::proved("gap", gap(verdict.gap)).remark("in log-volume, from the points alone"),
-            dimension,
-            Fact::proved("excess", gap(verdict.excess))
-                .remark("by which |F(x − c)| exceeds 1 at worst; it is part of the gap"),
-            Fact::proved("matrix", gap(verdict.matrix_excess))
-                .remark("by which (x − c)ᵀQ(x − c) can exceed 1 at worst"),
-        ],
     }
 }

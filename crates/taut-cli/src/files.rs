@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
 use taut::certify::{
-    AnyFileSolution, Data, FileCheckError, FileVerdict, FileViolation, Files, KeyKind, WhichFile,
+    AnyFileSolution, Data, DrawnSample, FileAnswer, FileCheckError, FileSolution, FileVerdict,
+    FileViolation, Files, KeyKind, SortedFile, TransposedFile, WhichFile,
 };
 use taut::oblivious::Pending;
 
@@ -150,61 +151,70 @@ fn shown(file: WhichFile, input: Option<&Path>, output: &Path) -> String {
     }
 }
 
-/// What was proved of a file, in one line, and the facts.
-pub(crate) fn told(found: &AnyFileSolution, verdict: &FileVerdict) -> (String, Vec<Fact>) {
-    let by_hash = "by a hash of 128 bits, which other content has by chance only";
-    match found {
-        AnyFileSolution::Sort(found) => {
-            let [start, end] = found.answer.key;
-            let kind = match found.answer.key_kind {
-                KeyKind::U64 => "u64",
-                KeyKind::I64 => "i64",
-                KeyKind::F64 => "f64",
-                KeyKind::Bytes => "bytes",
-            };
-            let title = format!(
-                "{} of {} bytes in order",
-                counted(verdict.items, "record"),
-                count(found.answer.width)
+/// What there is to say of one kind of file.
+pub(crate) trait FileSummary: FileAnswer + Sized {
+    /// What was proved, in one line, and the facts.
+    fn claims(found: &FileSolution<Self>, verdict: &FileVerdict) -> (String, Vec<Fact>);
+}
+
+const BY_HASH: &str = "by a hash of 128 bits, which other content has by chance only";
+
+impl FileSummary for SortedFile {
+    fn claims(found: &FileSolution<Self>, verdict: &FileVerdict) -> (String, Vec<Fact>) {
+        let [start, end] = found.answer.key;
+        let kind = match found.answer.key_kind {
+            KeyKind::U64 => "u64",
+            KeyKind::I64 => "i64",
+            KeyKind::F64 => "f64",
+            KeyKind::Bytes => "bytes",
+        };
+        let title = format!(
+            "{} of {} bytes in order",
+            counted(verdict.items, "record"),
+            count(found.answer.width)
+        );
+        let key = format!("bytes {start} to {}, as {kind}", end.saturating_sub(1));
+        let records = match verdict.compared {
+            true => "those of the input",
+            false => "those of the certificate",
+        };
+        let facts = vec![
+            Fact::proved("key", key).remark("no key is below the one before it"),
+            Fact::proved("records", records).remark(BY_HASH),
+            Fact::new("equal keys", "order not proved"),
+        ];
+        (title, facts)
+    }
+}
+
+impl FileSummary for TransposedFile {
+    fn claims(found: &FileSolution<Self>, verdict: &FileVerdict) -> (String, Vec<Fact>) {
+        let (rows, columns) = (count(found.answer.columns), count(found.answer.rows));
+        let title = format!("{rows} × {columns}, the transpose");
+        let elements = match verdict.compared {
+            true => Fact::proved("elements", count(verdict.items))
+                .remark("each compared with the one of the input"),
+            false => Fact::proved("elements", count(verdict.items)).remark(BY_HASH),
+        };
+        let mut facts = vec![elements];
+        let [input, output] = [found.answer.input_offset, found.answer.output_offset];
+        if found.answer.dtype.is_none() && input.max(output) > 0 {
+            let begin =
+                format!("byte {} of the input, {} of the output", count(input), count(output));
+            facts.push(
+                Fact::new("from", begin).remark("what comes before is judged in .npy files only"),
             );
-            let key = format!("bytes {start} to {}, as {kind}", end.saturating_sub(1));
-            let records = match verdict.compared {
-                true => "those of the input",
-                false => "those of the certificate",
-            };
-            let facts = vec![
-                Fact::proved("key", key).remark("no key is below the one before it"),
-                Fact::proved("records", records).remark(by_hash),
-                Fact::new("equal keys", "order not proved"),
-            ];
-            (title, facts)
         }
-        AnyFileSolution::Transpose(found) => {
-            let (rows, columns) = (count(found.answer.columns), count(found.answer.rows));
-            let title = format!("{rows} × {columns}, the transpose");
-            let elements = match verdict.compared {
-                true => Fact::proved("elements", count(verdict.items))
-                    .remark("each compared with the one of the input"),
-                false => Fact::proved("elements", count(verdict.items)).remark(by_hash),
-            };
-            let mut facts = vec![elements];
-            let [input, output] = [found.answer.input_offset, found.answer.output_offset];
-            if found.answer.dtype.is_none() && input.max(output) > 0 {
-                let begin =
-                    format!("byte {} of the input, {} of the output", count(input), count(output));
-                facts.push(
-                    Fact::new("from", begin)
-                        .remark("what comes before is judged in .npy files only"),
-                );
-            }
-            (title, facts)
-        }
-        AnyFileSolution::Sample(found) => {
-            let of = count(found.answer.of);
-            let title = format!("{} of {of}", counted(verdict.items, "number"));
-            let seed = Fact::proved("seed", found.certificate.seed.to_string())
-                .remark("each number was drawn again: different, in order, in range");
-            (title, vec![seed])
-        }
+        (title, facts)
+    }
+}
+
+impl FileSummary for DrawnSample {
+    fn claims(found: &FileSolution<Self>, verdict: &FileVerdict) -> (String, Vec<Fact>) {
+        let of = count(found.answer.of);
+        let title = format!("{} of {of}", counted(verdict.items, "number"));
+        let seed = Fact::proved("seed", found.certificate.seed.to_string())
+            .remark("each number was drawn again: different, in order, in range");
+        (title, vec![seed])
     }
 }

@@ -1,12 +1,15 @@
 //! `taut inscribe`: the largest shape inside another; so far the ellipsoid inside a polytope.
 
-use taut::{InscribedEllipsoid, InscribedOptions, Solution, inscribed_ellipsoid_of_source};
+use taut::{
+    InscribedEllipsoid, InscribedOptions, Monitor, Solution, inscribed_ellipsoid_of_source,
+};
 
-use crate::delivery::{Delivery, Desk};
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::reading::{HalfSpaces, Reading};
+use crate::pipeline::{self, Find, Input, Output, OutputOptions};
+use crate::reading::{HalfSpaces, Opened, Reading};
 use crate::report;
+use crate::watch::Watch;
 
 /// Find the largest shape inside another, with proof.
 #[derive(Debug, clap::Args)]
@@ -43,7 +46,7 @@ struct Ellipsoid {
     #[arg(long, value_name = "N", default_value_t = InscribedOptions::default().max_steps)]
     max_steps: u64,
     #[command(flatten)]
-    delivery: Delivery,
+    output: OutputOptions,
     #[command(flatten)]
     reading: Reading,
     #[command(flatten)]
@@ -53,25 +56,41 @@ struct Ellipsoid {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         match &self.body {
-            Body::Ellipsoid(args) => args.run(),
+            Body::Ellipsoid(args) => pipeline::run(args),
         }
     }
 }
 
-impl Ellipsoid {
-    fn run(&self) -> anyhow::Result<Outcome> {
-        let (reading, effort) = (&self.reading, &self.effort);
-        let desk = Desk { path: &self.sides.path, reading, effort };
-        let options = self.options();
-        let found = self.delivery.deliver(&desk, |sides, monitor| {
-            inscribed_ellipsoid_of_source(sides.source(), &options, monitor)
-        })?;
-        let ended = |found: Solution<InscribedEllipsoid>| {
-            report::outcome(found.trace.stop, found.certificate.gap, self.epsilon)
-        };
-        Ok(found.map_or(Outcome::CheckFailed, ended))
+impl Find for Ellipsoid {
+    type Answer = InscribedEllipsoid;
+    type Extra = ();
+
+    fn input(&self) -> Input<'_> {
+        Input { path: &self.sides.path, reading: &self.reading, effort: &self.effort }
     }
 
+    fn output(&self) -> Output<'_> {
+        self.output.output()
+    }
+
+    fn solve(
+        &self,
+        sides: &Opened,
+        watch: &Watch,
+    ) -> anyhow::Result<(Solution<InscribedEllipsoid>, ())> {
+        let solve = |monitor: &Monitor<'_>| {
+            inscribed_ellipsoid_of_source(sides.source(), &self.options(), monitor)
+        };
+        let found = watch.during("solving", solve).map_err(|error| sides.explain(error))?;
+        Ok((found, ()))
+    }
+
+    fn outcome(&self, found: &Solution<InscribedEllipsoid>) -> Outcome {
+        report::outcome(found.trace.stop, found.certificate.gap, self.epsilon)
+    }
+}
+
+impl Ellipsoid {
     fn options(&self) -> InscribedOptions {
         InscribedOptions { epsilon: self.epsilon, max_steps: self.max_steps }
     }

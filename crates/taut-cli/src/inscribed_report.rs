@@ -2,27 +2,27 @@
 
 use taut::certify::Stop;
 use taut::points::PointSource;
-use taut::{InscribedEllipsoid, InscribedVerdict, Solution};
+use taut::{InscribedEllipsoid, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, inscribed_figures};
 
 use crate::numbers::{count, counted, exact, gap};
-use crate::report::{Claims, Fact, Report, Tell, centre, gap_and_verified, stopped};
+use crate::report::{Claims, Fact, Report, Summary, centre, gap_and_verified, stopped};
 
-impl Tell for Report<'_, InscribedEllipsoid> {
+impl Summary for InscribedEllipsoid {
     const FOUND: &'static str = "the ellipsoid found";
 
-    fn title(&self) -> String {
-        let sides = counted(self.points.source().len(), "half-space");
-        let dim = counted(self.dim() as u64, "dimension");
+    fn title(report: &Report<'_, Self>) -> String {
+        let sides = counted(report.points.source().len(), "half-space");
+        let dim = counted(Self::dim(report) as u64, "dimension");
         format!("Largest ellipsoid inside {sides} in {dim}")
     }
 
-    fn facts(&self) -> Vec<Fact> {
-        let (answer, certificate) = (&self.found.answer, &self.found.certificate);
-        let trace = &self.found.trace;
+    fn facts(report: &Report<'_, Self>) -> Vec<Fact> {
+        let (answer, certificate) = (&report.found.answer, &report.found.certificate);
+        let trace = &report.found.trace;
         // Digits of the centre count beside the extent of the ellipsoid.
         let widest = answer.axes.iter().flatten().fold(0.0f64, |m, g| m.max(g.abs()));
-        let proved = self.verdict.as_ref().map(|proved| {
+        let proved = report.verdict.as_ref().map(|proved| {
             let upper = exact(proved.upper);
             (proved.gap, format!("no ellipsoid inside has a log-volume above {upper}"))
         });
@@ -44,32 +44,27 @@ impl Tell for Report<'_, InscribedEllipsoid> {
         ]
     }
 
-    fn dim(&self) -> usize {
-        self.found.answer.center.len()
+    fn dim(report: &Report<'_, Self>) -> usize {
+        report.found.answer.center.len()
     }
 
-    fn figures(&self, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
-        inscribed_figures(self.found, self.points.source(), options)
+    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
+        inscribed_figures(report.found, report.points.source(), options)
     }
-}
 
-/// What the checker proved.
-pub(crate) fn claims_of_inscribed(
-    found: &Solution<InscribedEllipsoid>,
-    verdict: &InscribedVerdict,
-    source: &dyn PointSource,
-) -> Claims {
-    let (lower, upper) = (exact(verdict.lower), exact(verdict.upper));
-    let sides = counted(source.len(), "half-space");
-    let dim = counted(found.answer.center.len() as u64, "dimension");
-    let volume = exact(found.answer.log_volume);
-    Claims {
-        what: format!("inscribed ellipsoid of log-volume {volume} within {sides} in {dim}"),
-        gap: Some(verdict.gap),
-        facts: vec![
-            Fact::proved("bracket", format!("{lower} ≤ largest log-volume ≤ {upper}")),
-            Fact::proved("gap", gap(verdict.gap))
-                .remark("in log-volume, from the half-spaces alone"),
-        ],
+    fn claims(found: &Solution<Self>, verdict: &Self::Verdict, source: &dyn PointSource) -> Claims {
+        let (lower, upper) = (exact(verdict.lower), exact(verdict.upper));
+        let sides = counted(source.len(), "half-space");
+        let dim = counted(found.answer.center.len() as u64, "dimension");
+        let volume = exact(found.answer.log_volume);
+        Claims {
+            what: format!("inscribed ellipsoid of log-volume {volume} within {sides} in {dim}"),
+            gap: Some(verdict.gap),
+            facts: vec![
+                Fact::proved("bracket", format!("{lower} ≤ largest log-volume ≤ {upper}")),
+                Fact::proved("gap", gap(verdict.gap))
+                    .remark("in log-volume, from the half-spaces alone"),
+            ],
+        }
     }
 }

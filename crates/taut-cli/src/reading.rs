@@ -5,9 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::certify::{
-    CentersViolation, CurveViolation, MeshViolation, OrderViolation, SurfaceViolation,
-};
+use taut::certify::Fault;
 use taut::delaunay::Error as DelaunayError;
 use taut::enclose::Error as SolveError;
 use taut::points::{ReadError, ScalarKind, shown_number};
@@ -268,76 +266,11 @@ impl Opened {
     /// Why an answer was rejected: in which of the two files, and where, which a checker cannot know.
     pub(crate) fn explain_violation(&self, violation: &Violation, answer: &str) -> String {
         let points = self.name();
-        match *violation {
-            Violation::Outside { row, .. }
-            | Violation::OutsideEllipsoid { row, .. }
-            | Violation::NotOutside { row, .. }
-            | Violation::Listed { row, .. }
-            | Violation::OffHull { row, .. } => {
-                // Points count from 0, rows of a file from 1.
-                let (point, place) = (format!("point {row}"), self.input.describe_cell(row, 0).row);
-                let said =
-                    violation.to_string().replacen(&point, &format!("{point} (row {place})"), 1);
-                format!("{points}: {said}")
-            }
-            Violation::Centers(
-                CentersViolation::Outside { row, .. }
-                | CentersViolation::NoSuchCenter { row, .. }
-                | CentersViolation::Assignment { row, .. },
-            ) => {
-                let place = self.input.describe_cell(row, 0).row;
-                let (from, to) = (format!("row {row}"), format!("point {row} (row {place})"));
-                format!("{points}: {}", violation.to_string().replacen(&from, &to, 1))
-            }
-            Violation::Curve(
-                CurveViolation::OutsideBand { row, .. }
-                | CurveViolation::NoVertex { row }
-                | CurveViolation::NoPlace { row, .. }
-                | CurveViolation::FarPlace { row, .. },
-            ) => {
-                let place = self.input.describe_cell(row, 0).row;
-                let (from, to) = (format!("row {row}"), format!("point {row} (row {place})"));
-                format!("{points}: {}", violation.to_string().replacen(&from, &to, 1))
-            }
-            Violation::Surface(
-                SurfaceViolation::Missing { row }
-                | SurfaceViolation::MissingDuplicate { row, .. }
-                | SurfaceViolation::Interior { row, .. }
-                | SurfaceViolation::Ball { row, .. },
-            ) => {
-                let place = self.input.describe_cell(u64::from(row), 0).row;
-                let (from, to) = (format!("row {row}"), format!("point {row} (row {place})"));
-                format!("{points}: {}", violation.to_string().replacen(&from, &to, 1))
-            }
-            Violation::OutsideHalfSpace { row, .. } => {
-                let (side, place) =
-                    (format!("half-space {row}"), self.input.describe_cell(row, 0).row);
-                let said =
-                    violation.to_string().replacen(&side, &format!("{side} (row {place})"), 1);
-                format!("{points}: {said}")
-            }
-            Violation::Hash { .. }
-            | Violation::Dimension { .. }
-            | Violation::NoRadius { .. }
-            | Violation::NoShape { .. }
-            | Violation::Centers(
-                CentersViolation::Dimension { .. } | CentersViolation::NoWeight { .. },
-            )
-            | Violation::Curve(CurveViolation::Plane { .. })
-            | Violation::Surface(SurfaceViolation::Space { .. })
-            | Violation::Order(OrderViolation::Dimension { .. })
-            | Violation::Mesh(MeshViolation::Dimension { .. } | MeshViolation::Id { .. }) => {
-                format!("{points} does not belong to {answer}: {violation}")
-            }
-            Violation::Support { point, .. }
-            | Violation::LeftOut { row: point, .. }
-            | Violation::Centers(
-                CentersViolation::CoreSet { row: point, .. }
-                | CentersViolation::Row { row: point, .. },
-            ) if point >= self.input.source.len() => {
-                format!("{points} does not belong to {answer}: {violation}")
-            }
-            _ => format!("{answer}: {violation}"),
+        match violation.fault(self.input.source.len()) {
+            // Points count from 0, rows of a file from 1.
+            Fault::Row(row) => format!("{points}, row {}: {violation}", self.row(row)),
+            Fault::Points => format!("{points} does not belong to {answer}: {violation}"),
+            Fault::Answer => format!("{answer}: {violation}"),
         }
     }
 

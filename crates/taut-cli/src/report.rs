@@ -1,7 +1,8 @@
 //! What is said about an answer: the same facts on the terminal, beside pictures and in the tour.
 
+use anyhow::bail;
 use taut::certify::Stop;
-use taut::{Answer, Items, Solution};
+use taut::{Answer, Items, PointSource, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure};
 
 use crate::exit::Outcome;
@@ -17,32 +18,48 @@ pub(crate) struct Report<'a, A: Answer> {
 }
 
 /// What there is to say and to show of one kind of answer.
-pub(crate) trait Tell {
+pub(crate) trait Summary: Answer + Sized {
     /// What messages call an answer that no file holds yet.
     const FOUND: &'static str;
 
     /// What this is, in one line.
-    fn title(&self) -> String;
+    fn title(report: &Report<'_, Self>) -> String;
 
     /// The numbers, each with its name.
-    fn facts(&self) -> Vec<Fact>;
+    fn facts(report: &Report<'_, Self>) -> Vec<Fact>;
 
     /// Coordinates of a place.
-    fn dim(&self) -> usize;
+    fn dim(report: &Report<'_, Self>) -> usize;
+
+    /// Why the answer has no picture, if it has none.
+    fn no_picture(_found: &Solution<Self>) -> Option<&'static str> {
+        None
+    }
 
     /// The pictures.
-    fn figures(&self, options: &DrawOptions) -> Result<Vec<Figure>, DrawError>;
+    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError>;
+
+    /// What the checker found to be so.
+    fn claims(found: &Solution<Self>, verdict: &Self::Verdict, source: &dyn PointSource) -> Claims;
 }
 
-impl<A: Answer> Report<'_, A>
-where
-    Self: Tell,
-{
+impl<A: Summary> Report<'_, A> {
+    pub(crate) fn title(&self) -> String {
+        A::title(self)
+    }
+
+    pub(crate) fn facts(&self) -> Vec<Fact> {
+        A::facts(self)
+    }
+
     /// Pictures and what stands beside them.
     pub(crate) fn drawing(&self, look: &Look) -> anyhow::Result<Drawing> {
-        let options = look.options(self.points.names(self.dim()));
+        if let Some(why) = A::no_picture(self.found) {
+            bail!(why)
+        }
+        let options = look.options(self.points.names(A::dim(self)));
         let figures =
-            self.figures(&options).map_err(|error| picture::refused(error, self.points))?;
+            A::figures(self, &options).map_err(|error| picture::refused(error, self.points))?;
         Ok(Drawing {
             title: self.title(),
             heading: self.points.name().to_owned(),

@@ -1,25 +1,26 @@
 //! What is said about a robust ellipsoid.
 
 use taut::points::PointSource;
-use taut::{RobustEllipsoid, RobustMethod, RobustVerdict, Solution};
+use taut::{RobustEllipsoid, RobustMethod, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, robust_figures};
 
 use crate::numbers::{count, counted, exact, gap};
-use crate::report::{Claims, Fact, Report, Tell, centre, rows_of};
+use crate::report::{Claims, Fact, Report, Summary, centre, rows_of};
 
-impl Tell for Report<'_, RobustEllipsoid> {
+impl Summary for RobustEllipsoid {
     const FOUND: &'static str = "the ellipsoid found";
 
-    fn title(&self) -> String {
-        let source = self.points.source();
-        let dim = counted(self.dim() as u64, "dimension");
+    fn title(report: &Report<'_, Self>) -> String {
+        let source = report.points.source();
+        let dim = counted(Self::dim(report) as u64, "dimension");
         format!("Robust ellipsoid of {} in {dim}", counted(source.len(), "point"))
     }
 
-    fn facts(&self) -> Vec<Fact> {
-        let (answer, certificate) = (&self.found.answer, &self.found.certificate);
-        let trace = &self.found.trace;
-        let (n, dim, rank) = (self.points.source().len(), answer.center.len(), answer.factor.len());
+    fn facts(report: &Report<'_, Self>) -> Vec<Fact> {
+        let (answer, certificate) = (&report.found.answer, &report.found.certificate);
+        let trace = &report.found.trace;
+        let (n, dim, rank) =
+            (report.points.source().len(), answer.center.len(), answer.factor.len());
         let widest = (0..dim).map(|a| answer.scatter[a][a].sqrt()).fold(0.0, f64::max);
         let size = if widest > 0.0 { widest } else { 1.0 };
         let border = match certificate.method {
@@ -34,7 +35,7 @@ impl Tell for Report<'_, RobustEllipsoid> {
             rows_of("outliers", &answer.flagged),
         ];
         if answer.hull.is_some() {
-            let on = self.verdict.map_or_else(
+            let on = report.verdict.map_or_else(
                 || "most points".to_owned(),
                 |proved| format!("{} of {}", count(proved.on_hull), counted(n, "point")),
             );
@@ -43,14 +44,14 @@ impl Tell for Report<'_, RobustEllipsoid> {
                     .remark("centre and scatter are theirs, and all others are outliers"),
             );
         }
-        facts.push(match &self.verdict {
+        facts.push(match &report.verdict {
             Some(_) => Fact::new("verified", "yes").remark(
                 "all is calculated again, and no C-step leads on; other points kept might do better",
             ),
             None => Fact::new("verified", "not checked"),
         });
         if let Some(enclosure) = &certificate.enclosure {
-            let proved = self.verdict.and_then(|verdict| verdict.enclosure);
+            let proved = report.verdict.and_then(|verdict| verdict.enclosure);
             let value = proved.map_or(enclosure.certificate.gap, |proved| proved.gap);
             facts.push(
                 Fact::new("gap", gap(value))
@@ -65,62 +66,57 @@ impl Tell for Report<'_, RobustEllipsoid> {
         facts
     }
 
-    fn dim(&self) -> usize {
-        self.found.answer.center.len()
+    fn dim(report: &Report<'_, Self>) -> usize {
+        report.found.answer.center.len()
     }
 
-    fn figures(&self, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
-        robust_figures(self.found, self.points.source(), options)
+    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
+        robust_figures(report.found, report.points.source(), options)
     }
-}
 
-/// What was proved of a robust ellipsoid, and what was not.
-pub(crate) fn claims_of_robust(
-    found: &Solution<RobustEllipsoid>,
-    verdict: &RobustVerdict,
-    source: &dyn PointSource,
-) -> Claims {
-    let (answer, certificate) = (&found.answer, &found.certificate);
-    let off = verdict.flag_excess;
-    let flags = if off > 0.0 {
-        format!("the points outside the ellipsoid, but for rounding by {off:.0e} of its size")
-    } else {
-        "exactly the points outside the ellipsoid".to_owned()
-    };
-    let mut facts = vec![
-        Fact::proved("objective", exact(verdict.objective))
-            .remark(format!("that of the points kept, within {:.0e}", verdict.slack)),
-        match verdict.enclosure {
-            None => Fact::proved("local optimum", "yes").remark("no C-step leads on"),
-            Some(_) => Fact::evidence("local optimum", "yes").remark(
-                "no C-step leads on from the ellipsoid told, which is the smallest within the gap",
+    fn claims(found: &Solution<Self>, verdict: &Self::Verdict, source: &dyn PointSource) -> Claims {
+        let (answer, certificate) = (&found.answer, &found.certificate);
+        let off = verdict.flag_excess;
+        let flags = if off > 0.0 {
+            format!("the points outside the ellipsoid, but for rounding by {off:.0e} of its size")
+        } else {
+            "exactly the points outside the ellipsoid".to_owned()
+        };
+        let mut facts = vec![
+            Fact::proved("objective", exact(verdict.objective))
+                .remark(format!("that of the points kept, within {:.0e}", verdict.slack)),
+            match verdict.enclosure {
+                None => Fact::proved("local optimum", "yes").remark("no C-step leads on"),
+                Some(_) => Fact::evidence("local optimum", "yes").remark(
+                    "no C-step leads on from the ellipsoid told, which is the smallest within the gap",
+                ),
+            },
+            Fact::new("optimum", "not judged").remark("other points kept might do better"),
+            Fact::proved("kept", count(verdict.kept))
+                .remark(format!("at least {} were to be kept", count(verdict.wanted))),
+            Fact::proved("outliers", count(answer.flagged.len() as u64)).remark(flags),
+            Fact::proved("dimension", verdict.rank.to_string()),
+        ];
+        if certificate.method != RobustMethod::Trim {
+            let level = format!("{} of normal points", certificate.level);
+            facts.push(Fact::new("level", level).remark("which the ellipsoid is to hold"));
+        }
+        if let Some(enclosure) = &verdict.enclosure {
+            facts.push(
+                Fact::proved("gap", gap(enclosure.gap))
+                    .remark("in log-volume, of the ellipsoid around the points kept"),
+            );
+        }
+        let dim = counted(answer.center.len() as u64, "dimension");
+        Claims {
+            what: format!(
+                "robust ellipsoid by {} of {} of {} in {dim}",
+                certificate.method,
+                count(certificate.kept),
+                counted(source.len(), "point")
             ),
-        },
-        Fact::new("optimum", "not judged").remark("other points kept might do better"),
-        Fact::proved("kept", count(verdict.kept))
-            .remark(format!("at least {} were to be kept", count(verdict.wanted))),
-        Fact::proved("outliers", count(answer.flagged.len() as u64)).remark(flags),
-        Fact::proved("dimension", verdict.rank.to_string()),
-    ];
-    if certificate.method != RobustMethod::Trim {
-        let level = format!("{} of normal points", certificate.level);
-        facts.push(Fact::new("level", level).remark("which the ellipsoid is to hold"));
-    }
-    if let Some(enclosure) = &verdict.enclosure {
-        facts.push(
-            Fact::proved("gap", gap(enclosure.gap))
-                .remark("in log-volume, of the ellipsoid around the points kept"),
-        );
-    }
-    let dim = counted(answer.center.len() as u64, "dimension");
-    Claims {
-        what: format!(
-            "robust ellipsoid by {} of {} of {} in {dim}",
-            certificate.method,
-            count(certificate.kept),
-            counted(source.len(), "point")
-        ),
-        gap: verdict.enclosure.map(|enclosure| enclosure.gap),
-        facts,
+            gap: verdict.enclosure.map(|enclosure| enclosure.gap),
+            facts,
+        }
     }
 }

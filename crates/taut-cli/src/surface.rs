@@ -7,18 +7,17 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use taut::points::{PointSource, Scratch};
 use taut::reconstruct::thesis::{AlphaFilter, Extent, Priority, ThesisOptions};
 use taut::{
-    Denoise, Positions, Solution, Surface, SurfaceMethod, SurfaceMode, SurfaceOptions,
+    Denoise, Monitor, Positions, Solution, Surface, SurfaceMethod, SurfaceMode, SurfaceOptions,
     surface_of_source,
 };
 use taut_io::{Shape, ShapeFormat, ShapeOptions, ShapeView, open_shape, shape_file};
 
-use crate::clock::Clock;
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::picture::{Look, Picture};
+use crate::picture::Picture;
+use crate::pipeline::{self, Find, Input, Output};
 use crate::reading::{Opened, Points, Reading};
-use crate::report::{self, Report, Tell};
-use crate::verify::judge;
+use crate::watch::Watch;
 use crate::writing::{self, Outputs};
 
 /// Find the surface that points of space were sampled from: triangles between the points, and whether they are a surface.
@@ -112,73 +111,60 @@ fn methods() -> impl TypedValueParser<Value = SurfaceMethod> {
     })
 }
 
-impl Args {
-    pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
-        self.check_options()?;
-        let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
-        let mesh = self.mesh_format()?;
-        let outputs: Vec<&Path> =
-            [&self.out, &self.draw].into_iter().flatten().map(|path| &**path).collect();
-        writing::look_at(&outputs, &[&self.points.path])?;
-        let watch = self.effort.start()?;
-        let mut clock = Clock::start();
-        let points = self.reading.open(&self.points.path)?;
-        clock.lap("reading");
+impl Find for Args {
+    type Answer = Surface;
+    type Extra = ();
 
-        let found = watch
-            .during("solving", |monitor| {
-                surface_of_source(points.source(), &self.options(), monitor)
-            })
-            .map_err(|error| points.explain_surface(error))?;
-        clock.lap("solving");
+    fn input(&self) -> Input<'_> {
+        Input { path: &self.points.path, reading: &self.reading, effort: &self.effort }
+    }
 
-        let mut verdict = None;
-        if !self.no_verify {
-            match judge(&found, &points, &watch)? {
-                Ok(proved) => verdict = Some(proved),
-                Err(violation) => {
-                    let violation = points.explain_violation(&violation, Report::<Surface>::FOUND);
-                    writing::complain(&format!("the check failed: {violation}"));
-                    return Ok(Outcome::CheckFailed);
-                }
-            }
-            clock.lap("checking");
+    fn output(&self) -> Output<'_> {
+        Output {
+            no_verify: self.no_verify,
+            out: self.out.as_deref(),
+            json: self.json,
+            draw: self.draw.as_deref(),
         }
-        let report = Report { found: &found, points: &points, verdict };
-        let drawn = picture
-            .map(|picture| picture.draw(report.drawing(&Look::default())?, &Look::default()))
-            .transpose()?;
-        if picture.is_some() {
-            clock.lap("drawing");
-        }
+    }
 
-        let mut outputs = Outputs::default();
-        match (&self.out, mesh) {
-            (Some(out), Some(format)) => {
-                outputs.hold(self.mesh(&found, &points, out, format)?);
-            }
-            (Some(out), None) => outputs.add_json(out, &found)?,
+    fn check_options(&self) -> anyhow::Result<()> {
+        self.check_method_options()?;
+        self.mesh_format().map(drop)
+    }
+
+    fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Surface>, ())> {
+        let solve =
+            |monitor: &Monitor<'_>| surface_of_source(points.source(), &self.options(), monitor);
+        let found =
+            watch.during("solving", solve).map_err(|error| points.explain_surface(error))?;
+        Ok((found, ()))
+    }
+
+    fn write(
+        &self,
+        found: &mut Solution<Surface>,
+        _: &(),
+        points: &Opened,
+        outputs: &mut Outputs,
+        _: &Monitor<'_>,
+    ) -> anyhow::Result<()> {
+        match (&self.out, self.mesh_format()?) {
+            (Some(out), Some(format)) => outputs.hold(self.mesh(found, points, out, format)?),
+            (Some(out), None) => outputs.add_json(out, found)?,
             (None, _) => {}
         }
-        if let (Some(path), Some(bytes)) = (&self.draw, drawn) {
-            outputs.add(path, &bytes)?;
-        }
-        // Where the answer goes to standard output, nothing else does.
-        if self.out.as_deref().is_none_or(|out| !writing::is_stream(out)) {
-            if self.json {
-                outputs.say(&(found.to_json() + "\n"));
-            } else if !self.effort.quiet {
-                let mut facts = report.facts();
-                facts.push(clock.fact());
-                outputs.say(&report::text(&report.title(), &facts));
-            }
-        }
-        outputs.finish()?;
-        Ok(Outcome::Done)
+        Ok(())
+    }
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
+        pipeline::run(self)
     }
 
     /// Refuses options that the method does not have, rather than passing over them.
-    fn check_options(&self) -> anyhow::Result<()> {
+    fn check_method_options(&self) -> anyhow::Result<()> {
         let options = [
             ("open", self.open),
             ("closed", self.closed),

@@ -1,30 +1,30 @@
 //! What is said about a surface.
 
 use taut::certify::{SurfaceVerdict, Unused};
-use taut::{Solution, Surface, looks_one_sided};
+use taut::{PointSource, Solution, Surface, looks_one_sided};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, surface_figures};
 
 use crate::numbers::{count, counted, exact, short};
 use crate::report::{
-    Claims, Fact, Report, Tell, rows_of, share, without_outliers, yes_without_outliers,
+    Claims, Fact, Report, Summary, rows_of, share, without_outliers, yes_without_outliers,
 };
 
-impl Tell for Report<'_, Surface> {
+impl Summary for Surface {
     const FOUND: &'static str = "the surface found";
 
-    fn title(&self) -> String {
-        let points = counted(self.points.source().len(), "point");
-        format!("{points} in space: {}", surface_of(self.found))
+    fn title(report: &Report<'_, Self>) -> String {
+        let points = counted(report.points.source().len(), "point");
+        format!("{points} in space: {}", surface_of(report.found))
     }
 
-    fn facts(&self) -> Vec<Fact> {
-        let topology = &self.found.answer.topology;
+    fn facts(report: &Report<'_, Self>) -> Vec<Fact> {
+        let topology = &report.found.answer.topology;
         let components = topology.components.len() as u64;
         let closed =
             topology.components.iter().filter(|one| one.boundary_loops == 0).count() as u64;
         let mut facts = vec![
-            Fact::new("triangles", count(self.found.answer.triangles.len() as u64)),
-            self.vertices(),
+            Fact::new("triangles", count(report.found.answer.triangles.len() as u64)),
+            report.vertices(),
             Fact::new("components", count(components)).remark(match (components, closed) {
                 (0, _) => "no triangle".to_owned(),
                 (1, 1) => "closed".to_owned(),
@@ -56,13 +56,13 @@ impl Tell for Report<'_, Surface> {
             let which = if components == 1 { "the surface" } else { "a part" };
             let remark = format!("{which} cannot be turned alike throughout, as a Möbius band");
             facts.push(Fact::new("sides", "one").remark(remark));
-        } else if looks_one_sided(self.found) {
+        } else if looks_one_sided(report.found) {
             facts.push(Fact::new("sides", "in doubt").remark(
                 "what cells say contradicts itself: noise, too few points, or a sheet with one side, here cut open",
             ));
         }
-        facts.extend(unused(&self.found.answer.unused));
-        match &self.verdict {
+        facts.extend(unused(&report.found.answer.unused));
+        match &report.verdict {
             Some(proved) => {
                 facts.push(certified(proved));
                 let what = match proved.is_delaunay && proved.is_embedded {
@@ -75,16 +75,66 @@ impl Tell for Report<'_, Surface> {
             }
             None => facts.push(Fact::new("verified", "not checked")),
         }
-        facts.push(Fact::new("method", &*self.found.trace.method));
+        facts.push(Fact::new("method", &*report.found.trace.method));
         facts
     }
 
-    fn dim(&self) -> usize {
-        self.points.source().dim()
+    fn dim(report: &Report<'_, Self>) -> usize {
+        report.points.source().dim()
     }
 
-    fn figures(&self, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
-        surface_figures(self.found, self.points.source(), options)
+    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
+        surface_figures(report.found, report.points.source(), options)
+    }
+
+    fn claims(
+        found: &Solution<Self>,
+        verdict: &Self::Verdict,
+        _source: &dyn PointSource,
+    ) -> Claims {
+        let word = |is| if is { "yes" } else { "no" };
+        // What a word means is said where it is so.
+        let shown = |name, is, meaning: &str| match is {
+            true => Fact::proved(name, word(is)).remark(meaning),
+            false => Fact::proved(name, word(is)),
+        };
+        let empty_balls = match verdict.outliers {
+            0 => "each triangle has an empty ball",
+            _ => "each triangle has a ball without points but outliers",
+        };
+        let mut facts = vec![
+            Fact::proved("triangles", count(verdict.triangles)),
+            Fact::proved("components", count(verdict.components)),
+            Fact::proved("boundary loops", count(verdict.boundary_loops)),
+            Fact::proved("manifold", word(verdict.is_manifold)),
+            shown("embedded", verdict.is_embedded, "it meets itself nowhere"),
+            shown("delaunay", verdict.is_delaunay, empty_balls),
+        ];
+        if let Some(genus) = verdict.genus {
+            facts.insert(3, Fact::proved("handles", count(genus)));
+        }
+        if verdict.displacement > 0.0 {
+            facts.push(
+                Fact::proved("displacement", exact(verdict.displacement))
+                    .remark("no vertex is farther from its point"),
+            );
+        }
+        let unused = &found.answer.unused;
+        let lists = [
+            ("duplicates", unused.duplicates.len(), "in the place of an earlier row"),
+            ("outliers", unused.outliers.len(), "left out: nothing is claimed of them"),
+            ("inside", unused.interior.len(), "points that no triangle has, inside the surface"),
+            ("unreferenced", unused.unreferenced.len(), "points that no triangle has"),
+        ];
+        for (name, rows, meaning) in lists {
+            if rows > 0 {
+                facts.push(Fact::proved(name, share(rows as u64, verdict.rows)).remark(meaning));
+            }
+        }
+        facts.push(certified(verdict));
+        let (used, all, left_out) = (verdict.vertices, verdict.rows, verdict.outliers);
+        let rows = without_outliers(used, all, left_out, "in space");
+        Claims { what: format!("{} through {rows}", surface_of(found)), gap: None, facts }
     }
 }
 
@@ -133,53 +183,6 @@ fn unused(rows: &Unused) -> Vec<Fact> {
     ];
     let lists = lists.into_iter().filter(|(_, rows)| !rows.is_empty());
     lists.map(|(name, rows)| rows_of(name, &wide(rows))).collect()
-}
-
-/// What the checker proved.
-pub(crate) fn claims_of_surface(found: &Solution<Surface>, verdict: &SurfaceVerdict) -> Claims {
-    let word = |is| if is { "yes" } else { "no" };
-    // What a word means is said where it is so.
-    let shown = |name, is, meaning: &str| match is {
-        true => Fact::proved(name, word(is)).remark(meaning),
-        false => Fact::proved(name, word(is)),
-    };
-    let empty_balls = match verdict.outliers {
-        0 => "each triangle has an empty ball",
-        _ => "each triangle has a ball without points but outliers",
-    };
-    let mut facts = vec![
-        Fact::proved("triangles", count(verdict.triangles)),
-        Fact::proved("components", count(verdict.components)),
-        Fact::proved("boundary loops", count(verdict.boundary_loops)),
-        Fact::proved("manifold", word(verdict.is_manifold)),
-        shown("embedded", verdict.is_embedded, "it meets itself nowhere"),
-        shown("delaunay", verdict.is_delaunay, empty_balls),
-    ];
-    if let Some(genus) = verdict.genus {
-        facts.insert(3, Fact::proved("handles", count(genus)));
-    }
-    if verdict.displacement > 0.0 {
-        facts.push(
-            Fact::proved("displacement", exact(verdict.displacement))
-                .remark("no vertex is farther from its point"),
-        );
-    }
-    let unused = &found.answer.unused;
-    let lists = [
-        ("duplicates", unused.duplicates.len(), "in the place of an earlier row"),
-        ("outliers", unused.outliers.len(), "left out: nothing is claimed of them"),
-        ("inside", unused.interior.len(), "points that no triangle has, inside the surface"),
-        ("unreferenced", unused.unreferenced.len(), "points that no triangle has"),
-    ];
-    for (name, rows, meaning) in lists {
-        if rows > 0 {
-            facts.push(Fact::proved(name, share(rows as u64, verdict.rows)).remark(meaning));
-        }
-    }
-    facts.push(certified(verdict));
-    let (used, all, left_out) = (verdict.vertices, verdict.rows, verdict.outliers);
-    let rows = without_outliers(used, all, left_out, "in space");
-    Claims { what: format!("{} through {rows}", surface_of(found)), gap: None, facts }
 }
 
 /// Whether the surface is all that one could ask for; of which points, where some are left out.

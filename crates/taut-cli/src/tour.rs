@@ -11,11 +11,10 @@ use std::time::Instant;
 use anyhow::{anyhow, bail};
 use taut::certify::{CentersViolation, NO_NEIGHBOR};
 use taut::{
-    Answer, BallOptions, CentersOptions, CurveOptions, DelaunayOptions, Ellipsoid,
-    EllipsoidOptions, InscribedOptions, Items, RobustOptions, Solution, SurfaceOptions,
-    Triangulation, Violation, ball_of_source, centers_of_source, curve_of_source,
-    delaunay_of_source, ellipsoid_of_source, inscribed_ellipsoid_of_source,
-    robust_ellipsoid_of_source, surface_of_source,
+    BallOptions, CentersOptions, CurveOptions, DelaunayOptions, Ellipsoid, EllipsoidOptions,
+    InscribedOptions, Items, RobustOptions, Solution, SurfaceOptions, Triangulation, Violation,
+    ball_of_source, centers_of_source, curve_of_source, delaunay_of_source, ellipsoid_of_source,
+    inscribed_ellipsoid_of_source, robust_ellipsoid_of_source, surface_of_source,
 };
 use taut_draw::{Fact, Page, Section, to_html};
 
@@ -24,7 +23,7 @@ use crate::exit::Outcome;
 use crate::numbers::{count, exact, gap, seconds, short};
 use crate::picture::{Look, telling};
 use crate::reading::Opened;
-use crate::report::{Report, Tell};
+use crate::report::{Report, Summary};
 use crate::surface_report::surface_of;
 use crate::verify::judge;
 use crate::watch::Watch;
@@ -330,22 +329,19 @@ fn with_an_edge_turned(found: &Solution<Triangulation>) -> Solution<Triangulatio
 }
 
 /// Checks an answer, and where the station says so a doctored one, which must be rejected; then tells and draws.
-fn told<A: Answer>(
+fn told<A: Summary>(
     station: &Station,
     found: &Solution<A>,
     points: &Opened,
     watch: &Watch,
     (name, doctored): (&str, &dyn Fn() -> Solution<A>),
     said: impl FnOnce(Option<&A::Verdict>) -> String,
-) -> anyhow::Result<Stop>
-where
-    for<'a> Report<'a, A>: Tell,
-{
+) -> anyhow::Result<Stop> {
     let (mut verified, mut further) = (true, Vec::new());
     let verdict = match judge(found, points, watch)? {
         Ok(verdict) => Some(verdict),
         Err(violation) => {
-            let why = points.explain_violation(&violation, Report::<A>::FOUND);
+            let why = points.explain_violation(&violation, A::FOUND);
             further.push(Fact::new("rejected", why));
             verified = false;
             None

@@ -1,24 +1,24 @@
 //! What is said about a triangulation.
 
-use taut::Triangulation;
 use taut::certify::TriangulationVerdict;
+use taut::{PointSource, Solution, Triangulation};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, delaunay_figures};
 
 use crate::numbers::{count, counted};
-use crate::report::{Claims, Fact, Report, Tell};
+use crate::report::{Claims, Fact, Report, Summary};
 
-impl Tell for Report<'_, Triangulation> {
+impl Summary for Triangulation {
     const FOUND: &'static str = "the triangulation found";
 
-    fn title(&self) -> String {
-        let answer = &self.found.answer;
+    fn title(report: &Report<'_, Self>) -> String {
+        let answer = &report.found.answer;
         let place = if answer.dimension == 2 { "the plane" } else { "space" };
-        let points = counted(self.points.source().len(), "point");
+        let points = counted(report.points.source().len(), "point");
         format!("Delaunay triangulation of {points} in {place}")
     }
 
-    fn facts(&self) -> Vec<Fact> {
-        let (answer, certificate) = (&self.found.answer, &self.found.certificate);
+    fn facts(report: &Report<'_, Self>) -> Vec<Fact> {
+        let (answer, certificate) = (&report.found.answer, &report.found.certificate);
         let counts = certificate.counts;
         let sites = Fact::new("sites", count(counts.sites)).remark(match answer.duplicates.len() {
             0 => "no two points are equal".to_owned(),
@@ -43,7 +43,7 @@ impl Tell for Report<'_, Triangulation> {
             (more, "tetrahedron") if more != 1 => format!("{} tetrahedra", count(more)),
             (some, noun) => counted(some, noun),
         };
-        let verified = match &self.verdict {
+        let verified = match &report.verdict {
             Some(proved) => Fact::new("verified", "yes").remark(format!(
                 "the only one, with {} decided by the perturbation",
                 counted(proved.ties, "tie")
@@ -62,12 +62,20 @@ impl Tell for Report<'_, Triangulation> {
         ]
     }
 
-    fn dim(&self) -> usize {
-        self.points.source().dim()
+    fn dim(report: &Report<'_, Self>) -> usize {
+        report.points.source().dim()
     }
 
-    fn figures(&self, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
-        delaunay_figures(self.found, self.points.source(), options)
+    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
+        delaunay_figures(report.found, report.points.source(), options)
+    }
+
+    fn claims(
+        _: &Solution<Self>,
+        verdict: &TriangulationVerdict,
+        source: &dyn PointSource,
+    ) -> Claims {
+        claims_of_triangulation(verdict, source.len(), source.dim())
     }
 }
 

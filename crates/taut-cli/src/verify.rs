@@ -4,28 +4,20 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
 use taut::certify::{
-    AnyDocument, AnyFileSolution, CentersViolation, CheckError, JsonError, OrderCurve,
-    check_simplices,
+    AnyDocument, AnyFileSolution, CentersViolation, CheckError, JsonError, check_simplices,
+    with_file_solution, with_solution,
 };
 use taut::enclose::Error as SolveError;
 use taut::points::{Blocks, Scratch};
-use taut::{Answer, AnySolution, Order, OrderVerdict, Solution, Violation};
+use taut::{Answer, AnySolution, Solution, Violation};
 use taut_io::{Mesh, MeshFormat, open_mesh};
 
 use crate::answer_file;
-use crate::ball_report::claims_of_ball;
-use crate::centers_report::claims_of_centers;
-use crate::curve_report::claims_of_curve;
 use crate::effort::Effort;
-use crate::ellipsoid_report::claims_of_ellipsoid;
 use crate::exit::Outcome;
-use crate::files;
-use crate::inscribed_report::claims_of_inscribed;
-use crate::numbers::{count, counted};
+use crate::files::{self, FileSummary};
 use crate::reading::{Opened, Reading};
-use crate::report::{self, Claims, Fact};
-use crate::robust_report::claims_of_robust;
-use crate::surface_report::claims_of_surface;
+use crate::report::{self, Summary};
 use crate::triangulation::claims_of_triangulation;
 use crate::watch::Watch;
 use crate::writing;
@@ -68,28 +60,9 @@ impl Args {
         };
         let points = self.open_points()?;
         let source = points.source();
-        let judged = match &answer {
-            AnySolution::Ball(found) => judge(found, &points, &watch)?
-                .map(|verdict| claims_of_ball(found, &verdict, source)),
-            AnySolution::Ellipsoid(found) => judge(found, &points, &watch)?
-                .map(|verdict| claims_of_ellipsoid(found, &verdict, source)),
-            AnySolution::Inscribed(found) => judge(found, &points, &watch)?
-                .map(|verdict| claims_of_inscribed(found, &verdict, source)),
-            AnySolution::Robust(found) => judge(found, &points, &watch)?
-                .map(|verdict| claims_of_robust(found, &verdict, source)),
-            AnySolution::Centers(found) => judge(found, &points, &watch)?
-                .map(|verdict| claims_of_centers(found, source, &verdict)),
-            AnySolution::Curve(found) => {
-                judge(found, &points, &watch)?.map(|verdict| claims_of_curve(found, &verdict))
-            }
-            AnySolution::Surface(found) => {
-                judge(found, &points, &watch)?.map(|verdict| claims_of_surface(found, &verdict))
-            }
-            AnySolution::Order(found) => judge(found, &points, &watch)?
-                .map(|verdict| claims_of_order(found, &verdict, source.dim())),
-            AnySolution::Triangulation(found) => judge(found, &points, &watch)?
-                .map(|verdict| claims_of_triangulation(&verdict, source.len(), source.dim())),
-        };
+        let judged = with_solution!(&answer, found => {
+            judge(found, &points, &watch)?.map(|verdict| Summary::claims(found, &verdict, source))
+        });
         let name = shown(&self.answer);
         // A loose certificate is as true as a tight one: how tight it is belongs to what is said.
         let most = self.epsilon.unwrap_or(f64::INFINITY);
@@ -131,7 +104,8 @@ impl Args {
         };
         let (outcome, said) = match files::judge(found, input, output, watch)? {
             Ok(verdict) => {
-                let (what, facts) = files::told(found, &verdict);
+                let (what, facts) =
+                    with_file_solution!(found, found => FileSummary::claims(found, &verdict));
                 (Outcome::Done, report::text(&format!("Verified: {what}"), &facts))
             }
             Err(violation) => {
@@ -272,22 +246,6 @@ fn epsilon(text: &str) -> Result<f64, String> {
 /// The outcome of an answer that is refused, with the reason.
 fn rejected(why: &str) -> (Outcome, String) {
     (Outcome::CheckFailed, format!("Rejected: {}\n", writing::printable(why)))
-}
-
-/// What the checker proved of an order of points.
-fn claims_of_order(found: &Solution<Order>, verdict: &OrderVerdict, dim: usize) -> Claims {
-    let along = match found.answer.curve {
-        OrderCurve::Hilbert => "along a Hilbert curve",
-        OrderCurve::Morton => "in Z-order",
-    };
-    let dim = counted(dim as u64, "dimension");
-    let grids = Fact::proved("grids", count(verdict.grids))
-        .remark("no place on the curve is below the one before it");
-    Claims {
-        what: format!("{} {along} in {dim}", counted(verdict.points, "point")),
-        gap: None,
-        facts: vec![grids],
-    }
 }
 
 /// All digits: rounded to a few, the gap could look like the one allowed.

@@ -118,6 +118,11 @@ impl Outputs {
         self.files.push(file);
     }
 
+    /// Whether no file is prepared.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.files.is_empty()
+    }
+
     /// Words for standard output.
     pub(crate) fn say(&mut self, words: &str) {
         self.words.extend_from_slice(words.as_bytes());

@@ -46,7 +46,7 @@ pub enum CentersViolation {
         expected: usize,
     },
     /// A centre is not the row it is said to be.
-    #[error("centre {center} is said to be row {row}, {problem}")]
+    #[error("centre {center} is said to be point {row}, {problem}")]
     Row {
         /// Centre, from 0.
         center: usize,
@@ -81,7 +81,7 @@ pub enum CentersViolation {
     },
     /// An item that counts lies in none of the balls.
     #[error(
-        "row {row} reaches {distance:?} from centre {center}, the next, outside the radius {radius:?} by {excess:e}"
+        "point {row} reaches {distance:?} from centre {center}, the next, outside the radius {radius:?} by {excess:e}"
     )]
     Outside {
         /// The first such row, from 0.
@@ -96,7 +96,7 @@ pub enum CentersViolation {
         excess: f64,
     },
     /// An item is assigned to a centre that does not exist.
-    #[error("row {row} is assigned to centre {center}, but there are not so many")]
+    #[error("point {row} is assigned to centre {center}, but there are not so many")]
     NoSuchCenter {
         /// The first such row, from 0.
         row: u64,
@@ -104,7 +104,7 @@ pub enum CentersViolation {
         center: u32,
     },
     /// An item is assigned to a centre that is not the nearest.
-    #[error("row {row} is assigned to centre {center}, but centre {nearer} is nearer to it")]
+    #[error("point {row} is assigned to centre {center}, but centre {nearer} is nearer to it")]
     Assignment {
         /// The first such row, from 0.
         row: u64,
@@ -114,7 +114,7 @@ pub enum CentersViolation {
         nearer: usize,
     },
     /// The core-set names a row that does not exist, or one twice.
-    #[error("entry {position} of the core-set names row {row}, {problem}")]
+    #[error("entry {position} of the core-set names point {row}, {problem}")]
     CoreSet {
         /// Position in the list, from 0.
         position: usize,

@@ -27,7 +27,7 @@ pub enum CurveViolation {
         curve: usize,
     },
     /// A vertex is not the row it is said to be.
-    #[error("vertex {vertex} of curve {curve} is said to be row {row}, {problem}")]
+    #[error("vertex {vertex} of curve {curve} is said to be point {row}, {problem}")]
     Row {
         /// Curve, from 0.
         curve: usize,
@@ -63,7 +63,7 @@ pub enum CurveViolation {
         other_edge: usize,
     },
     /// A row is said to be an outlier, but cannot be.
-    #[error("entry {position} of the list of outliers names row {row}, {problem}")]
+    #[error("entry {position} of the list of outliers names point {row}, {problem}")]
     Outlier {
         /// Position in the list, from 0.
         position: usize,
@@ -73,13 +73,13 @@ pub enum CurveViolation {
         problem: &'static str,
     },
     /// Vertices are rows, but a row is neither a vertex nor an outlier.
-    #[error("row {row} is neither a vertex nor an outlier")]
+    #[error("point {row} is neither a vertex nor an outlier")]
     NoVertex {
         /// The first such row, from 0.
         row: u64,
     },
     /// A row lies outside the band.
-    #[error("row {row} lies {distance:?} off the curve, outside the band of {band:?}")]
+    #[error("point {row} lies {distance:?} off the curve, outside the band of {band:?}")]
     OutsideBand {
         /// The first such row, from 0.
         row: u64,
@@ -90,7 +90,7 @@ pub enum CurveViolation {
     },
     /// The place of a row is not on the curves.
     #[error(
-        "row {row} is said to have its place at {position:?} on curve {curve}, where there is none"
+        "point {row} is said to have its place at {position:?} on curve {curve}, where there is none"
     )]
     NoPlace {
         /// The first such row, from 0.
@@ -101,7 +101,9 @@ pub enum CurveViolation {
         position: f64,
     },
     /// The place of a row is not the next one.
-    #[error("the place of row {row} is {distance:?} away, but the curve is as near as {nearest:?}")]
+    #[error(
+        "the place of point {row} is {distance:?} away, but the curve is as near as {nearest:?}"
+    )]
     FarPlace {
         /// The first such row, from 0.
         row: u64,

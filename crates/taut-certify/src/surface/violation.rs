@@ -19,7 +19,7 @@ pub enum SurfaceViolation {
         triangles: usize,
     },
     /// A corner is no row.
-    #[error("corner {corner} of triangle {triangle} is row {row}, but there are {rows} rows")]
+    #[error("corner {corner} of triangle {triangle} is point {row}, but there are {rows} points")]
     Corner {
         /// The triangle.
         triangle: usize,
@@ -31,7 +31,7 @@ pub enum SurfaceViolation {
         rows: u64,
     },
     /// A triangle has a vertex twice.
-    #[error("triangle {triangle} names row {row} twice")]
+    #[error("triangle {triangle} names point {row} twice")]
     Repeated {
         /// The triangle.
         triangle: usize,
@@ -47,7 +47,7 @@ pub enum SurfaceViolation {
         first: u32,
     },
     /// An entry of a list of unused rows is wrong.
-    #[error("entry {position} of the list of {list} names row {row}, {problem}")]
+    #[error("entry {position} of the list of {list} names point {row}, {problem}")]
     Unused {
         /// The list.
         list: &'static str,
@@ -59,13 +59,13 @@ pub enum SurfaceViolation {
         problem: &'static str,
     },
     /// A row is neither the vertex of a triangle nor listed as unused.
-    #[error("row {row} is the vertex of no triangle, nor listed as unused")]
+    #[error("point {row} is the vertex of no triangle, nor listed as unused")]
     Missing {
         /// The first such row.
         row: u32,
     },
     /// A row is in the place of an earlier one, but not listed so.
-    #[error("row {row} is in the place of row {first}, but not listed as its duplicate")]
+    #[error("point {row} is in the place of point {first}, but not listed as its duplicate")]
     MissingDuplicate {
         /// The first such row.
         row: u32,
@@ -73,7 +73,7 @@ pub enum SurfaceViolation {
         first: u32,
     },
     /// A row that is said to be inside the closed components is not.
-    #[error("row {row} is said to be interior, but {problem}")]
+    #[error("point {row} is said to be interior, but {problem}")]
     Interior {
         /// The first such row.
         row: u32,
@@ -113,7 +113,7 @@ pub enum SurfaceViolation {
         problem: &'static str,
     },
     /// The ball of a triangle is not empty.
-    #[error("the ball of triangle {triangle}, {ball}, holds row {row}")]
+    #[error("the ball of triangle {triangle}, {ball}, holds point {row}")]
     Ball {
         /// The first such triangle.
         triangle: usize,

@@ -3,19 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use taut::certify::OrderCurve;
 use taut::points::{OwnedPoints, ScalarKind, Scratch};
-use taut::{PointSource, spatial_order};
+use taut::{Monitor, Order, OrderCurve, PointSource, Solution, spatial_order};
 use taut_io::write_points;
 
-use crate::clock::Clock;
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::numbers::{count, counted};
+use crate::pipeline::{self, Find, Input, Output};
 use crate::reading::{Opened, Points, Reading};
-use crate::report::{self, Fact};
-use crate::verify::judge;
-use crate::writing::{self, Outputs};
+use crate::watch::Watch;
+use crate::writing::Outputs;
 
 /// Put points of the plane or of space in an order in which neighbours are near each other.
 #[derive(Debug, clap::Args)]
@@ -53,65 +50,60 @@ enum Curve {
     Morton,
 }
 
-impl Args {
-    pub(super) fn run(&self) -> anyhow::Result<Outcome> {
-        let outputs: Vec<&Path> =
-            [&self.out, &self.sorted].into_iter().flatten().map(|path| &**path).collect();
-        writing::look_at(&outputs, &[&self.points.path])?;
-        let watch = self.effort.start()?;
-        let mut clock = Clock::start();
-        let points = self.reading.open(&self.points.path)?;
-        clock.lap("reading");
+impl Find for Args {
+    type Answer = Order;
+    type Extra = ();
+
+    fn input(&self) -> Input<'_> {
+        Input { path: &self.points.path, reading: &self.reading, effort: &self.effort }
+    }
+
+    fn output(&self) -> Output<'_> {
+        Output { no_verify: self.no_verify, out: self.out.as_deref(), json: false, draw: None }
+    }
+
+    fn check_options(&self) -> anyhow::Result<()> {
+        Ok(())
+    }
+
+    fn side_files(&self) -> Vec<&Path> {
+        self.sorted.as_deref().into_iter().collect()
+    }
+
+    fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Order>, ())> {
         let curve = match self.curve {
             Curve::Hilbert => OrderCurve::Hilbert,
             Curve::Morton => OrderCurve::Morton,
         };
-        let found = watch
-            .during("ordering", |monitor| spatial_order(points.source(), curve, monitor))
-            .map_err(|error| points.explain_delaunay(error))?;
-        clock.lap("ordering");
-        let mut grids = None;
-        if !self.no_verify {
-            match judge(&found, &points, &watch)? {
-                Ok(verdict) => grids = Some(verdict.grids),
-                Err(violation) => {
-                    let why = points.explain_violation(&violation, "the order");
-                    writing::complain(&format!("the check failed: {why}"));
-                    return Ok(Outcome::CheckFailed);
-                }
-            }
-            clock.lap("checking");
-        }
-        let mut outputs = Outputs::default();
+        let solve = |monitor: &Monitor<'_>| spatial_order(points.source(), curve, monitor);
+        let found =
+            watch.during("ordering", solve).map_err(|error| points.explain_delaunay(error))?;
+        Ok((found, ()))
+    }
+
+    fn write(
+        &self,
+        found: &mut Solution<Order>,
+        _: &(),
+        points: &Opened,
+        outputs: &mut Outputs,
+        monitor: &Monitor<'_>,
+    ) -> anyhow::Result<()> {
         if let Some(path) = &self.out {
-            outputs.add_json(path, &found)?;
+            outputs.add_json(path, found)?;
         }
         if let Some(path) = &self.sorted {
             let names = points.names(points.source().dim());
-            let sorted = reordered(&points, &found.answer.rows)?;
-            watch
-                .during("writing", |monitor| write_points(&*sorted, &names, path, None, monitor))?;
+            let sorted = reordered(points, &found.answer.rows)?;
+            write_points(&*sorted, &names, path, None, monitor)?;
         }
-        let streams =
-            [&self.out, &self.sorted].into_iter().flatten().any(|p| writing::is_stream(p));
-        if !self.effort.quiet && !streams {
-            let checked = match grids {
-                Some(grids) => {
-                    let grids = counted(grids, "grid");
-                    Fact::new("verified", "yes").remark(format!("the one order, by {grids}"))
-                }
-                None => Fact::new("verified", "not checked"),
-            };
-            let rows = count(points.source().len());
-            let curve = match self.curve {
-                Curve::Hilbert => "along a Hilbert curve",
-                Curve::Morton => "in Z-order",
-            };
-            let facts = [checked, clock.fact()];
-            outputs.say(&report::text(&format!("{rows} points {curve}"), &facts));
-        }
-        outputs.finish()?;
-        Ok(Outcome::Done)
+        Ok(())
+    }
+}
+
+impl Args {
+    pub(super) fn run(&self) -> anyhow::Result<Outcome> {
+        pipeline::run(self)
     }
 }
 

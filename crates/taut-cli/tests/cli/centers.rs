@@ -91,7 +91,7 @@ fn answers_are_verified_and_lies_rejected() {
             found["answer"][key] = (0.99 * value).into();
         }
     });
-    assert!(smaller.contains("towns.csv: point 0 (row 1) reaches "), "{smaller}");
+    assert!(smaller.contains("towns.csv, row 1: point 0 reaches "), "{smaller}");
     lie(&|found| {
         found["answer"]["radius"] = 2.0.into();
         found["answer"]["lower_bound"] = 2.0.into();

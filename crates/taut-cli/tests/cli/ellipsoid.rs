@@ -62,7 +62,7 @@ fn what_is_wrong_is_said_of_the_point_or_of_the_answer() {
     small
         .taut("verify ellipsoid.json points.csv")
         .ends(1)
-        .says(&["Rejected: points.csv: point 0 (row 1) reaches to |F(x − c)| = 1.0000005"]);
+        .says(&["Rejected: points.csv, row 1: point 0 reaches to |F(x − c)| = 1.0000005"]);
     let flat = desk(|found| found.answer.hull = Some(Hull { basis: vec![], distance: 0.0 }));
     flat.taut("verify ellipsoid.json points.csv")
         .ends(1)

@@ -106,7 +106,7 @@ fn a_lie_about_the_outliers_is_found() {
     desk.put("lie.json", lie.to_string());
     desk.taut("verify lie.json points.csv")
         .ends(1)
-        .says(&["Rejected: points.csv: ", "point 30 (row 31)"]);
+        .says(&["Rejected: points.csv, row 31: ", "point 30"]);
 }
 
 #[test]

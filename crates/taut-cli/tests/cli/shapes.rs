@@ -126,5 +126,5 @@ fn an_inscribed_ellipsoid_is_proved_or_rejected() {
     desk.put("moved.json", found.to_json());
     desk.taut("verify moved.json sides.csv")
         .ends(1)
-        .says(&["Rejected: sides.csv: the ellipsoid reaches beyond half-space 2 (row 3)"]);
+        .says(&["Rejected: sides.csv, row 3: the ellipsoid reaches beyond half-space 2"]);
 }

@@ -64,7 +64,7 @@ fn a_smaller_radius_leaves_a_point_outside() {
     let run = desk
         .taut("verify doctored.json points.csv")
         .ends(1)
-        .says(&["Rejected: points.csv: point 0 (row 1) lies ", "outside"]);
+        .says(&["Rejected: points.csv, row 1: point 0 lies ", "outside"]);
     assert!(run.err.is_empty());
     assert_eq!(desk.taut("verify doctored.json points.csv -q").ends(1).out, "");
 }
