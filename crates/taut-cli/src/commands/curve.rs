@@ -129,7 +129,7 @@ impl Find for Args {
     fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Curve>, ())> {
         let solve =
             |monitor: &Monitor<'_>| curve_of_source(points.source(), &self.options(), monitor);
-        let found = watch.during("solving", solve).map_err(|error| points.explain_curve(error))?;
+        let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
         Ok((found, ()))
     }
 

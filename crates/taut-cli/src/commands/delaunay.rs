@@ -146,10 +146,10 @@ impl Find for Args {
         let (source, options) = (points.source(), self.options());
         let built = watch
             .during("solving", |monitor| Built::new(source, &options, monitor))
-            .map_err(|error| points.explain_delaunay(error))?;
+            .map_err(|error| points.explain(error))?;
         let found = watch
             .during("ordering", |monitor| built.solution(source, monitor))
-            .map_err(|error| points.explain_delaunay(error))?;
+            .map_err(|error| points.explain(error))?;
         let complex = self.alpha.complex(&built);
         Ok((found, Extra { built, complex }))
     }

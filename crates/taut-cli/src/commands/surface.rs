@@ -136,8 +136,7 @@ impl Find for Args {
     fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Surface>, ())> {
         let solve =
             |monitor: &Monitor<'_>| surface_of_source(points.source(), &self.options(), monitor);
-        let found =
-            watch.during("solving", solve).map_err(|error| points.explain_surface(error))?;
+        let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
         Ok((found, ()))
     }
 

@@ -258,7 +258,7 @@ fn triangulation(station: &Station, points: &Opened, watch: &Watch) -> anyhow::R
         .during("solving", |monitor| {
             delaunay_of_source(points.source(), &DelaunayOptions::default(), monitor)
         })
-        .map_err(|error| points.explain_delaunay(error))?;
+        .map_err(|error| points.explain(error))?;
     let doctor = || with_an_edge_turned(&found);
     let counts = found.certificate.counts;
     checked_and_drawn(station, &found, points, watch, ("an edge turned", &doctor), |_| {
@@ -270,7 +270,7 @@ fn curves(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result<S
     let options = CurveOptions::default();
     let found = watch
         .during("solving", |monitor| curve_of_source(points.source(), &options, monitor))
-        .map_err(|error| points.explain_curve(error))?;
+        .map_err(|error| points.explain(error))?;
     let doctor = || {
         let mut doctored = found.clone();
         // Onto another vertex of the same curve: its edges then cross, or a point lies outside the band.
@@ -292,7 +292,7 @@ fn surfaces(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result
     let options = SurfaceOptions::default();
     let found = watch
         .during("solving", |monitor| surface_of_source(points.source(), &options, monitor))
-        .map_err(|error| points.explain_surface(error))?;
+        .map_err(|error| points.explain(error))?;
     let doctor = || {
         let mut doctored = found.clone();
         doctored.answer.triangles.iter_mut().take(1).for_each(|triangle| triangle.swap(0, 1));

@@ -6,10 +6,8 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use taut::certify::Fault;
-use taut::delaunay::Error as DelaunayError;
 use taut::enclose::Error as SolveError;
-use taut::points::{ReadError, ScalarKind, shown_number};
-use taut::reconstruct::Error as CurveError;
+use taut::points::{InputError, ReadError, ScalarKind, shown_number};
 use taut::{PointSource, Violation};
 use taut_io::{Columns, Format, Header, Input, RawLayout, ReadOptions};
 
@@ -122,10 +120,34 @@ impl Opened {
     }
 
     /// What a solver refused, with the place in the file, which it cannot know.
-    pub(crate) fn explain(&self, error: SolveError) -> anyhow::Error {
+    pub(crate) fn explain(&self, error: impl Into<taut::Error>) -> anyhow::Error {
+        match error.into() {
+            taut::Error::Input(error) => self.explain_input(error),
+            taut::Error::Enclose(error) => self.explain_enclosing(error),
+            other => anyhow!("{}: {other}", self.name()),
+        }
+    }
+
+    /// What any solver refuses.
+    fn explain_input(&self, error: InputError) -> anyhow::Error {
+        match error {
+            InputError::NonFinite { row, column, value } => self.not_finite(row, column, value),
+            InputError::Dimension { dim, expected } => anyhow!(
+                "{}: points have {dim} coordinate{}: expected {expected}; choose them with --columns",
+                self.name(),
+                if dim == 1 { "" } else { "s" }
+            ),
+            InputError::Option { name, value, expected } => wrong_option(name, &value, expected),
+            InputError::Read(error) => self.reading_failed(error),
+            InputError::Cancelled(_) => error.into(),
+            other => anyhow!("{}: {other}", self.name()),
+        }
+    }
+
+    /// What is refused of balls, ellipsoids, weights and half-spaces.
+    fn explain_enclosing(&self, error: SolveError) -> anyhow::Error {
         let last = self.input.source.dim() - 1;
         match error {
-            SolveError::NonFinite { row, column, value } => self.not_finite(row, column, value),
             SolveError::NegativeRadius { row, value } => anyhow!(
                 "{}: the radius is {}, and radii (the last column with --balls) must be at least 0: repair \
                  or remove that row, or choose the columns with --columns",
@@ -185,7 +207,6 @@ impl Opened {
                 self.rows(&rows)
             ),
             SolveError::Undecided => anyhow!("{}: {error}", self.name()),
-            SolveError::Option { name, value, expected } => wrong_option(name, &value, expected),
             SolveError::Empty | SolveError::Overflow => anyhow!("{}: {error}", self.name()),
             other => other.into(),
         }
@@ -206,52 +227,6 @@ impl Opened {
             (1, _) => format!("row {}", places[0]),
             (_, 0) => format!("rows {}", places.join(", ")),
             (_, more) => format!("rows {} and {more} others", places.join(", ")),
-        }
-    }
-
-    /// The same of a triangulation.
-    pub(crate) fn explain_delaunay(&self, error: DelaunayError) -> anyhow::Error {
-        match error {
-            DelaunayError::NonFinite { row, column, value } => self.not_finite(row, column, value),
-            DelaunayError::Dimension { dim, .. } => anyhow!(
-                "{}: points have {dim} coordinate{}: expected 2, the plane, or 3, space; choose them with --columns",
-                self.name(),
-                if dim == 1 { "" } else { "s" }
-            ),
-            DelaunayError::Option { name, value, expected } => wrong_option(name, &value, expected),
-            DelaunayError::Read(error) => self.reading_failed(error),
-            DelaunayError::Cancelled(_) => error.into(),
-            other => anyhow!("{}: {other}", self.name()),
-        }
-    }
-
-    /// The same of curves.
-    pub(crate) fn explain_curve(&self, error: CurveError) -> anyhow::Error {
-        match error {
-            CurveError::NonFinite { row, column, value } => self.not_finite(row, column, value),
-            CurveError::Dimension { dim } => anyhow!(
-                "{}: points have {dim} coordinate{}: expected 2, as curves are sought in the plane; choose them with \
-                 --columns",
-                self.name(),
-                if dim == 1 { "" } else { "s" }
-            ),
-            CurveError::Option { name, value, expected } => wrong_option(name, &value, expected),
-            CurveError::Read(error) => self.reading_failed(error),
-            CurveError::Triangulation(error) => self.explain_delaunay(error),
-            CurveError::Cancelled(_) => error.into(),
-            other => anyhow!("{}: {other}", self.name()),
-        }
-    }
-
-    pub(crate) fn explain_surface(&self, error: CurveError) -> anyhow::Error {
-        match error {
-            CurveError::SpaceDimension { dim } => anyhow!(
-                "{}: points have {dim} coordinate{}: expected 3, as surfaces are sought in space; choose them with \
-                 --columns",
-                self.name(),
-                if dim == 1 { "" } else { "s" }
-            ),
-            other => self.explain_curve(other),
         }
     }
 

@@ -76,8 +76,7 @@ impl Find for Args {
             Curve::Morton => OrderCurve::Morton,
         };
         let solve = |monitor: &Monitor<'_>| spatial_order(points.source(), curve, monitor);
-        let found =
-            watch.during("ordering", solve).map_err(|error| points.explain_delaunay(error))?;
+        let found = watch.during("ordering", solve).map_err(|error| points.explain(error))?;
         Ok((found, ()))
     }
 
