@@ -22,7 +22,7 @@ impl Random {
 
     /// Returns the stream that bytes choose, two for each number: a byte that changes changes one number.
     pub fn from_bytes(bytes: &[u8]) -> Self {
-        Random { state: 0, bytes: bytes.to_vec().into_iter() }
+        Random { state: 0, bytes: Vec::from(bytes).into_iter() }
     }
 
     /// Returns 64 random bits.
