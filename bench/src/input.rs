@@ -143,14 +143,14 @@ pub(crate) enum Radii {
     Covering,
 }
 
-const SMALL: RadiusLaw = RadiusLaw::Uniform(0.0, 0.1);
+const SMALL_RADII: RadiusLaw = RadiusLaw::Uniform(0.0, 0.1);
 
 impl Radii {
     /// All of them, with their names in tables. Where all radii are equal the answer is that of the centres, larger by
     /// them.
     pub(crate) const ALL: [(&str, Radii); 6] = [
         ("equal", Radii::Law(RadiusLaw::Equal(1.0))),
-        ("small", Radii::Law(SMALL)),
+        ("small", Radii::Law(SMALL_RADII)),
         ("large", Radii::Law(RadiusLaw::Uniform(0.0, 3.0))),
         ("exponential", Radii::Law(RadiusLaw::Exponential(1.0))),
         ("almost covering", Radii::AlmostCovering),
@@ -161,8 +161,8 @@ impl Radii {
         let lots: Vec<f64> = generate(Distribution::Uniform, centers.len() / d, 1, SEED + 1)?;
         let (law, share) = match self {
             Radii::Law(law) => (law, None),
-            Radii::AlmostCovering => (SMALL, Some(1.0 - 1e-6)),
-            Radii::Covering => (SMALL, Some(1.0 + 1e-3)),
+            Radii::AlmostCovering => (SMALL_RADII, Some(1.0 - 1e-6)),
+            Radii::Covering => (SMALL_RADII, Some(1.0 + 1e-3)),
         };
         let mut radii: Vec<f64> = lots.into_iter().map(|lot| law.radius(lot)).collect();
         if let Some(share) = share {

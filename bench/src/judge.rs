@@ -11,8 +11,8 @@ use taut_points::{Monitor, PointSource, ReadError, map_blocks};
 
 /// Relative deviation that rounding in the peer's last steps explains.
 const ROUNDING: f64 = 1e-12;
-/// Relative deviation beyond which a result is called wrong: the tenth digit.
-const WRONG: f64 = 1e-10;
+/// A result is called wrong beyond this relative deviation: the tenth digit.
+const DEVIATION_MAX: f64 = 1e-10;
 
 /// What was found about a peer's ball.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -28,7 +28,7 @@ pub(crate) struct Judgement {
 impl Judgement {
     /// Whether the ball leaves something outside or is not the smallest, by more than the tenth digit.
     pub(crate) fn is_wrong(&self) -> bool {
-        !self.is_within(WRONG)
+        !self.is_within(DEVIATION_MAX)
     }
 
     /// Whether the ball encloses everything and is the smallest, to rounding.

@@ -15,8 +15,8 @@ use miniball::{Ball, Enclosing};
 use nalgebra::{Const, OPoint};
 use serde::Deserialize;
 
-/// Time a peer is given to read its input and build its own points of it.
-const LOADING: Duration = Duration::from_secs(120);
+/// The time a peer is given to read its input and build its own points of it.
+const LOADING_TIME_MAX: Duration = Duration::from_secs(120);
 
 /// One answer of a peer.
 #[derive(Clone, Debug)]
@@ -185,7 +185,7 @@ impl Peer {
             }
         });
         let mut peer = Peer { child, stdin, lines, center };
-        Ok(peer.line(LOADING).map(|_| peer))
+        Ok(peer.line(LOADING_TIME_MAX).map(|_| peer))
     }
 
     /// Lets the peer solve once more.

@@ -10,7 +10,7 @@ use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use taut::Monitor;
 
 /// How often Python is asked whether a signal has come. It delays a Ctrl-C, never a result.
-const LISTEN: Duration = Duration::from_millis(50);
+const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Runs `work` on a thread of its own with the interpreter released, and cancels it when Python has a signal whose
 /// handler raises (Ctrl-C): then the exception of that handler is returned.
@@ -31,7 +31,7 @@ pub(crate) fn interruptible<R: Send>(
         let mut raised = Ok(());
         // `done` ends the wait at once; a thread that panicked never sets it, but is finished.
         while raised.is_ok() && !done.load(Ordering::Acquire) && !worker.is_finished() {
-            py.detach(|| std::thread::park_timeout(LISTEN));
+            py.detach(|| std::thread::park_timeout(SIGNAL_INTERVAL));
             raised = py.check_signals();
         }
         cancel.store(raised.is_err(), Ordering::Relaxed);

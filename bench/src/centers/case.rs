@@ -74,11 +74,11 @@ impl Task {
     }
 }
 
-const EXACT: f64 = 1e-6;
-const QUICK: Goal = Goal::Seconds(0.3);
+const GAP_EXACT: f64 = 1e-6;
+const SECONDS_GOAL: Goal = Goal::Seconds(0.3);
 const QUICK_AIM: &[Goal] = &[Goal::Seconds(0.05)];
-const SMALL: Goal = Goal::CoreSet(200);
-const TWICE: Goal = Goal::Check { seconds: 1.0, twice: true };
+const CORE_SET_GOAL: Goal = Goal::CoreSet(200);
+const CHECK_TWICE_GOAL: Goal = Goal::Check { seconds: 1.0, twice: true };
 
 /// All cases, in the order in which they run; the longest is the last.
 pub(super) const CASES: &[Case] = &[
@@ -86,33 +86,62 @@ pub(super) const CASES: &[Case] = &[
         name: "cities",
         about: "Cities of Germany and of the USA, free centres at ε = 1e-6, beside the optima that are known.",
         kind: Kind::Free(&[
-            task(GERMANY, 2, EXACT, &[Goal::Radius(9342.60196519), QUICK, SMALL, TWICE], QUICK_AIM),
-            task(GERMANY, 3, EXACT, &[Goal::Radius(8139.66296907), QUICK, SMALL, TWICE], QUICK_AIM),
-            task(GERMANY, 4, EXACT, &[Goal::Radius(6573.74826488), QUICK, SMALL, TWICE], QUICK_AIM),
-            task(GERMANY, 5, EXACT, &[Goal::Radius(5818.46791619), QUICK, SMALL, TWICE], QUICK_AIM),
+            task(
+                GERMANY,
+                2,
+                GAP_EXACT,
+                &[Goal::Radius(9342.60196519), SECONDS_GOAL, CORE_SET_GOAL, CHECK_TWICE_GOAL],
+                QUICK_AIM,
+            ),
+            task(
+                GERMANY,
+                3,
+                GAP_EXACT,
+                &[Goal::Radius(8139.66296907), SECONDS_GOAL, CORE_SET_GOAL, CHECK_TWICE_GOAL],
+                QUICK_AIM,
+            ),
+            task(
+                GERMANY,
+                4,
+                GAP_EXACT,
+                &[Goal::Radius(6573.74826488), SECONDS_GOAL, CORE_SET_GOAL, CHECK_TWICE_GOAL],
+                QUICK_AIM,
+            ),
+            task(
+                GERMANY,
+                5,
+                GAP_EXACT,
+                &[Goal::Radius(5818.46791619), SECONDS_GOAL, CORE_SET_GOAL, CHECK_TWICE_GOAL],
+                QUICK_AIM,
+            ),
             task(
                 GERMANY,
                 8,
-                EXACT,
-                &[Goal::Radius(4306.44830458), Goal::Seconds(2.0), SMALL, TWICE],
+                GAP_EXACT,
+                &[Goal::Radius(4306.44830458), Goal::Seconds(2.0), CORE_SET_GOAL, CHECK_TWICE_GOAL],
                 &[Goal::Seconds(0.1)],
             ),
             task(
                 GERMANY,
                 10,
-                EXACT,
+                GAP_EXACT,
                 &[Goal::Radius(3725.69052411), Goal::Seconds(10.0)],
                 &[Goal::Seconds(1.0)],
             ),
-            task(GERMANY, 12, EXACT, &[Goal::Seconds(60.0)], &[Goal::Seconds(5.0)]),
+            task(GERMANY, 12, GAP_EXACT, &[Goal::Seconds(60.0)], &[Goal::Seconds(5.0)]),
             task(
                 USA,
                 5,
-                EXACT,
-                &[Goal::Radius(99986.80259875), Goal::Seconds(0.2), SMALL, TWICE],
+                GAP_EXACT,
+                &[
+                    Goal::Radius(99986.80259875),
+                    Goal::Seconds(0.2),
+                    CORE_SET_GOAL,
+                    CHECK_TWICE_GOAL,
+                ],
                 &[],
             ),
-            task(USA, 10, EXACT, &[Goal::Radius(65210.68259879), Goal::Seconds(4.0)], &[]),
+            task(USA, 10, GAP_EXACT, &[Goal::Radius(65210.68259879), Goal::Seconds(4.0)], &[]),
         ]),
         must: &[],
     },
@@ -129,9 +158,9 @@ pub(super) const CASES: &[Case] = &[
         name: "space",
         about: "Normal, 10⁴ × 3, free centres at 1 %: the thesis needed almost a week for four.",
         kind: Kind::Free(&[
-            task(SPACE, 4, 0.01, &[Goal::Seconds(0.1), SMALL], &[Goal::Seconds(0.01)]),
-            task(SPACE, 6, 0.01, &[Goal::Seconds(0.3), SMALL], &[Goal::Seconds(0.03)]),
-            task(SPACE, 8, 0.01, &[Goal::Seconds(3.0), SMALL], &[Goal::Seconds(0.2)]),
+            task(SPACE, 4, 0.01, &[Goal::Seconds(0.1), CORE_SET_GOAL], &[Goal::Seconds(0.01)]),
+            task(SPACE, 6, 0.01, &[Goal::Seconds(0.3), CORE_SET_GOAL], &[Goal::Seconds(0.03)]),
+            task(SPACE, 8, 0.01, &[Goal::Seconds(3.0), CORE_SET_GOAL], &[Goal::Seconds(0.2)]),
             task(SPACE, 10, 0.01, &[Goal::Seconds(40.0)], &[Goal::Seconds(2.0)]),
         ]),
         must: &[],
@@ -152,7 +181,7 @@ pub(super) const CASES: &[Case] = &[
         name: "outliers",
         about: "Uniform, 2000 × 2, without up to five points, at ε = 1e-6.",
         kind: Kind::Outliers,
-        must: &[Goal::Gap(EXACT)],
+        must: &[Goal::Gap(GAP_EXACT)],
     },
     Case {
         name: "streams",

@@ -17,7 +17,7 @@ use crate::peer::{Answer, Peer, Silence};
 use crate::stats::{Summary, seconds, times};
 use crate::table::Table;
 
-const SETS: u64 = 200;
+const RANDOM_SETS: u64 = 200;
 const DIM: usize = 2;
 const OPTIONS: CentersOptions = CentersOptions {
     epsilon: 0.0,
@@ -77,7 +77,7 @@ fn ask(context: &Context, peer: &str, sets: &[Small]) -> Result<(Vec<Answer>, Op
 
 /// Runs the small sets, then the cities.
 pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
-    let count = if context.quick { SETS / 10 } else { SETS };
+    let count = if context.quick { RANDOM_SETS / 10 } else { RANDOM_SETS };
     let sets = (0..count).map(Small::draw).collect::<Result<Vec<_>>>()?;
     let (mut clocks, mut judgements) = (vec![], vec![]);
     for set in &sets {

@@ -18,11 +18,11 @@ use crate::stats::{Summary, seconds, times};
 use crate::table::Table;
 
 /// Points asked of taut.
-const COUNT: u64 = 1000;
+const TAUT_COUNT: u64 = 1000;
 /// Points asked of the peer, of a tenth of the points: it evaluates all distances.
 const PEER_COUNT: u64 = 20;
-/// Plain reads before each run, of which the least counts: a slow one would flatter taut.
-const READS: usize = 5;
+/// How many plain reads come before each run. The shortest of them counts: a slow one would flatter taut.
+const PLAIN_READS: usize = 5;
 
 /// One input.
 struct Cloud {
@@ -53,7 +53,7 @@ fn run_one<T: Scalar + bytemuck::Pod>(
     let &Cloud { n, d, law, peer } = cloud;
     let values: Vec<T> = generate(law, n, d, SEED)?;
     let points = Points::new(&values, d)?;
-    let all = n as u64 * COUNT;
+    let all = n as u64 * TAUT_COUNT;
     let head = ["threads", "clock", "processors", "plain reads", "÷ k reads", "of n·k distances"];
     let mut table = Table::new(&head);
     let (mut bandwidth, mut found, mut clock, mut report) = (None, None, 0.0, vec![]);
@@ -63,11 +63,12 @@ fn run_one<T: Scalar + bytemuck::Pod>(
         let mut costs: Vec<(f64, f64, f64)> = vec![];
         for _ in 0..context.runs.min(2) {
             drop(found.take());
-            let reads = (0..READS).map(|_| plain_read(bytemuck::cast_slice(&values), &pool));
+            let reads = (0..PLAIN_READS).map(|_| plain_read(bytemuck::cast_slice(&values), &pool));
             let read = reads.fold(f64::INFINITY, f64::min);
             let meter = Meter::start();
-            let order =
-                pool.install(|| farthest_first(&points, COUNT, &FarthestFirstOptions::default()))?;
+            let order = pool.install(|| {
+                farthest_first(&points, TAUT_COUNT, &FarthestFirstOptions::default())
+            })?;
             let cost = meter.stop();
             costs.push((cost.wall, cost.cpu, read));
             found = Some(order);
@@ -75,7 +76,7 @@ fn run_one<T: Scalar + bytemuck::Pod>(
         let least =
             |of: fn(&(f64, f64, f64)) -> f64| costs.iter().map(of).fold(f64::INFINITY, f64::min);
         let (wall, cpu, read) = (least(|c| c.0), least(|c| c.1), least(|c| c.2));
-        let share = COUNT as f64 * read / wall;
+        let share = TAUT_COUNT as f64 * read / wall;
         let order = found.as_ref().context("no run")?;
         let evaluated = distances(order)?;
         table.push(vec![
@@ -93,9 +94,9 @@ fn run_one<T: Scalar + bytemuck::Pod>(
         (bandwidth, clock) = (Some(share), wall);
     }
     let precision = if size_of::<T>() == 4 { "f32" } else { "f64" };
-    println!("{law}, {n} × {d}, {precision}, k = {COUNT}\n\n{table}");
+    println!("{law}, {n} × {d}, {precision}, k = {TAUT_COUNT}\n\n{table}");
     let order = found.context("no run")?;
-    let judgement = judge(&order.solution(COUNT, Placement::Rows, &points)?, &points);
+    let judgement = judge(&order.solution(TAUT_COUNT, Placement::Rows, &points)?, &points);
     let mut judged = Table::new(&COLUMNS);
     judged.push(judgement.cells());
     println!("{judged}");
@@ -105,7 +106,7 @@ fn run_one<T: Scalar + bytemuck::Pod>(
     let goals = goals::print(&[case.must], &[], &measured);
     println!();
     Ok(json!({
-        "n": n, "d": d, "k": COUNT, "runs": report, "judgement": judgement.json(), "peer_differs": differs,
+        "n": n, "d": d, "k": TAUT_COUNT, "runs": report, "judgement": judgement.json(), "peer_differs": differs,
         "goals": goals,
     }))
 }

@@ -43,7 +43,7 @@ const KINDS: [(Kind, &str); 6] = [
     (Kind::Outliers, "outliers"),
 ];
 
-const CLEAN: [CurveMethod; 5] = [
+const CLEAN_METHODS: [CurveMethod; 5] = [
     CurveMethod::Auto,
     CurveMethod::NnCrust,
     CurveMethod::HnnCrust,
@@ -67,7 +67,7 @@ fn draw(kind: Kind, seed: u64) -> (TruthCurves, Vec<f64>, CurveMethod) {
         Some(named) if pick(2, 4) == 0 => named.build_with(3000),
         _ => TestCurve::random(seed).build_with(3000),
     };
-    let clean = CLEAN[pick(3, CLEAN.len())];
+    let clean = CLEAN_METHODS[pick(3, CLEAN_METHODS.len())];
     let between = |salt, low: f64, high: f64| low + (high - low) * lot(seed, salt);
     let count = |per: f64| ((per * truth.length_over_feature) as usize).clamp(10, 20_000);
     let noisy = |n, delta, outliers| {

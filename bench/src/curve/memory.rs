@@ -14,8 +14,8 @@ use crate::goals::Goals;
 use crate::input::write_raw;
 use crate::table::Table;
 
-/// Bytes per point.
-const MOST: f64 = 300.0;
+/// The bytes per point that reconstruction may take at its peak.
+const BYTES_PER_POINT_MAX: f64 = 300.0;
 
 /// Peaks of the methods that are quick.
 pub(super) fn run(context: &Context, seeds: Range<u64>) -> Result<Value> {
@@ -52,7 +52,7 @@ pub(super) fn run(context: &Context, seeds: Range<u64>) -> Result<Value> {
     }
     println!("n = {n}, {threads} threads\n\n{table}");
     for (what, peak) in peaks {
-        goals.at_most(&what, peak, (MOST, None), |value| format!("{value:.0}"));
+        goals.at_most(&what, peak, (BYTES_PER_POINT_MAX, None), |value| format!("{value:.0}"));
     }
     Ok(json!({ "n": n, "builds": report, "goals": goals.json() }))
 }

@@ -19,10 +19,10 @@ use crate::table::Table;
 /// δ = 1 / 9ρ² for ρ = 4.
 const DELTA: f64 = 1.0 / 144.0;
 /// Curves and numbers of points whose centres are compared with those of the plain implementation.
-const COMPARED: [(&str, [usize; 3]); 2] =
+const COMPARED_CURVES: [(&str, [usize; 3]); 2] =
     [("circle", [1000, 4000, 16_000]), ("flower5", [1000, 4000, 16_000])];
-/// Draws of each.
-const DRAWS: u64 = 40;
+/// How many samples of each case are drawn.
+const DRAWS_PER_CASE: u64 = 40;
 
 /// The rms of the distances of the plain implementation's centres from the curve, over all draws.
 fn plain(
@@ -93,8 +93,8 @@ pub(super) fn run(context: &Context, seeds: Range<u64>) -> Result<Value> {
     }
     println!();
     let told = CurveOptions { feature: Some(1.0), ..options };
-    let few = seeds.start..seeds.end.min(seeds.start + DRAWS);
-    for (name, sizes) in COMPARED {
+    let few = seeds.start..seeds.end.min(seeds.start + DRAWS_PER_CASE);
+    for (name, sizes) in COMPARED_CURVES {
         let truth = truth(name, TestCurve::VERTICES)?;
         for n in sizes {
             let trials = Trials::run(&pool, &truth, n, &noise, &told, few.clone())?;

@@ -55,8 +55,8 @@ const fn input(distribution: &'static str, n: usize, simplices: u64) -> Input {
     Input { distribution, angle: None, n, simplices, must: &[], aim: &[] }
 }
 
-/// The angle at which a floating in-circle test is known to fail on grids.
-const TILTED: f64 = 302.328;
+/// The angle in degrees at which a floating in-circle test is known to fail on grids.
+const FAILING_ANGLE: f64 = 302.328;
 
 /// All peers in the plane.
 pub(super) const PLANE_PEERS: &[Peer] =
@@ -68,7 +68,7 @@ const PLANE_MUST: &[Goal] = &[Goal::OfCgal(0.55), Goal::Check(0.5)];
 const PLANE_AIM: &[Goal] = &[Goal::OfCgal(0.38)];
 const SPACE_MUST: &[Goal] = &[Goal::OfCgal(0.6), Goal::Check(0.5)];
 const SPACE_AIM: &[Goal] = &[Goal::OfCgal(0.37)];
-const CLIFF: &[Goal] = &[Goal::OfUniform(2.0), Goal::Check(0.5)];
+const CLIFF_GOALS: &[Goal] = &[Goal::OfUniform(2.0), Goal::Check(0.5)];
 
 /// All cases, in the order in which they run.
 pub(super) const CASES: &[Case] = &[
@@ -104,13 +104,14 @@ pub(super) const CASES: &[Case] = &[
         inputs: &[
             input("uniform", 100_000, 199_962),
             input("uniform", 1_000_000, 1_999_968),
-            input("grid", 1_000_000, 1_996_002).goals(CLIFF, &[]),
-            Input { angle: Some(TILTED), ..input("grid", 1_000_000, 1_999_974) }.goals(CLIFF, &[]),
-            input("sphere", 100_000, 99_998).goals(CLIFF, &[]),
-            input("roads", 1_000_000, 1_999_980).goals(CLIFF, &[]),
-            input("lines", 1_000_000, 999_998).goals(CLIFF, &[]),
-            input("spiral", 1_000_000, 1_822_953).goals(CLIFF, &[]),
-            input("fan", 1_000_000, 999_998).goals(CLIFF, &[]),
+            input("grid", 1_000_000, 1_996_002).goals(CLIFF_GOALS, &[]),
+            Input { angle: Some(FAILING_ANGLE), ..input("grid", 1_000_000, 1_999_974) }
+                .goals(CLIFF_GOALS, &[]),
+            input("sphere", 100_000, 99_998).goals(CLIFF_GOALS, &[]),
+            input("roads", 1_000_000, 1_999_980).goals(CLIFF_GOALS, &[]),
+            input("lines", 1_000_000, 999_998).goals(CLIFF_GOALS, &[]),
+            input("spiral", 1_000_000, 1_822_953).goals(CLIFF_GOALS, &[]),
+            input("fan", 1_000_000, 999_998).goals(CLIFF_GOALS, &[]),
         ],
         peers: &[Peer::Cgal, Peer::Spade, Peer::Delaunator, Peer::Triangle],
         threads: &[1],

@@ -6,8 +6,8 @@ use super::linear::{self, product};
 
 /// Relative deviation that rounding in the peer's last steps explains.
 const ROUNDING: f64 = 1e-12;
-/// Relative deviation beyond which an ellipsoid is called wrong: the tenth digit.
-const WRONG: f64 = 1e-10;
+/// An ellipsoid is called wrong beyond this relative deviation: the tenth digit.
+const DEVIATION_MAX: f64 = 1e-10;
 
 /// What was found about the ellipsoid of a peer.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,7 +61,7 @@ impl Judgement {
 impl std::fmt::Display for Judgement {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let within = |tolerance| self.excess <= tolerance && self.off.abs() <= tolerance;
-        match (within(WRONG), within(ROUNDING)) {
+        match (within(DEVIATION_MAX), within(ROUNDING)) {
             (false, _) => write!(f, "WRONG: ")?,
             (_, false) => write!(f, "INEXACT: ")?,
             _ => {}

@@ -8,7 +8,7 @@ use taut_points::Points;
 
 use super::case::{Case, Input};
 use super::goals::{self, Measured};
-use super::rounds::TIMES;
+use super::rounds::TIME_COLUMNS;
 use super::{Context, rounds};
 use crate::input::SEED;
 use crate::table::Table;
@@ -89,8 +89,16 @@ impl Solved {
 }
 
 /// The names of the columns of [`Solved::cells`].
-pub(super) const COLUMNS: [&str; 8] =
-    [TIMES[0], TIMES[1], TIMES[2], "verified gap", "stop", "passes", "steps", "support"];
+pub(super) const COLUMNS: [&str; 8] = [
+    TIME_COLUMNS[0],
+    TIME_COLUMNS[1],
+    TIME_COLUMNS[2],
+    "verified gap",
+    "stop",
+    "passes",
+    "steps",
+    "support",
+];
 
 /// Runs all inputs of a case, each under all of its seeds.
 pub(super) fn run(context: &mut Context, case: &Case, inputs: &[Input]) -> Result<()> {

@@ -13,7 +13,7 @@ use super::{Context, data, read};
 use crate::table::Table;
 
 /// Up to this dimension the time counts.
-const SMALL: usize = 13;
+const TIMED_DIM_MAX: usize = 13;
 
 /// What is known of a set; those in a hyperplane have no bracket.
 #[derive(Deserialize)]
@@ -48,7 +48,7 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
             [vec![name.clone(), size], solved.cells(), vec![format!("{outside:.1e}")]].concat(),
         );
         let mut of = Measured { outside: Some(outside), ..solved.measured() };
-        if d > SMALL {
+        if d > TIMED_DIM_MAX {
             // No worse than any other.
             for time in [&mut of.clock, &mut of.processors, &mut of.one_thread] {
                 *time = time.map(|_| 0.0);
@@ -58,7 +58,7 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
         sets.push(json!({ "set": name, "outside": outside, "solved": solved.json() }));
     }
     context.runs = runs;
-    println!("{} sets; the time counts where d ≤ {SMALL}\n\n{table}", measured.len());
+    println!("{} sets; the time counts where d ≤ {TIMED_DIM_MAX}\n\n{table}", measured.len());
     let worst = Measured::worst(measured).unwrap_or_default();
     let goals = goals::print(&[case.must], &[case.aim], &worst);
     context.report.add(json!({ "name": case.name, "sets": sets, "goals": goals }));

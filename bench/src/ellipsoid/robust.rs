@@ -22,8 +22,8 @@ const N: usize = 100_000;
 const D: usize = 10;
 /// How many sets are drawn of each kind.
 const SEEDS: u64 = 5;
-/// Of ten points so many are in a second cloud, moved by 10 along each axis.
-const OUTLIERS: usize = 3;
+/// Of ten points this many are in a second cloud, moved by 10 along each axis.
+const OUTLIERS_PER_TEN: usize = 3;
 
 /// How far the second cloud spreads, the first having spread 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +49,7 @@ fn draw(cloud: Cloud, n: usize, d: usize, seed: u64) -> Result<Vec<f64>> {
 
 /// Whether the row is in the second cloud.
 fn is_planted(row: u64) -> bool {
-    row % 10 >= (10 - OUTLIERS) as u64
+    row % 10 >= (10 - OUTLIERS_PER_TEN) as u64
 }
 
 /// ln det of the covariance (divisor h − 1) of the rows in `kept`, ascending, each once; `None` where it has none.
@@ -105,11 +105,11 @@ fn lists(answer: &Answer) -> Vec<Vec<u64>> {
 pub(super) fn run(context: &mut Context, case: &Case, cloud: Cloud) -> Result<()> {
     let n = if context.quick { N / 10 } else { N };
     let what = format!(
-        "{n} × {D}, of ten points {OUTLIERS} in one cloud far off, {}",
+        "{n} × {D}, of ten points {OUTLIERS_PER_TEN} in one cloud far off, {}",
         if cloud == Cloud::Wide { "as wide as the first" } else { "a tenth as wide as the first" }
     );
     let head = ["seed", "program", "h", "ln det", "of the second cloud kept"];
-    let mut table = Table::new(&[&head[..], &rounds::TIMES[..]].concat());
+    let mut table = Table::new(&[&head[..], &rounds::TIME_COLUMNS[..]].concat());
     let (mut measured, mut sets) = (vec![], vec![]);
     let runs = context.runs;
     for seed in SEED..SEED + SEEDS {
@@ -147,7 +147,7 @@ pub(super) fn run(context: &mut Context, case: &Case, cloud: Cloud) -> Result<()
             }
             Some(Err(silence)) => {
                 let mut cells = vec![seed.to_string(), PEER.to_owned(), silence.to_string()];
-                cells.resize(head.len() + rounds::TIMES.len(), String::new());
+                cells.resize(head.len() + rounds::TIME_COLUMNS.len(), String::new());
                 table.push(cells);
             }
             None => {}
@@ -155,7 +155,7 @@ pub(super) fn run(context: &mut Context, case: &Case, cloud: Cloud) -> Result<()
         let first = first_cloud(&values, D, kept.len())?;
         let mut cells = vec![seed.to_string(), "best of the first cloud".to_owned()];
         cells.extend([kept.len().to_string(), format!("{first:.10}"), "0".to_owned()]);
-        cells.resize(head.len() + rounds::TIMES.len(), String::new());
+        cells.resize(head.len() + rounds::TIME_COLUMNS.len(), String::new());
         table.push(cells);
         sets.push(json!({
             "seed": seed, "times": rounds.json(), "ln_det": ours, "peer_ln_det": theirs,
@@ -176,7 +176,7 @@ pub(super) fn run(context: &mut Context, case: &Case, cloud: Cloud) -> Result<()
 }
 
 /// Classical sets: name, columns, and the rows (from 1) that the R package robustbase publishes as outliers.
-const CLASSICAL: [(&str, usize, &[u64]); 3] = [
+const CLASSICAL_SETS: [(&str, usize, &[u64]); 3] = [
     ("rb_hbk.csv", 3, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14]),
     ("rb_stackloss.csv", 3, &[1, 2, 3, 15, 16, 17, 18, 19, 21]),
     ("rb_starsCYG.csv", 2, &[7, 11, 14, 20, 30, 34]),
@@ -207,7 +207,7 @@ pub(super) fn run_flags(context: &mut Context, case: &Case) -> Result<()> {
     };
     let mut table = Table::new(&["set", "program", "h", "ln det", "weighed out", "flagged"]);
     let (mut others, mut rejected, mut peers) = (Vec::new(), None, Some(Vec::new()));
-    for (name, columns, published) in CLASSICAL {
+    for (name, columns, published) in CLASSICAL_SETS {
         let (values, d) = read(&folder.join(name), Some(columns)).with_context(|| name)?;
         let points = Points::new(&values, d)?;
         let found: Solution<RobustEllipsoid> =

@@ -14,7 +14,7 @@ use crate::stats::{Summary, seconds};
 
 /// Columns of times: the least by the clock with the last number of threads, the least of the processors for the same,
 /// the least of the processor with one thread.
-pub(super) const TIMES: [&str; 3] = ["clock", "processors", "one thread"];
+pub(super) const TIME_COLUMNS: [&str; 3] = ["clock", "processors", "one thread"];
 
 /// Times of taut with one number of threads.
 pub(super) struct Timed {
@@ -68,7 +68,7 @@ impl<T> Rounds<T> {
         }
     }
 
-    /// Cells under [`TIMES`].
+    /// Cells under [`TIME_COLUMNS`].
     pub(super) fn cells(&self) -> Vec<String> {
         let times = [self.clock(), self.processors(), self.one_thread()];
         times.map(|time| time.map(seconds).unwrap_or_default()).into()

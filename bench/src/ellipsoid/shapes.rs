@@ -39,7 +39,7 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
     let values = draw(n, D, SEED)?;
     let items = Points::new(&values, D * (D + 3) / 2)?;
     let mut table =
-        Table::new(&[&["answer"], &rounds::TIMES[..], &["verified gap", "passes"]].concat());
+        Table::new(&[&["answer"], &rounds::TIME_COLUMNS[..], &["verified gap", "passes"]].concat());
     let mut all = Vec::new();
 
     let options = EllipsoidOptions { epsilon: EPSILON, ..EllipsoidOptions::default() };

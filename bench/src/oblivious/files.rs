@@ -14,7 +14,7 @@ use tempfile::TempDir;
 
 use super::draw::Draw;
 use super::lanes::have_memory;
-use super::one::{FileCost, WIDTH, Work, layout};
+use super::one::{FileCost, RECORD_BYTES, Work, layout};
 use crate::context::Context;
 use crate::goals::Goals;
 use crate::raw::alone;
@@ -84,7 +84,7 @@ fn measure(context: &Context, sizes: &Sizes) -> Result<Value> {
     let transposition = transposed.best;
     let [taut, extsort, queue, disk, _] = &sorted.best[..] else { bail!("five programs sort") };
     println!("{table}");
-    let bytes = (sizes.records * WIDTH) as f64;
+    let bytes = (sizes.records * RECORD_BYTES) as f64;
     let io = taut.counted.map_or(f64::NAN, |counted| counted as f64 / bytes);
     goals.must(
         "sort: I/O four times the file, within 1 %".into(),
@@ -118,7 +118,7 @@ fn sort(
     table: &mut Table,
 ) -> Result<Costs> {
     let mut draw = Draw(1);
-    write(from, sizes.records * WIDTH / 8, || draw.word())?;
+    write(from, sizes.records * RECORD_BYTES / 8, || draw.word())?;
     let mut certificate = None;
     let judge = |work, cost: &FileCost| -> Result<()> {
         if matches!(work, Work::Disk | Work::Copy) {
@@ -133,7 +133,7 @@ fn sort(
         Ok(verify(to, &layout(), certificate, &Monitor::silent())?)
     };
     let works = [Work::Sort, Work::Extsort, Work::Queue, Work::Disk, Work::Copy];
-    let file = (sizes.records * WIDTH) as u64;
+    let file = (sizes.records * RECORD_BYTES) as u64;
     by_turns(context, &works, [from, to], (sizes.sort_memory, 1, file, 2.0), judge, table)
 }
 

@@ -12,7 +12,7 @@ use crate::table::Table;
 /// The crate, in the tables.
 const CRATE: &str = "transpose";
 /// To a new array and back.
-const TWICE: &str = "out of place and back";
+const OUT_AND_BACK: &str = "out of place and back";
 
 /// The shapes of the section `transpose`; no bound is set for them.
 pub(super) fn run(context: &Context) -> Result<Value> {
@@ -38,9 +38,9 @@ pub(super) fn run(context: &Context) -> Result<Value> {
             name.clone(),
             rate("taut"),
             rate(CRATE),
-            rate(TWICE),
+            rate(OUT_AND_BACK),
             times(lanes.faster("taut", CRATE)),
-            times(lanes.faster("taut", TWICE)),
+            times(lanes.faster("taut", OUT_AND_BACK)),
         ]);
         measured.push(json!({ "shape": name, "lanes": lanes.json(rows * columns) }));
     }
@@ -68,7 +68,7 @@ fn take_turns(context: &Context, rows: usize, columns: usize) -> Result<Lanes> {
         );
         count(&mut matrix);
         have_memory(size_of_val(&matrix[..]))?;
-        lanes.time(TWICE, || -> Result<()> {
+        lanes.time(OUT_AND_BACK, || -> Result<()> {
             let mut second = vec![0.0; matrix.len()];
             taut_oblivious::transpose(&matrix, rows, columns, &mut second)?;
             matrix.copy_from_slice(&second);

@@ -15,8 +15,8 @@ use taut_points::Monitor;
 
 use crate::meter::{Meter, peak};
 
-/// Bytes of a record, the first eight of which are its key.
-pub(super) const WIDTH: usize = 32;
+/// A record has this many bytes, the first eight of which are its key.
+pub(super) const RECORD_BYTES: usize = 32;
 
 /// What to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -69,7 +69,7 @@ pub(super) struct FileCost {
 
 /// Records with a key of eight bytes, least significant first.
 pub(super) fn layout() -> RecordLayout {
-    RecordLayout { width: WIDTH, key: 0..8, kind: KeyKind::U64 }
+    RecordLayout { width: RECORD_BYTES, key: 0..8, kind: KeyKind::U64 }
 }
 
 /// Does it and prints the cost.
@@ -119,7 +119,7 @@ fn asked() -> Option<u64> {
 }
 
 /// A record, as the peer takes it.
-struct Record([u8; WIDTH]);
+struct Record([u8; RECORD_BYTES]);
 
 impl Record {
     fn key(&self) -> u64 {
@@ -135,7 +135,7 @@ impl Sortable for Record {
     }
 
     fn decode<R: Read>(reader: &mut R) -> io::Result<Self> {
-        let mut bytes = [0; WIDTH];
+        let mut bytes = [0; RECORD_BYTES];
         reader.read_exact(&mut bytes)?;
         Ok(Record(bytes))
     }
@@ -144,11 +144,11 @@ impl Sortable for Record {
 /// The crate: as many records at once as the memory holds, runs beside the output, which is brought to the disk.
 fn extsort(from: &Path, to: &Path, memory: usize) -> Result<()> {
     let mut records = BufReader::with_capacity(1 << 20, File::open(from)?);
-    let count = from.metadata()?.len() / WIDTH as u64;
+    let count = from.metadata()?.len() / RECORD_BYTES as u64;
     // A record that cannot be read is missing from the output, which is judged.
     let records = (0..count).map_while(|_| Record::decode(&mut records).ok());
     let sorter = ExternalSorter::new()
-        .with_segment_size(memory / WIDTH)
+        .with_segment_size(memory / RECORD_BYTES)
         .with_sort_dir(to.parent().context("a folder")?.to_owned());
     let sorted = sorter.sort_by_key(records, Record::key);
     let sorted = sorted.map_err(|error| anyhow!("extsort: {error}"))?;
@@ -165,9 +165,9 @@ fn extsort(from: &Path, to: &Path, memory: usize) -> Result<()> {
 fn queue(from: &Path, to: &Path, memory: usize) -> Result<()> {
     let mut queue = SpillingQueue::new(to.parent().context("a folder")?, memory)?;
     let mut records = BufReader::with_capacity(1 << 20, File::open(from)?);
-    for _ in 0..from.metadata()?.len() / WIDTH as u64 {
+    for _ in 0..from.metadata()?.len() / RECORD_BYTES as u64 {
         let record = Record::decode(&mut records)?;
-        let mut rest = [0; WIDTH - 8];
+        let mut rest = [0; RECORD_BYTES - 8];
         rest.copy_from_slice(&record.0[8..]);
         queue.push(record.key(), rest)?;
     }

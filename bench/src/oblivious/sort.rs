@@ -25,9 +25,9 @@ struct Record {
 const STD: &str = "std unstable";
 const STABLE: &str = "std stable";
 /// taut when no memory was taken or given back for a while; see `lanes`.
-const RESTED: &str = "taut, after a rest";
-/// A host takes free memory back after two seconds.
-const REST: Duration = Duration::from_secs(4);
+const TAUT_RESTED: &str = "taut, after a rest";
+/// The pause before a rested run: a host takes free memory back after two seconds.
+const REST_TIME: Duration = Duration::from_secs(4);
 /// numpy's sort, with the vectors that it chooses and with shorter ones: where compressed stores are slow, these are faster.
 const NUMPY: [&str; 2] = ["numpy-sort", "numpy-sort-avx2"];
 
@@ -72,7 +72,7 @@ pub(super) fn run(context: &Context) -> Result<Value> {
     goals.aim("u64: taut over the faster numpy at most 1.1".into(), times(numpy), met);
     let what = "records: std unstable over taut";
     goals.at_least(what, over(&whole, STD), (1.7, Some(2.0)));
-    let rested = whole.faster(RESTED, STD);
+    let rested = whole.faster(TAUT_RESTED, STD);
     goals.at_least("records, after a rest: std unstable over taut", rested, (1.7, Some(2.0)));
     for ((slower, name), what) in worst.into_iter().zip(["u64", "records"]) {
         let what = format!("{what}, worst pattern ({name}): taut over std unstable");
@@ -120,12 +120,13 @@ fn records(context: &Context, pattern: &Pattern, n: usize, rest: bool) -> Result
     expected.sort_by_key(|record| record.key);
     let mut lanes = Lanes::default();
     let mut work = given.clone();
-    let names: &[_] = if rest { &["taut", STD, STABLE, RESTED] } else { &["taut", STD, STABLE] };
+    let names: &[_] =
+        if rest { &["taut", STD, STABLE, TAUT_RESTED] } else { &["taut", STD, STABLE] };
     for _ in 0..context.runs {
         for &name in names {
             work.copy_from_slice(&given);
             match name {
-                RESTED => std::thread::sleep(REST),
+                TAUT_RESTED => std::thread::sleep(REST_TIME),
                 _ => have_memory(2 * size_of_val(&given[..]))?,
             }
             lanes.time(name, || match name {

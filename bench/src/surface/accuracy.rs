@@ -15,7 +15,7 @@ use crate::stats::times;
 use crate::table::Table;
 
 /// Sets where the peer is far off.
-const HARD: [&str; 3] = ["daratech", "fandisk", "mechpart"];
+const SHARP_MODELS: [&str; 3] = ["daratech", "fandisk", "mechpart"];
 
 /// Distances on the seven, and their ratios.
 pub(super) fn run(context: &Context, _: Range<u64>) -> Result<Value> {
@@ -48,7 +48,7 @@ pub(super) fn run(context: &Context, _: Range<u64>) -> Result<Value> {
     println!("{table}");
     let mut goals = Goals::default();
     for (name, taut, cgal) in ratios {
-        let bound = if HARD.contains(&name) { 0.7 } else { 1.05 };
+        let bound = if SHARP_MODELS.contains(&name) { 0.7 } else { 1.05 };
         let largest = cgal.map(|cgal| taut.missed.hausdorff / cgal.missed.hausdorff);
         let mean = cgal.map(|cgal| taut.missed.mean / cgal.missed.mean);
         goals.at_most(&format!("{name}: largest over CGAL's"), largest, (bound, None), times);

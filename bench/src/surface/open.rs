@@ -16,8 +16,8 @@ use crate::context::Context;
 use crate::goals::Goals;
 use crate::table::Table;
 
-/// Vertices of the bunny's mesh that no triangle uses.
-const UNREFERENCED: usize = 1113;
+/// This many vertices of the bunny's mesh are used by no triangle.
+const UNREFERENCED_VERTICES: usize = 1113;
 
 /// Columns after the input.
 const HEAD: [&str; 9] = [
@@ -99,7 +99,10 @@ impl Bunny {
         goals.aim("bunny: 4 to 6 loops".into(), loops, (4..=6).contains(&judged.loops));
         goals.must(
             "bunny: each point without a triangle is named".into(),
-            format!("{named} of {} (the mesh itself leaves out {UNREFERENCED})", judged.unused),
+            format!(
+                "{named} of {} (the mesh itself leaves out {UNREFERENCED_VERTICES})",
+                judged.unused
+            ),
             *named == judged.unused,
         );
     }

@@ -212,8 +212,8 @@ fn pure_and_fast(plan: &Plan) -> Result<Vec<Figure>> {
 
 fn two_numbers_of_points(plan: &Plan) -> Result<Vec<Figure>> {
     let mut pair = Pair::new([7, 8], "normal points, ε = 0.001, fast variant", "dimension");
-    const LONG: &[u32] = &[50, 100, 200, 300, 400, 500, 600, 800, 1000, 1250, 1500];
-    let dims = plan.upto(LONG, 1, 5);
+    const DIMS_TO_1500: &[u32] = &[50, 100, 200, 300, 400, 500, 600, 800, 1000, 1250, 1500];
+    let dims = plan.upto(DIMS_TO_1500, 1, 5);
     for n in if plan.size == super::Size::Quick { &[10_000][..] } else { &[10_000, 100_000] } {
         let input = |d: u32| Input::points(Distribution::Normal, *n, d as usize);
         pair.add(

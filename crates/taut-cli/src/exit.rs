@@ -7,7 +7,7 @@ use crate::output::writing;
 use crate::watch;
 
 /// The exit code for bad input or usage, and for what the system refuses.
-pub(crate) const FAILED: u8 = 2;
+pub(crate) const FAILURE_CODE: u8 = 2;
 
 /// How a subcommand that did not fail ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,11 +26,11 @@ pub(crate) fn code(end: anyhow::Result<Outcome>) -> ExitCode {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::CheckFailed) => ExitCode::from(1),
         Ok(Outcome::StoppedEarly) => ExitCode::from(3),
-        Err(_) if watch::interrupted() => ExitCode::from(watch::INTERRUPTED),
+        Err(_) if watch::interrupted() => ExitCode::from(watch::INTERRUPT_CODE),
         Err(error) => {
             // The outermost sentence is complete; the causes below it say parts of it again.
             writing::print_error(&error.to_string());
-            ExitCode::from(FAILED)
+            ExitCode::from(FAILURE_CODE)
         }
     }
 }
@@ -40,7 +40,7 @@ pub(crate) fn unparsed(unparsed: &clap::Error) -> ExitCode {
     if unparsed.use_stderr() {
         // Whether anybody hears it changes nothing.
         unparsed.print().ok();
-        return ExitCode::from(FAILED);
+        return ExitCode::from(FAILURE_CODE);
     }
     let printed = unparsed.print().and_then(|()| std::io::stdout().flush());
     code(writing::unless_closed(printed).map(|()| Outcome::Done))

@@ -81,7 +81,7 @@ fn leave(message: &[u8]) -> ! {
 
     rustix::io::write(std::io::stderr().as_fd(), message).ok();
     taut_io::remove_unfinished();
-    signal_hook::low_level::exit(i32::from(crate::exit::FAILED))
+    signal_hook::low_level::exit(i32::from(crate::exit::FAILURE_CODE))
 }
 
 /// Writes the message and ends the process as well as the standard library can.
@@ -89,5 +89,5 @@ fn leave(message: &[u8]) -> ! {
 fn leave(message: &[u8]) -> ! {
     std::io::stderr().write_all(message).ok();
     taut_io::remove_unfinished();
-    std::process::exit(i32::from(crate::exit::FAILED))
+    std::process::exit(i32::from(crate::exit::FAILURE_CODE))
 }

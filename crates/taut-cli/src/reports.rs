@@ -211,15 +211,16 @@ pub(crate) fn centre(center: &[f64], size: f64) -> Field {
     field
 }
 
-/// Rows whose numbers are shown.
-const NAMED: usize = 8;
+/// The numbers of at most this many rows are shown.
+const SHOWN_ROWS_MAX: usize = 8;
 
 /// How many rows there are, and the numbers of the first, counted from 1 as in the file.
 pub(crate) fn rows_of(name: &'static str, rows: &[u64]) -> Field {
     let field = Field::new(name, count(rows.len() as u64));
     let row = |&row: &u64| row.saturating_add(1).to_string();
-    let named: Vec<String> = rows.iter().take(NAMED).map(row).collect();
-    let more = if rows.len() > NAMED { ", …; the JSON holds them (-o FILE)" } else { "" };
+    let named: Vec<String> = rows.iter().take(SHOWN_ROWS_MAX).map(row).collect();
+    let more =
+        if rows.len() > SHOWN_ROWS_MAX { ", …; the JSON holds them (-o FILE)" } else { "" };
     match named.len() {
         0 => field,
         1 => field.remark(format!("row {}", named[0])),

@@ -17,7 +17,7 @@ use crate::effort::Progress;
 use crate::output::writing;
 
 /// Exit code after an interrupt: 128 and the number of the signal, as shells have it.
-pub(crate) const INTERRUPTED: u8 = 130;
+pub(crate) const INTERRUPT_CODE: u8 = 130;
 
 /// Whether an interrupt was asked for while somebody looked.
 static STOP: AtomicBool = AtomicBool::new(false);
@@ -25,14 +25,14 @@ static STOP: AtomicBool = AtomicBool::new(false);
 static WATCHED: AtomicBool = AtomicBool::new(false);
 
 /// Work that is over sooner than this is not worth a bar.
-const PATIENCE: Duration = Duration::from_millis(300);
+const BAR_DELAY: Duration = Duration::from_millis(300);
 
 /// From now on Ctrl-C ends the work that is watched, or else the process; a second one always the process.
 pub(crate) fn stop_on_interrupt() {
     let handler = || {
         if !WATCHED.load(Ordering::SeqCst) || STOP.swap(true, Ordering::SeqCst) {
             taut_io::remove_unfinished();
-            std::process::exit(INTERRUPTED.into());
+            std::process::exit(INTERRUPT_CODE.into());
         }
     };
     // Without a handler the system's own stays, which ends the process: no harm.
@@ -87,7 +87,7 @@ impl Watch {
         };
         let on_points = |points: u64| {
             let done = done.fetch_add(points, Ordering::Relaxed) + points;
-            if bars && start.elapsed() > PATIENCE {
+            if bars && start.elapsed() > BAR_DELAY {
                 if !shown.swap(true, Ordering::Relaxed) {
                     bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(10));
                 }

@@ -28,7 +28,7 @@ use crate::kernel::{Counters, Settings};
 use crate::simplex::Slots;
 use crate::{Error, InsertionOrder};
 use cell::{Cell, Whole};
-use index::LEAF;
+use index::LEAF_SIZE;
 
 /// A cell has at least this many sites of its own, unless more cells are asked for: below, halos outweigh it.
 pub(crate) const fn cell_at_least(d: usize) -> usize {
@@ -48,9 +48,9 @@ pub(crate) fn triangulate<const D: usize, const V: usize, G: Geometry<D, V>>(
     let index = Index::build(sites);
     let hopeless = AtomicBool::new(false);
     let whole = Whole { sites, index: &index, start, settings, order, hopeless: &hopeless };
-    let leaves = sites.len().div_ceil(LEAF);
+    let leaves = sites.len().div_ceil(LEAF_SIZE);
     let cells = cells.clamp(1, leaves);
-    let cut = |k: usize| (leaves * k / cells * LEAF).min(sites.len()) as u32;
+    let cut = |k: usize| (leaves * k / cells * LEAF_SIZE).min(sites.len()) as u32;
     let done: Result<Vec<Option<Cell<V>>>, Error> = (0..cells)
         .into_par_iter()
         .with_max_len(1)

@@ -8,7 +8,7 @@
 use crate::simplex::{Simplex, code, decode};
 
 /// The places of the vertices that stay when the vertex at `apex` goes, in an order that keeps the orientation.
-const REST: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
+const OTHER_VERTICES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 /// The simplices at vertex `apex` without it, joined to each other as before.
 pub(crate) fn star_of_apex(simplices: &[Simplex<4>], apex: u32) -> Vec<Simplex<3>> {
@@ -21,14 +21,19 @@ pub(crate) fn star_of_apex(simplices: &[Simplex<4>], apex: u32) -> Vec<Simplex<3
             count += 1;
         }
     }
-    let star = simplices.iter().filter(|s| s.is_live()).filter_map(|s| Some((s, REST[place(s)?])));
+    let star = simplices
+        .iter()
+        .filter(|s| s.is_live())
+        .filter_map(|s| Some((s, OTHER_VERTICES[place(s)?])));
     star.map(|(s, rest)| Simplex {
         vertices: rest.map(|i| s.vertices[i]),
         neighbors: rest.map(|i| {
             let (other, facet) = decode(s.neighbors[i]);
             let there = place(&simplices[other as usize]).expect("across a facet at the apex");
-            let facet =
-                REST[there].iter().position(|&k| k == facet).expect("opposite a facet at the apex");
+            let facet = OTHER_VERTICES[there]
+                .iter()
+                .position(|&k| k == facet)
+                .expect("opposite a facet at the apex");
             code(numbers[other as usize], facet as u32)
         }),
     })

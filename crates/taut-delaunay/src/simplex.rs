@@ -4,7 +4,7 @@
 pub const GHOST: u32 = u32::MAX;
 
 /// In place of vertex 0: this slot holds no simplex.
-pub(crate) const DEAD: u32 = u32::MAX - 1;
+pub(crate) const DEAD_MARK: u32 = u32::MAX - 1;
 
 /// A triangle (`V = 3`) or a tetrahedron (`V = 4`) with its neighbours.
 ///
@@ -28,7 +28,7 @@ impl<const V: usize> Simplex<V> {
 
     /// Whether this slot holds a simplex; if not, its other contents mean nothing.
     pub fn is_live(&self) -> bool {
-        self.vertices[0] != DEAD
+        self.vertices[0] != DEAD_MARK
     }
 }
 

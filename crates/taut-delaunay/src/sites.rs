@@ -17,9 +17,9 @@ use crate::kernel::Settings;
 /// Rows one task reads.
 const TASK: usize = 1 << 14;
 /// Filters are proved for magnitudes up to this; larger sets are scaled down.
-const LARGEST: f64 = (1u64 << 40) as f64;
+const UNSCALED_MAX: f64 = (1u64 << 40) as f64;
 /// Sets below this are scaled up, so that no filter drowns in its allowance for underflow.
-const SMALLEST: f64 = 1.0 / (1u64 << 20) as f64;
+const UNSCALED_MIN: f64 = 1.0 / (1u64 << 20) as f64;
 
 /// The distinct points of an input.
 #[derive(Clone, Debug)]
@@ -176,7 +176,7 @@ fn normalisation<T: Scalar>(points: &Points<'_, T>, largest: f64) -> (Scale, boo
     if let Some(unit) = lowest_exponent_above(points, top - 40) {
         return (Scale::by(-unit), true, true);
     }
-    if (SMALLEST..=LARGEST).contains(&largest) {
+    if (UNSCALED_MIN..=UNSCALED_MAX).contains(&largest) {
         return (Scale::by(0), false, true);
     }
     // Scaling down must not push the lowest bit below the smallest double.

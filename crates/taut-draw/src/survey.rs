@@ -14,14 +14,14 @@ use taut_points::{Blocks, PointSource, Scratch};
 use crate::Error;
 use crate::axes::unit;
 
-/// Resolution of the histogram of distances, as parts of the way to the border.
-const FINE: usize = 12_000;
+/// The histogram of distances resolves this many parts of the way to the border.
+const HISTOGRAM_STEPS: usize = 12_000;
 
-/// How near to the border an item counts as close to it, as a part of the way there.
-pub(crate) const CLOSE: f64 = 1e-3;
+/// An item this near to the border counts as close to it, as a part of the way there.
+pub(crate) const BORDER_TOLERANCE: f64 = 1e-3;
 
 /// Beyond this part of the way an item counts as outside: rounding explains less.
-const OUTSIDE: f64 = 1e-9;
+const OUTSIDE_TOLERANCE: f64 = 1e-9;
 
 /// What a read of all items found.
 #[derive(Clone)]
@@ -30,9 +30,9 @@ pub(crate) struct Survey {
     pub(crate) ids: Vec<u64>,
     /// How many of them were taken because they reach far.
     pub(crate) far: u64,
-    /// Items by the part of the way to the border they reach, in steps of 1/FINE.
+    /// Items by the part of the way to the border they reach, in steps of 1/HISTOGRAM_STEPS.
     fine: Vec<u64>,
-    /// Items that reach within CLOSE of the border.
+    /// Items that reach within BORDER_TOLERANCE of the border.
     pub(crate) close: u64,
     /// Items that reach beyond the border by more than rounding.
     pub(crate) outside: u64,
@@ -159,8 +159,13 @@ pub(crate) fn survey(
     // Parts are at least 0, so their bits order as they do; ties go to the lower number.
     let mut far: BinaryHeap<Reverse<(u64, Reverse<u64>)>> = BinaryHeap::new();
     let mut sample: BinaryHeap<(u64, u64)> = BinaryHeap::new();
-    let mut found =
-        Survey { ids: Vec::new(), far: 0, fine: vec![0; FINE + 1], close: 0, outside: 0 };
+    let mut found = Survey {
+        ids: Vec::new(),
+        far: 0,
+        fine: vec![0; HISTOGRAM_STEPS + 1],
+        close: 0,
+        outside: 0,
+    };
     let mut row = vec![0.0; source.dim()];
     let mut scratch = Scratch::new();
     let blocks = Blocks::of(source);
@@ -187,9 +192,9 @@ pub(crate) fn survey(
                 return Err(Error::NonFinite { what, value: part });
             }
             if question.left_out.binary_search(&id).is_err() {
-                found.fine[((part * FINE as f64) as usize).min(FINE)] += 1;
-                found.close += u64::from(part >= 1.0 - CLOSE);
-                found.outside += u64::from(part > 1.0 + OUTSIDE);
+                found.fine[((part * HISTOGRAM_STEPS as f64) as usize).min(HISTOGRAM_STEPS)] += 1;
+                found.close += u64::from(part >= 1.0 - BORDER_TOLERANCE);
+                found.outside += u64::from(part > 1.0 + OUTSIDE_TOLERANCE);
             }
             if all {
                 continue;
@@ -244,16 +249,20 @@ impl Survey {
     /// The histogram from the smallest distance to the border in about `wanted` bins: (from, to, items), ends as parts
     /// of the way.
     pub(crate) fn bins(&self, wanted: usize) -> Vec<(f64, f64, u64)> {
-        let lowest = self.fine.iter().position(|&c| c > 0).unwrap_or(0).min(FINE - 1);
-        let step = (FINE - lowest).div_ceil(wanted).max(1);
+        let lowest = self.fine.iter().position(|&c| c > 0).unwrap_or(0).min(HISTOGRAM_STEPS - 1);
+        let step = (HISTOGRAM_STEPS - lowest).div_ceil(wanted).max(1);
         let mut bins = Vec::new();
-        let mut top = FINE;
+        let mut top = HISTOGRAM_STEPS;
         while top > lowest {
             let bottom = top.saturating_sub(step);
             // What reaches the border or beyond belongs to the last bin.
-            let end = if top == FINE { FINE + 1 } else { top };
+            let end = if top == HISTOGRAM_STEPS { HISTOGRAM_STEPS + 1 } else { top };
             let items = self.fine[bottom..end].iter().sum();
-            bins.push((bottom as f64 / FINE as f64, top as f64 / FINE as f64, items));
+            bins.push((
+                bottom as f64 / HISTOGRAM_STEPS as f64,
+                top as f64 / HISTOGRAM_STEPS as f64,
+                items,
+            ));
             top = bottom;
         }
         bins.reverse();

@@ -41,11 +41,11 @@ use self::tree::{Found, Shown};
 use crate::apart::claimed;
 use crate::{CoverOptions, Error, FarthestFirstOptions, cover_of_source, farthest_first_of_source};
 pub(crate) use answer::reach_of;
-pub(crate) use nearest::EVEN;
+pub(crate) use nearest::EXACT_DISTANCES;
 pub use options::{CentersMethod, CentersOptions};
 
 /// The least relative gap that is sought; proofs take 1e-12 of it.
-const FINEST: f64 = 5e-12;
+const GAP_MIN: f64 = 5e-12;
 /// What counts as no gap.
 const ROUNDING: f64 = 2e-11;
 /// Bounds below this, in the units of the search, rest on squares that may have lost digits.
@@ -210,7 +210,7 @@ fn solve_in<P: Position>(
     let asked = k;
     let k = k.min(cloud.len());
     let z = options.outliers as usize;
-    let target = (options.epsilon - FINEST).max(FINEST);
+    let target = (options.epsilon - GAP_MIN).max(GAP_MIN);
     let start = start::start(&cloud, k, z, monitor)?;
     let apart = start.apart.clone();
     let found = match options.method {

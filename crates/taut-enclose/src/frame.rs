@@ -5,7 +5,7 @@
 //! of two that brings it to about 1, which is exact. A column whose values are all equal is taken away first: it is the only
 //! one that can still be too large, since any other has an extent of at least 2⁻⁵³ of its values.
 //! *Guarantee.* Between 2⁻⁴⁵⁰ and 2⁴⁰⁰, in these units, a squared distance has the error of the kernel and no other.
-//! *Trap.* What is smaller than 2⁻⁴⁵⁰ in these units squares to little or nothing: [`FLOOR`] is where a caller has to look
+//! *Trap.* What is smaller than 2⁻⁴⁵⁰ in these units squares to little or nothing: [`SQUARE_MIN`] is where a caller has to look
 //! twice.
 
 use taut_points::InputError;
@@ -19,7 +19,7 @@ use crate::Error;
 const SAFE_EXPONENT: i32 = 200;
 
 /// 2⁻⁹⁰⁰: squared distances below it have lost digits.
-pub(crate) const FLOOR: f64 = f64::from_bits((1023 - 900) << 52);
+pub(crate) const SQUARE_MIN: f64 = f64::from_bits((1023 - 900) << 52);
 
 /// How coordinates are brought to the units of a calculation.
 #[derive(Clone, Debug, PartialEq)]

@@ -21,14 +21,14 @@ use crate::Error;
 use crate::kernel::DoubleDouble;
 use crate::kernel::vector::dot;
 
-/// By how much an ellipsoid is drawn in at most so that rounding does not take it beyond a half-space.
-const WIDEST: f64 = 1e-3;
+/// An ellipsoid is drawn in by at most this, so that rounding does not take it beyond a half-space.
+const SHRINKAGE_MAX: f64 = 1e-3;
 
 /// Gap that rounding leaves, for each dimension.
 const ROUNDING: f64 = 1e-13;
 
 /// A multiplier below this part of the largest is taken for that of a half-space that does not touch.
-const SMALL: f64 = 1e-6;
+const MULTIPLIER_RATIO_MIN: f64 = 1e-6;
 
 /// How to look for the inscribed ellipsoid. Write `InscribedOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq)]
@@ -159,8 +159,9 @@ fn read(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<HalfSpaces, E
 fn few(views: &[View], lambda: &[f64]) -> Option<Vec<f64>> {
     let weight = |i: usize| lambda[i] * dot(&views[i].normal, &views[i].normal).sqrt();
     let most = (0..lambda.len()).map(weight).fold(0.0, f64::max);
-    let few: Vec<f64> =
-        (0..lambda.len()).map(|i| if weight(i) > SMALL * most { lambda[i] } else { 0.0 }).collect();
+    let few: Vec<f64> = (0..lambda.len())
+        .map(|i| if weight(i) > MULTIPLIER_RATIO_MIN * most { lambda[i] } else { 0.0 })
+        .collect();
     (few != lambda).then_some(few)
 }
 
@@ -226,7 +227,7 @@ fn prove(
     path::orthogonalise(&mut axes, dim);
     loop {
         let room = measure(&axes) * (1.0 - wider);
-        if !(room > 0.0 && room.is_finite()) || wider > WIDEST {
+        if !(room > 0.0 && room.is_finite()) || wider > SHRINKAGE_MAX {
             return Err(Error::Undecided);
         }
         axes.iter_mut().for_each(|g| *g *= room);

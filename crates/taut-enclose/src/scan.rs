@@ -19,8 +19,8 @@ use crate::Error;
 use crate::kernel::{Center, DoubleDouble};
 use crate::top::Far;
 
-/// Rows of the sample whose mean is the origin of a solver's calculations.
-const SAMPLE: u64 = 256;
+/// The sample whose mean is the origin of a solver's calculations has this many rows.
+const SAMPLE_ROWS: u64 = 256;
 /// Squared distances between 2⁻⁴⁰⁰ and 2⁴⁰⁰ leave room for every product the solvers form.
 const SAFE_EXPONENT: i32 = 400;
 
@@ -173,7 +173,7 @@ impl<'a> Scan<'a> {
 
     /// The mean of up to 256 rows at equal distances: an origin near the middle of the points.
     fn sample_mean(&self) -> Result<Center, Error> {
-        let count = SAMPLE.min(self.len());
+        let count = SAMPLE_ROWS.min(self.len());
         let ids: Vec<u64> = (0..count).map(|k| k * (self.len() / count)).collect();
         let rows = self.rows(&ids)?;
         let columns = self.source.dim();

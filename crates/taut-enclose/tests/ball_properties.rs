@@ -25,7 +25,7 @@ fn few_points() -> impl Strategy<Value = (Vec<f64>, usize)> {
 }
 
 /// The four distributions of the literature.
-const FOUR: [Distribution; 4] = [
+const DISTRIBUTIONS: [Distribution; 4] = [
     Distribution::Uniform,
     Distribution::CubeVertices,
     Distribution::Normal,
@@ -40,7 +40,7 @@ fn points() -> impl Strategy<Value = (Vec<f64>, usize)> {
         (prop_oneof![integers, reals], Just(dim))
     });
     let drawn = (1usize..=60, 1usize..=150, 0usize..4, 0u64..1000).prop_map(|(dim, n, k, seed)| {
-        (generate(FOUR[k], n, dim, seed).expect("the parameters are in range"), dim)
+        (generate(DISTRIBUTIONS[k], n, dim, seed).expect("the parameters are in range"), dim)
     });
     prop_oneof![few_dimensions, drawn]
 }

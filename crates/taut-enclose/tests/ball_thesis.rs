@@ -7,7 +7,7 @@ use taut_points::{Distribution, Monitor, Points, generate};
 const THESIS: [BallMethod; 3] =
     [BallMethod::ThesisPure, BallMethod::ThesisFast, BallMethod::BadoiuClarkson];
 const CONIC: [BallMethod; 2] = [BallMethod::ThesisPure, BallMethod::ThesisFast];
-const FOUR: [Distribution; 4] = [
+const DISTRIBUTIONS: [Distribution; 4] = [
     Distribution::Uniform,
     Distribution::CubeVertices,
     Distribution::Normal,
@@ -96,7 +96,7 @@ fn balls(n: usize, dim: usize, seed: u64, spread: f64) -> Vec<f64> {
 
 #[test]
 fn the_four_distributions_are_solved_to_epsilon() {
-    for distribution in FOUR {
+    for distribution in DISTRIBUTIONS {
         for (n, dim) in [(60, 1), (200, 2), (200, 3), (150, 20), (40, 60)] {
             let values: Vec<f64> = generate(distribution, n, dim, 7).unwrap();
             for method in THESIS {
@@ -269,7 +269,7 @@ fn the_lower_bound_of_a_step_follows_its_formula() {
 /// An item at distance D from a ball of radius r raises it to (D² + r²)/(2D) at least, which implies Lemma 2.3.2.
 #[test]
 fn every_added_point_raises_the_radius_as_the_lemma_says() {
-    for (seed, distribution) in FOUR.into_iter().enumerate() {
+    for (seed, distribution) in DISTRIBUTIONS.into_iter().enumerate() {
         let values: Vec<f64> = generate(distribution, 400, 25, seed as u64).unwrap();
         let found = solve(&values, 25, Items::Points, &options(BallMethod::ThesisPure, 1e-4));
         let history = &found.trace.history;

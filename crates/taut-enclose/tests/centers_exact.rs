@@ -14,12 +14,12 @@ fn seeded(cases: u32) -> Config {
     Config { cases, rng_seed: RngSeed::Fixed(50), failure_persistence: None, ..Config::default() }
 }
 
-/// The most items that all colourings are gone through of.
-const MOST: usize = 12;
+/// All colourings are gone through of at most this many items.
+const ITEMS_MAX: usize = 12;
 
 /// Small integers for ties, copies and lines, or reals; with their dimension. One time in three as many as there may be.
 fn few_points() -> impl Strategy<Value = (Vec<f64>, usize)> {
-    (1usize..=3, prop_oneof![2 => 1..=MOST, 1 => Just(MOST)]).prop_flat_map(|(dim, n)| {
+    (1usize..=3, prop_oneof![2 => 1..=ITEMS_MAX, 1 => Just(ITEMS_MAX)]).prop_flat_map(|(dim, n)| {
         let grid = vec((-2i32..3).prop_map(f64::from), n * dim);
         let integers = vec((-9i32..10).prop_map(f64::from), n * dim);
         let reals = vec(-1.0f64..1.0, n * dim);
@@ -81,7 +81,7 @@ proptest! {
     }
 
     #[test]
-    fn weighted((mut values, dim) in few_points(), weights in vec(prop_oneof![Just(1.0), Just(2.0), 0.1f64..9.0], MOST), z in 0usize..3) {
+    fn weighted((mut values, dim) in few_points(), weights in vec(prop_oneof![Just(1.0), Just(2.0), 0.1f64..9.0], ITEMS_MAX), z in 0usize..3) {
         let n = values.len() / dim;
         prop_assume!(z < n);
         for row in (0..n).rev() {
@@ -96,7 +96,7 @@ proptest! {
     }
 
     #[test]
-    fn balls((mut values, dim) in few_points(), radii in vec(prop_oneof![Just(0.0), Just(1.0), 0.0f64..3.0], MOST), z in 0usize..3) {
+    fn balls((mut values, dim) in few_points(), radii in vec(prop_oneof![Just(0.0), Just(1.0), 0.0f64..3.0], ITEMS_MAX), z in 0usize..3) {
         let n = values.len() / dim;
         prop_assume!(z < n);
         for row in (0..n).rev() {

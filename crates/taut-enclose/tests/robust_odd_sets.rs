@@ -145,7 +145,7 @@ fn lattices_are_fitted_or_laid_flat() {
             state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 33) % below
     };
-    for which in 0..SETS {
+    for which in 0..LATTICE_COUNT {
         let (dim, n) = (1 + lot(7) as usize, 8 + lot(23) as usize);
         let (levels, unit) = (2 + lot(2), [1.0, 0.1, 1.0 / 3.0, 1e8][lot(4) as usize]);
         // Rows that are 0 but for the last columns, so that many are copies.
@@ -166,8 +166,8 @@ fn lattices_are_fitted_or_laid_flat() {
     assert!(refused.is_empty(), "{} {refused:#?}", refused.len());
 }
 
-/// Random lattices.
-const SETS: u64 = 400;
+/// This many random lattices are tried.
+const LATTICE_COUNT: u64 = 400;
 
 #[test]
 fn columns_may_be_of_any_ratio() {

@@ -13,11 +13,11 @@ fn log_determinant(a: &[f64]) -> f64 {
     (a[0] * minor(1, 2) - a[1] * minor(0, 2) + a[2] * minor(0, 1)).abs().ln()
 }
 
-const BOTH: [RobustMethod; 2] = [RobustMethod::Mve, RobustMethod::Trim];
+const VOLUME_METHODS: [RobustMethod; 2] = [RobustMethod::Mve, RobustMethod::Trim];
 
 #[test]
 fn all_points_give_their_smallest_ellipsoid() {
-    for method in BOTH {
+    for method in VOLUME_METHODS {
         let values = normal(200, 3, 5);
         let options = RobustOptions { coverage: Some(1.0), ..by(method) };
         let found = solve("all", &values, 3, &options);
@@ -75,7 +75,7 @@ fn the_best_triple_of_few_points_is_found() {
 
 #[test]
 fn flat_majorities_are_reported() {
-    for method in BOTH {
+    for method in VOLUME_METHODS {
         let mut values = normal(100, 3, 11);
         for row in values.chunks_mut(3).take(95) {
             row[2] = 2.0 * row[0] - row[1] + 5.0;
@@ -93,7 +93,7 @@ fn flat_majorities_are_reported() {
 
 #[test]
 fn affine_maps_go_along_and_threads_change_nothing() {
-    for method in BOTH {
+    for method in VOLUME_METHODS {
         let values = contaminated(150, 3, 12, 20.0, 17);
         let plain = solve("plain", &values, 3, &by(method));
         let matrix = normal(3, 3, 23);
@@ -116,7 +116,7 @@ fn affine_maps_go_along_and_threads_change_nothing() {
 
 #[test]
 fn offsets_are_borne() {
-    for method in BOTH {
+    for method in VOLUME_METHODS {
         for (offset, scale) in [(1e8, 1.0), (0.0, 1e-100), (0.0, 1e100)] {
             let values: Vec<f64> =
                 contaminated(200, 3, 15, 50.0, 41).iter().map(|v| offset + scale * v).collect();
@@ -129,7 +129,7 @@ fn offsets_are_borne() {
 #[test]
 fn small_integers_are_solved() {
     for seed in 0..40 {
-        for method in BOTH {
+        for method in VOLUME_METHODS {
             let dim = 1 + seed as usize % 3;
             let values: Vec<f64> = normal(12 + seed as usize % 9, dim, seed)
                 .iter()

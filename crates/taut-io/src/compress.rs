@@ -4,7 +4,7 @@ use std::io::{self, BufRead, BufReader, Read, Write};
 
 use crate::{Compression, Error};
 
-const BUFFER: usize = 1 << 18;
+const BUFFER_BYTES: usize = 1 << 18;
 
 /// Reads `stream` through the decoder; a file of several members is read to its last.
 pub(crate) fn decoder(
@@ -21,7 +21,7 @@ pub(crate) fn decoder(
         ),
     };
     let named = Named { inner, path: path.to_owned(), compression };
-    Ok(Box::new(BufReader::with_capacity(BUFFER, named)))
+    Ok(Box::new(BufReader::with_capacity(BUFFER_BYTES, named)))
 }
 
 /// Says of each error of a decoder which file and which compression it is about.

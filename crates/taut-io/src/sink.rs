@@ -1,7 +1,7 @@
 //! Where decoded points go: to memory, and to a temporary file once they outgrow it.
 //!
 //! *Guarantee.* The points read back are the same on both ways, and at most the allowed bytes (and one buffer of
-//! [`BUFFER`] bytes) are held.
+//! [`BUFFER_BYTES`] bytes) are held.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -12,8 +12,8 @@ use taut_points::{FileSource, OwnedPoints, PointSource, Scalar, try_reserve_exac
 use crate::Error;
 use crate::input::Job;
 
-/// Bytes gathered before a write to the temporary file.
-const BUFFER: usize = 1 << 20;
+/// This many bytes are gathered before a write to the temporary file.
+const BUFFER_BYTES: usize = 1 << 20;
 
 pub(crate) struct Sink<'a, T> {
     job: &'a Job<'a>,
@@ -59,7 +59,7 @@ impl<'a, T: Scalar> Sink<'a, T> {
         }
         if wanted > self.limit {
             let file = temporary(self.job)?;
-            let mut file = BufWriter::with_capacity(BUFFER, file);
+            let mut file = BufWriter::with_capacity(BUFFER_BYTES, file);
             file.write_all(bytemuck::cast_slice(&self.values)).map_err(|e| failed(self.job, e))?;
             let held = (self.values.len() / self.dim) as u64;
             self.values = Vec::new();

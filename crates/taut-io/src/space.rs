@@ -12,8 +12,8 @@ use crate::{Compression, Error, Format};
 /// Most bytes that one byte of a compressed file can stand for: zstd writes 128 KiB of equal bytes as 4, gzip and xz do less.
 const LARGEST_RATIO: u64 = 1 << 15;
 
-/// Fewest bytes of a coordinate in text: a digit and what parts it from the next.
-const TEXT: u64 = 2;
+/// A coordinate in text takes at least this many bytes: a digit and what parts it from the next.
+const COORDINATE_BYTES_MIN: u64 = 2;
 
 /// Fewest bytes of a file of these points.
 pub(crate) fn least_bytes(
@@ -26,7 +26,7 @@ pub(crate) fn least_bytes(
         Format::Npy | Format::Raw | Format::Arrow | Format::Parquet => {
             source.scalar().size() as u64
         }
-        _ => TEXT,
+        _ => COORDINATE_BYTES_MIN,
     };
     // Parquet compresses its columns by itself.
     let compressed = compression.is_some() || format == Format::Parquet;

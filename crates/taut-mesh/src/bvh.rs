@@ -13,9 +13,9 @@ mod nearest;
 
 pub(crate) use nearest::normal;
 
-/// Most triangles of a leaf. Of 2, 4, 8 and 16, 8 is the fastest, by 1 to 7 %, for the pairs and for the nearest triangles of
-/// tori of 200 000 triangles.
-const LEAF: usize = 8;
+/// A leaf has at most this many triangles. Of 2, 4, 8 and 16, 8 is the fastest, by 1 to 7 %, for the pairs and for the
+/// nearest triangles of tori of 200 000 triangles.
+const LEAF_SIZE: usize = 8;
 
 /// A box with sides along the axes, its faces included.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,7 +145,7 @@ fn divide(items: &mut [Item], begin: u32, nodes: &mut Vec<Node>) {
     let at = nodes.len();
     let bounds = items.iter().fold(Bounds::NONE, |all, item| all.with(item.bounds));
     nodes.push(Node { bounds, begin, end: begin + items.len() as u32, second: 0 });
-    if items.len() <= LEAF {
+    if items.len() <= LEAF_SIZE {
         return;
     }
     let centres = Bounds::around(items.iter().map(|item| &item.centre));

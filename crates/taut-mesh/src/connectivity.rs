@@ -7,8 +7,8 @@
 //! *Trap.* This sees vertices, not edges: what edges cross is seen by [`crossings`](crate::crossings), how far they stray by the
 //! Hausdorff distance.
 
-/// What may be lost on the way, as a share of the length.
-const BACK: f64 = 1e-3;
+/// At most this share of the length may be lost on the way.
+const BACKTRACK_RATIO_MAX: f64 = 1e-3;
 
 /// Where a vertex lies: number of the true curve, and share of its length before the place.
 pub(crate) type Place = (u32, f64);
@@ -44,7 +44,7 @@ fn runs_along(places: &[Place], closed: bool) -> bool {
     let steady = steps.iter().all(|step| {
         at += step;
         highest = highest.max(at);
-        at >= highest - BACK
+        at >= highest - BACKTRACK_RATIO_MAX
     });
     steady && if closed { (sum - 1.0).abs() < 1e-6 } else { sum > 0.5 }
 }

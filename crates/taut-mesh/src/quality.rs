@@ -5,8 +5,8 @@ use crate::connectivity::{Place, homeomorphic};
 use crate::crossing::crossings;
 use crate::grid::{Grid, Segment};
 
-/// Samples along the length of the true curves by which edges are measured.
-const SAMPLES: f64 = 20_000.0;
+/// Edges are measured by this many samples along the length of the true curves.
+const SAMPLES_PER_LENGTH: f64 = 20_000.0;
 
 /// What [`compare`] measures; all distances in the units of the coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -70,7 +70,7 @@ impl Measured {
         let mut farthest = 0.0f64;
         for (&(a, b), &(_, _, length)) in self.segments.iter().zip(&self.along) {
             // A step of 0 measures ends alone.
-            let parts = (length / step).ceil().clamp(1.0, SAMPLES);
+            let parts = (length / step).ceil().clamp(1.0, SAMPLES_PER_LENGTH);
             let parts = if parts.is_finite() { parts as usize } else { 1 };
             for k in 0..=parts {
                 let share = k as f64 / parts as f64;
@@ -96,7 +96,7 @@ pub fn compare(truth: &[Polyline<'_>], found: &[Polyline<'_>]) -> Quality {
         crossings: crossings(found),
         ..Quality::default()
     };
-    let step = true_edges.lengths.iter().sum::<f64>() / SAMPLES;
+    let step = true_edges.lengths.iter().sum::<f64>() / SAMPLES_PER_LENGTH;
     let one_sided = |from: &Measured, to: &Option<Grid<'_>>| match to {
         Some(to) => from.farthest_from(to, step),
         None if from.segments.is_empty() => 0.0,

@@ -157,9 +157,13 @@ fn largest(mesh: &TriangleMesh<'_>) -> f64 {
 
 /// The largest power of two that is not larger, kept away from those whose inverse is no plain number; 1 for 0.
 fn power_of_two_below(x: f64) -> f64 {
-    const LEAST: u64 = 1;
-    const MOST: u64 = 2045;
-    if x == 0.0 { 1.0 } else { f64::from_bits((x.to_bits() >> 52).clamp(LEAST, MOST) << 52) }
+    const EXPONENT_MIN: u64 = 1;
+    const EXPONENT_MAX: u64 = 2045;
+    if x == 0.0 {
+        1.0
+    } else {
+        f64::from_bits((x.to_bits() >> 52).clamp(EXPONENT_MIN, EXPONENT_MAX) << 52)
+    }
 }
 
 /// A mesh in a unit of its own, ready to be measured.

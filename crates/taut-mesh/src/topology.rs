@@ -361,8 +361,8 @@ fn opposite(mesh: &TriangleMesh<'_>, corner: u32) -> [u32; 2] {
 
 /// Whether a walk along the sides of a link comes back by all of them. A longer link than most have is not looked at.
 fn is_cycle(link: &[[u32; 2]]) -> bool {
-    const FEW: usize = 24;
-    if link.len() > FEW {
+    const LINEAR_SEARCH_MAX: usize = 24;
+    if link.len() > LINEAR_SEARCH_MAX {
         return false;
     }
     let [first, mut at] = link[0];

@@ -25,9 +25,9 @@ const BLOCK_BYTES: usize = 1 << 10;
 const BLOCK_MIN: usize = 4;
 /// Bytes that are put in their places at once: they stay in the second-level cache.
 const PIECE_BYTES: usize = 1 << 18;
-/// Blocks are asked for when so many others are still to be copied before. They lie apart, each in a page whose address is yet
-/// to be translated: without it, sorting 7.3 million records of 32 bytes took a fifth longer.
-const AHEAD: usize = 4;
+/// Blocks are asked for when this many others are still to be copied before. They lie apart, each in a page whose
+/// address is yet to be translated: without it, sorting 7.3 million records of 32 bytes took a fifth longer.
+const PREFETCH_BLOCKS: usize = 4;
 /// A line of memory.
 const LINE: usize = 64;
 /// Instead of the block in a slot.
@@ -165,7 +165,7 @@ impl<'a, T: Copy> Dealt<'a, T> {
         copy.clear();
         for i in self.next..self.next + blocks {
             let slot = self.slots[i];
-            if let Some(&later) = self.slots.get(i + AHEAD) {
+            if let Some(&later) = self.slots.get(i + PREFETCH_BLOCKS) {
                 self.fetch(later);
             }
             let from = self.slot(slot);

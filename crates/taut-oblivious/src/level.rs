@@ -69,11 +69,11 @@ const AVX512: u8 = 3;
 #[inline(always)]
 fn kept() -> u8 {
     use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
-    static KEPT: AtomicU8 = AtomicU8::new(UNASKED);
-    match KEPT.load(Relaxed) {
+    static LEVEL_FOUND: AtomicU8 = AtomicU8::new(UNASKED);
+    match LEVEL_FOUND.load(Relaxed) {
         UNASKED => {
             let answer = ask();
-            KEPT.store(answer, Relaxed);
+            LEVEL_FOUND.store(answer, Relaxed);
             answer
         }
         answer => answer,
@@ -101,7 +101,7 @@ pub(crate) fn last_cache_bytes() -> usize {
 }
 
 fn ask_last_cache_bytes() -> usize {
-    const UNTOLD: usize = 32 << 20;
+    const CACHE_BYTES_DEFAULT: usize = 32 << 20;
     #[cfg(all(target_arch = "x86_64", not(miri)))]
     {
         use std::arch::x86_64::{__cpuid, __cpuid_count};
@@ -120,8 +120,8 @@ fn ask_last_cache_bytes() -> usize {
                     * (answer.ecx as usize + 1)
             })
             .max();
-        largest.unwrap_or(UNTOLD)
+        largest.unwrap_or(CACHE_BYTES_DEFAULT)
     }
     #[cfg(not(all(target_arch = "x86_64", not(miri))))]
-    UNTOLD
+    CACHE_BYTES_DEFAULT
 }

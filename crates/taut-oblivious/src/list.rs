@@ -16,10 +16,10 @@ mod tests;
 
 /// The successor of the last node of an open list.
 pub const NO_NODE: u32 = u32::MAX;
-/// Pieces that are followed side by side: more than memory answers at once.
-const CURSORS: usize = 64;
-/// Nodes for each cut.
-const SPACING: usize = 2048;
+/// This many pieces are followed side by side: more than memory answers at once.
+const CURSOR_COUNT: usize = 64;
+/// There is one cut for this many nodes.
+const NODES_PER_CUT: usize = 2048;
 
 /// Lists in order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -106,7 +106,8 @@ fn order<P: Probe>(next: &[u32], probe: &mut P) -> Result<Lists, Error> {
         }
     }
     let heads = (0..n).filter(|&i| !led_to.get(i));
-    let mut firsts: Vec<u32> = heads.chain((0..n).step_by(SPACING)).map(|i| i as u32).collect();
+    let mut firsts: Vec<u32> =
+        heads.chain((0..n).step_by(NODES_PER_CUT)).map(|i| i as u32).collect();
     firsts.sort_unstable();
     firsts.dedup();
     for &first in &firsts {
@@ -134,8 +135,11 @@ fn follow<P: Probe>(next: &[u32], firsts: &[u32], begins: &Bits, probe: &mut P) 
     let mut pieces = vec![Piece::default(); firsts.len()];
     let mut waiting = firsts.iter().copied().enumerate();
     // Which piece each cursor writes, its nodes so far and the node it is at.
-    let mut cursors: Vec<(usize, Vec<u32>, u32)> =
-        waiting.by_ref().take(CURSORS).map(|(piece, first)| (piece, Vec::new(), first)).collect();
+    let mut cursors: Vec<(usize, Vec<u32>, u32)> = waiting
+        .by_ref()
+        .take(CURSOR_COUNT)
+        .map(|(piece, first)| (piece, Vec::new(), first))
+        .collect();
     let mut k = 0;
     while !cursors.is_empty() {
         if k >= cursors.len() {

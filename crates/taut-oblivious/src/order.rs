@@ -19,11 +19,11 @@ use crate::morton;
 use crate::sort::sort;
 
 /// Up to this many points in one cell are sorted by comparing their coordinates.
-const FEW: usize = 6;
+const COMPARISON_SORT_MAX: usize = 6;
 /// Points that one task of a pass handles.
 const TASK: usize = 1 << 14;
 /// 2⁶⁰⁰, from its bits: what a library makes of a power may differ between machines, and orders with it.
-const LIFT: f64 = f64::from_bits((1023 + 600) << 52);
+const LIFT_FACTOR: f64 = f64::from_bits((1023 + 600) << 52);
 
 /// Maps points of a box to cells of the grid that a curve numbers; the same scale on all axes.
 struct Grid<const D: usize> {
@@ -50,7 +50,7 @@ impl<const D: usize> Grid<D> {
         if extent == 0.0 {
             return None;
         }
-        let lift = if extent < 1e-290 { LIFT } else { 1.0 };
+        let lift = if extent < 1e-290 { LIFT_FACTOR } else { 1.0 };
         let scale = f64::from(1u32 << bits_max(D)) / (extent * lift);
         Some(Self { low: low.map(|x| x * shrink), shrink, lift, scale })
     }
@@ -167,11 +167,11 @@ fn settle<const D: usize>(
             while last < end && records[last] >> 32 == records[first] >> 32 {
                 last += 1;
             }
-            if last - first > 1 && last - first <= FEW {
+            if last - first > 1 && last - first <= COMPARISON_SORT_MAX {
                 records[first..last].sort_unstable_by(|&a, &b| {
                     compare(point(a), point(b)).then((a as u32).cmp(&(b as u32)))
                 });
-            } else if last - first > FEW {
+            } else if last - first > COMPARISON_SORT_MAX {
                 let run = &mut records[first..last];
                 let (low, high) = bounds(run.iter().map(|&r| point(r)));
                 match Grid::over(low, high) {
@@ -218,8 +218,8 @@ mod tests {
         keyed.into_iter().map(|k| k.1).collect()
     }
 
-    /// Points of a set, as many as an interpreter has time for.
-    const MOST: usize = if cfg!(miri) { 12 } else { 400 };
+    /// A set has fewer points than this, as many as an interpreter has time for.
+    const POINTS_MAX: usize = if cfg!(miri) { 12 } else { 400 };
 
     fn coordinate() -> impl Strategy<Value = f64> {
         prop_oneof![
@@ -238,7 +238,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(if cfg!(miri) { 1 } else { 256 }))]
         #[test]
         fn the_order_is_a_function_of_the_set(
-            points in prop::collection::vec([coordinate(), coordinate()], 0..MOST),
+            points in prop::collection::vec([coordinate(), coordinate()], 0..POINTS_MAX),
             seed in any::<u64>(),
         ) {
             prop_assert_eq!(points_in_order(&points), points_in_order(&shuffled(&points, seed)));
@@ -247,7 +247,7 @@ mod tests {
 
         #[test]
         fn each_point_comes_once_and_equal_ones_together_by_number(
-            points in prop::collection::vec([coordinate(), coordinate(), coordinate()], 0..MOST),
+            points in prop::collection::vec([coordinate(), coordinate(), coordinate()], 0..POINTS_MAX),
         ) {
             let at = |i: usize| points[i];
             for order in [hilbert_order(points.len(), at), morton_order(points.len(), at)] {

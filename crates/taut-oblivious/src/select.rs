@@ -39,8 +39,8 @@ pub fn reverse<T>(values: &mut [T]) {
     reverse_probed(values, &mut NoProbe);
 }
 
-/// Elements of each end that are exchanged at a time.
-const PART: usize = 64;
+/// This many elements of each end are exchanged at a time.
+const EXCHANGED_ELEMENTS: usize = 64;
 
 /// As [`reverse`], and tells `probe` of the parts of both ends.
 pub fn reverse_probed<T, P: Probe>(values: &mut [T], probe: &mut P) {
@@ -50,7 +50,9 @@ pub fn reverse_probed<T, P: Probe>(values: &mut [T], probe: &mut P) {
     probe.place(values);
     let half = values.len() / 2;
     let (front, back) = values.split_at_mut(values.len() - half);
-    for (a, b) in front[..half].chunks_mut(PART).zip(back.rchunks_mut(PART)) {
+    for (a, b) in
+        front[..half].chunks_mut(EXCHANGED_ELEMENTS).zip(back.rchunks_mut(EXCHANGED_ELEMENTS))
+    {
         probe.read(a);
         probe.read(b);
         a.swap_with_slice(b);
@@ -79,13 +81,13 @@ mod tests {
         }
     }
 
-    /// Numbers, as many as an interpreter has time for.
-    const MOST: usize = if cfg!(miri) { 120 } else { 400 };
+    /// There are fewer numbers than this, as many as an interpreter has time for.
+    const NUMBERS_MAX: usize = if cfg!(miri) { 120 } else { 400 };
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(if cfg!(miri) { 3 } else { 256 }))]
         #[test]
-        fn selects_and_reverses(mut values in proptest::collection::vec(any::<f64>(), 0..MOST), k in 0..MOST) {
+        fn selects_and_reverses(mut values in proptest::collection::vec(any::<f64>(), 0..NUMBERS_MAX), k in 0..NUMBERS_MAX) {
             let mut sorted = values.clone();
             sorted.sort_by(f64::total_cmp);
             let found = select(&mut values, k).map(f64::to_bits);

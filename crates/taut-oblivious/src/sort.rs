@@ -20,7 +20,7 @@ use crate::key::{of_rank, rank};
 use crate::probe::{NoProbe, Probe};
 
 /// Up to this many numbers are compared with each other instead of being turned into ranks.
-const FEW: usize = 16;
+const COMPARISON_SORT_MAX: usize = 16;
 
 /// Sorts numbers in place, floating-point numbers in the total order of [`f64::total_cmp`].
 ///
@@ -44,7 +44,7 @@ pub fn sort<K: Key>(keys: &mut [K]) {
 pub fn sort_probed<K: Key, P: Probe>(keys: &mut [K], probe: &mut P) {
     probe.place(keys);
     probe.read(keys);
-    if keys.len() <= FEW {
+    if keys.len() <= COMPARISON_SORT_MAX {
         keys.sort_unstable_by_key(|&key| rank(key));
         return probe.write(keys);
     }

@@ -8,7 +8,7 @@ use std::time::Instant;
 use taut_predicates::{Exact, Separate, plane, space};
 
 const CALLS: usize = 1 << 12;
-const ROUNDS: usize = 200;
+const ROUND_COUNT: usize = 200;
 
 /// Splitmix64: Steele, Lea & Flood, OOPSLA 2014.
 struct Random(u64);
@@ -33,7 +33,7 @@ impl Random {
 
 fn show<T: Copy>(name: &str, inputs: &[T], mut call: impl FnMut(T) -> bool) {
     let mut best = f64::INFINITY;
-    for _ in 0..ROUNDS {
+    for _ in 0..ROUND_COUNT {
         let start = Instant::now();
         let mut positive = 0u32;
         for &input in inputs {
@@ -60,7 +60,7 @@ fn space(name: &str, integral: bool, inputs: &[[space::Point; 5]]) {
 /// Per cent of calls: whole numbers, double-double, wide, unbounded; ties.
 fn counted(exact: &Exact, inputs: usize) -> [u64; 5] {
     let s = exact.stages;
-    let all = (inputs * ROUNDS) as u64;
+    let all = (inputs * ROUND_COUNT) as u64;
     [s.integer, s.double_double, s.wide, s.unbounded, s.ties].map(|n| (100 * n + all / 2) / all)
 }
 

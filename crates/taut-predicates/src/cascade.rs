@@ -43,7 +43,7 @@ pub(crate) fn coarse_sign<P: Polynomial<K>, const K: usize>(
     // The product of at most eight equal factors is less than 8u too small, which the 1 more than the roundings makes up for many times.
     let bound = (f64::from(P::ROUNDINGS) + 1.0) * (f64::EPSILON / 2.0) * ones * power;
     let is_within = largest <= double_double::DIFFERENCE_MAX;
-    (is_within && value.abs() > bound + double_double::FLOOR).then(|| Sign::from(value))
+    (is_within && value.abs() > bound + double_double::UNDERFLOW_ERROR).then(|| Sign::from(value))
 }
 
 /// By the `f64` value and its permanent.
@@ -55,7 +55,8 @@ fn filtered<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> 
     }
     let leaves = d.map(|d| Measured { value: d, permanent: d.abs() });
     let Measured { value, permanent } = P::evaluate(&leaves);
-    let bound = f64::from(P::ROUNDINGS) * (f64::EPSILON / 2.0) * permanent + double_double::FLOOR;
+    let bound =
+        f64::from(P::ROUNDINGS) * (f64::EPSILON / 2.0) * permanent + double_double::UNDERFLOW_ERROR;
     (value.abs() > bound).then(|| Sign::from(value))
 }
 
@@ -71,12 +72,12 @@ fn exact<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> Sig
 /// how large the other one is. Its relative error is far below the one bit to spare.
 #[inline(always)]
 fn in_128_bits<P: Polynomial<K>, const K: usize>(differences: &[Difference; K]) -> Option<Sign> {
-    const ROOM: f64 = (1u128 << 126) as f64;
+    const PERMANENT_MAX: f64 = (1u128 << 126) as f64;
     let integers = wide::integers(differences)?;
     let unit = integers.iter().fold(0, |all, d| all | d).trailing_zeros();
     let integers = integers.map(|d| d >> unit);
     let Measured { permanent, .. } = P::evaluate(
         &integers.map(|d| Measured { value: 0.0, permanent: (d as f64).abs().max(1.0) }),
     );
-    (permanent < ROOM).then(|| Sign::from(P::evaluate(&integers.map(i128::from))))
+    (permanent < PERMANENT_MAX).then(|| Sign::from(P::evaluate(&integers.map(i128::from))))
 }

@@ -19,7 +19,7 @@
 //!
 //! *Exponents.* With differences up to 2⁶⁰ and degree 8 at most nothing overflows, not even where a factor is split. An
 //! underflow costs less than 2⁻¹⁰⁷⁰ in a product of two factors or more, and is enlarged to 2⁻¹⁰⁷⁰·2^(6·61 + 10) <
-//! 2⁻⁶⁹⁰ by the others; fewer than 2¹⁰ such errors stay below [`FLOOR`], which is added to the bound.
+//! 2⁻⁶⁹⁰ by the others; fewer than 2¹⁰ such errors stay below [`UNDERFLOW_ERROR`], which is added to the bound.
 //! *Reference.* Dekker, Numerische Mathematik 18, 1971; Joldes, Muller & Popescu, Tight and rigorous error bounds for
 //! basic building blocks of double-word arithmetic, ACM Transactions on Mathematical Software 44(2), 2017, whose
 //! algorithms have bounds 3 (of the larger sum) and 5 where we count 3 and 8.
@@ -32,7 +32,7 @@ use crate::sign::Sign;
 /// Greatest magnitude of a difference.
 pub(crate) const DIFFERENCE_MAX: f64 = (1u64 << 60) as f64;
 /// 2⁻⁶⁵⁰.
-pub(crate) const FLOOR: f64 = f64::from_bits((1023 - 650) << 52);
+pub(crate) const UNDERFLOW_ERROR: f64 = f64::from_bits((1023 - 650) << 52);
 /// u².
 const U2: f64 = f64::EPSILON * f64::EPSILON / 4.0;
 
@@ -49,7 +49,7 @@ pub(crate) fn sign<P: Polynomial<K>, const K: usize>(
     differences: &[Difference; K],
 ) -> Option<Sign> {
     let Measured { value, permanent } = evaluate::<P, K>(differences)?;
-    let bound = f64::from(8 * P::ROUNDINGS) * U2 * permanent + FLOOR;
+    let bound = f64::from(8 * P::ROUNDINGS) * U2 * permanent + UNDERFLOW_ERROR;
     (value.hi.abs() > bound).then(|| Sign::from(value.hi))
 }
 

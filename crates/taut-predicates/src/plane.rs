@@ -13,7 +13,7 @@ use crate::stages::Exact;
 
 pub use circumcenter::{circumcenter_nearer, circumcenter_side, in_diametral_circle};
 pub use exact::{conflict_exact, in_circle_exact, orient_exact};
-pub use filter::{IN_CIRCLE_ERROR, ORIENT_ERROR, TINY, in_circle_filter, orient_filter};
+pub use filter::{IN_CIRCLE_ERROR, ORIENT_ERROR, UNDERFLOW_ERROR, in_circle_filter, orient_filter};
 
 /// A point of the plane.
 pub type Point = [f64; 2];

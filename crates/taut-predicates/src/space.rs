@@ -16,7 +16,7 @@ use crate::stages::Exact;
 pub use balls::{EquatorialSphere, in_diametral_sphere, in_equatorial_sphere, shrunk_sphere};
 pub use circumcenter::{circumcenter_nearer, circumcenter_side};
 pub use exact::{conflict_exact, in_sphere_exact, orient_exact};
-pub use filter::{IN_SPHERE_ERROR, ORIENT_ERROR, TINY, in_sphere_filter, orient_filter};
+pub use filter::{IN_SPHERE_ERROR, ORIENT_ERROR, UNDERFLOW_ERROR, in_sphere_filter, orient_filter};
 pub use radii::{equatorial_radius, sphere_radius};
 
 /// A point of space.

@@ -14,16 +14,16 @@ use std::ops::{Add, Mul, Sub};
 use crate::number::{Difference, Polynomial};
 use crate::sign::Sign;
 
-/// Limbs of the short form.
-const SHORT: usize = 16;
-/// Limbs of the middle form.
-const MIDDLE: usize = 64;
-/// Limbs of the long form.
-const LONG: usize = 268;
-/// Room in bits beside the differences: 30 for the coefficients of the polynomial, and a limb, as the product of
-/// two numbers is first given as many limbs as both have together.
-const ROOM: usize = 30 + 64;
-const _: () = assert!(LONG * 64 >= 8 * 2101 + ROOM);
+/// The short form has this many limbs.
+const SHORT_LIMBS: usize = 16;
+/// The middle form has this many limbs.
+const MIDDLE_LIMBS: usize = 64;
+/// The long form has this many limbs.
+const LONG_LIMBS: usize = 268;
+/// This many bits are needed beside the differences: 30 for the coefficients of the polynomial, and a limb, as the
+/// product of two numbers is first given as many limbs as both have together.
+const SPARE_BITS: usize = 30 + 64;
+const _: () = assert!(LONG_LIMBS * 64 >= 8 * 2101 + SPARE_BITS);
 
 /// The sign of the polynomial at these differences.
 #[cold]
@@ -41,13 +41,13 @@ pub(crate) fn sign<P: Polynomial<K>, const K: usize>(differences: &[Difference; 
         return Sign::Zero; // all differences are of zeros
     }
     // One bit more for the difference itself.
-    let bits = P::DEGREE as usize * (top - unit + 1) as usize + ROOM;
-    if bits <= 64 * SHORT {
-        P::evaluate(&differences.map(|d| Integer::<SHORT>::difference(d, unit))).sign()
-    } else if bits <= 64 * MIDDLE {
-        P::evaluate(&differences.map(|d| Integer::<MIDDLE>::difference(d, unit))).sign()
+    let bits = P::DEGREE as usize * (top - unit + 1) as usize + SPARE_BITS;
+    if bits <= 64 * SHORT_LIMBS {
+        P::evaluate(&differences.map(|d| Integer::<SHORT_LIMBS>::difference(d, unit))).sign()
+    } else if bits <= 64 * MIDDLE_LIMBS {
+        P::evaluate(&differences.map(|d| Integer::<MIDDLE_LIMBS>::difference(d, unit))).sign()
     } else {
-        P::evaluate(&differences.map(|d| Integer::<LONG>::difference(d, unit))).sign()
+        P::evaluate(&differences.map(|d| Integer::<LONG_LIMBS>::difference(d, unit))).sign()
     }
 }
 

@@ -33,11 +33,24 @@ const LEVEL: [(&str, &str); 3] =
     [("taut-mesh", "taut-predicates"), ("taut-io", "taut-mesh"), ("taut-certify", "taut-mesh")];
 
 /// Tools beside the house, which nothing imports: they may import everything.
-const BESIDE: [&str; 2] = ["bench", "fuzz"];
+const TOOLS: [&str; 2] = ["bench", "fuzz"];
 
 /// The crates with named kernels, where `unsafe` is denied but can be allowed with a reason.
 const KERNELS: [&str; 5] =
     ["taut-points", "taut-enclose", "taut-delaunay", "taut-oblivious", "taut-cli"];
+
+/// Words that cannot be searched for and say nothing: no constant has one of them as its whole name.
+const BARE_WORDS: [&str; 86] = [
+    "AHEAD", "ALIKE", "ASKED", "BESIDE", "CLEAR", "CLOSE", "COARSE", "COARSER", "DENSE", "DENSER",
+    "DOUBTFUL", "DRAWN", "END", "ENOUGH", "EVEN", "FALL", "FAR", "FARTHER", "FARTHEST", "FEW",
+    "FEWEST", "FINE", "FINEST", "FIRST", "FLATTER", "FORGIVEN", "GAIN", "GOOD", "GROWTH", "HALF",
+    "HUGE", "LARGE", "LARGEST", "LAST", "LATER", "LEAST", "LESS", "LONG", "LONGEST", "LOOSE",
+    "MANY", "MIDDLE", "MORE", "MOST", "NAMED", "NARROW", "NEAR", "NEARLY", "NEXT", "NOTHING",
+    "OFTEN", "OUT", "PATIENCE", "QUICK", "REACH", "RISE", "ROOM", "ROUGH", "RUNS", "SAFE",
+    "SELDOM", "SHORT", "SHORTER", "SHORTEST", "SHOWN", "SLACK", "SMALL", "SMALLEST", "SOME",
+    "SPARE", "SPARSE", "STALE", "STEPS", "SURE", "TIMES", "TINY", "TOGETHER", "TURNS", "TWICE",
+    "USEFUL", "VAIN", "WIDE", "WIDER", "WIDEST", "WITHIN", "WORTH",
+];
 
 /// Lines a source file may have before it must be two.
 const LINES_MAX: usize = 700;
@@ -102,7 +115,7 @@ fn arrows_only_go_down() {
     let packages = packages();
     assert!(packages.len() >= 9, "cargo metadata shows the whole workspace");
     for package in &packages {
-        if BESIDE.contains(&package.name.as_str()) {
+        if TOOLS.contains(&package.name.as_str()) {
             continue;
         }
         for import in &package.imports {
@@ -185,6 +198,48 @@ fn files_are_short_and_know_no_machine() {
         }
     }
     assert!(problems.is_empty(), "{}", problems.join("\n"));
+}
+
+#[test]
+fn constants_say_what_they_bound() {
+    let rust = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "rs");
+    let (mut constants, mut problems) = (0, Vec::new());
+    for path in sources(&root()).into_iter().filter(rust) {
+        for (number, line) in (1..).zip(read(&path).lines()) {
+            let names = constants_of(line);
+            constants += names.len();
+            for name in names.iter().filter(|&name| BARE_WORDS.contains(name)) {
+                problems.push(format!("{}:{number}: {name} says nothing", path.display()));
+            }
+        }
+    }
+    assert!(constants > 1000, "{constants} constants found");
+    assert!(problems.is_empty(), "{}", problems.join("\n"));
+}
+
+/// Names of the constants, statics and const generics that a line declares.
+fn constants_of(line: &str) -> Vec<&str> {
+    let words = line.split(|c: char| !c.is_alphanumeric() && c != '_');
+    let words: Vec<_> = words.filter(|word| !word.is_empty() && *word != "mut").collect();
+    let declared = words.windows(2).filter(|pair| ["const", "static"].contains(&pair[0]));
+    let is_name = |name: &&str| !name.contains(|c: char| c.is_lowercase());
+    declared.map(|pair| pair[1]).filter(is_name).collect()
+}
+
+#[test]
+fn constants_are_found() {
+    // Written without the names, so that this file passes.
+    let line = |name: &str| format!("pub(super) const {name}: usize = 1;");
+    for word in BARE_WORDS {
+        assert_eq!(constants_of(&line(word)), [word]);
+        assert_eq!(constants_of(&format!("static mut {word}: u8 = 0;")), [word]);
+        assert_eq!(
+            constants_of(&format!("fn f<const D: usize, const {word}: u8>() {{")),
+            ["D", word]
+        );
+    }
+    assert_eq!(constants_of("const fn few() -> usize {"), Vec::<&str>::new());
+    assert_eq!(constants_of("const SMALL_GAP: f64 = 1e-6; // SMALL"), ["SMALL_GAP"]);
 }
 
 #[test]

@@ -121,7 +121,7 @@ fn prove(
         }
         (LowerBound::Search, Placement::Free) => {
             limited(search::ITEMS, "search")?;
-            let mut meter = Meter::of(monitor, search::WORK);
+            let mut meter = Meter::of(monitor, search::STEPS_MAX);
             let pairs = Pairs::of(core, &mut meter)?;
             let nodes = searched(&mut Free::of(core, &pairs), certificate, &mut meter)?;
             Ok((nodes, cover::of_balls(core, kind, &pairs, certificate, monitor)?))
@@ -129,7 +129,7 @@ fn prove(
         (LowerBound::Search, Placement::Rows) => {
             limited(search::ITEMS, "search")?;
             let places = places()?;
-            let mut meter = Meter::of(monitor, search::WORK);
+            let mut meter = Meter::of(monitor, search::STEPS_MAX);
             let nodes = searched(&mut &places, certificate, &mut meter)?;
             Ok((nodes, cover::of_places(&places, certificate, monitor)?))
         }
@@ -143,7 +143,7 @@ fn prove(
                 most(certificate),
                 outliers,
                 items,
-                replay::KEPT,
+                replay::UNDO_BYTES_MAX,
                 &mut meter,
             )?;
             let cover = cover::of_balls(core, kind, &pairs, certificate, monitor)?;
@@ -158,7 +158,7 @@ fn prove(
                 most(certificate),
                 outliers,
                 items,
-                replay::KEPT,
+                replay::UNDO_BYTES_MAX,
                 &mut meter,
             )?;
             Ok((items.len() as u64, cover::of_places(&places, certificate, monitor)?))

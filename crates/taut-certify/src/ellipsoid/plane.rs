@@ -29,8 +29,8 @@ pub struct EllipseSupport {
     pub near_border: u64,
 }
 
-/// Rows of which a basis is looked for, at most: more subsets than those of as many are not tried.
-const MOST: usize = 10;
+/// A basis is looked for among at most this many rows: more subsets than those of as many are not tried.
+const BASIS_ROWS_MAX: usize = 10;
 
 /// Proves by exact arithmetic that the smallest ellipse around some rows of `source` is that around all of them.
 ///
@@ -97,7 +97,7 @@ pub fn ellipse_support(
 /// All of the points if they are a basis; else some that are, with the others inside.
 fn find(points: &[[f64; 2]], rows: &[u64]) -> Option<(Basis, Vec<u64>)> {
     let finite = points.iter().flatten().all(|v| v.is_finite());
-    if !finite || points.len() > MOST {
+    if !finite || points.len() > BASIS_ROWS_MAX {
         return None;
     }
     // Larger subsets first: the whole support is what is asked about.

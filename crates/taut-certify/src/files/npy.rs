@@ -14,8 +14,8 @@ pub(super) use names::{is_same_type, width};
 
 /// How such a file begins.
 const MAGIC: &[u8; 6] = b"\x93NUMPY";
-/// Longest header that is looked at.
-const LONGEST: u64 = 1 << 16;
+/// A header is looked at if it has at most this many bytes.
+const HEADER_BYTES_MAX: u64 = 1 << 16;
 
 /// What a header says.
 #[derive(Debug, PartialEq, Eq)]
@@ -67,7 +67,7 @@ pub(super) fn header(source: &mut Source<'_>) -> Result<Header, FileCheckError> 
         2 | 3 => (12, u64::from(u32::from_le_bytes([start[8], start[9], start[10], start[11]]))),
         _ => return Err(wrong("has a version that is not known").into()),
     };
-    if length > LONGEST || before + length > source.length {
+    if length > HEADER_BYTES_MAX || before + length > source.length {
         return Err(wrong("is longer than the file, or than 65536 bytes").into());
     }
     let mut text = vec![0; length as usize];

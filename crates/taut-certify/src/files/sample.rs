@@ -43,8 +43,8 @@ struct Range {
     k: u64,
 }
 
-/// So many numbers are drawn without dividing the range.
-const LEAF: u64 = 4096;
+/// Up to this many numbers are drawn without dividing the range.
+const LEAF_SIZE: u64 = 4096;
 
 impl FileAnswer for DrawnSample {
     type Certificate = SampleCertificate;
@@ -119,7 +119,7 @@ impl Iterator for Numbers {
         while self.ready.is_empty() {
             let Range { node, start, n, k } = self.open.pop()?;
             let mut random = Random::of_node(self.seed, node);
-            if k <= LEAF {
+            if k <= LEAF_SIZE {
                 self.ready = leaf(&mut random, start, n, k);
                 continue;
             }

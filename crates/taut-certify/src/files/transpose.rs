@@ -59,8 +59,8 @@ pub struct TransposeCertificate {
     pub hash: Hash128,
 }
 
-/// Bytes of a tile.
-const TILE: u64 = 1 << 23;
+/// A tile has this many bytes.
+const TILE_BYTES: u64 = 1 << 23;
 
 impl FileAnswer for TransposedFile {
     type Certificate = TransposeCertificate;
@@ -190,7 +190,7 @@ impl TransposedFile {
             return Ok(TransposeCertificate { hash });
         }
         // From here on a row, a column and an element are no longer than files that are there.
-        let most = (TILE / width).max(1);
+        let most = (TILE_BYTES / width).max(1);
         let tall = rows.min(most.isqrt().max(1));
         let wide = columns.min(most / tall);
         let tall = rows.min(most / wide);

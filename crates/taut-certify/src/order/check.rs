@@ -11,8 +11,8 @@ use taut_points::{Monitor, PointSource, PointsHash, hash_block, map_blocks};
 use super::{Order, OrderCertificate, OrderVerdict, OrderViolation, cell};
 use crate::{CheckError, Violation};
 
-/// Up to so many points of one cell are in order of their coordinates.
-const FEW: usize = 6;
+/// Up to this many points of one cell are in order of their coordinates.
+const COORDINATE_ORDER_MAX: usize = 6;
 
 pub(super) fn check(
     answer: &Order,
@@ -38,7 +38,8 @@ pub(super) fn check(
             let place = (start + i) as u64;
             CheckError::from(OrderViolation::Descent { place, row: answer.rows[start + i] })
         };
-        if let Some(grid) = (start == 0 && end == answer.rows.len() || rows.len() > FEW)
+        if let Some(grid) = (start == 0 && end == answer.rows.len()
+            || rows.len() > COORDINATE_ORDER_MAX)
             .then(|| Grid::over(rows.iter().map(|&row| at(row)), dim))
             .flatten()
         {

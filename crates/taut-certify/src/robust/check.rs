@@ -42,10 +42,11 @@ const ON_BORDER: f64 = 1e-6;
 /// The largest gap in log-volume of the ellipsoid around the rows kept: with a looser one, too few rows are known to lie
 /// strictly inside to tell whether a C-step leads on. A little more than the 0.01 that solvers may be asked for.
 const ENCLOSURE_GAP_MAX: f64 = 0.011;
-/// A hull that was laid through some rows may be stated wider by this, so that it holds others as near to it.
-const WIDER: f64 = 4.0;
+/// A hull that was laid through some rows may be stated wider by up to this factor, so that it holds others as near to
+/// it.
+const HULL_WIDENING_MAX: f64 = 4.0;
 /// What 1 − level may be off by beside its last digits: `level` and the probability of a quantile are numbers near 1.
-const LEVEL: f64 = 4e-16;
+const LEVEL_TOLERANCE: f64 = 4e-16;
 
 pub(super) fn check(
     answer: &RobustEllipsoid,
@@ -67,7 +68,7 @@ pub(super) fn check(
     monitor.pass(1, n);
     let sums = scan.moments(source, monitor)?;
     if let Some(hull) = &hull {
-        hull.is_flat_for(&sums.extents, &sums.coordinates, WIDER)?;
+        hull.is_flat_for(&sums.extents, &sums.coordinates, HULL_WIDENING_MAX)?;
     }
     monitor.pass(2, n);
     let flag_excess = scan.flags(source, monitor)?;
@@ -218,7 +219,7 @@ fn factors(
     // Compared on the side that is left over: near a level of 1, the difference from it is what tells.
     let rest = 1.0 - level;
     let what = "what the level leaves of normal points";
-    agree(what, rest, beyond(cutoff, rank), Slack::of_factor(rest) + LEVEL)?;
+    agree(what, rest, beyond(cutoff, rank), Slack::of_factor(rest) + LEVEL_TOLERANCE)?;
     match certificate.unweighted {
         None => agree("the factor of the scatter", scale, last, Slack::of_factor(last)),
         Some(_) => Ok(()),

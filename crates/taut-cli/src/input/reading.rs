@@ -219,10 +219,10 @@ impl Opened {
 
     /// Numbers of rows in the file; of many, the first few.
     fn rows(&self, rows: &[u64]) -> String {
-        const SHOWN: usize = 8;
+        const SHOWN_ROWS_MAX: usize = 8;
         let places: Vec<String> =
-            rows.iter().take(SHOWN).map(|&row| self.row(row).to_string()).collect();
-        let more = rows.len().saturating_sub(SHOWN);
+            rows.iter().take(SHOWN_ROWS_MAX).map(|&row| self.row(row).to_string()).collect();
+        let more = rows.len().saturating_sub(SHOWN_ROWS_MAX);
         match (places.len(), more) {
             (1, _) => format!("row {}", places[0]),
             (_, 0) => format!("rows {}", places.join(", ")),

@@ -63,8 +63,9 @@ pub(crate) fn seconds(time: Duration) -> String {
 /// Coordinates of a point beside a length `size`, with the digits that matter there; of many, the first few. What is
 /// nothing beside the size is 0.
 pub(crate) fn coordinates(point: &[f64], size: f64) -> String {
-    const SHOWN: usize = 6;
-    let shown = if point.len() <= SHOWN + 2 { point.len() } else { SHOWN };
+    const SHOWN_COORDINATES_MAX: usize = 6;
+    let shown =
+        if point.len() <= SHOWN_COORDINATES_MAX + 2 { point.len() } else { SHOWN_COORDINATES_MAX };
     let list: Vec<String> = point[..shown]
         .iter()
         .map(|&value| if value.abs() < 1e-12 * size { "0".to_owned() } else { beside(value, size) })

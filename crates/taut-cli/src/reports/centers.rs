@@ -8,8 +8,8 @@ use taut_draw::{DrawOptions, Error as DrawError, Figure, centers_figures};
 use crate::output::numbers::{abridged, coordinates, count, counted, exact, gap};
 use crate::reports::{Claims, Field, Report, Summary, noun, rows_of, share, stopped};
 
-/// Centres whose coordinates are shown; more are in the JSON.
-const SHOWN: usize = 20;
+/// The coordinates of at most this many centres are shown; more are in the JSON.
+const SHOWN_CENTERS_MAX: usize = 20;
 
 impl Summary for Centers {
     const FOUND: &'static str = "the centres found";
@@ -133,7 +133,7 @@ impl Report<'_, Centers> {
             }
         }
         let mut fields = Vec::new();
-        for (j, center) in answer.centers.iter().enumerate().take(SHOWN) {
+        for (j, center) in answer.centers.iter().enumerate().take(SHOWN_CENTERS_MAX) {
             let name = match j {
                 0 if answer.centers.len() == 1 => "centre",
                 0 => "centres",
@@ -153,7 +153,7 @@ impl Report<'_, Centers> {
             }
             fields.push(field);
         }
-        if answer.centers.len() > SHOWN {
+        if answer.centers.len() > SHOWN_CENTERS_MAX {
             let all = count(answer.centers.len() as u64);
             fields.push(Field::new("", format!("… {all} in all; the JSON holds them (-o FILE)")));
         }

@@ -2,7 +2,7 @@
 
 use crate::desk::Desk;
 
-const GOOD: &str = "x,y,z\n0,0,0\n2,0,0\n1,0.5,0\n";
+const GOOD_CSV: &str = "x,y,z\n0,0,0\n2,0,0\n1,0.5,0\n";
 
 /// Runs `taut ball FILE -o ball.json --draw ball.svg` over earlier outputs, which must survive.
 #[track_caller]
@@ -28,9 +28,9 @@ fn a_ragged_row() {
 #[test]
 fn not_a_number() {
     let desk = Desk::new();
-    desk.put("nan.csv", GOOD.replace("0.5", "NaN"));
+    desk.put("nan.csv", GOOD_CSV.replace("0.5", "NaN"));
     refused(&desk, "nan.csv", &["nan.csv", "row 3", "column 1", "`y`", "NaN"]);
-    desk.put("word.csv", GOOD.replace("0.5", "half"));
+    desk.put("word.csv", GOOD_CSV.replace("0.5", "half"));
     refused(&desk, "word.csv", &["word.csv", "row 3", "column 1", "`y`", "`half`"]);
 }
 
@@ -44,7 +44,7 @@ fn not_a_number_in_a_binary_file() {
 #[test]
 fn infinity() {
     let desk = Desk::new();
-    desk.put("inf.csv", GOOD.replace("0.5", "-inf"));
+    desk.put("inf.csv", GOOD_CSV.replace("0.5", "-inf"));
     refused(&desk, "inf.csv", &["inf.csv", "row 3", "column 1", "`y`", "inf"]);
     desk.put("inf.f32", [0.0, f32::INFINITY].map(f32::to_le_bytes).concat());
     refused(&desk, "inf.f32 --raw-dim 1 --raw-type f32", &["inf.f32", "row 2", "column 0", "inf"]);
@@ -106,7 +106,7 @@ fn a_folder() {
     let desk = Desk::new();
     std::fs::create_dir(desk.path("folder.csv")).unwrap();
     refused(&desk, "folder.csv", &["folder.csv", "folder"]);
-    desk.put("points.csv", GOOD);
+    desk.put("points.csv", GOOD_CSV);
     desk.taut("ball points.csv -o folder.csv").ends(2).complains(&["folder.csv"]);
     desk.taut("ball points.csv -o nowhere/ball.json").ends(2).complains(&["nowhere/ball.json"]);
 }
@@ -121,7 +121,7 @@ fn a_missing_file() {
 fn no_permission() {
     use std::os::unix::fs::PermissionsExt;
     let desk = Desk::new();
-    desk.put("secret.csv", GOOD);
+    desk.put("secret.csv", GOOD_CSV);
     std::fs::set_permissions(desk.path("secret.csv"), PermissionsExt::from_mode(0o000)).unwrap();
     if std::fs::read(desk.path("secret.csv")).is_ok() {
         eprintln!("skipped: no_permission, as this user may read everything");
@@ -134,7 +134,7 @@ fn no_permission() {
 #[test]
 fn a_full_disk() {
     let desk = Desk::new();
-    desk.put("points.csv", GOOD);
+    desk.put("points.csv", GOOD_CSV);
     for line in [
         "ball points.csv -o /dev/full",
         "ball points.csv --json -o /dev/full",
@@ -184,8 +184,8 @@ fn a_write_that_fails_halfway_leaves_the_earlier_file() {
 #[test]
 fn an_output_that_is_an_input_is_refused() {
     let desk = Desk::new();
-    desk.put("points.csv", GOOD);
-    desk.put("picture.svg", GOOD);
+    desk.put("points.csv", GOOD_CSV);
+    desk.put("picture.svg", GOOD_CSV);
     desk.taut("ball points.csv -o ball.json").ends(0);
     std::fs::create_dir(desk.path("folder")).unwrap();
     std::fs::copy(desk.path("ball.json"), desk.path("answer.svg")).unwrap();
@@ -203,15 +203,15 @@ fn an_output_that_is_an_input_is_refused() {
     for (line, file) in lines {
         desk.taut(line).ends(2).complains(&[&format!("{file}` is the input: name another file")]);
     }
-    assert_eq!(desk.text("points.csv"), GOOD);
-    assert_eq!(desk.text("picture.svg"), GOOD);
+    assert_eq!(desk.text("points.csv"), GOOD_CSV);
+    assert_eq!(desk.text("picture.svg"), GOOD_CSV);
     assert_eq!(desk.text("answer.svg"), desk.text("ball.json"));
 }
 
 #[test]
 fn one_file_for_two_outputs_is_refused() {
     let desk = Desk::new();
-    desk.put("points.csv", GOOD);
+    desk.put("points.csv", GOOD_CSV);
     for line in [
         "delaunay points.csv -o same.json --voronoi same.json",
         "delaunay points.csv -o same.ply --hull ./same.ply",
@@ -226,16 +226,16 @@ fn one_file_for_two_outputs_is_refused() {
 #[test]
 fn an_output_that_is_standard_input_is_refused() {
     let desk = Desk::new();
-    desk.put("points.csv", GOOD);
+    desk.put("points.csv", GOOD_CSV);
     desk.shell("taut ball - -o points.csv < points.csv").ends(2).complains(&["is the input"]);
-    assert_eq!(desk.text("points.csv"), GOOD);
+    assert_eq!(desk.text("points.csv"), GOOD_CSV);
 }
 
 #[test]
 fn unknown_names_and_options_out_of_range() {
     let desk = Desk::new();
-    desk.put("points.csv", GOOD);
-    desk.put("points.xls", GOOD);
+    desk.put("points.csv", GOOD_CSV);
+    desk.put("points.xls", GOOD_CSV);
     for (line, part) in [
         ("ball points.csv --method simplex", "simplex"),
         ("ball points.csv --format excel", "excel"),

@@ -20,7 +20,7 @@ use taut_predicates::Sign;
 
 use super::clean::Clean;
 use super::geometry::{Geometry, conflicts, corners};
-use super::index::{Bounds, Index, LEAF, Node};
+use super::index::{Bounds, Index, LEAF_SIZE, Node};
 use crate::Error;
 use crate::kernel::{Counters, Kernel, Settings};
 use crate::rounds::insert_all;
@@ -33,9 +33,9 @@ const fn halo_spacings(d: usize) -> f64 {
     if d == 2 { 3.0 } else { 1.5 }
 }
 
-/// Sites of the other cells, evenly along the curve, that every cell triangulates too: they keep spheres outside the
-/// cell small.
-const SCATTERED: usize = 512;
+/// Every cell triangulates this many sites of the other cells too, evenly along the curve: they keep spheres outside
+/// the cell small.
+const SCATTERED_SITES: usize = 512;
 
 /// How far a leaf looks for sites that were left out, in multiples of its extent.
 const CLEARANCE_EXTENTS: f64 = 2.0;
@@ -50,7 +50,7 @@ const DOUBTFUL_SHARE: usize = 20;
 const QUESTIONS_EACH: u64 = 24;
 
 /// Most sites that one leaf may add to the halo: the box of a sparse leaf may lie over all of a dense cell.
-const HALO_EACH: usize = 4 * LEAF;
+const HALO_EACH: usize = 4 * LEAF_SIZE;
 
 /// What all cells know.
 pub(crate) struct Whole<'a, const D: usize, const V: usize> {
@@ -83,7 +83,7 @@ struct SiteSet(Vec<u64>);
 
 impl SiteSet {
     fn insert(&mut self, site: u32) {
-        self.0[site as usize / LEAF] |= 1 << (site as usize % LEAF);
+        self.0[site as usize / LEAF_SIZE] |= 1 << (site as usize % LEAF_SIZE);
     }
 
     /// The sites of a leaf that are not in the set.
@@ -94,7 +94,7 @@ impl SiteSet {
             let bit = absent.trailing_zeros();
             let site = run.start + bit;
             absent &= absent.wrapping_sub(1);
-            (bit < LEAF as u32 && site < end).then_some(site)
+            (bit < LEAF_SIZE as u32 && site < end).then_some(site)
         })
     }
 }
@@ -107,17 +107,18 @@ impl<const D: usize, const V: usize> Whole<'_, D, V> {
         own: Range<u32>,
         monitor: &Monitor<'_>,
     ) -> Result<Option<Cell<V>>, Error> {
-        let mut here = SiteSet(vec![0; self.sites.len().div_ceil(LEAF)]);
-        for leaf in own.start as usize / LEAF..(own.end as usize).div_ceil(LEAF) {
+        let mut here = SiteSet(vec![0; self.sites.len().div_ceil(LEAF_SIZE)]);
+        for leaf in own.start as usize / LEAF_SIZE..(own.end as usize).div_ceil(LEAF_SIZE) {
             here.0[leaf] = u64::MAX;
         }
         self.scatter(&mut here);
         self.assign_halo(&own, &mut here);
         let mut sites: Vec<u32> = Vec::with_capacity(own.len() + own.len() / 8);
         for (leaf, &word) in here.0.iter().enumerate() {
-            let first = (leaf * LEAF) as u32;
-            sites
-                .extend((0..LEAF as u32).filter(|bit| word >> bit & 1 == 1).map(|bit| first + bit));
+            let first = (leaf * LEAF_SIZE) as u32;
+            sites.extend(
+                (0..LEAF_SIZE as u32).filter(|bit| word >> bit & 1 == 1).map(|bit| first + bit),
+            );
         }
         // The last leaf may be shorter than its word.
         sites.truncate(sites.partition_point(|&s| (s as usize) < self.sites.len()));
@@ -154,7 +155,7 @@ impl<const D: usize, const V: usize> Whole<'_, D, V> {
     /// Adds the start simplex, sites evenly along the curve, and the extreme sites in some directions.
     fn scatter(&self, here: &mut SiteSet) {
         self.start.iter().for_each(|&s| here.insert(s));
-        for node in self.index.level_of_about(SCATTERED) {
+        for node in self.index.level_of_about(SCATTERED_SITES) {
             here.insert(self.index.run(node).start);
         }
         for direction in directions::<D>() {
@@ -184,7 +185,7 @@ impl<const D: usize, const V: usize> Whole<'_, D, V> {
 
     /// The leaves of a run of sites.
     fn leaves(own: &Range<u32>) -> impl Iterator<Item = Node> + use<D, V> {
-        (own.start as usize / LEAF..(own.end as usize).div_ceil(LEAF))
+        (own.start as usize / LEAF_SIZE..(own.end as usize).div_ceil(LEAF_SIZE))
             .map(|place| Node { level: 0, place })
     }
 
@@ -341,7 +342,7 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
     #[inline(always)]
     fn is_near(&self, vertices: &[u32; V], own: u32) -> bool {
         // Own sites begin with a leaf.
-        let clearance = self.clearance[own as usize / LEAF];
+        let clearance = self.clearance[own as usize / LEAF_SIZE];
         let mut corners = [[0.0; D]; V];
         for (corner, &v) in corners.iter_mut().zip(vertices) {
             if v == GHOST {

@@ -12,7 +12,7 @@
 
 use std::ops::Range;
 
-use super::index::{Bounds, Index, LEAF, Node};
+use super::index::{Bounds, Index, LEAF_SIZE, Node};
 
 /// Groups have 2ˢ sites for these s: the large ones take most simplices, the small ones those near the border.
 const SIZES: [u32; 3] = [15, 12, 9];
@@ -32,9 +32,9 @@ impl Clean {
     ) -> Self {
         let mut open = Vec::new();
         let groups = SIZES.map(|shift| {
-            let leaves_each = (1 << shift) / LEAF;
+            let leaves_each = (1 << shift) / LEAF_SIZE;
             let leaves: Vec<usize> =
-                (own.start as usize / LEAF..(own.end as usize).div_ceil(LEAF)).collect();
+                (own.start as usize / LEAF_SIZE..(own.end as usize).div_ceil(LEAF_SIZE)).collect();
             let group = |leaves: &[usize]| {
                 let bounds = leaves.iter().map(|&place| *index.bounds(Node { level: 0, place }));
                 let bounds = bounds.fold(Bounds::EMPTY, |all, leaf| all.union(&leaf));

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 use super::cell::Cell;
 use crate::Error;
-use crate::simplex::{DEAD, GHOST, Simplex, Slots, code, decode};
+use crate::simplex::{DEAD_MARK, GHOST, Simplex, Slots, code, decode};
 
 /// Hashes site numbers: they are no choice of anybody's, and the standard hash took longer than all else at the border.
 #[derive(Clone, Copy, Default)]
@@ -90,7 +90,7 @@ impl<const V: usize> Cell<V> {
         let simplex = &self.simplices[t as usize];
         let mut sites = simplex.vertices;
         for site in &mut sites {
-            *site = if *site == DEAD { DEAD } else { self.global(*site) };
+            *site = if *site == DEAD_MARK { DEAD_MARK } else { self.global(*site) };
         }
         simplex.is_live().then_some(sites)
     }
@@ -113,7 +113,7 @@ impl<const V: usize> Cell<V> {
                         neighbors: codes.map(|code| code.wrapping_add(offset << 2)),
                     }
                 }
-                None => Simplex { vertices: [DEAD; V], neighbors: [0; V] },
+                None => Simplex { vertices: [DEAD_MARK; V], neighbors: [0; V] },
             };
             self.simplices[t] = handed;
         }

@@ -8,8 +8,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-/// Sites under one leaf: one bit each in a word.
-pub(crate) const LEAF: usize = 64;
+/// This many sites lie under one leaf: one bit each in a word.
+pub(crate) const LEAF_SIZE: usize = 64;
 const FAN_OUT_BITS: u32 = 3;
 /// Leaves one task measures.
 const TASK: usize = 256;
@@ -77,7 +77,7 @@ impl<const D: usize> Index<D> {
     /// The index over sites in Hilbert order.
     pub(crate) fn build(sites: &[[f64; D]]) -> Self {
         let leaves: Vec<Bounds<D>> = sites
-            .par_chunks(LEAF)
+            .par_chunks(LEAF_SIZE)
             .with_min_len(TASK)
             .map(|run| Bounds::of(run.iter().copied()))
             .collect();
@@ -101,8 +101,8 @@ impl<const D: usize> Index<D> {
     /// The sites under a node.
     pub(crate) fn run(&self, node: Node) -> Range<u32> {
         let shift = node.level as u32 * FAN_OUT_BITS;
-        let begin = (node.place << shift) * LEAF;
-        let end = (((node.place + 1) << shift) * LEAF).min(self.sites);
+        let begin = (node.place << shift) * LEAF_SIZE;
+        let end = (((node.place + 1) << shift) * LEAF_SIZE).min(self.sites);
         begin as u32..end as u32
     }
 

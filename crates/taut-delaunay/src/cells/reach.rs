@@ -23,7 +23,7 @@ pub(crate) struct Reach<const D: usize> {
 /// Bounds the rounding of the form relative to the size of its terms, in space, where it is largest. With u = 2⁻⁵³, m the
 /// size and f the largest coordinate of q − a: β·q is 54 products of five factors, each with at most 20 roundings, so
 /// off by at most 1080·u·m⁴·f; α|q|² is 18 products with as many, off by 360·u·m³·f².
-const SLACK: f64 = 1.0 / (1u64 << 42) as f64;
+const FORM_ROUNDING: f64 = 1.0 / (1u64 << 42) as f64;
 
 impl Reach<2> {
     /// The inside of the circle through a, b, c in counter-clockwise order.
@@ -88,9 +88,9 @@ impl<const D: usize> Reach<D> {
         }
         let unit = if D == 2 { self.size * self.size } else { self.size * self.size * self.size };
         let slack = if self.linear {
-            SLACK * far * if D == 2 { self.size } else { self.size * self.size }
+            FORM_ROUNDING * far * if D == 2 { self.size } else { self.size * self.size }
         } else {
-            SLACK * (unit * far * far + unit * self.size * far)
+            FORM_ROUNDING * (unit * far * far + unit * self.size * far)
         };
         most + slack
     }

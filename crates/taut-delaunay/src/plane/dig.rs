@@ -12,7 +12,7 @@
 use taut_predicates::{Exact, MulAdd, Sign};
 
 use super::seen::{Seen, View, minor};
-use super::walk::{Found, LAST, NEXT};
+use super::walk::{Found, LAST_FACET, NEXT_FACET};
 use crate::kernel::Counters;
 use crate::simplex::{GHOST, Simplex, decode};
 
@@ -58,7 +58,7 @@ pub(super) fn dig<M: MulAdd, S: Sink>(
     pending.push(look::<M>(
         view,
         triangles,
-        first[NEXT[found.facet]],
+        first[NEXT_FACET[found.facet]],
         [found.a, found.d],
         found.ad,
         exact,
@@ -72,8 +72,14 @@ pub(super) fn dig<M: MulAdd, S: Sink>(
         exact,
     ));
     let mut a = found.d;
-    let mut edge =
-        look::<M>(view, triangles, first[LAST[found.facet]], [found.d, found.b], found.db, exact);
+    let mut edge = look::<M>(
+        view,
+        triangles,
+        first[LAST_FACET[found.facet]],
+        [found.d, found.b],
+        found.db,
+        exact,
+    );
     loop {
         let (triangle, facet) = decode(edge.behind);
         let triangles = sink.triangles();
@@ -81,12 +87,12 @@ pub(super) fn dig<M: MulAdd, S: Sink>(
         if edge.conflict {
             tests += 2;
             entered += 1;
-            let (left, right) = (t.neighbors[NEXT[facet]], t.neighbors[LAST[facet]]);
+            let (left, right) = (t.neighbors[NEXT_FACET[facet]], t.neighbors[LAST_FACET[facet]]);
             pending.push(look::<M>(view, triangles, right, [edge.d, edge.b], edge.db, exact));
             edge = look::<M>(view, triangles, left, [a, edge.d], edge.ad, exact);
             sink.enter(triangle);
         } else {
-            let (from, to) = (t.vertices[LAST[facet]], t.vertices[NEXT[facet]]);
+            let (from, to) = (t.vertices[LAST_FACET[facet]], t.vertices[NEXT_FACET[facet]]);
             sink.rim(edge.behind, [from, to], edge.b);
             a = edge.b;
             let Some(next) = pending.pop() else { break };
@@ -134,7 +140,7 @@ fn conflict_exact(
     let Some(place) = t.vertices.iter().position(|&v| v == GHOST) else {
         return view.conflict_exact(t.vertices, exact);
     };
-    let (from, to) = (t.vertices[NEXT[place]], t.vertices[LAST[place]]);
+    let (from, to) = (t.vertices[NEXT_FACET[place]], t.vertices[LAST_FACET[place]]);
     match view.side_exact(from, to, exact) {
         Sign::Positive => true,
         Sign::Negative => false,

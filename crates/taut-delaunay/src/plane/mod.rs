@@ -28,7 +28,7 @@ use taut_predicates::plane::orient_exact;
 use taut_predicates::{Exact, MulAdd, Separate};
 
 use crate::kernel::{Counters, Kernel, Settings, TooMany};
-use crate::simplex::{DEAD, GHOST, Simplex, code};
+use crate::simplex::{DEAD_MARK, GHOST, Simplex, code};
 use dig::{Edge, dig};
 use seen::View;
 use star::Star;
@@ -52,7 +52,7 @@ pub(crate) struct Mesh {
     free: Vec<u32>,
 }
 
-const DEAD_SLOT: Simplex<3> = Simplex { vertices: [DEAD; 3], neighbors: [0; 3] };
+const DEAD_SLOT: Simplex<3> = Simplex { vertices: [DEAD_MARK; 3], neighbors: [0; 3] };
 
 impl Kernel<2, 3> for Mesh {
     fn new(sites: Vec<[f64; 2]>, settings: Settings) -> Mesh {

@@ -7,18 +7,19 @@
 //! |uₓvᵧ| + |uᵧvₓ| ≤ |u||v| ≤ (|u|² + |v|²)/2, hence the permanent of D is at most |a|²|b|² + |b|²|d|² + |d|²|a|².
 //! *Guarantee.* With ε = 2⁻⁵³ the rounding errors of [ab] and D are below (3 + 16ε)ε and (10 + 96ε)ε of the computed
 //! permanents; the constants below are larger by more than the few ε that the bounds lose to rounding themselves. What
-//! underflow may add is far below `TINY` as long as coordinates do not exceed 2⁴⁰, which is what `filtered` promises.
+//! underflow may add is far below `UNDERFLOW_ERROR` as long as coordinates do not exceed 2⁴⁰, which is what `filtered` promises.
 //! *Reference.* Shewchuk, Discrete & Computational Geometry 18, 1997.
 
 use taut_predicates::plane::{conflict_exact, in_circle_filter, orient_exact, orient_filter};
 use taut_predicates::{Exact, MulAdd, Separate, Sign};
 
 const EPSILON: f64 = f64::EPSILON / 2.0;
-/// Of the bound |a|² + |b|², which is twice the permanent.
-const ORIENT: f64 = 1.75 * EPSILON;
+/// The error of an orientation, as a part of the bound |a|² + |b|², which is twice the permanent.
+const ORIENT_ERROR: f64 = 1.75 * EPSILON;
 const IN_CIRCLE: f64 = 11.0 * EPSILON;
-/// 2⁻⁹⁰⁰. A product that underflows is off by less than 2⁻¹⁰⁷⁴ and is multiplied by at most a lift, below 2⁸⁴.
-const TINY: f64 = f64::from_bits((1023 - 900) << 52);
+/// The error that underflow may add, 2⁻⁹⁰⁰. A product that underflows is off by less than 2⁻¹⁰⁷⁴ and is multiplied by
+/// at most a lift, below 2⁸⁴.
+const UNDERFLOW_ERROR: f64 = f64::from_bits((1023 - 900) << 52);
 
 /// What is seen of the ghost vertex: every comparison with it is false, so the common path need not ask for it.
 const NOWHERE: [f64; 2] = [f64::NAN; 2];
@@ -52,7 +53,7 @@ impl<'a> View<'a> {
     #[inline(always)]
     pub(super) fn new(sites: &'a [[f64; 2]], q: [f64; 2], filtered: bool) -> View<'a> {
         let (orient, in_circle) =
-            if filtered { (ORIENT, IN_CIRCLE) } else { (f64::INFINITY, f64::INFINITY) };
+            if filtered { (ORIENT_ERROR, IN_CIRCLE) } else { (f64::INFINITY, f64::INFINITY) };
         View { sites, q, filtered, orient, in_circle }
     }
 
@@ -67,7 +68,7 @@ impl<'a> View<'a> {
     /// [ab] if its sign is beyond doubt, and zero if it is not.
     #[inline(always)]
     pub(super) fn side<M: MulAdd>(&self, a: Seen, b: Seen, minor: f64) -> f64 {
-        let error = M::mul_add(self.orient, a.lift + b.lift, TINY);
+        let error = M::mul_add(self.orient, a.lift + b.lift, UNDERFLOW_ERROR);
         if minor.abs() > error { minor } else { 0.0 }
     }
 
@@ -101,7 +102,7 @@ impl<'a> View<'a> {
     pub(super) fn in_circle<M: MulAdd>(&self, [a, b, d]: [Seen; 3], [ab, ad, db]: [f64; 3]) -> f64 {
         let determinant = M::mul_add(a.lift, db, M::mul_add(b.lift, ad, -(d.lift * ab)));
         let permanent = M::mul_add(d.lift, a.lift + b.lift, a.lift * b.lift);
-        let error = M::mul_add(self.in_circle, permanent, TINY);
+        let error = M::mul_add(self.in_circle, permanent, UNDERFLOW_ERROR);
         if determinant.abs() > error { determinant } else { 0.0 }
     }
 

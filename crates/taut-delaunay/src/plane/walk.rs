@@ -57,10 +57,10 @@ pub(super) fn walk<M: MulAdd>(
         let d = view.see::<M>(d_id);
         let (ad, db) = (minor::<M>(a, d), minor::<M>(d, b));
         if strictly_right::<M>(view, (a_id, a), (d_id, d), ad, exact) {
-            (triangle, facet) = decode(t.neighbors[NEXT[facet]]);
+            (triangle, facet) = decode(t.neighbors[NEXT_FACET[facet]]);
             (b, b_id, ba) = (d, d_id, -ad);
         } else if strictly_right::<M>(view, (d_id, d), (b_id, b), db, exact) {
-            (triangle, facet) = decode(t.neighbors[LAST[facet]]);
+            (triangle, facet) = decode(t.neighbors[LAST_FACET[facet]]);
             (a, a_id, ba) = (d, d_id, -db);
         } else {
             counters.walk_steps += steps;
@@ -71,9 +71,9 @@ pub(super) fn walk<M: MulAdd>(
 }
 
 /// The place after this one, counter-clockwise.
-pub(super) const NEXT: [usize; 4] = [1, 2, 0, 0];
+pub(super) const NEXT_FACET: [usize; 4] = [1, 2, 0, 0];
 /// The place before this one.
-pub(super) const LAST: [usize; 4] = [2, 0, 1, 0];
+pub(super) const LAST_FACET: [usize; 4] = [2, 0, 1, 0];
 
 /// Whether q lies strictly to the right of the directed edge from u to v. It does of no edge at the ghost vertex.
 #[inline(always)]

@@ -8,8 +8,8 @@ use crate::cells::{Geometry, InPlane, InSpace, Index, conflicts, star_of};
 use crate::simplex::{GHOST, Slots, decode};
 use crate::{Complex, Triangulation};
 
-/// Farther than any site in the scale of the sites, with squares that are finite.
-const FAR: f64 = 1e150;
+/// Coordinates are cut off here: farther than any site in the scale of the sites, with squares that are finite.
+const COORDINATE_MAX: f64 = 1e150;
 
 /// Where a point lies in a triangulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,7 +71,8 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
             return None;
         }
         // So far away, rounding makes all sites equally near; squares must stay finite to see even that.
-        let q = point.map(|x| self.triangulation.scale().apply(x).clamp(-FAR, FAR));
+        let q = point
+            .map(|x| self.triangulation.scale().apply(x).clamp(-COORDINATE_MAX, COORDINATE_MAX));
         let best = Cell::new((f64::INFINITY, u32::MAX));
         let distance = |site: u32| {
             let p = self.triangulation.sites.coordinates[site as usize];

@@ -12,9 +12,10 @@ use super::locator::{Location, Locator};
 use crate::vector::{difference, largest};
 
 /// The box grows by this factor until the cell keeps clear of it.
-const GROWTH: f64 = 16.0;
-/// How often; then the point is on the hull as far as `f64` can tell, and the part that counts is inside anyway.
-const GROWTHS: u32 = 12;
+const BOX_GROWTH: f64 = 16.0;
+/// The box grows at most this often; then the point is on the hull as far as `f64` can tell, and the part that counts
+/// is inside anyway.
+const BOX_GROWTHS_MAX: u32 = 12;
 
 /// What `weights_in` needs of a body.
 trait Touches<const D: usize>: Body<D> {
@@ -45,13 +46,13 @@ fn weights<const D: usize, B: Touches<D>>(neighbors: &[[f64; D]]) -> Vec<f64> {
     let neighbors: Vec<[f64; D]> = neighbors.iter().map(|n| n.map(|x| x / size)).collect();
     let mut half = 4.0;
     let mut taken = B::from_box([-half; D], [half; D]);
-    for _ in 0..GROWTHS {
+    for _ in 0..BOX_GROWTHS_MAX {
         taken = B::from_box([-half; D], [half; D]);
         neighbors.iter().for_each(|&n| taken.cut(&HalfSpace::nearer_to([0.0; D], n)));
         if !taken.touches([0.0; D], half) {
             break;
         }
-        half *= GROWTH;
+        half *= BOX_GROWTH;
     }
     let shares: Vec<f64> = (0..neighbors.len())
         .map(|k| {

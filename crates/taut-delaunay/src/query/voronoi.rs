@@ -11,7 +11,7 @@ use crate::vector::difference;
 
 /// Farther than any site in the scale of the sites; boxes that reach beyond are cut off here, so that products stay
 /// finite.
-const FAR: f64 = (1u64 << 50) as f64;
+const COORDINATE_MAX: f64 = (1u64 << 50) as f64;
 
 impl<const D: usize, const V: usize> Locator<'_, D, V> {
     /// What of the box is nearer to `site` than to any other site. In the scale of the sites and relative to `site`, as
@@ -19,8 +19,9 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
     fn cell<B: Body<D>>(&self, site: u32, low: [f64; D], high: [f64; D]) -> B {
         let Triangulation { sites, .. } = self.triangulation;
         let here = sites.coordinates[site as usize];
-        let relative =
-            |p: [f64; D]| difference(p.map(|x| sites.scale.apply(x).clamp(-FAR, FAR)), here);
+        let relative = |p: [f64; D]| {
+            difference(p.map(|x| sites.scale.apply(x).clamp(-COORDINATE_MAX, COORDINATE_MAX)), here)
+        };
         let mut body = B::from_box(relative(low), relative(high));
         for other in self.adjacent(site) {
             if !body.is_empty() {

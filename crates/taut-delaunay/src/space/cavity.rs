@@ -22,9 +22,9 @@ use super::Site;
 use super::signs::{Judge, Signs};
 
 /// This simplex has been listed as a neighbour of the cavity.
-const SEEN: u8 = 2;
+const SEEN_BIT: u8 = 2;
 /// This simplex belongs to the cavity.
-const INSIDE: u8 = 1;
+const INSIDE_BIT: u8 = 1;
 
 /// Vertices of the facet opposite vertex i, in the order that makes (i, a, b, c) an even permutation: with a point on
 /// the inner side of the facet in front, (q, a, b, c) is positive.
@@ -79,7 +79,7 @@ impl Cavity {
             self.inside.resize(64, 0);
         }
         self.inside[0] = start;
-        marks[start as usize] = INSIDE;
+        marks[start as usize] = INSIDE_BIT;
         loop {
             let room = seen + 4 * (inside - listed) + S::WIDTH;
             if self.seen.len() < room {
@@ -87,14 +87,14 @@ impl Cavity {
             }
             let list = &mut self.seen[..];
             for &t in &self.inside[listed..inside] {
-                marks[t as usize] = INSIDE;
+                marks[t as usize] = INSIDE_BIT;
                 for code in simplices[t as usize].neighbors {
                     let neighbor = code >> 2;
                     let mark = &mut marks[neighbor as usize];
                     list[seen] = neighbor;
                     signs.fetch(simplices.as_ptr().wrapping_add(neighbor as usize));
                     seen += usize::from(*mark == 0);
-                    *mark |= SEEN;
+                    *mark |= SEEN_BIT;
                 }
             }
             listed = inside;
@@ -144,13 +144,13 @@ impl Cavity {
             let simplex = &simplices[t as usize];
             let [a, b, c, d] = simplex.neighbors;
             signs.put::<0>(simplex, &mut list[boundary]);
-            boundary += usize::from(marks[(a >> 2) as usize] == SEEN);
+            boundary += usize::from(marks[(a >> 2) as usize] == SEEN_BIT);
             signs.put::<1>(simplex, &mut list[boundary]);
-            boundary += usize::from(marks[(b >> 2) as usize] == SEEN);
+            boundary += usize::from(marks[(b >> 2) as usize] == SEEN_BIT);
             signs.put::<2>(simplex, &mut list[boundary]);
-            boundary += usize::from(marks[(c >> 2) as usize] == SEEN);
+            boundary += usize::from(marks[(c >> 2) as usize] == SEEN_BIT);
             signs.put::<3>(simplex, &mut list[boundary]);
-            boundary += usize::from(marks[(d >> 2) as usize] == SEEN);
+            boundary += usize::from(marks[(d >> 2) as usize] == SEEN_BIT);
         }
         self.boundary = boundary;
     }

@@ -33,7 +33,7 @@ use std::marker::PhantomData;
 use taut_predicates::Separate;
 
 use crate::kernel::{Counters, Kernel, Settings, TooMany};
-use crate::simplex::{DEAD, GHOST, Simplex, code};
+use crate::simplex::{DEAD_MARK, GHOST, Simplex, code};
 use cavity::{Cavity, FACETS};
 use lanes::Level;
 use signs::{Judge, Scalar, Signs, Unfiltered};
@@ -135,7 +135,7 @@ impl Kernel<3, 4> for Mesh {
         let all: Vec<[u32; 4]> = std::iter::once(first).chain(ghosts).collect();
         let without = |vertices: [u32; 4], i: usize| {
             let mut facet = vertices;
-            facet[i] = DEAD;
+            facet[i] = DEAD_MARK;
             facet.sort_unstable();
             facet
         };
@@ -229,7 +229,7 @@ impl Mesh {
         // Slots of the cavity first: they are in the cache.
         while slots.len() > facets.len() {
             let slot = slots.pop().expect("the loop has just seen it");
-            simplices[slot as usize].vertices[0] = DEAD;
+            simplices[slot as usize].vertices[0] = DEAD_MARK;
             free.push(slot);
         }
         while slots.len() < facets.len()
@@ -249,7 +249,7 @@ impl Mesh {
         }
         for slot in len..len + more {
             slots.push(slot as u32);
-            simplices.push(Simplex { vertices: [DEAD; 4], neighbors: [0; 4] });
+            simplices.push(Simplex { vertices: [DEAD_MARK; 4], neighbors: [0; 4] });
             marks.push(0);
         }
         star.fill(simplices, facets, slots, site);

@@ -11,9 +11,9 @@ use std::ops::{Add, Mul, Sub};
 use super::signs::{Lane, Number, determinant, product};
 
 /// As for the filter, with u² for u.
-const ERROR: f64 = 73.0 * 8.0 * 16.0 * (f64::EPSILON * f64::EPSILON / 4.0);
+const IN_SPHERE_ERROR: f64 = 73.0 * 8.0 * 16.0 * (f64::EPSILON * f64::EPSILON / 4.0);
 /// 2⁻⁶⁵⁰: more than all underflows can cost.
-const FLOOR: f64 = f64::from_bits((1023 - 650) << 52);
+const UNDERFLOW_ERROR: f64 = f64::from_bits((1023 - 650) << 52);
 
 /// The unevaluated sum of two numbers, of which the second is at most half a unit in the last place of the first. Only
 /// for lanes with fused multiply-add.
@@ -91,5 +91,5 @@ pub(super) fn in_sphere<L: Lane>(corners: [[Pair<L>; 3]; 4]) -> (L, L) {
         [c[0].0, c[1].0, c[2].0],
         [d[0].0, d[1].0, d[2].0],
     ];
-    (det, L::mul_add(L::splat(ERROR), product(leading), L::splat(FLOOR)))
+    (det, L::mul_add(L::splat(IN_SPHERE_ERROR), product(leading), L::splat(UNDERFLOW_ERROR)))
 }

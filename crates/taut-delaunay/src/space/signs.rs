@@ -68,7 +68,7 @@ pub(super) fn orientation<L: Lane>([a, b, c]: [[L; 3]; 3]) -> (L, L) {
     let x = largest(a[0], b[0], c[0]);
     let y = largest(a[1], b[1], c[1]);
     let z = largest(a[2], b[2], c[2]);
-    (det, L::mul_add(L::splat(ORIENTATION_ERROR) * x, y * z, L::splat(space::TINY)))
+    (det, L::mul_add(L::splat(ORIENTATION_ERROR) * x, y * z, L::splat(space::UNDERFLOW_ERROR)))
 }
 
 /// The cofactors bcd, −cda, dab, −abc of the lifts in the in-sphere determinant.
@@ -114,7 +114,8 @@ pub(super) fn product<L: Lane>(corners: [[L; 3]; 4]) -> L {
 /// The in-sphere determinant and the bound of its error.
 #[inline(always)]
 pub(super) fn in_sphere<L: Lane>(corners: [[L; 3]; 4]) -> (L, L) {
-    let bound = L::mul_add(L::splat(IN_SPHERE_ERROR), product(corners), L::splat(space::TINY));
+    let bound =
+        L::mul_add(L::splat(IN_SPHERE_ERROR), product(corners), L::splat(space::UNDERFLOW_ERROR));
     (determinant(corners), bound)
 }
 

@@ -116,7 +116,7 @@ impl Star {
         q: u32,
     ) {
         /// Multiplicative hashing with the golden ratio of 2⁶⁴; the high bits are the mixed ones.
-        const MIX: u64 = 0x9e37_79b9_7f4a_7c15;
+        const HASH_FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
         let edge = |name: u32| {
             let (facet, i) = (&facets[name as usize / 3], name as usize % 3);
             (facet.vertices[(i + 1) % 3], facet.vertices[(i + 2) % 3])
@@ -130,7 +130,7 @@ impl Star {
         for name in 0..3 * facets.len() as u32 {
             let (from, to) = edge(name);
             let key = u64::from(from.min(to)) << 32 | u64::from(from.max(to));
-            let mut at = (key.wrapping_mul(MIX) >> (64 - size.trailing_zeros())) as usize;
+            let mut at = (key.wrapping_mul(HASH_FACTOR) >> (64 - size.trailing_zeros())) as usize;
             loop {
                 let other = self.edges[at];
                 if other == EMPTY {

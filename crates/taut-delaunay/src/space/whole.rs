@@ -14,7 +14,7 @@ const REACH_MAX: f64 = 659.0;
 const _: () = assert!(72 * 659_u64.pow(5) <= 1 << 53);
 
 /// More than any determinant: a bound that leaves open.
-const HUGE: f64 = 1e300;
+const ERROR_MAX: f64 = 1e300;
 
 /// The lesser of two whole numbers.
 #[inline(always)]
@@ -56,5 +56,5 @@ pub(super) fn in_sphere<L: Lane>(corners: [[L; 3]; 4]) -> (L, L, L) {
     let perturbed = L::mul_add(L::splat(4.0), det, L::mul_sub(L::splat(2.0), tie, L::splat(1.0)));
     let [x, y, z] = extents(corners);
     let beyond = (x.max(y).max(z) - L::splat(REACH_MAX)).max(L::splat(0.0));
-    (det, perturbed, L::mul_add(L::splat(HUGE), beyond, L::splat(0.5)))
+    (det, perturbed, L::mul_add(L::splat(ERROR_MAX), beyond, L::splat(0.5)))
 }

@@ -6,7 +6,7 @@ use taut_points::Scratch;
 use super::Picture;
 use crate::number::{count, counted, short};
 use crate::project::{dot, plane};
-use crate::survey::{CLOSE, Measure};
+use crate::survey::{BORDER_TOLERANCE, Measure};
 use crate::{Aspect, Axis, Bar, Error, Level, Plot, Scale, Scene2, Series, SeriesLook, Tone};
 
 /// A plane to project on.
@@ -140,7 +140,7 @@ impl Picture<'_> {
                 "{} of {} come within {} % of the radius. Each bar counts the {thing}s of one range of distances{}.",
                 count(self.survey.close),
                 counted(self.source.len(), thing),
-                short(100.0 * CLOSE, 2),
+                short(100.0 * BORDER_TOLERANCE, 2),
                 if y_scale == Scale::Log {
                     "; the count is logarithmic, so that few are seen beside many"
                 } else {

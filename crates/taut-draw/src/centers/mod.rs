@@ -26,11 +26,12 @@ use crate::survey::{Question, Survey, noun, survey};
 use crate::{DrawOptions, Error, Figure, Tone};
 pub use elbow::{ElbowStep, elbow_figure};
 
-/// How much larger the marks of items that are left out are than those of the others.
-const OUT: f64 = 1.6;
+/// The marks of items that are left out are this many times as large as those of the others.
+const LEFT_OUT_SCALE: f64 = 1.6;
 
 /// What there is between two pairs of bounds.
-const STEPS: Words = Words { step: ["step", "steps", "step of the search"], ..Words::ENCLOSING };
+const STEP_WORDS: Words =
+    Words { step: ["step", "steps", "step of the search"], ..Words::ENCLOSING };
 
 /// Pictures of k centres and their items: the plane for d ≤ 2, space for d = 3, a projection and the distances from the
 /// nearest centre beyond; then the bounds and the gap by step of the search, where the trace has them.
@@ -66,7 +67,7 @@ pub fn centers_figures(
             figures
         }
     };
-    let steps = passes(&solution.trace.history, &STEPS, options);
+    let steps = passes(&solution.trace.history, &STEP_WORDS, options);
     figures.extend(steps.into_iter().map(Figure::Plot));
     Ok(figures)
 }
@@ -222,7 +223,7 @@ impl Picture<'_> {
         Ok([
             self.group(others_name(self.certificate.items), Tone::Point, dot, "", others)?,
             self.group(core_name, Tone::Support, support_size(0.0, 0.0), "of the core-set", core)?,
-            self.group(out_name, Tone::Third, OUT * dot, "left out", outliers.clone())?,
+            self.group(out_name, Tone::Third, LEFT_OUT_SCALE * dot, "left out", outliers.clone())?,
         ])
     }
 

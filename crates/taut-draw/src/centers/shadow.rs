@@ -3,7 +3,7 @@
 use super::Picture;
 use crate::number::{count, counted, short};
 use crate::project::{dot, plane};
-use crate::survey::{CLOSE, Measure};
+use crate::survey::{BORDER_TOLERANCE, Measure};
 use crate::{Aspect, Axis, Bar, Error, Level, Plot, Scale, Scene2, Tone};
 
 /// How lightly items weigh beside centres, where these leave a direction open.
@@ -80,7 +80,7 @@ impl Picture<'_> {
                 "{} of {} come within {} % of the radius; what is left out is not counted.{}",
                 count(self.survey.close),
                 counted(self.source.len(), thing),
-                short(100.0 * CLOSE, 2),
+                short(100.0 * BORDER_TOLERANCE, 2),
                 if y_scale == Scale::Log {
                     " The count is logarithmic, so that few are seen beside many."
                 } else {

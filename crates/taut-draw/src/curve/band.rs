@@ -1,7 +1,7 @@
 //! The borders of a band around a polyline.
 
-/// Corners are cut off where their tip is so many times farther than the band is wide.
-const TIP: f64 = 2.0;
+/// Corners are cut off where their tip is this many times farther than the band is wide.
+const TIP_RATIO_MAX: f64 = 2.0;
 
 /// The polyline shifted to its left and to its right by `width`.
 pub(super) fn borders(vertices: &[[f64; 2]], closed: bool, width: f64) -> Vec<Vec<[f64; 2]>> {
@@ -34,7 +34,7 @@ pub(super) fn borders(vertices: &[[f64; 2]], closed: bool, width: f64) -> Vec<Ve
         // The tip of the mitre between both edges, cut off where it is far.
         let sum = [u[0] + v[0], u[1] + v[1]];
         let square = sum[0] * sum[0] + sum[1] * sum[1];
-        let least = 4.0 / (TIP * TIP);
+        let least = 4.0 / (TIP_RATIO_MAX * TIP_RATIO_MAX);
         let factor = 2.0 / square.max(least);
         [factor * sum[0], factor * sum[1]]
     };

@@ -19,10 +19,10 @@ use crate::number::{count, counted, short};
 use crate::survey::spread;
 use crate::{Aspect, DrawOptions, Error, Figure, Layer2, Look, Point2, Scene2, Shape2, Tone};
 
-/// How much larger the marks of outliers are than those of the other points.
-const OUT: f64 = 1.6;
-/// Most outliers drawn, as parts of the points drawn.
-const OUTLIERS: usize = 4;
+/// The marks of outliers are this many times as large as those of the other points.
+const OUTLIER_SCALE: f64 = 1.6;
+/// At most one outlier is drawn for this many points drawn.
+const POINTS_PER_OUTLIER: usize = 4;
 
 /// Pictures of curves and their points: all of it, and a window in which the band of noise can be seen, where it is narrow.
 ///
@@ -103,7 +103,7 @@ impl Picture<'_> {
         };
         even(&mut others, most);
         let mut out = outliers.clone();
-        even(&mut out, most.div_ceil(OUTLIERS));
+        even(&mut out, most.div_ceil(POINTS_PER_OUTLIER));
         Ok((self.places(&others)?, self.places(&out)?))
     }
 
@@ -233,7 +233,12 @@ impl Picture<'_> {
         if any_open {
             layer(ENDS, Tone::Support, Look::Solid, Shape2::Points(ends));
         }
-        layer("outliers", Tone::Third, Look::Solid, discs(outliers, OUT * dot, "outlier"));
+        layer(
+            "outliers",
+            Tone::Third,
+            Look::Solid,
+            discs(outliers, OUTLIER_SCALE * dot, "outlier"),
+        );
         Scene2 {
             title,
             caption,

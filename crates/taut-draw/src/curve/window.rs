@@ -2,10 +2,10 @@
 
 use super::Picture;
 
-/// Half-widths of the band that a window is wide.
-const WIDE: f64 = 60.0;
+/// A window is this many half-widths of the band wide.
+const WINDOW_HALF_WIDTHS: f64 = 60.0;
 /// A band of fewer pixels from border to border is too narrow to see.
-const NARROW: f64 = 14.0;
+const BAND_PIXELS_MIN: f64 = 14.0;
 
 /// A square.
 pub(super) struct Window {
@@ -19,9 +19,9 @@ impl Picture<'_> {
         let noise = self.answer.noise;
         let extent = self.extent();
         let pixels = 2.0 * noise / extent * self.options.width.min(self.options.height);
-        let side = WIDE * noise;
+        let side = WINDOW_HALF_WIDTHS * noise;
         // Comparisons that hold of no NaN.
-        if !(noise > 0.0 && pixels < NARROW && side < extent) {
+        if !(noise > 0.0 && pixels < BAND_PIXELS_MIN && side < extent) {
             return None;
         }
         let longest = self.answer.curves.iter().rev().max_by_key(|curve| curve.vertices.len())?;

@@ -5,8 +5,8 @@ use super::{Picture, dot_size};
 use crate::number::{count, counted};
 use crate::{Aspect, Layer2, Look, Point2, Scene2, Shape2, Tone};
 
-/// Up to so many, edges of the Voronoi diagram are drawn bold.
-const BOLD: usize = 600;
+/// Up to this many, edges of the Voronoi diagram are drawn bold.
+const BOLD_EDGES_MAX: usize = 600;
 
 impl Picture<'_> {
     /// The triangulation, a window of it where it is crowded, and the Voronoi diagram.
@@ -106,7 +106,7 @@ impl Picture<'_> {
             .filter_map(|edge| frame.segment(self.at(edge[0]), self.at(edge[1])))
             .map(|ends| ends.to_vec())
             .collect();
-        let look = if cells.len() <= BOLD { Look::Solid } else { Look::Thin };
+        let look = if cells.len() <= BOLD_EDGES_MAX { Look::Solid } else { Look::Thin };
         let ids = self.within(&frame);
         let mut caption = format!(
             "Each Voronoi cell holds what is nearer to its point than to any other; cells that share an edge \

@@ -4,8 +4,8 @@ use super::{Picture, dot_size};
 use crate::number::count;
 use crate::{Layer3, Look, Mesh3, Point3, Projection, Scene3, Shape3, Tone};
 
-/// Up to so many edges can be looked through.
-const EDGES: usize = 4000;
+/// Up to this many edges can be looked through.
+const SEEN_THROUGH_EDGES_MAX: usize = 4000;
 
 /// Facets of a surface for each point that may be drawn: a surface has about two.
 const FACETS_PER_POINT: usize = 2;
@@ -36,11 +36,11 @@ impl Picture<'_> {
             });
         }
         // A point has at least one edge, and few points have thousands: so much is cheap to find out.
-        let edges = match answer.len() <= EDGES {
+        let edges = match answer.len() <= SEEN_THROUGH_EDGES_MAX {
             true => self.edges(|_| true),
             false => Vec::new(),
         };
-        if (1..=EDGES).contains(&edges.len()) {
+        if (1..=SEEN_THROUGH_EDGES_MAX).contains(&edges.len()) {
             layers.push(Layer3 {
                 name: "edges".into(),
                 tone: Tone::Second,

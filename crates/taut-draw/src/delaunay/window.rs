@@ -4,11 +4,11 @@ use super::Picture;
 use super::clip::Frame;
 use crate::axes::unit;
 
-/// Beyond so many points the edges of the whole can no longer be told apart.
-pub(super) const CROWDED: usize = 3000;
+/// Beyond this many points the edges of the whole can no longer be told apart.
+pub(super) const POINTS_MAX: usize = 3000;
 
-/// Points in a window.
-const WITHIN: usize = 600;
+/// A window holds this many points.
+const WINDOW_POINTS: usize = 600;
 
 /// Room around all points, as a part of their extent: Voronoi edges run on beyond the hull.
 const MARGIN: f64 = 0.08;
@@ -16,10 +16,10 @@ const MARGIN: f64 = 0.08;
 impl Picture<'_> {
     /// Whether there are more points than an eye can tell apart, or than may be drawn.
     pub(super) fn is_crowded(&self) -> bool {
-        self.places.len() > CROWDED.min(self.options.max_points)
+        self.places.len() > POINTS_MAX.min(self.options.max_points)
     }
 
-    /// The square around the middle of crowded points that holds some [`WITHIN`] distinct ones; `None` if all can be seen,
+    /// The square around the middle of crowded points that holds some [`WINDOW_POINTS`] distinct ones; `None` if all can be seen,
     /// or if so many are equally far from the middle that there is no such square.
     pub(super) fn window(&self) -> Option<Frame> {
         if !self.is_crowded() {
@@ -38,7 +38,7 @@ impl Picture<'_> {
         // The middle itself reaches nowhere; a window needs a width.
         let mut reaches: Vec<f64> = reaches.filter(|&r| r > 0.0).collect();
         let most = self.options.max_points;
-        let place = WITHIN.min(most.saturating_sub(2)).min(reaches.len().checked_sub(1)?);
+        let place = WINDOW_POINTS.min(most.saturating_sub(2)).min(reaches.len().checked_sub(1)?);
         let half = *reaches.select_nth_unstable_by(place, f64::total_cmp).1;
         let frame = Frame {
             low: middle.map(|x| (x - half) * unit),

@@ -105,7 +105,7 @@ impl Body {
         let mut columns: Vec<Vec<f64>> =
             (0..rank).map(|k| self.axes.iter().map(|row| row[k] / self.scale).collect()).collect();
         // One-sided Jacobi rotations: columns are turned in pairs until they are orthogonal.
-        for _ in 0..SWEEPS {
+        for _ in 0..SWEEPS_MAX {
             for a in 0..rank {
                 for b in a + 1..rank {
                     let (la, lb) = (length(&columns[a]), length(&columns[b]));
@@ -131,7 +131,7 @@ impl Body {
 }
 
 /// Three columns are orthogonal to rounding after a handful.
-const SWEEPS: usize = 12;
+const SWEEPS_MAX: usize = 12;
 
 impl Measure for Body {
     fn dim(&self) -> usize {
@@ -154,7 +154,7 @@ impl Measure for Body {
         }
         let dim = self.dim();
         let mut best = length(&image_here);
-        for _ in 0..CLIMB {
+        for _ in 0..CLIMB_STEPS {
             let upwards: Vec<f64> = (0..dim)
                 .map(|j| self.factor.iter().zip(&image_here).map(|(f, y)| f[j] * y).sum())
                 .collect();
@@ -168,8 +168,8 @@ impl Measure for Body {
     }
 }
 
-/// Steps of the climb: for a picture, the first few tell all.
-const CLIMB: usize = 12;
+/// The climb has this many steps: for a picture, the first few tell all.
+const CLIMB_STEPS: usize = 12;
 
 /// The point of an item that lies farthest in a direction.
 pub(super) fn touching(items: Items, dim: usize, row: &[f64], direction: &[f64]) -> Vec<f64> {

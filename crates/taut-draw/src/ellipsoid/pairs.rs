@@ -9,26 +9,26 @@ use taut_certify::Items;
 
 use super::Picture;
 use super::body::{Body, Shadow};
-use super::plane::{COARSE, FINE, OUT, Place, compared};
+use super::plane::{LARGE_CORNERS, LEFT_OUT_SCALE, Place, SMALL_CORNERS, compared};
 use crate::number::{count, short};
 use crate::survey::Measure;
 use crate::{Aspect, Axis, DrawOptions, Error, Layer2, Look, Point2, Scene2, Shape2, Text2, Tone};
 
 /// Up to this many coordinates are all drawn; of more, one less.
-const ALL: usize = 7;
+const PAIRED_DIM_MAX: usize = 7;
 
-/// How far a panel reaches, in half-widths of the ellipsoid.
-const REACH: f64 = 1.12;
+/// A panel reaches this far, in half-widths of the ellipsoid.
+const PANEL_REACH: f64 = 1.12;
 
-/// Where items are left out, how far panels reach at most to hold them as well.
-const FARTHEST: f64 = 3.0;
+/// Where items are left out, panels reach at most this far to hold them as well.
+const PANEL_REACH_MAX: f64 = 3.0;
 
 /// Half the width of a panel, where panels stand one unit apart.
-pub(crate) const HALF: f64 = 0.46;
+pub(crate) const PANEL_HALF_WIDTH: f64 = 0.46;
 
 /// Coordinates that are drawn of `dim`.
 pub(crate) fn drawn(dim: usize) -> usize {
-    if dim <= ALL { dim } else { ALL - 1 }
+    if dim <= PAIRED_DIM_MAX { dim } else { PAIRED_DIM_MAX - 1 }
 }
 
 /// Most items to draw in each panel for a picture of `max_points` marks.
@@ -95,11 +95,11 @@ impl Picture<'_> {
         let frames = panels.iter().map(|panel| square(panel.middle)).collect();
         let chains = |body: &Body| {
             let chain = |panel: &Panel| {
-                let part = |j: usize| HALF / scales[j];
+                let part = |j: usize| PANEL_HALF_WIDTH / scales[j];
                 let Shadow([[a, _], [b, c]]) = body.shadow(panel.j, panel.k);
                 let scaled =
                     Shadow([[a * part(panel.j), 0.0], [b * part(panel.k), c * part(panel.k)]]);
-                scaled.chain(self.place(&body.center, panel, &scales), 1.0, FINE)
+                scaled.chain(self.place(&body.center, panel, &scales), 1.0, LARGE_CORNERS)
             };
             Shape2::Polygons(panels.iter().map(chain).collect())
         };
@@ -118,7 +118,7 @@ impl Picture<'_> {
         let size = (0.6 * self.dot_size()).max(1.0);
         for (ids, name, tone, size) in [
             (inside, self.others_name(), Tone::Point, size),
-            (out, self.left_out_name(), Tone::Third, OUT * size),
+            (out, self.left_out_name(), Tone::Third, LEFT_OUT_SCALE * size),
         ] {
             let layer = Layer2 { name, tone, look: Look::Filled, shape: Shape2::Points(vec![]) };
             layers.extend(self.spread(&ids, layer, size, &panels, &scales, &mut beyond)?);
@@ -203,14 +203,16 @@ impl Picture<'_> {
         for &id in out {
             let row = self.row(id)?;
             for (j, reach) in reach.iter_mut().enumerate() {
-                *reach = reach.max((row[j] - self.body.center[j]).abs() / widths[j]).min(FARTHEST);
+                *reach = reach
+                    .max((row[j] - self.body.center[j]).abs() / widths[j])
+                    .min(PANEL_REACH_MAX);
             }
         }
-        Ok(widths.iter().zip(reach).map(|(width, reach)| REACH * width * reach).collect())
+        Ok(widths.iter().zip(reach).map(|(width, reach)| PANEL_REACH * width * reach).collect())
     }
 
     fn place(&self, point: &[f64], panel: &Panel, scales: &[f64]) -> Place {
-        let along = |j: usize| (point[j] - self.body.center[j]) / scales[j] * HALF;
+        let along = |j: usize| (point[j] - self.body.center[j]) / scales[j] * PANEL_HALF_WIDTH;
         [panel.middle[0] + along(panel.j), panel.middle[1] + along(panel.k)]
     }
 
@@ -230,19 +232,27 @@ impl Picture<'_> {
             let row = self.row(id)?;
             for panel in panels {
                 let at = self.place(&row, panel, scales);
-                let is_inside = (0..2).all(|i| (at[i] - panel.middle[i]).abs() <= HALF);
+                let is_inside = (0..2).all(|i| (at[i] - panel.middle[i]).abs() <= PANEL_HALF_WIDTH);
                 *beyond += u64::from(!is_inside);
                 match Shadow::of_item(items, dim, &row, panel.j, panel.k) {
                     None => {
-                        let at = [0, 1]
-                            .map(|i| at[i].clamp(panel.middle[i] - HALF, panel.middle[i] + HALF));
+                        let at = [0, 1].map(|i| {
+                            at[i].clamp(
+                                panel.middle[i] - PANEL_HALF_WIDTH,
+                                panel.middle[i] + PANEL_HALF_WIDTH,
+                            )
+                        });
                         points.push(Point2 { id: Some(id), at, size, label: String::new() });
                     }
                     Some(_) if !is_inside => {}
                     Some(Shadow([[a, _], [b, c]])) => {
-                        let part = |j: usize| HALF / scales[j];
+                        let part = |j: usize| PANEL_HALF_WIDTH / scales[j];
                         let (x, y) = (part(panel.j), part(panel.k));
-                        chains.push(Shadow([[a * x, 0.0], [b * y, c * y]]).chain(at, 1.0, COARSE));
+                        chains.push(Shadow([[a * x, 0.0], [b * y, c * y]]).chain(
+                            at,
+                            1.0,
+                            SMALL_CORNERS,
+                        ));
                     }
                 }
             }
@@ -259,5 +269,10 @@ impl Picture<'_> {
 }
 
 pub(crate) fn square([x, y]: Place) -> Vec<Place> {
-    vec![[x - HALF, y - HALF], [x + HALF, y - HALF], [x + HALF, y + HALF], [x - HALF, y + HALF]]
+    vec![
+        [x - PANEL_HALF_WIDTH, y - PANEL_HALF_WIDTH],
+        [x + PANEL_HALF_WIDTH, y - PANEL_HALF_WIDTH],
+        [x + PANEL_HALF_WIDTH, y + PANEL_HALF_WIDTH],
+        [x - PANEL_HALF_WIDTH, y + PANEL_HALF_WIDTH],
+    ]
 }

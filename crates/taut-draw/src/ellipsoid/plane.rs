@@ -4,16 +4,17 @@ use super::Picture;
 use super::body::Shadow;
 use crate::{Aspect, Axis, Error, Layer2, Look, Point2, Scene2, Shape2, Tone};
 
-/// Corners of an ellipse drawn large, and of one among many.
-pub(crate) const FINE: usize = 240;
-pub(super) const COARSE: usize = 48;
+/// An ellipse drawn large has this many corners.
+pub(crate) const LARGE_CORNERS: usize = 240;
+/// An ellipse that is one among many has this many corners.
+pub(super) const SMALL_CORNERS: usize = 48;
 
-/// By how much marks of items left out are larger: their tone is not all that tells them.
-pub(crate) const OUT: f64 = 1.6;
+/// Marks of items left out are this many times as large: their tone is not all that tells them.
+pub(crate) const LEFT_OUT_SCALE: f64 = 1.6;
 
 /// A layer of the ellipsoid to compare with.
 pub(super) fn compared(shape: Shape2) -> Layer2 {
-    Layer2 { name: super::robust::KEPT.into(), tone: Tone::Second, look: Look::Dashed, shape }
+    Layer2 { name: super::robust::KEPT_LABEL.into(), tone: Tone::Second, look: Look::Dashed, shape }
 }
 
 /// One place of a plane picture.
@@ -35,7 +36,7 @@ impl Picture<'_> {
                 (at, None) => {
                     points.push(Point2 { id: Some(id), at, size, label: String::new() });
                 }
-                (at, Some(shadow)) => chains.push(shadow.chain(at, 1.0, COARSE)),
+                (at, Some(shadow)) => chains.push(shadow.chain(at, 1.0, SMALL_CORNERS)),
             }
         }
         let shape = match (points.is_empty(), chains.is_empty()) {
@@ -54,7 +55,7 @@ impl Picture<'_> {
         let shadow = self.body.shadow(0, 1);
         let place = |row: &[f64]| ([row[0], row[1]], Shadow::of_item(items, dim, row, 0, 1));
         let outline = |part: f64| match self.rank() {
-            2 => Shape2::Polygons(vec![shadow.chain(center, part, FINE)]),
+            2 => Shape2::Polygons(vec![shadow.chain(center, part, LARGE_CORNERS)]),
             // A segment, or nothing but the centre.
             rank => Shape2::Polylines(
                 self.body.principal()[..rank]
@@ -69,7 +70,7 @@ impl Picture<'_> {
         let mut layers = self.layers(outline, place, center, |mark| [mark[0], mark[1]])?;
         if let Some(second) = self.second() {
             let center = [second.center[0], second.center[1]];
-            let chain = second.shadow(0, 1).chain(center, 1.0, FINE);
+            let chain = second.shadow(0, 1).chain(center, 1.0, LARGE_CORNERS);
             layers.insert(1, compared(Shape2::Polygons(vec![chain])));
         }
         Ok(Scene2 {
@@ -126,7 +127,7 @@ impl Picture<'_> {
         }];
         let size = self.dot_size();
         layers.extend(self.items(&inside, self.others_name(), Tone::Point, size, &place)?);
-        let (name, larger) = (self.left_out_name(), OUT * size);
+        let (name, larger) = (self.left_out_name(), LEFT_OUT_SCALE * size);
         layers.extend(self.items(&out, name, Tone::Third, larger, &place)?);
         if self.lower_is_visible() {
             layers.push(Layer2 {

@@ -4,7 +4,7 @@ use taut_certify::Items;
 
 use super::Picture;
 use crate::number::{count, counted, short};
-use crate::survey::{CLOSE, Measure};
+use crate::survey::{BORDER_TOLERANCE, Measure};
 use crate::{Axis, Bar, Error, Level, Plot, Scale, Series, SeriesLook, Tone};
 
 impl Picture<'_> {
@@ -40,7 +40,7 @@ impl Picture<'_> {
                 "{} of {} come within {} % of the border. Each bar counts the {thing}s of one range{}{}.",
                 count(self.survey.close),
                 counted(n.saturating_sub(out), thing),
-                short(100.0 * CLOSE, 2),
+                short(100.0 * BORDER_TOLERANCE, 2),
                 if y_scale == Scale::Log {
                     "; the count is logarithmic, so that few are seen beside many"
                 } else {

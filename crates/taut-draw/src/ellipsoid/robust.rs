@@ -12,11 +12,12 @@ use crate::survey::Measure;
 use crate::{Axis, Error, Level, Plot, Scale, Series, SeriesLook, Tone};
 
 /// The name of the ellipsoid around the points kept, where it is not the answer.
-pub(super) const KEPT: &str = "smallest around the points kept";
+pub(super) const KEPT_LABEL: &str = "smallest around the points kept";
 
-/// In half-widths of the ellipsoid: how far out an outlier makes a close-up worth while, and how far that reaches.
-const FAR: f64 = 4.0;
-const NEAR: f64 = 2.5;
+/// An outlier this far out makes a close-up worth while, in half-widths of the ellipsoid.
+const OUTLIER_REACH_MIN: f64 = 4.0;
+/// A close-up reaches this far, in half-widths of the ellipsoid.
+const CLOSE_UP_REACH: f64 = 2.5;
 
 /// The answer as an ellipsoid around the points that are not flagged. Only by `trim` some of them decide it.
 pub(super) fn as_left_out(
@@ -122,8 +123,8 @@ impl<'a> Picture<'a> {
         for &id in &self.survey.ids {
             if out.binary_search(&id).is_ok() {
                 let row = self.row(id)?;
-                is_far |= !lies_within(&row, FAR);
-                if !lies_within(&row, NEAR) {
+                is_far |= !lies_within(&row, OUTLIER_REACH_MIN);
+                if !lies_within(&row, CLOSE_UP_REACH) {
                     continue;
                 }
             }

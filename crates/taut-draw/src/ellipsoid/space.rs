@@ -4,15 +4,16 @@ use taut_certify::Items;
 use taut_points::gather;
 
 use super::Picture;
-use super::plane::{COARSE, FINE, OUT};
-use super::robust::KEPT;
+use super::plane::{LARGE_CORNERS, LEFT_OUT_SCALE, SMALL_CORNERS};
+use super::robust::KEPT_LABEL;
 use crate::{Error, Layer3, Look, Point3, Projection, Scene3, Shape3, Sphere3, Tone};
 
 pub(crate) type Place = [f64; 3];
 
-/// Half-planes through the longest axis, and circles around it on each side of the equator.
-const MERIDIANS: usize = 6;
-const PARALLELS: usize = 2;
+/// There are this many half-planes through the longest axis.
+const MERIDIAN_COUNT: usize = 6;
+/// There are this many circles around the longest axis on each side of the equator.
+const PARALLEL_COUNT: usize = 2;
 
 /// A net on {c + Σ yₖaₖ : |y| ≤ 1} for up to three half-axes aₖ; an ellipse, a segment or nothing for fewer.
 pub(crate) fn net(
@@ -41,16 +42,19 @@ pub(crate) fn net(
         ],
         _ => {
             let meridian = |i: usize| {
-                let (s, c) = (std::f64::consts::PI * i as f64 / MERIDIANS as f64).sin_cos();
+                let (s, c) = (std::f64::consts::PI * i as f64 / MERIDIAN_COUNT as f64).sin_cos();
                 ring(&|cos, sin| [sin, c * cos, s * cos])
             };
             let parallel = |i: usize| {
-                let step = i as f64 - PARALLELS as f64;
+                let step = i as f64 - PARALLEL_COUNT as f64;
                 let (height, radius) =
-                    (std::f64::consts::FRAC_PI_2 * step / (PARALLELS + 1) as f64).sin_cos();
+                    (std::f64::consts::FRAC_PI_2 * step / (PARALLEL_COUNT + 1) as f64).sin_cos();
                 ring(&|cos, sin| [height, radius * cos, radius * sin])
             };
-            (0..MERIDIANS).map(meridian).chain((0..2 * PARALLELS + 1).map(parallel)).collect()
+            (0..MERIDIAN_COUNT)
+                .map(meridian)
+                .chain((0..2 * PARALLEL_COUNT + 1).map(parallel))
+                .collect()
         }
     }
 }
@@ -102,18 +106,23 @@ impl Picture<'_> {
             name: name.into(),
             tone,
             look,
-            shape: Shape3::Polylines(net(center, &axes, part, FINE / 2, true)),
+            shape: Shape3::Polylines(net(center, &axes, part, LARGE_CORNERS / 2, true)),
         };
         let mut layers = vec![surface(&self.name(), Tone::Answer, Look::Thin, 1.0)];
         if let Some(second) = self.second() {
-            let net = net(at(&second.center), &second.principal(), 1.0, COARSE, false);
-            let (name, shape) = (KEPT.into(), Shape3::Polylines(net));
+            let net = net(at(&second.center), &second.principal(), 1.0, SMALL_CORNERS, false);
+            let (name, shape) = (KEPT_LABEL.into(), Shape3::Polylines(net));
             layers.push(Layer3 { name, tone: Tone::Second, look: Look::Dashed, shape });
         }
         let (inside, out) = self.others();
         let size = self.dot_size();
         layers.extend(self.bodies(&inside, self.others_name(), Tone::Point, size)?);
-        layers.extend(self.bodies(&out, self.left_out_name(), Tone::Third, OUT * size)?);
+        layers.extend(self.bodies(
+            &out,
+            self.left_out_name(),
+            Tone::Third,
+            LEFT_OUT_SCALE * size,
+        )?);
         if self.lower_is_visible() {
             layers.push(surface("lower bound", Tone::Bound, Look::Dashed, self.lower()));
         }
@@ -195,8 +204,9 @@ impl Picture<'_> {
                 (Look::Filled, Shape3::Spheres(rows.map(ball).collect()))
             }
             Items::Ellipsoids => {
-                let net =
-                    |(_, row): (&u64, &[f64])| net(at(row), &root(items, row), 1.0, COARSE, false);
+                let net = |(_, row): (&u64, &[f64])| {
+                    net(at(row), &root(items, row), 1.0, SMALL_CORNERS, false)
+                };
                 (Look::Thin, Shape3::Polylines(rows.flat_map(net).collect()))
             }
         };

@@ -61,9 +61,9 @@ impl Field {
 }
 
 /// Width at which the first figure of a section is drawn, and its height, pixels.
-const LEAD: [f64; 2] = [740.0, 560.0];
+const LEAD_SIZE: [f64; 2] = [740.0, 560.0];
 /// The same for figures that stand side by side.
-const BESIDE: [f64; 2] = [540.0, 330.0];
+const BESIDE_SIZE: [f64; 2] = [540.0, 330.0];
 
 /// The page as one HTML file that needs nothing else: figures inline, scenes of space to be turned by hand.
 ///
@@ -138,14 +138,14 @@ fn section(out: &mut String, part: &Section) {
             out.push_str("</div>\n");
         }
         if let Some(lead) = lead {
-            figure(out, lead, LEAD);
+            figure(out, lead, LEAD_SIZE);
         }
         out.push_str("</div>\n");
     }
     if !rest.is_empty() {
         out.push_str("<div class=\"rest\">\n");
         for each in rest {
-            figure(out, each, BESIDE);
+            figure(out, each, BESIDE_SIZE);
         }
         out.push_str("</div>\n");
     }
@@ -178,7 +178,7 @@ fn figure(out: &mut String, figure: &Figure, [width, height]: [f64; 2]) {
         Figure::Views(Views { scene, .. }) => {
             (scene.width, scene.height) = (width, 0.9 * width);
         }
-        Figure::Plot(plot) => (plot.width, plot.height) = (width, height.min(BESIDE[1])),
+        Figure::Plot(plot) => (plot.width, plot.height) = (width, height.min(BESIDE_SIZE[1])),
     }
     let (title, caption) = (escape(figure.title()), escape(figure.caption()));
     let (svg, _, hovers) = draw(&sized, Chrome::Bare);

@@ -2,7 +2,7 @@
 
 use crate::base64::base64;
 use crate::number::short;
-use crate::svg::{EYE, Stage, WIRED, finite, stage};
+use crate::svg::{EYE_DISTANCE, Stage, WIRED_SPHERES_MAX, finite, stage};
 use crate::text::json;
 use crate::{Layer3, Look, Projection, Scene3, Shading, Shape3};
 
@@ -12,7 +12,7 @@ pub(super) fn data(scene: &Scene3) -> String {
     let names: Vec<_> = scene.axes.iter().map(|axis| json(&axis.name)).collect();
     let layers: Vec<_> = scene.layers.iter().map(|l| layer(l, &stage)).collect();
     format!(
-        "{{\"names\":[{}],\"eye\":{EYE},\"wired\":{WIRED},\"perspective\":{},\"azimuth\":{},\"elevation\":{},\
+        "{{\"names\":[{}],\"eye\":{EYE_DISTANCE},\"wired\":{WIRED_SPHERES_MAX},\"perspective\":{},\"azimuth\":{},\"elevation\":{},\
          \"width\":{},\"height\":{},\"layers\":[{}]}}",
         names.join(","),
         scene.projection == Projection::Perspective,

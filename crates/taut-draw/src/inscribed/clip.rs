@@ -13,20 +13,21 @@ pub(super) struct Polygon {
     pub(super) is_whole: bool,
 }
 
-/// Squares that are tried, each this much larger than the one before.
-const SQUARES: i32 = 6;
-const GROWTH: f64 = 32.0;
+/// At most this many squares are tried.
+const SQUARES_MAX: i32 = 6;
+/// Each square is this much larger than the one before.
+const SQUARE_GROWTH: f64 = 32.0;
 
 /// The polygon of some half-planes about the origin. One that does not end is cut off somewhere.
 pub(super) fn polygon(half_planes: &[HalfPlane], reach: f64) -> Polygon {
     let mut size = reach;
-    for _ in 0..SQUARES {
+    for _ in 0..SQUARES_MAX {
         let corners = within(half_planes, size);
         let is_whole = corners.iter().flatten().all(|v| v.abs() < size * (1.0 - 1e-9));
         if is_whole {
             return Polygon { corners, is_whole };
         }
-        size *= GROWTH;
+        size *= SQUARE_GROWTH;
     }
     Polygon { corners: within(half_planes, 2.0 * reach), is_whole: false }
 }

@@ -3,14 +3,14 @@
 use super::clip::{Polygon, polygon};
 use super::{ELLIPSOID, Picture};
 use crate::ellipsoid::body::Shadow;
-use crate::ellipsoid::pairs::{HALF, coordinates, diagonal, panels, square};
-use crate::ellipsoid::plane::FINE;
+use crate::ellipsoid::pairs::{PANEL_HALF_WIDTH, coordinates, diagonal, panels, square};
+use crate::ellipsoid::plane::LARGE_CORNERS;
 use crate::{
     Aspect, Axis, Layer2, Level, Look, Plot, Scale, Scene2, Series, SeriesLook, Shape2, Tone,
 };
 
-/// Of a panel, the part that is filled.
-const FILLED: f64 = 0.94;
+/// This part of a panel is filled.
+const FILLED_PART: f64 = 0.94;
 
 impl Picture<'_> {
     /// d > 3, all panels in one picture. Every panel is scaled so that the cut of the polytope fills it.
@@ -40,11 +40,11 @@ impl Picture<'_> {
                 corners.iter().map(|[x, y]| [wide * x, slope * x + tall * y]).collect();
             let most = |k: usize| corners.iter().fold(0.0f64, |m, v| m.max(v[k].abs()));
             let scale = [most(0), most(1)].map(|most| if most > 0.0 { most } else { 1.0 });
-            let [x, y] = scale.map(|most| FILLED * HALF / most);
+            let [x, y] = scale.map(|most| FILLED_PART * PANEL_HALF_WIDTH / most);
             let [a, b] = panel.middle;
             polytopes.push(corners.iter().map(|v| [a + v[0] * x, b + v[1] * y]).collect());
             let cut = Shadow([[wide * x, 0.0], [slope * y, tall * y]]);
-            ellipses.push(cut.chain(panel.middle, 1.0, FINE));
+            ellipses.push(cut.chain(panel.middle, 1.0, LARGE_CORNERS));
         }
         let frames = panels.iter().map(|panel| square(panel.middle)).collect();
         let layer = |name: &str, tone, look, shape| Layer2 { name: name.into(), tone, look, shape };

@@ -14,7 +14,7 @@ mod space;
 use taut_certify::{InscribedCertificate, InscribedEllipsoid, Solution};
 use taut_points::PointSource;
 
-use self::sides::{CLOSE, Side, Sides};
+use self::sides::{Side, Sides, TOUCH_TOLERANCE};
 use crate::ellipsoid::body::Body;
 use crate::marks::{agree, all_finite, all_there, support_size};
 use crate::number::{count, counted, short};
@@ -38,7 +38,7 @@ pub fn inscribed_figures(
     let InscribedEllipsoid { center, axes, .. } = &solution.answer;
     let dim = center.len();
     let most = match dim {
-        3 => options.max_points.min(space::MOST),
+        3 => options.max_points.min(space::HALF_SPACES_MAX),
         _ => options.max_points,
     };
     let sides = Sides::read(&solution.answer, &solution.certificate, source, most)?;
@@ -184,7 +184,7 @@ impl Picture<'_> {
             "{} of {} come within {} % of touching.",
             count(self.sides.close),
             counted(self.source.len(), "half-space"),
-            short(100.0 * CLOSE, 2)
+            short(100.0 * TOUCH_TOLERANCE, 2)
         )
     }
 }

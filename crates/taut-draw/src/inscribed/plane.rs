@@ -2,11 +2,11 @@
 
 use super::clip::{Polygon, polygon};
 use super::{ELLIPSOID, Picture};
-use crate::ellipsoid::plane::FINE;
+use crate::ellipsoid::plane::LARGE_CORNERS;
 use crate::{Aspect, Axis, Layer2, Look, Point2, Scene2, Shape2, Tone};
 
-/// How far around the ellipsoid is looked at first, in half axes: the polytope lies within d.
-const REACH: f64 = 4.0;
+/// This far around the ellipsoid is looked at first, in half axes: the polytope lies within d.
+const FIRST_REACH: f64 = 4.0;
 
 impl Picture<'_> {
     /// d = 2.
@@ -17,14 +17,14 @@ impl Picture<'_> {
             .iter()
             .map(|side| ([side.seen[0], side.seen[1]], side.distance))
             .collect();
-        let Polygon { corners, is_whole } = polygon(&half_planes, REACH);
+        let Polygon { corners, is_whole } = polygon(&half_planes, FIRST_REACH);
         let at = |y: &[f64]| {
             let x = self.place(y);
             [x[0], x[1]]
         };
         let corners = corners.iter().map(|y| at(y)).collect();
         let center = [self.body.center[0], self.body.center[1]];
-        let ellipse = self.body.shadow(0, 1).chain(center, 1.0, FINE);
+        let ellipse = self.body.shadow(0, 1).chain(center, 1.0, LARGE_CORNERS);
         let layers = self.layers(vec![corners], vec![ellipse], center, |x| [x[0], x[1]]);
         Scene2 {
             title: self.title(),
@@ -46,7 +46,7 @@ impl Picture<'_> {
             ends.map(|side| side.distance).fold(f64::INFINITY, f64::min)
         };
         let is_whole = end(1.0).is_finite() && end(-1.0).is_finite();
-        let place = |sign: f64| center + sign * half * end(sign).min(REACH);
+        let place = |sign: f64| center + sign * half * end(sign).min(FIRST_REACH);
         let band = |a: f64, b: f64, h: f64| vec![[a, -h], [b, -h], [b, h], [a, h]];
         let outer = band(place(-1.0), place(1.0), 0.36 * half);
         let inner = band(center - half, center + half, 0.3 * half);

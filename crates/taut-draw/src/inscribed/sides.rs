@@ -39,8 +39,8 @@ pub(super) struct Sides {
 
 /// Of h, by how much rounding may move it.
 const ROUNDING: f64 = 1e-9;
-/// What counts as nearly touching.
-pub(super) const CLOSE: f64 = 1e-3;
+/// A half-space counts as nearly touching up to a distance of 1 and this, where the ellipsoid reaches 1.
+pub(super) const TOUCH_TOLERANCE: f64 = 1e-3;
 
 impl Sides {
     /// Reads all half-spaces and keeps those of the support and the nearest others, `most` in all.
@@ -69,7 +69,7 @@ impl Sides {
                     return Err(Error::NonFinite { what, value: row[column] });
                 }
                 let Some(side) = Side::of(ellipsoid, id, &row)? else { continue };
-                close += u64::from(side.distance <= 1.0 + CLOSE);
+                close += u64::from(side.distance <= 1.0 + TOUCH_TOLERANCE);
                 cutting += u64::from(side.distance < 1.0 - ROUNDING);
                 near.push(side);
             }

@@ -5,16 +5,16 @@
 use super::clip::{HalfPlane, Polygon, polygon};
 use super::sides::Side;
 use super::{ELLIPSOID, Picture};
-use crate::ellipsoid::plane::FINE;
+use crate::ellipsoid::plane::LARGE_CORNERS;
 use crate::ellipsoid::space::{Place, at, azimuth, net};
 use crate::project::dot;
 use crate::{Layer3, Look, Point3, Projection, Scene3, Shape3, Tone};
 
-/// Most half-spaces: the work grows with their square.
-pub(super) const MOST: usize = 2000;
+/// At most this many half-spaces are drawn: the work grows with their square.
+pub(super) const HALF_SPACES_MAX: usize = 2000;
 
-/// How far around the ellipsoid is looked at first, in half axes: the polytope lies within d.
-const REACH: f64 = 8.0;
+/// This far around the ellipsoid is looked at first, in half axes: the polytope lies within d.
+const FIRST_REACH: f64 = 8.0;
 
 /// Two directions at right angles to a third, all of length 1 (Duff et al., Journal of Computer Graphics Techniques 6(1),
 /// 2017).
@@ -50,7 +50,7 @@ impl Picture<'_> {
                 ELLIPSOID,
                 Tone::Answer,
                 Look::Thin,
-                Shape3::Polylines(net(center, &axes, 1.0, FINE / 2, true)),
+                Shape3::Polylines(net(center, &axes, 1.0, LARGE_CORNERS / 2, true)),
             ),
             layer("polytope", Tone::Point, Look::Solid, Shape3::Polylines(rings)),
             layer(
@@ -96,7 +96,7 @@ impl Picture<'_> {
                 false => half_planes.push((slope, offset)),
             }
         }
-        let Polygon { corners, is_whole } = polygon(&half_planes, REACH);
+        let Polygon { corners, is_whole } = polygon(&half_planes, FIRST_REACH);
         let corner = |[a, b]: [f64; 2]| {
             at(&self.place(&[0, 1, 2].map(|k| own.distance * normal[k] + a * u[k] + b * v[k])))
         };

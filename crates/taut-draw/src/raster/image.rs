@@ -4,7 +4,7 @@ use super::Raster;
 use crate::{Theme, Tone};
 
 /// A step in nearness from which on it is a step of the surface and not a slope: a tenth of the radius of the scene.
-const CLIFF: f32 = 0.025;
+const NEARNESS_STEP_MIN: f32 = 0.025;
 
 /// The colour of a surface for each of 256 shades.
 pub(crate) type Ramp = [[u8; 3]; 256];
@@ -68,7 +68,7 @@ impl Raster {
     /// Whether beside a sample, so many samples away, the surface ends or is much farther away.
     fn is_cliff(&self, u: usize, v: usize, reach: usize) -> bool {
         let near = |u: usize, v: usize| self.near[v * self.width + u];
-        let edge = near(u, v) - CLIFF;
+        let edge = near(u, v) - NEARNESS_STEP_MIN;
         (u >= reach && near(u - reach, v) < edge)
             || (u + reach < self.width && near(u + reach, v) < edge)
             || (v >= reach && near(u, v - reach) < edge)

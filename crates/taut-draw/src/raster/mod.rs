@@ -16,8 +16,8 @@ pub(crate) use normals::normals;
 pub(crate) use order::order;
 pub(crate) use png::png;
 
-/// Parts of a sample that corners are snapped to.
-pub(crate) const PARTS: i64 = 256;
+/// Corners are snapped to this many parts of a sample.
+pub(crate) const SNAP_PARTS: i64 = 256;
 
 /// A corner on the grid, in parts of a sample.
 pub(crate) type Snapped = [i64; 2];
@@ -49,7 +49,7 @@ pub(crate) struct Facet {
 
 /// The corner nearest to a place in samples.
 pub(crate) fn snap(at: [f64; 2]) -> Snapped {
-    at.map(|x| (x.clamp(-1e6, 1e6) * PARTS as f64).round() as i64)
+    at.map(|x| (x.clamp(-1e6, 1e6) * SNAP_PARTS as f64).round() as i64)
 }
 
 /// Twice the area, positive where the corners run counter-clockwise to the eye. (Rows run downwards.)
@@ -100,19 +100,20 @@ impl Raster {
         let bounds = |k: usize, size: usize| {
             let low = a[k].min(b[k]).min(c[k]);
             let high = a[k].max(b[k]).max(c[k]);
-            // Samples are at the middles: x·PARTS + PARTS/2.
-            let first = (low - PARTS / 2).div_euclid(PARTS).max(0);
-            let last = (high - PARTS / 2).div_euclid(PARTS).min(size as i64 - 1);
+            // Samples are at the middles: x·SNAP_PARTS + SNAP_PARTS/2.
+            let first = (low - SNAP_PARTS / 2).div_euclid(SNAP_PARTS).max(0);
+            let last = (high - SNAP_PARTS / 2).div_euclid(SNAP_PARTS).min(size as i64 - 1);
             first..last + 1
         };
         let (columns, rows) = (bounds(0, self.width), bounds(1, self.height));
         let sides = [(b, c), (c, a), (a, b)];
         // Edges at the top and at the left belong to the triangle, the others do not.
         let owned = sides.map(|(p, q)| i64::from(!(q[1] < p[1] || (q[1] == p[1] && q[0] > p[0]))));
-        let steps = sides.map(|(p, q)| -(q[1] - p[1]) * PARTS);
+        let steps = sides.map(|(p, q)| -(q[1] - p[1]) * SNAP_PARTS);
         let scale = 1.0 / whole as f64;
         for y in rows {
-            let start = [columns.start * PARTS + PARTS / 2, y * PARTS + PARTS / 2];
+            let start =
+                [columns.start * SNAP_PARTS + SNAP_PARTS / 2, y * SNAP_PARTS + SNAP_PARTS / 2];
             let mut inside = sides.map(|(p, q)| edge(p, q, start));
             for x in columns.clone() {
                 if inside[0] >= owned[0] && inside[1] >= owned[1] && inside[2] >= owned[2] {

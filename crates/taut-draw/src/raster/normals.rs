@@ -8,10 +8,10 @@ use crate::Shading;
 use crate::svg::{V3, add, cross, dot};
 
 /// Cosine of the angle between two triangles from which on the edge between them counts as sharp: 40 degrees.
-const SHARP: f64 = 0.766;
+const SHARP_COS_MAX: f64 = 0.766;
 
-/// Most triangles at a vertex with smooth corners: a pair of them costs as much as a sample.
-const FAN: usize = 64;
+/// A vertex with smooth corners has at most this many triangles: a pair of them costs as much as a sample.
+const FAN_TRIANGLES_MAX: usize = 64;
 
 /// The unit normals at the three corners of each triangle, 0 where it has no area.
 pub(crate) fn normals(places: &[V3], triangles: &[[u32; 3]], shading: Shading) -> Vec<[V3; 3]> {
@@ -43,12 +43,12 @@ pub(crate) fn normals(places: &[V3], triangles: &[[u32; 3]], shading: Shading) -
     }
     for ends in first.windows(2) {
         let here = &around[ends[0]..ends[1]];
-        if here.len() > FAN {
+        if here.len() > FAN_TRIANGLES_MAX {
             continue;
         }
         for &corner in here {
             let own = flat[corner / 3];
-            let gentle = here.iter().filter(|&&other| dot(own, flat[other / 3]) >= SHARP);
+            let gentle = here.iter().filter(|&&other| dot(own, flat[other / 3]) >= SHARP_COS_MAX);
             let sum = gentle.fold([0.0; 3], |sum, &other| add(sum, areas[other / 3], 1.0));
             corners[corner / 3][corner % 3] = unit(sum);
         }

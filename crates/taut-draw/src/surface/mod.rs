@@ -23,11 +23,11 @@ use crate::{
 };
 pub use answer::surface_figures;
 
-/// Most triangles of a scene that can be turned by hand.
-const TURNED: usize = 1_000_000;
+/// A scene of at most this many triangles can be turned by hand.
+const TURNED_TRIANGLES_MAX: usize = 1_000_000;
 
-/// Up to so many triangles each has its own shade, so that it can be told from the next.
-const FLAT: usize = 4000;
+/// Up to this many triangles each has its own shade, so that it can be told from the next.
+const FLAT_TRIANGLES_MAX: usize = 4000;
 
 /// A surface and its points, as they are to be drawn; what found it does not matter.
 #[derive(Clone, Copy)]
@@ -87,7 +87,7 @@ pub fn surface_scene(view: &SurfaceView<'_>, options: &DrawOptions) -> Result<Ve
     let picture = Picture { view, options, places };
     let mut scene = picture.scene();
     let views = Figure::Views(Views { scene: picture.still(&scene), views: directions(options) });
-    if view.triangles.len() > TURNED {
+    if view.triangles.len() > TURNED_TRIANGLES_MAX {
         return Ok(vec![views]);
     }
     scene.projection = Projection::Perspective;
@@ -223,10 +223,10 @@ impl Picture<'_> {
         still.title += ": four views";
         // Room for two rows of panels.
         still.height = scene.height.max(0.9 * scene.width);
-        if self.view.triangles.len() > TURNED {
+        if self.view.triangles.len() > TURNED_TRIANGLES_MAX {
             still.caption += &format!(
                 " More than {} triangles: there is no scene to turn by hand.",
-                count(TURNED as u64)
+                count(TURNED_TRIANGLES_MAX as u64)
             );
         }
         still
@@ -235,7 +235,7 @@ impl Picture<'_> {
     /// The triangles with their own vertices alone, `rows` ascending.
     fn surface(&self, rows: &[u32]) -> Surface3 {
         let place = |row: &u32| rows.binary_search(row).unwrap_or(0) as u32;
-        let few = self.view.triangles.len() <= FLAT;
+        let few = self.view.triangles.len() <= FLAT_TRIANGLES_MAX;
         Surface3 {
             vertices: rows.iter().map(|&row| self.vertex(row)).collect(),
             triangles: self

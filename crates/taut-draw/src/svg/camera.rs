@@ -3,8 +3,8 @@
 use super::frame::Room;
 use crate::Projection;
 
-/// Distance of the eye from the middle of the scene, in radii of the scene.
-pub(crate) const EYE: f64 = 4.0;
+/// The eye is this far from the middle of the scene, in radii of the scene.
+pub(crate) const EYE_DISTANCE: f64 = 4.0;
 
 pub(crate) type V3 = [f64; 3];
 
@@ -39,9 +39,9 @@ impl Camera {
         let (se, ce) = sin_cos(elevation.clamp(-90.0, 90.0));
         let frame = [[-sa, ca, 0.0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]];
         let half = (room.right - room.left).min(room.bottom - room.top).max(20.0) / 2.0;
-        // The outline of the unit ball seen from EYE has radius EYE/√(EYE² − 1).
+        // The outline of the unit ball seen from EYE_DISTANCE has radius EYE_DISTANCE/√(EYE_DISTANCE² − 1).
         let outline = match projection {
-            Projection::Perspective => EYE / (EYE * EYE - 1.0).sqrt(),
+            Projection::Perspective => EYE_DISTANCE / (EYE_DISTANCE * EYE_DISTANCE - 1.0).sqrt(),
             Projection::Orthographic => 1.0,
         };
         let middle = [(room.left + room.right) / 2.0, (room.top + room.bottom) / 2.0];
@@ -74,7 +74,7 @@ impl Camera {
     /// How much larger things look at a depth.
     pub(super) fn zoom(&self, depth: f64) -> f64 {
         match self.projection {
-            Projection::Perspective => EYE / (EYE - depth),
+            Projection::Perspective => EYE_DISTANCE / (EYE_DISTANCE - depth),
             Projection::Orthographic => 1.0,
         }
     }
@@ -83,7 +83,7 @@ impl Camera {
     pub(super) fn nearness(&self, depth: f64) -> f64 {
         match self.projection {
             Projection::Perspective => self.zoom(depth),
-            Projection::Orthographic => 1.0 + depth / EYE,
+            Projection::Orthographic => 1.0 + depth / EYE_DISTANCE,
         }
     }
 
@@ -96,7 +96,7 @@ impl Camera {
     /// The direction from a turned place to the eye.
     pub(super) fn to_eye(self, v: V3) -> V3 {
         match self.projection {
-            Projection::Perspective => [-v[0], -v[1], EYE - v[2]],
+            Projection::Perspective => [-v[0], -v[1], EYE_DISTANCE - v[2]],
             Projection::Orthographic => [0.0, 0.0, 1.0],
         }
     }

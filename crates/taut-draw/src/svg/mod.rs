@@ -15,12 +15,12 @@ mod space;
 mod stage;
 
 use crate::{Figure, Style};
-pub(crate) use camera::{EYE, V3, add, cross, dot};
+pub(crate) use camera::{EYE_DISTANCE, V3, add, cross, dot};
 use canvas::Canvas;
 #[cfg(feature = "png")]
 pub(crate) use canvas::Laid;
 pub(crate) use frame::Chrome;
-pub(crate) use space::{WIRED, legend};
+pub(crate) use space::{WIRED_SPHERES_MAX, legend};
 pub(crate) use stage::{Stage, finite, stage};
 
 /// The figure as an SVG document: title, marks, legend and caption.
@@ -37,12 +37,12 @@ pub(crate) struct Hover {
     pub(crate) words: Vec<String>,
 }
 
-/// Pixels of embedded images to each unit of a document: those of a fine screen.
-const DENSITY: f64 = 2.0;
+/// Embedded images have this many pixels to each unit of a document: those of a fine screen.
+const PIXELS_PER_UNIT: f64 = 2.0;
 
 /// The document, its width and height, and its marks for the pointer.
 pub(crate) fn draw(figure: &Figure, chrome: Chrome) -> (String, [f64; 2], Vec<Hover>) {
-    let mut canvas = Canvas::new(DENSITY, true);
+    let mut canvas = Canvas::new(PIXELS_PER_UNIT, true);
     fill(figure, chrome, &mut canvas);
     let document = canvas.document(figure.title(), figure.caption(), chrome);
     (document, canvas.size, canvas.hovers)

@@ -13,17 +13,17 @@ use super::stage::{Stage, finite};
 use crate::raster::{Facet, Ramp, Raster, area, normals, order, ramp, snap};
 use crate::{Scene3, Shading, Shape3, Theme, Tone};
 
-/// Up to so many triangles are polygons; an image of more is smaller than they are.
-const POLYGONS: usize = 4000;
+/// Up to this many triangles are polygons; an image of more is smaller than they are.
+const POLYGONS_MAX: usize = 4000;
 
-/// Most samples of a view: 160 MB while it is drawn.
-const SAMPLES: usize = 1 << 24;
+/// A view has at most this many samples: 160 MB while it is drawn.
+const SAMPLES_MAX: usize = 1 << 24;
 
-/// Samples wanted to each unit of the picture: four by four for each pixel of a common screen.
-const FINE: f64 = 4.0;
+/// This many samples are wanted to each unit of the picture: four by four for each pixel of a common screen.
+const SAMPLES_PER_UNIT: f64 = 4.0;
 
-/// A difference in nearness that is none: a line on a surface is not hidden by it.
-const HAIR: f64 = 2e-3;
+/// A difference in nearness up to this is none: a line on a surface is not hidden by it.
+const NEARNESS_TOLERANCE: f64 = 2e-3;
 
 /// From where light falls, as seen by the eye: right, up, towards it. Of length 1 but for a hundredth.
 const LIGHT: V3 = [-0.3, 0.5, 0.81];
@@ -99,12 +99,12 @@ impl Cover {
                 |k: usize| ((high[k] * density).ceil() - (low[k] * density).floor()) as usize + 2;
             [pixels(0), pixels(1)]
         };
-        while size(density)[0].saturating_mul(size(density)[1]) > SAMPLES {
+        while size(density)[0].saturating_mul(size(density)[1]) > SAMPLES_MAX {
             density /= 2.0;
         }
         let [width, height] = size(density);
-        let most = ((SAMPLES / (width * height)) as f64).sqrt();
-        let across = (FINE / density).ceil().max(2.0).min(most).max(1.0) as usize;
+        let most = ((SAMPLES_MAX / (width * height)) as f64).sqrt();
+        let across = (SAMPLES_PER_UNIT / density).ceil().max(2.0).min(most).max(1.0) as usize;
         let fine = density * across as f64;
         let origin = low.map(|x| ((x * density).floor() - 1.0) / density);
 
@@ -117,7 +117,7 @@ impl Cover {
         let inks: Vec<Ramp> =
             solids.iter().take(127).flat_map(|s| s.tones).map(|tone| ramp(theme, tone)).collect();
         let mut raster = Raster::new(width * across, height * across);
-        let few = count <= POLYGONS && solids.iter().all(|s| s.shading == Shading::Flat);
+        let few = count <= POLYGONS_MAX && solids.iter().all(|s| s.shading == Shading::Flat);
         let mut facets = Vec::new();
         let mut owner = 0_u32;
         for (which, (solid, turned)) in solids.iter().zip(&turned).enumerate() {
@@ -155,7 +155,7 @@ impl Cover {
     /// Paints from back to front, if there is an order in which that shows what the buffer shows.
     fn polygons(&mut self, canvas: &mut Canvas, facets: &[Facet], inks: &[Ramp]) -> bool {
         let seen = self.raster.seen(facets.len());
-        let behind = self.raster.behind(facets, HAIR as f32);
+        let behind = self.raster.behind(facets, NEARNESS_TOLERANCE as f32);
         let depths: Vec<f64> = facets.iter().map(|facet| facet.near.iter().sum()).collect();
         // Owners are places in the list.
         let Some(order) = order(&depths, &behind) else {
@@ -177,7 +177,9 @@ impl Cover {
 
     /// The place of a corner in the picture.
     fn unsnap(&self, corner: [i64; 2]) -> [f64; 2] {
-        [0, 1].map(|k| self.origin[k] + corner[k] as f64 / crate::raster::PARTS as f64 / self.fine)
+        [0, 1].map(|k| {
+            self.origin[k] + corner[k] as f64 / crate::raster::SNAP_PARTS as f64 / self.fine
+        })
     }
 
     /// Whether a turned place is behind a surface.
@@ -186,7 +188,7 @@ impl Cover {
         let at = [0, 1].map(|k| (pixel[k] - self.origin[k]) * self.fine);
         // A line on a slope is deeper than the samples before it; beside the rim of a surface some sample is free.
         let reach = (self.fine * 0.75).ceil() as i64;
-        self.raster.hides(at, camera.nearness(v[2]), reach, HAIR)
+        self.raster.hides(at, camera.nearness(v[2]), reach, NEARNESS_TOLERANCE)
     }
 
     /// A segment in parts that are hidden and parts that are not.

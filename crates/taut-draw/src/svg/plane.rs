@@ -32,8 +32,8 @@ pub(super) fn draw(scene: &Scene2, chrome: Chrome, canvas: &mut Canvas) {
     }
 }
 
-/// Thin chains in one path: programs that show SVG slow down over very long ones.
-const TOGETHER: usize = 500;
+/// At most this many thin chains are in one path: programs that show SVG slow down over very long ones.
+const CHAINS_PER_PATH: usize = 500;
 
 /// As many ticks as fit, `apart` pixels each.
 pub(super) fn ticks_along(pixels: f64, apart: f64) -> usize {
@@ -195,7 +195,7 @@ fn marks(canvas: &mut Canvas, layer: &Layer2, x: &Span, y: &Span, axes: [&Axis; 
             };
             let chains: Vec<_> = chains.iter().map(placed).collect();
             // Areas stay apart: laid over each other in one path they would leave holes.
-            let together = if layer.look == Look::Thin { TOGETHER } else { 1 };
+            let together = if layer.look == Look::Thin { CHAINS_PER_PATH } else { 1 };
             for some in chains.chunks(together) {
                 canvas.chains(some.iter().map(Vec::as_slice), closed);
             }

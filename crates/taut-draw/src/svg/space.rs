@@ -15,7 +15,7 @@ use crate::text::{escape, fit};
 use crate::{Layer3, Look, Scene3, Shape3, Tone, Views};
 
 /// A scene of which more spheres than this are drawn has outlines only.
-pub(crate) const WIRED: usize = 4;
+pub(crate) const WIRED_SPHERES_MAX: usize = 4;
 
 /// Circles of latitude and longitude on the unit sphere, every 30 degrees.
 fn wires() -> Vec<Vec<V3>> {
@@ -31,11 +31,11 @@ fn wires() -> Vec<Vec<V3>> {
     latitudes.chain(longitudes).collect()
 }
 
-/// Up to so many discs on a surface have a rim.
-const RIMS: usize = 50;
+/// Up to this many discs on a surface have a rim.
+const RIMS_MAX: usize = 50;
 
 /// The group of what a surface hides.
-const HIDDEN: u8 = 5;
+const HIDDEN_GROUP: u8 = 5;
 
 /// Something to paint, and where it is.
 struct Placed {
@@ -151,11 +151,11 @@ fn paint_all(canvas: &mut Canvas, mut pieces: Vec<Placed>, on_surface: bool) {
     let many = pieces.len() > 2000;
     // Rims of many marks would cover a surface more than the marks do.
     let discs = pieces.iter().filter(|p| matches!(p.piece, Piece::Disc { .. })).count();
-    let rimless = on_surface && discs > RIMS;
+    let rimless = on_surface && discs > RIMS_MAX;
     let mut group: Option<(Tone, u8)> = None;
     for Placed { depth, tone, hidden, piece } in &pieces {
         let bucket =
-            if *hidden { HIDDEN } else { ((depth + 1.0) / 2.0 * 5.0).clamp(0.0, 4.0) as u8 };
+            if *hidden { HIDDEN_GROUP } else { ((depth + 1.0) / 2.0 * 5.0).clamp(0.0, 4.0) as u8 };
         if group != Some((*tone, bucket)) {
             if group.is_some() {
                 canvas.close();
@@ -169,7 +169,7 @@ fn paint_all(canvas: &mut Canvas, mut pieces: Vec<Placed>, on_surface: bool) {
             };
             let high = if many && *tone == Tone::Point { 0.6 } else { 0.95 };
             let opacity = match bucket {
-                HIDDEN => "0.2".to_owned(),
+                HIDDEN_GROUP => "0.2".to_owned(),
                 _ => short(low + (high - low) * f64::from(bucket) / 4.0, 3),
             };
             let halo = if *tone == Tone::Point || *hidden || rimless { "" } else { " t-halo" };
@@ -233,7 +233,7 @@ fn draw_spheres(
         .map(|s| (camera.turn(stage.place(&s.center)), stage.length(s.radius), s))
         .collect();
     placed.sort_by(|a, b| a.0[2].total_cmp(&b.0[2]));
-    let wired = spheres.len() <= WIRED;
+    let wired = spheres.len() <= WIRED_SPHERES_MAX;
     let (classes, attributes) = stroke(layer.tone, layer.look);
     let mut fill = String::new();
     if let (Chrome::Full(theme), Look::Filled, true) = (chrome, layer.look, wired) {

@@ -26,21 +26,21 @@ use crate::kernel::{Center, squared_distances};
 
 /// An item violates when its f exceeds the level by this part of the squared radius. Below 1e-13 the steps of a
 /// full-rank cospherical set become exchanges at rounding level (tens of pivots for each one that matters).
-pub(super) const TOLERANCE: f64 = 1e-13;
+pub(super) const VIOLATION_TOLERANCE: f64 = 1e-13;
 /// A new item depends on the support when its squared distance to it is below this part of its squared length.
-const DEPENDENT: f64 = 1e-11;
+const DEPENDENT_RATIO: f64 = 1e-11;
 /// Below this part the squared distance is worked out again from the coordinates.
-const SUSPECT: f64 = 1e-5;
+const RECOMPUTED_RATIO: f64 = 1e-5;
 /// Unevenness of f on the support, in units of the tolerance, beyond which the factor itself is doubted.
 const MUCH_UNEVEN: f64 = 100.0;
 /// Products beyond which a sweep over the Gram matrix costs more than a step, so that each is used for several steps.
 const LARGE_SWEEP: usize = 1 << 16;
-/// Violators that are looked at again between two sweeps.
-const SHORTLIST: usize = 32;
+/// At most this many violators are looked at again between two sweeps.
+const SHORTLIST_MAX: usize = 32;
 /// One of them is taken while it exceeds the level by this part of what the worst did at the sweep. Measured on cube
 /// vertices and noisy spheres, d = 300 to 1500: sweeps fall to a third or less, and total time by a third to a half;
 /// without this limit noisy spheres take twice the steps, as what is taken early is dropped again.
-const ENOUGH: f64 = 0.8;
+const SHORTLIST_EXCESS_RATIO: f64 = 0.8;
 /// An item that entered so often without the value rising is barred until it rises. Once is too strict: near the end of
 /// a flat dual the value stands still while steps still move the centre, and gaps of 1e-10 stay behind.
 const VAIN_ENTRIES: u32 = 3;
@@ -167,7 +167,7 @@ impl ActiveSet {
         }
     }
 
-    /// Violators other than the one just taken, the worst first, at most [`SHORTLIST`].
+    /// Violators other than the one just taken, the worst first, at most [`SHORTLIST_MAX`].
     fn worst_violators(
         &self,
         set: &WorkingSet,
@@ -181,7 +181,7 @@ impl ActiveSet {
         };
         let mut list: Vec<usize> = (0..f.len()).filter(violates).collect();
         list.sort_unstable_by(|&i, &j| f[j].total_cmp(&f[i]).then(i.cmp(&j)));
-        list.truncate(SHORTLIST);
+        list.truncate(SHORTLIST_MAX);
         list.retain(|i| !self.support.contains(i));
         list
     }
@@ -205,7 +205,7 @@ impl ActiveSet {
             let worst =
                 list.iter().map(|&i| (i, f(i))).reduce(|a, b| if b.1 > a.1 { b } else { a });
             let Some((next, f)) = worst else { return };
-            if f <= level + self.slack(set, next, level).max(ENOUGH * excess) {
+            if f <= level + self.slack(set, next, level).max(SHORTLIST_EXCESS_RATIO * excess) {
                 return;
             }
             list.retain(|&i| i != next);
@@ -247,9 +247,9 @@ impl ActiveSet {
     /// By how much fᵢ may exceed the level before item i violates the ball.
     fn slack(&self, set: &WorkingSet, i: usize, level: f64) -> f64 {
         match set.radius_offset() {
-            0.0 => TOLERANCE * level,
+            0.0 => VIOLATION_TOLERANCE * level,
             // An excess δ of the reach is about 2δ(R − r) of f: ask for the same δ/R as for points.
-            offset => TOLERANCE * (self.radius - set.radius(i)) * (self.radius + offset),
+            offset => VIOLATION_TOLERANCE * (self.radius - set.radius(i)) * (self.radius + offset),
         }
     }
 
@@ -323,12 +323,12 @@ impl ActiveSet {
             let mut z = self.factor.forward(&a);
             let mut y = self.factor.back(&z);
             let mut distance2 = length2 - dot(&z, &z);
-            if distance2.min(self.factor.smallest_pivot()) < SUSPECT * length2 {
+            if distance2.min(self.factor.smallest_pivot()) < RECOMPUTED_RATIO * length2 {
                 distance2 = self.distance_from_coordinates(set, j, &mut y);
                 z = self.factor.times(&y);
             }
             // More than d + 1 affinely independent points do not exist: a fact, where the tolerance is a guess.
-            if distance2 > DEPENDENT * length2 && self.support.len() <= set.dim() {
+            if distance2 > DEPENDENT_RATIO * length2 && self.support.len() <= set.dim() {
                 self.factor.append(&z, distance2.sqrt(), self.b(set, j) / 2.0);
                 self.support.push(j);
                 self.lambda.push(weight);
@@ -398,7 +398,7 @@ impl ActiveSet {
             let mut z = self.factor.forward(&a);
             let length2 = set.norm2(i) + self.sigma;
             let mut distance2 = length2 - dot(&z, &z);
-            if distance2 < SUSPECT * length2 {
+            if distance2 < RECOMPUTED_RATIO * length2 {
                 let mut y = self.factor.back(&z);
                 distance2 = self.distance_from_coordinates(set, i, &mut y);
                 z = self.factor.times(&y);

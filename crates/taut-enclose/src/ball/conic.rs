@@ -25,13 +25,14 @@ use crate::kernel::vector::dot;
 /// leaving that out changes no squared distance by more.
 const IN_HULL: f64 = 1e-13;
 /// Multipliers below this part of the largest stand for 0.
-const NEGLIGIBLE: f64 = 1e-9;
+const MULTIPLIER_RATIO_MIN: f64 = 1e-9;
 /// An item depends on others when its pivot is below this part of its squared norm, as in the default method.
-const DEPENDENT: f64 = 1e-11;
+const DEPENDENT_RATIO: f64 = 1e-11;
 
-/// When the solver gets nowhere, it is asked for less in steps of this factor, down to [`COARSEST`].
-const COARSER: f64 = 100.0;
-const COARSEST: f64 = 1e-6;
+/// When the solver gets nowhere, it is asked for less in steps of this factor, down to [`ACCURACY_MAX`].
+const ACCURACY_STEP: f64 = 100.0;
+/// The solver is asked for no coarser relative accuracy than this.
+const ACCURACY_MAX: f64 = 1e-6;
 
 /// The items of a set in coordinates of their affine hull, with item 0 as origin.
 #[derive(Default)]
@@ -129,7 +130,9 @@ pub(super) fn solve(set: &WorkingSet, hull: &Hull, tolerance: f64) -> Result<Ans
         match solver.solution.status {
             SolverStatus::Solved | SolverStatus::AlmostSolved => break solver.solution,
             // On nearly cospherical items a tolerance out of reach can end in nothing at all.
-            SolverStatus::InsufficientProgress if tolerance < COARSEST => tolerance *= COARSER,
+            SolverStatus::InsufficientProgress if tolerance < ACCURACY_MAX => {
+                tolerance *= ACCURACY_STEP
+            }
             status => return Err(failed(status.to_string())),
         }
     };
@@ -158,7 +161,7 @@ fn multipliers(duals: &[f64], distances: &[f64]) -> Vec<f64> {
         .collect();
     let largest = lambda.iter().copied().fold(0.0, f64::max);
     for l in &mut lambda {
-        *l = if *l < NEGLIGIBLE * largest { 0.0 } else { *l / largest };
+        *l = if *l < MULTIPLIER_RATIO_MIN * largest { 0.0 } else { *l / largest };
     }
     let total: f64 = lambda.iter().sum();
     lambda.iter_mut().for_each(|l| *l /= total);
@@ -177,7 +180,7 @@ fn aim(set: &WorkingSet, hull: &Hull, lambda: &mut [f64], center: &[f64]) {
         let column: Vec<f64> = support.iter().map(|&j| set.gram_row(i)[j] + sigma).collect();
         let z = factor.forward(&column);
         let pivot2 = set.norm2(i) + sigma - dot(&z, &z);
-        if pivot2 > DEPENDENT * (set.norm2(i) + sigma) && support.len() <= hull.dim() {
+        if pivot2 > DEPENDENT_RATIO * (set.norm2(i) + sigma) && support.len() <= hull.dim() {
             factor.append(&z, pivot2.sqrt(), 0.0);
             support.push(i);
         }

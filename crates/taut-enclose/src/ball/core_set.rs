@@ -20,7 +20,7 @@ use taut_certify::{Items, PassBounds, Stop};
 use taut_points::{Cancelled, Monitor, ReadError};
 
 use super::BallOptions;
-use super::active_set::{ActiveSet, TOLERANCE};
+use super::active_set::{ActiveSet, VIOLATION_TOLERANCE};
 use super::outcome::Outcome;
 use super::working_set::WorkingSet;
 use crate::Error;
@@ -31,7 +31,7 @@ use crate::top::Far;
 /// Largest batch that doubling reaches.
 const BATCH_MAX: usize = 1024;
 /// A gap that ε = 0 is content with: what the tolerance leaves open, with room for sums over many coordinates.
-pub(super) const ROUNDING: f64 = 10.0 * TOLERANCE;
+pub(super) const ROUNDING: f64 = 10.0 * VIOLATION_TOLERANCE;
 /// Smallest batch of which the share that entered the support says anything.
 const TELLING_BATCH: usize = 16;
 
@@ -76,7 +76,7 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcom
         let keep = batch.saturating_add(active.support().len() + 64);
         let slack = 4.0 * relative_error(scan.dim());
         let above = radius * radius * (1.0 - slack).max(0.0);
-        let violating = radius * radius * (1.0 + TOLERANCE);
+        let violating = radius * radius * (1.0 + VIOLATION_TOLERANCE);
         let by_face_above = by_face.then_some(violating);
         let found = scan.farthest(Query { center: &center, above, keep, by_face_above })?;
         let upper = found.farthest.reach2.sqrt();

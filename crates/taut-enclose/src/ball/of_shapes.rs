@@ -14,7 +14,7 @@ use taut_certify::{Ball, BallCertificate, Items, PassBounds, Solution, Stop, Tra
 use taut_points::InputError;
 use taut_points::{Monitor, PointSource, ReadError};
 
-use super::active_set::{ActiveSet, TOLERANCE};
+use super::active_set::{ActiveSet, VIOLATION_TOLERANCE};
 use super::core_set::{ROUNDING, solve_working_set};
 use super::working_set::WorkingSet;
 use super::{BallMethod, BallOptions};
@@ -29,11 +29,11 @@ use crate::shapes::reach::{alternatives, farthest};
 /// Points that join after a pass, at most, for each dimension.
 const BATCH: usize = 4;
 /// A point of an item is named beside its farthest if it lies outside by this part of what that does.
-const WORTH: f64 = 0.1;
-/// Passes without a better gap that show that rounding is in the way.
-const STALE: u32 = 4;
+const NEAR_POINT_RATIO: f64 = 0.1;
+/// This many passes without a better gap show that rounding is in the way.
+const STALE_PASSES_MAX: u32 = 4;
 /// Items that reach this near the border, relatively, are measured again from the centre as it is returned.
-const NEAR: f64 = 1e-8;
+const BORDER_TOLERANCE: f64 = 1e-8;
 /// A centre beyond this many radii is kept in two terms.
 const FAR_OFF: f64 = 8.0;
 
@@ -148,7 +148,7 @@ pub(super) fn solve(
         if reached <= wanted {
             break Stop::Converged;
         }
-        if outside.is_empty() || stale >= STALE && reached < 1e-6 {
+        if outside.is_empty() || stale >= STALE_PASSES_MAX && reached < 1e-6 {
             break Stop::Rounding;
         }
         if trace.passes >= options.max_passes && radius > 0.0 {
@@ -211,7 +211,7 @@ fn pass(
     square: f64,
     seeds: &[Vec<&[f64]>],
 ) -> Found {
-    let beyond = square * (1.0 + TOLERANCE);
+    let beyond = square * (1.0 + VIOLATION_TOLERANCE);
     let each: Vec<(f64, Vec<(f64, Touch)>)> = (0..framed.len())
         .into_par_iter()
         .with_min_len(32)
@@ -224,7 +224,7 @@ fn pass(
             let best = farthest(&axes.squares, &h);
             let mut touches = vec![];
             if best.square > beyond {
-                let worth = square + WORTH * (best.square - square);
+                let worth = square + NEAR_POINT_RATIO * (best.square - square);
                 let seeds: Vec<Vec<f64>> = seeds[i].iter().map(|a| seed(axes, a)).collect();
                 alternatives(&axes.squares, &h, &best, &seeds, |square, beta| {
                     if square >= worth {
@@ -269,7 +269,8 @@ fn prove(
     let center = settled(origin, scale, &best.center, scale * farthest_of.sqrt());
     let unit = diagonal(dim, 1.0 / scale);
     let map = Map { matrix: &unit, center: &center };
-    let near = (0..shapes.len()).filter(|&i| best.squares[i] >= farthest_of * (1.0 - NEAR));
+    let near =
+        (0..shapes.len()).filter(|&i| best.squares[i] >= farthest_of * (1.0 - BORDER_TOLERANCE));
     let near: Vec<usize> = near.collect();
     let squares: Vec<f64> = near
         .par_iter()

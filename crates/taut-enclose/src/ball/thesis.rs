@@ -30,8 +30,8 @@ use super::working_set::WorkingSet;
 use crate::Error;
 use crate::scan::Scan;
 
-/// The finest relative accuracy that is asked of the conic solver.
-const FINEST: f64 = 1e-12;
+/// The conic solver is asked for no finer relative accuracy than this.
+const ACCURACY_MIN: f64 = 1e-12;
 
 /// Algorithm 1 from the pair (q, q′).
 pub(super) fn pure(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcome, Error> {
@@ -80,7 +80,7 @@ fn delta_of_the_lemma(epsilon: f64) -> f64 {
 /// The loop of Algorithm 1.
 fn algorithm_1(mut run: Run<'_, '_>, mut set: WorkingSet) -> Result<Outcome, Error> {
     let epsilon = run.options.epsilon;
-    let finer = [epsilon * epsilon, delta_of_the_lemma(epsilon), 0.0].map(|d| d.max(FINEST));
+    let finer = [epsilon * epsilon, delta_of_the_lemma(epsilon), 0.0].map(|d| d.max(ACCURACY_MIN));
     let mut deltas = finer.into_iter();
     let mut delta = deltas.next().expect("there are three");
     let mut hull = Hull::default();

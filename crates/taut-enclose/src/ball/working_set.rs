@@ -12,8 +12,8 @@ use rayon::prelude::*;
 use crate::kernel::vector::{add_combination, add_scaled_exactly};
 use crate::kernel::{Center, DoubleDouble};
 
-/// Columns of the Gram matrix that one task multiplies: fixed, so that the result does not depend on threads.
-const TILE: usize = 128;
+/// One task multiplies this many columns of the Gram matrix: fixed, so that the result does not depend on threads.
+const TILE_COLUMNS: usize = 128;
 /// A centre with a coordinate beyond this many radii is kept in two terms: rounding it to one would cost 8·2⁻⁵³ radii.
 const FAR_OFF: f64 = 8.0;
 
@@ -164,7 +164,7 @@ impl WorkingSet {
         let (k, dim) = (self.len(), self.dim);
         let new = MatRef::from_row_major_slice(&self.rows[before * dim..], k - before, dim);
         let tile = |first: usize| {
-            let count = TILE.min(k - first);
+            let count = TILE_COLUMNS.min(k - first);
             let mut product = vec![0.0; (k - before) * count];
             let other = MatRef::from_row_major_slice(
                 &self.rows[first * dim..(first + count) * dim],
@@ -175,7 +175,7 @@ impl WorkingSet {
             matmul(target, Accum::Replace, new, other.transpose(), 1.0, Par::Seq);
             (first, count, product)
         };
-        let firsts: Vec<usize> = (0..k).step_by(TILE).collect();
+        let firsts: Vec<usize> = (0..k).step_by(TILE_COLUMNS).collect();
         let tiles: Vec<_> = if (k - before) * k * dim < 1 << 18 {
             firsts.into_iter().map(tile).collect()
         } else {

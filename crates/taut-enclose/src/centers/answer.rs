@@ -3,17 +3,18 @@
 
 use super::cloud::{Cloud, Far};
 use super::items::{Position, Shape, distance};
-use super::nearest::{EVEN, length};
+use super::nearest::{EXACT_DISTANCES, length};
 use super::read::Table;
 use crate::Error;
 use crate::ball::reach_up;
 use crate::frame::exponent;
 use crate::kernel::{Center, Difference, relative_error};
 
-/// Items that may reach as far as the farthest, and are measured exactly: mostly two or three for each of some centres.
-const NEAR: usize = 64;
+/// At most this many items that may reach as far as the farthest are measured exactly: mostly two or three for each of
+/// some centres.
+const MEASURED_ITEMS_MAX: usize = 64;
 /// Squares of distances below this have lost digits.
-const TINY: f64 = 1e-140;
+const SQUARE_MIN: f64 = 1e-140;
 
 /// What is said of the items.
 pub(super) struct Answered {
@@ -50,12 +51,12 @@ pub(super) fn answer<P: Position>(
         .collect();
     let exact = |item: u32| reach(table, cloud, &inside, &outside, item);
 
-    let far = cloud.farthest(&inside, z.saturating_add(NEAR));
+    let far = cloud.farthest(&inside, z.saturating_add(MEASURED_ITEMS_MAX));
     let (left_out, kept) = far.split_at(z.min(far.len()));
     let farthest = kept.first().map_or(0.0, |far| far.reach);
     let doubt = 4.0 * relative_error(table.dim);
     let mut radius = 0.0f64;
-    if farthest < TINY {
+    if farthest < SQUARE_MIN {
         // Distances of different sizes than all others: each is measured, by whatever is left of it.
         let left_out: Vec<u32> = left_out.iter().map(|far| far.item).collect();
         let items = (0..cloud.len() as u32).filter(|item| !left_out.contains(item));
@@ -64,7 +65,7 @@ pub(super) fn answer<P: Position>(
         let near: Vec<&Far> =
             kept.iter().take_while(|far| far.reach >= farthest * (1.0 - doubt)).collect();
         radius = near.iter().map(|far| exact(far.item)).fold(radius, f64::max);
-        if near.len() == NEAR {
+        if near.len() == MEASURED_ITEMS_MAX {
             radius *= 1.0 + doubt;
         }
     }
@@ -127,7 +128,7 @@ pub(crate) fn reach_of(place: &[f64], center: &[f64], weight: f64, radius: f64) 
     let up = unscale_up(if is_lost { up.next_up() } else { up }, scale);
     let up = if weight == 1.0 { up } else { (weight * up).next_up() };
     match distance(place, center) {
-        plain if EVEN.contains(&plain) => up.max(weight * plain + radius),
+        plain if EXACT_DISTANCES.contains(&plain) => up.max(weight * plain + radius),
         _ => up,
     }
 }

@@ -1,6 +1,6 @@
 //! All items in memory, in cells that let a search look at few of them.
 //!
-//! *Idea.* Items are put in the order of a k-d tree; the leaves, up to [`LEAF`] neighbours each, have a middle and a spread. The
+//! *Idea.* Items are put in the order of a k-d tree; the leaves, up to [`LEAF_SIZE`] neighbours each, have a middle and a spread. The
 //! farthest item from some centres is sought in the cell whose bound is largest, then in the next, until no bound is larger than
 //! what was found: some ten of hundreds of cells. Nearest centres are sought among those that can be nearest for a cell.
 //! *Guarantee.* What is found is what a look at all items would find; of equals, the one of the lower row. Nothing depends on
@@ -15,10 +15,10 @@ use taut_points::{Monitor, ReadError};
 use super::items::{ItemSet, Position, Shape, distance, square};
 use crate::Error;
 
-/// Items in a cell. 16 to 64 serve equally well on 15,112 cities.
-const LEAF: usize = 32;
+/// A cell has at most this many items. 16 to 64 serve equally well on 15,112 cities.
+const LEAF_SIZE: usize = 32;
 /// Covers the roundings of a bound.
-const SLACK: f64 = 1.0 + 1e-12;
+const BOUND_FACTOR: f64 = 1.0 + 1e-12;
 /// Up to here a list of the farthest items is kept in order; longer ones are selected from all.
 const SHORT_LIST: usize = 256;
 
@@ -61,7 +61,7 @@ impl<P: Position> Cloud<P> {
         let mut open: Vec<Range<usize>> = Vec::new();
         open.push(0..order.len());
         while let Some(range) = open.pop() {
-            if range.len() <= LEAF {
+            if range.len() <= LEAF_SIZE {
                 ranges.push(range);
                 continue;
             }
@@ -183,7 +183,8 @@ impl<P: Position> Cloud<P> {
             for (cell, top) in self.cells.iter().zip(&mut tops) {
                 let holds_it = cell.range.contains(&(next as usize));
                 if self.items.shape() == Shape::Points && !holds_it {
-                    let nearest = distance(cell.middle.as_ref(), center) / SLACK - cell.spread;
+                    let nearest =
+                        distance(cell.middle.as_ref(), center) / BOUND_FACTOR - cell.spread;
                     if nearest > top.reach {
                         continue;
                     }
@@ -228,7 +229,7 @@ impl Near {
         self.distances.clear();
         self.distances.extend(centers.iter().map(|center| distance(middle, center.as_ref())));
         let least = self.distances.iter().copied().fold(f64::INFINITY, f64::min);
-        let cut = (least + 2.0 * cell.spread) * SLACK;
+        let cut = (least + 2.0 * cell.spread) * BOUND_FACTOR;
         self.centers.clear();
         self.centers.extend((0..centers.len()).filter(|&j| self.distances[j] <= cut));
     }
@@ -281,7 +282,7 @@ impl<P: Position> Cell<P> {
             Shape::Weighted => self.weight * (nearest + self.spread),
             Shape::Points | Shape::Balls => nearest + self.reach,
         };
-        bound * SLACK
+        bound * BOUND_FACTOR
     }
 }
 

@@ -422,7 +422,7 @@ impl<P: Position> Cluster<P> {
     ) -> f64 {
         let at = item as usize;
         let d = distance(items.at(at), self.ball.center.as_ref());
-        if items.reach_at(at, d) <= self.ball.radius * (1.0 + super::small_ball::TOLERANCE) {
+        if items.reach_at(at, d) <= self.ball.radius * (1.0 + super::small_ball::REACH_TOLERANCE) {
             return self.ball.radius;
         }
         let r = self.ball.radius;

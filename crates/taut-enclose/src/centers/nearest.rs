@@ -6,7 +6,7 @@ use super::items::distance;
 use crate::Error;
 
 /// Distances whose squares have all their digits.
-pub(crate) const EVEN: std::ops::RangeInclusive<f64> = 1e-140..=1e150;
+pub(crate) const EXACT_DISTANCES: std::ops::RangeInclusive<f64> = 1e-140..=1e150;
 
 /// The first of the centres that are nearest.
 pub(super) fn nearest(position: &[f64], centers: &[Vec<f64>]) -> u32 {
@@ -41,7 +41,7 @@ pub(super) fn assignment(
 /// |a − b|, infinite only where it is no number.
 pub(super) fn length(a: &[f64], b: &[f64]) -> f64 {
     let plain = distance(a, b);
-    if EVEN.contains(&plain) {
+    if EXACT_DISTANCES.contains(&plain) {
         return plain;
     }
     let largest = a.iter().zip(b).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));

@@ -3,7 +3,7 @@
 //! *Idea.* The radius and the items stay as they are: each item is given to each cluster in turn, to a new one, and to those left
 //! out, and each of these children has a tree of its own or is refuted at once by a ball that is too large.
 //! *Threads.* What is below a node depends on nothing beside it. A tree that is not small is opened from its root until there are
-//! [`PARTS`] nodes whose trees are unknown, or [`OPENED`] in all; these are made side by side, and their logs put where they belong.
+//! [`UNKNOWN_PARTS_MAX`] nodes whose trees are unknown, or [`OPENED_NODES_MAX`] in all; these are made side by side, and their logs put where they belong.
 //! *Guarantee.* One set of options has one log, or one reason to have none: it is longer than the budget, else it does not end in
 //! dead ends alone. So a part that does not, stops no other.
 
@@ -20,13 +20,14 @@ use super::items::{ItemSet, Position};
 use crate::Error;
 
 /// A tree with more nodes is made in parts.
-const SMALL: u64 = 1000;
-/// Far more than there are cores, as some are a hundred times as large as others.
-const PARTS: usize = 256;
-/// A tree that so many nodes have not made so wide is left as it is.
-const OPENED: usize = 4 * PARTS;
-/// Nodes until they are counted, and it is asked whether to go on.
-const BREATH: u64 = 64;
+const WHOLE_TREE_NODES_MAX: u64 = 1000;
+/// A tree is opened until the trees of this many nodes are unknown: far more than there are cores, as some are a
+/// hundred times as large as others.
+const UNKNOWN_PARTS_MAX: usize = 256;
+/// A tree that this many nodes have not made so wide is left as it is.
+const OPENED_NODES_MAX: usize = 4 * UNKNOWN_PARTS_MAX;
+/// Nodes are counted, and it is asked whether to go on, each time this many have gone by.
+const NODES_BETWEEN_ASKS: u64 = 64;
 
 /// A tree written down.
 #[derive(Debug, PartialEq)]
@@ -109,8 +110,8 @@ impl<'a, P: Position> PlainTree<'a, P> {
     /// The whole tree, or why there is none: [`Stop::ProofBudget`], or [`Stop::Rounding`] where balls below the threshold hold the
     /// core-set.
     pub(super) fn log(&self) -> Result<Result<Log, Stop>, Error> {
-        let small = self.below(self.root(), SMALL.min(self.budget))?;
-        if !small.holds && (small.is_whole || self.budget <= SMALL) {
+        let small = self.below(self.root(), WHOLE_TREE_NODES_MAX.min(self.budget))?;
+        if !small.holds && (small.is_whole || self.budget <= WHOLE_TREE_NODES_MAX) {
             return Ok(if small.is_whole { Ok(small.log) } else { Err(Stop::ProofBudget) });
         }
         if small.holds {
@@ -146,7 +147,7 @@ impl<'a, P: Position> PlainTree<'a, P> {
     fn open(&self, bounds: &mut Log) -> Result<Option<Vec<Part<P>>>, Error> {
         let mut parts = vec![Part::Below { state: Box::new(self.root()), depth: 0 }];
         let mut unknown = 1;
-        while (1..PARTS).contains(&unknown) && parts.len() < OPENED {
+        while (1..UNKNOWN_PARTS_MAX).contains(&unknown) && parts.len() < OPENED_NODES_MAX {
             self.monitor.check().map_err(ReadError::from)?;
             let unknowns = parts.iter_mut().enumerate().filter_map(|(at, part)| match part {
                 Part::Node(_) => None,
@@ -179,9 +180,9 @@ impl<'a, P: Position> PlainTree<'a, P> {
         let log = &mut piece.log;
         let mut frames: Vec<Frame<P>> = vec![];
         loop {
-            if (log.items.len() as u64).is_multiple_of(BREATH) {
+            if (log.items.len() as u64).is_multiple_of(NODES_BETWEEN_ASKS) {
                 self.monitor.check().map_err(ReadError::from)?;
-                let counted = if log.items.is_empty() { 0 } else { BREATH };
+                let counted = if log.items.is_empty() { 0 } else { NODES_BETWEEN_ASKS };
                 let nodes = self.nodes.fetch_add(counted, Ordering::Relaxed) + counted;
                 if nodes > self.budget {
                     return Ok(piece);

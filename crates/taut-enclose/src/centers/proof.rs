@@ -23,8 +23,8 @@ use crate::Error;
 const ROUNDING: f64 = 1e-12;
 /// The same for two items, but for what grows with d.
 const PAIR_ROUNDING: f64 = 2e-14;
-/// How far open children stay below the refuted ones, so that others, who round otherwise, refute the same.
-const CLEAR: f64 = 4e-12;
+/// Open children stay below the refuted ones by this, so that others, who round otherwise, refute the same.
+const REFUTED_MARGIN: f64 = 4e-12;
 /// Trees of up to so many nodes, and up to so many centres, are left to a checker to find; larger ones are written down.
 const SEARCH_NODES: u64 = 2000;
 const SEARCH_CENTERS: usize = 8;
@@ -33,8 +33,9 @@ const SEARCH_ITEMS: usize = 1000;
 /// Nor are those with more coordinates: the work for one node grows with d and with the square of the items of a ball.
 const SEARCH_COORDINATES: usize = 4000;
 const BRANCH_ITEMS: usize = 16_000;
-/// Trees over what the one before has branched on, or with open children farther from the bound.
-const ROUNDS: usize = 5;
+/// At most this many trees are made over what the one before has branched on, or with open children farther from the
+/// bound.
+const ROUNDS_MAX: usize = 5;
 
 /// Items and how they prove the lower bound.
 pub(super) struct Proof {
@@ -80,7 +81,7 @@ impl Proof {
         }
         let mut best: Option<(Vec<u32>, Log)> = None;
         let (mut budget, mut threshold) = (budget, threshold);
-        for _ in 0..ROUNDS {
+        for _ in 0..ROUNDS_MAX {
             let core_set = best.as_ref().map_or(core_set, |(core_set, _)| core_set);
             let tree = PlainTree::new(cloud, core_set, threshold, k, z, budget, monitor);
             let log = match tree.log()? {
@@ -88,9 +89,9 @@ impl Proof {
                 Err(why) if best.is_none() => return Ok(Err(why)),
                 Err(_) => break,
             };
-            if log.open > log.lower * (1.0 - CLEAR) {
+            if log.open > log.lower * (1.0 - REFUTED_MARGIN) {
                 // A child that is open here may be refuted there: both have to be on the same side of the bound.
-                threshold = log.open * (1.0 - CLEAR);
+                threshold = log.open * (1.0 - REFUTED_MARGIN);
                 continue;
             }
             budget = (log.items.len() as u64).saturating_sub(1);

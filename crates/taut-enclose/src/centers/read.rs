@@ -16,9 +16,9 @@ use crate::frame::exponent;
 const SAFE_EXPONENT: i32 = 200;
 /// Where there are others, the largest coordinate or radius gets this exponent, so that squares of what is 2⁻⁹⁸⁰ of it keep
 /// their digits.
-const LARGEST: i32 = 500;
+const EXPONENT_MAX: i32 = 500;
 /// A column whose values differ by at most this part of the least is moved.
-const NARROW: f64 = 1.0 / 16.0;
+const COLUMN_SPREAD_MAX: f64 = 1.0 / 16.0;
 
 /// All rows, as they are.
 pub(super) struct Table {
@@ -111,7 +111,7 @@ impl Table {
         if lengths.are_safe() && weights.are_safe() {
             return;
         }
-        self.scale = lengths.scale(LARGEST);
+        self.scale = lengths.scale(EXPONENT_MAX);
         self.weight_scale = weights.scale(0);
     }
 
@@ -205,7 +205,7 @@ fn shift_of(values: &[f64], columns: usize) -> f64 {
     let high = column().copied().fold(f64::NEG_INFINITY, f64::max);
     let (least, most) = if low > 0.0 { (low, high) } else { (high, low) };
     let is_narrow = low > 0.0 || high < 0.0;
-    if is_narrow && (most - least).abs() <= NARROW * least.abs() { least } else { 0.0 }
+    if is_narrow && (most - least).abs() <= COLUMN_SPREAD_MAX * least.abs() { least } else { 0.0 }
 }
 
 /// Of numbers that are not 0, the exponents of the least and the largest.

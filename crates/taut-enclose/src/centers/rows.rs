@@ -39,9 +39,10 @@ use crate::apart::claimed;
 use crate::centers::{CentersMethod, CentersOptions, Few};
 
 /// Once the gap is at most this beyond the one wanted, the radius wanted is tried at once.
-const NEAR: f64 = 0.02;
-/// Nodes of the first try at a radius; twice as many for each next one, so that all cost about twice the last.
-const PATIENCE: u64 = 200;
+const NEAR_GAP: f64 = 0.02;
+/// The first try at a radius has this many nodes; each next one has twice as many, so that all cost about twice the
+/// last.
+const FIRST_TRY_NODES: u64 = 200;
 /// A proof may take so many times the nodes of the search, and so many more.
 const PROOF_NODES: (u64, u64) = (20, 10_000);
 
@@ -197,7 +198,7 @@ impl<'a> Bracket<'a> {
             false => upper,
         };
         let middle = lower * (upper / lower).sqrt();
-        let is_near = upper <= (1.0 + NEAR) * (1.0 + epsilon) * lower;
+        let is_near = upper <= (1.0 + NEAR_GAP) * (1.0 + epsilon) * lower;
         // Without a lower bound there is no middle.
         let is_between = middle > lower && middle <= wanted;
         if is_near || !is_between { wanted } else { middle }
@@ -208,7 +209,7 @@ impl<'a> Bracket<'a> {
         while !self.is_closed() {
             let radius = self.next_radius();
             let mut core = CoreSet::new(self.sites, radius, &self.members, self.monitor)?;
-            let mut patience = PATIENCE;
+            let mut patience = FIRST_TRY_NODES;
             let end = loop {
                 let mut search = Search {
                     core: &mut core,

@@ -22,10 +22,10 @@ mod tests;
 use super::items::{ItemSet, Position, Shape};
 pub(super) use spheres::Workspace;
 
-/// What rounding may add to a reach; in parts of the radius.
-pub(super) const TOLERANCE: f64 = 1e-13;
+/// Rounding may add this to a reach; in parts of the radius.
+pub(super) const REACH_TOLERANCE: f64 = 1e-13;
 /// Of supports up to this size all subsets are tried.
-const FEW: usize = 4;
+const ALL_SUBSETS_MAX: usize = 4;
 
 /// A smallest ball, with what proves it.
 #[derive(Clone, Debug)]
@@ -56,7 +56,7 @@ impl<P: Position> Ball<P> {
     /// Whether an item is inside, but for rounding.
     #[inline(always)]
     pub(super) fn holds(&self, items: &ItemSet<P>, item: u32) -> bool {
-        items.reach(item as usize, &self.center) <= self.radius * (1.0 + TOLERANCE)
+        items.reach(item as usize, &self.center) <= self.radius * (1.0 + REACH_TOLERANCE)
     }
 
     /// Makes it the ball of `members`, whose ball or a part of whose it is, and of `more`; once its radius is at least `limit` it
@@ -78,7 +78,7 @@ impl<P: Position> Ball<P> {
         }
         loop {
             let before = self.radius;
-            if self.support.len() > FEW || !self.enter(items, entering, work) {
+            if self.support.len() > ALL_SUBSETS_MAX || !self.enter(items, entering, work) {
                 let active_set = &mut work.active_set;
                 return active_set.grow(items, self, entering, members, more, limit);
             }
@@ -87,7 +87,7 @@ impl<P: Position> Ball<P> {
             }
             let Some((item, reach)) = self.farthest_outside(items, members, more) else { return };
             // The radius grows unless rounding is all that is left.
-            if self.radius <= before * (1.0 + TOLERANCE) || self.support.contains(&item) {
+            if self.radius <= before * (1.0 + REACH_TOLERANCE) || self.support.contains(&item) {
                 self.radius = self.radius.max(reach);
                 return;
             }
@@ -102,7 +102,7 @@ impl<P: Position> Ball<P> {
         more: u32,
     ) -> Option<(u32, f64)> {
         let mut farthest = None;
-        let mut most = self.radius * (1.0 + TOLERANCE);
+        let mut most = self.radius * (1.0 + REACH_TOLERANCE);
         for &item in members.iter().chain(&[more]) {
             let reach = items.reach(item as usize, &self.center);
             if reach > most {
@@ -141,10 +141,10 @@ impl<P: Position> Ball<P> {
                         self.center.clone_from(center);
                         self.radius = reach;
                         self.support.clone_from(&work.through);
-                        let is_tight = reach <= radius * (1.0 + TOLERANCE);
+                        let is_tight = reach <= radius * (1.0 + REACH_TOLERANCE);
                         work.find_shares(items, which);
                         self.shares.clone_from(&work.shares);
-                        if is_tight && self.shares.iter().all(|&share| share >= -TOLERANCE) {
+                        if is_tight && self.shares.iter().all(|&share| share >= -REACH_TOLERANCE) {
                             return true;
                         }
                     }

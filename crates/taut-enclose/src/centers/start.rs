@@ -13,7 +13,7 @@ use super::small_ball::{Ball, Workspace};
 use crate::Error;
 
 /// Lloyd's steps end when one gains less than this part of the radius.
-const GAIN: f64 = 1e-9;
+const LLOYD_GAIN_MIN: f64 = 1e-9;
 /// And after this many; most starts need five to twenty.
 const MOST_STEPS: usize = 100;
 
@@ -177,7 +177,7 @@ pub(super) fn improve<P: Position>(
             })
             .collect();
         let next = measured(cloud, centers, z);
-        if next.radius >= best.radius * (1.0 - GAIN) {
+        if next.radius >= best.radius * (1.0 - LLOYD_GAIN_MIN) {
             return Ok(if next.radius < best.radius { next } else { best });
         }
         best = next;

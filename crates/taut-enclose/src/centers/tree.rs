@@ -6,7 +6,7 @@
 //! get smaller, and the farthest item joins X. The item with the fewest colours left is coloured next ([`super::clusters`]).
 //! ε comes down in steps, 0.1, 0.05, …: each step that ends has proved a gap, and leaves a better σ and X to the next.
 //! *Restarts.* An early choice on a small X may be a poor one: while X grows, the tree starts anew after 200 nodes, then 400, ….
-//! *Threads.* A tree that is not small is cut into up to [`WALKS`] walks ([`super::walk`]), which go on side by side for [`ROUND`] nodes
+//! *Threads.* A tree that is not small is cut into up to [`WALK_COUNT`] walks ([`super::walk`]), which go on side by side for [`NODES_PER_ROUND`] nodes
 //! each, knowing nothing of one another; then all learn what each has found, in the order of the walks, those that a dead
 //! end of another one refutes are dropped, and others are cut in their place. None of this knows how many threads there are.
 //! *Guarantee.* σ ≤ (1 + ε)·σ*, unless the nodes run out; then the gap of the last step that ended. The same on every run and for
@@ -39,12 +39,13 @@ const LAST_BUT_ONE: f64 = 0.03;
 /// Nodes before the first restart.
 const FIRST_RUN: u64 = 200;
 /// A tree with more nodes is cut.
-const UNCUT: u64 = 4000;
-/// Walks side by side, enough to keep the cores of a large machine busy. On 11 to 15 centres of cities 16 to 32 of them, and 500 to 1000
-/// nodes of each, serve equally well: a tree has about as many nodes as without cuts, and no fewer with shorter rounds.
-const WALKS: usize = 24;
-/// Nodes of a walk until all learn from one another.
-const ROUND: u64 = 1000;
+const UNCUT_NODES_MAX: u64 = 4000;
+/// This many walks go side by side, enough to keep the cores of a large machine busy. On 11 to 15 centres of cities 16
+/// to 32 of them, and 500 to 1000 nodes of each, serve equally well: a tree has about as many nodes as without cuts,
+/// and no fewer with shorter rounds.
+const WALK_COUNT: usize = 24;
+/// A walk goes through this many nodes until all learn from one another.
+const NODES_PER_ROUND: u64 = 1000;
 
 /// What a search found.
 pub(super) struct Found<P> {
@@ -179,7 +180,7 @@ impl<P: Position> Search<'_, P> {
             return Ok(());
         };
         let mut walks = vec![walk];
-        let mut nodes = UNCUT;
+        let mut nodes = UNCUT_NODES_MAX;
         loop {
             let left = self.max_nodes.saturating_sub(self.nodes) / walks.len() as u64;
             if left == 0 {
@@ -195,7 +196,7 @@ impl<P: Position> Search<'_, P> {
             self.learn_from(&mut walks);
             let has_grown = self.core_set.len() > known;
             let mut refuted = vec![];
-            let mut open = Vec::with_capacity(WALKS);
+            let mut open = Vec::with_capacity(WALK_COUNT);
             for (walk, end) in walks.into_iter().zip(ends) {
                 match end {
                     End::Open | End::Grown => open.push(walk),
@@ -212,7 +213,7 @@ impl<P: Position> Search<'_, P> {
                 return Err(Halt::Restart);
             }
             cut(&mut walks);
-            nodes = ROUND;
+            nodes = NODES_PER_ROUND;
         }
     }
 
@@ -236,7 +237,7 @@ impl<P: Position> Search<'_, P> {
 
 /// Cuts walks where they have choices nearest to the root, until there are enough.
 fn cut<P: Position>(walks: &mut Vec<Walk<'_, P>>) {
-    while walks.len() < WALKS {
+    while walks.len() < WALK_COUNT {
         let choices = walks.iter().enumerate();
         let first = choices.filter_map(|(at, walk)| Some((walk.first_choice()?, at))).min();
         let Some((_, at)) = first else { break };

@@ -24,8 +24,8 @@ use crate::Error;
 const WORTH_IMPROVING: f64 = 1.01;
 /// So many coordinates, of the items beside each cluster, count as a node.
 const NODE_COORDINATES: usize = 20_000;
-/// The work of so many nodes goes by before it is asked whether to go on.
-const BREATH: u64 = 256;
+/// The work of this many nodes goes by before it is asked whether to go on.
+const NODES_BETWEEN_ASKS: u64 = 256;
 
 /// What all walks of a search share.
 pub(super) struct Task<'c, P> {
@@ -123,7 +123,7 @@ impl<'c, P: Position> Walk<'c, P> {
         while self.nodes - first < nodes {
             let before = self.nodes;
             self.nodes += self.size();
-            if before / BREATH != self.nodes / BREATH {
+            if before / NODES_BETWEEN_ASKS != self.nodes / NODES_BETWEEN_ASKS {
                 self.task.monitor.check().map_err(ReadError::from)?;
             }
             let failed = match self.examine()? {

@@ -4,11 +4,11 @@ use taut_points::{Monitor, Points, ReadError, Scalar};
 
 use super::{Apart, rounded_up};
 use crate::Error;
-use crate::frame::{FLOOR, exponent};
+use crate::frame::{SQUARE_MIN, exponent};
 use crate::kernel::{Center, squared_distances};
 
-/// Points that go by before it is asked whether to go on.
-const BREATH: u64 = 64;
+/// It is asked whether to go on each time this many points have gone by.
+const POINTS_BETWEEN_ASKS: u64 = 64;
 
 /// A guess r and at most k points that are more than 2r apart.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,7 +67,7 @@ impl Instance {
         let mut center = Center { high: vec![0.0; self.dim], low: vec![] };
         let mut values = vec![];
         for (number, row) in (first_row..).zip(points.rows()) {
-            if number % BREATH == 0 {
+            if number % POINTS_BETWEEN_ASKS == 0 {
                 monitor.check().map_err(ReadError::from)?;
             }
             center.high.iter_mut().zip(row).for_each(|(c, &v)| *c = v.into());
@@ -96,7 +96,7 @@ impl Instance {
             (0..values.len()).fold(0, |a, b| if values[b] < values[a] { b } else { a })
         };
         let at = least(values);
-        if (FLOOR..f64::INFINITY).contains(&values[at]) {
+        if (SQUARE_MIN..f64::INFINITY).contains(&values[at]) {
             return Ok((at, values[at].sqrt()));
         }
         for (value, known) in values.iter_mut().zip(self.centers.chunks_exact(self.dim)) {
@@ -169,7 +169,7 @@ pub(super) fn least_distance(
 pub(super) fn distance(a: &[f64], b: &[f64]) -> Result<f64, Error> {
     let differences = || a.iter().zip(b).map(|(a, b)| a - b);
     let square: f64 = differences().map(|d| d * d).sum();
-    if (FLOOR..f64::INFINITY).contains(&square) {
+    if (SQUARE_MIN..f64::INFINITY).contains(&square) {
         return Ok(square.sqrt());
     }
     let largest = differences().fold(0.0, |m: f64, d| m.max(d.abs()));

@@ -3,7 +3,7 @@
 use taut_points::{Monitor, PointSource, Points, PointsHash, Rows, Scalar, map_blocks};
 
 use crate::Error;
-use crate::frame::{FLOOR, survey_and};
+use crate::frame::{SQUARE_MIN, survey_and};
 use crate::kernel::extremes::largest;
 use crate::kernel::{Center, squared_distances};
 
@@ -37,7 +37,7 @@ pub(super) fn measure(
         Rows::F64(points) => farthest(points, &centers),
     })?;
     let square = blocks.into_iter().fold(0.0, f64::max);
-    if (FLOOR..f64::INFINITY).contains(&square) {
+    if (SQUARE_MIN..f64::INFINITY).contains(&square) {
         return Ok(Measured { radius: square.sqrt(), points_hash: survey.hash, passes: 1 });
     }
     let blocks = map_blocks(source, monitor, |_, rows| {

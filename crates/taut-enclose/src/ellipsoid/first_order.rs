@@ -18,21 +18,21 @@ use taut_certify::Stop;
 
 use super::counters::Counters;
 use super::initial;
-use super::newton::{NEAR, gap};
+use super::newton::{REBASE_TOLERANCE, gap};
 use super::outcome::{Outcome, Progress};
 use super::pool::Pool;
 use super::proof::{pass_error, triangular_spread};
-use super::rounds::{LISTED, candidate, center_of};
+use super::rounds::{LISTED_TOLERANCE, candidate, center_of};
 use super::sample::Sample;
 use super::survey::{Query, Survey};
 use super::whitener::{Rebased, Whitener};
 use super::{EllipsoidMethod, EllipsoidOptions};
 use crate::Error;
 
-/// Steps after which the whitener is made anew from the weights: updates add up their rounding.
-const REFRESH: u64 = 64;
-/// Points near the border that a pass lists for the proof.
-const KEEP: usize = 1024;
+/// The whitener is made anew from the weights after this many steps: updates add up their rounding.
+const STEPS_PER_REFRESH: u64 = 64;
+/// A pass lists at most this many points near the border for the proof.
+const LISTED_POINTS_MAX: usize = 1024;
 
 /// Solves by one of the methods of the literature.
 pub(super) fn solve(
@@ -50,15 +50,17 @@ pub(super) fn solve(
     let mut progress = Progress::new(dim);
     bounds(&mut counters, options, dim, survey.len());
     let stop = loop {
-        if counters.steps.is_multiple_of(REFRESH) && whitener.rebase(&pool, NEAR) == Rebased::Never
+        if counters.steps.is_multiple_of(STEPS_PER_REFRESH)
+            && whitener.rebase(&pool, REBASE_TOLERANCE) == Rebased::Never
         {
             return Err(Error::Overflow);
         }
         let center = center_of(&sample.origin, &whitener);
         let matrix = whitener.matrix();
         let doubt = 3.0 * pass_error(dim, triangular_spread(matrix, dim));
-        let above = dim as f64 * (1.0 - doubt.min(LISTED));
-        let found = survey.pass(Query { matrix, center: &center, above, keep: KEEP })?;
+        let above = dim as f64 * (1.0 - doubt.min(LISTED_TOLERANCE));
+        let found =
+            survey.pass(Query { matrix, center: &center, above, keep: LISTED_POINTS_MAX })?;
         let largest = found.largest;
         if !largest.is_finite() {
             return Err(Error::Overflow);

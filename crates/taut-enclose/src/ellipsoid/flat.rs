@@ -31,10 +31,10 @@ use crate::kernel::{Center, DoubleDouble};
 /// What residuals may be beyond the rounding of the coordinates, for √d of them, and still count as none.
 const ROUNDINGS: f64 = 16.0;
 /// The zero is raised by this factor, up to the largest, for points that are neither flat nor have leverages.
-const RAISED: f64 = 8.0;
+const ZERO_GROWTH: f64 = 8.0;
 const RAISED_MOST: f64 = 4096.0;
 /// Part of the radius that no sum shows, whatever is added to it.
-const NOTHING: f64 = 1e-100;
+const ZERO_RATIO: f64 = 1e-100;
 
 /// An affine subspace through an origin, in coordinates of size 1.
 struct Span {
@@ -188,7 +188,7 @@ pub(super) fn look(survey: &mut Survey<'_>, options: &EllipsoidOptions) -> Resul
         if raised >= RAISED_MOST {
             return Err(Error::Overflow);
         }
-        raised *= RAISED;
+        raised *= ZERO_GROWTH;
     }
 }
 
@@ -294,7 +294,7 @@ fn flat(
     for row in matrix.chunks_exact_mut(dim) {
         row.iter_mut()
             .zip(&extents)
-            .filter(|(m, e)| (**m * **e).abs() < NOTHING)
+            .filter(|(m, e)| (**m * **e).abs() < ZERO_RATIO)
             .for_each(|(m, _)| *m = 0.0);
     }
     let map = Map { matrix: &matrix, center: &center, triangular: false };

@@ -19,21 +19,22 @@ use taut_points::{Monitor, ReadError};
 use super::counters::Counters;
 use super::dense::{cholesky, divide_rows};
 use super::factor::Factor;
-use super::newton::{NEAR, gap};
+use super::newton::{REBASE_TOLERANCE, gap};
 use super::pool::{Pool, copy_row};
 use super::whitener::{Rebased, Whitener};
 use crate::Error;
 use crate::kernel::vector::dot;
 
-/// Where the active set takes over at the latest: what points differ by may be far less than a gap of 1e-9.
-const ENOUGH: f64 = 1e-13;
-/// Steps at most, and steps without a better gap.
-const STEPS: usize = 60;
-const PATIENCE: usize = 3;
-/// Part of the way to the border of the cone that a step goes.
-const FRACTION: f64 = 0.98;
-/// Columns of the normal matrix that one task multiplies: fixed, so that the result does not depend on threads.
-const TILE: usize = 64;
+/// The active set takes over at this gap at the latest: what points differ by may be far less than a gap of 1e-9.
+const GAP_MIN: f64 = 1e-13;
+/// At most this many steps are taken.
+const STEPS_MAX: usize = 60;
+/// At most this many steps in a row may leave the gap no better.
+const STEPS_WITHOUT_PROGRESS_MAX: usize = 3;
+/// A step goes this part of the way to the border of the cone.
+const STEP_FRACTION: f64 = 0.98;
+/// One task multiplies this many columns of the normal matrix: fixed, so that the result does not depend on threads.
+const TILE_COLUMNS: usize = 64;
 
 /// Replaces the multipliers of a pool by nearly optimal ones, p − 1 at most; a gap of `tolerance` is good enough.
 pub(super) fn solve(
@@ -46,13 +47,13 @@ pub(super) fn solve(
     let k = pool.len();
     // Every point needs a multiplier to start with.
     pool.weights_mut().iter_mut().for_each(|u| *u = 0.5 * *u + 0.5 / k as f64);
-    if whitener.rebase(pool, NEAR) == Rebased::Never {
+    if whitener.rebase(pool, REBASE_TOLERANCE) == Rebased::Never {
         return Ok(());
     }
     let mut state = State::new(pool, whitener);
     let mut best = (f64::INFINITY, pool.weights().to_vec());
-    let mut patience = PATIENCE;
-    for _ in 0..STEPS {
+    let mut patience = STEPS_WITHOUT_PROGRESS_MAX;
+    for _ in 0..STEPS_MAX {
         monitor.check().map_err(ReadError::from)?;
         counters.interior += 1;
         if !state.step() {
@@ -61,17 +62,17 @@ pub(super) fn solve(
         let total: f64 = state.z.iter().sum();
         pool.weights_mut().iter_mut().zip(&state.z).for_each(|(u, z)| *u = z / total);
         let mut trial = whitener.clone();
-        if trial.rebase(pool, NEAR) == Rebased::Never {
+        if trial.rebase(pool, REBASE_TOLERANCE) == Rebased::Never {
             break;
         }
         let reached = gap(pool.dim(), trial.apply(pool).largest());
         if reached < best.0 {
             best = (reached, pool.weights().to_vec());
-            patience = PATIENCE;
+            patience = STEPS_WITHOUT_PROGRESS_MAX;
         } else {
             patience -= 1;
         }
-        if reached <= tolerance.max(ENOUGH) || patience == 0 {
+        if reached <= tolerance.max(GAP_MIN) || patience == 0 {
             break;
         }
     }
@@ -146,8 +147,8 @@ impl State {
             right.iter_mut().zip(self.row(i)).for_each(|(r, f)| *r -= factor * f);
         }
         let corrector = self.direction(&solver.back(solver.forward(&right)), &target, &ratio);
-        let primal = self.primal_length(&corrector, FRACTION);
-        let dual = self.dual_length(&corrector, FRACTION);
+        let primal = self.primal_length(&corrector, STEP_FRACTION);
+        let dual = self.dual_length(&corrector, STEP_FRACTION);
         if !(primal > 1e-10 && dual > 1e-10) {
             return false;
         }
@@ -169,8 +170,8 @@ impl State {
         let pairs: Vec<(usize, usize)> =
             (0..m).flat_map(|a| (0..=a).map(move |b| (a, b))).collect();
         let mut normal = vec![0.0; p * p];
-        normal.par_chunks_mut(TILE * p).enumerate().for_each(|(tile, rows)| {
-            let (first, count) = (tile * TILE, rows.len() / p);
+        normal.par_chunks_mut(TILE_COLUMNS * p).enumerate().for_each(|(tile, rows)| {
+            let (first, count) = (tile * TILE_COLUMNS, rows.len() / p);
             // Only what is right of the diagonal of the tile.
             let left = all.subcols(first, count);
             let right = all.subcols(first, p - first);
@@ -289,7 +290,7 @@ mod tests {
         let mut counters = Counters::default();
         solve(&mut pool, &mut whitener, 0.0, &mut counters, &Monitor::silent()).unwrap();
         assert!(pool.weights().iter().filter(|u| **u > 0.0).count() < 15);
-        assert_eq!(whitener.rebase(&pool, NEAR), Rebased::Plainly);
+        assert_eq!(whitener.rebase(&pool, REBASE_TOLERANCE), Rebased::Plainly);
         assert!(gap(dim, whitener.apply(&pool).largest()) < 1e-6);
         assert!((5..40).contains(&counters.interior));
     }

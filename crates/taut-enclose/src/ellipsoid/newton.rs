@@ -21,16 +21,17 @@ use super::whitener::{Rebased, Whitener};
 use crate::Error;
 
 /// A covariance this near the identity needs no further turn of the whitener.
-pub(super) const NEAR: f64 = 0.1;
+pub(super) const REBASE_TOLERANCE: f64 = 0.1;
 /// Gradients below this part of the largest excess leverage are left to the next step.
-const MODEL: f64 = 0.02;
+const GRADIENT_RATIO_MIN: f64 = 0.02;
 /// Where N is nearer to 1 than this, the whole step is taken without a line search.
 const WHOLE_STEP: f64 = 0.2;
-/// Steps after which rounding is what is left; hard pools have needed thirty.
-const STEPS: usize = 200;
-/// Steps that do not improve the best leverage before that is believed of smaller gaps than [`SMALL`].
-const PATIENCE: usize = 3;
-const SMALL: f64 = 1e-6;
+/// After this many steps rounding is what is left; hard pools have needed thirty.
+const STEPS_MAX: usize = 200;
+/// Of smaller gaps than [`SMALL_GAP`], this many steps that do not improve the best leverage show that it is the best.
+const STEPS_WITHOUT_PROGRESS_MAX: usize = 3;
+/// Below this gap, rounding may be what keeps the leverage from improving.
+const SMALL_GAP: f64 = 1e-6;
 
 /// The logarithm of what the ellipsoid has to grow by in volume: (d/2)·ln(largest/d) for a largest |y|².
 pub(super) fn gap(dim: usize, largest: f64) -> f64 {
@@ -65,11 +66,11 @@ pub(super) fn solve(
     let dim = pool.dim();
     let m = dim + 1;
     let mut best: Option<(f64, Vec<f64>)> = None;
-    let mut patience = PATIENCE;
+    let mut patience = STEPS_WITHOUT_PROGRESS_MAX;
     let interior_steps = counters.interior;
-    for _ in 0..STEPS {
+    for _ in 0..STEPS_MAX {
         monitor.check().map_err(ReadError::from)?;
-        if whitener.rebase(pool, NEAR) == Rebased::Never {
+        if whitener.rebase(pool, REBASE_TOLERANCE) == Rebased::Never {
             break;
         }
         let whitened = whitener.apply(pool);
@@ -77,7 +78,7 @@ pub(super) fn solve(
         let improves = best.as_ref().is_none_or(|(least, _)| largest < *least);
         if improves {
             best = Some((largest, pool.weights().to_vec()));
-        } else if gap(dim, largest) < SMALL {
+        } else if gap(dim, largest) < SMALL_GAP {
             patience -= 1;
         }
         let tried = counters.interior > interior_steps;
@@ -89,7 +90,7 @@ pub(super) fn solve(
         let excess = largest - dim as f64;
         let patience = nnls::patience(pool.len(), dim, interior_steps > 0, tried);
         let u = pool.weights();
-        let model = nnls::solve(dim, &whitened, u, MODEL * excess, patience, counters);
+        let model = nnls::solve(dim, &whitened, u, GRADIENT_RATIO_MIN * excess, patience, counters);
         let step = match model {
             Outcome::Solved(step) => step,
             // Once: what it hands back is a basis, and models made there are short.
@@ -113,7 +114,7 @@ pub(super) fn solve(
     let Some((largest, weights)) = best else { return Ok(f64::INFINITY) };
     if weights != pool.weights() {
         pool.weights_mut().copy_from_slice(&weights);
-        whitener.rebase(pool, NEAR);
+        whitener.rebase(pool, REBASE_TOLERANCE);
     }
     Ok(largest)
 }

@@ -26,15 +26,15 @@ use crate::kernel::triangle::{POINTS, Triangle, forms, moments};
 use crate::kernel::vector::dot;
 
 /// A column whose squared distance from the span of the others is below this part of its square depends on them.
-const DEPENDENT: f64 = 1e-11;
-/// What a y of the exchange direction must exceed to bound its length: rounding of the substitution otherwise.
-const DIRECTION: f64 = 1e-12;
+const DEPENDENT_RATIO: f64 = 1e-11;
+/// A y of the exchange direction must exceed this to bound its length: it is rounding of the substitution otherwise.
+const DIRECTION_MIN: f64 = 1e-12;
 /// A candidate whose gradient has fallen below this part of the best of its batch can wait for the next.
-const WORTH: f64 = 0.3;
+const CANDIDATE_RATIO_MIN: f64 = 0.3;
 /// From this many points on, a factor is made in blocks rather than point by point.
-const BLOCKED: usize = 96;
+const BLOCKED_FACTOR_MIN: usize = 96;
 /// From this size p = m(m + 1)/2 of a model on, a cold start guesses the points in use. Below, guessing gains nothing.
-const CRASH: usize = 300;
+const GUESSED_START_MIN: usize = 300;
 
 /// How a model ended.
 pub(super) enum Outcome {
@@ -67,7 +67,7 @@ pub(super) fn solve(
     let used: Vec<usize> = (0..u.len()).filter(|&i| u[i] > 0.0).collect();
     if used.len() <= p {
         set.start(&used, &used.iter().map(|&i| u[i]).collect::<Vec<_>>(), counters);
-    } else if p >= CRASH {
+    } else if p >= GUESSED_START_MIN {
         set.crash(3 * p / 5, counters);
     }
     let (pivots, exchanges) = (counters.pivots, counters.exchanges);
@@ -82,7 +82,7 @@ pub(super) fn solve(
         };
         for j in batch {
             let (column, row) = set.column(j);
-            if set.b(j) - dot(&column, &set.v) < WORTH * gradient[best] {
+            if set.b(j) - dot(&column, &set.v) < CANDIDATE_RATIO_MIN * gradient[best] {
                 // The best can only have lost its gradient to rounding.
                 if j == best {
                     tabu.insert(j);
@@ -183,10 +183,10 @@ impl<'a> ActiveSet<'a> {
 
     /// Takes up points with given v; those that depend on others are left out. Then the model is maximised over them.
     fn start(&mut self, points: &[usize], v: &[f64], counters: &mut Counters) {
-        if points.len() >= BLOCKED {
+        if points.len() >= BLOCKED_FACTOR_MIN {
             let rows: Vec<f64> = points.iter().flat_map(|&i| self.row(i)).collect();
             let b: Vec<f64> = points.iter().map(|&i| self.b(i)).collect();
-            if let Some(factor) = Factor::of(self.gram(&rows), &b, DEPENDENT) {
+            if let Some(factor) = Factor::of(self.gram(&rows), &b, DEPENDENT_RATIO) {
                 (self.members, self.v, self.rows) = (points.to_vec(), v.to_vec(), rows);
                 self.factor = factor;
                 self.settle(counters);
@@ -204,13 +204,13 @@ impl<'a> ActiveSet<'a> {
 
     /// A cold start: the points of largest leverage, less those whose v is negative, until there are none.
     fn crash(&mut self, count: usize, counters: &mut Counters) {
-        const ROUNDS: usize = 6;
+        const GUESS_ROUNDS_MAX: usize = 6;
         const RIDGE: f64 = 1e-12;
         let mut points: Vec<usize> = (0..self.whitened.leverages.len()).collect();
         let leverage = |i: &usize| self.whitened.leverages[*i];
         points.sort_by(|a, b| leverage(b).total_cmp(&leverage(a)).then(a.cmp(b)));
         points.truncate(count);
-        for _ in 0..ROUNDS {
+        for _ in 0..GUESS_ROUNDS_MAX {
             let rows: Vec<f64> = points.iter().flat_map(|&i| self.row(i)).collect();
             let b: Vec<f64> = points.iter().map(|&i| self.b(i)).collect();
             let mut gram = self.gram(&rows);
@@ -234,7 +234,7 @@ impl<'a> ActiveSet<'a> {
         let z = self.factor.forward(column);
         let kappa = 1.0 + self.whitened.leverages[j];
         let rho2 = kappa * kappa - dot(&z, &z);
-        (rho2 > DEPENDENT * kappa * kappa).then(|| (z, rho2.sqrt()))
+        (rho2 > DEPENDENT_RATIO * kappa * kappa).then(|| (z, rho2.sqrt()))
     }
 
     fn append(&mut self, j: usize, v: f64, z: &[f64], pivot: f64, row: Vec<f64>) {
@@ -262,7 +262,7 @@ impl<'a> ActiveSet<'a> {
             }
             let y = self.factor.back(self.factor.forward(&column));
             let bound = (0..y.len())
-                .filter(|&i| y[i] > DIRECTION)
+                .filter(|&i| y[i] > DIRECTION_MIN)
                 .map(|i| (self.v[i] / y[i], i))
                 .min_by(|a, b| a.0.total_cmp(&b.0));
             // The last coordinates of the w say that some y is positive; rounding may say otherwise.
@@ -355,7 +355,7 @@ impl<'a> ActiveSet<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ellipsoid::newton::NEAR;
+    use crate::ellipsoid::newton::REBASE_TOLERANCE;
     use crate::ellipsoid::pool::Pool;
     use crate::ellipsoid::whitener::{Rebased, Whitener};
     use taut_points::{Distribution, generate};
@@ -368,7 +368,7 @@ mod tests {
         }
         pool.normalise();
         let mut whitener = Whitener::of_scales(&vec![1.0; dim]);
-        assert_eq!(whitener.rebase(&pool, NEAR), Rebased::Plainly);
+        assert_eq!(whitener.rebase(&pool, REBASE_TOLERANCE), Rebased::Plainly);
         whitener.apply(&pool)
     }
 

@@ -22,13 +22,13 @@ use crate::kernel::vector::dot;
 use crate::top::{Far, Top};
 
 /// u of the rounding of `f64`.
-const UNIT: f64 = f64::EPSILON / 2.0;
-/// What the claimed gap may lack of the proved one, for each dimension: the logarithms.
-pub(super) const LOGARITHMS: f64 = 2e-15;
-/// Scales tried before a bound on the rounding of F takes the place of measuring.
-const ATTEMPTS: u32 = 8;
-/// Points near the border that are measured for each of them.
-const MEASURED: usize = 1 << 14;
+const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
+/// The claimed gap may lack this of the proved one, for each dimension: the logarithms.
+pub(super) const LOGARITHM_ROUNDING: f64 = 2e-15;
+/// At most this many scales are tried before a bound on the rounding of F takes the place of measuring.
+const SCALES_MAX: u32 = 8;
+/// At most this many points near the border are measured for each of them.
+const MEASURED_POINTS_MAX: usize = 1 << 14;
 
 /// Turns an outcome for points that span the space into a solution.
 pub(super) fn prove(
@@ -137,7 +137,7 @@ pub(super) fn spread(matrix: &[f64], extents: &[f64]) -> f64 {
 /// Bound on the relative error of |M(x − c)|² as a pass finds it, for the points that lie farthest out: differences,
 /// products and sums of each coordinate.
 pub(super) fn pass_error(dim: usize, spread: f64) -> f64 {
-    2.0 * (dim as f64 + 5.0) * UNIT * spread
+    2.0 * (dim as f64 + 5.0) * UNIT_ROUNDOFF * spread
 }
 
 /// F, r × d, such that every point has |F(x − c)| ≤ 1.
@@ -165,28 +165,28 @@ pub(super) fn settle(
     } else {
         let (far, largest) = measure(survey, map, near, spread)?;
         let others: Vec<u64> = far.iter().map(|far| far.id).filter(|id| !in_support(id)).collect();
-        (if far.len() < MEASURED { others } else { vec![] }, largest)
+        (if far.len() < MEASURED_POINTS_MAX { others } else { vec![] }, largest)
     };
     let all_measured = map.triangular && found.listed_above < near || !others.is_empty();
     let support = survey.rows(&best.support)?;
     let others = survey.rows(&others)?;
     let mut scale = 1.0 / all.sqrt();
     for attempt in 0.. {
-        if attempt == ATTEMPTS || !all_measured {
-            // Rounding the entries of sM moves an image by at most UNIT·spread of it.
-            scale = (1.0 - UNIT * (spread + 3.0)) / all.sqrt();
+        if attempt == SCALES_MAX || !all_measured {
+            // Rounding the entries of sM moves an image by at most UNIT_ROUNDOFF·spread of it.
+            scale = (1.0 - UNIT_ROUNDOFF * (spread + 3.0)) / all.sqrt();
         }
         let factor: Vec<f64> = map.matrix.iter().map(|m| m * scale).collect();
         let scaled = map.with(&factor);
         let (images, squares) = scaled.images(&support);
         let (_, other_squares) = scaled.images(&others);
         let largest = squares.iter().chain(&other_squares).fold(0.0f64, |m, &v| m.max(v));
-        if largest <= 1.0 || attempt == ATTEMPTS || !all_measured {
+        if largest <= 1.0 || attempt == SCALES_MAX || !all_measured {
             let gap = lower_gap(&images, &best.multipliers, map.rank());
-            let gap = (gap + LOGARITHMS * map.rank() as f64).min(f64::MAX);
+            let gap = (gap + LOGARITHM_ROUNDING * map.rank() as f64).min(f64::MAX);
             return Ok(Settled { factor, scale, gap });
         }
-        scale *= (1.0 - f64::from(1u32 << attempt) * UNIT) / largest.sqrt();
+        scale *= (1.0 - f64::from(1u32 << attempt) * UNIT_ROUNDOFF) / largest.sqrt();
     }
     unreachable!("the loop ends with the last attempt")
 }
@@ -201,7 +201,7 @@ fn measure(
 ) -> Result<(Vec<Far>, f64), Error> {
     let dim = map.dim();
     let lists = survey.visit(|first, rows| {
-        let mut top = Top::new(MEASURED);
+        let mut top = Top::new(MEASURED_POINTS_MAX);
         let mut scratch = vec![];
         let mut values = [0.0; 64];
         for (part, rows) in rows.chunks(64 * dim).enumerate() {
@@ -220,11 +220,11 @@ fn measure(
         }
         top
     })?;
-    let mut all = Top::new(MEASURED);
+    let mut all = Top::new(MEASURED_POINTS_MAX);
     lists.into_iter().for_each(|list| all.merge(list));
     let mut far = all.into_sorted();
     let largest = far.first().map_or(0.0, |far| far.reach2);
-    far.retain(|far| far.reach2 >= largest * (1.0 - 4.0 * UNIT * (spread + 3.0)));
+    far.retain(|far| far.reach2 >= largest * (1.0 - 4.0 * UNIT_ROUNDOFF * (spread + 3.0)));
     Ok((far, largest))
 }
 

@@ -28,20 +28,22 @@ use crate::Error;
 use crate::kernel::{Center, DoubleDouble};
 use crate::top::Far;
 
-/// Points this near the border, relative, are listed at most: the proof measures again what rounding cannot tell apart.
-pub(super) const LISTED: f64 = 1e-6;
+/// Points are listed that are at most this far from the border, relatively: the proof measures again what rounding
+/// cannot tell apart.
+pub(super) const LISTED_TOLERANCE: f64 = 1e-6;
 /// A point this many times d beyond gets weight before the next step.
-const JUMP: f64 = 100.0;
+const WEIGHTED_EXCESS_MIN: f64 = 100.0;
 /// A point of the pool with no multiplier whose |y|² is below this part of d is of no use any more.
-const USEFUL: f64 = 0.9;
+const LEVERAGE_RATIO_MIN: f64 = 0.9;
 
 /// Where points lie on an ellipsoid up to rounding, none is useless by that measure, and each step of the interior-point
 /// method costs as many products as there are points: so many times m(m + 1)/2 without a multiplier stay, the nearest.
 const HARD_SPARE: usize = 2;
 
-/// Passes without a better gap that show that rounding is in the way, of gaps below [`SMALL`].
-const STALE: u32 = 3;
-const SMALL: f64 = 1e-6;
+/// This many passes without a better gap show that rounding is in the way, of gaps below [`SMALL_GAP`].
+const STALE_PASSES_MAX: u32 = 3;
+/// Below this gap, rounding may be what keeps passes from improving it.
+const SMALL_GAP: f64 = 1e-6;
 
 /// Points of the first pool, and points that may join after a pass.
 fn sizes(dim: usize, n: u64) -> (usize, usize) {
@@ -90,7 +92,7 @@ pub(super) fn solve(
         let center = center_of(&sample.origin, &whitener);
         let matrix = whitener.matrix();
         let doubt = 3.0 * pass_error(dim, triangular_spread(matrix, dim));
-        let above = dim as f64 * (1.0 - doubt.min(LISTED));
+        let above = dim as f64 * (1.0 - doubt.min(LISTED_TOLERANCE));
         let query = Query { matrix, center: &center, above, keep: 4 * later };
         let (found, all) = match &mut list {
             None => (survey.pass(query)?, true),
@@ -102,7 +104,7 @@ pub(super) fn solve(
                 // While points of the list are outside, nobody asks for the others, unless rounding is in the way.
                 let reached = gap(dim, found.largest);
                 let open = reached > wanted
-                    && !(idle >= STALE && reached < SMALL)
+                    && !(idle >= STALE_PASSES_MAX && reached < SMALL_GAP)
                     && !outside(&found, dim, &pool).is_empty();
                 let mut all = others < dim as f64;
                 if !all && !open {
@@ -144,7 +146,9 @@ pub(super) fn solve(
             best = progress.best_gap();
         }
         // Rounds of a pool may pass without a better gap as long as that is large.
-        if added == 0 && tolerance == Tolerance::NONE || stale == STALE && best < SMALL {
+        if added == 0 && tolerance == Tolerance::NONE
+            || stale == STALE_PASSES_MAX && best < SMALL_GAP
+        {
             break Stop::Rounding;
         }
         // What is outside is in the pool already: only a sharper solution of the pool can help.
@@ -161,7 +165,7 @@ pub(super) fn solve(
             later *= 2;
         }
         last = reached;
-        if largest > JUMP * dim as f64 {
+        if largest > WEIGHTED_EXCESS_MIN * dim as f64 {
             jump(&mut pool, added);
         }
     };
@@ -228,8 +232,8 @@ fn first_pool(
 
 /// The centre of a whitener in the coordinates of the source; in two terms where rounding it to one could be seen.
 pub(super) fn center_of(origin: &[f64], whitener: &Whitener) -> Center {
-    /// Far below the rounding of a leverage.
-    const UNSEEN: f64 = 1e-16;
+    /// A change of a leverage below this shows nothing: it is far below the rounding of a leverage.
+    const LEVERAGE_CHANGE_MIN: f64 = 1e-16;
     let terms: Vec<DoubleDouble> =
         origin.iter().zip(whitener.center()).map(|(&o, c)| DoubleDouble::sum(o, c)).collect();
     let mut center = Center {
@@ -238,7 +242,7 @@ pub(super) fn center_of(origin: &[f64], whitener: &Whitener) -> Center {
     };
     let rows = whitener.matrix().chunks_exact(origin.len());
     let moved = |row: &[f64]| row.iter().zip(&center.low).map(|(m, c)| (m * c).abs()).sum::<f64>();
-    if rows.map(moved).fold(0.0, f64::max) < UNSEEN {
+    if rows.map(moved).fold(0.0, f64::max) < LEVERAGE_CHANGE_MIN {
         center.low.clear();
     }
     center
@@ -278,7 +282,7 @@ fn add(
     if pool.len() > 4 * most || hard {
         let leverages = whitener.apply(pool).leverages;
         let weights = pool.weights().to_vec();
-        let mut least = USEFUL * dim as f64;
+        let mut least = LEVERAGE_RATIO_MIN * dim as f64;
         let spare = HARD_SPARE * (dim + 1) * (dim + 2) / 2;
         if hard {
             let free = leverages.iter().zip(&weights).filter(|(_, u)| **u == 0.0);

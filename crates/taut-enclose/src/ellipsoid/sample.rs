@@ -12,12 +12,12 @@ use super::whitener::{Rebased, Whitener};
 use crate::Error;
 use crate::kernel::vector::dot;
 
-/// Rows of the sample.
-const SAMPLE: u64 = 4096;
-/// Rows of it whose mean is the origin.
-const MEAN: usize = 256;
+/// The sample has this many rows.
+const SAMPLE_ROWS: u64 = 4096;
+/// The mean of this many rows of it is the origin.
+const MEAN_ROWS: usize = 256;
 /// The covariance of the sample ends this near the identity.
-const NEAR: f64 = 1e-3;
+const REBASE_TOLERANCE: f64 = 1e-3;
 
 /// Some of the points.
 pub(super) struct Sample {
@@ -29,7 +29,7 @@ pub(super) struct Sample {
 
 impl Sample {
     pub(super) fn new(survey: &Survey<'_>) -> Result<Self, Error> {
-        let count = SAMPLE.min(survey.len());
+        let count = SAMPLE_ROWS.min(survey.len());
         let ids: Vec<u64> = (0..count)
             .map(|k| (u128::from(k) * u128::from(survey.len()) / u128::from(count)) as u64)
             .collect();
@@ -76,7 +76,7 @@ impl Sample {
     /// A map that makes the covariance of the sample the identity, and what stood in its way.
     pub(super) fn whitener(&self, extents: &[f64]) -> (Whitener, Rebased) {
         let mut whitener = Whitener::of_scales(extents);
-        let how = whitener.rebase(&self.pool, NEAR);
+        let how = whitener.rebase(&self.pool, REBASE_TOLERANCE);
         (whitener, how)
     }
 
@@ -133,7 +133,7 @@ impl Sample {
 /// The mean of some rows at equal distances, taken from the first on, so that equal coordinates give just that.
 fn mean(rows: &[f64], dim: usize) -> Vec<f64> {
     let count = rows.len() / dim;
-    let step = count.div_ceil(MEAN);
+    let step = count.div_ceil(MEAN_ROWS);
     let used = count.div_ceil(step) as f64;
     let mut mean = rows[..dim].to_vec();
     for row in rows.chunks_exact(dim).step_by(step) {

@@ -21,10 +21,11 @@ use crate::top::Far;
 
 /// Most points of a list, on average.
 const MOST_LISTED: f64 = 65536.0;
-/// Points of the sample above the threshold of a list, beside its share: as few as one would say nothing.
-const RANK: usize = 10;
-/// A block gives at most so many times its share to a list, which bounds what the order of the points can do.
-const UNEVEN: f64 = 16.0;
+/// At least this many points of the sample lie above the threshold of a list, beside its share: as few as one would say
+/// nothing.
+const SAMPLE_RANK_MIN: usize = 10;
+/// A block gives at most this many times its share to a list, which bounds what the order of the points can do.
+const BLOCK_SHARE_MAX: f64 = 16.0;
 
 /// Rows of a source, and what is known of those that are not among them.
 pub(super) struct Shortlist {
@@ -59,10 +60,13 @@ impl Shortlist {
     ) -> Result<Self, Error> {
         let share = share.min(MOST_LISTED / survey.len() as f64);
         let mut leverages = whitener.apply(&sample.pool).leverages;
-        let rank = ((share * leverages.len() as f64) as usize + RANK).min(leverages.len() - 1);
+        let rank =
+            ((share * leverages.len() as f64) as usize + SAMPLE_RANK_MIN).min(leverages.len() - 1);
         let (_, &mut above, _) = leverages.select_nth_unstable_by(rank, |a, b| b.total_cmp(a));
         let query = Query { above: above.min(query.above), ..query };
-        let Some(taken) = survey.take(query, UNEVEN * share)? else { return Err(Error::Overflow) };
+        let Some(taken) = survey.take(query, BLOCK_SHARE_MAX * share)? else {
+            return Err(Error::Overflow);
+        };
         let others = Some((whitener.clone(), taken.above));
         Ok(Shortlist { dim: survey.dim(), ids: taken.ids, rows: taken.rows, others })
     }
@@ -120,13 +124,14 @@ impl Shortlist {
 /// As many of k random points as determine an ellipsoid, p, lie on the border of theirs, and about p/k of all points
 /// outside. The list has to hold several times as many.
 pub(super) fn share(dim: usize, sample: &Pool, n: u64) -> Option<f64> {
-    /// Measured from 2 to 10 dimensions on shells: with half of it second lists are common.
-    const TIMES: f64 = 12.0;
-    /// Beyond, a pass over the list costs a good part of one over all.
-    const MOST: f64 = 0.25;
+    /// The list has this many times the points that determine the ellipsoid. Measured from 2 to 10 dimensions on
+    /// shells: with half of it second lists are common.
+    const LIST_FACTOR: f64 = 12.0;
+    /// Beyond this share of all points, a pass over the list costs a good part of one over all.
+    const LIST_SHARE_MAX: f64 = 0.25;
     let determine = (dim * (dim + 3) / 2) as f64;
-    let share = TIMES * determine / sample.len() as f64;
-    (n >= 16 * sample.len() as u64 && share <= MOST).then_some(share)
+    let share = LIST_FACTOR * determine / sample.len() as f64;
+    (n >= 16 * sample.len() as u64 && share <= LIST_SHARE_MAX).then_some(share)
 }
 
 #[cfg(test)]

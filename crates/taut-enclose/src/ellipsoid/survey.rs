@@ -20,8 +20,8 @@ use crate::top::{Far, Top};
 
 /// Rows whose leverages are worked out before they are compared.
 const ROWS_AT_ONCE: usize = 256;
-/// Leverages that one comparison disposes of, where some of those at once are large.
-const GROUP: usize = 32;
+/// One comparison disposes of this many leverages, where some of those at once are large.
+const GROUP_SIZE: usize = 32;
 
 /// What a pass is to look for.
 #[derive(Clone, Copy)]
@@ -231,8 +231,8 @@ fn measure(
     Ok((found, reports))
 }
 
-/// Rows of a block that are taken beside its share.
-const FEW: usize = 64;
+/// This many rows of a block are taken beside its share.
+const ROWS_BESIDE_SHARE: usize = 64;
 
 /// Measures a block and takes far rows while they are near at hand.
 fn take_block<T: Scalar>(
@@ -278,7 +278,7 @@ fn take_block<T: Scalar>(
         return Ok((None, hash));
     }
     let mut none_above = query.above;
-    let most = (share * points.len() as f64) as usize + FEW;
+    let most = (share * points.len() as f64) as usize + ROWS_BESIDE_SHARE;
     if far.len() > most {
         // Equal values by row, so that of many copies of one point some are taken.
         let farther = |a: &(u32, f64), b: &(u32, f64)| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0));
@@ -327,11 +327,11 @@ fn block<T: Scalar>(
         if !worth(far, &top) {
             continue;
         }
-        for (group, values) in values.chunks(GROUP).enumerate() {
+        for (group, values) in values.chunks(GROUP_SIZE).enumerate() {
             if !worth(largest(values), &top) {
                 continue;
             }
-            let first = first_row + (start + group * GROUP) as u64;
+            let first = first_row + (start + group * GROUP_SIZE) as u64;
             for (id, &reach2) in (first..).zip(values) {
                 if worth(reach2, &top) {
                     top.offer(Far { id, reach2 });

@@ -14,8 +14,8 @@ use super::pool::Pool;
 use crate::kernel::triangle::{POINTS, Triangle, images, moments};
 use crate::kernel::vector::dot;
 
-/// Turns after which it is left at that: each takes off at least some ten digits of a condition number.
-const TURNS: usize = 40;
+/// It is left at that after this many turns: each takes off at least some ten digits of a condition number.
+const TURNS_MAX: usize = 40;
 
 /// How a covariance became the identity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,7 +125,7 @@ impl Whitener {
         let (dim, m) = (self.dim, self.dim + 1);
         let mut how = Rebased::Plainly;
         let (points, weights) = pool.support();
-        for _ in 0..TURNS {
+        for _ in 0..TURNS_MAX {
             let images = self.apply_to(&points);
             let moments = moments(dim, &images.blocks, &weights);
             let total = moments[m * m - 1];

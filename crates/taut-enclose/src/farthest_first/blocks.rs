@@ -74,7 +74,7 @@ impl BlockLeaf<'_> {
     fn compare<T: Scalar>(&mut self, points: &Points<'_, T>, chosen: &Chosen, floor: Key) -> u64 {
         let mut distances = 0;
         // The farthest row that is up to date: others matter only above it.
-        let mut best = Key::LEAST;
+        let mut best = Key::MIN;
         let mut center = Center { high: vec![], low: vec![] };
         let mut values = [0.0; CHUNK];
         for (chunk, top) in self.tops.iter_mut().enumerate() {

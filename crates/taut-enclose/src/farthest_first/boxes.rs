@@ -9,12 +9,12 @@ use taut_oblivious::hilbert_order;
 use taut_points::{Points, Scalar};
 
 use super::chosen::{Chosen, Scratch};
-use super::columns::{GROUP, add_gaps, lower};
+use super::columns::{GROUP_SIZE, add_gaps, lower};
 use super::lazy::{Key, Leaf, Leaves, Top};
 use crate::Error;
 use crate::frame::Frame;
 
-/// Points of a leaf, a multiple of [`GROUP`]: fewer have a smaller box that rules out more, and more boxes are to be asked.
+/// Points of a leaf, a multiple of [`GROUP_SIZE`]: fewer have a smaller box that rules out more, and more boxes are to be asked.
 const POINTS: usize = 256;
 
 /// Some neighbours.
@@ -44,7 +44,7 @@ pub(super) fn leaves<T: Scalar>(points: &Points<'_, T>, frame: &Frame) -> Leaves
 impl BoxLeaf {
     fn new<T: Scalar>(points: &Points<'_, T>, frame: &Frame, rows: &[u32]) -> Self {
         let dim = points.dim();
-        let count = rows.len().next_multiple_of(GROUP);
+        let count = rows.len().next_multiple_of(GROUP_SIZE);
         let mut rows = rows.to_vec();
         rows.resize(count, rows[rows.len() - 1]);
         let mut columns = vec![0.0; dim * count];

@@ -7,12 +7,12 @@
 
 use crate::kernel::vector::dispatched;
 
-/// Points in a group: two registers, or more where they are shorter.
-pub(super) const GROUP: usize = 16;
+/// A group has this many points: two registers, or more where they are shorter.
+pub(super) const GROUP_SIZE: usize = 16;
 
 dispatched! {
     /// Lowers each of `least` to the squared distance of its point to `center`, where that is less; returns the largest
-    /// of them then. `columns` holds coordinate after coordinate of as many points, a multiple of [`GROUP`].
+    /// of them then. `columns` holds coordinate after coordinate of as many points, a multiple of [`GROUP_SIZE`].
     lower(columns: &[f64], center: &[f64], least: &mut [f64]) -> f64, lower_body
 }
 
@@ -30,11 +30,11 @@ fn lower_body<const FUSED: bool>(columns: &[f64], center: &[f64], least: &mut [f
 
 #[inline(always)]
 fn lower_of<const D: usize>(columns: [&[f64]; D], center: [f64; D], least: &mut [f64]) -> f64 {
-    let columns = columns.map(|column| column.as_chunks::<GROUP>().0);
-    let mut largest = [0.0f64; GROUP];
-    for (g, least) in least.as_chunks_mut::<GROUP>().0.iter_mut().enumerate() {
+    let columns = columns.map(|column| column.as_chunks::<GROUP_SIZE>().0);
+    let mut largest = [0.0f64; GROUP_SIZE];
+    for (g, least) in least.as_chunks_mut::<GROUP_SIZE>().0.iter_mut().enumerate() {
         let group = columns.map(|column| &column[g]);
-        for i in 0..GROUP {
+        for i in 0..GROUP_SIZE {
             let mut sum = 0.0;
             for j in 0..D {
                 let difference = group[j][i] - center[j];

@@ -18,7 +18,7 @@ use taut_points::{Monitor, PointSource, PointsHash, map_blocks};
 use super::FarthestFirst;
 use super::chosen::{Chosen, Scratch};
 use crate::Error;
-use crate::frame::{FLOOR, Frame};
+use crate::frame::{Frame, SQUARE_MIN};
 
 /// Leaves that are brought up to date together at first: enough to share among threads, and few where each is a read of a
 /// medium that may turn out to be for nothing. Twice as many each time that was not enough.
@@ -36,7 +36,7 @@ pub(super) struct Key {
 
 impl Key {
     /// Below every point.
-    pub(super) const LEAST: Key = Key { value: -1.0, row: u64::MAX };
+    pub(super) const MIN: Key = Key { value: -1.0, row: u64::MAX };
 }
 
 impl Eq for Key {}
@@ -112,7 +112,7 @@ impl Job<'_> {
             order.push(row);
             chosen.push(&self.frame.gather(self.source, &[row])?);
             let top = self.farthest(&mut queue, &mut slots, &chosen, batch, &mut events)?;
-            if top.value < FLOOR {
+            if top.value < SQUARE_MIN {
                 self.all_are_copies(&order)?;
                 radii.push(0.0);
                 break None;
@@ -165,7 +165,7 @@ impl Job<'_> {
                 queue.pop();
                 stale.extend(slots[leaf].take().map(|taken| (leaf, taken)));
             }
-            let front = queue.peek().map_or(Key::LEAST, |&(key, _)| key);
+            let front = queue.peek().map_or(Key::MIN, |&(key, _)| key);
             if stale.is_empty() {
                 return Ok(front);
             }

@@ -16,8 +16,8 @@ use super::lazy::{Key, Leaf, Leaves, Top};
 use crate::Error;
 use crate::kernel::{Center, relative_error, squared_distances};
 
-/// Rows of a leaf.
-const ROWS: usize = 256;
+/// A leaf has this many rows.
+const LEAF_ROWS: usize = 256;
 /// Up to this dimension the kernel takes eight rows for the price of one; beyond, one at a time.
 const EIGHT_MAX: usize = 96;
 
@@ -42,10 +42,10 @@ pub(super) struct RowLeaf<'p, T> {
 
 /// All rows in leaves.
 pub(super) fn leaves<'p, T: Scalar>(points: &Points<'p, T>) -> Leaves<RowLeaf<'p, T>> {
-    let starts = (0..points.len()).into_par_iter().step_by(ROWS);
+    let starts = (0..points.len()).into_par_iter().step_by(LEAF_ROWS);
     let leaves = starts
         .map(|start| {
-            let points = points.slice(start..points.len().min(start + ROWS));
+            let points = points.slice(start..points.len().min(start + LEAF_ROWS));
             RowLeaf {
                 points,
                 first_row: start as u64,
@@ -117,7 +117,7 @@ impl<T: Scalar> Leaf for RowLeaf<'_, T> {
         let mut distances = if self.known[0].seen == 0 { self.begin(chosen) } else { 0 };
         let center = scratch.center.get_or_insert_with(|| Center { high: vec![], low: vec![] });
         // The farthest row that is up to date: others matter only above it.
-        let mut best = Key::LEAST;
+        let mut best = Key::MIN;
         for i in 0..self.least.len() {
             let floor = floor.max(best);
             if self.key(i) < floor {

@@ -18,20 +18,20 @@ use crate::ellipsoid::{cholesky, log_unit_ball};
 use crate::kernel::DoubleDouble;
 use crate::kernel::vector::{add_scaled, dot};
 
-/// By what μ falls once its minimum is nearly reached.
-const FALL: f64 = 0.1;
-/// A step whose square length, in the metric of the function over μ, is below this is near enough to lower μ; at the last
-/// μ, to end.
-const NEAR: f64 = 0.1;
-const END: f64 = 1e-6;
+/// μ is multiplied by this once its minimum is nearly reached.
+const MU_FACTOR: f64 = 0.1;
+/// A step whose square length, in the metric of the function over μ, is below this is near enough to lower μ.
+const STEP_SQUARE_MAX: f64 = 0.1;
+/// At the last μ, a step whose square length is below this is near enough to end.
+const LAST_STEP_SQUARE_MAX: f64 = 1e-6;
 /// A step as short as that is taken whole: the function falls, though rounding may not show it.
-const SHORT: f64 = 0.05;
+const WHOLE_STEP_SQUARE_MAX: f64 = 0.05;
 /// Shifts of a Hessian, over its largest entry; all but the first for one that rounding made indefinite.
 const SHIFTS: [f64; 5] = [0.0, 1e-15, 1e-14, 1e-13, 1e-12];
-/// Rounds of rotations that make columns orthogonal; five are usual.
-const SWEEPS: usize = 12;
-/// Steps at the last μ, after which rounding is in the way.
-const LAST: u32 = 20;
+/// Columns are made orthogonal in at most this many rounds of rotations; five are usual.
+const SWEEPS_MAX: usize = 12;
+/// At the last μ at most this many steps are taken, after which rounding is in the way.
+const LAST_STEPS_MAX: u32 = 20;
 
 /// Follows the path until 2nμ is below what is wanted.
 pub(super) fn follow(
@@ -62,14 +62,14 @@ pub(super) fn follow(
         views = view(&center, &axes);
         if mu <= last_mu {
             at_last += 1;
-            if length < END || !moved || at_last == LAST {
+            if length < LAST_STEP_SQUARE_MAX || !moved || at_last == LAST_STEPS_MAX {
                 break Stop::Converged;
             }
-        } else if length < NEAR || !moved {
+        } else if length < STEP_SQUARE_MAX || !moved {
             let lower = log_determinant(&axes, dim) + log_unit_ball(dim);
             let upper = lower + 2.0 * n as f64 * mu;
             history.push(PassBounds { lower, upper, working_set: n as u64 });
-            mu = (FALL * mu).max(last_mu);
+            mu = (MU_FACTOR * mu).max(last_mu);
         }
         if steps == options.max_steps {
             break Stop::PassBudget;
@@ -209,7 +209,9 @@ fn take(
     };
     let mut t = 1.0;
     for _ in 0..40 {
-        if change(t).is_some_and(|change| change <= -0.1 * t * mu * length || length < SHORT) {
+        if change(t).is_some_and(|change| {
+            change <= -0.1 * t * mu * length || length < WHOLE_STEP_SQUARE_MAX
+        }) {
             let turned = grown(t);
             for (row, c) in axes.chunks_exact_mut(dim).zip(center.iter_mut()) {
                 *c += t * dot(row, w);
@@ -227,7 +229,7 @@ fn take(
 /// Turns the frame so that the columns of G are orthogonal: rotations of two columns at a time, after Jacobi.
 pub(super) fn orthogonalise(axes: &mut [f64], dim: usize) {
     let largest = axes.iter().fold(0.0f64, |m, g| m.max(g.abs()));
-    for _ in 0..SWEEPS {
+    for _ in 0..SWEEPS_MAX {
         let mut is_orthogonal = true;
         for (p, q) in (0..dim).flat_map(|q| (0..q).map(move |p| (p, q))) {
             let (mut pp, mut qq, mut pq) = (0.0, 0.0, 0.0);

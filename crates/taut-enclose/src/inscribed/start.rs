@@ -23,16 +23,16 @@ use crate::shapes::eigen::eigen;
 /// What a conic solver leaves of a sum that is 0, for unit normals.
 const ZERO: f64 = 1e-6;
 /// A ray may rise beyond a face by this for each dimension, as it is rounded.
-const RISE: f64 = 64.0 * f64::EPSILON;
+const RAY_RISE_MAX: f64 = 64.0 * f64::EPSILON;
 /// A face whose normal is within this of a right angle to a ray is one it runs along.
-const ALONG: f64 = 1e-5;
-/// Turns in which rows and columns are brought to the same size.
-const TURNS: usize = 5;
+const ALONG_TOLERANCE: f64 = 1e-5;
+/// Rows and columns are brought to the same size in this many turns.
+const SCALING_TURNS: usize = 5;
 /// A ball of less than this part of the extent of the polytope is none.
-const LEAST: f64 = 1e-9;
+const RADIUS_RATIO_MIN: f64 = 1e-9;
 
 /// A ball of which it is proved that it has no larger radius than this, offsets being 1 at most, counts as none.
-const ROOM: f64 = 1e-6;
+const PROVED_RADIUS_MIN: f64 = 1e-6;
 
 /// A centre, and the half axes of an ellipsoid around it inside, along the axes of coordinates.
 pub(super) struct Interior {
@@ -65,10 +65,10 @@ pub(super) fn interior(sides: &HalfSpaces) -> Result<Interior, Error> {
     let room = |i: usize| b[i] - dot(&normals[i * dim..(i + 1) * dim], &x[..dim]);
     let radius = (0..n).map(room).fold(f64::INFINITY, f64::min);
     let extent = (0..n).map(room).fold(0.0, f64::max);
-    let is_open = radius > LEAST * extent;
+    let is_open = radius > RADIUS_RATIO_MIN * extent;
     if !is_open {
         let radius = no_room(&normals, &b, &z, &spread);
-        let is_proved = radius <= ROOM;
+        let is_proved = radius <= PROVED_RADIUS_MIN;
         if !is_proved {
             return Err(Error::Undecided);
         }
@@ -89,7 +89,7 @@ fn equilibrated(sides: &HalfSpaces) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
     let mut units = vec![1.0; dim];
     let mut normals = vec![];
     let mut offsets = vec![];
-    for turn in 0..TURNS {
+    for turn in 0..SCALING_TURNS {
         normals.clear();
         offsets.clear();
         for row in sides.rows() {
@@ -100,7 +100,7 @@ fn equilibrated(sides: &HalfSpaces) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
             normals.extend(normal.iter().map(|v| v / norm));
             offsets.push(row[dim] / largest / norm);
         }
-        if turn + 1 == TURNS {
+        if turn + 1 == SCALING_TURNS {
             break;
         }
         for (j, unit) in units.iter_mut().enumerate() {
@@ -228,14 +228,15 @@ fn is_bounded(normals: &[f64], units: &[f64]) -> Result<Spread, Error> {
 fn ray(normals: &[f64], mut direction: Vec<f64>) -> Option<Vec<f64>> {
     let dim = direction.len();
     let mut gram = vec![0.0; dim * dim];
-    for row in normals.chunks_exact(dim).filter(|a| dot(a, &direction).abs() <= ALONG) {
+    for row in normals.chunks_exact(dim).filter(|a| dot(a, &direction).abs() <= ALONG_TOLERANCE) {
         for (a, &v) in row.iter().enumerate() {
             add_scaled(&mut gram[a * dim..(a + 1) * dim], v, row);
         }
     }
     let (values, vectors) = eigen(&mut gram, dim);
     for _ in 0..2 {
-        for (_, vector) in values.iter().zip(vectors.chunks_exact(dim)).filter(|(v, _)| **v > ALONG)
+        for (_, vector) in
+            values.iter().zip(vectors.chunks_exact(dim)).filter(|(v, _)| **v > ALONG_TOLERANCE)
         {
             let along = dot(vector, &direction);
             add_scaled(&mut direction, -along, vector);
@@ -243,7 +244,7 @@ fn ray(normals: &[f64], mut direction: Vec<f64>) -> Option<Vec<f64>> {
     }
     let norm = dot(&direction, &direction).sqrt();
     direction.iter_mut().for_each(|v| *v /= norm);
-    let falls = |a: &[f64]| dot(a, &direction) <= RISE * dim as f64;
+    let falls = |a: &[f64]| dot(a, &direction) <= RAY_RISE_MAX * dim as f64;
     (norm > 0.5 && normals.chunks_exact(dim).all(falls)).then_some(direction)
 }
 

@@ -15,11 +15,11 @@ use super::{Center, portable};
 
 /// Points of one block: coordinate j of point i stands at 32·j + i.
 pub(crate) const POINTS: usize = 32;
-/// Registers for one coordinate of a block.
-const WIDE: usize = POINTS / 8;
+/// One coordinate of a block takes this many registers.
+const REGISTERS: usize = POINTS / 8;
 
-/// Bytes by which memory is asked for before it is read: at 1e6 × 10 a pass takes half the time with it.
-const AHEAD: usize = 8192;
+/// Memory is asked for this many bytes before it is read: at 1e6 × 10 a pass takes half the time with it.
+const PREFETCH_BYTES: usize = 8192;
 
 /// A lower triangular matrix by rows, d × d, of which nothing above the diagonal is read, and a shift.
 #[derive(Clone, Copy, Debug)]
@@ -155,19 +155,19 @@ impl Work for Moments<'_> {
             // SAFETY: features are the caller's promise; a block has d·POINTS values and POINTS weights, and there are
             // eight sums for each of the (d + 1)(d + 2)/2 entries.
             unsafe {
-                let weights: [L; WIDE] = wide(weights.as_ptr());
+                let weights: [L; REGISTERS] = wide(weights.as_ptr());
                 let mut sum = self.sums.as_mut_ptr();
-                let mut add = |terms: [L; WIDE], with: [L; WIDE]| {
+                let mut add = |terms: [L; REGISTERS], with: [L; REGISTERS]| {
                     let mut total = L::load(sum.cast_const());
-                    for i in 0..WIDE {
+                    for i in 0..REGISTERS {
                         total = terms[i].multiply_add(with[i], total);
                     }
                     total.store(sum);
                     sum = sum.add(8);
                 };
                 for a in 0..dim {
-                    let mut row: [L; WIDE] = wide(x.as_ptr().add(a * POINTS));
-                    for i in 0..WIDE {
+                    let mut row: [L; REGISTERS] = wide(x.as_ptr().add(a * POINTS));
+                    for i in 0..REGISTERS {
                         row[i] = row[i].multiply_add(weights[i], L::zero());
                     }
                     for b in 0..=a {
@@ -177,7 +177,7 @@ impl Work for Moments<'_> {
                 for b in 0..dim {
                     add(weights, wide(x.as_ptr().add(b * POINTS)));
                 }
-                add(weights, [L::broadcast(1.0); WIDE]);
+                add(weights, [L::broadcast(1.0); REGISTERS]);
             }
         }
     }
@@ -254,7 +254,7 @@ impl<T: Scalar> Work for Leverages<'_, T> {
 /// # Safety
 /// The processor has the features of `L`; [`POINTS`] values can be read at `from`.
 #[inline(always)]
-unsafe fn wide<L: Lanes>(from: *const f64) -> [L; WIDE] {
+unsafe fn wide<L: Lanes>(from: *const f64) -> [L; REGISTERS] {
     // SAFETY: passed on.
     unsafe { [L::load(from), L::load(from.add(8)), L::load(from.add(16)), L::load(from.add(24))] }
 }
@@ -276,12 +276,12 @@ unsafe fn block<L: Lanes, const STORE: bool, const FORM: bool>(
     let (matrix, shift) = (triangle.matrix.as_ptr(), triangle.shift.as_ptr());
     // SAFETY: rows a < dim of T and of the block; columns b ≤ a.
     unsafe {
-        let row = |b: usize| -> [L; WIDE] { wide(x.add(b * POINTS)) };
-        let start = |a: usize| [L::broadcast(-*shift.add(a)); WIDE];
-        let mut sums = [L::zero(); WIDE];
-        let mut finish = |a: usize, values: [L; WIDE]| {
+        let row = |b: usize| -> [L; REGISTERS] { wide(x.add(b * POINTS)) };
+        let start = |a: usize| [L::broadcast(-*shift.add(a)); REGISTERS];
+        let mut sums = [L::zero(); REGISTERS];
+        let mut finish = |a: usize, values: [L; REGISTERS]| {
             let with = if FORM { row(a) } else { values };
-            for i in 0..WIDE {
+            for i in 0..REGISTERS {
                 sums[i] = values[i].multiply_add(with[i], sums[i]);
                 if STORE {
                     values[i].store(z.add(a * POINTS + 8 * i));
@@ -295,13 +295,13 @@ unsafe fn block<L: Lanes, const STORE: bool, const FORM: bool>(
             for b in 0..=a {
                 let x = row(b);
                 let (t, s) = (L::broadcast(*upper.add(b)), L::broadcast(*lower.add(b)));
-                for i in 0..WIDE {
+                for i in 0..REGISTERS {
                     first[i] = x[i].multiply_add(t, first[i]);
                     second[i] = x[i].multiply_add(s, second[i]);
                 }
             }
             let (x, s) = (row(a + 1), L::broadcast(*lower.add(a + 1)));
-            for i in 0..WIDE {
+            for i in 0..REGISTERS {
                 second[i] = x[i].multiply_add(s, second[i]);
             }
             finish(a, first);
@@ -313,7 +313,7 @@ unsafe fn block<L: Lanes, const STORE: bool, const FORM: bool>(
             let mut first = start(a);
             for b in 0..=a {
                 let (x, t) = (row(b), L::broadcast(*upper.add(b)));
-                for i in 0..WIDE {
+                for i in 0..REGISTERS {
                     first[i] = x[i].multiply_add(t, first[i]);
                 }
             }
@@ -336,7 +336,7 @@ unsafe fn arrange<L: Lanes, T: Scalar>(values: &[T], center: &Center, x: &mut [f
     let rows = values.len() / dim;
     debug_assert!((1..=POINTS).contains(&rows) && x.len() >= dim * POINTS);
     let x = x.as_mut_ptr();
-    let ahead = values.as_ptr().cast::<u8>().wrapping_add(AHEAD);
+    let ahead = values.as_ptr().cast::<u8>().wrapping_add(PREFETCH_BYTES);
     for line in (0..size_of_val(values)).step_by(64) {
         // SAFETY: features are the caller's promise.
         unsafe { L::prefetch(ahead.wrapping_add(line)) };
@@ -352,7 +352,7 @@ unsafe fn arrange<L: Lanes, T: Scalar>(values: &[T], center: &Center, x: &mut [f
         }
     };
     if dim == 2 && rows == POINTS {
-        for group in 0..WIDE {
+        for group in 0..REGISTERS {
             // SAFETY: `values` holds 64 values, of which these are 16; there is room for as many at `x`.
             unsafe {
                 let from = values.as_ptr().add(16 * group);
@@ -363,7 +363,7 @@ unsafe fn arrange<L: Lanes, T: Scalar>(values: &[T], center: &Center, x: &mut [f
         }
         return;
     }
-    for group in 0..WIDE {
+    for group in 0..REGISTERS {
         // SAFETY: each start is that of a row within `values`; coordinates j .. j + count stay below dim.
         unsafe {
             let mut starts = [values.as_ptr(); 8];

@@ -28,16 +28,16 @@ use crate::ellipsoid::dense::{cholesky, forward};
 use crate::ellipsoid::survey::Survey;
 use crate::kernel::vector::{add_scaled, dot};
 
-/// Rows on either side that are looked at. On 10⁵ points ends were no lower with 3000.
-const ROWS: usize = 2000;
-/// Rows on either side of which pairs are tried; where distances are equal all could be within reach.
-const EDGE: usize = 100;
+/// This many rows on either side are looked at. On 10⁵ points ends were no lower with 3000.
+const BORDER_ROWS: usize = 2000;
+/// Pairs are tried of this many rows on either side; where distances are equal all could be within reach.
+const PAIRED_ROWS: usize = 100;
 /// Part of the squared distances by which g has to be negative: a hundred times what rounding leaves of them.
 const ROUNDING: f64 = 1e-12;
 
-/// How far a kick bends distances, times h, at least; each size is twice the one before. On 10⁵ points kicks of 128 and
-/// less led back to where they came from.
-const KICK: f64 = 256.0;
+/// A kick bends distances, times h, at least this far; each size is twice the one before. On 10⁵ points kicks of 128
+/// and less led back to where they came from.
+const KICK_SIZE_MIN: f64 = 256.0;
 const KICK_SIZES: u64 = 6;
 
 /// Rows at the border of those kept, in the metric these had at first.
@@ -119,10 +119,10 @@ impl Border {
             let mut these: Vec<(f64, u64)> =
                 all.filter(|((_, kept), _)| **kept == side).map(|((d, _), id)| (*d, id)).collect();
             let outward = |a: &(f64, u64), b: &(f64, u64)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
-            if these.len() > ROWS {
+            if these.len() > BORDER_ROWS {
                 let order = |a: &_, b: &_| if side { outward(b, a) } else { outward(a, b) };
-                these.select_nth_unstable_by(ROWS, order);
-                these.truncate(ROWS);
+                these.select_nth_unstable_by(BORDER_ROWS, order);
+                these.truncate(BORDER_ROWS);
             }
             these.sort_unstable_by(outward);
             rows.extend(these);
@@ -218,7 +218,7 @@ impl Border {
                 let outward = squares[a].total_cmp(&squares[b]);
                 if kept { outward.reverse() } else { outward }
             });
-            rows.truncate(EDGE);
+            rows.truncate(PAIRED_ROWS);
             let image = |at: usize| images[at * self.dim..(at + 1) * self.dim].to_vec();
             rows.into_iter().map(|at| Edge { at, image: image(at) }).collect()
         };
@@ -244,7 +244,7 @@ impl Border {
         let row = (lot >> 8) as usize % rows;
         let along = &images[row * self.dim..(row + 1) * self.dim];
         let length = dot(along, along).sqrt();
-        let size = (KICK * f64::from(1u32 << (lot % KICK_SIZES)) / self.h as f64).min(0.5);
+        let size = (KICK_SIZE_MIN * f64::from(1u32 << (lot % KICK_SIZES)) / self.h as f64).min(0.5);
         let size = if lot & (1 << 60) == 0 { size } else { -size };
         let bent = |z: &[f64]| {
             let product = dot(z, along);

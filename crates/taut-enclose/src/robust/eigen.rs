@@ -1,13 +1,13 @@
 //! Eigenvectors of a small symmetric matrix, by Jacobi's rotations in cyclic order: slow, sure and always the same.
 
-/// Sweeps after which it is left at that; convergence is quadratic, and ten are many.
-const SWEEPS: usize = 60;
+/// It is left at that after this many sweeps; convergence is quadratic, and ten are many.
+const SWEEPS_MAX: usize = 60;
 
 /// An orthonormal basis of eigenvectors, by rows; `matrix`, n × n, becomes diagonal but for rounding.
 pub(super) fn eigenvectors(matrix: &mut [f64], n: usize) -> Vec<f64> {
     let mut vectors = vec![0.0; n * n];
     (0..n).for_each(|i| vectors[i * n + i] = 1.0);
-    for _ in 0..SWEEPS {
+    for _ in 0..SWEEPS_MAX {
         let mut rotated = false;
         for p in 0..n {
             for q in p + 1..n {

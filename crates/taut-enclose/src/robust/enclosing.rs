@@ -19,7 +19,7 @@ use crate::kernel::vector::dot;
 use crate::{EllipsoidOptions, Error, ellipsoid};
 
 /// Rows that reach no farther out than this are kept.
-const BORDER: f64 = 1.0 + 1e-9;
+const KEPT_REACH_MAX: f64 = 1.0 + 1e-9;
 
 /// An ellipsoid around rows, and what its metric says of all rows of the space it is in.
 pub(super) struct Around {
@@ -72,7 +72,7 @@ pub(super) fn enclose(
         let flat = answer.hull.as_ref().map(|hull| Flat::of_hull(answer.center.clone(), hull));
         let inside = data.visit(|first, rows| {
             let is_inside = |row: &[f64]| {
-                answer.norm(row) <= BORDER
+                answer.norm(row) <= KEPT_REACH_MAX
                     && flat.as_ref().is_none_or(|flat| flat.project(row).1 <= flat.distance)
             };
             let rows = (first..).zip(rows.chunks_exact(dim));

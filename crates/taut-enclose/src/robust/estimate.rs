@@ -17,17 +17,17 @@ use crate::kernel::triangle::{POINTS, Triangle, images, leverages, moments};
 use crate::kernel::vector::dot;
 use crate::kernel::{Center, DoubleDouble};
 
-/// Turns of shifting after which rows count as flat: each takes off some ten digits of a condition number.
-const TURNS: usize = 40;
+/// Rows count as flat after this many turns of shifting: each takes off some ten digits of a condition number.
+const TURNS_MAX: usize = 40;
 
-/// Part of a deviation that rounding of coordinates may make up before the direction counts as flat.
-const NOISE: f64 = 1.0 / 16.0;
+/// Rounding of coordinates may make up this part of a deviation before the direction counts as flat.
+const ROUNDING_RATIO_MAX: f64 = 1.0 / 16.0;
 
 /// Largest part of a deviation by which rounding the center to `f64` may move points; the center has a tail where it is more.
 ///
 /// The checker grants 8 roundings of the center, and at most a tenth of the distance to the border. This is less than a
 /// tenth of what it grants at most.
-const COARSE: f64 = 1.0 / 128.0;
+const CENTER_ROUNDING_MAX: f64 = 1.0 / 128.0;
 
 /// c and M.
 #[derive(Clone, Debug)]
@@ -113,7 +113,7 @@ impl Estimate {
     pub(super) fn with_needed_tail(mut self) -> Self {
         let is_fine = |row: &[f64]| {
             let moved: f64 = row.iter().zip(&self.center).map(|(m, c)| (m * c).abs()).sum();
-            0.5 * f64::EPSILON * moved <= COARSE
+            0.5 * f64::EPSILON * moved <= CENTER_ROUNDING_MAX
         };
         if self.matrix.chunks_exact(self.dim()).all(is_fine) {
             self.tail.clear();
@@ -196,7 +196,7 @@ impl Estimate {
     pub(super) fn of_rows(&self, data: &mut Survey<'_>, kept: &[bool]) -> Result<Look, Error> {
         let dim = self.dim();
         let mut next = self.clone();
-        for _ in 0..TURNS {
+        for _ in 0..TURNS_MAX {
             let found = next.moments(data, kept)?;
             let moments = &found.sums;
             if moments.iter().any(|v| !v.is_finite()) {
@@ -247,7 +247,7 @@ impl Estimate {
         let dim = self.dim();
         let is_clear = |row: &[f64]| {
             let noise: f64 = row.iter().zip(sizes).map(|(m, s)| (m * s).powi(2)).sum();
-            noise.sqrt() * f64::EPSILON < NOISE
+            noise.sqrt() * f64::EPSILON < ROUNDING_RATIO_MAX
         };
         !self.matrix.chunks_exact(dim).all(is_clear)
     }

@@ -12,16 +12,16 @@ use crate::ellipsoid::survey::Survey;
 use crate::kernel::vector::{add_scaled, dot};
 use crate::{EllipsoidOptions, Error, ellipsoid};
 
-/// How many times farther off than the rows kept another row may be and still count as on the subspace.
-const SLACK: f64 = 2.0;
+/// Another row may be this many times farther off than the rows kept and still count as on the subspace.
+const DISTANCE_RATIO_MAX: f64 = 2.0;
 /// Rows count as on a subspace up to this part of how far they reach, and up to what rounding of their coordinates
 /// explains, in units of √d·2⁻⁵². It is what the checker goes by.
-const THIN: f64 = 1e-10;
+const THICKNESS_RATIO_MAX: f64 = 1e-10;
 const ROUNDINGS: f64 = 64.0;
 
 /// A coordinate in a subspace of dimension d is 0 up to this part of the sum of sizes it was made of, in units of
 /// (d + 4)·2⁻⁵².
-const VANISHING: f64 = 4.0;
+const ZERO_ROUNDINGS: f64 = 4.0;
 
 /// An affine subspace {o + B′z}.
 #[derive(Clone, Debug)]
@@ -53,7 +53,7 @@ pub(super) fn hull(data: &mut Survey<'_>, kept: &[bool]) -> Result<Option<Flat>,
 
 impl Flat {
     pub(super) fn of_hull(origin: Vec<f64>, hull: &Hull) -> Self {
-        Flat { origin, basis: hull.basis.concat(), distance: SLACK * hull.distance }
+        Flat { origin, basis: hull.basis.concat(), distance: DISTANCE_RATIO_MAX * hull.distance }
     }
 
     pub(super) fn dim(&self) -> usize {
@@ -81,7 +81,7 @@ impl Flat {
             // What only rounding keeps from 0: left as it is, a column of such numbers would count as one of its own.
             let size: f64 = offset.iter().zip(direction).map(|(x, b)| (x * b).abs()).sum();
             let is_zero =
-                product.abs() <= VANISHING * (self.dim() + 4) as f64 * f64::EPSILON * size;
+                product.abs() <= ZERO_ROUNDINGS * (self.dim() + 4) as f64 * f64::EPSILON * size;
             image.push(if is_zero { 0.0 } else { product * largest });
         }
         (image, largest * dot(&rest, &rest).sqrt())
@@ -115,11 +115,12 @@ impl Flat {
             places[..h].iter().map(size).fold(0.0, f64::max)
         };
         let rounding = ROUNDINGS * (dim as f64).sqrt() * f64::EPSILON;
-        let is_thin = off <= THIN * most(&|place| place.1) + rounding * most(&|place| place.2);
+        let is_thin =
+            off <= THICKNESS_RATIO_MAX * most(&|place| place.1) + rounding * most(&|place| place.2);
         if !is_thin {
             return Err(Error::Overflow);
         }
-        self.distance = SLACK * off;
+        self.distance = DISTANCE_RATIO_MAX * off;
         let (ids, values) = self.rows_on(data)?;
         Ok(Part { flat: self, ids, values })
     }

@@ -6,7 +6,7 @@
 //! *Reference.* Rousseeuw, Croux, JASA 88, 1993.
 
 /// Makes Qn the standard deviation of normal numbers: 1/(√2·Φ⁻¹(5/8)).
-const NORMAL: f64 = 2.219_144_465_985_075_5;
+const NORMAL_FACTOR: f64 = 2.219_144_465_985_075_5;
 
 /// The median; of an even number, the mean of the middle two. `values` is put in ascending order.
 pub(super) fn median(values: &mut [f64]) -> f64 {
@@ -34,7 +34,7 @@ pub(super) fn qn(sorted: &[f64]) -> f64 {
         let middle = low + (high - low) / 2;
         if within(f64::from_bits(middle)) >= wanted { high = middle } else { low = middle + 1 }
     }
-    NORMAL * f64::from_bits(low)
+    NORMAL_FACTOR * f64::from_bits(low)
 }
 
 #[cfg(test)]
@@ -53,7 +53,7 @@ mod tests {
                 .collect();
             pairs.sort_unstable_by(f64::total_cmp);
             let half = n / 2 + 1;
-            assert_eq!(qn(part), NORMAL * pairs[half * (half - 1) / 2 - 1], "{n}");
+            assert_eq!(qn(part), NORMAL_FACTOR * pairs[half * (half - 1) / 2 - 1], "{n}");
         }
         assert_eq!(qn(&[5.0]), 0.0);
         assert_eq!(median(&mut [3.0, 1.0, 2.0, 10.0]), 2.5);

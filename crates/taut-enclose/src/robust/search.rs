@@ -2,8 +2,8 @@
 //!
 //! *Problem.* Of n points find the h whose covariance has the least determinant, or that fit the smallest ellipsoid.
 //! *Idea.* Two kinds of starts, as they fail on different data: six rankings ([`starts`](super::starts)), and
-//! [`ELEMENTS`] simplices of d + 1 points where d ≤ [`ELEMENTS_DIM_MAX`]. Simplices are tried by two C-steps on few
-//! points, and the best of them go on with the rankings, to the end, on at most [`SAMPLE`] points (twice that if these
+//! [`SIMPLEX_COUNT`] simplices of d + 1 points where d ≤ [`ELEMENTS_DIM_MAX`]. Simplices are tried by two C-steps on few
+//! points, and the best of them go on with the rankings, to the end, on at most [`SAMPLE_SIZE`] points (twice that if these
 //! are all). The best of those are tried on all points, and the best of them go on to the end. For the determinant the
 //! [`border`](super::border) of the rows kept is then searched for a better choice.
 //! *Guarantee.* The rows found are the h nearest in their own metric: no C-step leads on from them. That no other h
@@ -19,25 +19,26 @@ use super::border::Border;
 use super::concentrate::{Criterion, Found, Raw, concentrate, estimate, from_ranking};
 use super::estimate::{Estimate, Look};
 use super::flat::Flat;
-use super::starts::{STARTS, Standardised};
+use super::starts::{START_COUNT, Standardised};
 use crate::Error;
 use crate::ellipsoid::survey::Survey;
 
-/// Points that rankings look at; with more than twice as many, a sample of this size stands for them.
-const SAMPLE: usize = 2000;
+/// Rankings look at this many points; with more than twice as many, a sample of this size stands for them.
+const SAMPLE_SIZE: usize = 2000;
 /// Points that simplices are tried on; with more than twice as many, a sample of this size stands for them.
 const SMALL_SAMPLE: usize = 300;
-/// Simplices tried, as many as FastMCD does.
-const ELEMENTS: u64 = 500;
+/// This many simplices are tried, as many as FastMCD does.
+const SIMPLEX_COUNT: u64 = 500;
 /// Dimension beyond which none is tried: d + 1 points without an outlier among them are too rare then.
 const ELEMENTS_DIM_MAX: usize = 20;
 /// Simplices that go on.
 const BEST_ELEMENTS: usize = 10;
-/// Candidates that are tried on all points, and how many of them go on to the end.
-const CANDIDATES: usize = 6;
-const FINALISTS: usize = 4;
-/// Kicks at the border that the best of them is given.
-const KICKS: u64 = 40;
+/// At most this many candidates are tried on all points.
+const CANDIDATES_MAX: usize = 6;
+/// At most this many of them go on to the end.
+const FINALISTS_MAX: usize = 4;
+/// The best of them is given at most this many kicks at the border.
+const KICKS_MAX: u64 = 40;
 
 /// Finds the h rows, or a hyperplane that holds so many.
 pub(super) fn solve(
@@ -47,7 +48,7 @@ pub(super) fn solve(
     steps: &mut u64,
 ) -> Result<Found, Error> {
     let (n, dim) = (data.len() as usize, data.dim());
-    let size = SAMPLE.max(20 * dim);
+    let size = SAMPLE_SIZE.max(20 * dim);
     let ids = by_hash(data, if n > 2 * size { size } else { n })?;
     let sample = data.rows(&ids)?;
     let part = (h * ids.len()).div_ceil(n);
@@ -73,8 +74,8 @@ pub(super) fn solve(
             Err(flat) => Ok(Found::Flat(flat)),
         };
     }
-    best(&mut candidates, CANDIDATES);
-    for (limit, left) in [(2, FINALISTS), (usize::MAX, FINALISTS)] {
+    best(&mut candidates, CANDIDATES_MAX);
+    for (limit, left) in [(2, FINALISTS_MAX), (usize::MAX, FINALISTS_MAX)] {
         for candidate in &mut candidates {
             match concentrate(criterion, data, &candidate.estimate, h, limit, steps)? {
                 Found::Full(raw) => *candidate = raw,
@@ -86,7 +87,7 @@ pub(super) fn solve(
         candidates.dedup_by(|a, b| a.kept == b.kept);
     }
     if let Criterion::Determinant = criterion {
-        for kicks in [0, KICKS] {
+        for kicks in [0, KICKS_MAX] {
             for candidate in &mut candidates {
                 if let Some(flat) = polish(data, candidate, h, kicks, steps)? {
                     return Ok(Found::Flat(flat));
@@ -143,11 +144,11 @@ fn ends_on_sample(
     let simplices = best_simplices(sample, dim, part)?;
     let points = Standardised::of(sample, dim);
     let silent = Monitor::silent();
-    (0..STARTS + simplices.len())
+    (0..START_COUNT + simplices.len())
         .into_par_iter()
         .map(|which| {
             let mut steps = 0;
-            let end = match which.checked_sub(STARTS) {
+            let end = match which.checked_sub(START_COUNT) {
                 None => {
                     let ranking = points.distances(which);
                     from_ranking(criterion, sample, dim, &ranking, part, &mut steps)?
@@ -177,7 +178,7 @@ fn best_simplices(sample: &[f64], dim: usize, part: usize) -> Result<Vec<Estimat
     let values = &sample[..few * dim];
     let view = Points::new(values, dim).expect("rows of the dimension");
     let silent = Monitor::silent();
-    let ends: Vec<Option<Estimate>> = (0..ELEMENTS)
+    let ends: Vec<Option<Estimate>> = (0..SIMPLEX_COUNT)
         .into_par_iter()
         .map(|which| {
             let mut data = Survey::new(&view, &silent)?;

@@ -18,10 +18,10 @@ use super::scale::{median, qn};
 use crate::kernel::vector::dot;
 
 /// How many there are.
-pub(super) const STARTS: usize = 6;
+pub(super) const START_COUNT: usize = 6;
 
-/// Part of the largest scale that stands for a scale of 0.
-const TRIFLE: f64 = 1e-10;
+/// This part of the largest scale stands for a scale of 0.
+const SCALE_RATIO_MIN: f64 = 1e-10;
 
 /// Rows that scales of sums and differences are taken of: there are d(d − 1) such scales.
 const PAIR_ROWS: usize = 500;
@@ -46,7 +46,7 @@ impl Standardised {
         Standardised { columns, rows }
     }
 
-    /// Squared distances by start `which` of [`STARTS`].
+    /// Squared distances by start `which` of [`START_COUNT`].
     pub(super) fn distances(&self, which: usize) -> Vec<f64> {
         let matrix = match which {
             0 => self.correlation(|column| column.iter().map(|x| x.tanh()).collect()),
@@ -167,7 +167,7 @@ impl Standardised {
             })
             .collect();
         let largest = scales.iter().fold(0.0f64, |m, &s| if s > m { s } else { m });
-        let least = if largest > 0.0 { TRIFLE * largest } else { 1.0 };
+        let least = if largest > 0.0 { SCALE_RATIO_MIN * largest } else { 1.0 };
         scales.iter_mut().for_each(|s| *s = s.max(least));
         for (image, scale) in images.iter_mut().zip(&scales) {
             image.iter_mut().for_each(|x| *x /= scale);
@@ -279,7 +279,7 @@ mod tests {
             (0..100).flat_map(|i| [f64::from(i % 10), f64::from(i / 10) * 3.0]).collect();
         (0..30).for_each(|i| values.extend([1000.0 + f64::from(i % 5), 500.0 + f64::from(i)]));
         let points = Standardised::of(&values, 2);
-        for which in 0..STARTS {
+        for which in 0..START_COUNT {
             let kept = nearest(&points.distances(which), 65);
             assert!(kept[100..].iter().all(|kept| !kept), "start {which}");
         }

@@ -15,8 +15,8 @@ use crate::top::{Face, Far, Top, TopByFace};
 
 /// Rows whose distances are worked out before they are compared: 4 KiB of results.
 const ROWS_AT_ONCE: usize = 512;
-/// Reaches that one comparison disposes of.
-const GROUP: usize = 64;
+/// One comparison disposes of this many reaches.
+const GROUP_SIZE: usize = 64;
 
 /// A pass under way, shared by all threads.
 pub(super) struct Pass<'p> {
@@ -155,8 +155,8 @@ impl<'p> Pass<'p> {
             let shared = f64::from_bits(self.bound.load(Ordering::Relaxed));
             let worth =
                 |reach2: f64, top: &Top| reach2 > query.above.max(top.bound()) && reach2 >= shared;
-            for (group, chunk) in reaches.chunks(GROUP).enumerate() {
-                let first_id = first_row + (start + group * GROUP) as u64;
+            for (group, chunk) in reaches.chunks(GROUP_SIZE).enumerate() {
+                let first_id = first_row + (start + group * GROUP_SIZE) as u64;
                 let largest = largest(chunk);
                 if largest > farthest.reach2 {
                     let at = chunk.iter().position(|&v| v == largest).expect("it is one of them");
@@ -171,7 +171,7 @@ impl<'p> Pass<'p> {
                         top.offer(far);
                     }
                     if reach2 > face_above {
-                        let row = &part.row(group * GROUP + at)[..self.scan.dim];
+                        let row = &part.row(group * GROUP_SIZE + at)[..self.scan.dim];
                         by_face.offer(face(row, query.center), far);
                     }
                 }

@@ -7,14 +7,14 @@
 
 use crate::kernel::vector::{add_scaled, dot};
 
-/// Rotations of the whole matrix for each eigenvalue, at most; three are usual.
-const TURNS: usize = 60;
+/// At most this many rotations of the whole matrix are made for each eigenvalue; three are usual.
+const ROTATIONS_MAX: usize = 60;
 
 /// The eigenvalues of a symmetric matrix, n × n, and the eigenvectors as rows; the matrix is used up.
 pub(crate) fn eigen(a: &mut [f64], n: usize) -> (Vec<f64>, Vec<f64>) {
     let (mut on, mut beside, mut vectors) = tridiagonal(a, n);
     let mut end = n;
-    let mut turns = TURNS * n;
+    let mut turns = ROTATIONS_MAX * n;
     while end > 1 && turns > 0 {
         turns -= 1;
         let is_zero =

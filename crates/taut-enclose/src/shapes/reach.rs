@@ -11,9 +11,10 @@
 //! *Reference.* Moré and Sorensen, SIAM J. Sci. Stat. Comput. 4(3), 1983.
 
 /// Axes within this part of the longest are tried instead of it, in both directions.
-const NEARLY: f64 = 0.2;
-/// Newton steps end after a handful; halving the exponent of a bracket takes no more than this.
-const STEPS: usize = 200;
+const LONGEST_TOLERANCE: f64 = 0.2;
+/// At most this many steps are made. Newton steps end after a handful; halving the exponent of a bracket takes no more
+/// than this.
+const STEPS_MAX: usize = 200;
 
 /// The point farthest out.
 pub(crate) struct Farthest {
@@ -66,7 +67,7 @@ fn shift(gaps: &[f64], weights: &[f64]) -> f64 {
         (square, cube)
     };
     let mut delta = low;
-    for _ in 0..STEPS {
+    for _ in 0..STEPS_MAX {
         let (square, cube) = sums(delta);
         if delta == 0.0 && square <= 1.0 {
             return 0.0;
@@ -105,7 +106,7 @@ pub(crate) fn alternatives(
 ) {
     let top = lambda.iter().copied().fold(0.0, f64::max);
     found(best.square, &best.beta);
-    let is_long = |k: usize| lambda[k] > 0.0 && lambda[k] >= (1.0 - NEARLY) * top;
+    let is_long = |k: usize| lambda[k] > 0.0 && lambda[k] >= (1.0 - LONGEST_TOLERANCE) * top;
     let long: Vec<usize> = (0..h.len()).filter(|&k| is_long(k)).collect();
     let rest: f64 = (0..h.len())
         .filter(|&k| !is_long(k))

@@ -5,8 +5,8 @@ use taut_enclose::{CentersMethod, CentersOptions, Error, centers_of_source};
 use taut_points::InputError;
 use taut_points::{Monitor, Points};
 
-/// Rows at most: more are solved as well, but each case should take a moment.
-const ROWS: usize = 24;
+/// A case has at most this many rows: more are solved as well, but each case should take a moment.
+const ROWS_MAX: usize = 24;
 
 /// The first byte chooses dimension, k and kind of number, the second what is asked for; the rest are coordinates, as
 /// small integers, which bring ties, copies and lines, or as the bits of `f64`.
@@ -39,7 +39,7 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
         true => rest.iter().map(|&b| f64::from(b as i8)).collect(),
         false => rest.as_chunks::<8>().0.iter().map(|&eight| f64::from_le_bytes(eight)).collect(),
     };
-    values.truncate((values.len() / columns).min(ROWS) * columns);
+    values.truncate((values.len() / columns).min(ROWS_MAX) * columns);
     if columns > dim {
         for last in values.iter_mut().skip(dim).step_by(columns) {
             *last = last.abs() + if weights { 1.0 } else { 0.0 };

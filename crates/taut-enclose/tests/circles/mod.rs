@@ -9,12 +9,12 @@ pub struct Circle {
     pub radius: f64,
 }
 
-/// What a circle may be off by: determinants of triangles lose some digits.
-const SLACK: f64 = 1e-10;
+/// A circle may be off by this: determinants of triangles lose some digits.
+const CIRCLE_TOLERANCE: f64 = 1e-10;
 
 impl Circle {
     pub fn holds(&self, p: [f64; 2]) -> bool {
-        distance(self.center, p) <= self.radius * (1.0 + SLACK) + 1e-14
+        distance(self.center, p) <= self.radius * (1.0 + CIRCLE_TOLERANCE) + 1e-14
     }
 }
 

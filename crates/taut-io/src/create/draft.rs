@@ -17,7 +17,7 @@ use tempfile::NamedTempFile;
 const PREFIX: &str = ".taut-tmp-";
 
 /// How often a new file may be taken away before its lock, by one process after the other.
-const ATTEMPTS: usize = 8;
+const ATTEMPTS_MAX: usize = 8;
 
 /// The temporary files of this process that have not taken their names.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -62,7 +62,7 @@ impl Draft {
             builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         }
         let mut file = builder.tempfile_in(folder)?;
-        for _ in 1..ATTEMPTS {
+        for _ in 1..ATTEMPTS_MAX {
             if is_locked(&file) {
                 break;
             }
@@ -127,10 +127,10 @@ fn sweep(folder: &Path) {
 /// It neither waits nor allocates, so it may be called where memory has run out: a file that another thread is about to begin
 /// or to finish stays, and so does one with a very long path.
 pub fn remove_unfinished() {
-    /// Bytes of a path up to which the standard library makes no copy of it on the heap.
-    const SHORT: usize = 300;
+    /// The standard library makes no copy on the heap of a path of fewer bytes.
+    const PATH_BYTES_MAX: usize = 300;
     let Ok(unfinished) = UNFINISHED.try_lock() else { return };
-    for path in unfinished.iter().filter(|path| path.as_os_str().len() < SHORT) {
+    for path in unfinished.iter().filter(|path| path.as_os_str().len() < PATH_BYTES_MAX) {
         fs::remove_file(path).ok();
     }
 }

@@ -45,12 +45,12 @@ pub(super) struct Few<'a>(pub(super) &'a [String]);
 
 impl fmt::Display for Few<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        const SHOWN: usize = 8;
-        for (i, item) in self.0.iter().take(SHOWN).enumerate() {
+        const SHOWN_ITEMS_MAX: usize = 8;
+        for (i, item) in self.0.iter().take(SHOWN_ITEMS_MAX).enumerate() {
             write!(f, "{}`{}`", if i == 0 { "" } else { ", " }, Clean(item))?;
         }
         match self.0.len() {
-            n if n > SHOWN => write!(f, " and {} more", n - SHOWN),
+            n if n > SHOWN_ITEMS_MAX => write!(f, " and {} more", n - SHOWN_ITEMS_MAX),
             _ => Ok(()),
         }
     }

@@ -127,8 +127,8 @@ fn all_numbers(job: &Job<'_>, columns: &Columns, first: &[Cow<'_, [u8]>]) -> Res
 
 /// Whether a field is no number but begins as one, or is what tables write where a number is missing.
 pub(crate) fn is_failed_value(field: &[u8]) -> bool {
-    const MISSING: [&[u8]; 6] = [b"", b"NA", b"N/A", b"null", b"none", b"?"];
+    const MISSING_WORDS: [&[u8]; 6] = [b"", b"NA", b"N/A", b"null", b"none", b"?"];
     let starts = matches!(field.first(), Some(b'0'..=b'9' | b'+' | b'-' | b'.'));
     !is_number(field)
-        && (starts || MISSING.iter().any(|missing| field.eq_ignore_ascii_case(missing)))
+        && (starts || MISSING_WORDS.iter().any(|missing| field.eq_ignore_ascii_case(missing)))
 }

@@ -227,11 +227,14 @@ fn hint(text: &[u8]) -> &'static str {
 
 /// A field as messages show it: text, and not too much of it.
 pub(super) fn shown(text: &[u8]) -> String {
-    const LONGEST: usize = 40;
+    const SHOWN_CHARS_MAX: usize = 40;
     let text = String::from_utf8_lossy(text);
-    let mut shown: String =
-        text.chars().take(LONGEST).flat_map(|c| c.escape_debug().collect::<Vec<_>>()).collect();
-    if text.chars().nth(LONGEST).is_some() {
+    let mut shown: String = text
+        .chars()
+        .take(SHOWN_CHARS_MAX)
+        .flat_map(|c| c.escape_debug().collect::<Vec<_>>())
+        .collect();
+    if text.chars().nth(SHOWN_CHARS_MAX).is_some() {
         shown.push('…');
     }
     shown

@@ -13,7 +13,7 @@ use crate::{Error, MeshPlace};
 const TRIANGLES_MAX: usize = (u32::MAX / 3) as usize;
 
 /// Bytes of a vertex and of a triangle.
-const VERTEX: u64 = size_of::<[f64; 3]>() as u64;
+const VERTEX_BYTES: u64 = size_of::<[f64; 3]>() as u64;
 const TRIANGLE: u64 = size_of::<[u32; 3]>() as u64;
 
 pub(super) struct Building<'a> {
@@ -121,8 +121,8 @@ impl<'a> Building<'a> {
     /// Refuses a shape that outgrows the allowed memory: triangles name any vertex, so all are held.
     fn check_memory(&self) -> Result<(), Error> {
         // Corners of stl are looked up by their coordinates, in a table of at most twice their size.
-        let vertex = if self.format == ShapeFormat::Stl { 3 * VERTEX } else { VERTEX };
-        let normals = self.normals.len() as u64 * VERTEX;
+        let vertex = if self.format == ShapeFormat::Stl { 3 * VERTEX_BYTES } else { VERTEX_BYTES };
+        let normals = self.normals.len() as u64 * VERTEX_BYTES;
         let bytes = self.vertices.len() as u64 * vertex + self.triangles.len() as u64 * TRIANGLE;
         limits::check_held(
             self.path,

@@ -22,8 +22,8 @@ use crate::words::{Lines, place, put_place, words};
 use crate::write::Out;
 use crate::{Error, MeshPlace};
 
-/// Bytes that are looked at to tell text from binary: the head of a binary file and nine triangles.
-const SAMPLE: u64 = 84 + 9 * 50;
+/// This many bytes are looked at to tell text from binary: the head of a binary file and nine triangles.
+const SNIFFED_BYTES: u64 = 84 + 9 * 50;
 
 /// Bytes before the count of triangles.
 const HEAD: u64 = 80;
@@ -61,7 +61,7 @@ pub(super) fn read(
 ) -> Result<(), Error> {
     let mut head = Vec::new();
     (&mut stream)
-        .take(SAMPLE)
+        .take(SNIFFED_BYTES)
         .read_to_end(&mut head)
         .map_err(|source| Error::reading(path, source))?;
     let text = is_text(&head);

@@ -16,13 +16,13 @@ use crate::Error;
 /// Bytes of encoded points in a row group.
 const ROW_GROUP: usize = 64 << 20;
 
-/// From this dimension on, parquet holds points without names as one column of lists: its writer keeps buffers of
-/// some 20 KiB for each column, whatever the number of rows.
-const WIDE: usize = 1000;
+/// Beyond this dimension parquet holds points without names as one column of lists: its writer keeps buffers of some 20
+/// KiB for each column, whatever the number of rows.
+const COLUMNS_MAX: usize = 1000;
 
 pub(super) fn write_parquet(points: &Points<'_>, out: &mut Out<'_>) -> Result<(), Error> {
     let (path, failure) = (out.path, out.failure);
-    let wide = points.source.dim() > WIDE;
+    let wide = points.source.dim() > COLUMNS_MAX;
     let list = wide && points.columns.is_empty();
     let schema = match list {
         true => list_schema(points).map_err(|source| failure(path, source))?,

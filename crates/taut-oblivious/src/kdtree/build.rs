@@ -5,7 +5,7 @@
 //! Guarantee: ⌈log₂ m⌉ levels whatever the points; equal coordinates may be on both sides of a split, which searches know.
 //! Trap: splitting by value instead of by number never ends where many points share a coordinate.
 
-use super::{BUCKET, IS_BUCKET, KdTree, Node, wide};
+use super::{BUCKET_SIZE, IS_BUCKET, KdTree, Node, wide};
 use crate::Error;
 use crate::layout::{NONE, TreeOrder, permute};
 use crate::pages::Pages;
@@ -37,7 +37,7 @@ pub(super) fn build<const D: usize>(
         plain &= wide::is_plain(point);
         items.push((point, row));
     }
-    let buckets = points.len().div_ceil(BUCKET);
+    let buckets = points.len().div_ceil(BUCKET_SIZE);
     // The nodes in pre-order: one less than buckets.
     let mut nodes = vec![Node::default(); buckets.saturating_sub(1)];
     split(&mut items, &mut nodes, 0, 0);
@@ -47,16 +47,17 @@ pub(super) fn build<const D: usize>(
     for (words, node) in nodes.words_mut().iter_mut().zip(laid) {
         *words = node.words();
     }
-    let mut coordinates = Pages::zeroed(buckets * BUCKET * D);
+    let mut coordinates = Pages::zeroed(buckets * BUCKET_SIZE * D);
     coordinates.words_mut().fill(f64::INFINITY);
-    let mut rows = Pages::zeroed(buckets * BUCKET);
+    let mut rows = Pages::zeroed(buckets * BUCKET_SIZE);
     rows.words_mut().fill(u32::MAX);
-    for (bucket, items) in items.chunks(BUCKET).enumerate() {
-        let coordinates = &mut coordinates.words_mut()[bucket * BUCKET * D..][..BUCKET * D];
-        let rows = &mut rows.words_mut()[bucket * BUCKET..][..BUCKET];
+    for (bucket, items) in items.chunks(BUCKET_SIZE).enumerate() {
+        let coordinates =
+            &mut coordinates.words_mut()[bucket * BUCKET_SIZE * D..][..BUCKET_SIZE * D];
+        let rows = &mut rows.words_mut()[bucket * BUCKET_SIZE..][..BUCKET_SIZE];
         for (i, &(point, row)) in items.iter().enumerate() {
             for (axis, &x) in point.iter().enumerate() {
-                coordinates[axis * BUCKET + i] = x;
+                coordinates[axis * BUCKET_SIZE + i] = x;
             }
             rows[i] = row;
         }
@@ -69,7 +70,7 @@ pub(super) fn build<const D: usize>(
 fn split<const D: usize>(items: &mut [Item<D>], nodes: &mut [Node], node: u32, bucket: u32) {
     let Some((here, below)) = nodes.split_first_mut() else { return };
     let buckets_left = (below.len() + 2).div_ceil(2);
-    let middle = buckets_left * BUCKET;
+    let middle = buckets_left * BUCKET_SIZE;
     let axis = widest(items);
     let split_at = |a: &Item<D>, b: &Item<D>| a.0[axis].total_cmp(&b.0[axis]);
     let (_, &mut (point, _), _) = items.select_nth_unstable_by(middle, split_at);

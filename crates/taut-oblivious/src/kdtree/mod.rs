@@ -25,8 +25,8 @@ use crate::Error;
 use crate::layout::TreeOrder;
 use crate::pages::Pages;
 
-/// Points of a bucket: four vectors of 8 coordinates for each axis.
-const BUCKET: usize = 32;
+/// A bucket has this many points: four vectors of 8 coordinates for each axis.
+const BUCKET_SIZE: usize = 32;
 /// Marks a child that is a bucket.
 const IS_BUCKET: u32 = 1 << 31;
 

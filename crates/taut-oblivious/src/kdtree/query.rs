@@ -18,7 +18,7 @@ use std::hint::select_unpredictable;
 use rayon::prelude::*;
 
 use super::wide::is_plain;
-use super::{BUCKET, IS_BUCKET, KdTree, Node};
+use super::{BUCKET_SIZE, IS_BUCKET, KdTree, Node};
 use crate::level::Level;
 use crate::search::prefetch;
 use crate::{NoProbe, Probe, hilbert_order};
@@ -36,11 +36,11 @@ pub struct Nearest {
 const LANES: usize = 8;
 /// Other sides that can wait: one a level, and no more levels than bits of a row.
 const DEPTH_MAX: usize = 32;
-/// Buckets that are asked for before the first of them is looked at: with the reach that the first bucket of all gave, two
-/// or three more are near enough on average.
-const ASKED: usize = 8;
-/// Nearest points that are kept in order; more are kept in a heap.
-const FEW: usize = 64;
+/// This many buckets are asked for before the first of them is looked at: with the reach that the first bucket of all
+/// gave, two or three more are near enough on average.
+const BUCKETS_AHEAD: usize = 8;
+/// Up to this many nearest points are kept in order; more are kept in a heap.
+const ORDERED_LIST_MAX: usize = 64;
 /// Places that one task of [`KdTree::nearest_all`] searches for.
 const TASK: usize = 1 << 12;
 
@@ -60,7 +60,7 @@ trait Found {
     fn reach(&self) -> f64;
 
     /// Hears of the squared distances and rows of a bucket.
-    fn offer(&mut self, distances: &[[f64; LANES]; BUCKET / LANES], rows: &[u32; BUCKET]);
+    fn offer(&mut self, distances: &[[f64; LANES]; BUCKET_SIZE / LANES], rows: &[u32; BUCKET_SIZE]);
 }
 
 /// The nearest point so far.
@@ -73,7 +73,11 @@ impl Found for One {
     }
 
     #[inline(always)]
-    fn offer(&mut self, distances: &[[f64; LANES]; BUCKET / LANES], rows: &[u32; BUCKET]) {
+    fn offer(
+        &mut self,
+        distances: &[[f64; LANES]; BUCKET_SIZE / LANES],
+        rows: &[u32; BUCKET_SIZE],
+    ) {
         let mut least = [f64::INFINITY; LANES];
         for lane in distances {
             for i in 0..LANES {
@@ -162,7 +166,11 @@ impl<F: Fn(u32, u32) -> Ordering + Copy> Found for Several<F> {
     }
 
     #[inline(always)]
-    fn offer(&mut self, distances: &[[f64; LANES]; BUCKET / LANES], rows: &[u32; BUCKET]) {
+    fn offer(
+        &mut self,
+        distances: &[[f64; LANES]; BUCKET_SIZE / LANES],
+        rows: &[u32; BUCKET_SIZE],
+    ) {
         for (distance2, row) in within(self.reach(), distances, rows) {
             if distance2 <= self.reach() {
                 let candidate = Candidate { square: distance2.to_bits(), row, ties: self.ties };
@@ -172,7 +180,7 @@ impl<F: Fn(u32, u32) -> Ordering + Copy> Found for Several<F> {
     }
 }
 
-/// The k nearest points so far, where these are few: in order, which costs less than a heap up to [`FEW`].
+/// The k nearest points so far, where these are few: in order, which costs less than a heap up to [`ORDERED_LIST_MAX`].
 struct Few<F> {
     /// Squared distances as bits, which have their order, and rows.
     found: Vec<(u64, u32)>,
@@ -187,7 +195,11 @@ impl<F: Fn(u32, u32) -> Ordering + Copy> Found for Few<F> {
     }
 
     #[inline(always)]
-    fn offer(&mut self, distances: &[[f64; LANES]; BUCKET / LANES], rows: &[u32; BUCKET]) {
+    fn offer(
+        &mut self,
+        distances: &[[f64; LANES]; BUCKET_SIZE / LANES],
+        rows: &[u32; BUCKET_SIZE],
+    ) {
         for (distance2, row) in within(self.reach(), distances, rows) {
             let bits = distance2.to_bits();
             let mut place = self.found.partition_point(|&(other, _)| other < bits);
@@ -207,8 +219,8 @@ impl<F: Fn(u32, u32) -> Ordering + Copy> Found for Few<F> {
 #[inline(always)]
 fn within(
     reach: f64,
-    distances: &[[f64; LANES]; BUCKET / LANES],
-    rows: &[u32; BUCKET],
+    distances: &[[f64; LANES]; BUCKET_SIZE / LANES],
+    rows: &[u32; BUCKET_SIZE],
 ) -> impl Iterator<Item = (f64, u32)> {
     let distances = distances.as_flattened();
     let bit = |(i, &distance2): (usize, &f64)| u32::from(distance2 <= reach) << i;
@@ -216,7 +228,7 @@ fn within(
     let next = move || {
         let i = near.trailing_zeros() as usize;
         near &= near.wrapping_sub(1);
-        (i < BUCKET).then(|| (distances[i], rows[i]))
+        (i < BUCKET_SIZE).then(|| (distances[i], rows[i]))
     };
     // Where there is no point, the distance is infinite.
     std::iter::from_fn(next).filter(|&(_, row)| row != u32::MAX)
@@ -288,7 +300,7 @@ impl<const D: usize> KdTree<D> {
         if !(self.plain && is_plain(place)) {
             return self.nearest_wide(place, k, ties, probe);
         }
-        if k <= FEW {
+        if k <= ORDERED_LIST_MAX {
             let mut few = Few { found: Vec::with_capacity(k), k, ties };
             self.search(Level::best(), place, &mut few, probe);
             let nearest =
@@ -374,7 +386,7 @@ impl<const D: usize> KdTree<D> {
         let mut waiting = [start; DEPTH_MAX];
         let (mut count, mut side) = (0, start);
         // Buckets on their way from memory, and their squared distances.
-        let mut asked = [(0, 0.0); ASKED];
+        let mut asked = [(0, 0.0); BUCKETS_AHEAD];
         let mut ahead = 0;
         loop {
             while side.child & IS_BUCKET == 0 {
@@ -400,8 +412,8 @@ impl<const D: usize> KdTree<D> {
             }
             // The rows are read at last, and only if a point is nearer.
             let bucket = (side.child & !IS_BUCKET) as usize;
-            prefetch(rows, bucket * BUCKET);
-            prefetch(rows, bucket * BUCKET + BUCKET / 2);
+            prefetch(rows, bucket * BUCKET_SIZE);
+            prefetch(rows, bucket * BUCKET_SIZE + BUCKET_SIZE / 2);
             self.fetch(side.child);
             asked[ahead] = (bucket, side.distance2);
             ahead += 1;
@@ -411,7 +423,7 @@ impl<const D: usize> KdTree<D> {
                 next = Some(waiting[count]).filter(|side| side.distance2 <= found.reach());
             }
             if let Some(next) = next
-                && ahead < ASKED
+                && ahead < BUCKETS_AHEAD
                 && found.reach() < f64::INFINITY
             {
                 side = next;
@@ -419,9 +431,10 @@ impl<const D: usize> KdTree<D> {
             }
             for &(bucket, distance2) in &asked[..ahead] {
                 if distance2 <= found.reach() {
-                    let points = &coordinates[bucket * BUCKET * D..][..BUCKET * D];
+                    let points = &coordinates[bucket * BUCKET_SIZE * D..][..BUCKET_SIZE * D];
                     probe.read(points);
-                    let (rows, _) = rows[bucket * BUCKET..][..BUCKET].as_chunks::<BUCKET>();
+                    let (rows, _) =
+                        rows[bucket * BUCKET_SIZE..][..BUCKET_SIZE].as_chunks::<BUCKET_SIZE>();
                     probe.read(&rows[0]);
                     found.offer(&distances(place, points), &rows[0]);
                 }
@@ -446,8 +459,8 @@ impl<const D: usize> KdTree<D> {
     /// Asks for the points of a bucket.
     #[inline(always)]
     fn fetch(&self, bucket: u32) {
-        let first = (bucket & !IS_BUCKET) as usize * BUCKET * D;
-        for line in (0..BUCKET * D).step_by(LANES) {
+        let first = (bucket & !IS_BUCKET) as usize * BUCKET_SIZE * D;
+        for line in (0..BUCKET_SIZE * D).step_by(LANES) {
             prefetch(self.coordinates.words(), first + line);
         }
     }
@@ -465,9 +478,12 @@ fn length2<const D: usize>(offsets: [f64; D]) -> f64 {
 
 /// The squared distances of the points of a bucket from a place.
 #[inline(always)]
-fn distances<const D: usize>(place: [f64; D], points: &[f64]) -> [[f64; LANES]; BUCKET / LANES] {
+fn distances<const D: usize>(
+    place: [f64; D],
+    points: &[f64],
+) -> [[f64; LANES]; BUCKET_SIZE / LANES] {
     let (lanes, _) = points.as_chunks::<LANES>();
-    let mut distances = [[0.0; LANES]; BUCKET / LANES];
+    let mut distances = [[0.0; LANES]; BUCKET_SIZE / LANES];
     for (j, distance) in distances.iter_mut().enumerate() {
         for i in 0..LANES {
             let x = lanes[j][i] - place[0];
@@ -475,7 +491,7 @@ fn distances<const D: usize>(place: [f64; D], points: &[f64]) -> [[f64; LANES]; 
         }
         for axis in 1..D {
             for i in 0..LANES {
-                let x = lanes[axis * (BUCKET / LANES) + j][i] - place[axis];
+                let x = lanes[axis * (BUCKET_SIZE / LANES) + j][i] - place[axis];
                 distance[i] += x * x;
             }
         }

@@ -13,18 +13,19 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use super::query::{Candidate, keep};
-use super::{BUCKET, IS_BUCKET, KdTree, Nearest, Node};
+use super::{BUCKET_SIZE, IS_BUCKET, KdTree, Nearest, Node};
 use crate::Probe;
 
 /// A difference of so much or more is scaled down.
-const HUGE: f64 = two_to(500);
+const DIFFERENCE_MAX: f64 = two_to(500);
 /// A largest difference below that is scaled up.
-const TINY: f64 = two_to(-450);
-/// What differences are scaled by, or its inverse.
-const UP: f64 = two_to(600);
-const DOWN: f64 = two_to(-600);
+const DIFFERENCE_MIN: f64 = two_to(-450);
+/// Small differences are scaled by this.
+const SCALE_UP: f64 = two_to(600);
+/// Large differences are scaled by this, the inverse.
+const SCALE_DOWN: f64 = two_to(-600);
 /// More than what roundings make of a bound.
-const LOWERED: f64 = 1.0 - two_to(-40);
+const BOUND_FACTOR: f64 = 1.0 - two_to(-40);
 
 /// 2ᵉ, for exponents of normal numbers.
 const fn two_to(exponent: i64) -> f64 {
@@ -35,9 +36,9 @@ const fn two_to(exponent: i64) -> f64 {
 /// is zero, or between 2⁻⁴⁰⁰ and 2⁵⁰⁰, so that a difference is zero or more than 2⁻⁴⁵³.
 #[inline(always)]
 pub(super) fn is_plain<const D: usize>(place: [f64; D]) -> bool {
-    place
-        .iter()
-        .fold(true, |all, x| all & ((x.abs() >= two_to(-400)) & (x.abs() <= HUGE) | (*x == 0.0)))
+    place.iter().fold(true, |all, x| {
+        all & ((x.abs() >= two_to(-400)) & (x.abs() <= DIFFERENCE_MAX) | (*x == 0.0))
+    })
 }
 
 /// A squared distance: `scaled` · 2^(1200 · `band`), not negative. Bands beside 0 begin where 0 is safe no more.
@@ -55,11 +56,11 @@ impl Square {
             (1..D).fold(first, |sum, i| sum + difference(i) * difference(i))
         };
         let largest = (0..D).fold(0.0f64, |largest, i| largest.max((p[i] - q[i]).abs()));
-        let (band, sum) = if largest >= HUGE {
+        let (band, sum) = if largest >= DIFFERENCE_MAX {
             // Scaled first: the difference itself may be infinite.
-            (1, sum(&|i| p[i] * DOWN - q[i] * DOWN))
-        } else if largest < TINY {
-            (-1, sum(&|i| (p[i] - q[i]) * UP))
+            (1, sum(&|i| p[i] * SCALE_DOWN - q[i] * SCALE_DOWN))
+        } else if largest < DIFFERENCE_MIN {
+            (-1, sum(&|i| (p[i] - q[i]) * SCALE_UP))
         } else {
             (0, sum(&|i| p[i] - q[i]))
         };
@@ -69,7 +70,8 @@ impl Square {
             0 => sum >= two_to(1000),
             _ => false,
         };
-        let (band, sum) = if moves { (band + 1, sum * DOWN * DOWN) } else { (band, sum) };
+        let (band, sum) =
+            if moves { (band + 1, sum * SCALE_DOWN * SCALE_DOWN) } else { (band, sum) };
         Self { band, scaled: sum.to_bits() }
     }
 
@@ -77,14 +79,14 @@ impl Square {
     fn value(self) -> f64 {
         let scaled = f64::from_bits(self.scaled);
         match self.band {
-            1 => scaled * UP * UP,
+            1 => scaled * SCALE_UP * SCALE_UP,
             0 => scaled,
-            _ => scaled * DOWN * DOWN,
+            _ => scaled * SCALE_DOWN * SCALE_DOWN,
         }
     }
 
     fn lowered(self) -> Self {
-        Self { scaled: (f64::from_bits(self.scaled) * LOWERED).to_bits(), ..self }
+        Self { scaled: (f64::from_bits(self.scaled) * BOUND_FACTOR).to_bits(), ..self }
     }
 }
 
@@ -140,12 +142,12 @@ impl<const D: usize> KdTree<D> {
                 child = near;
             }
             let bucket = (child & !IS_BUCKET) as usize;
-            let points = &coordinates[bucket * BUCKET * D..][..BUCKET * D];
-            let rows = &rows[bucket * BUCKET..][..BUCKET];
+            let points = &coordinates[bucket * BUCKET_SIZE * D..][..BUCKET_SIZE * D];
+            let rows = &rows[bucket * BUCKET_SIZE..][..BUCKET_SIZE];
             probe.read(points);
             probe.read(rows);
             for (i, &row) in rows.iter().enumerate().filter(|(_, row)| **row != u32::MAX) {
-                let point = std::array::from_fn(|axis| points[axis * BUCKET + i]);
+                let point = std::array::from_fn(|axis| points[axis * BUCKET_SIZE + i]);
                 keep(&mut found, k, Candidate { square: Square::between(place, point), row, ties });
             }
         }

@@ -36,14 +36,14 @@ pub enum Direction {
     Inverse,
 }
 
-/// Transforms of up to so many points fit the second cache: one transform of the library.
-const DIRECT: usize = 1 << 16;
-/// Columns, or rows, that are brought together: two lines of the cache.
-const TOGETHER: usize = 8;
-/// Points between two columns that were brought together, beyond their length.
-const APART: usize = 4;
-/// Rows ahead that are fetched early.
-const AHEAD: usize = 24;
+/// Transforms of up to this many points fit the second cache: one transform of the library.
+const DIRECT_POINTS_MAX: usize = 1 << 16;
+/// This many columns, or rows, are brought together: two lines of the cache.
+const GATHERED_COLUMNS: usize = 8;
+/// Two columns that were brought together are this many points apart, beyond their length.
+const COLUMN_PADDING: usize = 4;
+/// Rows are fetched this many rows ahead.
+const PREFETCH_ROWS: usize = 24;
 
 /// Writes the transform of `signal` to `spectrum`; `signal` is used up.
 ///
@@ -89,7 +89,9 @@ pub fn fft_probed<P: Probe>(
     probe.place(signal);
     probe.place(spectrum);
     match factors(n) {
-        Some((n1, n2)) if n > DIRECT => passes(signal, spectrum, (n1, n2), direction, probe),
+        Some((n1, n2)) if n > DIRECT_POINTS_MAX => {
+            passes(signal, spectrum, (n1, n2), direction, probe)
+        }
         _ if n == 0 => {}
         _ => {
             let transform = plan(n, direction);
@@ -106,7 +108,7 @@ pub fn fft_probed<P: Probe>(
 
 /// The two factors closest to each other, if both are large.
 fn factors(n: usize) -> Option<(usize, usize)> {
-    let least = TOGETHER.max(n.isqrt() / 32);
+    let least = GATHERED_COLUMNS.max(n.isqrt() / 32);
     (least..=n.isqrt()).rev().find(|n1| n.is_multiple_of(*n1)).map(|n1| (n1, n / n1))
 }
 
@@ -130,10 +132,10 @@ fn passes<P: Probe>(
     let (columns, rows) = (plan(n1, direction), plan(n2, direction));
     let scratch = columns.get_inplace_scratch_len().max(rows.get_inplace_scratch_len());
     let mut scratch = vec![Complex64::default(); scratch];
-    let mut together = vec![Complex64::default(); TOGETHER * (n2 + APART)];
+    let mut together = vec![Complex64::default(); GATHERED_COLUMNS * (n2 + COLUMN_PADDING)];
     probe.place(&together);
 
-    let stride = n1 + APART;
+    let stride = n1 + COLUMN_PADDING;
     for block in blocks(signal, n2) {
         bring(signal, n2, block.clone(), (&mut together, stride), probe);
         for (j2, column) in block.clone().zip(together.chunks_mut(stride)) {
@@ -144,7 +146,7 @@ fn passes<P: Probe>(
         }
         back((&together, stride), signal, n2, block, probe);
     }
-    let stride = n2 + APART;
+    let stride = n2 + COLUMN_PADDING;
     for block in blocks(spectrum, n1) {
         for (k1, row) in block.clone().zip(together.chunks_mut(stride)) {
             probe.read(&signal[k1 * n2..(k1 + 1) * n2]);
@@ -159,10 +161,10 @@ fn passes<P: Probe>(
 
 /// The columns of a matrix in groups that begin, where they can, with a line of the cache.
 fn blocks(matrix: &[Complex64], columns: usize) -> impl Iterator<Item = Range<usize>> + use<> {
-    let lead = (matrix.as_ptr().align_offset(64) % TOGETHER).min(columns);
-    let rest = (lead..columns).step_by(TOGETHER);
+    let lead = (matrix.as_ptr().align_offset(64) % GATHERED_COLUMNS).min(columns);
+    let rest = (lead..columns).step_by(GATHERED_COLUMNS);
     std::iter::once(0..lead)
-        .chain(rest.map(move |begin| begin..columns.min(begin + TOGETHER)))
+        .chain(rest.map(move |begin| begin..columns.min(begin + GATHERED_COLUMNS)))
         .filter(|block| !block.is_empty())
 }
 
@@ -176,7 +178,7 @@ fn bring<P: Probe>(
 ) {
     let level = Level::best();
     for (i, row) in from.chunks_exact(columns).enumerate() {
-        if let Some(ahead) = from.get((i + AHEAD) * columns + block.start..) {
+        if let Some(ahead) = from.get((i + PREFETCH_ROWS) * columns + block.start..) {
             tiles::fetch(level, &ahead[..block.len().min(ahead.len())]);
         }
         let part = &row[block.clone()];
@@ -197,7 +199,7 @@ fn back<P: Probe>(
     probe: &mut P,
 ) {
     let level = Level::best();
-    let mut line = [Complex64::default(); TOGETHER];
+    let mut line = [Complex64::default(); GATHERED_COLUMNS];
     for (i, row) in to.chunks_exact_mut(columns).enumerate() {
         for (c, x) in line[..block.len()].iter_mut().enumerate() {
             *x = from[c * stride + i];

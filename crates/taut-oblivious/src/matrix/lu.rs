@@ -18,8 +18,8 @@ use crate::{Error, NoProbe, Probe};
 #[cfg(test)]
 mod tests;
 
-/// Columns that are factored one at a time.
-const LEAF: usize = 16;
+/// Up to this many columns are factored one at a time.
+const LEAF_COLUMNS: usize = 16;
 
 /// What [`lu`] did to the rows.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -115,7 +115,7 @@ fn factor<P: Probe>(
     probe: &mut P,
 ) {
     let (m, n) = (a.rows, a.columns);
-    if n <= LEAF {
+    if n <= LEAF_COLUMNS {
         return factor_columns(a, pivots, probe);
     }
     let half = n / 2;
@@ -189,7 +189,7 @@ fn swap(a: &mut MatrixViewMut<'_>, columns: std::ops::Range<usize>, i: usize, k:
 /// B ← L⁻¹·B for a square L whose diagonal counts as one.
 fn solve<P: Probe>(l: MatrixView<'_>, b: &mut MatrixViewMut<'_>, probe: &mut P) {
     let (k, n) = (l.rows, b.columns);
-    if k <= LEAF {
+    if k <= LEAF_COLUMNS {
         for i in 1..k {
             let (above, row) = b.data.split_at_mut(i * b.stride);
             let row = &mut row[..n];

@@ -48,15 +48,15 @@ pub(crate) enum Update {
 }
 
 /// Products that a kernel adds up in registers: a panel of A of this depth is half of the first cache.
-const DEPTH: usize = 256;
+const PANEL_DEPTH: usize = 256;
 /// Columns of a block of B: half of a second cache of 1 MiB.
 const BLOCK: usize = 240;
 /// Numbers in a line of the cache.
 const LINE: usize = 8;
-/// Longest side of what is packed at once: panels of A of 8 MiB.
-const LEAF: usize = 4096;
-/// Multiplications from which on threads share the rows.
-const SHARED: usize = 1 << 21;
+/// What is packed at once has sides of at most this many numbers: panels of A of 8 MiB.
+const PACKED_SIDE_MAX: usize = 4096;
+/// Threads share the rows from this many multiplications on.
+const SHARED_WORK_MIN: usize = 1 << 21;
 
 /// C ← A·B.
 ///
@@ -149,7 +149,7 @@ pub(crate) fn shared(
 ) {
     let threads = rayon::current_num_threads();
     let products = a.rows.saturating_mul(a.columns).saturating_mul(b.columns);
-    if threads == 1 || products < SHARED || c.stride == 0 {
+    if threads == 1 || products < SHARED_WORK_MIN || c.stride == 0 {
         return recurse(level, a, b, c, update, &mut NoProbe);
     }
     let band = a.rows.div_ceil(threads).next_multiple_of(kernel::ROWS_MAX);
@@ -180,7 +180,7 @@ pub(crate) fn recurse<P: Probe>(
         }
         return;
     }
-    if longest <= LEAF {
+    if longest <= PACKED_SIDE_MAX {
         return leaf(level, a, b, c, update, probe);
     }
     let half = (longest / 2).next_multiple_of(BLOCK);
@@ -191,7 +191,7 @@ pub(crate) fn recurse<P: Probe>(
         recurse(level, a, b.part(0..k, 0..half), c.part(0..m, 0..half), update, probe);
         recurse(level, a, b.part(0..k, half..n), c.part(0..m, half..n), update, probe);
     } else {
-        let half = (k / 2).next_multiple_of(DEPTH);
+        let half = (k / 2).next_multiple_of(PANEL_DEPTH);
         recurse(level, a.part(0..m, 0..half), b.part(0..half, 0..n), c.again(), update, probe);
         let update = if update == Update::Set { Update::Add } else { update };
         recurse(level, a.part(0..m, half..k), b.part(half..k, 0..n), c, update, probe);
@@ -209,7 +209,7 @@ fn leaf<P: Probe>(
 ) {
     let (m, k, n) = (a.rows, a.columns, b.columns);
     let (tile_rows, tile_columns) = kernel::tile(level);
-    let depth = k.min(DEPTH);
+    let depth = k.min(PANEL_DEPTH);
     let room_a = pack::Panels::room(tile_rows, m, depth).next_multiple_of(LINE);
     let room = room_a + pack::Panels::room(tile_columns, n.min(BLOCK), depth);
     let mut scratch = scratch::Scratch::of(room);
@@ -218,8 +218,8 @@ fn leaf<P: Probe>(
     let mut packed_b = pack::Panels::new(tile_columns, room_b);
     probe.place(packed_a.all());
     probe.place(packed_b.all());
-    for first in (0..k).step_by(DEPTH) {
-        let stretch = first..k.min(first + DEPTH);
+    for first in (0..k).step_by(PANEL_DEPTH) {
+        let stretch = first..k.min(first + PANEL_DEPTH);
         let update = if first > 0 && update == Update::Set { Update::Add } else { update };
         packed_a.pack(level, a.part(0..m, stretch.clone()), probe);
         for left in (0..n).step_by(BLOCK) {

@@ -26,33 +26,34 @@ mod rectangular;
 mod tests;
 pub(in crate::matrix) mod tiles;
 
-/// Columns of a strip: as many streams as the pages of the target that the processor keeps at hand, with those of the
-/// source. Measured with 4096², 10000² and 8192 × 16384 numbers, 32 columns take a tenth longer, 128 up to a fifth.
-const STRIP: usize = 48;
-/// Rows of a band: their pages, one for each row of a wide matrix, stay among the two or three thousand whose translation
-/// the processor keeps. Walked from top to bottom, a strip of more rows would ask for each page anew.
-const BAND: usize = 1024;
-/// Columns of a strip of a band.
-const WALK: usize = 64;
+/// A strip has this many columns: as many streams as the pages of the target that the processor keeps at hand, with
+/// those of the source. Measured with 4096², 10000² and 8192 × 16384 numbers, 32 columns take a tenth longer, 128 up to
+/// a fifth.
+const STRIP_COLUMNS: usize = 48;
+/// A band has this many rows: their pages, one for each row of a wide matrix, stay among the two or three thousand
+/// whose translation the processor keeps. Walked from top to bottom, a strip of more rows would ask for each page anew.
+const BAND_ROWS: usize = 1024;
+/// A strip of a band has this many columns.
+const WALK_COLUMNS: usize = 64;
 /// Most strips of a band: of numbers of 8 bytes, four pages of each row are read in one go. Measured with one page, 8192 × 16384
 /// numbers take a quarter longer, whose rows begin at the same place in so many pages that few translations are kept.
 const TASK: usize = 32;
-/// Least number of tasks for each thread.
-const SHARE: usize = 4;
-/// Most columns of a matrix that is one strip: its rows are read as they lie.
-const NARROW: usize = 128;
+/// There are at least this many tasks for each thread.
+const TASKS_PER_THREAD_MIN: usize = 4;
+/// A matrix of at most this many columns is one strip: its rows are read as they lie.
+const NARROW_COLUMNS_MAX: usize = 128;
 /// Bytes of a run, the part of a row of the target that is written in one go, at least.
 const RUN_MIN: usize = 512;
 /// Bytes of a run at most: a page.
 const RUN_MAX: usize = 4096;
 /// Bytes of a block of a narrow strip, whose runs may be longer.
 const BLOCK: usize = 16 << 10;
-/// Rows of the target of up to so many bytes are written many in one go.
-const SHORT: usize = 1024;
+/// Rows of the target of up to this many bytes are written many in one go.
+const SHORT_ROW_BYTES_MAX: usize = 1024;
 /// Bytes of a line of the cache.
 const LINE: usize = 64;
-/// Elements from which on threads share the strips.
-const SHARED: usize = 1 << 18;
+/// Threads share the strips from this many elements on.
+const SHARED_ELEMENTS_MIN: usize = 1 << 18;
 
 /// Writes the transpose of the `rows` × `columns` matrix `from` to `to`; both are row-major.
 ///
@@ -81,7 +82,7 @@ pub fn transpose<T: Pod + Send + Sync>(
     }
     let shape = Shape::new::<T>(Level::best(), rows, columns, rayon::current_num_threads());
     let task_len = shape.task_columns * rows;
-    if to.len() < SHARED || rayon::current_num_threads() == 1 {
+    if to.len() < SHARED_ELEMENTS_MIN || rayon::current_num_threads() == 1 {
         for (k, task) in to.chunks_mut(task_len).enumerate() {
             shape.task(from, k * shape.task_columns, task, &mut NoProbe);
         }
@@ -156,14 +157,14 @@ impl Shape {
         let past = 2 * rows * columns * width > last_cache_bytes();
         let line = elements_of_line::<T>();
         // Rows of the target that are short share lines, so a strip has as many as make a long run.
-        let strip_columns = if rows * width <= SHORT {
-            STRIP.max((1 << 16) / rows / STRIP * STRIP)
+        let strip_columns = if rows * width <= SHORT_ROW_BYTES_MAX {
+            STRIP_COLUMNS.max((1 << 16) / rows / STRIP_COLUMNS * STRIP_COLUMNS)
         } else {
-            if columns <= NARROW { columns } else { STRIP }
+            if columns <= NARROW_COLUMNS_MAX { columns } else { STRIP_COLUMNS }
         };
-        let banded = past && strip_columns < columns && rows >= 2 * BAND;
-        let strips = (columns / WALK / (SHARE * threads)).clamp(1, TASK);
-        let task_columns = if banded { strips * WALK } else { strip_columns };
+        let banded = past && strip_columns < columns && rows >= 2 * BAND_ROWS;
+        let strips = (columns / WALK_COLUMNS / (TASKS_PER_THREAD_MIN * threads)).clamp(1, TASK);
+        let task_columns = if banded { strips * WALK_COLUMNS } else { strip_columns };
         Self { level, rows, columns, strip_columns, task_columns, line, past }
     }
 
@@ -181,14 +182,18 @@ impl Shape {
     fn bands<T: Pod>(&self, from: &[T], left: usize, to: &mut [T]) -> bool {
         let (rows, columns) = (self.rows, to.len() / self.rows);
         let lead = if self.columns.is_multiple_of(self.line) { to_line(&from[left..]) } else { 0 };
-        let bands = rows / BAND;
+        let bands = rows / BAND_ROWS;
         for band in 0..bands {
-            let top = band * BAND;
-            let height = if band + 1 == bands { rows - top } else { BAND };
+            let top = band * BAND_ROWS;
+            let height = if band + 1 == bands { rows - top } else { BAND_ROWS };
             let mut strip = 0;
             while strip < columns {
                 // From the second one on strips begin with a line of the source, if all its rows do so at one place.
-                let width = if strip == 0 && lead > 0 { WALK - self.line + lead } else { WALK };
+                let width = if strip == 0 && lead > 0 {
+                    WALK_COLUMNS - self.line + lead
+                } else {
+                    WALK_COLUMNS
+                };
                 let extent = (height, width.min(columns - strip));
                 let part = &from[top * self.columns + left + strip..];
                 let place = &mut to[strip * rows + top..];
@@ -208,7 +213,7 @@ impl Shape {
         let source = (&from[left..], self.columns);
         let walked = self.past
             && tiles::walk(self.level, (self.rows, columns), source, (&mut *to, self.rows));
-        if !walked && self.rows * size_of::<T>() <= SHORT {
+        if !walked && self.rows * size_of::<T>() <= SHORT_ROW_BYTES_MAX {
             self.short(from, left, to, probe);
         } else if !walked {
             self.long(from, left, to, probe);

@@ -9,7 +9,7 @@
 
 use std::ops::Range;
 
-use super::density::{LEAF, Windows};
+use super::density::{LEAF_SLOTS, Windows};
 use super::map::{PackedMap, Writer};
 use super::spread;
 use crate::search::prefetch;
@@ -17,8 +17,8 @@ use crate::{Key, NoProbe, Probe, sort_records};
 
 /// Batches of at least this share of all entries, one in so many, are merged with all.
 const MERGE_SHARE: usize = 8;
-/// Keys between asking for the lines of a leaf and their use.
-const AHEAD: usize = 12;
+/// This many keys lie between asking for the lines of a leaf and their use.
+const PREFETCH_KEYS: usize = 12;
 
 /// A leaf that overflows, with all its entries.
 struct Overflow<K, V> {
@@ -89,13 +89,13 @@ impl<K: Key, V: Copy + Default + Send + Sync> PackedMap<K, V> {
         while start < batch.len() {
             let leaf = leaves[start];
             let end = start + leaves[start..].iter().take_while(|&&other| other == leaf).count();
-            while asked < leaves.len().min(end + AHEAD) {
-                for line in (0..LEAF).step_by(64 / size_of::<K>()) {
-                    prefetch(self.keys.words(), leaves[asked] * LEAF + line);
+            while asked < leaves.len().min(end + PREFETCH_KEYS) {
+                for line in (0..LEAF_SLOTS).step_by(64 / size_of::<K>()) {
+                    prefetch(self.keys.words(), leaves[asked] * LEAF_SLOTS + line);
                 }
                 asked += 1;
             }
-            if self.counts[leaf] as usize + end - start <= LEAF {
+            if self.counts[leaf] as usize + end - start <= LEAF_SLOTS {
                 for &(key, value) in &batch[start..end] {
                     self.merge_one(leaf, key, value, probe);
                 }
@@ -114,7 +114,7 @@ impl<K: Key, V: Copy + Default + Send + Sync> PackedMap<K, V> {
     /// Sets one value in a leaf that has room.
     fn merge_one<P: Probe>(&mut self, leaf: usize, key: K, value: V, probe: &mut P) {
         let place = self.find_in(leaf, key.word(), probe);
-        let slot = leaf * LEAF + place;
+        let slot = leaf * LEAF_SLOTS + place;
         if place < self.counts[leaf] as usize && self.keys.words()[slot].word() == key.word() {
             probe.write(&self.values[slot..=slot]);
             self.values[slot] = value;
@@ -131,7 +131,7 @@ impl<K: Key, V: Copy + Default + Send + Sync> PackedMap<K, V> {
         probe: &mut P,
     ) -> Option<Overflow<K, V>> {
         let count = self.counts[leaf] as usize;
-        let slots = leaf * LEAF..leaf * LEAF + count;
+        let slots = leaf * LEAF_SLOTS..leaf * LEAF_SLOTS + count;
         probe.read(&self.keys.words()[slots.clone()]);
         probe.read(&self.values[slots.clone()]);
         let old = self.keys.words()[slots.clone()].iter().zip(&self.values[slots]);
@@ -139,10 +139,10 @@ impl<K: Key, V: Copy + Default + Send + Sync> PackedMap<K, V> {
         merge(old.map(|(&key, &value)| (key, value)), batch, &mut keys, &mut values);
         self.len += keys.len() - count;
         self.counts[leaf] = keys.len() as u32;
-        if keys.len() > LEAF {
+        if keys.len() > LEAF_SLOTS {
             return Some(Overflow { leaf, keys, values });
         }
-        let slots = leaf * LEAF..leaf * LEAF + keys.len();
+        let slots = leaf * LEAF_SLOTS..leaf * LEAF_SLOTS + keys.len();
         self.moves += count as u64;
         self.keys.words_mut()[slots.clone()].copy_from_slice(&keys);
         self.values[slots.clone()].copy_from_slice(&values);
@@ -181,7 +181,8 @@ impl<K: Key, V: Copy + Default + Send + Sync> PackedMap<K, V> {
                         values.extend_from_slice(&overflow.values);
                     }
                     None => {
-                        let slots = leaf * LEAF..leaf * LEAF + self.counts[leaf] as usize;
+                        let slots =
+                            leaf * LEAF_SLOTS..leaf * LEAF_SLOTS + self.counts[leaf] as usize;
                         probe.read(&self.keys.words()[slots.clone()]);
                         probe.read(&self.values[slots.clone()]);
                         keys.extend_from_slice(&self.keys.words()[slots.clone()]);
@@ -204,8 +205,10 @@ impl<K: Key, V: Copy + Default + Send + Sync> PackedMap<K, V> {
         spread::even(&mut counts, keys.len());
         let mut next = 0;
         for (leaf, &count) in window.clone().zip(&counts) {
-            let (from, slots) =
-                (next..next + count as usize, leaf * LEAF..leaf * LEAF + count as usize);
+            let (from, slots) = (
+                next..next + count as usize,
+                leaf * LEAF_SLOTS..leaf * LEAF_SLOTS + count as usize,
+            );
             self.keys.words_mut()[slots.clone()].copy_from_slice(&keys[from.clone()]);
             self.values[slots.clone()].copy_from_slice(&values[from.clone()]);
             probe.write(&self.keys.words()[slots.clone()]);

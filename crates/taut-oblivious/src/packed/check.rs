@@ -1,6 +1,6 @@
 //! The checker of a packed map: order, counts, separators and densities, told from the arrays alone.
 
-use super::density::{LEAF, LEAF_MIN};
+use super::density::{LEAF_MIN, LEAF_SLOTS};
 use super::map::PackedMap;
 use crate::{Key, Word};
 
@@ -45,7 +45,7 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
         let mut before: Option<K::Word> = None;
         for (leaf, &count) in self.counts.iter().enumerate() {
             let count = count as usize;
-            if count > LEAF || (leaf + 1 < leaves && count < LEAF_MIN) {
+            if count > LEAF_SLOTS || (leaf + 1 < leaves && count < LEAF_MIN) {
                 return wrong(leaf, "has too many or too few entries");
             }
             if leaf + 1 == leaves && leaf > 0 && count == 0 {
@@ -55,7 +55,7 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
             if separator.is_some_and(|separator| before.is_some_and(|word| word >= separator)) {
                 return wrong(leaf, "has a separator that is not above the leaf before it");
             }
-            for (place, key) in self.keys.words()[leaf * LEAF..][..count].iter().enumerate() {
+            for (place, key) in self.keys.words()[leaf * LEAF_SLOTS..][..count].iter().enumerate() {
                 let word = key.word();
                 if before.is_some_and(|before| before >= word) {
                     return wrong(leaf, "has keys that do not ascend");
@@ -81,7 +81,7 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
         if len > windows.most_of_all() || len < windows.fewest_of_all() {
             return wrong(0, "and all others are too full or too empty");
         }
-        let share = |entries: usize, leaves: usize| entries as f64 / (leaves * LEAF) as f64;
+        let share = |entries: usize, leaves: usize| entries as f64 / (leaves * LEAF_SLOTS) as f64;
         let level = |level: u32| {
             let all = (0..leaves).step_by(1 << level).map(|leaf| windows.around(leaf, level));
             let shares = all.map(|window| share(self.entries(&window), window.len()));

@@ -9,12 +9,12 @@
 
 use std::ops::Range;
 
-/// Slots of a leaf: at least log₂ of the slots of any array, and a few lines of memory.
-pub(super) const LEAF: usize = 64;
-/// Entries of a leaf when keys come in ascending order: the densest that all leaves may be.
-pub(super) const SEQUENTIAL: usize = LEAF * 3 / 4;
+/// A leaf has this many slots: at least log₂ of the slots of any array, and a few lines of memory.
+pub(super) const LEAF_SLOTS: usize = 64;
+/// A leaf has this many entries when keys come in ascending order: the densest that all leaves may be.
+pub(super) const SEQUENTIAL_ENTRIES: usize = LEAF_SLOTS * 3 / 4;
 /// The fewest entries of a leaf, the last leaf excepted.
-pub(super) const LEAF_MIN: usize = LEAF / 8;
+pub(super) const LEAF_MIN: usize = LEAF_SLOTS / 8;
 
 /// The windows over a number of leaves, and their bounds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,13 +42,13 @@ impl Windows {
     /// The most entries of `leaves` leaves that are a window of a level.
     pub(super) fn most(self, leaves: usize, level: u32) -> usize {
         let steps = 4 * self.height.max(1) as usize;
-        leaves * LEAF * (steps - level as usize) / steps
+        leaves * LEAF_SLOTS * (steps - level as usize) / steps
     }
 
     /// The fewest entries of `leaves` leaves that are a window of a level.
     pub(super) fn fewest(self, leaves: usize, level: u32) -> usize {
         let height = self.height.max(1) as usize;
-        (leaves * LEAF * (height + 2 * level as usize)).div_ceil(8 * height)
+        (leaves * LEAF_SLOTS * (height + 2 * level as usize)).div_ceil(8 * height)
     }
 
     /// The most entries of all leaves.
@@ -63,7 +63,7 @@ impl Windows {
 
     /// Leaves that `len` entries fill to three fifths.
     pub(super) fn leaves_for(len: usize) -> usize {
-        if len < LEAF { 1 } else { (len * 5).div_ceil(LEAF * 3) }
+        if len < LEAF_SLOTS { 1 } else { (len * 5).div_ceil(LEAF_SLOTS * 3) }
     }
 }
 
@@ -76,9 +76,9 @@ mod tests {
     fn bounds_widen_from_the_whole_to_a_leaf() {
         for leaves in [2, 3, 7, 64, 65, 100_000] {
             let windows = Windows::new(leaves);
-            assert_eq!(windows.most(1, 0), LEAF);
+            assert_eq!(windows.most(1, 0), LEAF_SLOTS);
             assert_eq!(windows.fewest(1, 0), LEAF_MIN);
-            assert_eq!(windows.most_of_all(), leaves * LEAF * 3 / 4);
+            assert_eq!(windows.most_of_all(), leaves * LEAF_SLOTS * 3 / 4);
             for level in 0..windows.height() {
                 let wide = 1 << (level + 1);
                 assert!(2 * windows.most(wide / 2, level) >= windows.most(wide, level + 1));
@@ -90,6 +90,6 @@ mod tests {
             assert!(target < leaves, "{leaves} {target}");
             assert_eq!(windows.around(leaves - 1, windows.height()), 0..leaves);
         }
-        assert_eq!(Windows::new(1).most_of_all(), LEAF);
+        assert_eq!(Windows::new(1).most_of_all(), LEAF_SLOTS);
     }
 }

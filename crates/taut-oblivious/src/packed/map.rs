@@ -16,18 +16,15 @@
 
 use std::ops::Range;
 
-use super::density::{LEAF, LEAF_MIN, SEQUENTIAL, Windows};
+use super::density::{LEAF_MIN, LEAF_SLOTS, SEQUENTIAL_ENTRIES, Windows};
 use super::separators::Separators;
 use super::spread;
 use crate::pages::Pages;
 use crate::search::prefetch;
 use crate::{Key, NoProbe, Probe, Word};
 
-/// Insertions into one leaf, one after the other, after which it counts as hammered.
-///
-/// Any number from 4 to 128 is as good by the moves that `bench oblivious packed` counts: where all keys go to one place, a
-/// quarter of those without it, or fewer; where they are random, the same.
-const HAMMERED: u32 = 32;
+/// A leaf counts as hammered after this many insertions into it, one after the other.
+const HAMMERED_MIN: u32 = 32;
 
 /// An ordered map in one array with gaps: ranges at the speed of memory, insertion and deletion in O(log² n) moves.
 ///
@@ -70,8 +67,8 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
     /// An empty map with memory for a number of leaves, one of which is in use.
     pub(super) fn with_leaves(room: usize) -> Self {
         Self {
-            keys: Pages::zeroed(room * LEAF),
-            values: vec![V::default(); room * LEAF],
+            keys: Pages::zeroed(room * LEAF_SLOTS),
+            values: vec![V::default(); room * LEAF_SLOTS],
             counts: vec![0],
             separators: Separators::new(room),
             len: 0,
@@ -98,7 +95,7 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
 
     /// Slots in use, full and empty.
     pub fn slots(&self) -> usize {
-        self.counts.len() * LEAF
+        self.counts.len() * LEAF_SLOTS
     }
 
     /// Tells a probe of the arrays; once, ahead of the first probed call.
@@ -131,11 +128,11 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
     #[inline]
     pub(super) fn find_in<P: Probe>(&self, leaf: usize, word: K::Word, probe: &mut P) -> usize {
         // All lines of the leaf at once, instead of one after the other as the search halves it.
-        for line in 0..LEAF / K::Word::LANES {
-            prefetch(self.keys.words(), leaf * LEAF + line * K::Word::LANES);
+        for line in 0..LEAF_SLOTS / K::Word::LANES {
+            prefetch(self.keys.words(), leaf * LEAF_SLOTS + line * K::Word::LANES);
         }
         probe.read(&self.counts[leaf..=leaf]);
-        let keys = &self.keys.words()[leaf * LEAF..][..self.counts[leaf] as usize];
+        let keys = &self.keys.words()[leaf * LEAF_SLOTS..][..self.counts[leaf] as usize];
         let (mut first, mut left) = (0, keys.len());
         while left > 0 {
             let half = left.div_ceil(2);
@@ -151,7 +148,7 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
     #[inline]
     fn slot<P: Probe>(&self, key: K, probe: &mut P) -> Option<usize> {
         let (leaf, place) = self.find(key.word(), probe);
-        let slot = leaf * LEAF + place;
+        let slot = leaf * LEAF_SLOTS + place;
         let there =
             place < self.counts[leaf] as usize && self.keys.words()[slot].word() == key.word();
         there.then_some(slot)
@@ -193,10 +190,10 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
         let word = key.word();
         let last = self.counts.len() - 1;
         let filled = self.counts[last] as usize;
-        let end = last * LEAF + filled;
+        let end = last * LEAF_SLOTS + filled;
         if filled > 0 && self.keys.words()[end - 1].word() < word {
             probe.read(&self.keys.words()[end - 1..end]);
-            if filled >= SEQUENTIAL {
+            if filled >= SEQUENTIAL_ENTRIES {
                 self.open_leaf(word, probe);
                 self.put(last + 1, 0, key, value, probe);
                 return None;
@@ -207,14 +204,14 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
             }
         }
         let (mut leaf, mut place) = self.find(word, probe);
-        let slot = leaf * LEAF + place;
+        let slot = leaf * LEAF_SLOTS + place;
         if place < self.counts[leaf] as usize && self.keys.words()[slot].word() == word {
             probe.write(&self.values[slot..=slot]);
             return Some(std::mem::replace(&mut self.values[slot], value));
         }
         self.hot =
             if leaf == self.hot.0 { (leaf, self.hot.1.saturating_add(1)) } else { (leaf, 0) };
-        if self.counts[leaf] as usize == LEAF || self.len >= self.windows().most_of_all() {
+        if self.counts[leaf] as usize == LEAF_SLOTS || self.len >= self.windows().most_of_all() {
             self.make_room(leaf, place, probe);
             (leaf, place) = self.find(word, probe);
             // Still the same place, wherever its leaf is now.
@@ -235,7 +232,7 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
         probe: &mut P,
     ) {
         let count = self.counts[leaf] as usize;
-        let (slot, end) = (leaf * LEAF + place, leaf * LEAF + count);
+        let (slot, end) = (leaf * LEAF_SLOTS + place, leaf * LEAF_SLOTS + count);
         let keys = self.keys.words_mut();
         keys.copy_within(slot..end, slot + 1);
         keys[slot] = key;
@@ -264,10 +261,11 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
         self.lift(probe);
         let leaves = self.counts.len();
         let room = leaves + leaves / 2 + 1;
-        let mut keys = Pages::zeroed(room * LEAF);
-        keys.words_mut()[..leaves * LEAF].copy_from_slice(&self.keys.words()[..leaves * LEAF]);
+        let mut keys = Pages::zeroed(room * LEAF_SLOTS);
+        keys.words_mut()[..leaves * LEAF_SLOTS]
+            .copy_from_slice(&self.keys.words()[..leaves * LEAF_SLOTS]);
         self.keys = keys;
-        self.values.resize(room * LEAF, V::default());
+        self.values.resize(room * LEAF_SLOTS, V::default());
         let mut separators = Separators::new(room);
         for leaf in 1..leaves {
             if let Some(word) = self.separators.get(leaf) {
@@ -281,7 +279,7 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
     /// Makes room for one more entry at a place of a leaf.
     fn make_room<P: Probe>(&mut self, leaf: usize, place: usize, probe: &mut P) {
         let windows = self.windows();
-        let hammered = self.hot.1 >= HAMMERED;
+        let hammered = self.hot.1 >= HAMMERED_MIN;
         let level = if self.len < windows.most_of_all() {
             (1..=windows.height()).find_map(|level| {
                 let window = windows.around(leaf, level);
@@ -312,25 +310,25 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
 
     /// Spreads the entries of some leaves: packs them to the left, then deals them out from the right.
     pub(super) fn spread<P: Probe>(&mut self, window: Range<usize>, counts: &[u32], probe: &mut P) {
-        let first = window.start * LEAF;
+        let first = window.start * LEAF_SLOTS;
         let keys = self.keys.words_mut();
         let mut packed = first;
         for leaf in window.clone() {
-            let (slot, count) = (leaf * LEAF, self.counts[leaf] as usize);
+            let (slot, count) = (leaf * LEAF_SLOTS, self.counts[leaf] as usize);
             keys.copy_within(slot..slot + count, packed);
             self.values.copy_within(slot..slot + count, packed);
             packed += count;
         }
         self.moves += (packed - first) as u64;
         for (leaf, &count) in window.clone().zip(counts).rev() {
-            let (slot, count) = (leaf * LEAF, count as usize);
+            let (slot, count) = (leaf * LEAF_SLOTS, count as usize);
             packed -= count;
             keys.copy_within(packed..packed + count, slot);
             self.values.copy_within(packed..packed + count, slot);
         }
         self.counts[window.clone()].copy_from_slice(counts);
         if P::LISTENS {
-            for slots in [first..window.end * LEAF, first..window.end * LEAF] {
+            for slots in [first..window.end * LEAF_SLOTS, first..window.end * LEAF_SLOTS] {
                 probe.read(&self.keys.words()[slots.clone()]);
                 probe.write(&self.keys.words()[slots.clone()]);
                 probe.read(&self.values[slots.clone()]);
@@ -339,7 +337,7 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
             probe.write(&self.counts[window.clone()]);
         }
         for leaf in window.skip(1) {
-            self.separators.set(leaf, self.keys.words()[leaf * LEAF].word(), probe);
+            self.separators.set(leaf, self.keys.words()[leaf * LEAF_SLOTS].word(), probe);
         }
     }
 
@@ -349,7 +347,7 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
         fresh.place(probe);
         let mut to = Writer::new(&mut fresh, leaves, self.len);
         for leaf in 0..self.counts.len() {
-            let slots = leaf * LEAF..leaf * LEAF + self.counts[leaf] as usize;
+            let slots = leaf * LEAF_SLOTS..leaf * LEAF_SLOTS + self.counts[leaf] as usize;
             probe.read(&self.keys.words()[slots.clone()]);
             probe.read(&self.values[slots.clone()]);
             to.extend(&self.keys.words()[slots.clone()], &self.values[slots], probe);
@@ -369,8 +367,8 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
     /// [`PackedMap::remove`], heard by a probe.
     pub fn remove_probed<P: Probe>(&mut self, key: K, probe: &mut P) -> Option<V> {
         let slot = self.slot(key, probe)?;
-        let leaf = slot / LEAF;
-        let end = leaf * LEAF + self.counts[leaf] as usize;
+        let leaf = slot / LEAF_SLOTS;
+        let end = leaf * LEAF_SLOTS + self.counts[leaf] as usize;
         let value = self.values[slot];
         self.keys.words_mut().copy_within(slot + 1..end, slot);
         self.values.copy_within(slot + 1..end, slot);
@@ -444,7 +442,7 @@ impl<'a, K: Key, V: Copy + Default> Writer<'a, K, V> {
             if filled == 0 {
                 self.map.separators.set(self.leaf, keys[0].word(), probe);
             }
-            let slot = self.leaf * LEAF + filled;
+            let slot = self.leaf * LEAF_SLOTS + filled;
             self.map.keys.words_mut()[slot..slot + take].copy_from_slice(&keys[..take]);
             self.map.values[slot..slot + take].copy_from_slice(&values[..take]);
             probe.write(&self.map.keys.words()[slot..slot + take]);

@@ -2,7 +2,7 @@
 
 use std::ops::{Bound, RangeBounds};
 
-use super::density::LEAF;
+use super::density::LEAF_SLOTS;
 use super::map::PackedMap;
 use crate::{Key, NoProbe, Word};
 
@@ -29,7 +29,7 @@ impl<'a, K: Key, V> Iterator for Runs<'a, K, V> {
             }
             let count = self.map.counts[self.leaf] as usize;
             let stop = if self.leaf == last { count.min(end) } else { count };
-            let slots = self.leaf * LEAF + self.place..self.leaf * LEAF + stop;
+            let slots = self.leaf * LEAF_SLOTS + self.place..self.leaf * LEAF_SLOTS + stop;
             let empty = self.place >= stop;
             self.leaf += 1;
             self.place = 0;
@@ -119,7 +119,7 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
     /// The entry with the largest key. O(1).
     pub fn last(&self) -> Option<(K, V)> {
         let leaf = self.counts.len() - 1;
-        let slot = leaf * LEAF + (self.counts[leaf] as usize).checked_sub(1)?;
+        let slot = leaf * LEAF_SLOTS + (self.counts[leaf] as usize).checked_sub(1)?;
         Some((self.keys.words()[slot], self.values[slot]))
     }
 }

@@ -6,7 +6,7 @@
 //! Reference: M. A. Bender and H. Hu, An adaptive packed-memory array, ACM Trans. Database Syst. 32(4), 2007; here the
 //! place is that of a run of insertions into one leaf, and no history is kept.
 
-use super::density::{LEAF, LEAF_MIN, Windows};
+use super::density::{LEAF_MIN, LEAF_SLOTS, Windows};
 
 /// Sets how many of `len` entries each of `counts`, one leaf or more, gets: as even as can be.
 pub(super) fn even(counts: &mut [u32], len: usize) {
@@ -33,7 +33,7 @@ pub(super) fn around(counts: &mut [u32], len: usize, before: usize, windows: Win
     }
     let (left, right) = counts.split_at_mut(half);
     let bounds = |leaves: usize| {
-        let most = windows.most(leaves, level - 1).min(leaves * (LEAF - 1));
+        let most = windows.most(leaves, level - 1).min(leaves * (LEAF_SLOTS - 1));
         (leaves * LEAF_MIN, most)
     };
     let ((left_min, left_max), (right_min, right_max)) = (bounds(left.len()), bounds(right.len()));
@@ -82,7 +82,7 @@ mod tests {
             let mut counts = vec![0; leaves];
             around(&mut counts, len, before, windows, windows.height());
             prop_assert_eq!(counts.iter().map(|&c| c as usize).sum::<usize>(), len);
-            prop_assert!(counts.iter().all(|&c| (LEAF_MIN..LEAF).contains(&(c as usize))), "{:?}", counts);
+            prop_assert!(counts.iter().all(|&c| (LEAF_MIN..LEAF_SLOTS).contains(&(c as usize))), "{:?}", counts);
             even(&mut counts, len);
             prop_assert_eq!(counts.iter().map(|&c| c as usize).sum::<usize>(), len);
             let spread = counts.iter().max().unwrap() - counts.iter().min().unwrap();

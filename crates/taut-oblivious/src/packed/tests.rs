@@ -15,8 +15,8 @@ enum Step {
     Hammer(u16, u8),
 }
 
-/// Steps, as many as an interpreter has time for.
-const MOST: usize = if cfg!(miri) { 8 } else { 60 };
+/// A map is put through fewer steps than this, as many as an interpreter has time for.
+const STEPS_MAX: usize = if cfg!(miri) { 8 } else { 60 };
 
 fn step() -> impl Strategy<Value = Step> {
     let key = 0u16..600;
@@ -32,7 +32,7 @@ fn step() -> impl Strategy<Value = Step> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(if cfg!(miri) { 2 } else { 256 }))]
     #[test]
-    fn steps_give_the_map_of_the_standard_library(steps in prop::collection::vec(step(), 0..MOST)) {
+    fn steps_give_the_map_of_the_standard_library(steps in prop::collection::vec(step(), 0..STEPS_MAX)) {
         let (mut map, mut want) = (PackedMap::new(), BTreeMap::new());
         let mut clock = 0u32;
         for step in steps {

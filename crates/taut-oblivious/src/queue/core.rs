@@ -3,14 +3,14 @@
 use super::spill::Spill;
 use super::{partition, room};
 
-/// Buckets of up to so many entries are searched for their smallest key.
-const FEW: usize = 16;
+/// Buckets of up to this many entries are searched for their smallest key.
+const LINEAR_SEARCH_MAX: usize = 16;
 /// Keys that are drawn for a pivot of a small bucket, and of a large one.
-const DRAWN: (usize, usize) = (3, 15);
-/// Entries from which on a bucket is large.
-const LARGE: u64 = 1 << 10;
-/// Buckets beside 2·log₂ n from which on small neighbours are joined.
-const SPARE: usize = 8;
+const SPLITTER_SAMPLE: (usize, usize) = (3, 15);
+/// A bucket is large from this many entries on.
+const LARGE_BUCKET_MIN: u64 = 1 << 10;
+/// Small neighbours are joined from this many buckets beside 2·log₂ n on.
+const SPARE_BUCKETS: usize = 8;
 
 /// Entries between two pivots.
 #[derive(Clone, Debug)]
@@ -172,9 +172,9 @@ impl<V: Copy, S: Spill<V>> Core<V, S> {
                 self.pivots.pop();
             } else if top.uniform.is_some() && !top.keys.is_empty() {
                 return Ok(Some(top.keys.len() - 1));
-            } else if top.blocks.is_empty() && top.keys.len() <= FEW {
+            } else if top.blocks.is_empty() && top.keys.len() <= LINEAR_SEARCH_MAX {
                 let smallest = (0..top.keys.len()).min_by_key(|&i| top.keys[i]);
-                self.count(FEW);
+                self.count(LINEAR_SEARCH_MAX);
                 return Ok(smallest);
             } else if !top.blocks.is_empty()
                 && (top.uniform.is_some() || top.keys.len() + top.blocks.len() * block <= limit / 4)
@@ -264,7 +264,7 @@ impl<V: Copy, S: Spill<V>> Core<V, S> {
 
     /// Whether small neighbours have to be joined.
     fn too_many(&self) -> bool {
-        self.buckets.len() > SPARE + 2 * self.len().max(1).ilog2() as usize
+        self.buckets.len() > SPARE_BUCKETS + 2 * self.len().max(1).ilog2() as usize
     }
 
     /// Makes one bucket of one and the next above it.
@@ -303,8 +303,8 @@ impl<V: Copy, S: Spill<V>> Core<V, S> {
         let block = self.spill.block();
         let top = self.buckets.last().expect("there is always a bucket");
         let all = top.keys.len() as u64 + (top.blocks.len() as u64).wrapping_mul(block as u64);
-        let mut keys = [0; DRAWN.1];
-        let drawn = if all < LARGE { DRAWN.0 } else { DRAWN.1 };
+        let mut keys = [0; SPLITTER_SAMPLE.1];
+        let drawn = if all < LARGE_BUCKET_MIN { SPLITTER_SAMPLE.0 } else { SPLITTER_SAMPLE.1 };
         for key in &mut keys[..drawn] {
             self.state =
                 self.state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);

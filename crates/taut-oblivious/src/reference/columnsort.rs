@@ -17,7 +17,7 @@ use super::{get, set};
 use crate::{NoProbe, Probe};
 
 /// Up to this many elements are sorted by the network.
-const FEW: usize = 32;
+const NETWORK_SORT_MAX: usize = 32;
 
 /// Sorts; the order of equal elements is not kept.
 pub fn columnsort<T: Copy + Ord>(array: &mut [T]) {
@@ -32,7 +32,7 @@ pub fn columnsort_probed<T: Copy + Ord, P: Probe>(array: &mut [T], probe: &mut P
 
 fn sort<T: Copy + Ord, P: Probe>(array: &mut [T], probe: &mut P) {
     let n = array.len();
-    if n <= FEW {
+    if n <= NETWORK_SORT_MAX {
         network(array, probe);
         return;
     }

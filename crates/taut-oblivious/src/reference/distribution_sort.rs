@@ -24,10 +24,10 @@ use super::{Random, get, set};
 use crate::{NoProbe, Probe};
 
 /// Up to this many elements are sorted by insertion.
-const FEW: usize = 64;
+const INSERTION_SORT_MAX: usize = 64;
 /// Counting has strips of this many times as many buckets as runs: a bucket's bound and cursor are two words, a run has a
 /// block.
-const STRIP: usize = 8;
+const STRIP_BUCKETS_FACTOR: usize = 8;
 
 /// Sorts; the order of equal elements is not kept. `seed` chooses the samples, and changes nothing but the cost.
 pub fn distribution_sort<T: Copy + Ord>(array: &mut [T], seed: u64) {
@@ -60,7 +60,7 @@ fn sort<T: Copy + Ord, P: Probe>(
     probe: &mut P,
 ) {
     let n = array.len();
-    if n <= FEW {
+    if n <= INSERTION_SORT_MAX {
         insertion_sort(array, probe);
         if !stay {
             copy(array, other, probe);
@@ -174,7 +174,7 @@ impl<T: Copy + Ord> Distribution<'_, T> {
         to: &mut Option<&mut [T]>,
         probe: &mut P,
     ) {
-        let strip = if to.is_some() { 1 } else { STRIP };
+        let strip = if to.is_some() { 1 } else { STRIP_BUCKETS_FACTOR };
         if di == 1 && dj == 1 {
             self.one(i, j, to, probe);
         } else if di == 1 || dj > 1 && dj >= strip * di {

@@ -13,7 +13,7 @@ use super::{Random, set};
 use crate::{NoProbe, Probe};
 
 /// Up to this many elements are sorted by insertion.
-const FEW: usize = 64;
+const INSERTION_SORT_MAX: usize = 64;
 
 /// Sorts; the order of equal elements is not kept. `seed` chooses the samples, and changes nothing but the cost.
 pub fn distributor_sort<T: Copy + Ord>(array: &mut [T], form: DistributorForm, seed: u64) {
@@ -38,7 +38,7 @@ fn sort<T: Copy + Ord, P: Probe>(
     probe: &mut P,
 ) {
     let n = array.len();
-    if n <= FEW {
+    if n <= INSERTION_SORT_MAX {
         insertion_sort(array, probe);
         return;
     }

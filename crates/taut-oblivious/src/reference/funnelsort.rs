@@ -14,7 +14,7 @@ use super::{get, set};
 use crate::{NoProbe, Probe};
 
 /// Up to this many elements are sorted by insertion.
-const FEW: usize = 16;
+const INSERTION_SORT_MAX: usize = 16;
 
 /// Sorts; equal elements keep their order.
 pub fn funnelsort<T: Copy + Ord>(array: &mut [T]) {
@@ -33,7 +33,7 @@ pub fn funnelsort_probed<T: Copy + Ord, P: Probe>(array: &mut [T], probe: &mut P
 /// Sorts what is in `array`, into `array` itself (`stay`) or into `other`; either way both are written to.
 fn sort<T: Copy + Ord, P: Probe>(array: &mut [T], other: &mut [T], stay: bool, probe: &mut P) {
     let n = array.len();
-    if n <= FEW {
+    if n <= INSERTION_SORT_MAX {
         insertion_sort(array, probe);
         if !stay {
             for i in 0..n {

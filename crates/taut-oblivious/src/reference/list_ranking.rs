@@ -18,7 +18,7 @@ use crate::{Error, NoProbe, Probe};
 pub const LIST_END: u32 = u32::MAX;
 
 /// Up to this many elements are walked.
-const FEW: usize = 16;
+const WALKED_MAX: usize = 16;
 
 /// The number of steps from each element to the last of its list, which has the successor [`LIST_END`]. `seed` throws
 /// the coins and changes nothing but the cost.
@@ -107,7 +107,7 @@ impl Pile {
 /// Ranks of the elements of `links`, both in ascending order of elements.
 fn rank<P: Probe>(links: Pile, seed: u64, probe: &mut P) -> Result<Pile, Error> {
     let n = links.0.len();
-    if n <= FEW {
+    if n <= WALKED_MAX {
         return walk(links, probe);
     }
     let heads = |element: u32| mix(seed ^ mix(u64::from(element))) & 1 == 1;
@@ -179,7 +179,7 @@ fn merge<P: Probe>(a: &Pile, b: &Pile, probe: &mut P) -> Pile {
 /// Ranks of few elements, step by step.
 fn walk<P: Probe>(mut links: Pile, probe: &mut P) -> Result<Pile, Error> {
     let n = links.0.len();
-    let mut ranks = [0; FEW];
+    let mut ranks = [0; WALKED_MAX];
     for start in 0..n {
         let (element, mut next, mut rank) = get(&links.0, start, probe);
         let mut steps = 0;

@@ -13,7 +13,7 @@ use super::{get, set, swap};
 use crate::{NoProbe, Probe};
 
 /// Fewer elements than this are sorted by insertion.
-const FEW: usize = 10;
+const INSERTION_SORT_LIMIT: usize = 10;
 
 /// The element that is at place `k` when the array is sorted, which is where it is put, those before it not larger and
 /// those behind it not smaller; `None` if there is no such place.
@@ -34,7 +34,7 @@ pub fn select_probed<T: Copy + Ord, P: Probe>(
 fn place<T: Copy + Ord, P: Probe>(mut array: &mut [T], mut k: usize, probe: &mut P) -> T {
     loop {
         let n = array.len();
-        if n < FEW {
+        if n < INSERTION_SORT_LIMIT {
             insertion_sort(array, probe);
             return get(array, k, probe);
         }

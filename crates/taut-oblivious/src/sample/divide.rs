@@ -17,14 +17,14 @@ use super::weights::{binomial, hypergeometric};
 use crate::error::Error;
 use crate::sort::sort;
 
-/// Numbers that are drawn without dividing: their sort stays within the second-level cache.
-const LEAF: u64 = 1 << 12;
+/// Up to this many numbers are drawn without dividing: their sort stays within the second-level cache.
+const LEAF_NUMBERS: u64 = 1 << 12;
 /// A range of fewer than this many numbers for each that is drawn is dense.
-const DENSE: u64 = 64;
-/// So few missing numbers are put in their places one by one.
-const FEW: usize = 32;
-/// Numbers from which on the halves may go to two threads.
-const SHARE: u64 = 1 << 15;
+const DENSE_RATIO_MAX: u64 = 64;
+/// Up to this many missing numbers are put in their places one by one.
+const MISSING_MAX: usize = 32;
+/// The halves may go to two threads from this many numbers on.
+const SHARED_NUMBERS_MIN: u64 = 1 << 15;
 
 /// `k` different numbers below `n`, in order: a set drawn uniformly from all sets of that size.
 ///
@@ -46,7 +46,7 @@ pub fn sample(seed: u64, n: u64, k: u64) -> Result<Vec<u64>, Error> {
     }
     let mut found = room(k)?;
     found.resize(k as usize, 0);
-    divide::<LEAF>(Node { seed, number: 1, start: 0, n }, &mut found);
+    divide::<LEAF_NUMBERS>(Node { seed, number: 1, start: 0, n }, &mut found);
     Ok(found)
 }
 
@@ -87,11 +87,11 @@ pub(super) struct Node {
     pub(super) n: u64,
 }
 
-/// Draws `found.len()` numbers from `node.start..node.start + node.n`; leaves have up to `LEAF` numbers.
-pub(super) fn divide<const LEAF: u64>(node: Node, found: &mut [u64]) {
+/// Draws `found.len()` numbers from `node.start..node.start + node.n`; leaves have up to `LEAF_NUMBERS` numbers.
+pub(super) fn divide<const LEAF_NUMBERS: u64>(node: Node, found: &mut [u64]) {
     let (k, Node { seed, number, start, n }) = (found.len() as u64, node);
     let mut random = Random::new(seed, number);
-    if k <= LEAF {
+    if k <= LEAF_NUMBERS {
         return leaf(&mut random, start, n, found);
     }
     // A range holds more numbers than are drawn from it, so this ends above 2⁶³ nodes.
@@ -100,11 +100,14 @@ pub(super) fn divide<const LEAF: u64>(node: Node, found: &mut [u64]) {
     let (below, above) = found.split_at_mut(low as usize);
     let lower = Node { number: 2 * number, n: half, ..node };
     let upper = Node { number: 2 * number + 1, start: start + half, n: n - half, ..node };
-    if k >= SHARE && rayon::current_num_threads() > 1 {
-        rayon::join(|| divide::<LEAF>(lower, below), || divide::<LEAF>(upper, above));
+    if k >= SHARED_NUMBERS_MIN && rayon::current_num_threads() > 1 {
+        rayon::join(
+            || divide::<LEAF_NUMBERS>(lower, below),
+            || divide::<LEAF_NUMBERS>(upper, above),
+        );
     } else {
-        divide::<LEAF>(lower, below);
-        divide::<LEAF>(upper, above);
+        divide::<LEAF_NUMBERS>(lower, below);
+        divide::<LEAF_NUMBERS>(upper, above);
     }
 }
 
@@ -113,7 +116,7 @@ fn leaf(random: &mut Random, start: u64, n: u64, found: &mut [u64]) {
     if k == n {
         // All of them.
         found.iter_mut().zip(start..).for_each(|(place, number)| *place = number);
-    } else if n / DENSE < k {
+    } else if n / DENSE_RATIO_MAX < k {
         dense(random, start, n, found);
     } else {
         sparse(random, start, n, found);
@@ -123,7 +126,7 @@ fn leaf(random: &mut Random, start: u64, n: u64, found: &mut [u64]) {
 /// Draws until all are different; there are many more to choose from.
 fn sparse(random: &mut Random, start: u64, n: u64, found: &mut [u64]) {
     let mut different = 0;
-    while found.len() - different > FEW {
+    while found.len() - different > MISSING_MAX {
         found[different..].fill_with(|| start + random.below(n));
         sort(found);
         different = distinct(found);

@@ -18,8 +18,8 @@ use crate::probe::{NoProbe, Probe};
 
 /// Buckets: a byte of randomness for each item.
 const BUCKETS: usize = 256;
-/// Items that are exchanged all over: up to 32 bytes each they fit the second-level cache.
-const FEW: usize = 1 << 15;
+/// Up to this many items are exchanged all over: up to 32 bytes each they fit the second-level cache.
+const WHOLE_SHUFFLE_MAX: usize = 1 << 15;
 
 /// Puts items into uniformly random order, which depends on the seed and their number alone: arrays of one length that are
 /// shuffled with one seed keep their items side by side, whatever they hold.
@@ -33,24 +33,24 @@ const FEW: usize = 1 << 15;
 /// assert!(!cards.is_sorted());
 /// ```
 pub fn shuffle<T: Copy + Send + Sync>(items: &mut [T], seed: u64) {
-    part::<T, NoProbe, FEW>(items, seed, 1, &mut NoProbe);
+    part::<T, NoProbe, WHOLE_SHUFFLE_MAX>(items, seed, 1, &mut NoProbe);
 }
 
 /// [`shuffle`], on one thread if anybody listens to the touches.
 pub fn shuffle_probed<T: Copy + Send + Sync, P: Probe>(items: &mut [T], seed: u64, probe: &mut P) {
     probe.place(items);
-    part::<T, P, FEW>(items, seed, 1, probe);
+    part::<T, P, WHOLE_SHUFFLE_MAX>(items, seed, 1, probe);
 }
 
-/// Shuffles a bucket; up to `FEW` items, and at least three, are exchanged.
-pub(super) fn part<T: Copy + Send + Sync, P: Probe, const FEW: usize>(
+/// Shuffles a bucket; up to `WHOLE_SHUFFLE_MAX` items, and at least three, are exchanged.
+pub(super) fn part<T: Copy + Send + Sync, P: Probe, const WHOLE_SHUFFLE_MAX: usize>(
     items: &mut [T],
     seed: u64,
     node: u64,
     probe: &mut P,
 ) {
     let mut random = Random::new(seed, node);
-    if items.len() <= FEW.max(3) {
+    if items.len() <= WHOLE_SHUFFLE_MAX.max(3) {
         return exchange(items, &mut random, probe);
     }
     // Eight bytes of each word, one for each item.
@@ -76,11 +76,11 @@ pub(super) fn part<T: Copy + Send + Sync, P: Probe, const FEW: usize>(
     }
     if P::LISTENS || rayon::current_num_threads() == 1 {
         for (node, bucket) in buckets {
-            part::<T, P, FEW>(bucket, seed, node, probe);
+            part::<T, P, WHOLE_SHUFFLE_MAX>(bucket, seed, node, probe);
         }
     } else {
         buckets.into_par_iter().for_each(|(node, bucket)| {
-            part::<T, NoProbe, FEW>(bucket, seed, node, &mut NoProbe);
+            part::<T, NoProbe, WHOLE_SHUFFLE_MAX>(bucket, seed, node, &mut NoProbe);
         });
     }
 }

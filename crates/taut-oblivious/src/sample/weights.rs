@@ -11,7 +11,7 @@
 use super::random::Random;
 
 /// Weights below this share of the mode's no longer count.
-const NEGLIGIBLE: f64 = 1e-22;
+const WEIGHT_RATIO_MIN: f64 = 1e-22;
 
 /// How many of `draws` numbers without replacement from `population` are among the first `first` of them.
 pub(super) fn hypergeometric(random: &mut Random, population: u64, first: u64, draws: u64) -> u64 {
@@ -47,14 +47,14 @@ pub(super) fn binomial(random: &mut Random, n: u64, p: f64) -> u64 {
 fn walk(random: &mut Random, low: u64, high: u64, mode: u64, up: impl Fn(u64) -> f64) -> u64 {
     let mut sum = 1.0;
     let (mut weight, mut x) = (1.0, mode);
-    while x < high && weight > NEGLIGIBLE {
+    while x < high && weight > WEIGHT_RATIO_MIN {
         weight *= up(x);
         sum += weight;
         x += 1;
     }
     let top = x;
     (weight, x) = (1.0, mode);
-    while x > low && weight > NEGLIGIBLE {
+    while x > low && weight > WEIGHT_RATIO_MIN {
         x -= 1;
         weight /= up(x);
         sum += weight;

@@ -11,14 +11,14 @@ use super::{SortedIndex, check_sorted};
 use crate::pages::Pages;
 use crate::{Error, Key, Probe, Word};
 
-/// Children of the first line of a page.
-const FIRST: usize = 7;
-/// Children of each line of the second level of a page.
-const SECOND: usize = 8;
-/// Lines of the third level of a page.
-const THIRD: usize = FIRST * SECOND;
-/// Lines of a page.
-const LINES: usize = 1 + FIRST + THIRD;
+/// The first line of a page has this many children.
+const FIRST_CHILDREN: usize = 7;
+/// Each line of the second level of a page has this many children.
+const SECOND_CHILDREN: usize = 8;
+/// The third level of a page has this many lines.
+const THIRD_LINES: usize = FIRST_CHILDREN * SECOND_CHILDREN;
+/// A page has this many lines.
+const PAGE_LINES: usize = 1 + FIRST_CHILDREN + THIRD_LINES;
 /// More levels of pages than any array that fits a memory has.
 const LEVELS_MAX: usize = 9;
 
@@ -59,9 +59,9 @@ impl Level {
 
 impl<K: Key> BlockedVanEmdeBoas<K> {
     /// Words of a page.
-    const PAGE: usize = LINES * K::Word::LANES;
+    const PAGE: usize = PAGE_LINES * K::Word::LANES;
     /// Pages below a page.
-    const EXITS: usize = THIRD * (K::Word::LANES + 1);
+    const PAGE_CHILDREN: usize = THIRD_LINES * (K::Word::LANES + 1);
 }
 
 impl<K: Key> SortedIndex<K> for BlockedVanEmdeBoas<K> {
@@ -69,9 +69,9 @@ impl<K: Key> SortedIndex<K> for BlockedVanEmdeBoas<K> {
     fn new(sorted: &[K]) -> Result<Self, Error> {
         check_sorted(sorted)?;
         let lanes = K::Word::LANES;
-        let mut counts = vec![sorted.len().div_ceil(lanes).max(1).div_ceil(THIRD)];
+        let mut counts = vec![sorted.len().div_ceil(lanes).max(1).div_ceil(THIRD_LINES)];
         while let Some(&count) = counts.last().filter(|&&count| count > 1) {
-            counts.push(count.div_ceil(Self::EXITS));
+            counts.push(count.div_ceil(Self::PAGE_CHILDREN));
         }
         counts.reverse();
         let depth = counts.len();
@@ -80,10 +80,10 @@ impl<K: Key> SortedIndex<K> for BlockedVanEmdeBoas<K> {
         while level < depth {
             let pair = (depth - level).is_multiple_of(2);
             levels[level] = Level { first: pages, below: false, heads: pair };
-            let mut last = levels[level].page(counts[level] - 1, Self::EXITS);
+            let mut last = levels[level].page(counts[level] - 1, Self::PAGE_CHILDREN);
             if pair {
                 levels[level + 1] = Level { first: pages, below: true, heads: false };
-                last = last.max(levels[level + 1].page(counts[level + 1] - 1, Self::EXITS));
+                last = last.max(levels[level + 1].page(counts[level + 1] - 1, Self::PAGE_CHILDREN));
                 level += 1;
             }
             pages = last + 1;
@@ -97,7 +97,7 @@ impl<K: Key> SortedIndex<K> for BlockedVanEmdeBoas<K> {
             for page in 0..counts[level] {
                 built.fill_page(sorted, level, page, span);
             }
-            span *= Self::EXITS;
+            span *= Self::PAGE_CHILDREN;
         }
         Ok(built)
     }
@@ -116,16 +116,16 @@ impl<K: Key> SortedIndex<K> for BlockedVanEmdeBoas<K> {
         let words = self.words.words();
         // The third line that the search reads in page `page` of a level, its number in the level and its count.
         let mut walk = |level: usize, page: usize| {
-            let start = self.levels[level].page(page, Self::EXITS) * Self::PAGE;
+            let start = self.levels[level].page(page, Self::PAGE_CHILDREN) * Self::PAGE;
             let mut count = |line: usize| {
                 let line = &words[start + line * lanes..][..lanes];
                 probe.read(line);
                 (line, line.iter().map(|&other| usize::from(other < word)).sum::<usize>())
             };
             let first = count(0).1;
-            let third = first * SECOND + count(1 + first).1;
-            let (line, smaller) = count(1 + FIRST + third);
-            (line, page * THIRD + third, smaller)
+            let third = first * SECOND_CHILDREN + count(1 + first).1;
+            let (line, smaller) = count(1 + FIRST_CHILDREN + third);
+            (line, page * THIRD_LINES + third, smaller)
         };
         let mut page = 0;
         for level in 0..self.depth - 1 {
@@ -148,18 +148,18 @@ impl<K: Key> BlockedVanEmdeBoas<K> {
             Some(key) if end < leaves => key.word(),
             _ => K::Word::MAX,
         };
-        let start = self.levels[level].page(page, Self::EXITS) * Self::PAGE;
+        let start = self.levels[level].page(page, Self::PAGE_CHILDREN) * Self::PAGE;
         let words = &mut self.words.words_mut()[start..][..Self::PAGE];
         words.fill(K::Word::MAX);
         let (first, rest) = words.split_at_mut(lanes);
-        let (second, third) = rest.split_at_mut(FIRST * lanes);
-        let line = page * THIRD;
-        for (j, key) in first.iter_mut().enumerate().take(FIRST - 1) {
-            *key = before((line + (j + 1) * SECOND) * span);
+        let (second, third) = rest.split_at_mut(FIRST_CHILDREN * lanes);
+        let line = page * THIRD_LINES;
+        for (j, key) in first.iter_mut().enumerate().take(FIRST_CHILDREN - 1) {
+            *key = before((line + (j + 1) * SECOND_CHILDREN) * span);
         }
         for (i, keys) in second.chunks_exact_mut(lanes).enumerate() {
-            for (j, key) in keys.iter_mut().enumerate().take(SECOND - 1) {
-                *key = before((line + i * SECOND + j + 1) * span);
+            for (j, key) in keys.iter_mut().enumerate().take(SECOND_CHILDREN - 1) {
+                *key = before((line + i * SECOND_CHILDREN + j + 1) * span);
             }
         }
         for (i, keys) in third.chunks_exact_mut(lanes).enumerate() {

@@ -16,15 +16,15 @@ use crate::level::Level;
 use crate::pages::Pages;
 use crate::{Error, Key, Probe, Word};
 
-/// Searches that walk together.
-const GROUP: usize = 4;
+/// This many searches walk together.
+const GROUP_SIZE: usize = 4;
 /// Groups between the prefetch of a line and its use.
 ///
 /// In batches among 2²⁴ words, with 1, 2, 4, 16 and 32 of them a search took 3.2, 1.6, 1.1, 1 and 1.1 times as long as with 8
 /// (AVX-512, EPYC).
-const LAG: usize = 8;
-/// Levels above the leaves whose lines are waited for, as they are outside the near caches.
-const WAITED: usize = 2;
+const PREFETCH_GROUPS: usize = 8;
+/// The lines of this many levels above the leaves are waited for, as they are outside the near caches.
+const WAITED_LEVELS: usize = 2;
 /// More levels than any array that fits a memory has.
 const LEVELS_MAX: usize = 24;
 
@@ -243,7 +243,7 @@ impl<'a, W: Word> Tree<'a, W> {
         self.ranks_by::<super::lanes::Avx2, K, P>(keys, word, ranks, probe);
     }
 
-    /// Group g enters the tree in step g and takes each of the last levels LAG steps later; between its steps its nodes
+    /// Group g enters the tree in step g and takes each of the last levels PREFETCH_GROUPS steps later; between its steps its nodes
     /// are kept where its ranks will be.
     #[inline(always)]
     fn ranks_by<C: Count<W>, K: Copy, P: Probe>(
@@ -256,28 +256,28 @@ impl<'a, W: Word> Tree<'a, W> {
         // Keys and ranks of one place, also where one of the slices is longer.
         let answered = keys.len().min(ranks.len());
         let (keys, ranks) = (&keys[..answered], &mut ranks[..answered]);
-        let (groups, rest) = keys.as_chunks::<GROUP>();
-        let (rank_groups, rank_rest) = ranks.as_chunks_mut::<GROUP>();
+        let (groups, rest) = keys.as_chunks::<GROUP_SIZE>();
+        let (rank_groups, rank_rest) = ranks.as_chunks_mut::<GROUP_SIZE>();
         let inner = self.starts.len() - 1;
-        let (near, waited) = self.starts.split_at(inner - WAITED.min(inner));
-        for step in 0..groups.len() + LAG * waited.len() {
+        let (near, waited) = self.starts.split_at(inner - WAITED_LEVELS.min(inner));
+        for step in 0..groups.len() + PREFETCH_GROUPS * waited.len() {
             // The group farthest down first: its lines have been waited for longest.
             for (i, &start) in waited.iter().enumerate().rev() {
-                let Some(group) = step.checked_sub(LAG * (i + 1)) else { continue };
+                let Some(group) = step.checked_sub(PREFETCH_GROUPS * (i + 1)) else { continue };
                 let (Some(keys), Some(nodes)) = (groups.get(group), rank_groups.get_mut(group))
                 else {
                     continue;
                 };
                 match waited.get(i + 1) {
                     Some(&next) => {
-                        for k in 0..GROUP {
+                        for k in 0..GROUP_SIZE {
                             let count = self.count::<C, P>(start, nodes[k], word(keys[k]), probe);
                             nodes[k] = nodes[k] * (W::LANES + 1) + count;
                             prefetch(self.words, next + nodes[k] * W::LANES);
                         }
                     }
                     None => {
-                        for k in 0..GROUP {
+                        for k in 0..GROUP_SIZE {
                             let count = self.count::<C, P>(start, nodes[k], word(keys[k]), probe);
                             nodes[k] = nodes[k] * self.last + count;
                         }
@@ -287,14 +287,14 @@ impl<'a, W: Word> Tree<'a, W> {
             let (Some(keys), Some(nodes)) = (groups.get(step), rank_groups.get_mut(step)) else {
                 continue;
             };
-            let mut walk = [0; GROUP];
+            let mut walk = [0; GROUP_SIZE];
             for &start in near {
-                for k in 0..GROUP {
+                for k in 0..GROUP_SIZE {
                     let count = self.count::<C, P>(start, walk[k], word(keys[k]), probe);
                     walk[k] = walk[k] * (W::LANES + 1) + count;
                 }
             }
-            for k in 0..GROUP {
+            for k in 0..GROUP_SIZE {
                 prefetch(self.words, waited[0] + walk[k] * W::LANES);
             }
             *nodes = walk;

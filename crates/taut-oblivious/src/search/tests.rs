@@ -132,14 +132,14 @@ fn keys_out_of_order_are_named() {
     assert_eq!(place(BlockedVanEmdeBoas::new(&[f64::NAN, 0.0]).map(drop)), 1);
 }
 
-/// Keys, as many as an interpreter has time for.
-const MOST: usize = if cfg!(miri) { 40 } else { 200 };
+/// There are fewer keys than this, as many as an interpreter has time for.
+const KEYS_MAX: usize = if cfg!(miri) { 40 } else { 200 };
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(if cfg!(miri) { 1 } else { 256 }))]
     #[test]
     fn small_integers_bring_duplicates(
-        keys in prop::collection::vec(0u64..40, 0..MOST),
+        keys in prop::collection::vec(0u64..40, 0..KEYS_MAX),
         queries in prop::collection::vec(0u64..42, 0..20),
     ) {
         all_agree(&sorted(keys), &queries);
@@ -147,7 +147,7 @@ proptest! {
 
     #[test]
     fn any_bits_of_floats(
-        keys in prop::collection::vec(any::<u64>().prop_map(f64::from_bits), 0..MOST),
+        keys in prop::collection::vec(any::<u64>().prop_map(f64::from_bits), 0..KEYS_MAX),
         queries in prop::collection::vec(any::<u64>().prop_map(f64::from_bits), 0..20),
     ) {
         all_agree(&sorted(keys), &queries);
@@ -155,7 +155,7 @@ proptest! {
 
     #[test]
     fn any_integers(
-        keys in prop::collection::vec(any::<i32>(), 0..MOST),
+        keys in prop::collection::vec(any::<i32>(), 0..KEYS_MAX),
         queries in prop::collection::vec(any::<i32>(), 0..20),
     ) {
         all_agree(&sorted(keys), &queries);

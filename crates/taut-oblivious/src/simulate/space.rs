@@ -12,8 +12,8 @@ use std::collections::{BTreeMap, HashMap};
 
 /// Bytes of the pages for touches outside all arrays, unless blocks are larger.
 const PAGE: usize = 4096;
-/// Arrays found lately, which are looked at first.
-const RECENT: usize = 4;
+/// This many arrays found lately are looked at first.
+const RECENT_ARRAYS: usize = 4;
 
 #[derive(Clone, Debug)]
 struct Array {
@@ -42,7 +42,7 @@ pub(super) struct Space {
     align: usize,
     /// Pages that belong to no array, by address divided by the size of a page.
     pages: HashMap<usize, u64>,
-    recent: [Run; RECENT],
+    recent: [Run; RECENT_ARRAYS],
     next_recent: usize,
     unannounced: u64,
 }
@@ -56,7 +56,7 @@ impl Space {
             end: 0,
             align,
             pages: HashMap::new(),
-            recent: [Run::default(); RECENT],
+            recent: [Run::default(); RECENT_ARRAYS],
             next_recent: 0,
             unannounced: 0,
         }
@@ -110,7 +110,7 @@ impl Space {
         {
             let run = Run { address: start, bytes: array.bytes, at: array.at };
             self.recent[self.next_recent] = run;
-            self.next_recent = (self.next_recent + 1) % RECENT;
+            self.next_recent = (self.next_recent + 1) % RECENT_ARRAYS;
             let offset = address - start;
             return (run.at + offset as u64, bytes.min(run.bytes - offset));
         }
@@ -134,7 +134,7 @@ impl Space {
     pub(super) fn lift(&mut self, start: usize) {
         if let Some(array) = self.arrays.remove(&start) {
             self.release(array.at, self.rounded(array.bytes));
-            self.recent = [Run::default(); RECENT];
+            self.recent = [Run::default(); RECENT_ARRAYS];
         }
     }
 

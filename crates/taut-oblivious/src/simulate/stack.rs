@@ -14,8 +14,8 @@ use super::space::Space;
 use super::table::Table;
 use crate::{Access, Error, Probe};
 
-/// Times of the first tree.
-const FIRST: usize = 1 << 10;
+/// The first tree has room for this many times.
+const FIRST_TREE_TIMES: usize = 1 << 10;
 
 /// Hears the touches of an algorithm and knows the misses of an LRU memory of every size.
 #[derive(Clone, Debug)]
@@ -53,8 +53,8 @@ impl StackDistances {
             shift: block.trailing_zeros(),
             last: Table::default(),
             block_at: Vec::new(),
-            last_at: vec![0; FIRST / 64],
-            tree: vec![0; FIRST / 64 + 1],
+            last_at: vec![0; FIRST_TREE_TIMES / 64],
+            tree: vec![0; FIRST_TREE_TIMES / 64 + 1],
             blocks: 0,
             histogram: vec![0; 2],
         }
@@ -170,7 +170,7 @@ impl StackDistances {
             }
         }
         self.block_at.truncate(kept);
-        let words = FIRST.max(4 * kept).div_ceil(64);
+        let words = FIRST_TREE_TIMES.max(4 * kept).div_ceil(64);
         // The bits 1 to `kept`, and how many of them are below a word.
         let below = |word: usize| (64 * word).min(kept + 1).saturating_sub(1);
         let bits = |word: usize| match (kept + 1).saturating_sub(64 * word) {

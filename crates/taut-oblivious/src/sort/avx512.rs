@@ -23,8 +23,8 @@ use crate::level::Avx512;
 const LANES: usize = 8;
 /// Keys that are read from one end before the other end is looked at: four vectors.
 const CHUNK: usize = 4 * LANES;
-/// Most keys that one network sorts.
-pub(super) const SMALL: usize = 16 * LANES;
+/// One network sorts at most this many keys.
+pub(super) const NETWORK_KEYS_MAX: usize = 16 * LANES;
 /// Fewest keys that [`Avx512::partition`] takes.
 pub(super) const PARTITION_MIN: usize = 2 * CHUNK;
 
@@ -47,15 +47,15 @@ impl Avx512 {
         unsafe { near_median(sample) }
     }
 
-    /// Sorts at most [`SMALL`] keys.
+    /// Sorts at most [`NETWORK_KEYS_MAX`] keys.
     ///
     /// # Panics
     /// If there are more.
     pub(in crate::sort) fn small(self, keys: &mut [u64]) {
-        assert!(keys.len() <= SMALL, "{} keys are too many", keys.len());
+        assert!(keys.len() <= NETWORK_KEYS_MAX, "{} keys are too many", keys.len());
         // SAFETY: `self` proves that the processor has the features.
         unsafe {
-            if keys.len() <= SMALL / 2 {
+            if keys.len() <= NETWORK_KEYS_MAX / 2 {
                 columns_8(keys);
             } else {
                 columns_16(keys);

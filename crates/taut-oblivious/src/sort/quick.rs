@@ -10,13 +10,13 @@ use crate::level::{Avx512, Level};
 use crate::probe::{NoProbe, Probe};
 
 /// Up to this many keys are sorted by the standard library: a network would be filled with nothing.
-const FEW: usize = 16;
+const STANDARD_SORT_MAX: usize = 16;
 
 /// Sorts; on the current rayon pool if nobody listens.
 pub(super) fn sort<P: Probe>(keys: &mut [u64], probe: &mut P) {
     #[cfg(target_arch = "x86_64")]
     if !P::LISTENS
-        && keys.len() >= vector::SHARE
+        && keys.len() >= vector::SHARED_KEYS_MIN
         && rayon::current_num_threads() > 1
         && let Level::Avx512(kernel) = Level::best()
     {
@@ -28,7 +28,7 @@ pub(super) fn sort<P: Probe>(keys: &mut [u64], probe: &mut P) {
 /// Sorts on one thread.
 pub(super) fn alone<P: Probe>(keys: &mut [u64], probe: &mut P) {
     #[cfg(target_arch = "x86_64")]
-    if keys.len() > FEW
+    if keys.len() > STANDARD_SORT_MAX
         && let Level::Avx512(kernel) = Level::best()
     {
         return vector::descend(kernel, keys, None, 2 * keys.len().ilog2(), probe);
@@ -47,17 +47,17 @@ fn compare<P: Probe>(keys: &mut [u64], probe: &mut P) {
 #[cfg(target_arch = "x86_64")]
 mod vector {
     use super::{Avx512, NoProbe, Probe, compare};
-    use crate::sort::avx512::SMALL;
+    use crate::sort::avx512::NETWORK_KEYS_MAX;
 
     /// From this many keys on, the two sides of a pivot may go to two threads.
-    pub(super) const SHARE: usize = 1 << 16;
+    pub(super) const SHARED_KEYS_MIN: usize = 1 << 16;
     /// From this many keys on, the pivot is the median of more than one sample.
-    const LARGE: usize = 1 << 12;
+    const MANY_SAMPLES_MIN: usize = 1 << 12;
 
     /// The pivot: nearly the median of 56 keys, seven times eight neighbours; where there are many keys, the median of
     /// 128 from as many places.
     fn pivot(kernel: Avx512, keys: &[u64]) -> u64 {
-        if keys.len() < LARGE {
+        if keys.len() < MANY_SAMPLES_MIN {
             let mut sample = [0; 56];
             let step = (keys.len() - 8) / 6;
             for (i, eight) in sample.chunks_exact_mut(8).enumerate() {
@@ -96,7 +96,7 @@ mod vector {
         mut levels: u32,
         probe: &mut P,
     ) {
-        while keys.len() > SMALL {
+        while keys.len() > NETWORK_KEYS_MAX {
             if levels == 0 {
                 return compare(keys, probe);
             }
@@ -115,7 +115,7 @@ mod vector {
 
     /// Sorts on all threads of the pool.
     pub(super) fn share(kernel: Avx512, keys: &mut [u64], floor: Option<u64>, levels: u32) {
-        if keys.len() < SHARE || levels == 0 {
+        if keys.len() < SHARED_KEYS_MIN || levels == 0 {
             return descend(kernel, keys, floor, levels, &mut NoProbe);
         }
         let (low, high, pivot) = split(kernel, keys, floor);

@@ -25,7 +25,7 @@ use crate::deal::{self, Dealt};
 use crate::probe::{NoProbe, Probe};
 
 /// Up to this many records are sorted by the standard library.
-const FEW: usize = 24;
+const STANDARD_SORT_MAX: usize = 24;
 /// Bytes of records in a bucket at which one pass of dealing aims: a quarter of a second-level cache.
 const BUCKET_BYTES: usize = 1 << 19;
 /// Most bits dealt at once: the blocks of more buckets have no room in the second level of the cache.
@@ -35,7 +35,7 @@ const BLOCKS_BYTES: usize = 4 << 20;
 /// Buckets above this many bytes are dealt again.
 const LARGE_BYTES: usize = 1 << 20;
 /// Records for each that is looked at to find the range of keys, and most that are looked at.
-const SAMPLE: (usize, usize) = (64, 1 << 12);
+const SAMPLE_SIZES: (usize, usize) = (64, 1 << 12);
 
 /// Buckets of fewer ranks than this are sorted by counting.
 const FEW_RANKS: u64 = 256;
@@ -126,7 +126,7 @@ fn deal<'a, T: Copy, P: Probe>(
     room: &mut Room<T>,
     probe: &mut P,
 ) -> Deal<'a, T> {
-    if records.len() <= FEW {
+    if records.len() <= STANDARD_SORT_MAX {
         few(records, rank, probe);
         return Deal::Sorted(records);
     }
@@ -199,7 +199,7 @@ fn ends(ranks: impl Iterator<Item = u64>) -> (u64, u64) {
 
 /// The ranks of some records.
 fn sample<T>(records: &[T], rank: &impl Fn(&T) -> u64) -> Vec<u64> {
-    let count = (records.len() / SAMPLE.0).clamp(1, SAMPLE.1);
+    let count = (records.len() / SAMPLE_SIZES.0).clamp(1, SAMPLE_SIZES.1);
     let mut place = 0.0;
     let next = || {
         // Steps of an irrational share of the length fall in with no period of the input.
@@ -293,7 +293,7 @@ fn gather<T: Copy, P: Probe>(
     let Room { words, copy } = room;
     probe.place(copy);
     probe.write(copy);
-    if copy.len() <= FEW {
+    if copy.len() <= STANDARD_SORT_MAX {
         to.copy_from_slice(copy);
         probe.read(copy);
         probe.lift(copy);
@@ -366,7 +366,7 @@ fn settle<T: Copy, P: Probe>(
     probe: &mut P,
 ) {
     probe.read(records);
-    if records.len() <= FEW {
+    if records.len() <= STANDARD_SORT_MAX {
         few(records, rank, probe);
     } else if super::run(records, rank) != Some(Run::Rises) {
         unknown(records, rank, room, probe);

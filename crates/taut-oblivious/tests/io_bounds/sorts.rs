@@ -10,7 +10,7 @@ use taut_oblivious::simulate::Simulator;
 use crate::{Shape, largest, log, misses, numbers, row, trace};
 
 /// M ≥ B², and at least 32 blocks: with [`FEW_BLOCKS`] the bound is another.
-const TALL: [Shape; 14] = [
+const TALL_SHAPES: [Shape; 14] = [
     (256, 8),
     (512, 8),
     (512, 16),
@@ -32,7 +32,7 @@ const FEW_BLOCKS: [Shape; 2] = [(128, 8), (256, 16)];
 
 type Sort = fn(&mut [u64], &mut Simulator);
 
-const OPTIMAL: [(&str, Sort); 4] = [
+const OPTIMAL_SORTS: [(&str, Sort); 4] = [
     ("funnelsort", |a, probe| funnelsort_probed(a, probe)),
     ("distribution sort", |a, probe| distribution_sort_probed(a, 7, probe)),
     ("distributor sort, recursive", |a, probe| {
@@ -43,12 +43,12 @@ const OPTIMAL: [(&str, Sort); 4] = [
     }),
 ];
 /// Sizes at which all sorts are counted.
-const FULL: [usize; 6] = [1 << 16, 1 << 18, 300_000, 1 << 20, 1 << 21, 1 << 22];
+const COUNTED_SIZES: [usize; 6] = [1 << 16, 1 << 18, 300_000, 1 << 20, 1 << 21, 1 << 22];
 /// What these are allowed.
-const ALLOWED: [f64; 4] = [6.0, 6.0, 8.0, 8.0];
+const ALLOWED_FACTORS: [f64; 4] = [6.0, 6.0, 8.0, 8.0];
 
 fn optimal_sorts_keep(allowed: [f64; 4], grid: &[Shape], sizes: &[usize]) {
-    for ((name, sort), allowed) in OPTIMAL.into_iter().zip(allowed) {
+    for ((name, sort), allowed) in OPTIMAL_SORTS.into_iter().zip(allowed) {
         for &n in sizes {
             let mut array = numbers(n, 1);
             let found = misses(grid, |probe| sort(&mut array, probe));
@@ -66,20 +66,20 @@ fn optimal_sorts_keep(allowed: [f64; 4], grid: &[Shape], sizes: &[usize]) {
 
 #[test]
 fn optimal_sorts_are_optimal() {
-    optimal_sorts_keep(ALLOWED, &TALL, &[10_000, 40_000]);
+    optimal_sorts_keep(ALLOWED_FACTORS, &TALL_SHAPES, &[10_000, 40_000]);
 }
 
 #[test]
 #[ignore = "minutes even when optimised"]
 fn optimal_sorts_are_optimal_at_full_size() {
-    optimal_sorts_keep(ALLOWED, &TALL, &FULL);
+    optimal_sorts_keep(ALLOWED_FACTORS, &TALL_SHAPES, &COUNTED_SIZES);
 }
 
 #[test]
 #[ignore = "minutes even when optimised"]
 fn few_blocks_cost_more() {
     println!("16 blocks");
-    optimal_sorts_keep([6.0, 6.5, 10.0, 8.5], &FEW_BLOCKS, &FULL);
+    optimal_sorts_keep([6.0, 6.5, 10.0, 8.5], &FEW_BLOCKS, &COUNTED_SIZES);
 }
 
 #[test]

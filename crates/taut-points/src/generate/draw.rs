@@ -158,15 +158,15 @@ fn grid(seed: u64, i: u64, side: u64, angle: f64, out: &mut [f64]) {
     }
 }
 
-/// Points of one road.
-const ROAD: u64 = 50;
+/// One road has this many points.
+const ROAD_POINTS: u64 = 50;
 
 /// Point `i` of the map: step i mod 50 of road i / 50, walked from its beginning.
 ///
 /// On a map of unit width: the town with Zipf's probability (1 / rank), 0.01 around it, steps of 10⁻⁴·³ to 10⁻³·³,
 /// turns of 0.08 radians.
 fn road(seed: u64, i: u64, towns: u64) -> [f64; 2] {
-    let mut random = stream(seed, i / ROAD);
+    let mut random = stream(seed, i / ROAD_POINTS);
     // log(rank + 1) uniform: rank k has a probability of log((k + 1) / k), nearly 1 / k.
     let rank = (towns as f64 + 1.0).powf(random.random()) as u64;
     let mut town = stream_of_centre(seed, (rank - 1).min(towns - 1));
@@ -174,7 +174,7 @@ fn road(seed: u64, i: u64, towns: u64) -> [f64; 2] {
         std::array::from_fn(|_| town.random::<f64>() + 0.01 * normal(&mut random));
     let mut heading = FRAC_PI_2 * random.random_range(0..4) as f64 + 0.05 * normal(&mut random);
     let step = 10f64.powf(-4.3 + random.random::<f64>());
-    for _ in 0..=i % ROAD {
+    for _ in 0..=i % ROAD_POINTS {
         heading += 0.08 * normal(&mut random);
         let (sin, cos) = heading.sin_cos();
         at = [at[0] + step * cos, at[1] + step * sin];

@@ -12,7 +12,7 @@
 //!
 //! *Underflow.* A product below 2⁻¹⁰²² is off by 2⁻¹⁰⁷⁵ at most, which the later factors, differences up to 2⁴¹ and
 //! sums of a few of them, make at most 2⁻¹⁰⁷⁵·2⁶·(2⁴¹)³ < 2⁻⁹⁴⁰; fewer than 2⁶ such errors, and those of the permanent,
-//! stay below [`TINY`].
+//! stay below [`UNDERFLOW_ERROR`].
 //! *Ghosts.* A coordinate that is NaN, or an overflow, makes the comparison false: uncertain.
 //! *Reference.* Shewchuk, Adaptive precision floating-point arithmetic and fast robust geometric predicates,
 //! Discrete & Computational Geometry 18, 1997, stage A; Brönnimann, Burnikel & Pion, Interval arithmetic yields
@@ -27,8 +27,8 @@ const U: f64 = f64::EPSILON / 2.0;
 pub const ORIENT_ERROR: f64 = 4.0 * U;
 /// Relative to the permanent, the largest error of the determinant of [`in_circle_filter`].
 pub const IN_CIRCLE_ERROR: f64 = 11.0 * U;
-/// 2⁻⁹⁰⁰, more than underflow can cost for coordinates up to 2⁴⁰.
-pub const TINY: f64 = f64::from_bits((1023 - 900) << 52);
+/// The error that is allowed for underflow, 2⁻⁹⁰⁰: more than it can cost for coordinates up to 2⁴⁰.
+pub const UNDERFLOW_ERROR: f64 = f64::from_bits((1023 - 900) << 52);
 
 /// A number whose sign is that of `orient(a, b, c)`, or 0 if rounding may hide it. For coordinates up to 2⁴⁰.
 #[inline(always)]
@@ -65,5 +65,5 @@ pub fn in_circle_filter<M: MulAdd>(a: Point, b: Point, c: Point, q: Point) -> f6
 #[inline(always)]
 fn certain<M: MulAdd>(det: f64, permanent: f64, error: f64) -> f64 {
     // A comparison with NaN is false, as it must be.
-    if det.abs() > M::mul_add(error, permanent, TINY) { det } else { 0.0 }
+    if det.abs() > M::mul_add(error, permanent, UNDERFLOW_ERROR) { det } else { 0.0 }
 }

@@ -4,7 +4,7 @@
 //! - `in_sphere`: 5 differences, minor 2, determinant 3, lift 3, their product, two sums: k = 16.
 //!
 //! *Underflow.* What is off by 2⁻¹⁰⁷⁵ is a product of two differences or more. The later factors make it at most
-//! 2⁻¹⁰⁷⁵·2⁶·(2⁴¹)³ < 2⁻⁹⁴⁰, and fewer than 2⁷ such errors, and those of the permanent, stay below [`TINY`].
+//! 2⁻¹⁰⁷⁵·2⁶·(2⁴¹)³ < 2⁻⁹⁴⁰, and fewer than 2⁷ such errors, and those of the permanent, stay below [`UNDERFLOW_ERROR`].
 
 use crate::mul_add::MulAdd;
 use crate::space::Point;
@@ -15,8 +15,8 @@ const U: f64 = f64::EPSILON / 2.0;
 pub const ORIENT_ERROR: f64 = 8.0 * U;
 /// Relative to the permanent, the largest error of the determinant of [`in_sphere_filter`].
 pub const IN_SPHERE_ERROR: f64 = 16.0 * U;
-/// 2⁻⁹⁰⁰, more than underflow can cost for coordinates up to 2⁴⁰.
-pub const TINY: f64 = f64::from_bits((1023 - 900) << 52);
+/// The error that is allowed for underflow, 2⁻⁹⁰⁰: more than it can cost for coordinates up to 2⁴⁰.
+pub const UNDERFLOW_ERROR: f64 = f64::from_bits((1023 - 900) << 52);
 
 /// A number whose sign is that of `orient(a, b, c, d)`, or 0 if rounding may hide it. For coordinates up to 2⁴⁰.
 #[inline(always)]
@@ -78,5 +78,5 @@ pub fn in_sphere_filter<M: MulAdd>(a: Point, b: Point, c: Point, d: Point, q: Po
 #[inline(always)]
 fn certain<M: MulAdd>(det: f64, permanent: f64, error: f64) -> f64 {
     // A comparison with NaN is false, as it must be.
-    if det.abs() > M::mul_add(error, permanent, TINY) { det } else { 0.0 }
+    if det.abs() > M::mul_add(error, permanent, UNDERFLOW_ERROR) { det } else { 0.0 }
 }

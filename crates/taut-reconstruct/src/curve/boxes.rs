@@ -11,8 +11,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-/// Items of a leaf, and children of a node.
-pub(super) const FAN: usize = 8;
+/// A leaf has at most this many items, and a node at most this many children.
+pub(super) const FAN_OUT: usize = 8;
 /// Boxes that one task makes.
 const TASK: usize = 1 << 12;
 
@@ -81,11 +81,11 @@ impl Boxes {
     /// The tree over items with these boxes.
     pub(super) fn over(items: usize, bounds: impl Fn(usize) -> Bounds + Sync) -> Self {
         let joined = |len: usize, of: &(dyn Fn(usize) -> Bounds + Sync)| -> Vec<Bounds> {
-            (0..len.div_ceil(FAN))
+            (0..len.div_ceil(FAN_OUT))
                 .into_par_iter()
                 .with_min_len(TASK)
                 .map(|node| {
-                    (node * FAN..len.min(node * FAN + FAN))
+                    (node * FAN_OUT..len.min(node * FAN_OUT + FAN_OUT))
                         .fold(Bounds::EMPTY, |sum, i| sum.join(of(i)))
                 })
                 .collect()
@@ -101,7 +101,7 @@ impl Boxes {
 
     /// The items of a leaf.
     pub(super) fn leaf(&self, leaf: usize) -> Range<usize> {
-        leaf * FAN..self.items.min(leaf * FAN + FAN)
+        leaf * FAN_OUT..self.items.min(leaf * FAN_OUT + FAN_OUT)
     }
 
     /// How many leaves there are.
@@ -141,9 +141,9 @@ impl Boxes {
             return;
         }
         let below = &self.levels[level - 1];
-        let first = node * FAN;
-        let (mut open, mut count) = ([(0.0, 0); FAN], 0);
-        for (i, bounds) in below[first..below.len().min(first + FAN)].iter().enumerate() {
+        let first = node * FAN_OUT;
+        let (mut open, mut count) = ([(0.0, 0); FAN_OUT], 0);
+        for (i, bounds) in below[first..below.len().min(first + FAN_OUT)].iter().enumerate() {
             let key = lower(bounds);
             if key <= *bound {
                 let mut place = count;
@@ -184,7 +184,8 @@ impl Boxes {
             _ if !wanted(&self.levels[level][node]) => (),
             0 => visit(node),
             _ => {
-                let children = node * FAN..self.levels[level - 1].len().min((node + 1) * FAN);
+                let children =
+                    node * FAN_OUT..self.levels[level - 1].len().min((node + 1) * FAN_OUT);
                 children.for_each(|child| self.walk(level - 1, child, wanted, visit));
             }
         }

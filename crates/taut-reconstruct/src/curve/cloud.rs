@@ -21,7 +21,7 @@ pub(super) struct Cloud {
 impl Cloud {
     /// Reads, checks and sorts all points.
     pub(super) fn read(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<Self, Error> {
-        const MOST: u64 = 1 << 31;
+        const POINTS_LIMIT: u64 = 1 << 31;
         if source.dim() != 2 {
             return Err(Error::Input(InputError::Dimension {
                 dim: source.dim(),
@@ -29,8 +29,8 @@ impl Cloud {
             }));
         }
         let points = source.len();
-        if points >= MOST {
-            return Err(Error::Input(InputError::TooManyPoints { points, most: MOST - 1 }));
+        if points >= POINTS_LIMIT {
+            return Err(Error::Input(InputError::TooManyPoints { points, most: POINTS_LIMIT - 1 }));
         }
         monitor.pass(1, points);
         let mut scratch = Scratch::new();

@@ -28,11 +28,11 @@ const SAMPLING_MOST: [f64; 2] = [0.25, 0.125];
 /// The noise ratio above which nothing is certified.
 const NOISE_MOST: f64 = 0.25;
 /// The fewest sites of a curve.
-const LEAST: [usize; 2] = [24, 128];
+const SITES_MIN: [usize; 2] = [24, 128];
 /// The largest turn at a vertex, in radians.
 const TURN_MOST: f64 = std::f64::consts::FRAC_PI_3;
-/// The part of a threshold that a figure may take up here.
-const ROOM: f64 = 0.95;
+/// A figure may take up this part of a threshold here.
+const THRESHOLD_RATIO: f64 = 0.95;
 
 /// What can be claimed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,7 +66,7 @@ pub(super) fn evidence(
         false => samples::by_curve(segments, spots, curves.len()),
     };
     let sites_of = |(one, spots): (&CurveComponent, &Vec<_>)| spots.len().max(one.rows.len());
-    if curves.iter().zip(&by_curve).map(sites_of).any(|sites| sites < LEAST[kind]) {
+    if curves.iter().zip(&by_curve).map(sites_of).any(|sites| sites < SITES_MIN[kind]) {
         return Ok(Evidence::NONE);
     }
     let band = spots.iter().flatten().fold(0.0f64, |band, spot| band.max(spot.distance));
@@ -81,13 +81,13 @@ pub(super) fn evidence(
         let (sampling, noise) = samples::ratios(&samples, &features);
         evidence.sampling_ratio = evidence.sampling_ratio.max(sampling);
         evidence.noise_ratio = evidence.noise_ratio.max(noise);
-        evidence.certified &= features.turn <= ROOM * TURN_MOST
+        evidence.certified &= features.turn <= THRESHOLD_RATIO * TURN_MOST
             && samples::is_even(&samples, &features)
             && (are_sites || samples::is_one_band(&samples) && samples::are_by_chance(&samples));
         samples::gaps(&samples, features.length(), &mut gaps);
     }
-    evidence.certified &= evidence.sampling_ratio <= ROOM * SAMPLING_MOST[kind]
-        && evidence.noise_ratio <= ROOM * NOISE_MOST;
+    evidence.certified &= evidence.sampling_ratio <= THRESHOLD_RATIO * SAMPLING_MOST[kind]
+        && evidence.noise_ratio <= THRESHOLD_RATIO * NOISE_MOST;
     if evidence.certified {
         evidence.certified = clusters::are_harmless(segments, sites, spots, gaps, band);
     }

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::boxes::{Bounds, Boxes, FAN};
+use super::boxes::{Bounds, Boxes, FAN_OUT};
 
 type Point = [f64; 2];
 
@@ -86,7 +86,7 @@ impl<'a> Index<'a> {
     ) -> Vec<T> {
         let of_leaf = |(found, leaves): &mut (Vec<Found>, Vec<u32>), leaf: usize| {
             let points = self.boxes.leaf(leaf);
-            found.resize(FAN, Vec::new());
+            found.resize(FAN_OUT, Vec::new());
             let mut far2 = 0.0f64;
             for (i, found) in points.clone().zip(found.iter_mut()) {
                 // Its neighbours in number bound the distance from the start.

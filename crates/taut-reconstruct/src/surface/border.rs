@@ -176,8 +176,8 @@ impl Links {
 /// Whether a link is one cycle, all of whose sides run the same way round, as of a vertex within a surface.
 pub(super) fn is_cycle(link: &[[u32; 2]]) -> bool {
     /// Up to this many sides, looking through all of them is as fast as sorting.
-    const FEW: usize = 24;
-    if link.len() <= FEW {
+    const LINEAR_SEARCH_MAX: usize = 24;
+    if link.len() <= LINEAR_SEARCH_MAX {
         return is_round(link, |site| link.iter().position(|side| side[0] == site));
     }
     let mut sorted: Vec<usize> = (0..link.len()).collect();

@@ -16,8 +16,8 @@ use taut_delaunay::{GHOST, Simplex, decode};
 /// Cells or sites of one task.
 const TASK: usize = 1 << 12;
 
-/// Sites whose cells are moved at a time.
-const SITES: usize = 16;
+/// The cells of this many sites are moved at a time.
+const SITES_PER_BATCH: usize = 16;
 
 /// The cells by number. Of each the sites are in positive order: the lowest two first, then the third, then the highest, which of
 /// a ghost is the vertex at infinity.
@@ -47,7 +47,7 @@ impl Cells {
         }
         tasks.into_par_iter().for_each_init(Vec::new, |moving, (first, ends, vertices, beyond)| {
             let mut begin = first;
-            for ends in ends.chunks(SITES) {
+            for ends in ends.chunks(SITES_PER_BATCH) {
                 // Some at a time, so that what is far off in memory is under way for all of them.
                 let order = &order[begin as usize..ends[ends.len() - 1] as usize];
                 moving.clear();
@@ -167,9 +167,9 @@ impl Moving {
 
 /// Has each visited with its rank among all, in some order.
 fn in_order(all: &mut [Moving], mut visit: impl FnMut(usize, &Moving)) {
-    /// Up to so many, it costs less to compare all with all than to guess which is the lower one.
-    const FEW: usize = 20;
-    if all.len() > FEW {
+    /// Up to this many, it costs less to compare all with all than to guess which is the lower one.
+    const COMPARE_ALL_MAX: usize = 20;
+    if all.len() > COMPARE_ALL_MAX {
         all.sort_unstable_by_key(|moving| moving.name);
         all.iter().enumerate().for_each(|(rank, moving)| visit(rank, moving));
         return;

@@ -21,8 +21,8 @@ use super::neighbors::of_neighbors;
 use super::spheres::{Point, dot, minus};
 use crate::Error;
 
-/// How many times farther from its neighbours than they are from theirs a point must be for an outlier.
-const FAR: f64 = 3.0;
+/// A point must be this many times farther from its neighbours than they are from theirs for an outlier.
+const OUTLIER_DISTANCE_RATIO: f64 = 3.0;
 
 /// Points after the pre-pass.
 pub(super) struct Denoised {
@@ -104,7 +104,7 @@ fn outliers(points: &[Point], neighbors: usize) -> Result<Vec<bool>, Error> {
     let is_outlier = |(own, near): &(f64, Vec<u32>)| {
         let mut theirs: Vec<f64> = near.iter().map(|&other| distances[other as usize].0).collect();
         theirs.sort_unstable_by(f64::total_cmp);
-        theirs.get(theirs.len() / 2).is_some_and(|median| *own > FAR * median)
+        theirs.get(theirs.len() / 2).is_some_and(|median| *own > OUTLIER_DISTANCE_RATIO * median)
     };
     Ok(distances.par_iter().map(is_outlier).collect())
 }

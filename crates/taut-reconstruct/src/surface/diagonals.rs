@@ -3,10 +3,10 @@
 //! *Problem.* Four points nearly on a circle of a sheet make a flat cell, and on which side of it the surface passes hangs on little. The
 //! wrong pair of triangles cuts off a sharp edge, or is long and thin.
 //! *Idea.* Turning over a cell with two facets on the border swaps the diagonal of the quadrangle that these are. First it is done where
-//! that makes the circumcircles of the triangles smaller, which Delaunay's diagonals have; then where it takes more than [`FLATTER`] off
+//! that makes the circumcircles of the triangles smaller, which Delaunay's diagonals have; then where it takes more than [`ANGLE_GAIN_MIN`] off
 //! the sum of the angles of the surface along the diagonal and the four sides, and a sharp edge is among these.
 //! *Guarantee.* All triangles remain facets, and a surface remains one of the same kind, as the new diagonal must not be an edge yet.
-//! At most [`ROUNDS`] rounds in the order of cells: a function of the points. O(n).
+//! At most [`ROUNDS_MAX`] rounds in the order of cells: a function of the points. O(n).
 //! *Trap.* Either criterion alone loses: by circles alone, thin triangles cut off the edges of machine parts; by angles alone, smooth
 //! surfaces that are sampled sparsely fall to long triangles along their curvature.
 //! *Reference.* Dyn, Levin and Rippa, Data dependent triangulations for piecewise linear interpolation, IMA J. Numer. Anal. 10, 1990,
@@ -21,11 +21,11 @@ use super::cells::Cells;
 use super::looks::{Look, look, looks};
 use super::spheres::{Point, cross, dot, minus};
 
-/// How much less the sum of angles must be.
-const FLATTER: f64 = 1.0;
+/// The sum of angles must be less by more than this, in radians.
+const ANGLE_GAIN_MIN: f64 = 1.0;
 /// (cos 0.8)²: the least angle of a sharp edge is 0.8.
-const SHARP: f64 = 0.485_400_238_849_355_57;
-const ROUNDS: usize = 16;
+const SHARP_COS_SQUARE: f64 = 0.485_400_238_849_355_57;
+const ROUNDS_MAX: usize = 16;
 /// Cells of one task.
 const TASK: usize = 1 << 12;
 
@@ -69,7 +69,7 @@ fn swap_where(
     inside: &mut [bool],
 ) -> (u64, Vec<u32>) {
     let (mut swapped, mut touched) = (0, Vec::new());
-    for _ in 0..ROUNDS {
+    for _ in 0..ROUNDS_MAX {
         let mut next = Vec::new();
         for &cell in &waiting {
             let quadrangle = Quadrangle::of(cell, cells, inside).filter(|q| is_better(q, inside));
@@ -135,7 +135,7 @@ impl Quadrangle {
         let mut bound = nearly_angle(now) - nearly_angle(then) + at_most.iter().sum::<f64>();
         for (e, &end) in self.ends.iter().enumerate() {
             for (o, &other) in self.others.iter().enumerate() {
-                if bound + SLACK <= FLATTER {
+                if bound + BOUND_TOLERANCE <= ANGLE_GAIN_MIN {
                     return false;
                 }
                 bound -= at_most[2 * e + o];
@@ -215,15 +215,15 @@ fn normal(a: Point, b: Point, c: Point) -> Point {
     cross(minus(b, a), minus(c, a))
 }
 
-/// Whether the angles now are larger in sum than those then, by more than [`FLATTER`].
+/// Whether the angles now are larger in sum than those then, by more than [`ANGLE_GAIN_MIN`].
 fn is_more(turns: &[[[Point; 2]; 2]]) -> bool {
     let sum = |angle: fn([Point; 2]) -> f64| {
         turns.iter().map(|&[now, then]| angle(now) - angle(then)).sum::<f64>()
     };
     let nearly = sum(nearly_angle);
     // Most are far from the bound.
-    let is_clear = (nearly - FLATTER).abs() > 2.0 * turns.len() as f64 * NEARLY;
-    if is_clear { nearly > FLATTER } else { sum(angle) > FLATTER }
+    let is_clear = (nearly - ANGLE_GAIN_MIN).abs() > 2.0 * turns.len() as f64 * ANGLE_TOLERANCE;
+    if is_clear { nearly > ANGLE_GAIN_MIN } else { sum(angle) > ANGLE_GAIN_MIN }
 }
 
 /// The angle between two vectors.
@@ -236,17 +236,18 @@ fn angle([a, b]: [Point; 2]) -> f64 {
 /// itself, angles are roundings, which nothing bounds; no swap hangs on these.
 fn most([a, b]: [Point; 2]) -> f64 {
     /// Squares of vectors so short that products of two of them are no longer numbers of full precision.
-    const SHORT: f64 = 1e-140;
-    if dot(a, a).min(dot(b, b)) < SHORT { PI } else { nearly_angle([a, b]) }
+    const SQUARE_MIN: f64 = 1e-140;
+    if dot(a, a).min(dot(b, b)) < SQUARE_MIN { PI } else { nearly_angle([a, b]) }
 }
 
-/// What the angles in a bound can be off together: two at the diagonals, four that bound the sides, two for each side that is known.
-const SLACK: f64 = 14.0 * NEARLY;
+/// The angles in a bound can be off by this together: two at the diagonals, four that bound the sides, two for each
+/// side that is known.
+const BOUND_TOLERANCE: f64 = 14.0 * ANGLE_TOLERANCE;
 
-/// How much less or more than the angle [`nearly_angle`] is at most.
-const NEARLY: f64 = 1e-4;
+/// [`nearly_angle`] is at most this much less or more than the angle.
+const ANGLE_TOLERANCE: f64 = 1e-4;
 
-/// The same to within [`NEARLY`], in a third of the time. The polynomial is 4.4.47 of Abramowitz and Stegun, Handbook of Mathematical
+/// The same to within [`ANGLE_TOLERANCE`], in a third of the time. The polynomial is 4.4.47 of Abramowitz and Stegun, Handbook of Mathematical
 /// Functions, 1964, for the arc tangent from 0 to 1: with these digits it is 1.2e-5 off at most.
 fn nearly_angle([a, b]: [Point; 2]) -> f64 {
     let c = cross(a, b);
@@ -265,7 +266,7 @@ fn nearly_angle([a, b]: [Point; 2]) -> f64 {
 /// Whether it is that of a sharp edge.
 fn is_sharp([a, b]: [Point; 2]) -> bool {
     let along = dot(a, b);
-    along <= 0.0 || along * along <= SHARP * dot(a, a) * dot(b, b)
+    along <= 0.0 || along * along <= SHARP_COS_SQUARE * dot(a, a) * dot(b, b)
 }
 
 /// For each set of facets, one bit each, the places of these and of the others, if there are two of both.
@@ -303,7 +304,7 @@ mod tests {
             for scale in [1e-30, 1.0, 1e30] {
                 let pair = [[scale, 0.0, 0.0], [3.0 * x.cos(), 0.0, 3.0 * x.sin()]];
                 assert!(
-                    (nearly_angle(pair) - x).abs() < NEARLY
+                    (nearly_angle(pair) - x).abs() < ANGLE_TOLERANCE
                         && (angle(pair) - x).abs() < 1e-15 * 4.0
                 );
             }

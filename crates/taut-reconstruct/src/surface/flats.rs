@@ -16,13 +16,13 @@ use std::cmp::Reverse;
 
 use super::cells::Cells;
 use super::spheres::{Point, Sphere, circumcircle};
-use super::strengths::{CERTAIN, Tie, Ties, normal};
+use super::strengths::{CERTAIN_STEPS, Tie, Ties, normal};
 
 /// A cell is flat if the square of its volume, six times as large as it is, is at most this beside the product of those of the edges
 /// from its first vertex. From 10⁻⁶ down, wedges whose points are off by a thousandth of their spacing get handles; from 10⁻⁴ up, ellipsoids that are close merge.
-pub(super) const FLAT: f64 = 1e-5;
+pub(super) const FLAT_RATIO_MAX: f64 = 1e-5;
 /// So much of "same" is sure.
-const SURE: i64 = CERTAIN / 100 * 95;
+const SURE_STRENGTH: i64 = CERTAIN_STEPS / 100 * 95;
 
 /// A facet of a flat cell over which it may get its sphere; the surest is the greatest.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -137,7 +137,7 @@ fn ends(ways: &[Way]) -> Vec<Way> {
 /// Whether a cell says "same" to all its neighbours, though not surely to one of them.
 fn divides(cell: u32, ties: &Ties) -> bool {
     let least = ties.of_cell(cell).map(Tie::signed).into_iter().min();
-    least.is_some_and(|least| (0..SURE).contains(&least))
+    least.is_some_and(|least| (0..SURE_STRENGTH).contains(&least))
 }
 
 /// What may be taken over the facets of a cell, each with the facet as the cell has it. It counts how flat cells lie in their pencil, which
@@ -156,13 +156,13 @@ fn offers<'a>(
 
 /// The half-space beyond a facet of the hull, as the sphere through its corners that is larger than any other by far.
 fn half_space(facet: [u32; 3], points: &[Point]) -> Sphere {
-    const FAR: f64 = (1u64 << 40) as f64;
+    const RADIUS_FACTOR: f64 = (1u64 << 40) as f64;
     let mut sites = facet;
     sites.sort_unstable();
     let [a, b, c] = sites.map(|site| points[site as usize]);
     let circle = circumcircle(a, b, c);
     let (normal, _) = normal(facet, points);
-    let radius = FAR * circle.radius;
+    let radius = RADIUS_FACTOR * circle.radius;
     Sphere { center: [0, 1, 2].map(|k| circle.center[k] + radius * normal[k]), radius }
 }
 

@@ -2,13 +2,13 @@
 //!
 //! *Problem.* The label of a cell hangs on a single path through the tree, however many facets around it say otherwise.
 //! *Idea.* Without one of its edges the tree falls into two parts. The facets between them are what the edge stands for; if they
-//! disagree with the labels by more than [`LEAST`] in sum, the smaller part is turned over. Leaves are peeled off the tree as long as
+//! disagree with the labels by more than [`DISAGREEMENT_MIN`] in sum, the smaller part is turned over. Leaves are peeled off the tree as long as
 //! what hangs on them is small; sums over all parts come from sums along the peeling: a facet counts at both its cells, and twice
 //! against it where the ways from them meet. Few facets disagree at all, so sums are formed only for parts that those which do could
 //! outweigh, as is found along the peeling as well; cells between two such parts count for the one around them. Once a part was turned
 //! over, all parts under the outermost ones beside it are weighed.
 //! *Guarantee.* Each round raises the agreement of all facets with the labels. Sums are exact, so the answer is a function of the points.
-//! O(n), and O(suspects) for each of at most [`ROUNDS`] rounds.
+//! O(n), and O(suspects) for each of at most [`ROUNDS_MAX`] rounds.
 //! *Trap.* Large parts are left alone: under strong noise whole regions would be turned back and forth.
 
 use std::collections::HashSet;
@@ -17,16 +17,16 @@ use rayon::prelude::*;
 use taut_delaunay::decode;
 
 use super::cells::Cells;
-use super::strengths::{CERTAIN, Tie, Ties};
+use super::strengths::{CERTAIN_STEPS, Tie, Ties};
 
-/// Cells of the largest part.
-const MOST: u8 = 100;
+/// The largest part has this many cells.
+const PART_CELLS_MAX: u8 = 100;
 /// The least disagreement, half of what a certain facet says. Of 1, 0.5, 0.2 and 0 it did best on the seven sets at 70 %; from 0.2 down
 /// other sets lose.
-const LEAST: i64 = CERTAIN / 2;
-const ROUNDS: usize = 12;
-/// Cells that are weighed at a time.
-const SOME: usize = 256;
+const DISAGREEMENT_MIN: i64 = CERTAIN_STEPS / 2;
+const ROUNDS_MAX: usize = 12;
+/// This many cells are weighed at a time.
+const CELLS_PER_BATCH: usize = 256;
 /// Cells of one task.
 const TASK: usize = 1 << 14;
 /// No place.
@@ -53,7 +53,7 @@ impl<'a> Peeling<'a> {
         for start in 0..cells.len() as u32 {
             let mut leaf = start;
             while left[leaf as usize].is_power_of_two()
-                && size[leaf as usize] <= MOST
+                && size[leaf as usize] <= PART_CELLS_MAX
                 && !cells.is_ghost(leaf)
             {
                 let place = left[leaf as usize].trailing_zeros();
@@ -90,15 +90,15 @@ impl<'a> Peeling<'a> {
 
     /// Whether so much is said against the part that hangs by a peeled cell that it could be turned over.
     fn is_outweighed(&self, cell: u32, against: i64, ties: &Ties, inside: &[bool]) -> bool {
-        if against <= LEAST {
+        if against <= DISAGREEMENT_MIN {
             return false;
         }
         if self.tree[cell as usize].is_power_of_two() {
             // The cell is all of the part.
-            return agreement(cell, ties, self.cells, inside) < -LEAST;
+            return agreement(cell, ties, self.cells, inside) < -DISAGREEMENT_MIN;
         }
         // What the part hangs by was obeyed, and agrees.
-        against > LEAST + i64::from(ties.at(self.up[cell as usize]).strength())
+        against > DISAGREEMENT_MIN + i64::from(ties.at(self.up[cell as usize]).strength())
     }
 }
 
@@ -183,10 +183,10 @@ impl<'a> Suspects<'a> {
     /// Sums up the facets around all parts.
     fn weigh_all(&mut self, inside: &[bool]) {
         // In the order of cells, as they lie in memory.
-        let (mut some, mut between) = (vec![0u32; SOME + 1], Vec::new());
-        for begin in (0..self.home.len()).step_by(SOME) {
+        let (mut some, mut between) = (vec![0u32; CELLS_PER_BATCH + 1], Vec::new());
+        for begin in (0..self.home.len()).step_by(CELLS_PER_BATCH) {
             let mut count = 0;
-            for cell in begin..self.home.len().min(begin + SOME) {
+            for cell in begin..self.home.len().min(begin + CELLS_PER_BATCH) {
                 // All are written and some of them written over: which are in parts cannot be guessed.
                 some[count] = cell as u32;
                 count += usize::from(self.home[cell] != 0);
@@ -241,7 +241,7 @@ impl<'a> Suspects<'a> {
         let mut is_around = vec![false; self.parts.len()];
         let mut found = Vec::new();
         for (k, part) in self.parts.iter().enumerate().rev() {
-            let is_found = !is_around[k] && part.sum < -LEAST;
+            let is_found = !is_around[k] && part.sum < -DISAGREEMENT_MIN;
             if is_found {
                 found.push(part.cell);
             }
@@ -339,7 +339,7 @@ pub(super) fn flip(ties: &Ties, tree: &[u8], cells: &Cells, inside: &mut [bool])
         rayon::join(|| Peeling::of(tree, cells), || objections(ties, cells, labels));
     let mut suspects = Suspects::of(&objections, ties, &peeling, inside);
     let mut flips = 0;
-    for _ in 0..ROUNDS {
+    for _ in 0..ROUNDS_MAX {
         match suspects.turn(inside) {
             0 => break,
             found => flips += found,

@@ -14,11 +14,11 @@ use super::spheres::Point;
 
 /// Sums of radii that differ by no more than this share are alike. It was chosen from 0.003 to 0.04 with the seven reference sets in
 /// view; on all but two of these any of them does.
-const ALIKE: f64 = 0.006;
-/// The least share that is no rounding.
-const LEAST: f64 = 1e-9;
+const RADII_TOLERANCE: f64 = 0.006;
+/// A share above this is no rounding.
+const ROUNDING_SHARE: f64 = 1e-9;
 /// (cos 1/5)², rounded up: angles of no more than a fifth of what takes a swap are small.
-const SMALL: f64 = 0.960531;
+const SMALL_COS_SQUARE: f64 = 0.960531;
 
 /// What is seen of a quadrangle alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -142,13 +142,13 @@ fn margins<S: Simd>(
     let (now, then) = (simd.add_f64s(one, two), simd.add_f64s(three, four));
     let (all, less) = (simd.add_f64s(now, then), simd.sub_f64s(now, then));
     let largest = simd.sub_f64s(simd.max_f64s(one, two), simd.max_f64s(three, four));
-    let bound = mul(simd.splat_f64s(ALIKE), all);
+    let bound = mul(simd.splat_f64s(RADII_TOLERANCE), all);
     let is_alike = simd.less_than_or_equal_f64s(simd.abs_f64s(less), bound);
     let less = simd.select_f64s(is_alike, largest, less);
-    let rounder = simd.sub_f64s(less, mul(simd.splat_f64s(LEAST), all));
+    let rounder = simd.sub_f64s(less, mul(simd.splat_f64s(ROUNDING_SHARE), all));
     // x|x| for x the cosine, as its sign counts.
     let small = |along: S::f64s, one: S::f64s, other: S::f64s| {
-        let bound = mul(mul(simd.splat_f64s(SMALL), one), other);
+        let bound = mul(mul(simd.splat_f64s(SMALL_COS_SQUARE), one), other);
         simd.sub_f64s(mul(along, simd.abs_f64s(along)), bound)
     };
     // The two pairs are on the two sides of the cell, which look away from each other.

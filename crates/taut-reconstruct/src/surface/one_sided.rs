@@ -5,8 +5,8 @@ use taut_certify::{Solution, Surface};
 /// The counter of facets that say surely that they are of the surface, and were overruled.
 pub(super) const OVERRULED: &str = "overruled";
 
-/// So many are never chance, in the bands that were tried.
-const LEAST: u64 = 14;
+/// This many are never chance, in the bands that were tried.
+const OVERRULED_MIN: u64 = 14;
 
 /// Whether a surface found by [`SurfaceMethod::Tree`](taut_certify::SurfaceMethod::Tree) looks as if its points were from a sheet with
 /// one side, as a Möbius band. Either a component of the answer has one side, as its topology says. Or labels of two sides had to overrule
@@ -15,5 +15,5 @@ const LEAST: u64 = 14;
 pub fn looks_one_sided(found: &Solution<Surface>) -> bool {
     let overruled = found.trace.counters.get(OVERRULED).copied().unwrap_or(0);
     let is_seen = found.answer.topology.components.iter().any(|one| !one.orientable);
-    is_seen || overruled >= LEAST && 100 * overruled >= found.answer.triangles.len() as u64
+    is_seen || overruled >= OVERRULED_MIN && 100 * overruled >= found.answer.triangles.len() as u64
 }

@@ -4,8 +4,8 @@
 //! beside the edges around them, but how long is too long depends on how even the samples are: of random ones every edge in
 //! a thousand is four times as long as most, of a scan none twice.
 //! *Idea.* The edges at a vertex and at its neighbours have a median and quartiles; a triangle is suspect whose longest edge exceeds
-//! the median at one of its vertices by more than [`SPREADS`] times the distance between the quartiles there. Suspects that hang
-//! together by edges are left out if the border around them is at least [`RIM`] edges long; smaller ones are gaps that chance leaves.
+//! the median at one of its vertices by more than [`EDGE_SPREADS_MAX`] times the distance between the quartiles there. Suspects that hang
+//! together by edges are left out if the border around them is at least [`RIM_EDGES_MIN`] edges long; smaller ones are gaps that chance leaves.
 //! *Trap.* A multiple of the median alone serves either scans or random samples: the bunny wants at most 3.5, a random hemisphere at
 //! least 5. From 2 to 3 quartile distances serve both.
 //! *Guarantee.* What is left is a surface with boundary where the whole was one: a vertex at which fans would touch keeps the largest.
@@ -17,12 +17,12 @@ use super::border::{Face, Links, is_fan};
 use super::spheres::{Point, dot, minus};
 
 /// Times the distance between the quartiles of edges around a vertex that an edge may exceed their median by.
-const SPREADS: f64 = 2.5;
+const EDGE_SPREADS_MAX: f64 = 2.5;
 /// The least such distance, as a share of the median.
 const LEAST_SPREAD: f64 = 0.4;
 
-/// Edges of the border around the smallest membrane.
-const RIM: u32 = 14;
+/// The border around the smallest membrane has this many edges.
+const RIM_EDGES_MIN: u32 = 14;
 /// Vertices of one task.
 const TASK: usize = 1 << 10;
 
@@ -67,7 +67,7 @@ fn limit(site: u32, links: &Links, points: &[Point]) -> f64 {
     lengths.sort_unstable_by(f64::total_cmp);
     let Some(last) = lengths.len().checked_sub(1) else { return 0.0 };
     let [low, median, high] = [1, 2, 3].map(|quarter| lengths[last * quarter / 4]);
-    median + SPREADS * (high - low).max(LEAST_SPREAD * median)
+    median + EDGE_SPREADS_MAX * (high - low).max(LEAST_SPREAD * median)
 }
 
 /// The faces without the suspects that hang together around a long rim.
@@ -98,7 +98,7 @@ fn without_groups(faces: &[Face], suspect: &[bool]) -> Vec<Face> {
         }
     }
     let group: Vec<u32> = (0..faces.len() as u32).map(|face| root(&mut group, face)).collect();
-    let is_kept = |number: usize| !suspect[number] || rim[group[number] as usize] < RIM;
+    let is_kept = |number: usize| !suspect[number] || rim[group[number] as usize] < RIM_EDGES_MIN;
     (0..faces.len()).filter(|&number| is_kept(number)).map(|number| faces[number]).collect()
 }
 

@@ -19,9 +19,10 @@ use super::stars::{Star, Stars};
 /// What a facet says: s in steps, more than 0 for the same side.
 pub(super) type Strength<'a> = &'a dyn Fn(u32, usize) -> i64;
 
-/// Cells of the largest star that is repaired. Samples of surfaces have stars of twenty cells, random ones of a hundred; a vertex with
-/// more is far from all surfaces around it, as the centre of a ball is, and its star would take the square of its size.
-const LARGEST: usize = 512;
+/// A star is repaired if it has at most this many cells. Samples of surfaces have stars of twenty cells, random ones of
+/// a hundred; a vertex with more is far from all surfaces around it, as the centre of a ball is, and its star would
+/// take the square of its size.
+const STAR_CELLS_MAX: usize = 512;
 
 /// Turns cells over until no change makes it better, ghosts only if they may be, and says how many times.
 pub(super) fn repair(
@@ -45,7 +46,7 @@ pub(super) fn repair(
         if around.defect == 0 {
             continue;
         }
-        if around.labels.len() > LARGEST {
+        if around.labels.len() > STAR_CELLS_MAX {
             stuck.insert(site);
             continue;
         }

@@ -25,10 +25,10 @@ use super::prune::{without_all_small_fans, without_membranes};
 use super::spheres::Point;
 use super::strengths::Ties;
 
-/// Facets of the smallest patch that hang together.
-const LEAST: usize = 5;
+/// The smallest patch has this many facets that hang together.
+const PATCH_FACETS_MIN: usize = 5;
 /// How many rings around the patch are tried: few may not reach beyond what the patch has spoilt, many may reach around the sheet.
-const RINGS: std::ops::RangeInclusive<usize> = 2..=6;
+const RING_RANGE: std::ops::RangeInclusive<usize> = 2..=6;
 
 /// Where labels contradict what facets surely say.
 pub(super) struct Patch {
@@ -54,7 +54,8 @@ impl Patch {
         let (part, parts) = media.numbered();
         let mut size = vec![0; parts];
         part.iter().for_each(|part| size[(part >> 1) as usize] += 1);
-        let is_large = |(part, _): &(&u32, &[u32; 3])| size[(**part >> 1) as usize] >= LEAST;
+        let is_large =
+            |(part, _): &(&u32, &[u32; 3])| size[(**part >> 1) as usize] >= PATCH_FACETS_MIN;
         let large: Vec<[u32; 3]> =
             part.iter().zip(&facets).filter(is_large).map(|(_, &name)| name).collect();
         let core = BTreeSet::from_iter(large.as_flattened().iter().copied());
@@ -90,7 +91,7 @@ impl Patch {
         let edges = edges_of(first.iter().map(|face| face.sites));
         let defects = |faces: &[Face]| Links::of(faces, points.len()).failing(is_fan).len();
         let limit = defects(first);
-        let all = RINGS.map(|count| {
+        let all = RING_RANGE.map(|count| {
             let around = Region::of(&self.rings(&edges, count), points.len());
             let second = without_membranes(&around.surface(ties, cells), points);
             without_all_small_fans(self.joined(first, &second, &around), points.len())

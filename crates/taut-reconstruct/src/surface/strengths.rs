@@ -15,16 +15,16 @@ use rayon::prelude::*;
 use taut_delaunay::decode;
 
 use super::cells::Cells;
-use super::flats::{FLAT, flats};
+use super::flats::{FLAT_RATIO_MAX, flats};
 use super::lanes::write_spheres;
 use super::spheres::{Point, Sphere, circumcircle, cross, dot, minus};
 
 /// Cells of one task.
 const TASK: usize = 1 << 12;
-/// Steps of |s| between 0 and 1: so many that roundings of s can be told from nothing.
-const STEPS: f64 = (1u32 << 30) as f64;
-/// As many steps as a facet has that is certain.
-pub(super) const CERTAIN: i64 = STEPS as i64;
+/// There are so many steps of |s| between 0 and 1 that roundings of s can be told from nothing.
+const STRENGTH_STEPS: f64 = (1u32 << 30) as f64;
+/// A facet that is certain has as many steps.
+pub(super) const CERTAIN_STEPS: i64 = STRENGTH_STEPS as i64;
 
 /// What the facet between two ghosts has that are one: more than any other.
 const ONE: Tie = Tie { key: ((1 << 30) + 1) << 1 };
@@ -40,7 +40,7 @@ impl Tie {
     fn new(s: f64) -> Self {
         // What is not a number says nothing.
         let s = if s.is_nan() { 0.0 } else { s.clamp(-1.0, 1.0) };
-        Self { key: ((s.abs() * STEPS + 0.5) as u32) << 1 | u32::from(s < 0.0) }
+        Self { key: ((s.abs() * STRENGTH_STEPS + 0.5) as u32) << 1 | u32::from(s < 0.0) }
     }
 
     pub(super) fn is_opposite(self) -> bool {
@@ -110,7 +110,7 @@ impl Ties {
     pub(super) fn overruled(&self, some: &[u32], cells: &Cells, inside: &[bool]) -> Vec<u32> {
         let is_sure = |facet: &u32| {
             let tie = self.at(*facet);
-            tie.is_opposite() && 2 * i64::from(tie.strength()) >= CERTAIN
+            tie.is_opposite() && 2 * i64::from(tie.strength()) >= CERTAIN_STEPS
         };
         let is_within = |facet: &u32| {
             inside[(facet >> 2) as usize] == inside[(cells.mirror(*facet) >> 2) as usize]
@@ -142,7 +142,8 @@ fn firsts(some: Range<u32>, cells: &Cells, facets: &mut Vec<u32>) {
 fn spheres(cells: &Cells, points: &[Point]) -> (Vec<Sphere>, Vec<u32>) {
     let mut spheres = vec![Sphere { center: [0.0; 3], radius: 0.0 }; cells.len()];
     let tasks = spheres.par_chunks_mut(TASK).enumerate();
-    let flats = tasks.map(|(k, own)| write_spheres(own, (k * TASK) as u32, cells, points, FLAT));
+    let flats =
+        tasks.map(|(k, own)| write_spheres(own, (k * TASK) as u32, cells, points, FLAT_RATIO_MAX));
     let flats: Vec<Vec<u32>> = flats.collect();
     (spheres, flats.concat())
 }
@@ -197,9 +198,9 @@ fn corners(mut facet: [u32; 3], points: &[Point]) -> [Point; 3] {
 impl Sphere {
     /// Whether two radii are so much alike that differences of squares are not lost to rounding.
     fn is_like(self, other: Sphere) -> bool {
-        const UNLIKE: f64 = 1e3;
+        const RADII_RATIO_MAX: f64 = 1e3;
         let (r, q) = (self.radius, other.radius);
-        0.0 < r && r <= UNLIKE * q && q <= UNLIKE * r
+        0.0 < r && r <= RADII_RATIO_MAX * q && q <= RADII_RATIO_MAX * r
     }
 }
 
@@ -285,6 +286,6 @@ mod tests {
     #[test]
     fn what_is_not_a_number_says_nothing() {
         assert_eq!(Tie::new(f64::NAN).signed(), 0);
-        assert_eq!(Tie::new(-7.0).signed(), -CERTAIN);
+        assert_eq!(Tie::new(-7.0).signed(), -CERTAIN_STEPS);
     }
 }

@@ -18,15 +18,16 @@ use super::moats::Moats;
 use super::tree::LeastTree;
 use crate::Error;
 
-/// Share of the last direction in the next, after Volgenant and Jonker 1982 and Helsgaun 2000.
-const MEMORY: f64 = 0.3;
-/// Without a better bound for so many steps, steps get shorter by this factor.
-const PATIENCE: u32 = 4;
-const SHORTER: f64 = 0.7;
-/// So many steps without moats: on samples of one curve they are all it takes.
-const PLAIN: u64 = 5;
-/// The length of steps after a restart, against the first.
-const RESTART: f64 = 0.3;
+/// The next direction has this share of the last, after Volgenant and Jonker 1982 and Helsgaun 2000.
+const MOMENTUM: f64 = 0.3;
+/// Steps get shorter after this many without a better bound.
+const STEPS_WITHOUT_PROGRESS_MAX: u32 = 4;
+/// Steps get shorter by this factor.
+const STEP_FACTOR: f64 = 0.7;
+/// This many steps are made without moats: on samples of one curve they are all it takes.
+const STEPS_WITHOUT_MOATS: u64 = 5;
+/// Steps have this length after a restart, against the first.
+const RESTART_STEP_RATIO: f64 = 0.3;
 /// The bound is as good as the tour.
 const CLOSED_GAP: f64 = 1e-7;
 
@@ -88,7 +89,7 @@ impl<'a> Ascent<'a> {
     pub(super) fn restart(&mut self) {
         self.potentials.copy_from_slice(&self.best);
         self.direction.fill(0.0);
-        self.factor = RESTART;
+        self.factor = RESTART_STEP_RATIO;
         self.waited = 0;
     }
 
@@ -110,9 +111,9 @@ impl<'a> Ascent<'a> {
                 self.waited = 0;
             } else {
                 self.waited += 1;
-                if self.waited == PATIENCE {
+                if self.waited == STEPS_WITHOUT_PROGRESS_MAX {
                     self.waited = 0;
-                    self.factor *= SHORTER;
+                    self.factor *= STEP_FACTOR;
                 }
             }
             let square = self.slope();
@@ -122,7 +123,7 @@ impl<'a> Ascent<'a> {
             let step = self.factor * (target - bound) / square;
             for v in 0..self.degrees.len() {
                 let along = &mut self.direction[v];
-                *along = (1.0 - MEMORY) * self.latest[v] + MEMORY * *along;
+                *along = (1.0 - MOMENTUM) * self.latest[v] + MOMENTUM * *along;
                 self.potentials[v] += step * *along;
             }
         }
@@ -131,7 +132,7 @@ impl<'a> Ascent<'a> {
 
     /// The direction of steepest ascent, in coordinates of sites at first and then of moats; its square, 0 at a tour.
     fn slope(&mut self) -> f64 {
-        if self.steps <= PLAIN {
+        if self.steps <= STEPS_WITHOUT_MOATS {
             let mut square = 0.0;
             for (along, &degree) in self.latest.iter_mut().zip(&self.degrees) {
                 *along = f64::from(degree);

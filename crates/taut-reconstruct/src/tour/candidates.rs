@@ -13,9 +13,10 @@ use taut_points::{Monitor, Points};
 use super::metric::Metric;
 use crate::Error;
 
-/// Neighbours of a site that moves try, of them so many nearest, the others Delaunay edges.
-const TRIED: usize = 8;
-const NEAREST: usize = 5;
+/// Moves try this many neighbours of a site.
+const CANDIDATES_TRIED: usize = 8;
+/// Of these neighbours this many are the nearest, the others Delaunay edges.
+const NEAREST_CANDIDATES: usize = 5;
 /// Sites a task has.
 const TASK: usize = 1 << 10;
 
@@ -87,12 +88,12 @@ impl Candidates {
 
     /// The sites nearest to one among those that two short edges lead to.
     fn nearest_by_two(&self, v: u32, metric: &Metric) -> Vec<u32> {
-        let near = |v: u32| self.neighbors(v).iter().take(TRIED);
+        let near = |v: u32| self.neighbors(v).iter().take(CANDIDATES_TRIED);
         let reached = near(v).flat_map(|&u| near(u)).filter(|&&w| w != v);
         let mut found: Vec<(f64, u32)> = reached.map(|&w| (metric.distance(v, w), w)).collect();
         found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         found.dedup();
-        found.iter().take(NEAREST).map(|&(_, w)| w).collect()
+        found.iter().take(NEAREST_CANDIDATES).map(|&(_, w)| w).collect()
     }
 
     #[inline(always)]
@@ -115,12 +116,12 @@ impl Candidates {
     /// Those that moves try.
     #[inline(always)]
     pub(super) fn tried(&self, v: u32) -> impl Iterator<Item = (u32, f64)> {
-        self.edges(v).take(TRIED)
+        self.edges(v).take(CANDIDATES_TRIED)
     }
 
     /// Whether moves try the edge from the first site to the second.
     pub(super) fn tries(&self, v: u32, u: u32) -> bool {
-        self.neighbors(v).iter().take(TRIED).any(|&w| w == u)
+        self.neighbors(v).iter().take(CANDIDATES_TRIED).any(|&w| w == u)
     }
 
     #[inline(always)]

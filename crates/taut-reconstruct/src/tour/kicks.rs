@@ -12,10 +12,11 @@ use super::cycle::Cycle;
 use super::moves::{Queue, Search};
 use crate::Error;
 
-/// Longest run that a kick moves.
-const RUN: u64 = 30;
-/// Longest run that moves reverse after a kick: without a limit, rare long ones would take most of the time.
-const REACH: usize = 1000;
+/// A kick moves a run of at most this many sites.
+const KICKED_RUN_MAX: u64 = 30;
+/// Moves reverse a run of at most this many sites after a kick: without a limit, rare long ones would take most of the
+/// time.
+const REVERSED_RUN_MAX: usize = 1000;
 
 /// Kicks near each of these nodes, again and again, so many times in all; each round has random numbers of its own. Returns by how much the tour got shorter.
 pub(super) fn kick(
@@ -27,11 +28,11 @@ pub(super) fn kick(
     monitor: &Monitor<'_>,
 ) -> Result<f64, Error> {
     let n = cycle.len();
-    let search = Search { reach: REACH, ..search };
+    let search = Search { reach: REVERSED_RUN_MAX, ..search };
     if n < 8 || near.is_empty() {
         return Ok(0.0);
     }
-    let longest = RUN.min((n as u64 - 2) / 3);
+    let longest = KICKED_RUN_MAX.min((n as u64 - 2) / 3);
     let mut random = SplitMix { state: n as u64 + (round << 32) };
     let mut queue = Queue::of(n);
     let mut total = 0.0;

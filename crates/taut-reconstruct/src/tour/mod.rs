@@ -39,20 +39,22 @@ use metric::Metric;
 use moves::{Queue, Search};
 use simple::untangle;
 
-/// Steps of the ascent, a third of them before the kicks: so many, and fewer where sites times steps would be more than [`WORK`].
-const STEPS: usize = 90;
+/// The ascent has this many steps, a third of them before the kicks, and fewer where sites times steps would be more
+/// than [`STEPS_WORK`].
+const ASCENT_STEPS: usize = 90;
 const STEPS_MIN: usize = 30;
-const WORK: usize = 3_000_000;
-/// Kicks per site that the bound leaves open.
-const KICKS: usize = 2;
-/// Few sites afford more of both, in rounds, until the tour is within [`GAP`] of its bound: so many, and fewer where sites times
-/// rounds would be more than [`ROUNDS_WORK`]. A round takes [`STEPS`], and as many kicks per site of the tour.
-const ROUNDS: usize = 12;
+const STEPS_WORK: usize = 3_000_000;
+/// This many kicks are made per site that the bound leaves open.
+const KICKS_PER_SITE: usize = 2;
+/// Few sites afford more of both, in rounds, until the tour is within [`GAP_WANTED`] of its bound: this many, and fewer
+/// where sites times rounds would be more than [`ROUNDS_WORK`]. A round takes [`ASCENT_STEPS`], and as many kicks per
+/// site of the tour.
+const ROUNDS_MAX: usize = 12;
 const ROUNDS_WORK: usize = 1500;
 const ROUND_KICKS: usize = 4;
-const GAP: f64 = 0.01;
+const GAP_WANTED: f64 = 0.01;
 /// A round is the last if it left more than this share of the gap.
-const WORTHWHILE: f64 = 0.95;
+const GAP_RATIO_MAX: f64 = 0.95;
 
 /// A tour with its bound.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -97,13 +99,13 @@ pub(crate) fn tour(sites: &[[f64; 2]], open: bool, monitor: &Monitor<'_>) -> Res
     let mut cycle = Cycle::new(order);
     shorten(search, &mut cycle, monitor)?;
     let length = metric.length(cycle.order());
-    let steps = (WORK / n).clamp(STEPS_MIN, STEPS);
+    let steps = (STEPS_WORK / n).clamp(STEPS_MIN, ASCENT_STEPS);
     let (mut ascent, mut closed) = begin(&metric, &candidates, &cycle, length, open, monitor)?;
     closed = closed || ascent.climb(length, steps / 3, monitor)?;
     if !closed {
         let near = ascent.open_sites();
         let (kicked, climbed) = rayon::join(
-            || kick(search, &mut cycle, &near, KICKS * near.len(), 0, monitor),
+            || kick(search, &mut cycle, &near, KICKS_PER_SITE * near.len(), 0, monitor),
             || ascent.climb(length, steps - steps / 3, monitor),
         );
         kicked?;
@@ -159,16 +161,16 @@ fn again(
 ) -> Result<(), Error> {
     let n = search.metric.sites();
     let mut before = f64::INFINITY;
-    for round in 1..=ROUNDS.min(ROUNDS_WORK / n) {
+    for round in 1..=ROUNDS_MAX.min(ROUNDS_WORK / n) {
         let length = search.metric.length(cycle.order());
         let gap = length - ascent.bound;
-        if gap <= GAP * length || gap > WORTHWHILE * before {
+        if gap <= GAP_WANTED * length || gap > GAP_RATIO_MAX * before {
             break;
         }
         before = gap;
         kick(search, cycle, &ascent.open_sites(), ROUND_KICKS * n, round as u64, monitor)?;
         ascent.restart();
-        if ascent.climb(search.metric.length(cycle.order()), STEPS, monitor)? {
+        if ascent.climb(search.metric.length(cycle.order()), ASCENT_STEPS, monitor)? {
             break;
         }
     }

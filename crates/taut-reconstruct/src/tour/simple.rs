@@ -16,8 +16,8 @@ use taut_predicates::plane::{lexicographic, orient};
 use super::cycle::Cycle;
 use crate::Error;
 
-/// Edges a leaf of the boxes has.
-const LEAF: usize = 8;
+/// A leaf of the boxes has at most this many edges.
+const LEAF_SIZE: usize = 8;
 
 /// Removes all that meets; returns how many changes that took. A node that is no site stands between the ends of a path.
 pub(super) fn untangle(
@@ -154,7 +154,7 @@ impl<'a> Edges<'a> {
         let edges: Vec<Edge> =
             steps.filter(|edge| edge.iter().all(|&v| (v as usize) < sites.len())).collect();
         let mut leaves = 1;
-        while edges.len().div_ceil(leaves) > LEAF {
+        while edges.len().div_ceil(leaves) > LEAF_SIZE {
             leaves *= 2;
         }
         let mut found = Self { sites, edges, boxes: vec![[[0.0; 2]; 2]; 2 * leaves - 1] };

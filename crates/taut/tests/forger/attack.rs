@@ -11,13 +11,13 @@ use crate::oracle::{CaseOracle, Interval, Truth};
 use crate::random::Random;
 
 /// Forgeries of each kind where `TAUT_FORGERIES` does not say another number.
-const FORGERIES: u64 = 10_000;
+const FORGERIES_DEFAULT: u64 = 10_000;
 
 /// Undecided oracle calls are to be fewer than one in so many accepted forgeries.
 const UNDECIDED_ONE_IN: u64 = 1000;
 
-/// Failures that are shown in full.
-const SHOWN: usize = 12;
+/// At most this many failures are shown in full.
+const SHOWN_FAILURES_MAX: usize = 12;
 
 /// What came of an attack.
 #[derive(Default)]
@@ -51,7 +51,7 @@ impl Tally {
             self.oracle_calls,
             self.undecided,
         );
-        for doubt in self.doubts.iter().take(SHOWN) {
+        for doubt in self.doubts.iter().take(SHOWN_FAILURES_MAX) {
             println!("  undecided: {doubt}");
         }
         if std::env::var_os("TAUT_FORGER_REASONS").is_some() {
@@ -63,7 +63,7 @@ impl Tally {
             self.failures.is_empty(),
             "{kind}: {} false answers were accepted:\n{}",
             self.failures.len(),
-            self.failures.iter().take(SHOWN).cloned().collect::<Vec<_>>().join("\n")
+            self.failures.iter().take(SHOWN_FAILURES_MAX).cloned().collect::<Vec<_>>().join("\n")
         );
         assert!(self.accepted > 0, "{kind}: no forgery was accepted, so no oracle was asked");
         assert!(
@@ -92,7 +92,7 @@ impl Tally {
             Truth::False(reason) => self.failures.push(format!("FALSE: {reason}\n{}", told())),
             Truth::Undecided(reason) => {
                 self.undecided += 1;
-                if self.doubts.len() < SHOWN {
+                if self.doubts.len() < SHOWN_FAILURES_MAX {
                     self.doubts.insert(format!("{reason}\n{}", told()));
                 }
             }
@@ -103,7 +103,7 @@ impl Tally {
 /// Returns how many forgeries are to be made of a kind.
 pub fn budget() -> u64 {
     let wanted = std::env::var("TAUT_FORGERIES").ok().and_then(|count| count.parse().ok());
-    wanted.unwrap_or(FORGERIES)
+    wanted.unwrap_or(FORGERIES_DEFAULT)
 }
 
 /// Judges the documents of the solvers, then forges those of all cases in turn, and judges what the checker lets pass.

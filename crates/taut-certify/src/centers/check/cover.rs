@@ -1,8 +1,8 @@
 //! A second search, of another kind: k sets cannot cover the core-set, out of all sets that one ball can hold.
 //!
 //! *Where.* Points without weights, in the plane for k ≤ 10 and in space for k ≤ 6, and centres among the rows for k ≤ 10;
-//! for core-sets of at most 200 items and places at rows that have at most [`SETS`] different sets of them. It is cut short
-//! after [`sets::NODES`] nodes and after [`WORK`] steps; then it has nothing to say.
+//! for core-sets of at most 200 items and places at rows that have at most [`SETS_MAX`] different sets of them. It is cut short
+//! after [`sets::NODES_MAX`] nodes and after [`STEPS_MAX`] steps; then it has nothing to say.
 //! *Agreement.* The sets are cut out by balls a little larger than those that they stand for, so a cover of the items may be
 //! found where there is none. Only when each of its sets is held by one ball of a radius less than the bound, as far as
 //! the arithmetic of the first search tells, do the searches contradict each other, and the certificate is refused.
@@ -23,11 +23,11 @@ use super::room::Room;
 use super::rows::Places;
 use crate::CheckError;
 
-/// Most steps, each about a word of a set: a few seconds.
-const WORK: u64 = 1 << 33;
+/// A check takes at most this many steps, each about a word of a set: a few seconds.
+const STEPS_MAX: u64 = 1 << 33;
 
-/// Most sets for places at rows.
-const SETS: usize = 1 << 22;
+/// At most this many sets are made for places at rows.
+const SETS_MAX: usize = 1 << 22;
 
 /// The nodes of the search over sets that balls with any centres hold, where one was made and came to an end.
 pub(super) fn of_balls(
@@ -45,7 +45,7 @@ pub(super) fn of_balls(
     if certificate.k > most || core.len() > ITEMS {
         return Ok(None);
     }
-    let mut meter = Meter::of(monitor, WORK);
+    let mut meter = Meter::of(monitor, STEPS_MAX);
     silently(|| {
         let sets = match core.dim {
             2 => candidates::in_the_plane(core, &mut meter)?,
@@ -61,11 +61,11 @@ pub(super) fn of_places(
     certificate: &CentersCertificate,
     monitor: &Monitor<'_>,
 ) -> Result<Option<u64>, CheckError> {
-    if certificate.k > 10 || Room::len(&places) > ITEMS || places.sets.len() > SETS {
+    if certificate.k > 10 || Room::len(&places) > ITEMS || places.sets.len() > SETS_MAX {
         return Ok(None);
     }
     let sets = places.sets.iter().map(|set| Set::of_words(set)).collect();
-    let mut meter = Meter::of(monitor, WORK);
+    let mut meter = Meter::of(monitor, STEPS_MAX);
     silently(|| confirmed(sets, &mut &*places, certificate, &mut meter))
 }
 

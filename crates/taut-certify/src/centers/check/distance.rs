@@ -16,8 +16,8 @@ use crate::arithmetic::{Integer, Ring, U, parts};
 
 const LANES: usize = 8;
 
-/// Steps that a coordinate takes in whole numbers.
-const EXACT: usize = 60;
+/// A coordinate takes this many steps in whole numbers.
+const EXACT_STEPS: usize = 60;
 
 /// A multiplication by the power of two that brings a length near 1; exact, but for what underflows beside it.
 #[derive(Clone, Copy, Debug)]
@@ -45,9 +45,9 @@ pub(super) fn kappa(dim: usize) -> f64 {
 /// which is exact. `None` where that leaves the range, so that S cannot be trusted.
 #[inline(always)]
 pub(super) fn factors(weight: f64, scale: Scale) -> Option<[f64; 2]> {
-    const LEAST: f64 = f64::from_bits((1023 - 200) << 52);
-    const MOST: f64 = f64::from_bits((1023 + 200) << 52);
-    if (LEAST..=MOST).contains(&weight) {
+    const WEIGHT_MIN: f64 = f64::from_bits((1023 - 200) << 52);
+    const WEIGHT_MAX: f64 = f64::from_bits((1023 + 200) << 52);
+    if (WEIGHT_MIN..=WEIGHT_MAX).contains(&weight) {
         return Some([scale.up, weight]);
     }
     let product = scale.up * weight;
@@ -104,7 +104,7 @@ where
     if let Some(plainly) = plainly(p, c, weight, rho, scale) {
         return Ok(plainly);
     }
-    meter.spend(EXACT * (p.len() + 1))?;
+    meter.spend(EXACT_STEPS * (p.len() + 1))?;
     Ok(exactly(p, c, weight, rho))
 }
 
@@ -176,7 +176,7 @@ pub(super) fn compare_weighted(
             () => {}
         }
     }
-    meter.spend(EXACT * (p.len() + 4))?;
+    meter.spend(EXACT_STEPS * (p.len() + 4))?;
     let least = |values: &mut dyn Iterator<Item = &f64>| -> i32 {
         values.filter(|&&value| value != 0.0).map(|&value| parts(value).1).min().unwrap_or(0)
     };

@@ -196,7 +196,7 @@ fn excess(core: &Core, group: &Group, item: usize) -> f64 {
 /// Brings the fit of a group to its optimum, when all but the last member are at theirs, and that one is farther.
 fn fit(core: &Core, group: &mut Group, hull: &mut Hull, meter: &mut Meter<'_>) -> Result<(), Stop> {
     // The depth counts in units of ρ², which is 1 or more.
-    const ENOUGH: f64 = 1e-15;
+    const DEPTH_TOLERANCE: f64 = 1e-15;
     let mut member = group.members.len() - 1;
     // Each round raises v, so no support occurs twice; rounding alone needs an end set.
     for _ in 0..8 + 4 * group.members.len() {
@@ -212,7 +212,7 @@ fn fit(core: &Core, group: &mut Group, hull: &mut Hull, meter: &mut Meter<'_>) -
         }
         let scale = least.abs().max(square(core.reach(group.members[member])));
         let is_in_support = group.fit.support.iter().any(|&(other, _)| other == member);
-        if is_in_support || least <= group.fit.value + ENOUGH * scale {
+        if is_in_support || least <= group.fit.value + DEPTH_TOLERANCE * scale {
             break;
         }
     }
@@ -369,9 +369,9 @@ impl Hull {
 /// the square of what was computed over W, and less than uS. Multipliers below 2⁻⁶⁰ are not looked at, and 2⁻⁹⁰⁰ is
 /// more than what can underflow.
 fn is_refuted(core: &Core, group: &Group) -> bool {
-    const LEAST: f64 = f64::from_bits((1023 - 60) << 52);
+    const MULTIPLIER_MIN: f64 = f64::from_bits((1023 - 60) << 52);
     let (dim, center) = (core.dim, &group.fit.center);
-    let used = || group.fit.support.iter().filter(|&&(_, lambda)| lambda >= LEAST);
+    let used = || group.fit.support.iter().filter(|&&(_, lambda)| lambda >= MULTIPLIER_MIN);
     let (mut sum, mut size, mut weight) = (0.0, 0.0, 0.0);
     for &(member, lambda) in used() {
         let (mut square_of, mut from_origin) = ([0.0; 8], [0.0; 8]);

@@ -2,8 +2,8 @@
 //!
 //! *Cost.* O(dk log k) to build. In few dimensions a row asks O(log k) of k centres that lie evenly; in many, all.
 
-/// So few centres are asked one by one.
-const LEAF: usize = 8;
+/// Up to this many centres are asked one by one.
+const LEAF_SIZE: usize = 8;
 
 /// Centres that lie on two sides of a gap along an axis, or few of them.
 struct Node {
@@ -40,7 +40,7 @@ impl Halves {
     fn part(&mut self, centers: &[Vec<f64>], first: usize, end: usize) {
         let node = self.nodes.len();
         self.nodes.push(Node { first, end, parting: None });
-        if end - first <= LEAF {
+        if end - first <= LEAF_SIZE {
             return;
         }
         let range = |axis: usize, order: &[usize]| {

@@ -9,8 +9,8 @@ use taut_points::{Cancelled, Monitor, ReadError};
 use super::super::CentersViolation;
 use crate::CheckError;
 
-/// After so many steps the monitor is asked again: some milliseconds.
-const ASK: u64 = 1 << 21;
+/// The monitor is asked again after this many steps: some milliseconds.
+const STEPS_BETWEEN_ASKS: u64 = 1 << 21;
 
 /// Counts steps.
 pub(super) struct Meter<'a> {
@@ -54,7 +54,7 @@ impl<'a> Meter<'a> {
         if self.spent > self.most {
             return Err(Stop::Spent(self.most));
         }
-        self.ask = self.spent.saturating_add(ASK).min(self.most.saturating_add(1));
+        self.ask = self.spent.saturating_add(STEPS_BETWEEN_ASKS).min(self.most.saturating_add(1));
         Ok(())
     }
 }
@@ -106,7 +106,7 @@ mod tests {
         while meter.spend(1000).is_ok() {
             steps += 1000;
         }
-        assert!(steps <= ASK, "{steps}");
+        assert!(steps <= STEPS_BETWEEN_ASKS, "{steps}");
         assert_eq!(meter.spend(1), Err(Stop::Cancelled(Cancelled)));
     }
 }

@@ -5,7 +5,7 @@
 //! *Guarantee.* All cases are gone through, or the log is refused. No recursion: the depth is what the log makes it.
 //! *Cost.* For each branch, a test for each group, and the item added to each group that takes it. An item that the deepest
 //! centre of its group has room for leaves nothing to be kept, another the centre and the multipliers before it: a number
-//! for each coordinate and two for each multiplier, of which there are at most d + 1. [`KEPT`] bytes are granted.
+//! for each coordinate and two for each multiplier, of which there are at most d + 1. [`UNDO_BYTES_MAX`] bytes are granted.
 
 use super::super::CentersViolation;
 use super::core::{clear, is_set, set};
@@ -16,8 +16,8 @@ use crate::{CheckError, Violation};
 /// Most items of a core-set whose branches are followed: their pairs take 32 MiB.
 pub(super) const ITEMS: usize = 1 << 14;
 
-/// Most bytes that are kept to undo the cases that are gone through.
-pub(super) const KEPT: u64 = 1 << 29;
+/// At most this many bytes are kept to undo the cases that are gone through.
+pub(super) const UNDO_BYTES_MAX: u64 = 1 << 29;
 
 /// One branch whose cases are gone through.
 struct Branch<U> {
@@ -178,6 +178,6 @@ mod tests {
     /// The largest core-set in forty dimensions stays below what is granted.
     #[test]
     fn all_branches_there_can_be_are_granted() {
-        assert!((ITEMS * (8 * 40 + 16 * 41)) as u64 <= KEPT);
+        assert!((ITEMS * (8 * 40 + 16 * 41)) as u64 <= UNDO_BYTES_MAX);
     }
 }

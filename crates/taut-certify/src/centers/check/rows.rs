@@ -4,7 +4,7 @@
 //! sets; rows with the same set are one place. A group of items is held by a ball just when some place is near to all of
 //! them, which is the intersection of sets of places, one for each item.
 //! *Guarantee.* Whether an item is less than ρ from a row is decided exactly.
-//! *Cost.* O(n·|X|·d) for n rows and |X| items, and |X| bits for each place, of which there are at most n: [`MEMORY`] bytes
+//! *Cost.* O(n·|X|·d) for n rows and |X| items, and |X| bits for each place, of which there are at most n: [`SET_BYTES_MAX`] bytes
 //! are granted.
 
 use std::collections::HashSet;
@@ -20,15 +20,15 @@ use super::room::Room;
 use crate::CheckError;
 use crate::hashed_pass::{WantedRows, hashed_pass};
 
-/// Most bytes for the sets of all places.
-const MEMORY: u64 = 1 << 30;
+/// The sets of all places take at most this many bytes.
+const SET_BYTES_MAX: u64 = 1 << 30;
 
 /// How often there is a bit for each place and item: by place, by item, and in the groups and what is kept to undo them, as
 /// each item begins a group or narrows one.
-const SETS: u64 = 3;
+const SETS_PER_PLACE: u64 = 3;
 
-/// Bytes that a place takes beside its bits.
-const ENTRY: u64 = 64;
+/// A place takes this many bytes beside its bits.
+const PLACE_BYTES: u64 = 64;
 
 /// Places at rows, for one core-set.
 pub(super) struct Places {
@@ -68,8 +68,10 @@ impl Places {
             // Sets are put together in any order and sorted in the end.
             let mut sets = sets.lock().unwrap_or_else(PoisonError::into_inner);
             sets.extend(found);
-            match (SETS * 8 * words as u64 + ENTRY) * sets.len() as u64 > MEMORY {
-                true => Err(CheckError::from(CentersViolation::Memory { most: MEMORY })),
+            match (SETS_PER_PLACE * 8 * words as u64 + PLACE_BYTES) * sets.len() as u64
+                > SET_BYTES_MAX
+            {
+                true => Err(CheckError::from(CentersViolation::Memory { most: SET_BYTES_MAX })),
                 false => Ok(()),
             }
         })?;

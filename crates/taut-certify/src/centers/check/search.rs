@@ -10,7 +10,7 @@
 //! Groups stay as they are when an item is put elsewhere, so what did not fit never fits again below: a column of strains
 //! for each group is computed only when that group grows.
 //! *Guarantee.* [`Outcome::Refuted`] only when all cases were gone through.
-//! *Cost.* Exponential in k: at most [`NODES`] nodes, each of at most |X| tests for the group that grew, and as much work as
+//! *Cost.* Exponential in k: at most [`NODES_MAX`] nodes, each of at most |X| tests for the group that grew, and as much work as
 //! its meter allows.
 //! *Reference.* The choice of the most constrained item is that of Brélaz, Comm. ACM 22(4), 1979, for colourings.
 
@@ -18,11 +18,12 @@ use super::core::{Bits, clear, is_set, items, set};
 use super::meter::{Meter, Stop};
 use super::room::Room;
 
-/// Most nodes. What needs more is to be proved by its branches.
-pub(super) const NODES: u64 = 1 << 16;
+/// A search has at most this many nodes. What needs more is to be proved by its branches.
+pub(super) const NODES_MAX: u64 = 1 << 16;
 
-/// Most steps: some five seconds. Proofs that are left to a search took 5·10⁷ and less, in up to 500 dimensions.
-pub(super) const WORK: u64 = 3 << 30;
+/// A search takes at most this many steps: some five seconds. Proofs that are left to a search took 5·10⁷ and less, in
+/// up to 500 dimensions.
+pub(super) const STEPS_MAX: u64 = 3 << 30;
 
 /// Most items of a core-set that is searched.
 pub(super) const ITEMS: usize = 1024;
@@ -89,7 +90,7 @@ struct Search<'a, R: Room> {
 
 impl<R: Room> Search<'_, R> {
     fn node(&mut self, meter: &mut Meter<'_>) -> Result<Outcome, Stop> {
-        if self.nodes == NODES {
+        if self.nodes == NODES_MAX {
             return Ok(Outcome::Undecided);
         }
         self.nodes += 1;
@@ -270,6 +271,6 @@ mod tests {
             search(&mut Free::of(&core, &pairs), 8, 0, &mut meter)
         };
         assert_eq!(searched(1000), Err(Stop::Spent(1000)));
-        assert!(matches!(searched(WORK), Ok((Outcome::Refuted, 11..))));
+        assert!(matches!(searched(STEPS_MAX), Ok((Outcome::Refuted, 11..))));
     }
 }

@@ -15,8 +15,8 @@ use super::edges::Edges;
 use crate::CheckError;
 use crate::arithmetic::U;
 
-/// Rows that a thread takes at once.
-const ROWS: usize = 1 << 12;
+/// A thread takes this many rows at once.
+const ROWS_PER_TASK: usize = 1 << 12;
 
 /// A row next to the curve.
 #[derive(Clone, Copy, Debug)]
@@ -129,7 +129,7 @@ fn next_to(
     monitor: &Monitor<'_>,
 ) -> Result<Vec<Foot>, CheckError> {
     let blocks: Vec<Result<Vec<Foot>, CheckError>> = inliers
-        .par_chunks(ROWS)
+        .par_chunks(ROWS_PER_TASK)
         .map(|block| {
             monitor.check().map_err(ReadError::from)?;
             let foot = |&row: &usize| {
@@ -229,7 +229,7 @@ fn places(
     let largest =
         |points: &[[f64; 2]]| points.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
     let pairs: Vec<usize> = (0..rows.len()).collect();
-    pairs.par_chunks(ROWS).try_for_each(|block| {
+    pairs.par_chunks(ROWS_PER_TASK).try_for_each(|block| {
         monitor.check().map_err(ReadError::from)?;
         block.iter().try_for_each(|&row| {
             let (p, place) = (rows[row].map(|x| x * edges.scale), curve.places[row]);

@@ -19,9 +19,10 @@ const NOISY_SAMPLING_MOST: f64 = 0.125;
 /// The most that the distance of a row may be of φ.
 const NOISE_MOST: f64 = 0.25;
 
-/// Fewest rows of a curve, where vertices are rows and else. A window of a band takes 128.
-const LEAST: usize = 24;
-const NOISY_LEAST: usize = 128;
+/// A curve has at least this many rows where vertices are rows, and this many where they are not. A window of a band
+/// takes 128.
+const CURVE_ROWS_MIN: usize = 24;
+const NOISY_CURVE_ROWS_MIN: usize = 128;
 
 /// The most that a curve may turn at one vertex, in radians.
 const TURN_MOST: f64 = std::f64::consts::FRAC_PI_3;
@@ -67,8 +68,8 @@ pub(super) fn judge(
         feet[edges.name(foot.edge).0].push(*foot);
     }
     let (least, sampling_most) = match placed.is_exact {
-        true => (LEAST, SAMPLING_MOST),
-        false => (NOISY_LEAST, NOISY_SAMPLING_MOST),
+        true => (CURVE_ROWS_MIN, SAMPLING_MOST),
+        false => (NOISY_CURVE_ROWS_MIN, NOISY_SAMPLING_MOST),
     };
     let few = feet.iter().position(|feet| feet.len() < least);
     if let Some(curve) = few {

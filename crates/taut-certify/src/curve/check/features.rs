@@ -21,20 +21,21 @@ use super::tangent::{Tangent, dot, minus};
 use crate::arithmetic::U;
 
 /// s over the band.
-const SPAN: f64 = 3.0;
+const SPAN_RATIO: f64 = 3.0;
 
 /// τ over the band.
-const FORGIVEN: f64 = 0.25;
+const FORGIVEN_OFFSET_RATIO: f64 = 0.25;
 
-/// Where offsets are forgiven: as far along the curve, over s. Strands that are farther along are others, and none is forgiven its being near.
-const NEAR: f64 = 4.0;
+/// Offsets are forgiven as far along the curve, over s. Strands that are farther along are others, and none is forgiven
+/// its being near.
+const FORGIVEN_WAY_RATIO: f64 = 4.0;
 
 /// An edge of the same curve counts with all its points from this many of its lengths on along the curve, else with its ends: next to a
 /// vertex a chord would seem to come near, however gently the curve turns.
-const SMOOTH: f64 = 2.0;
+const SMOOTH_WAY_RATIO: f64 = 2.0;
 
 /// σ over a gap at v.
-const SIGHT: f64 = 9.0;
+const SIGHT_RATIO: f64 = 9.0;
 
 /// Vertices that a thread takes at once.
 const VERTICES: usize = 1 << 10;
@@ -108,7 +109,7 @@ fn sight(along: &[f64]) -> Vec<f64> {
     let most = along[along.len() - 1] / TAU;
     let mut sight = vec![0.0f64; along.len() - 1];
     around(along, |from, to, gap| {
-        let here = (SIGHT * gap).min(most);
+        let here = (SIGHT_RATIO * gap).min(most);
         sight[from] = sight[from].max(here);
         sight[to] = sight[to].max(here).max(sight[from] - gap);
     });
@@ -144,7 +145,7 @@ impl Course<'_> {
 
     /// R, or `most` if that is less, and the turn at a vertex. With `is_near`, edges near the vertex are looked at one by one.
     fn radius_and_turn(&self, vertex: usize, most: f64, is_near: bool) -> (f64, f64) {
-        let (count, base, span) = (self.points.len(), self.base, SPAN * self.band);
+        let (count, base, span) = (self.points.len(), self.base, SPAN_RATIO * self.band);
         let here = count + vertex;
         let way = |k: usize| self.way(k);
         let after = |least| first(1..count, |k| way(here + k) - way(here) >= least);
@@ -154,7 +155,7 @@ impl Course<'_> {
         if own[0] + own[1] >= count {
             return (0.0, 0.0);
         }
-        let near = [before(NEAR * span), after(NEAR * span)];
+        let near = [before(FORGIVEN_WAY_RATIO * span), after(FORGIVEN_WAY_RATIO * span)];
         let [a, v, b] = [here - own[0], here, here + own[1]].map(|k| self.points[k % count]);
         let (to, from) = (minus(v, a), minus(b, v));
         let turn = (to[0] * from[1] - to[1] * from[0]).atan2(dot(to, from)).abs();
@@ -167,7 +168,7 @@ impl Course<'_> {
         let normal = [-tangent[1] / size, tangent[0] / size];
         let rounding = 16.0 * U * (v[0].abs() + v[1].abs());
         let far = Tangent { v, normal, forgiven: rounding };
-        let close = Tangent { forgiven: (FORGIVEN * self.band).max(rounding), ..far };
+        let close = Tangent { forgiven: (FORGIVEN_OFFSET_RATIO * self.band).max(rounding), ..far };
         let mut radius = most;
         for end in [a, b] {
             radius = radius.min(close.through(minus(end, v)));
@@ -182,7 +183,7 @@ impl Course<'_> {
             }
             // Of an edge that is long beside its distance, only the ends are points of a smooth curve.
             let off = (way(here + on) - way(here)).min(way(here) - way(here - back(on)));
-            match off < SMOOTH * (way(here + on + 1) - way(here + on)) {
+            match off < SMOOTH_WAY_RATIO * (way(here + on + 1) - way(here + on)) {
                 true => segment
                     .map(|end| tangent.through(minus(end, v)))
                     .into_iter()

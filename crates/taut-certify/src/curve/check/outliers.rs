@@ -7,32 +7,33 @@ use super::super::CurveDoubt;
 use super::band::{Placed, nearest};
 use super::edges::Edges;
 
-/// The most of the rows that may be outliers.
-const MOST: f64 = 0.2;
+/// At most this part of the rows may be outliers.
+const OUTLIER_RATIO_MAX: f64 = 0.2;
 
 /// Outliers that may lie as near to each other as samples do.
 const CLUSTER_MOST: usize = 9;
 
 /// How near outliers must be to each other to be linked, over the gap that 95 of 100 samples have at most to the next.
-const LINK: f64 = 1.5;
+const LINK_RATIO: f64 = 1.5;
 
 /// Fewest outliers of which it is asked whether they are spread as chance would, and how near they may be to each other on average, over
 /// what chance makes it.
-const FEWEST: usize = 8;
+const OUTLIERS_MIN: usize = 8;
 const NEAR_LEAST: f64 = 0.75;
 
 /// In circles around outliers, in which chance puts so many others, those that there are are counted.
 const EXPECTED: [f64; 7] = [0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
 
 /// ln of how seldom chance may fill any of these circles so.
-const SELDOM: f64 = 6.0;
+const FILL_RARITY: f64 = 6.0;
 
-/// One of so many rows may be said to be an outlier though it is no farther from the curve than others are.
-const INSIDE: usize = 50;
+/// One of this many rows may be said to be an outlier though it is no farther from the curve than others are.
+const ROWS_PER_NEAR_OUTLIER: usize = 50;
 
-/// Outliers nearer to the curve than this times the band are its own: noise has tails. One of so many rows may be.
-const OWN: f64 = 2.0;
-const TAIL: usize = 1000;
+/// Outliers nearer to the curve than this times the band are its own: noise has tails.
+const OWN_BAND_RATIO: f64 = 2.0;
+/// One of this many rows may be such an outlier of the curve's own.
+const ROWS_PER_TAIL_OUTLIER: usize = 1000;
 
 /// The first reason to think that outliers are more than that, `gaps` being those between samples and `band` that of the noise.
 pub(super) fn doubt(
@@ -43,15 +44,15 @@ pub(super) fn doubt(
 ) -> Option<CurveDoubt> {
     let outliers = placed.outliers.len();
     let rows = outliers + placed.inliers.len();
-    if outliers as f64 > MOST * rows as f64 {
+    if outliers as f64 > OUTLIER_RATIO_MAX * rows as f64 {
         return Some(CurveDoubt::Outliers { outliers: outliers as u64, rows: rows as u64 });
     }
     gaps.sort_by(f64::total_cmp);
     let usual = gaps.get(gaps.len() * 19 / 20).copied().unwrap_or(0.0);
-    let link = band.max(LINK * usual);
+    let link = band.max(LINK_RATIO * usual);
     let (mut far, mut inside, mut beside) = (vec![], 0, 0u32);
     for &(row, place) in &placed.outliers {
-        if nearest(edges, place, OWN * band).is_none() {
+        if nearest(edges, place, OWN_BAND_RATIO * band).is_none() {
             far.push((row, place));
         } else if nearest(edges, place, band).is_some() {
             inside += 1;
@@ -59,13 +60,14 @@ pub(super) fn doubt(
             beside += 1;
         }
     }
-    if inside > FEWEST.max(rows / INSIDE) {
+    if inside > OUTLIERS_MIN.max(rows / ROWS_PER_NEAR_OUTLIER) {
         return Some(CurveDoubt::Inside { outliers: inside as u64 });
     }
     let room = Room::of(edges, placed, band);
     // Those that chance puts there, as dense as farther off, four deviations more, and tails.
     let expected = far.len() as f64 * room.beside / room.far;
-    let most = expected + 4.0 * expected.sqrt() + FEWEST.max(rows / TAIL) as f64;
+    let most =
+        expected + 4.0 * expected.sqrt() + OUTLIERS_MIN.max(rows / ROWS_PER_TAIL_OUTLIER) as f64;
     if f64::from(beside) > most {
         return Some(CurveDoubt::Beside { outliers: u64::from(beside) });
     }
@@ -92,8 +94,8 @@ impl Room {
             }
         }
         let all = (high[0] - low[0]) * (high[1] - low[1]);
-        let far = (all - 2.0 * OWN * band * length).max(all / 4.0);
-        Self { low, far, beside: 2.0 * (OWN - 1.0) * band * length }
+        let far = (all - 2.0 * OWN_BAND_RATIO * band * length).max(all / 4.0);
+        Self { low, far, beside: 2.0 * (OWN_BAND_RATIO - 1.0) * band * length }
     }
 }
 
@@ -101,12 +103,12 @@ impl Room {
 /// (Clark and Evans 1954), on average or somewhere.
 fn gathered(room: &Room, far: &[(usize, [f64; 2])]) -> Option<CurveDoubt> {
     let (many, area, low) = (far.len() as f64, room.far, room.low);
-    if far.len() < FEWEST {
+    if far.len() < OUTLIERS_MIN {
         return None;
     }
     let usual = 0.5 * (area / many).sqrt();
     let reaches = EXPECTED.map(|expected| (expected * area / (PI * many)).sqrt());
-    let most = (many * EXPECTED.len() as f64).ln() + SELDOM;
+    let most = (many * EXPECTED.len() as f64).ln() + FILL_RARITY;
     // Chernoff's bound of the tail of a Poisson distribution.
     let is_crowd = |count: f64, expected: f64| {
         count > expected && count * (count / expected).ln() - (count - expected) > most

@@ -5,17 +5,17 @@ use super::band::Foot;
 use super::features::Features;
 use super::valley::valley;
 
-/// Gaps on either side that a gap is compared with.
-const BESIDE: usize = 16;
+/// A gap is compared with this many gaps on either side.
+const NEIGHBOR_GAPS: usize = 16;
 
 /// Rows across whose offsets bands are sought: short windows follow the curve, long ones find thin gaps. The last is all rows.
 const WINDOWS: [usize; 5] = [64, 128, 512, 2048, usize::MAX];
 
-/// Rows of a window along which neighbours are compared.
-const WINDOW: usize = 128;
+/// Neighbours are compared along windows of this many rows.
+const WINDOW_ROWS: usize = 128;
 
-/// ln of how seldom chance may leave any of the windows of a curve with so few rows between two bands.
-const SELDOM: f64 = 4.0;
+/// ln of how seldom chance may leave any of the windows of a curve with this few rows between two bands.
+const GAP_RARITY: f64 = 4.0;
 
 /// The least that squared differences of neighbours may be on average, over twice the variance. Of 128 numbers that chance orders it is
 /// 1 ± 0.09, normal or uniform: less than this once in 10⁸ windows.
@@ -99,14 +99,14 @@ pub(super) fn lengths(samples: &[Sample], features: &Features) -> Vec<f64> {
     gaps(samples, features).map(|gap| gap.0).collect()
 }
 
-/// The least coefficient of variation of gaps that is supposed, where they are more even.
-const EVEN: f64 = 0.1;
+/// Gaps that are more even are supposed to have this coefficient of variation.
+const VARIATION_MIN: f64 = 0.1;
 
 /// A gap so much longer than those beside it that chance would make one in many curves sampled as these are.
 pub(super) fn lacuna(curve: usize, samples: &[Sample], features: &Features) -> Option<CurveDoubt> {
     let gaps: Vec<(f64, usize, usize)> = gaps(samples, features).collect();
     let (count, mut worst) = (gaps.len(), Worst::NONE);
-    let beside = BESIDE.min((count - 1) / 2);
+    let beside = NEIGHBOR_GAPS.min((count - 1) / 2);
     for (k, &(gap, vertex, _)) in gaps.iter().enumerate() {
         let near = || {
             let steps = (1..=beside).flat_map(|step| [k + step, k + count - step]);
@@ -116,7 +116,7 @@ pub(super) fn lacuna(curve: usize, samples: &[Sample], features: &Features) -> O
         let mean = near().sum::<f64>() / many;
         let variance = near().map(|gap| (gap - mean).powi(2)).sum::<f64>() / many;
         // Of n exponential gaps, one in about n·(1 + t/32)⁻³² is t times as long as the mean of 32 others. Even gaps leave less to chance.
-        let varied = (variance.sqrt() / mean).clamp(EVEN, 1.0);
+        let varied = (variance.sqrt() / mean).clamp(VARIATION_MIN, 1.0);
         let most = 1.0 + (9.0 + 1.5 * (count as f64).ln()) * varied;
         if gap > 0.0 && gap > most * mean {
             worst.see(gap / mean, vertex);
@@ -138,7 +138,7 @@ pub(super) fn noise_ratio(samples: &[Sample], features: &Features) -> Worst {
 
 /// Two bands with fewer rows between them than either holds, more so than chance would have it.
 pub(super) fn split(curve: usize, samples: &[Sample]) -> Option<CurveDoubt> {
-    let most = (samples.len() as f64).ln() + SELDOM;
+    let most = (samples.len() as f64).ln() + GAP_RARITY;
     let mut offsets = Vec::new();
     for window in WINDOWS.map(|window| window.min(samples.len())) {
         let (mut worst, mut share) = (Worst::NONE, 0.0);
@@ -167,11 +167,11 @@ pub(super) fn winding(curve: usize, samples: &[Sample]) -> Option<CurveDoubt> {
     // Rows that are the same point are one.
     places.dedup_by(|b, a| (a.0, a.1) == (b.0, b.1));
     let mut worst = (1.0f64, 0);
-    for start in (0..places.len()).step_by(WINDOW / 2) {
+    for start in (0..places.len()).step_by(WINDOW_ROWS / 2) {
         let at = |k: usize| places[(start + k) % places.len()].1;
-        let mean = (0..WINDOW).map(at).sum::<f64>() / WINDOW as f64;
-        let variance: f64 = (0..WINDOW).map(|k| (at(k) - mean).powi(2)).sum();
-        let steps: f64 = (1..WINDOW).map(|k| (at(k) - at(k - 1)).powi(2)).sum();
+        let mean = (0..WINDOW_ROWS).map(at).sum::<f64>() / WINDOW_ROWS as f64;
+        let variance: f64 = (0..WINDOW_ROWS).map(|k| (at(k) - mean).powi(2)).sum();
+        let steps: f64 = (1..WINDOW_ROWS).map(|k| (at(k) - at(k - 1)).powi(2)).sum();
         let share = steps / (2.0 * variance);
         if share < worst.0 {
             worst = (share, places[start].2);

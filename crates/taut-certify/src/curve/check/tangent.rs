@@ -3,7 +3,7 @@
 use super::tree::Area;
 
 /// R is told up to this much of it: on a circle all points are as near as each other, and to find the nearest would take all.
-const CLOSE: f64 = 1.0 / 64.0;
+const RADIUS_TOLERANCE: f64 = 1.0 / 64.0;
 
 /// Circles that are tangent at a point.
 #[derive(Clone, Copy)]
@@ -39,7 +39,7 @@ impl Tangent {
             (0..2).map(|k| (area.most[k] - area.least[k]) / 2.0 * self.normal[k].abs()).sum();
         let room = dot(self.normal, center).abs() + reach - self.forgiven;
         // An empty box gives NaN, and is as good as none.
-        if room > 0.0 { near / (2.0 * room) * (1.0 + CLOSE) } else { f64::INFINITY }
+        if room > 0.0 { near / (2.0 * room) * (1.0 + RADIUS_TOLERANCE) } else { f64::INFINITY }
     }
 
     /// The least radius of a circle through a point of an edge.

@@ -29,9 +29,9 @@ const TASK: usize = 1 << 10;
 /// Units in the extent of the points, which is scaled to between 1 and 2.
 const UNITS: f64 = (1u64 << 48) as f64;
 /// Potentials beyond this count as this: any are valid, and sums stay exact.
-const LARGEST: f64 = (1u64 << 50) as f64;
+const POTENTIAL_MAX: f64 = (1u64 << 50) as f64;
 /// Roundings in a length: two differences, two squares, a sum and a root, less than 4 in all, and as many again.
-const LENGTH: f64 = 4.0 * f64::EPSILON;
+const LENGTH_ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// No point.
 const NONE: u32 = u32::MAX;
 
@@ -97,7 +97,7 @@ fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
 /// A distance in whole units, rounded down.
 #[inline(always)]
 fn length(p: [f64; 2], q: [f64; 2]) -> f64 {
-    (distance(p, q) * (1.0 - LENGTH) * UNITS).floor()
+    (distance(p, q) * (1.0 - LENGTH_ROUNDING) * UNITS).floor()
 }
 
 /// The power of two that scales points to an extent between 1 and 2, in steps that are doubles.
@@ -130,7 +130,7 @@ impl Scale {
     /// A potential in whole units.
     fn potential(&self, pi: f64) -> f64 {
         let scaled = pi * self.to[0] * self.to[1] * UNITS;
-        if pi.is_finite() { scaled.clamp(-LARGEST, LARGEST).round() } else { 0.0 }
+        if pi.is_finite() { scaled.clamp(-POTENTIAL_MAX, POTENTIAL_MAX).round() } else { 0.0 }
     }
 
     /// So many units as a length, rounded down, and at least 0.

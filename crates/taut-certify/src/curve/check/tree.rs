@@ -1,7 +1,7 @@
 //! A binary tree of boxes over edges in the order of the curve: neighbours along the curve are neighbours in the plane.
 
-/// Edges in a leaf.
-const LEAF: usize = 4;
+/// A leaf has at most this many edges.
+const LEAF_SIZE: usize = 4;
 
 /// An axis-parallel box: least and largest coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -46,10 +46,10 @@ pub(super) struct Tree {
 impl Tree {
     pub(super) fn of(segments: impl ExactSizeIterator<Item = [[f64; 2]; 2]>) -> Self {
         let edges = segments.len();
-        let leaves = edges.div_ceil(LEAF).next_power_of_two();
+        let leaves = edges.div_ceil(LEAF_SIZE).next_power_of_two();
         let mut areas = vec![Area::EMPTY; 2 * leaves];
         for (edge, segment) in segments.enumerate() {
-            let area = &mut areas[leaves + edge / LEAF];
+            let area = &mut areas[leaves + edge / LEAF_SIZE];
             *area = area.joined(&Area::of(&segment));
         }
         for node in (1..leaves).rev() {
@@ -72,7 +72,7 @@ impl Tree {
         let mut open = [(0usize, 0.0f64); 64];
         let mut count = 1;
         let value = |node: usize| {
-            let size = LEAF * (self.leaves >> node.ilog2());
+            let size = LEAF_SIZE * (self.leaves >> node.ilog2());
             let first = (node - (1 << node.ilog2())) * size;
             match first < self.edges {
                 true => least(&self.areas[node], [first, (first + size).min(self.edges) - 1]),
@@ -87,8 +87,8 @@ impl Tree {
                 continue;
             }
             if node >= self.leaves {
-                let first = (node - self.leaves) * LEAF;
-                (first..(first + LEAF).min(self.edges)).for_each(|edge| look(edge, best));
+                let first = (node - self.leaves) * LEAF_SIZE;
+                (first..(first + LEAF_SIZE).min(self.edges)).for_each(|edge| look(edge, best));
                 continue;
             }
             let [one, other] = [2 * node, 2 * node + 1].map(|child| (child, value(child)));
@@ -123,8 +123,8 @@ impl Tree {
                 continue;
             }
             let of = |node: usize| {
-                let first = (node - self.leaves) * LEAF;
-                first..(first + LEAF).min(self.edges)
+                let first = (node - self.leaves) * LEAF_SIZE;
+                first..(first + LEAF_SIZE).min(self.edges)
             };
             for one in of(a) {
                 for other in of(b).filter(|&other| other > one) {

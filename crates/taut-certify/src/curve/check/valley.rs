@@ -1,17 +1,17 @@
 //! Whether numbers come from a density with one peak, or a valley lies between two.
 
-/// One of so many numbers at either end is not looked at, so that none of them alone makes the range much wider.
-const EDGE: usize = 128;
+/// One of this many numbers at either end is not looked at, so that none of them alone makes the range much wider.
+const NUMBERS_PER_TAIL: usize = 128;
 
 /// In how many parts of the range numbers are counted: so many that each holds eight, within bounds.
-const EIGHT: usize = 8;
+const NUMBERS_PER_PART: usize = 8;
 const PARTS: [usize; 2] = [8, 48];
 
 /// A valley is sparser than all numbers by this factor: less says little, and takes long to look at.
-const SPARSER: f64 = 0.75;
+const VALLEY_DENSITY_RATIO: f64 = 0.75;
 
-/// A side is at most so many times doubled as wide as the part: all parts, at the least.
-const DOUBLINGS: usize = 6;
+/// A side is at most this many times doubled as wide as the part: all parts, at the least.
+const DOUBLINGS_MAX: usize = 6;
 
 /// A part of a range with fewer numbers than on either side.
 #[derive(Clone, Copy, Debug)]
@@ -28,14 +28,14 @@ pub(super) struct Valley {
 /// in the part and on that side the share in the part is then no less than its share in the width, but by chance.
 pub(super) fn valley(numbers: &[f64]) -> Valley {
     let mut deepest = Valley { evidence: 0.0, density: 1.0 };
-    let (count, edge) = (numbers.len(), numbers.len() / EDGE);
+    let (count, edge) = (numbers.len(), numbers.len() / NUMBERS_PER_TAIL);
     let (low, high) = (numbers[edge], numbers[count - 1 - edge]);
-    let parts = (count / EIGHT).clamp(PARTS[0], PARTS[1]);
+    let parts = (count / NUMBERS_PER_PART).clamp(PARTS[0], PARTS[1]);
     let border = |part: usize| low + (high - low) * part as f64 / parts as f64;
     let below: Vec<usize> =
         (0..=parts).map(|part| numbers.partition_point(|&x| x < border(part))).collect();
     let within = |from: usize, to: usize| (below[to] - below[from]) as f64;
-    let most = SPARSER * within(0, parts) / parts as f64;
+    let most = VALLEY_DENSITY_RATIO * within(0, parts) / parts as f64;
     for from in 1..parts {
         for to in from + 1..parts {
             let (inside, width) = (within(from, to), (to - from) as f64);
@@ -49,7 +49,7 @@ pub(super) fn valley(numbers: &[f64]) -> Valley {
                     let (beside, wide) = (within(start, end), (end - start) as f64);
                     (evidence([inside, beside], [width, wide]), beside / wide)
                 };
-                (0..DOUBLINGS)
+                (0..DOUBLINGS_MAX)
                     .map(of)
                     .fold((0.0, 1.0), |best, one| if one.0 > best.0 { one } else { best })
             };

@@ -110,7 +110,7 @@ impl<N: Field> Shape<N> {
         let least = self.error + self.rounding(mu.rounded());
         let mut best = self.excess_at(g, mu);
         let mut raised = least.max(f64::MIN_POSITIVE);
-        for _ in 0..RAISES {
+        for _ in 0..RAISES_MAX {
             let next = self.excess_at(g, &mu.plus(&N::of(raised)));
             // φ is convex: once it grows it does not fall again.
             if next >= best && best.is_finite() || raised > self.trace {
@@ -186,7 +186,7 @@ fn multiplier<N: Field>(lower: &[N], g: &[N]) -> N {
     let norm = dot(lower, lower).rounded().sqrt() * std::f64::consts::SQRT_2 * (1.0 + 8.0 * U);
     let mut above = N::of(norm + (norm * dot(g, g).rounded()).sqrt());
     let mut mu = above;
-    for _ in 0..STEPS {
+    for _ in 0..STEPS_MAX {
         let mut factor: Vec<N> = lower.iter().map(|v| zero.minus(v)).collect();
         (0..n).for_each(|j| factor[j * (j + 3) / 2] = factor[j * (j + 3) / 2].plus(&mu));
         let mut next = None;
@@ -220,11 +220,11 @@ fn multiplier<N: Field>(lower: &[N], g: &[N]) -> N {
     above
 }
 
-/// Halving alone would need as many steps as doubled precision has bits.
-const STEPS: usize = 128;
+/// A root is looked for in at most this many steps: halving alone would need as many as doubled precision has bits.
+const STEPS_MAX: usize = 128;
 
-/// Doublings from the last digit of doubled precision up to 1, and some.
-const RAISES: usize = 128;
+/// A bound is raised at most this often: doublings from the last digit of doubled precision up to 1, and some.
+const RAISES_MAX: usize = 128;
 
 /// (L·D·Lᵀ)⁻¹x.
 fn solve<N: Field>(factor: &[N], x: &[N]) -> Vec<N> {

@@ -1,7 +1,7 @@
 //! Names of element types, of which many mean the same.
 
 /// Types by the names that have no width in them; of `l`, `int`, `g` and the like it depends on the system.
-const SHORT: [(&str, &str); 22] = [
+const SHORT_NAMES: [(&str, &str); 22] = [
     ("?", "b1"),
     ("bool", "b1"),
     ("b", "i1"),
@@ -46,7 +46,8 @@ fn canonical(name: &str) -> Option<(char, String)> {
         order @ ('<' | '>' | '=' | '|') => (order, &name[1..]),
         _ => ('=', name),
     };
-    let short = SHORT.iter().find(|(long, _)| *long == plain).map(|(_, short)| (*short).to_owned());
+    let short =
+        SHORT_NAMES.iter().find(|(long, _)| *long == plain).map(|(_, short)| (*short).to_owned());
     let short = match short.or_else(|| by_bits(plain)) {
         Some(short) => short,
         // An old name of byte strings.

@@ -34,9 +34,9 @@ const TRACE_RANGE: std::ops::Range<f64> = 0.5..f64::from_bits((1023 + 100) << 52
 
 /// λ = m·2ᵉ with m in [1, 2), for λ > 0, subnormal numbers included.
 fn parts(lambda: f64) -> (f64, i32) {
-    const UP: i32 = 64;
+    const SCALE_EXPONENT: i32 = 64;
     let (lambda, shift) = match lambda < f64::MIN_POSITIVE {
-        true => (lambda * 2f64.powi(UP), UP),
+        true => (lambda * 2f64.powi(SCALE_EXPONENT), SCALE_EXPONENT),
         false => (lambda, 0),
     };
     let e = exponent(lambda);

@@ -16,7 +16,7 @@ use crate::hashed_pass::{WantedRows, all_finite, hashed_pass};
 use crate::{CheckError, Violation};
 
 /// What the checker of ellipsoids grants at a border, from both sides.
-const ENCLOSED: f64 = 2e-12;
+const BORDER_TOLERANCE: f64 = 2e-12;
 
 /// What is to be read.
 pub(super) struct Scan<'a> {
@@ -177,7 +177,7 @@ impl Scan<'_> {
         let sizes: Vec<f64> = offset.iter().map(|x| x.abs()).collect();
         let mut slack = self.frame.image_error::<f64>(&sizes, None) + 8.0 * U;
         if self.certificate.method == RobustMethod::Trim {
-            slack += ENCLOSED;
+            slack += BORDER_TOLERANCE;
         }
         let is_clear = (norm - 1.0).abs() > 2.0 * slack;
         if is_clear {

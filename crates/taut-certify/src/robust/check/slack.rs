@@ -7,10 +7,10 @@
 use crate::arithmetic::U;
 use crate::ellipsoid::check::frame::Frame;
 
-/// What `f64` arithmetic of a solver may be off by, relatively.
-const LEAST: f64 = 1e-9;
-/// What is granted at most where coordinates have few digits left.
-const MOST: f64 = 0.1;
+/// The `f64` arithmetic of a solver may be off by this, relatively.
+const SOLVER_TOLERANCE: f64 = 1e-9;
+/// At most this is granted where coordinates have few digits left.
+const TOLERANCE_MAX: f64 = 0.1;
 
 /// Tolerances in the frame, where the border is at 1.
 pub(super) struct Slack {
@@ -32,16 +32,19 @@ impl Slack {
         };
         let thin = 16.0 * (frame.dim + 4) as f64 * U * most(&|b| extents[b]);
         let far = 8.0 * U * most(&|b| frame.center[b].abs());
-        Slack { of_shapes: (LEAST + thin).min(MOST), of_places: (LEAST + thin + far).min(MOST) }
+        Slack {
+            of_shapes: (SOLVER_TOLERANCE + thin).min(TOLERANCE_MAX),
+            of_places: (SOLVER_TOLERANCE + thin + far).min(TOLERANCE_MAX),
+        }
     }
 
     /// For a logarithm, or a sum of `terms` of them.
     pub(super) fn of_logarithms(&self, value: f64, terms: usize) -> f64 {
-        LEAST * (1.0 + value.abs()) + terms as f64 * self.of_shapes
+        SOLVER_TOLERANCE * (1.0 + value.abs()) + terms as f64 * self.of_shapes
     }
 
     /// For numbers that do not depend on the points.
     pub(super) fn of_factor(value: f64) -> f64 {
-        LEAST * value
+        SOLVER_TOLERANCE * value
     }
 }

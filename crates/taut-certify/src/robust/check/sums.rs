@@ -6,7 +6,7 @@ use crate::arithmetic::{DoubleDouble, Field, Ring, factorise};
 
 /// A variance below this part of the mean square is none: the square of what a solver in `f64` tells from rounding. Of
 /// copies of one point all variances are rounding, so that they are not compared with each other.
-const FLAT: f64 = 1e-16;
+const VARIANCE_RATIO_MIN: f64 = 1e-16;
 
 /// Σ 1, Σ y and Σ yy′.
 #[derive(Clone)]
@@ -106,7 +106,7 @@ impl Sums {
         let (_, mut covariance) = self.estimate();
         let diagonal = |a: usize| a * (a + 3) / 2;
         let squares: f64 = (0..rank).map(|a| self.second[diagonal(a)].rounded()).sum();
-        let shift = DoubleDouble::of(FLAT * squares / self.count as f64);
+        let shift = DoubleDouble::of(VARIANCE_RATIO_MIN * squares / self.count as f64);
         for a in 0..rank {
             covariance[diagonal(a)] = covariance[diagonal(a)].minus(&shift);
         }

@@ -16,11 +16,12 @@ use super::tree::Area;
 use crate::arithmetic::{DoubleDouble, U};
 use crate::triangulation::{Gabriel, Geometry, Lifted, Tetrahedra, UNDERFLOW, cross};
 
-/// What O and N are off by in double-double, over their largest monomials.
-const TWICE: f64 = f64::from_bits((1023 - 93) << 52);
+/// In double-double, O and N are off by this, over their largest monomials.
+const DOUBLED_ROUNDING: f64 = f64::from_bits((1023 - 93) << 52);
 
-/// What a share is off by, over the sum of its two terms: the ends of the box, the apex, two products and a difference, and the sums.
-const SHARE: f64 = 16.0 * U;
+/// A share is off by this, over the sum of its two terms: the ends of the box, the apex, two products and a difference,
+/// and the sums.
+const SHARE_ROUNDING: f64 = 16.0 * U;
 
 pub(super) struct Ball {
     a: [f64; 3],
@@ -64,15 +65,15 @@ impl Ball {
         let (normal, weight) = (lifted.normal.map(|x| x.high), lifted.orientation.high);
         let largest = normal.iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
         // What components of N, and O, are off by.
-        let normal_error = 2.0 * U * largest + TWICE * normal_size + UNDERFLOW;
-        let weight_error = 2.0 * U * weight.abs() + TWICE * weight_size + UNDERFLOW;
+        let normal_error = 2.0 * U * largest + DOUBLED_ROUNDING * normal_size + UNDERFLOW;
+        let weight_error = 2.0 * U * weight.abs() + DOUBLED_ROUNDING * weight_size + UNDERFLOW;
         Ball {
             a: *a,
             normal,
             weight,
             apex: normal.map(|x| x / (2.0 * weight)),
-            square_error: SHARE * weight.abs() + weight_error,
-            line_errors: normal.map(|x| SHARE * x.abs() + normal_error),
+            square_error: SHARE_ROUNDING * weight.abs() + weight_error,
+            line_errors: normal.map(|x| SHARE_ROUNDING * x.abs() + normal_error),
         }
     }
 

@@ -8,11 +8,11 @@
 
 use taut_points::Cancelled;
 
-/// Items in a leaf.
-const LEAF: usize = 8;
+/// A leaf has at most this many items.
+const LEAF_SIZE: usize = 8;
 
-/// Pairs of nodes after which is asked whether to go on.
-const PATIENCE: u32 = 1 << 16;
+/// It is asked whether to go on after this many pairs of nodes.
+const PAIRS_BETWEEN_ASKS: u32 = 1 << 16;
 
 /// An axis-parallel box: least and largest coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,13 +74,13 @@ pub(super) struct Tree {
 impl Tree {
     /// Over items with these boxes, none of which is empty.
     pub(super) fn of(areas: &[Area]) -> Self {
-        let leaves = areas.len().div_ceil(LEAF).next_power_of_two();
+        let leaves = areas.len().div_ceil(LEAF_SIZE).next_power_of_two();
         let mut order: Vec<u32> = (0..areas.len() as u32).collect();
         halve(&mut order, leaves, areas);
         let items: Vec<Area> = order.iter().map(|&item| areas[item as usize]).collect();
         let mut nodes = vec![Area::EMPTY; 2 * leaves];
         for (at, item) in items.iter().enumerate() {
-            nodes[leaves + at / LEAF].join(item);
+            nodes[leaves + at / LEAF_SIZE].join(item);
         }
         for node in (1..leaves).rev() {
             let other = nodes[2 * node + 1];
@@ -92,8 +92,8 @@ impl Tree {
 
     /// Places in `order` of the items of a leaf.
     fn leaf(&self, node: usize) -> std::ops::Range<usize> {
-        let first = (node - self.leaves) * LEAF;
-        first.min(self.order.len())..(first + LEAF).min(self.order.len())
+        let first = (node - self.leaves) * LEAF_SIZE;
+        first.min(self.order.len())..(first + LEAF_SIZE).min(self.order.len())
     }
 
     /// The first item, in the order of the tree, that `wanted` wants, of those for which all boxes around them are `open`.
@@ -134,7 +134,7 @@ impl Tree {
         let (mut waiting, mut steps) = (vec![(1, 1)], 0u32);
         while let Some((a, b)) = waiting.pop() {
             steps = steps.wrapping_add(1);
-            if steps.is_multiple_of(PATIENCE) {
+            if steps.is_multiple_of(PAIRS_BETWEEN_ASKS) {
                 go_on()?;
             }
             if !self.nodes[a].meets(&self.nodes[b]) {
@@ -164,7 +164,7 @@ impl Tree {
 
 /// Sorts items such that each half of the leaves has a half of space.
 fn halve(order: &mut [u32], leaves: usize, areas: &[Area]) {
-    let half = leaves / 2 * LEAF;
+    let half = leaves / 2 * LEAF_SIZE;
     if leaves < 2 {
         return;
     }
@@ -214,7 +214,7 @@ mod tests {
                 area.meets(&last)
             };
             assert_eq!(tree.find(open, |item| item == count - 1), Some(count - 1));
-            assert!(asked <= 2 * count.ilog2() + 2 * LEAF as u32, "{asked} of {count}");
+            assert!(asked <= 2 * count.ilog2() + 2 * LEAF_SIZE as u32, "{asked} of {count}");
         }
     }
 

@@ -27,8 +27,8 @@ const BLOCK: usize = 1 << 13;
 /// vertices beyond them have not been met yet.
 const BATCH: usize = 1024;
 
-/// Facets that are settled together: what is gathered for them stays in the first cache.
-const SETTLED: usize = 64;
+/// This many facets are settled together: what is gathered for them stays in the first cache.
+const FACETS_PER_SETTLING: usize = 64;
 
 /// Facet i of a simplex as seen from outside: its vertices in positive order.
 pub(super) trait Facets<const F: usize> {
@@ -195,7 +195,7 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
             batch.cross(self, first, ahead);
             let open = batch.test::<G>(self, ahead);
             let Batch { open: listed, near_ties, .. } = &mut *batch;
-            for some in listed[..open].chunks(SETTLED) {
+            for some in listed[..open].chunks(FACETS_PER_SETTLING) {
                 for facet in some {
                     self.settle::<G, F>(first, facet, near_ties, &mut paired)?;
                 }

@@ -51,8 +51,8 @@ impl Ring for Sized {
 /// Added to every bound for what underflows.
 pub(crate) const UNDERFLOW: f64 = f64::from_bits((1023 - 1000) << 52);
 
-/// Most differences in a determinant.
-const MOST: usize = 4;
+/// A determinant has at most this many differences.
+const DIFFERENCES_MAX: usize = 4;
 
 /// What is known of all coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -146,7 +146,7 @@ impl Signs {
     ) -> Ordering {
         let (count, mut size) = (points.len(), 0.0);
         if self.is_filtered {
-            let mut differences = [[0.0; D]; MOST];
+            let mut differences = [[0.0; D]; DIFFERENCES_MAX];
             let mut max = [0.0f64; D];
             for (difference, point) in differences.iter_mut().zip(points) {
                 for k in 0..D {
@@ -186,7 +186,7 @@ impl Signs {
     ) -> Ordering {
         let (count, mut most) = (points.len(), f64::INFINITY);
         if self.is_filtered {
-            let mut with_sums = [[Sized { value: 0.0, sum: 0.0 }; D]; MOST];
+            let mut with_sums = [[Sized { value: 0.0, sum: 0.0 }; D]; DIFFERENCES_MAX];
             for (difference, point) in with_sums.iter_mut().zip(points) {
                 for k in 0..D {
                     let value = point[k] - origin[k];
@@ -197,7 +197,7 @@ impl Signs {
             if value.abs() > bounds.rounding_of_sum * sum + UNDERFLOW {
                 return sign_of(value);
             }
-            let mut twice = [[DoubleDouble { high: 0.0, low: 0.0 }; D]; MOST];
+            let mut twice = [[DoubleDouble { high: 0.0, low: 0.0 }; D]; DIFFERENCES_MAX];
             for (difference, point) in twice.iter_mut().zip(points) {
                 for k in 0..D {
                     difference[k] = DoubleDouble::difference(point[k], origin[k]);
@@ -226,7 +226,7 @@ impl Signs {
         // All powers are exact. One bit less than there is makes up for the rounding of `most`.
         let scale = (0..bounds.degree).fold(1.0, |power, _| power * self.quantum);
         if most < scale * 2f64.powi(126) {
-            let mut differences = [[Residue::ZERO; D]; MOST];
+            let mut differences = [[Residue::ZERO; D]; DIFFERENCES_MAX];
             let (per_quantum, mut are_near) = (1.0 / self.quantum, true);
             // Points close together have differences that `f64` holds, and that are small whole numbers of quanta: to turn
             // these into residues takes a small part of the time that it takes to turn every coordinate into one.

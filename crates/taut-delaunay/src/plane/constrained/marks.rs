@@ -4,7 +4,7 @@ use super::{Piece, Pieces, Split};
 use crate::simplex::{Simplex, decode};
 
 /// The marks of a triangle: bit i for its edge opposite vertex i, and one for the inside.
-const INSIDE: u8 = 1 << 3;
+const INSIDE_BIT: u8 = 1 << 3;
 
 /// A constrained Delaunay triangulation: which edges are constrained, and which triangles lie inside the rings.
 #[derive(Clone, Debug)]
@@ -71,7 +71,7 @@ impl Constrained {
     /// # Panics
     /// If there is no such triangle.
     pub fn is_inside(&self, triangle: u32) -> bool {
-        self.marks[triangle as usize] & INSIDE != 0
+        self.marks[triangle as usize] & INSIDE_BIT != 0
     }
 
     /// The constrained edges, in the order of their ends.
@@ -96,7 +96,7 @@ fn flood(triangles: &[Simplex<3>], odd: &[u8], marks: &mut [u8]) {
     let mut seen: Vec<bool> = triangles.iter().map(Simplex::is_ghost).collect();
     let mut next: Vec<u32> = (0..triangles.len() as u32).filter(|&t| seen[t as usize]).collect();
     while let Some(number) = next.pop() {
-        let here = marks[number as usize] & INSIDE;
+        let here = marks[number as usize] & INSIDE_BIT;
         for (place, &code) in triangles[number as usize].neighbors.iter().enumerate() {
             let (other, _) = decode(code);
             if !std::mem::replace(&mut seen[other as usize], true) {

@@ -12,12 +12,12 @@ use super::sites::Sites;
 use super::state::{Child, Look, State, Undo};
 use crate::Error;
 
-/// Proofs of at most so many nodes are left to the checker to find again.
-const SHORT: usize = 64;
+/// Proofs of at most this many nodes are left to the checker to find again.
+const UNPROVED_NODES_MAX: usize = 64;
 /// More items no checker takes.
 const ITEMS: usize = 16_000;
-/// Rounds of dropping items that no node branches on.
-const ROUNDS: usize = 4;
+/// Items that no node branches on are dropped in at most this many rounds.
+const DROPPING_ROUNDS_MAX: usize = 4;
 
 /// Items that prove a bound, and how.
 pub(super) struct Proof {
@@ -51,7 +51,7 @@ pub(super) fn prove(
         Ok(log) => log,
         Err(why) => return Ok(Err(why)),
     };
-    for _ in 0..ROUNDS {
+    for _ in 0..DROPPING_ROUNDS_MAX {
         let mut used: Vec<u32> = log.clone();
         used.sort_unstable();
         used.dedup();
@@ -74,7 +74,7 @@ pub(super) fn prove(
         return Ok(Err(Stop::ProofBudget));
     }
     let nodes = log.len() as u64;
-    let by = match log.len() <= SHORT {
+    let by = match log.len() <= UNPROVED_NODES_MAX {
         true => LowerBound::Search,
         false => LowerBound::Branches { items: log },
     };

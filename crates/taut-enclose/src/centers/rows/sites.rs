@@ -11,17 +11,17 @@ use taut_points::InputError;
 use taut_points::{Monitor, PointSource, PointsHash, ReadError, Rows, hash_block, map_blocks};
 
 use crate::Error;
-use crate::centers::{EVEN, reach_of};
+use crate::centers::{EXACT_DISTANCES, reach_of};
 use crate::kernel::{Center, Difference, relative_error, squared_distances};
 
 /// Rows that share a word.
 pub(super) const WORD: usize = 64;
 /// Rows that one thread takes at a time; a multiple of [`WORD`].
 const CHUNK: usize = 1 << 12;
-/// Rows whose distances are taken before they are compared: 4 KiB.
-const LOWER: usize = 512;
+/// The distances of this many rows are taken before they are compared: 4 KiB.
+const DISTANCES_PER_BATCH: usize = 512;
 /// Squares between these are as exact as any.
-const SAFE: std::ops::RangeInclusive<f64> = 1e-280..=1e300;
+const EXACT_SQUARES: std::ops::RangeInclusive<f64> = 1e-280..=1e300;
 
 /// The rows, by site: the place in the order that this module gives them.
 pub(super) struct Sites {
@@ -161,7 +161,7 @@ impl Sites {
 
     /// Whether a distance has all its digits.
     pub(super) fn is_even(&self, site: usize, center: usize) -> bool {
-        site == center || EVEN.contains(&self.distance(site, center))
+        site == center || EXACT_DISTANCES.contains(&self.distance(site, center))
     }
 
     /// The reach that one of two items has at least, wherever the centre: (D + r₁ + r₂)/2 or a radius for balls,
@@ -183,7 +183,7 @@ impl Sites {
         let values = &self.positions[first * self.dim..(first + out.len()) * self.dim];
         squared_distances(values, self.dim, center, out);
         for (value, row) in out.iter_mut().zip(values.chunks_exact(self.dim)) {
-            *value = match SAFE.contains(value) {
+            *value = match EXACT_SQUARES.contains(value) {
                 true => value.sqrt(),
                 false => careful_distance(row, &center.high),
             };
@@ -246,16 +246,20 @@ impl Sites {
     pub(super) fn lower(&self, reaches: &mut [f64], center: usize) {
         let center = self.center(center);
         let chunk = |(number, reaches): (usize, &mut [f64])| {
-            let mut distances = [0.0; LOWER];
+            let mut distances = [0.0; DISTANCES_PER_BATCH];
             let distances = &mut distances[..reaches.len()];
-            self.distances(number * LOWER, &center, distances);
+            self.distances(number * DISTANCES_PER_BATCH, &center, distances);
             for (i, (reach, &distance)) in reaches.iter_mut().zip(&*distances).enumerate() {
-                *reach = self.reach(number * LOWER + i, distance).min(*reach);
+                *reach = self.reach(number * DISTANCES_PER_BATCH + i, distance).min(*reach);
             }
         };
         match self.is_small() {
-            true => reaches.chunks_mut(LOWER).enumerate().for_each(chunk),
-            false => reaches.par_chunks_mut(LOWER).enumerate().with_min_len(8).for_each(chunk),
+            true => reaches.chunks_mut(DISTANCES_PER_BATCH).enumerate().for_each(chunk),
+            false => reaches
+                .par_chunks_mut(DISTANCES_PER_BATCH)
+                .enumerate()
+                .with_min_len(8)
+                .for_each(chunk),
         }
     }
 
@@ -318,7 +322,7 @@ impl Sites {
     /// is rounded.
     pub(super) fn reach_up(&self, site: usize, center: usize) -> f64 {
         let distance = self.distance(site, center);
-        if !EVEN.contains(&distance) {
+        if !EXACT_DISTANCES.contains(&distance) {
             let weight = self.weights.get(site).copied().unwrap_or(1.0);
             let radius = self.radii.get(site).copied().unwrap_or(0.0);
             return reach_of(self.position(site), self.position(center), weight, radius);

@@ -11,10 +11,10 @@ use taut_points::{Monitor, ReadError};
 use super::sites::Sites;
 use crate::Error;
 
-/// Traversals from different items; each next one from the last item of the one before.
-const RUNS: usize = 4;
-/// Beyond, a traversal costs more than another one gains.
-const MANY: usize = 64;
+/// This many traversals start from different items; each next one from the last item of the one before.
+const TRAVERSALS: usize = 4;
+/// Beyond this many centres, a traversal costs more than another one gains.
+const TRAVERSED_CENTERS_MAX: usize = 64;
 
 /// Centres at rows.
 #[derive(Clone, Debug)]
@@ -85,7 +85,7 @@ pub(super) fn start(
     monitor: &Monitor<'_>,
 ) -> Result<Start, Error> {
     let count = k.saturating_add(outliers).saturating_add(1);
-    let runs = if count <= MANY { RUNS } else { 1 };
+    let runs = if count <= TRAVERSED_CENTERS_MAX { TRAVERSALS } else { 1 };
     let incumbent = |order: &[usize]| {
         let centers = order[..k.min(order.len())].to_vec();
         let radius = radius(&sites.reaches(&centers), outliers);

@@ -19,13 +19,13 @@ use crate::centers::items::{ItemSet, Position, Shape};
 use crate::kernel::vector::{add_scaled, dot};
 
 /// A position of which a smaller part is across the others depends on them.
-const DEPENDENT: f64 = 1e-11;
-/// What counts as a rise of the radius, in parts of it.
-const RISE: f64 = 4e-16;
-/// Items that may join in vain, one after the other, beyond d.
-const VAIN: usize = 10;
-/// Steps in R, of which each doubles the digits.
-const STEPS: usize = 60;
+const DEPENDENT_RATIO: f64 = 1e-11;
+/// More than this counts as a rise of the radius, in parts of it.
+const RADIUS_RISE_MIN: f64 = 4e-16;
+/// Items may join in vain, one after the other, up to this many times beyond d.
+const JOINS_WITHOUT_RISE_MAX: usize = 10;
+/// R is found in at most this many steps, of which each doubles the digits.
+const NEWTON_STEPS_MAX: usize = 60;
 
 /// A support with its shares, and the factors QU of its positions: about the first of them and with one coordinate more.
 #[derive(Clone, Default)]
@@ -75,8 +75,8 @@ impl ActiveSet {
                 return;
             }
             let Some((item, reach)) = ball.farthest_outside(items, members, more) else { return };
-            vain = if radius > before * (1.0 + RISE) { 0 } else { vain + 1 };
-            if vain > self.dim + VAIN {
+            vain = if radius > before * (1.0 + RADIUS_RISE_MIN) { 0 } else { vain + 1 };
+            if vain > self.dim + JOINS_WITHOUT_RISE_MAX {
                 ball.radius = ball.radius.max(reach);
                 return;
             }
@@ -137,7 +137,7 @@ impl ActiveSet {
             }
         }
         let across = dot(&rest, &rest).sqrt();
-        let is_independent = across > DEPENDENT * dot(place, place).sqrt();
+        let is_independent = across > DEPENDENT_RATIO * dot(place, place).sqrt();
         if !is_independent {
             return (column, rest, 0.0);
         }
@@ -302,11 +302,11 @@ impl ActiveSet {
     /// To the smallest ball of the support, from a radius that is not above its own.
     fn rise<P: Position>(&mut self, items: &ItemSet<P>, radius: f64) -> f64 {
         let mut radius = radius;
-        for _ in 0..STEPS {
+        for _ in 0..NEWTON_STEPS_MAX {
             self.settle(items, radius);
             let before = radius;
             radius = self.proved(items).max(before);
-            if items.shape() == Shape::Points || radius <= before * (1.0 + RISE) {
+            if items.shape() == Shape::Points || radius <= before * (1.0 + RADIUS_RISE_MIN) {
                 break;
             }
         }

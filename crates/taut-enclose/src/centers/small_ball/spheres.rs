@@ -8,7 +8,7 @@ use super::active_set::ActiveSet;
 use crate::centers::items::{ItemSet, Position, Shape, distance};
 
 /// Edges whose part across the others is a smaller part of them than this span no ball of their own.
-const DEPENDENT: f64 = 1e-11;
+const DEPENDENT_RATIO: f64 = 1e-11;
 
 /// Room for calculations, kept so that none of them asks for memory.
 #[derive(Clone)]
@@ -119,7 +119,7 @@ impl<P: Position> Workspace<P> {
             }
             let across = dot(edge.as_ref(), edge.as_ref()).sqrt();
             // Also where numbers are none.
-            let is_independent = across > DEPENDENT * length2.sqrt();
+            let is_independent = across > DEPENDENT_RATIO * length2.sqrt();
             if !is_independent {
                 return false;
             }

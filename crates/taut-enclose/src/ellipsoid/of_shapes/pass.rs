@@ -9,7 +9,7 @@ use crate::shapes::frame::Framed;
 use crate::shapes::reach::{alternatives, farthest};
 
 /// A point of an item is named beside its farthest if it lies outside by this part of what that does.
-const WORTH: f64 = 0.1;
+const NEAR_POINT_RATIO: f64 = 0.1;
 
 /// What a pass found.
 pub(super) struct Found {
@@ -96,7 +96,7 @@ fn item(
     let mut touches = vec![];
     let beyond = border * (1.0 + 1e-14);
     if best.square > beyond {
-        let worth = border + WORTH * (best.square - border);
+        let worth = border + NEAR_POINT_RATIO * (best.square - border);
         let seeds: Vec<Vec<f64>> =
             seeds.iter().map(|a| seed(framed.shape(i), matrix, &lambda, &vectors, a)).collect();
         alternatives(&lambda, &h, &best, &seeds, |square, beta| {

@@ -7,7 +7,7 @@ use super::base::Base;
 use super::rounds::Best;
 use crate::Error;
 use crate::ellipsoid::outcome::log_unit_ball;
-use crate::ellipsoid::proof::{LOGARITHMS, answer, lower_gap};
+use crate::ellipsoid::proof::{LOGARITHM_ROUNDING, answer, lower_gap};
 use crate::ellipsoid::{EllipsoidOptions, ROUNDING};
 use crate::kernel::vector::dot;
 use crate::shapes::Shapes;
@@ -16,7 +16,7 @@ use crate::shapes::frame::Map;
 use crate::shapes::reach::farthest;
 
 /// Items that reach this near the border, relatively, are measured again with twice the digits.
-const NEAR: f64 = 1e-8;
+const BORDER_TOLERANCE: f64 = 1e-8;
 
 impl Base {
     /// From multipliers to an answer: containment is measured with F as it will be returned.
@@ -29,8 +29,9 @@ impl Base {
     ) -> Result<Solution<Ellipsoid>, Error> {
         let rank = self.rank;
         let center = self.back(&best.center);
-        let near: Vec<usize> =
-            (0..shapes.len()).filter(|&i| best.squares[i] >= best.largest * (1.0 - NEAR)).collect();
+        let near: Vec<usize> = (0..shapes.len())
+            .filter(|&i| best.squares[i] >= best.largest * (1.0 - BORDER_TOLERANCE))
+            .collect();
         // What a reach found from exact coordinates may be off by: eigenvalues, roots and sums.
         let rounding = 16.0 * (rank + 4) as f64 * f64::EPSILON;
         let mut scale = (1.0 - rounding) / best.largest.sqrt();
@@ -63,7 +64,7 @@ impl Base {
             support.iter().flat_map(|(i, a, _)| map.touching(shapes, *i, a)).collect();
         let multipliers: Vec<f64> = support.iter().map(|entry| entry.2).collect();
         let lower = lower_gap(&images, &multipliers, rank);
-        let gap = (lower + rank as f64 * (excess + LOGARITHMS)).min(f64::MAX);
+        let gap = (lower + rank as f64 * (excess + LOGARITHM_ROUNDING)).min(f64::MAX);
         let hull = self.hull(shapes, &center);
         let log_volume = match self.directions {
             None => log_unit_ball(rank) - (0..rank).map(|a| factor[a * dim + a].ln()).sum::<f64>(),

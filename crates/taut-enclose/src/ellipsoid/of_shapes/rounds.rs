@@ -16,13 +16,14 @@ use crate::ellipsoid::{EllipsoidOptions, ROUNDING};
 use crate::shapes::Shapes;
 use crate::shapes::frame::{Framed, Map};
 
-/// Points that may join after a pass, for each of the d(d + 3)/2 that can be needed.
-const LATER: usize = 2;
+/// After a pass, this many points may join for each of the d(d + 3)/2 that can be needed.
+const JOINING_FACTOR: usize = 2;
 /// A point of the pool with no multiplier whose |y|² is below this part of d is of no use any more.
-const USEFUL: f64 = 0.98;
-/// Passes without a better gap that show that rounding is in the way, of gaps below [`SMALL`].
-const STALE: u32 = 4;
-const SMALL: f64 = 1e-6;
+const LEVERAGE_RATIO_MIN: f64 = 0.98;
+/// This many passes without a better gap show that rounding is in the way, of gaps below [`SMALL_GAP`].
+const STALE_PASSES_MAX: u32 = 4;
+/// Below this gap, rounding may be what keeps passes from improving it.
+const SMALL_GAP: f64 = 1e-6;
 
 /// The best multipliers so far, and what they mean.
 pub(super) struct Best {
@@ -52,7 +53,7 @@ impl Base {
         let axes = axes(&framed);
         let widths: Vec<f64> = axes.iter().map(Axes::longest).collect();
         let (mut pool, mut touches) = first_pool(&framed, axes);
-        let later = LATER * (rank + 1) * (rank + 2) / 2;
+        let later = JOINING_FACTOR * (rank + 1) * (rank + 2) / 2;
         let later = later.max(64);
         let mut best: Option<Best> = None;
         let mut history = vec![];
@@ -99,7 +100,9 @@ impl Base {
             if passes >= options.max_passes {
                 break Stop::PassBudget;
             }
-            if stale >= STALE && best_gap < SMALL || outside.is_empty() && tolerance == 0.0 {
+            if stale >= STALE_PASSES_MAX && best_gap < SMALL_GAP
+                || outside.is_empty() && tolerance == 0.0
+            {
                 break Stop::Rounding;
             }
             drop_useless(&mut pool, &whitener);
@@ -135,5 +138,5 @@ fn drop_useless(pool: &mut Pool, whitener: &Whitener) {
     let dim = pool.dim() as f64;
     let leverages = whitener.apply(pool).leverages;
     let weights = pool.weights().to_vec();
-    pool.retain(|i| weights[i] > 0.0 || leverages[i] > USEFUL * dim);
+    pool.retain(|i| weights[i] > 0.0 || leverages[i] > LEVERAGE_RATIO_MIN * dim);
 }

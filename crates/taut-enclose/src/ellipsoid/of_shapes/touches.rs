@@ -8,10 +8,10 @@ use crate::kernel::vector::dot;
 use crate::shapes::eigen::eigen;
 use crate::shapes::frame::Framed;
 
-/// Points of the first pool, for each of the d(d + 3)/2 that can be needed.
-const FIRST: usize = 4;
-/// Items of a sample from which an affine basis is taken.
-const SAMPLE: usize = 200;
+/// The first pool has this many points for each of the d(d + 3)/2 that can be needed.
+const FIRST_POOL_FACTOR: usize = 4;
+/// An affine basis is taken from a sample of this many items.
+const SAMPLE_SIZE: usize = 200;
 
 /// A point of an item by its direction in the base.
 #[derive(Clone)]
@@ -87,9 +87,9 @@ pub(super) fn first_pool(framed: &Framed, axes: Vec<Axes>) -> (Pool, Touches) {
     let mut order: Vec<usize> = (0..points.len()).collect();
     let leverages: Vec<f64> = points.iter().map(|y| dot(y, y)).collect();
     order.sort_by(|&a, &b| leverages[b].total_cmp(&leverages[a]));
-    let size = FIRST * (rank + 1) * (rank + 2) / 2;
+    let size = FIRST_POOL_FACTOR * (rank + 1) * (rank + 2) / 2;
     let mut chosen: Vec<usize> = order.iter().take(size).copied().collect();
-    let step = framed.len().div_ceil(SAMPLE);
+    let step = framed.len().div_ceil(SAMPLE_SIZE);
     let mut sample = Sample { origin: vec![0.0; rank], pool: Pool::new(rank) };
     for (at, touch) in list.iter().enumerate() {
         if touch.item.is_multiple_of(step) {

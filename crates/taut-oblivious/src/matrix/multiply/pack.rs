@@ -9,8 +9,9 @@ use crate::level::Level;
 use crate::matrix::transpose::tiles;
 use crate::matrix::view::MatrixView;
 
-/// Runs between the request for one and its use: they lie in different pages, which the processor does not foresee.
-const AHEAD: usize = 4;
+/// This many runs lie between the request for one and its use: they lie in different pages, which the processor does
+/// not foresee.
+const PREFETCH_RUNS: usize = 4;
 
 /// Panels of rows of an operand.
 pub(super) struct Panels<'a> {
@@ -58,7 +59,7 @@ impl<'a> Panels<'a> {
             // All panels side by side: a run of the source is read as it lies in memory.
             for j in 0..depth {
                 let run = |j: usize| &from.data[j * from.column_stride..][..from.rows];
-                tiles::fetch(level, run((j + AHEAD).min(depth - 1)));
+                tiles::fetch(level, run((j + PREFETCH_RUNS).min(depth - 1)));
                 let run = run(j);
                 let places = used[j * width..].chunks_mut(width * depth);
                 probe.read(run);

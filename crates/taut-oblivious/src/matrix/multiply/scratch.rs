@@ -8,11 +8,11 @@ use std::cell::Cell;
 
 use crate::pages::Pages;
 
-/// Numbers that a thread keeps at most: 2 MiB.
-const KEPT: usize = 1 << 18;
+/// A thread keeps at most this many numbers: 2 MiB.
+const KEPT_NUMBERS_MAX: usize = 1 << 18;
 
 thread_local! {
-    static LAST: Cell<Option<Pages<f64>>> = const { Cell::new(None) };
+    static LAST_PAGES: Cell<Option<Pages<f64>>> = const { Cell::new(None) };
 }
 
 /// Room for numbers, of any content; it begins at a line of the cache.
@@ -26,7 +26,11 @@ impl Scratch {
     /// Room for `len` numbers.
     pub(super) fn of(len: usize) -> Self {
         // A thread that ends has nothing left.
-        let last = if len <= KEPT { LAST.try_with(Cell::take).ok().flatten() } else { None };
+        let last = if len <= KEPT_NUMBERS_MAX {
+            LAST_PAGES.try_with(Cell::take).ok().flatten()
+        } else {
+            None
+        };
         let large_enough = last.filter(|pages| pages.words().len() >= len);
         Self { pages: Some(large_enough.unwrap_or_else(|| Pages::zeroed(len))), len }
     }
@@ -39,8 +43,10 @@ impl Scratch {
 
 impl Drop for Scratch {
     fn drop(&mut self) {
-        if let Some(pages) = self.pages.take().filter(|pages| pages.words().len() <= KEPT) {
-            let _ = LAST.try_with(|last| last.set(Some(pages)));
+        if let Some(pages) =
+            self.pages.take().filter(|pages| pages.words().len() <= KEPT_NUMBERS_MAX)
+        {
+            let _ = LAST_PAGES.try_with(|last| last.set(Some(pages)));
         }
     }
 }
@@ -59,7 +65,7 @@ mod tests {
         assert_ne!(address(&mut beside), first);
         let elsewhere = std::thread::spawn(move || address(&mut Scratch::of(700)));
         assert_ne!(elsewhere.join().expect("an address"), first);
-        assert_eq!(Scratch::of(KEPT + 1).numbers().len(), KEPT + 1);
+        assert_eq!(Scratch::of(KEPT_NUMBERS_MAX + 1).numbers().len(), KEPT_NUMBERS_MAX + 1);
         assert_eq!(Scratch::of(0).numbers().len(), 0);
     }
 }

@@ -42,8 +42,8 @@ fn by_the_book(a: MatrixView<'_>, b: MatrixView<'_>) -> Vec<f64> {
     let mut all = Vec::new();
     for i in 0..a.rows {
         for j in 0..b.columns {
-            let stretches = (0..a.columns).step_by(DEPTH).map(|first| {
-                (first..a.columns.min(first + DEPTH))
+            let stretches = (0..a.columns).step_by(PANEL_DEPTH).map(|first| {
+                (first..a.columns.min(first + PANEL_DEPTH))
                     .fold(0.0f64, |sum, k| at(a, i, k).mul_add(at(b, k, j), sum))
             });
             all.push(stretches.reduce(|x, y| x + y).unwrap_or(0.0));
@@ -91,7 +91,7 @@ proptest! {
                 let target = MatrixViewMut::new(&mut c, m, n).unwrap();
                 recurse(level, a, b, target, update, &mut NoProbe);
             }
-            let plain: Vec<f64> = if k <= DEPTH {
+            let plain: Vec<f64> = if k <= PANEL_DEPTH {
                 expected.iter().map(|&x| (1.0 + x) - x).collect()
             } else {
                 c.clone()

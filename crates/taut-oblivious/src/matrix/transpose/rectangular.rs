@@ -14,8 +14,8 @@ use bytemuck::Pod;
 
 use crate::Probe;
 
-/// Bytes of a group of columns in one row.
-const GROUP: usize = 64;
+/// A group of columns has this many bytes in one row.
+const GROUP_BYTES: usize = 64;
 
 /// Rows, columns, and what the formulas make of them.
 struct Steps {
@@ -34,7 +34,7 @@ pub(super) fn transpose<T: Pod, P: Probe>(
     let (m, n) = (rows.min(columns), rows.max(columns));
     let c = gcd(m, n);
     let steps = Steps { m, n, a: m / c, b: n / c };
-    let group = (GROUP / size_of::<T>()).max(1).min(n);
+    let group = (GROUP_BYTES / size_of::<T>()).max(1).min(n);
     let mut scratch = vec![T::zeroed(); n.max(m * group)];
     probe.place(&scratch);
     if rows < columns {

@@ -29,8 +29,8 @@ fn check<T: Pod + Send + Sync + PartialEq>(rows: usize, columns: usize, shift: u
         for past in [false, true] {
             let mut shape = Shape::new::<T>(level, rows, columns, 1);
             shape.past = past;
-            if past && rows >= 2 * BAND && shape.strip_columns < columns {
-                shape.task_columns = TASK * WALK;
+            if past && rows >= 2 * BAND_ROWS && shape.strip_columns < columns {
+                shape.task_columns = TASK * WALK_COLUMNS;
             }
             let mut to = [&guard[..shift], &vec![T::zeroed(); n], &guard[shift..]].concat();
             for (k, strip) in to[shift..shift + n].chunks_mut(shape.task_columns * rows).enumerate()
@@ -110,10 +110,10 @@ fn large_targets_go_past_the_caches_on_any_number_of_threads() {
 #[cfg_attr(miri, ignore = "large")]
 fn bands_of_rows_meet() {
     for (rows, columns) in [
-        (2 * BAND, 130),
-        (2 * BAND, 11 * 48 + 64),
-        (2 * BAND + 7, 11 * 48 + 5),
-        (3 * BAND + 9, 131),
+        (2 * BAND_ROWS, 130),
+        (2 * BAND_ROWS, 11 * 48 + 64),
+        (2 * BAND_ROWS + 7, 11 * 48 + 5),
+        (3 * BAND_ROWS + 9, 131),
     ] {
         for shift in [0, 3] {
             check::<u64>(rows, columns, shift);

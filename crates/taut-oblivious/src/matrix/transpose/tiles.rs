@@ -53,18 +53,18 @@ pub(super) fn walk<T: Pod>(
     }
 }
 
-/// Rows and columns that one element at a time are turned together, so that lines are used whole.
-const SIDE: usize = 8;
+/// This many rows and columns are turned together one element at a time, so that lines are used whole.
+const TILE_SIDE: usize = 8;
 
 fn scalar<T: Copy>(
     (rows, columns): (usize, usize),
     (from, stride): (&[T], usize),
     (to, stride_to): (&mut [T], usize),
 ) {
-    for top in (0..rows).step_by(SIDE) {
-        for left in (0..columns).step_by(SIDE) {
-            let right = columns.min(left + SIDE);
-            for i in top..rows.min(top + SIDE) {
+    for top in (0..rows).step_by(TILE_SIDE) {
+        for left in (0..columns).step_by(TILE_SIDE) {
+            let right = columns.min(left + TILE_SIDE);
+            for i in top..rows.min(top + TILE_SIDE) {
                 let row = &from[i * stride + left..i * stride + right];
                 for (j, &x) in (left..).zip(row) {
                     to[j * stride_to + i] = x;

@@ -93,14 +93,14 @@ fn run(
     Ok((target.bytes.into_inner(), done))
 }
 
-/// Rows and columns, as many as an interpreter has time for.
-const MOST: usize = if cfg!(miri) { 20 } else { 60 };
+/// Matrices have fewer rows and columns than this, as many as an interpreter has time for.
+const SIDE_MAX: usize = if cfg!(miri) { 20 } else { 60 };
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(if cfg!(miri) { 3 } else { 64 }))]
     #[test]
     fn any_extent_width_offset_and_memory(
-        rows in 0..MOST, columns in 0..MOST, width in 1usize..20, offset in 0usize..5,
+        rows in 0..SIDE_MAX, columns in 0..SIDE_MAX, width in 1usize..20, offset in 0usize..5,
         header in 0usize..4, memory in 0usize..5000, short: bool, interrupted: bool,
     ) {
         let from = bytes(offset + rows * columns * width);

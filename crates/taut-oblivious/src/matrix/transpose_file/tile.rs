@@ -21,14 +21,14 @@ fn typed<T: Pod + Send + Sync>(from: &[u8], (rows, columns): (usize, usize), to:
     transpose::transpose(from, rows, columns, to).expect("both sides are cut to the tile");
 }
 
-/// Rows and columns that are turned together, so that lines are used whole.
-const SIDE: usize = 16;
+/// This many rows and columns are turned together, so that lines are used whole.
+const TILE_SIDE: usize = 16;
 
 fn bytes(from: &[u8], (rows, columns): (usize, usize), width: usize, to: &mut [u8]) {
-    for top in (0..rows).step_by(SIDE) {
-        for left in (0..columns).step_by(SIDE) {
-            for i in top..rows.min(top + SIDE) {
-                for j in left..columns.min(left + SIDE) {
+    for top in (0..rows).step_by(TILE_SIDE) {
+        for left in (0..columns).step_by(TILE_SIDE) {
+            for i in top..rows.min(top + TILE_SIDE) {
+                for j in left..columns.min(left + TILE_SIDE) {
                     to[(j * rows + i) * width..][..width]
                         .copy_from_slice(&from[(i * columns + j) * width..][..width]);
                 }

@@ -17,7 +17,7 @@ use super::plan::Plan;
 use crate::error::Error;
 use crate::store::{PAGE, Store};
 
-const SLOT: usize = 128;
+const SLOT_BYTES: usize = 128;
 /// What is looked for at the start of the file; the last byte is the version.
 const MAGIC: u64 = u64::from_le_bytes(*b"tautrun\x03");
 
@@ -58,14 +58,14 @@ impl Journal {
             [MAGIC, plan.records, modified, changed, number, width, start, end, kind, chunk];
         let (runs, certificate) = (plan.runs(), Multiset::default());
         let mut journal = Self { identity, runs, made_of: vec![], certificate };
-        let (first, mut slot) = (journal.slot(&identity), [0; SLOT]);
-        let start = &mut slot[..length.min(SLOT as u64) as usize];
+        let (first, mut slot) = (journal.slot(&identity), [0; SLOT_BYTES]);
+        let start = &mut slot[..length.min(SLOT_BYTES as u64) as usize];
         file.read(start, 0)?;
         if !first.starts_with(start) {
             return Err(Self::other(file.path()));
         }
         // Nothing yet, or what a disk had room for that then was full.
-        if start.len() < SLOT {
+        if start.len() < SLOT_BYTES {
             file.write(&first, 0)?;
             return Ok(journal);
         }
@@ -129,18 +129,18 @@ impl Journal {
     }
 
     fn place(run: u64) -> u64 {
-        (run + 1) * SLOT as u64
+        (run + 1) * SLOT_BYTES as u64
     }
 
-    fn entry(&self, run: u64, certificate: &Multiset, made_of: u128) -> [u8; SLOT] {
+    fn entry(&self, run: u64, certificate: &Multiset, made_of: u128) -> [u8; SLOT_BYTES] {
         let halves = |hash: u128| [hash as u64, (hash >> 64) as u64];
         let ([low, high], [first, second]) = (halves(certificate.hash), halves(made_of));
         self.slot(&[run, certificate.records, low, high, first, second])
     }
 
     /// Words, zeros, and a checksum of them and of the identity.
-    fn slot(&self, words: &[u64]) -> [u8; SLOT] {
-        let mut slot = [0; SLOT];
+    fn slot(&self, words: &[u64]) -> [u8; SLOT_BYTES] {
+        let mut slot = [0; SLOT_BYTES];
         let (places, _) = slot.as_chunks_mut::<8>();
         for (place, word) in places.iter_mut().zip(words) {
             *place = word.to_le_bytes();
@@ -148,7 +148,7 @@ impl Journal {
         let all: Vec<u8> =
             self.identity.iter().chain(words).flat_map(|word| word.to_le_bytes()).collect();
         let sum = digest::hash(&all).to_le_bytes();
-        slot[SLOT - sum.len()..].copy_from_slice(&sum);
+        slot[SLOT_BYTES - sum.len()..].copy_from_slice(&sum);
         slot
     }
 }

@@ -17,8 +17,8 @@ use tempfile::TempDir;
 
 use super::*;
 
-/// The least memory that is accepted.
-const LEAST: usize = 64 << 10;
+/// This is the least memory that is accepted, in bytes.
+const MEMORY_MIN: usize = 64 << 10;
 
 fn word(i: u64) -> u64 {
     let z = (i + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
@@ -128,7 +128,7 @@ fn every_kind_of_key_in_memory_and_beyond() {
             for mask in [u64::MAX, 0xFF, 0] {
                 let bytes = records(n, layout.width, layout.key.start, mask);
                 let folder = Folder::with(&bytes);
-                let found = folder.sort(&layout, LEAST).expect("sorted");
+                let found = folder.sort(&layout, MEMORY_MIN).expect("sorted");
                 let sorted = fs::read(folder.path("out")).expect("an output");
                 assert!(sorted == expected(&bytes, &layout), "{n} of {layout:?}, {found:?}");
                 verify(&folder.path("out"), &layout, &found.certificate, &Monitor::silent())
@@ -149,7 +149,7 @@ fn long_keys_with_a_common_start() {
     let mut bytes = records(6000, 32, 8, 0xFFFF);
     bytes.chunks_exact_mut(32).for_each(|record| record[..8].fill(7));
     let folder = Folder::with(&bytes);
-    let found = folder.sort(&layout, LEAST).expect("sorted");
+    let found = folder.sort(&layout, MEMORY_MIN).expect("sorted");
     assert!(found.runs > 3);
     assert!(fs::read(folder.path("out")).expect("an output") == expected(&bytes, &layout));
 }
@@ -161,7 +161,7 @@ fn memory_and_threads_change_no_byte() {
     let bytes = records(60_000, 16, 0, 0xFFF);
     let expected = expected(&bytes, &layout);
     let folder = Folder::with(&bytes);
-    for (memory, runs) in [(LEAST, 24), (1 << 18, 6), (1 << 20, 2), (1 << 24, 1)] {
+    for (memory, runs) in [(MEMORY_MIN, 24), (1 << 18, 6), (1 << 20, 2), (1 << 24, 1)] {
         for threads in [1, 3] {
             let pool =
                 rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
@@ -192,9 +192,9 @@ fn a_file_is_sorted_into_itself_and_an_old_output_is_replaced() {
     let bytes = records(20_000, 8, 0, u64::MAX);
     let folder = Folder::with(&bytes);
     fs::write(folder.path("out"), "old").expect("written");
-    folder.sort(&layout, LEAST).expect("sorted");
+    folder.sort(&layout, MEMORY_MIN).expect("sorted");
     let path = folder.path("in");
-    let options = FileSortOptions { memory: LEAST, ..Default::default() };
+    let options = FileSortOptions { memory: MEMORY_MIN, ..Default::default() };
     sort_file(&path, &path, &layout, &options, &Monitor::silent()).expect("sorted");
     assert!(fs::read(&path).expect("an output") == expected(&bytes, &layout));
     assert!(fs::read(folder.path("out")).expect("an output") == expected(&bytes, &layout));
@@ -209,12 +209,12 @@ fn wrong_calls_are_answered_by_name() {
         assert_eq!(folder.names(), ["in"]);
         error.to_string()
     };
-    assert!(said(&whole_number(16), LEAST).contains("100 bytes"));
-    assert!(said(&layout(0, 0..0, KeyKind::Bytes), LEAST).contains("`width`"));
-    assert!(said(&layout(10, 4..11, KeyKind::Bytes), LEAST).contains("`key`"));
-    assert!(said(&layout(10, 4..4, KeyKind::Bytes), LEAST).contains("`key`"));
-    assert!(said(&layout(10, 0..7, KeyKind::F64), LEAST).contains("eight bytes"));
-    assert!(said(&layout(10, 0..8, KeyKind::F64), LEAST - 1).contains("`memory`"));
+    assert!(said(&whole_number(16), MEMORY_MIN).contains("100 bytes"));
+    assert!(said(&layout(0, 0..0, KeyKind::Bytes), MEMORY_MIN).contains("`width`"));
+    assert!(said(&layout(10, 4..11, KeyKind::Bytes), MEMORY_MIN).contains("`key`"));
+    assert!(said(&layout(10, 4..4, KeyKind::Bytes), MEMORY_MIN).contains("`key`"));
+    assert!(said(&layout(10, 0..7, KeyKind::F64), MEMORY_MIN).contains("eight bytes"));
+    assert!(said(&layout(10, 0..8, KeyKind::F64), MEMORY_MIN - 1).contains("`memory`"));
     assert!(said(&layout(50, 0..8, KeyKind::F64), 0).contains("`memory`"));
     let missing = FileSortOptions::default();
     let (nowhere, out) = (folder.path("nowhere"), folder.path("out"));
@@ -234,7 +234,7 @@ fn a_pipe_is_refused_at_once() {
     mknodat(CWD, folder.path("pipe"), FileType::Fifo, Mode::RUSR | Mode::WUSR, 0).expect("a pipe");
     let said = |input: &str, resume: Option<&str>| {
         let resume = resume.map(|name| folder.path(name));
-        let options = FileSortOptions { memory: LEAST, resume, ..Default::default() };
+        let options = FileSortOptions { memory: MEMORY_MIN, resume, ..Default::default() };
         let (input, output) = (folder.path(input), folder.path("out"));
         let found = sort_file(&input, &output, &whole_number(16), &options, &Monitor::silent());
         found.expect_err("refused").to_string()
@@ -250,7 +250,7 @@ fn a_pipe_is_refused_at_once() {
 fn stopped_anywhere_nothing_is_left() {
     let layout = whole_number(32);
     let folder = Folder::with(&records(30_000, 32, 0, u64::MAX));
-    let options = FileSortOptions { memory: LEAST, ..Default::default() };
+    let options = FileSortOptions { memory: MEMORY_MIN, ..Default::default() };
     for limit in [0, 1, 10_000, 29_999, 30_001, 45_000, 59_000] {
         let (cancel, points) = (AtomicBool::new(limit == 0), AtomicU64::new(0));
         let count = |more: u64| {
@@ -288,7 +288,7 @@ fn passes_and_records_are_told() {
         points.fetch_add(more, Ordering::Relaxed);
     };
     let monitor = Monitor { on_points: Some(&count), on_pass: Some(&pass), cancel: None };
-    let options = FileSortOptions { memory: LEAST, ..Default::default() };
+    let options = FileSortOptions { memory: MEMORY_MIN, ..Default::default() };
     let found = folder.sort_with(&whole_number(16), &options, &monitor).expect("sorted");
     assert_eq!((found.runs, passes.into_inner()), (16, 3));
     // Sixteen runs are one too many: two are merged first.
@@ -329,7 +329,7 @@ fn the_checker_rejects_doctored_files() {
     let layout = layout(16, 4..12, KeyKind::I64);
     let bytes = records(5000, 16, 4, u64::MAX);
     let folder = Folder::with(&bytes);
-    let certificate = folder.sort(&layout, LEAST).expect("sorted").certificate;
+    let certificate = folder.sort(&layout, MEMORY_MIN).expect("sorted").certificate;
     let sorted = fs::read(folder.path("out")).expect("an output");
     let judge = |bytes: &[u8]| {
         fs::write(folder.path("doctored"), bytes).expect("written");

@@ -14,12 +14,12 @@ use rayon::prelude::*;
 
 use super::fourier::Piece;
 
-/// Points in a run.
-const RUN: usize = 32;
+/// A run has this many points.
+const RUN_POINTS: usize = 32;
 /// Disks in a row that one thread takes.
 const CHUNK: usize = 512;
-/// Directions of disks at an end, over a half turn.
-const FAN: usize = 512;
+/// Disks at an end have this many directions, over a half turn.
+const DISK_DIRECTIONS: usize = 512;
 
 /// Points, in runs of neighbours with a disk around each.
 struct Runs {
@@ -29,7 +29,7 @@ struct Runs {
 
 impl Runs {
     fn new(points: Vec<[f64; 2]>) -> Self {
-        let disks = points.chunks(RUN).map(|run| {
+        let disks = points.chunks(RUN_POINTS).map(|run| {
             let [mut low, mut high] = [run[0]; 2];
             for p in run {
                 low = [low[0].min(p[0]), low[1].min(p[1])];
@@ -53,8 +53,8 @@ impl Runs {
             let reach = radius + around;
             let (x, y) = (middle[0] - centre[0], middle[1] - centre[1]);
             if x * x + y * y < reach * reach {
-                let first = run * RUN;
-                for q in first..(first + RUN).min(self.points.len()) {
+                let first = run * RUN_POINTS;
+                for q in first..(first + RUN_POINTS).min(self.points.len()) {
                     see(state, q as u32);
                 }
             }
@@ -135,8 +135,9 @@ pub(super) fn features_of(
             // Outward along the curve at each end.
             for (end, turn) in [(0, 1.0), (last, -1.0)] {
                 let n = piece.normal(parameters[end]);
-                disks.extend((0..=FAN).map(|k| {
-                    let (sin, cos) = (std::f64::consts::PI * (k as f64 / FAN as f64)).sin_cos();
+                disks.extend((0..=DISK_DIRECTIONS).map(|k| {
+                    let (sin, cos) =
+                        (std::f64::consts::PI * (k as f64 / DISK_DIRECTIONS as f64)).sin_cos();
                     let out = [-turn * n[1] * sin, turn * n[0] * sin];
                     (points[end], [n[0] * cos + out[0], n[1] * cos + out[1]])
                 }));

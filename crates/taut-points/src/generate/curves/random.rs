@@ -11,10 +11,10 @@ use rand::RngExt;
 use super::super::draw::{normal, stream};
 use super::{Piece, TestCurve, Wave};
 
-/// Points by which a draw is judged.
-const COARSE: usize = 1024;
-/// The greatest length that is kept.
-const LONGEST: f64 = 200.0;
+/// A draw is judged by this many points.
+const JUDGED_POINTS: usize = 1024;
+/// A draw is kept up to this length.
+const LENGTH_MAX: f64 = 200.0;
 
 impl TestCurve {
     /// A random smooth closed curve: the same one for the same seed.
@@ -37,7 +37,9 @@ impl TestCurve {
                 waves.push(Wave { order, x: [draw(), draw()], y: [draw(), draw()] });
             }
             let curve = Self { pieces: vec![Piece::closed(waves)] };
-            if !crosses_itself(&curve.pieces[0]) && curve.build_with(COARSE).length() <= LONGEST {
+            if !crosses_itself(&curve.pieces[0])
+                && curve.build_with(JUDGED_POINTS).length() <= LENGTH_MAX
+            {
                 return curve;
             }
         }

@@ -6,7 +6,7 @@
 use rayon::prelude::*;
 use taut_predicates::plane::{in_diametral_circle, orient};
 
-use crate::curve::boxes::{Bounds, Boxes, FAN};
+use crate::curve::boxes::{Bounds, Boxes, FAN_OUT};
 
 /// Edges with the tree over them.
 pub(super) struct EdgeTree<'a> {
@@ -37,8 +37,8 @@ impl<'a> EdgeTree<'a> {
     }
 
     /// The boxes of the edges of a leaf.
-    fn leaf_bounds(&self, leaf: usize) -> [Bounds; FAN] {
-        let mut all = [Bounds::EMPTY; FAN];
+    fn leaf_bounds(&self, leaf: usize) -> [Bounds; FAN_OUT] {
+        let mut all = [Bounds::EMPTY; FAN_OUT];
         for (bounds_of, i) in all.iter_mut().zip(self.boxes.leaf(leaf)) {
             *bounds_of = bounds(self.sites, self.edges[i]);
         }

@@ -30,7 +30,7 @@ pub(super) fn limit(sites: &[[f64; 2]], edges: &mut Vec<[u32; 2]>) -> u64 {
 /// The two of the edges around a site that go on best, in order.
 fn best_pair(sites: &[[f64; 2]], around: &[[u32; 2]]) -> [[u32; 2]; 2] {
     /// With more edges than this only the shortest are compared.
-    const COMPARED: usize = 16;
+    const COMPARED_EDGES_MAX: usize = 16;
     let spoke = |&[site, to]: &[u32; 2]| {
         let ([x, y], [u, v]) = (sites[site as usize], sites[to as usize]);
         let (dx, dy) = (u - x, v - y);
@@ -38,7 +38,7 @@ fn best_pair(sites: &[[f64; 2]], around: &[[u32; 2]]) -> [[u32; 2]; 2] {
     };
     let mut spokes: Vec<_> = around.iter().map(spoke).collect();
     spokes.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.3.cmp(&b.3)));
-    spokes.truncate(COMPARED);
+    spokes.truncate(COMPARED_EDGES_MAX);
     let (mut best, mut least) = ([spokes[0].3, spokes[1].3], f64::INFINITY);
     for (i, a) in spokes.iter().enumerate() {
         for b in &spokes[..i] {

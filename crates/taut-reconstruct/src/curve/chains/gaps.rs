@@ -4,13 +4,13 @@ use super::crossings::{self, EdgeTree};
 use super::{NONE, links};
 use crate::curve::boxes::{Bounds, Boxes};
 
-/// The widest gap that is closed, beside the longest of the last [`LOCAL`] edges before either end. Gaps that sampling leaves are of
-/// one missing edge, two spacings; four leaves room for spacings that vary.
-const WIDEST: f64 = 4.0;
-/// Edges that tell the spacing near an end.
-const LOCAL: usize = 4;
-/// The cosine of the angle by which a joining edge may deviate from the last edge at an end: 60°.
-const FACING: f64 = 0.5;
+/// A gap is closed up to this many times the longest of the last [`LOCAL_EDGES`] edges before either end. Gaps that
+/// sampling leaves are of one missing edge, two spacings; four leaves room for spacings that vary.
+const GAP_RATIO_MAX: f64 = 4.0;
+/// This many edges tell the spacing near an end.
+const LOCAL_EDGES: usize = 4;
+/// A joining edge may deviate from the last edge at an end by an angle of this cosine: 60°.
+const FACING_COS_MIN: f64 = 0.5;
 
 /// An end of an open chain.
 struct End {
@@ -82,7 +82,7 @@ fn end(sites: &[[f64; 2]], links: &[[u32; 2]], site: u32) -> End {
     let before = sites[here as usize];
     let length = distance(at, before);
     let mut longest = length;
-    for _ in 1..LOCAL {
+    for _ in 1..LOCAL_EDGES {
         let [low, high] = links[here as usize];
         let next = if low == last { high } else { low };
         if next == NONE {
@@ -92,7 +92,7 @@ fn end(sites: &[[f64; 2]], links: &[[u32; 2]], site: u32) -> End {
         (last, here) = (here, next);
     }
     let ahead = [(at[0] - before[0]) / length, (at[1] - before[1]) / length];
-    End { site, at, ahead, reach: WIDEST * longest }
+    End { site, at, ahead, reach: GAP_RATIO_MAX * longest }
 }
 
 /// What it costs to join two ends, if they face each other and the gap is not too wide.
@@ -101,7 +101,7 @@ fn cost(a: &End, b: &End) -> Option<f64> {
     let way = [(b.at[0] - a.at[0]) / gap, (b.at[1] - a.at[1]) / gap];
     let there = way[0] * a.ahead[0] + way[1] * a.ahead[1];
     let back = -(way[0] * b.ahead[0] + way[1] * b.ahead[1]);
-    (gap <= a.reach.max(b.reach) && there >= FACING && back >= FACING)
+    (gap <= a.reach.max(b.reach) && there >= FACING_COS_MIN && back >= FACING_COS_MIN)
         .then_some(gap * (3.0 - there - back))
 }
 

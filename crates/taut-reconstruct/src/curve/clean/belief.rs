@@ -18,11 +18,11 @@ use crate::Error;
 /// How sharply costs tell choices apart. Of 1, 1.5, 2, 4 and 8, coastlines were found best with 2.
 const SHARPNESS: f64 = 2.0;
 /// What a missing edge costs, where an edge as long as the spacing costs one.
-const MISSING: f64 = 5.0;
+const MISSING_EDGE_COST: f64 = 5.0;
 /// After this many rounds coastlines change by less than one edge in a thousand.
-const ROUNDS: usize = 20;
+const ROUNDS_MAX: usize = 20;
 /// Ratios of probabilities are at most this, and at least its inverse.
-const SUREST: f64 = 1e12;
+const PROBABILITY_RATIO_MAX: f64 = 1e12;
 
 /// What an edge counts by its length in spacings: long edges where samples are sparse cost less beside short ones than in proportion.
 /// Those of a million spacings and more, which may overflow, are all as unlikely.
@@ -82,12 +82,12 @@ pub(super) fn probabilities(
             }));
         }
     }
-    let none = (-SHARPNESS * MISSING).exp();
+    let none = (-SHARPNESS * MISSING_EDGE_COST).exp();
     let mut messages = vec![1.0; twins.len()];
     let mut next = messages.clone();
     let mut sums = Vec::new();
     let mut told = Vec::new();
-    for _ in 0..ROUNDS {
+    for _ in 0..ROUNDS_MAX {
         monitor.check()?;
         let (mut place, mut turn) = (0, 0);
         for site in graph.sites() {
@@ -104,8 +104,10 @@ pub(super) fn probabilities(
             let pairs: f64 = told.iter().zip(&sums).map(|(told, sum)| told * (sum + none)).sum();
             let all = none * none + pairs / 2.0;
             for (i, (told, sum)) in here.zip(told.iter().zip(&sums)) {
-                let without = (all - told * sum).max(all / SUREST);
-                next[i] = (messages[i] * sum / without).sqrt().clamp(1.0 / SUREST, SUREST);
+                let without = (all - told * sum).max(all / PROBABILITY_RATIO_MAX);
+                next[i] = (messages[i] * sum / without)
+                    .sqrt()
+                    .clamp(1.0 / PROBABILITY_RATIO_MAX, PROBABILITY_RATIO_MAX);
             }
             place += degree;
             turn += degree * degree;

@@ -24,12 +24,12 @@ use super::near::NONE;
 use crate::Error;
 
 /// What a missing edge costs, where an edge of probability p costs 1 − p.
-const MISSING: f64 = 0.9;
+const MISSING_EDGE_COST: f64 = 0.9;
 
-/// Edges longer than so many spacings at their ends are left out from the start: of densely sampled curves they are most of the
-/// triangulation, and were three quarters of the memory. A million places by chance have gaps of up to fourteen times the mean, which
-/// is more times the spacing where points around happen to be near each other.
-const LONGEST: f64 = 100.0;
+/// Edges longer than this many spacings at their ends are left out from the start: of densely sampled curves they are
+/// most of the triangulation, and were three quarters of the memory. A million places by chance have gaps of up to
+/// fourteen times the mean, which is more times the spacing where points around happen to be near each other.
+const LENGTH_RATIO_MAX: f64 = 100.0;
 
 /// The Delaunay neighbours of all sites.
 pub(super) struct Graph {
@@ -105,7 +105,7 @@ impl Graph {
     fn doubts(mut self, sites: &[[f64; 2]], monitor: &Monitor<'_>) -> Result<Self, Error> {
         let spacings = belief::spacings(&self);
         self.retain(|length, a, b| {
-            length <= LONGEST * (spacings[a as usize] * spacings[b as usize]).sqrt()
+            length <= LENGTH_RATIO_MAX * (spacings[a as usize] * spacings[b as usize]).sqrt()
         });
         let probabilities = belief::probabilities(sites, &self, &spacings, monitor)?;
         drop(spacings);
@@ -180,7 +180,7 @@ impl Search {
     fn cost(&self, site: u32, links: [u32; 2]) -> f64 {
         let doubt = |to: u32| {
             let near = self.around(site).iter().find(|near| near.1 == to);
-            near.map_or(MISSING, |near| near.0 / 2.0)
+            near.map_or(MISSING_EDGE_COST, |near| near.0 / 2.0)
         };
         doubt(links[0]) + doubt(links[1])
     }

@@ -24,8 +24,8 @@ use super::options::{CurveMethod, Ends};
 use crate::Error;
 use near::Near;
 
-/// Coordinates up to 2^±SAFE are left as they are: their squares neither overflow nor vanish.
-const SAFE: i32 = 200;
+/// Coordinates up to 2^±`SAFE_EXPONENT` are left as they are: their squares neither overflow nor vanish.
+const SAFE_EXPONENT: i32 = 200;
 
 /// The curves by one of the methods of this module.
 pub(super) fn solve(
@@ -89,7 +89,7 @@ fn edges(
 fn normalised(sites: &[[f64; 2]]) -> Cow<'_, [[f64; 2]]> {
     let largest = sites.as_flattened().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     let exponent = if largest > 0.0 { largest.log2().floor() as i32 } else { 0 };
-    if exponent.abs() <= SAFE {
+    if exponent.abs() <= SAFE_EXPONENT {
         return Cow::Borrowed(sites);
     }
     // In two steps, as the factor itself may be out of range.

@@ -8,7 +8,7 @@
 
 use rayon::prelude::*;
 
-use crate::curve::boxes::{Bounds, Boxes, FAN};
+use crate::curve::boxes::{Bounds, Boxes, FAN_OUT};
 
 /// Stands for no site.
 pub(super) const NONE: u32 = u32::MAX;
@@ -46,21 +46,23 @@ impl<'a> Near<'a> {
         A: Fn(&Bounds) -> bool,
     {
         let mut nearest = vec![NONE; self.sites.len()];
-        nearest.par_chunks_mut(FAN).enumerate().with_min_len(1 << 9).for_each(|(leaf, found)| {
-            let first = (leaf * FAN) as u32;
-            let mut seekers = [Seeker::default(); FAN];
-            let mut count = 0;
-            for site in first..first + found.len() as u32 {
-                if wanted(site) {
-                    seekers[count] = Seeker { site, ..Seeker::default() };
-                    count += 1;
+        nearest.par_chunks_mut(FAN_OUT).enumerate().with_min_len(1 << 9).for_each(
+            |(leaf, found)| {
+                let first = (leaf * FAN_OUT) as u32;
+                let mut seekers = [Seeker::default(); FAN_OUT];
+                let mut count = 0;
+                for site in first..first + found.len() as u32 {
+                    if wanted(site) {
+                        seekers[count] = Seeker { site, ..Seeker::default() };
+                        count += 1;
+                    }
                 }
-            }
-            self.seek(leaf, &mut seekers[..count], &rank, &admits);
-            for seeker in &seekers[..count] {
-                found[(seeker.site - first) as usize] = seeker.found;
-            }
-        });
+                self.seek(leaf, &mut seekers[..count], &rank, &admits);
+                for seeker in &seekers[..count] {
+                    found[(seeker.site - first) as usize] = seeker.found;
+                }
+            },
+        );
         nearest
     }
 

@@ -7,22 +7,23 @@ use taut_oblivious::hilbert_order;
 use super::nearest::{Segments, Spot};
 use crate::curve::index::Index;
 
-/// The share of the sites that may be outliers.
-const MOST: f64 = 0.2;
+/// At most this share of the sites may be outliers.
+const OUTLIER_RATIO_MAX: f64 = 0.2;
 /// Outliers that may be linked with each other.
 const LINKED_MOST: usize = 9;
-/// The length of a link, over the gap that 95 of 100 samples have at most, with some room.
-const LINK: f64 = 1.55;
+/// A link has this length, over the gap that 95 of 100 samples have at most, with some room.
+const LINK_RATIO: f64 = 1.55;
 /// Outliers this near, over the band, belong to the noise of the curve. Nothing is claimed where roundings decide of one.
-const OWN: f64 = 2.0;
+const OWN_BAND_RATIO: f64 = 2.0;
 const ROUNDING: f64 = 1e-9;
-/// One in so many sites may be that near, and some more by chance: so many deviations.
-const TAIL: usize = 1010;
-const BESIDE: f64 = 3.9;
+/// One in this many sites may be that near, and some more by chance.
+const SITES_PER_TAIL_OUTLIER: usize = 1010;
+/// This many deviations more may be that near by chance.
+const CHANCE_DEVIATIONS: f64 = 3.9;
 
 /// Outliers of the band itself: so many, or one in so many sites.
 const INSIDE_LEAST: usize = 7;
-const INSIDE: usize = 51;
+const SITES_PER_NEAR_OUTLIER: usize = 51;
 /// From so many outliers on it is asked how they are scattered: their mean distance from the next over that of chance, a little more than
 /// what the checker asks for.
 const SCATTERED_FROM: usize = 8;
@@ -30,7 +31,7 @@ const NEAR_LEAST: f64 = 0.76;
 /// How many others chance puts into the circles around outliers in which they are counted, and ln of how seldom it may put more than there
 /// are, with some room.
 const BY_CHANCE: [f64; 7] = [0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
-const SELDOM: f64 = 5.5;
+const FILL_RARITY: f64 = 5.5;
 
 pub(super) fn are_harmless(
     segments: &Segments,
@@ -40,7 +41,7 @@ pub(super) fn are_harmless(
     band: f64,
 ) -> bool {
     let outliers = spots.iter().filter(|spot| spot.is_none()).count();
-    if outliers as f64 > MOST * sites.len() as f64 {
+    if outliers as f64 > OUTLIER_RATIO_MAX * sites.len() as f64 {
         return false;
     }
     let at = gaps.len() * 19 / 20;
@@ -48,14 +49,14 @@ pub(super) fn are_harmless(
         true => *gaps.select_nth_unstable_by(at, f64::total_cmp).1,
         false => 0.0,
     };
-    let link = (band * 1.01).max(LINK * usual);
+    let link = (band * 1.01).max(LINK_RATIO * usual);
     let scaled = |site: usize| sites[site].map(|x| x * segments.scale);
     let none = || (0..sites.len()).filter(|&site| spots[site].is_none()).map(scaled);
     let (mut far, mut inside, mut beside) = (Vec::new(), 0, 0);
     for p in none() {
-        match segments.next_to(p, usize::MAX, (OWN + ROUNDING) * band) {
+        match segments.next_to(p, usize::MAX, (OWN_BAND_RATIO + ROUNDING) * band) {
             None => far.push(p),
-            Some(spot) if spot.distance >= (OWN - ROUNDING) * band => return false,
+            Some(spot) if spot.distance >= (OWN_BAND_RATIO - ROUNDING) * band => return false,
             Some(spot) if spot.distance <= 1.001 * band => inside += 1,
             Some(_) => beside += 1,
         }
@@ -67,11 +68,12 @@ pub(super) fn are_harmless(
         frame = [frame[0].min(x), frame[1].min(y), frame[2].max(x), frame[3].max(y)];
     }
     let whole = (frame[2] - frame[0]) * (frame[3] - frame[1]);
-    let area = (whole - OWN * around).max(0.25 * whole);
-    let by_chance = far.len() as f64 * (OWN - 1.0) * around / area;
-    let beside_most =
-        by_chance + BESIDE * by_chance.sqrt() + INSIDE_LEAST.max(sites.len() / TAIL) as f64;
-    inside <= INSIDE_LEAST.max(sites.len() / INSIDE)
+    let area = (whole - OWN_BAND_RATIO * around).max(0.25 * whole);
+    let by_chance = far.len() as f64 * (OWN_BAND_RATIO - 1.0) * around / area;
+    let beside_most = by_chance
+        + CHANCE_DEVIATIONS * by_chance.sqrt()
+        + INSIDE_LEAST.max(sites.len() / SITES_PER_TAIL_OUTLIER) as f64;
+    inside <= INSIDE_LEAST.max(sites.len() / SITES_PER_NEAR_OUTLIER)
         && f64::from(beside) <= beside_most
         && are_apart(&far, link)
         && are_scattered(&far, area)
@@ -92,7 +94,7 @@ fn are_scattered(far: &[[f64; 2]], area: f64) -> bool {
     let places: Vec<[f64; 2]> = order.iter().map(|&i| places[i as usize]).collect();
     let index = Index::new(&places);
     let many = places.len() as f64;
-    let most = (far.len() as f64 * BY_CHANCE.len() as f64).ln() + SELDOM;
+    let most = (far.len() as f64 * BY_CHANCE.len() as f64).ln() + FILL_RARITY;
     let mut sum = 0.0;
     for &p in &places {
         let mut least = 4.0 * usual;

@@ -15,20 +15,20 @@ use super::nearest::Segments;
 use super::quick::Row;
 use super::sight::sight;
 
-/// How far the vertices that give a tangent are at least, over the band.
-const SPAN: f64 = 3.0;
-/// The part of the band by which offsets are forgiven.
-const FORGIVEN: f64 = 0.25;
-/// How far along the curve offsets are forgiven, over the span.
-const NEAR: f64 = 4.0;
+/// The vertices that give a tangent are at least this far, over the band.
+const SPAN_RATIO: f64 = 3.0;
+/// Offsets are forgiven by this part of the band.
+const FORGIVEN_OFFSET_RATIO: f64 = 0.25;
+/// Offsets are forgiven this far along the curve, over the span.
+const FORGIVEN_WAY_RATIO: f64 = 4.0;
 /// An edge of the same curve counts with its ends alone up to this many of its lengths along the curve.
-pub(super) const SMOOTH: f64 = 2.0;
-/// How much R may exceed the least radius: on a circle every point gives the same.
-const CLOSE: f64 = 1.0 / 64.0;
+pub(super) const SMOOTH_WAY_RATIO: f64 = 2.0;
+/// R may exceed the least radius by this part of it: on a circle every point gives the same.
+const RADIUS_TOLERANCE: f64 = 1.0 / 64.0;
 /// Vertices of one task.
 const TASK: usize = 1 << 10;
-/// Vertices that are looked at together.
-const ROW: usize = 1 << 5;
+/// This many vertices are looked at together.
+const VERTICES_PER_BATCH: usize = 1 << 5;
 
 pub(super) struct Features {
     /// The way to each vertex, and around.
@@ -81,8 +81,8 @@ impl Features {
             monitor.check()?;
             let end = n.min((task + 1) * TASK);
             let mut found = Vec::with_capacity(TASK);
-            for first in (task * TASK..end).step_by(ROW) {
-                let row = first..end.min(first + ROW);
+            for first in (task * TASK..end).step_by(VERTICES_PER_BATCH) {
+                let row = first..end.min(first + VERTICES_PER_BATCH);
                 let quick = if by_rows {
                     Row::of(segments, curve, &way, &sight, row.clone())
                 } else {
@@ -126,7 +126,7 @@ struct Tangents<'a> {
 impl Tangents<'_> {
     /// R, if it is below `most`, and the turn at a vertex; 0 and 0 where the curve is too short for its band.
     fn radius_and_turn(&self, vertex: usize, most: f64) -> [f64; 2] {
-        let (n, span) = (self.edges.len(), SPAN * self.band);
+        let (n, span) = (self.edges.len(), SPAN_RATIO * self.band);
         let length = self.way[n];
         let way = |k: usize| self.way[k % n] + (k / n) as f64 * length;
         let here = n + vertex;
@@ -141,13 +141,15 @@ impl Tangents<'_> {
         let Some((far, turn)) = Touching::at_vertex(ends[0], v, ends[1]) else {
             return [0.0, 0.0];
         };
-        let near = Touching { forgiven: far.forgiven.max(FORGIVEN * self.band), ..far };
+        let near =
+            Touching { forgiven: far.forgiven.max(FORGIVEN_OFFSET_RATIO * self.band), ..far };
         let mut radius = most;
         for [x, y] in ends {
             radius = radius.min(near.radius(x - v[0], y - v[1]));
         }
         // Edges between the two vertices are left out. `low` is the first that is near, counted on around the curve.
-        let (near_before, near_after) = (before_by(NEAR * span), after_by(NEAR * span));
+        let (near_before, near_after) =
+            (before_by(FORGIVEN_WAY_RATIO * span), after_by(FORGIVEN_WAY_RATIO * span));
         let (low, reach) = ((here - near_before) % n, near_before + near_after);
         let own = near_before - before..near_before + after;
         let of_curve = self.segments.of_curve(self.curve);
@@ -179,7 +181,7 @@ impl Tangents<'_> {
                     touching = if number < reach { &near } else { &far };
                     let on = (edge - of_curve.start + n - vertex) % n;
                     let off = (way(here + on) - way(here)).min(way(here) - way(here + on + 1 - n));
-                    if off < SMOOTH * (way(here + on + 1) - way(here + on)) {
+                    if off < SMOOTH_WAY_RATIO * (way(here + on + 1) - way(here + on)) {
                         for [x, y] in self.segments.ends[edge] {
                             *radius = radius.min(touching.radius(x - v[0], y - v[1]));
                         }
@@ -262,7 +264,7 @@ impl Touching {
         let (u, w) = (across(0, area[0], area[2]), across(1, area[1], area[3]));
         let offset = (u[1] + w[1]).max(-(u[0] + w[0])) - self.forgiven;
         match offset > 0.0 {
-            true => (x * x + y * y) / (2.0 * offset) * (1.0 + CLOSE),
+            true => (x * x + y * y) / (2.0 * offset) * (1.0 + RADIUS_TOLERANCE),
             false => f64::INFINITY,
         }
     }

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use taut_certify::CurveComponent;
 
-/// Edges in a box of the lowest level, and boxes in a box of the next.
-const FAN: usize = 4;
+/// A box of the lowest level has this many edges, and a box of the next this many boxes.
+const FAN_OUT: usize = 4;
 /// Edges of one task.
 const TASK: usize = 1 << 14;
 
@@ -59,9 +59,9 @@ impl Segments {
         };
         let lowest: Vec<[f64; 4]> = ends.par_iter().with_min_len(TASK).map(of_edge).collect();
         let mut levels: Vec<Vec<[f64; 4]>> =
-            vec![lowest.par_chunks(FAN).with_min_len(TASK).map(join).collect()];
+            vec![lowest.par_chunks(FAN_OUT).with_min_len(TASK).map(join).collect()];
         while let Some(below) = levels.last().filter(|below| below.len() > 1) {
-            levels.push(below.chunks(FAN).map(join).collect());
+            levels.push(below.chunks(FAN_OUT).map(join).collect());
         }
         Self { scale, ends, first, levels }
     }
@@ -125,14 +125,14 @@ impl Segments {
             if bound >= best.0 {
                 continue;
             }
-            let from = node as usize * FAN;
+            let from = node as usize * FAN_OUT;
             if level == 0 {
-                (from..(from + FAN).min(self.len())).for_each(|edge| see(edge, &mut best));
+                (from..(from + FAN_OUT).min(self.len())).for_each(|edge| see(edge, &mut best));
                 continue;
             }
             let below = &self.levels[level as usize - 1];
             let start = count;
-            for child in from..(from + FAN).min(below.len()) {
+            for child in from..(from + FAN_OUT).min(below.len()) {
                 let bound = distance(&below[child]);
                 if bound < best.0 {
                     // The nearest on top.
@@ -168,7 +168,8 @@ impl Segments {
                 continue;
             }
             if level > 0 {
-                let children = node * FAN..((node + 1) * FAN).min(self.levels[level - 1].len());
+                let children =
+                    node * FAN_OUT..((node + 1) * FAN_OUT).min(self.levels[level - 1].len());
                 open.extend(children.map(|child| (level - 1, child)));
                 continue;
             }
@@ -185,7 +186,7 @@ impl Segments {
 
     /// The edges below a box.
     fn edges_of(&self, level: usize, node: usize) -> std::ops::Range<usize> {
-        let size = FAN.pow(level as u32 + 1);
+        let size = FAN_OUT.pow(level as u32 + 1);
         node * size..((node + 1) * size).min(self.len())
     }
 
@@ -206,10 +207,10 @@ impl Segments {
                 self.edges_of(0, node).for_each(|edge| see(edge, best));
                 continue;
             }
-            let from = node * FAN;
+            let from = node * FAN_OUT;
             let below = &self.levels[level - 1];
             let start = open.len();
-            let children = (from..(from + FAN).min(below.len()))
+            let children = (from..(from + FAN_OUT).min(below.len()))
                 .map(|node| (level - 1, node, value(&below[node], self.edges_of(level - 1, node))));
             open.extend(children.filter(|child| child.2 < *best));
             open[start..].sort_unstable_by(|a, b| b.2.total_cmp(&a.2));

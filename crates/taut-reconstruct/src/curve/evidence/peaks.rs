@@ -4,20 +4,20 @@
 //! by more than chance makes of a density that falls to both sides. Runs are compared with sides once, twice, four times as long.
 //! *Guarantee.* The definition is that of the checker: the claim keeps some room to its threshold.
 
-/// One in so many offsets is left out at either end.
-const TAIL: usize = 128;
+/// One in this many offsets is left out at either end.
+const OFFSETS_PER_TAIL: usize = 128;
 /// Fewest and most bins, of eight offsets each between those.
 const BINS: [usize; 2] = [8, 48];
 /// Runs that are denser than this beside all bins are no valleys; a little more than the checker looks at.
-const SPARSE: f64 = 0.751;
+const VALLEY_DENSITY_RATIO: f64 = 0.751;
 /// Roundings of an offset, in widths of the band.
 const ROUNDING: f64 = 1e-9;
-/// Most doublings of a run that make a side.
-const DOUBLINGS: usize = 6;
+/// A run is doubled at most this often to make a side.
+const DOUBLINGS_MAX: usize = 6;
 
 /// Whether no run of bins has evidence of more than `most` against it, for ascending offsets.
 pub(super) fn has_one_peak(offsets: &[f64], most: f64) -> bool {
-    let tail = offsets.len() / TAIL;
+    let tail = offsets.len() / OFFSETS_PER_TAIL;
     let (first, last) = (offsets[tail], offsets[offsets.len() - 1 - tail]);
     let bins = (offsets.len() / 8).clamp(BINS[0], BINS[1]);
     // Offsets of the checker differ by roundings: what lies on a border of bins may lie on either side, so a run holds what is surely in
@@ -35,7 +35,7 @@ pub(super) fn has_one_peak(offsets: &[f64], most: f64) -> bool {
     }
     let surely = |from: usize, to: usize| f64::from(below[0][to].saturating_sub(below[1][from]));
     let maybe = |from: usize, to: usize| f64::from(below[1][to] - below[0][from]);
-    let dense = SPARSE * maybe(0, bins) / bins as f64;
+    let dense = VALLEY_DENSITY_RATIO * maybe(0, bins) / bins as f64;
     for length in 1..bins - 1 {
         for from in 1..bins - length {
             let (to, wide) = (from + length, length as f64);
@@ -48,7 +48,7 @@ pub(super) fn has_one_peak(offsets: &[f64], most: f64) -> bool {
                 against_one_peak(inside, beside, wide / (wide + side as f64)) > most
             };
             let any = |room: usize, is_left: bool| {
-                (0..DOUBLINGS).any(|k| stands_out((length << k).min(room), is_left))
+                (0..DOUBLINGS_MAX).any(|k| stands_out((length << k).min(room), is_left))
             };
             if any(from, true) && any(bins - to, false) {
                 return false;

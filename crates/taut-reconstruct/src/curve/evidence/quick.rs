@@ -9,15 +9,15 @@
 
 use std::ops::Range;
 
-use super::features::{SMOOTH, Touching};
+use super::features::{SMOOTH_WAY_RATIO, Touching};
 use super::nearest::Segments;
 
 /// How much more of the curve is its own than circles are wide: a curve that turns is not quite as far off as it is long.
-const TURNING: f64 = 1.125;
+const WIDTH_FACTOR: f64 = 1.125;
 /// The largest sine of α.
 const SINE_MOST: f64 = 0.29;
-/// The way from which on edges need no look, over r sin α.
-const CLEAR: f64 = 4.3;
+/// Edges need no look from this way on, over r sin α.
+const CLEAR_WAY_RATIO: f64 = 4.3;
 
 /// A row with nothing near but its own curve, which is nearly straight there.
 pub(super) struct Row<'a> {
@@ -45,10 +45,10 @@ impl<'a> Row<'a> {
         // The row is at n and on, and has edges first..last around it.
         let (mut first, mut last) = (n + row.start, n + row.end - 1);
         let (from, to) = (at(first), at(last));
-        while last - first < n && from - at(first) < TURNING * reach {
+        while last - first < n && from - at(first) < WIDTH_FACTOR * reach {
             first -= 1;
         }
-        while last - first < n && at(last) - to < TURNING * reach {
+        while last - first < n && at(last) - to < WIDTH_FACTOR * reach {
             last += 1;
         }
         if last - first >= n {
@@ -80,10 +80,10 @@ impl<'a> Row<'a> {
         };
         let through = |p: [f64; 2]| touching.radius(p[0] - v[0], p[1] - v[1]);
         let mut radius = self.sight[vertex].min(through(before[0])).min(through(after[1]));
-        let clear = CLEAR * self.sine * radius;
+        let clear = CLEAR_WAY_RATIO * self.sine * radius;
         let mut see = |edge: usize, off: f64| {
             let ends = &self.edges[edge];
-            radius = match off < SMOOTH * (self.way[edge + 1] - self.way[edge]) {
+            radius = match off < SMOOTH_WAY_RATIO * (self.way[edge + 1] - self.way[edge]) {
                 true => radius.min(through(ends[0])).min(through(ends[1])),
                 false => radius.min(touching.along(ends)),
             };

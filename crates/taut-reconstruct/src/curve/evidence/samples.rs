@@ -6,15 +6,16 @@ use super::features::Features;
 use super::nearest::{Segments, Spot};
 use super::peaks::has_one_peak;
 
-/// Gaps on either side that a gap is compared with.
-const BESIDE: usize = 16;
-/// Sites in windows along which neighbours are compared, and in those across the band; the last is all sites.
-const WINDOW: usize = 128;
-const WINDOWS: [usize; 5] = [64, WINDOW, 512, 2048, usize::MAX];
-/// ln of how seldom chance may leave so few sites between two bands, with some room.
-const SELDOM: f64 = 3.5;
-/// The least coefficient of variation of gaps, with some room.
-const EVEN: f64 = 0.099;
+/// A gap is compared with this many gaps on either side.
+const NEIGHBOR_GAPS: usize = 16;
+/// Neighbours are compared along windows of this many sites.
+const WINDOW_SITES: usize = 128;
+/// Windows across the band have this many sites; the last is all sites.
+const BAND_WINDOW_SITES: [usize; 5] = [64, WINDOW_SITES, 512, 2048, usize::MAX];
+/// ln of how seldom chance may leave this few sites between two bands, with some room.
+const GAP_RARITY: f64 = 3.5;
+/// Gaps that are more even are supposed to have this coefficient of variation, with some room.
+const VARIATION_MIN: f64 = 0.099;
 /// The least mean squared difference of neighbours, over twice the variance, with some room: chance makes it 1 ± 0.09.
 const WINDING_LEAST: f64 = 0.52;
 
@@ -116,7 +117,7 @@ pub(super) fn ratios(samples: &[Sample], features: &Features) -> (f64, f64) {
 /// Whether no gap is much longer than those beside it, by what chance would leave at samples drawn at random.
 pub(super) fn is_even(samples: &[Sample], features: &Features) -> bool {
     let n = samples.len();
-    let beside = BESIDE.min((n - 1) / 2);
+    let beside = NEIGHBOR_GAPS.min((n - 1) / 2);
     let chance = 8.9 + 1.5 * (n as f64).ln();
     let length = features.length();
     let way = |k: usize| samples[k % n].way + (k / n) as f64 * length;
@@ -127,12 +128,12 @@ pub(super) fn is_even(samples: &[Sample], features: &Features) -> bool {
         let mean = ((way(k) - way(k - beside)) + (way(k + 1 + beside) - way(k + 1))) / many;
         let gap = gap_at(k);
         // Most are short beside others however even those are.
-        if gap <= (1.0 + chance * EVEN) * mean {
+        if gap <= (1.0 + chance * VARIATION_MIN) * mean {
             return true;
         }
         let square = |x: f64| x * x;
         let variance = around().map(|other| square(other - mean)).sum::<f64>() / many;
-        let varied = (variance.sqrt() / mean).clamp(EVEN, 1.0);
+        let varied = (variance.sqrt() / mean).clamp(VARIATION_MIN, 1.0);
         gap <= (1.0 + chance * varied) * mean
     })
 }
@@ -140,11 +141,11 @@ pub(super) fn is_even(samples: &[Sample], features: &Features) -> bool {
 /// Whether offsets follow each other no more than chance would have it: else the curve that was sampled winds about this one.
 pub(super) fn are_by_chance(samples: &[Sample]) -> bool {
     let n = samples.len();
-    let starts: Vec<usize> = (0..n).step_by(WINDOW / 2).collect();
+    let starts: Vec<usize> = (0..n).step_by(WINDOW_SITES / 2).collect();
     starts.into_par_iter().all(|start| {
         let offset = |k: usize| samples[k % n].offset;
-        let window = start..start + WINDOW;
-        let mean = window.clone().map(offset).sum::<f64>() / WINDOW as f64;
+        let window = start..start + WINDOW_SITES;
+        let mean = window.clone().map(offset).sum::<f64>() / WINDOW_SITES as f64;
         let square = |x: f64| x * x;
         let variance: f64 = window.clone().map(|k| square(offset(k) - mean)).sum();
         let steps: f64 = window.skip(1).map(|k| square(offset(k) - offset(k - 1))).sum();
@@ -155,8 +156,8 @@ pub(super) fn are_by_chance(samples: &[Sample]) -> bool {
 /// Whether the band is one, not two or more with fewer sites between.
 pub(super) fn is_one_band(samples: &[Sample]) -> bool {
     let n = samples.len();
-    let most = (n as f64).ln() + SELDOM;
-    WINDOWS.into_iter().map(|window| window.min(n)).all(|window| {
+    let most = (n as f64).ln() + GAP_RARITY;
+    BAND_WINDOW_SITES.into_iter().map(|window| window.min(n)).all(|window| {
         let starts: Vec<usize> = (0..n).step_by(window.div_ceil(2)).collect();
         starts.into_par_iter().with_min_len(16).all(|start| {
             let mut offsets: Vec<f64> =

@@ -5,14 +5,14 @@
 use super::features::around;
 
 /// The sight over a gap beside it. One vertex past a gap counts for it, so that no ε below 1/16 is told.
-const SIGHT: f64 = 9.0;
+const SIGHT_RATIO: f64 = 9.0;
 
 /// For vertices at `way` along a closed curve, with the way around as the last entry: the largest, over all gaps, of so many times the
 /// gap less the way there, and no more than the radius of a circle as long as the curve.
 pub(super) fn sight(way: &[f64]) -> Vec<f64> {
     let n = way.len() - 1;
     let (gap, most) = (|k: usize| way[k + 1] - way[k], way[n] / std::f64::consts::TAU);
-    let of = |k: usize| (SIGHT * gap(k).max(gap((k + n - 1) % n))).min(most);
+    let of = |k: usize| (SIGHT_RATIO * gap(k).max(gap((k + n - 1) % n))).min(most);
     let mut sight: Vec<f64> = (0..n).map(of).collect();
     around(way, |from, to, gap| {
         let is_more = sight[from] - gap > sight[to];
@@ -37,7 +37,7 @@ mod tests {
         let most = 107.0 / std::f64::consts::TAU;
         for (k, &sight) in found.iter().enumerate() {
             let away = (100 - k).min(k) as f64;
-            assert_eq!(sight, (most - away).max(SIGHT), "{k}");
+            assert_eq!(sight, (most - away).max(SIGHT_RATIO), "{k}");
         }
     }
 }

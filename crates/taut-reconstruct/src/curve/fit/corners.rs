@@ -20,23 +20,24 @@ type Point = [f64; 2];
 
 // What follows was chosen on the outlines of polygons, of 3 to 12 corners, and on 200 smooth curves, none of which has any.
 
-/// Half the length that a corner spoils, in deviations of the noise.
-const SPAN: f64 = 6.0;
-/// The least angle of a corner.
-const TURN: f64 = FRAC_PI_6;
-/// The share of it by which the strand turns at least, as windows round corners off.
-const SEEN: f64 = 0.6;
+/// A corner spoils this many deviations of the noise on either side.
+const HALF_SPAN_RATIO: f64 = 6.0;
+/// A corner has at least this angle, in radians.
+const CORNER_ANGLE_MIN: f64 = FRAC_PI_6;
+/// The strand turns at least by this share of it, as windows round corners off.
+const TURN_RATIO_MIN: f64 = 0.6;
 /// The shortest and the longest side, in deviations.
 const SIDE: [f64; 2] = [12.0, 60.0];
 /// Nodes are two deviations and more apart, so there are about ten within that and what corners spoil; more than this are not looked at.
-const MOST: usize = 50;
-/// Growth of sides, and the deviation from its parabola, in those of the noise, at which a side is too long.
-const GROWTH: f64 = 1.3;
-const SPREAD: f64 = 1.3;
-/// Fewest points of a side, and between.
-const FEWEST: u32 = 8;
-/// The mean square distance of the points between from the corner, in that of the noise.
-const FITS: f64 = 1.4;
+const NODES_MAX: usize = 50;
+/// Sides grow by this factor.
+const SIDE_GROWTH: f64 = 1.3;
+/// A side is too long whose deviation from its parabola is more than this, in those of the noise.
+const DEVIATION_RATIO_MAX: f64 = 1.3;
+/// A side, and what is between, has at least this many points.
+const SIDE_POINTS_MIN: u32 = 8;
+/// The mean square distance of the points between from the corner is at most this, in that of the noise.
+const CORNER_FIT_MAX: f64 = 1.4;
 /// By how much of itself it may exceed that from the curve that goes around, times the root of the number of points: by chance. Of 200
 /// smooth curves with bends of two to ten widths of the band some passed for corners with twice this; at the corners of polygons
 /// it is 0.5 to 0.9 of that from the curve, where points are many.
@@ -109,7 +110,7 @@ fn apart(strand: &Strand, i: usize, j: usize) -> f64 {
     along(strand, strand.arc[i], strand.arc[j])
 }
 
-/// At each node the angle between the tangents [`SPAN`] before and after it; 0 near the ends of an open strand.
+/// At each node the angle between the tangents [`HALF_SPAN_RATIO`] before and after it; 0 near the ends of an open strand.
 fn turns(strand: &Strand) -> Vec<f64> {
     let tangent = |arc: f64| {
         let whole = strand.length();
@@ -121,7 +122,7 @@ fn turns(strand: &Strand) -> Vec<f64> {
         .iter()
         .zip(&strand.arc)
         .map(|(node, &arc)| {
-            let span = SPAN * node.deviation;
+            let span = HALF_SPAN_RATIO * node.deviation;
             match (tangent(arc - span), tangent(arc + span)) {
                 (Some(a), Some(b)) if 2.0 * span < 0.5 * strand.length() => angle(a, b),
                 _ => 0.0,
@@ -135,15 +136,15 @@ fn angle(a: Point, b: Point) -> f64 {
     (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
 }
 
-/// Whether the strand turns by [`SEEN`]·[`TURN`] at a node, and by more nowhere so near to it that it could be another corner.
+/// Whether the strand turns by [`TURN_RATIO_MIN`]·[`CORNER_ANGLE_MIN`] at a node, and by more nowhere so near to it that it could be another corner.
 fn is_sharpest(strand: &Strand, turns: &[f64], i: usize) -> bool {
     let count = turns.len();
     let own = turns[i].abs();
-    if own < SEEN * TURN {
+    if own < TURN_RATIO_MIN * CORNER_ANGLE_MIN {
         return false;
     }
     // Between corners that are nearer to each other no side would be long enough.
-    let span = (SIDE[0] + 2.0 * SPAN) * strand.nodes[i].deviation;
+    let span = (SIDE[0] + 2.0 * HALF_SPAN_RATIO) * strand.nodes[i].deviation;
     let sharper = |forward: bool| {
         (1..count)
             .map_while(|k| match (forward, strand.closed) {
@@ -152,7 +153,7 @@ fn is_sharpest(strand: &Strand, turns: &[f64], i: usize) -> bool {
                 (true, false) => (i + k < count).then_some(i + k),
                 (false, false) => i.checked_sub(k),
             })
-            .take(MOST)
+            .take(NODES_MAX)
             .take_while(|&j| apart(strand, i, j) <= span)
             .any(|j| turns[j].abs() > own || (turns[j].abs() == own && j < i))
     };
@@ -162,13 +163,13 @@ fn is_sharpest(strand: &Strand, turns: &[f64], i: usize) -> bool {
 /// The corner at a node, if it is one; `room` is how far the next ones are.
 fn measure(strand: &Strand, i: usize, room: [f64; 2], window: &mut Window) -> Option<Corner> {
     let (node, arc) = (&strand.nodes[i], strand.arc[i]);
-    let half = SPAN * node.deviation;
+    let half = HALF_SPAN_RATIO * node.deviation;
     let before = side(strand, arc - half, -1.0, room[0] - 2.0 * half, node, window)?;
     let after = side(strand, arc + half, 1.0, room[1] - 2.0 * half, node, window)?;
     let (u, v) = meet(&before, &after, half)?;
     let (at, arrives, leaves) = (before.place(u), before.direction_at(u), after.direction_at(v));
     let turn = angle(arrives, leaves).abs();
-    if !(TURN..PI - TURN).contains(&turn) {
+    if !(CORNER_ANGLE_MIN..PI - CORNER_ANGLE_MIN).contains(&turn) {
         return None;
     }
     let ends = [before.place(u.min(0.0) - half), after.place(v.max(0.0) + half)];
@@ -182,7 +183,9 @@ fn measure(strand: &Strand, i: usize, room: [f64; 2], window: &mut Window) -> Op
     let count = f64::from(count);
     let noise = count * node.deviation * node.deviation;
     let chance = 1.0 + AS_NEAR / count.sqrt();
-    let fits = count >= f64::from(FEWEST) && corner <= FITS * noise && corner <= chance * curve;
+    let fits = count >= f64::from(SIDE_POINTS_MIN)
+        && corner <= CORNER_FIT_MAX * noise
+        && corner <= chance * curve;
     fits.then_some(Corner { arc, half, at, arrives, leaves })
 }
 
@@ -210,11 +213,11 @@ fn side(
         let middle = if strand.closed { middle.rem_euclid(whole) } else { middle };
         let members = around(strand, middle, 0.5 * length);
         let points = members.into_iter().flatten().map(|m| m.at);
-        if points.clone().count() >= FEWEST as usize {
+        if points.clone().count() >= SIDE_POINTS_MIN as usize {
             // The frame's origin is the strand's place next to the corner.
             let origin = strand.place(if strand.closed { from.rem_euclid(whole) } else { from });
             let found = window.fit(origin.0, points)?;
-            if found.variance.sqrt() > SPREAD * node.deviation {
+            if found.variance.sqrt() > DEVIATION_RATIO_MAX * node.deviation {
                 break;
             }
             best = Some(if angle(found.tangent, origin.1).abs() > 0.5 * PI {
@@ -223,7 +226,7 @@ fn side(
                 found
             });
         }
-        length *= GROWTH;
+        length *= SIDE_GROWTH;
     }
     best
 }

@@ -5,28 +5,29 @@
 //! one that is askew to more of its surroundings is taken out, until all is in order; then those taken out are put in again, on
 //! the cubic between the nodes beside them.
 //! *Guarantee.* Of the nodes that stay where they were, no two follow each other by a way that is more than 60° off a tangent, but in
-//! stretches of more than [`LONGEST`] nodes, which are left alone. A strand that is not in order after [`ROUNDS`] rounds, or of which
-//! fewer than [`FEWEST`] nodes are, is left as it was. A function of the nodes that turns and scales with them; O(n) for each round, of
+//! stretches of more than [`KINK_NODES_MAX`] nodes, which are left alone. A strand that is not in order after [`ROUNDS_MAX`] rounds, or of which
+//! fewer than [`ORDERED_NODES_MIN`] nodes are, is left as it was. A function of the nodes that turns and scales with them; O(n) for each round, of
 //! which there are as many as kinks are long.
 
 use std::cmp::Ordering;
 
 use super::strand::{Node, hermite};
 
-/// Cosine of the angle that the way to the next node may make with a tangent.
-const ALONG: f64 = 0.5;
-/// Rounds at the end of which a strand that is still not in order is left as it was: kinks around outliers take two to five.
-const ROUNDS: usize = 50;
-/// Nodes of the longest kink, three windows: where more are out of order, it is the order that is wrong, and the points there would be
-/// lost.
-const LONGEST: usize = 9;
-/// Fewest nodes that must be in order: three are a closed curve whatever their tangents.
-const FEWEST: usize = 4;
+/// The way to the next node may make an angle of this cosine with a tangent.
+const ALONG_COS_MIN: f64 = 0.5;
+/// A strand that is still not in order after this many rounds is left as it was: kinks around outliers take two to
+/// five.
+const ROUNDS_MAX: usize = 50;
+/// A kink has at most this many nodes, three windows: where more are out of order, it is the order that is wrong, and
+/// the points there would be lost.
+const KINK_NODES_MAX: usize = 9;
+/// At least this many nodes must be in order: three are a closed curve whatever their tangents.
+const ORDERED_NODES_MIN: usize = 4;
 
 /// Puts nodes off the way onto it, and says how many there were.
 pub(super) fn straighten(nodes: &mut Vec<Node>, closed: bool) -> usize {
     let mut kept: Vec<usize> = (0..nodes.len()).collect();
-    for _ in 0..ROUNDS {
+    for _ in 0..ROUNDS_MAX {
         let askew = askew(nodes, &kept, closed);
         if !askew.contains(&true) {
             restore(&mut kept, nodes.len(), closed);
@@ -38,19 +39,19 @@ pub(super) fn straighten(nodes: &mut Vec<Node>, closed: bool) -> usize {
         }
         let mut askew = askew.into_iter();
         kept.retain(|_| askew.next() == Some(false));
-        if kept.len() < FEWEST {
+        if kept.len() < ORDERED_NODES_MIN {
             break;
         }
     }
     0
 }
 
-/// Puts the numbers back that are missing in runs longer than [`LONGEST`].
+/// Puts the numbers back that are missing in runs longer than [`KINK_NODES_MAX`].
 fn restore(kept: &mut Vec<usize>, count: usize, closed: bool) {
     let mut whole = Vec::with_capacity(count);
     if let (false, [first, .., last]) = (closed, &kept[..]) {
-        whole.extend(0..if *first > LONGEST { *first } else { 0 });
-        whole.extend(if count - 1 - last > LONGEST { last + 1 } else { count }..count);
+        whole.extend(0..if *first > KINK_NODES_MAX { *first } else { 0 });
+        whole.extend(if count - 1 - last > KINK_NODES_MAX { last + 1 } else { count }..count);
     }
     for (k, &first) in kept.iter().enumerate() {
         whole.push(first);
@@ -59,7 +60,7 @@ fn restore(kept: &mut Vec<usize>, count: usize, closed: bool) {
             None if closed => kept[0] + count,
             None => break,
         };
-        if next - first - 1 > LONGEST {
+        if next - first - 1 > KINK_NODES_MAX {
             whole.extend((first + 1..next).map(|i| i % count));
         }
     }
@@ -94,7 +95,7 @@ fn askew(nodes: &[Node], kept: &[usize], closed: bool) -> Vec<bool> {
     let mut askew = vec![false; count];
     for (k, cosines) in cosines.iter().enumerate() {
         // Nodes in one place make no way: their cosines are not numbers.
-        if !(cosines[0] >= ALONG && cosines[1] >= ALONG) {
+        if !(cosines[0] >= ALONG_COS_MIN && cosines[1] >= ALONG_COS_MIN) {
             let (a, b) = (k, (k + 1) % count);
             let order = along[a].partial_cmp(&along[b]);
             askew[a] |= order != Some(Ordering::Greater);

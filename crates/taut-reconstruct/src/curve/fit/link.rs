@@ -13,14 +13,14 @@ use crate::curve::index::Index;
 
 type Point = [f64; 2];
 
-/// How far the next seed may be, in windows.
-const NEXT: f64 = 2.5;
-/// How far ends that face each other may be apart, in windows.
-const GAP: f64 = 4.0;
-/// Cosine of the angle by which the way to a neighbour may leave a tangent.
-const ALONG: f64 = 0.5;
-/// Fewest seeds of a chain.
-const CHAIN: usize = 3;
+/// The next seed may be at most this many windows away.
+const SEED_DISTANCE_MAX: f64 = 2.5;
+/// Ends that face each other may be at most this many windows apart.
+const END_DISTANCE_MAX: f64 = 4.0;
+/// The way to a neighbour may leave a tangent by an angle of this cosine.
+const ALONG_COS_MIN: f64 = 0.5;
+/// A chain has at least this many seeds.
+const CHAIN_SEEDS_MIN: usize = 3;
 
 /// Seeds in the order of a curve, tangents along it.
 #[derive(Clone, Debug)]
@@ -109,15 +109,15 @@ pub(super) fn chains(found: &[Seed], ends: Ends) -> Vec<Chain> {
 fn next(sides: &Sides<'_>, index: &Index<'_>, side: Side) -> Option<Side> {
     let i = side / 2;
     let seed = &sides.seeds[i];
-    let reach = NEXT * seed.reach;
+    let reach = SEED_DISTANCE_MAX * seed.reach;
     let mut best: Option<(f64, Side)> = None;
     index.within(seed.at, reach * reach, &mut |j| {
         let j = j as usize;
-        if j == i || sides.along(side, j) < ALONG {
+        if j == i || sides.along(side, j) < ALONG_COS_MIN {
             return;
         }
         let other = sides.facing(i, j);
-        if sides.along(other, i) < ALONG {
+        if sides.along(other, i) < ALONG_COS_MIN {
             return;
         }
         let apart = distance(sides, i, j);
@@ -138,7 +138,7 @@ fn join_ends(sides: &mut Sides<'_>, index: &Index<'_>) {
     let mut pairs: Vec<(f64, Side, Side)> = Vec::new();
     for side in (0..sides.partner.len()).filter(|&side| sides.partner[side].is_none()) {
         let seed = &sides.seeds[side / 2];
-        let reach = GAP * seed.reach;
+        let reach = END_DISTANCE_MAX * seed.reach;
         index.within(seed.at, reach * reach, &mut |j| {
             for other in [2 * j as usize, 2 * j as usize + 1] {
                 let facing = j as usize != side / 2
@@ -196,7 +196,7 @@ fn trace(sides: &Sides<'_>, rank: &[u32]) -> Vec<Chain> {
                 _ => break,
             }
         }
-        if seeds.len() >= CHAIN {
+        if seeds.len() >= CHAIN_SEEDS_MIN {
             let mut chain = Chain { seeds, closed };
             let last = entry / 2;
             let is_backward = match closed {

@@ -10,10 +10,10 @@
 
 type Point = [f64; 2];
 
-/// Exchanges before the gap reached is good enough.
-const EXCHANGES: usize = 40;
-/// The gap at which exchanges end.
-const GAP: f64 = 1e-10;
+/// After this many exchanges the gap reached is good enough.
+const EXCHANGES_MAX: usize = 40;
+/// Exchanges end at this gap.
+const GAP_MIN: f64 = 1e-10;
 
 /// The best parabola of a window.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +32,7 @@ pub(super) struct Minimax {
 pub(super) fn minimax(points: &[Point]) -> Option<Minimax> {
     let mut reference = start(points)?;
     let mut best: Option<Minimax> = None;
-    for _ in 0..EXCHANGES {
+    for _ in 0..EXCHANGES_MAX {
         let Some((coefficients, error)) = level(points, reference) else { break };
         let [a, b, c] = coefficients;
         let residual = |p: Point| p[1] - (a + p[0] * (b + p[0] * c));
@@ -42,7 +42,7 @@ pub(super) fn minimax(points: &[Point]) -> Option<Minimax> {
             let lower = best.map_or(lower, |best| best.lower.max(lower));
             best = Some(Minimax { coefficients, width, lower, reference });
         }
-        if width <= lower * (1.0 + GAP) {
+        if width <= lower * (1.0 + GAP_MIN) {
             break;
         }
         // Signs at the reference are +E, −E, +E, −E.

@@ -31,21 +31,22 @@ use super::cloud::Cloud;
 use super::index::Index;
 use crate::Error;
 use noise::Noise;
-use strand::{AROUND, Strand, assign};
+use strand::{NOISE_SEEDS, Strand, assign};
 
 type Point = [f64; 2];
 
-/// Within how many standard deviations of a curve a point may be, before the kind of noise is known, and where it has no edge.
-const WIDTH: f64 = 5.0;
-/// The same in edges, where noise has one.
-const EDGES: f64 = 1.5;
-/// Of noise without an edge, the half-width of its band in standard deviations.
-const BAND: f64 = 3.0;
-/// Nodes for each seed.
-const PARTS: usize = 3;
+/// A point may be within this many standard deviations of a curve before the kind of noise is known, and where it has
+/// no edge.
+const POINT_DEVIATIONS_MAX: f64 = 5.0;
+/// This is the same in edges, where noise has one.
+const EDGE_DEVIATIONS_MAX: f64 = 1.5;
+/// The band of noise without an edge has this half-width in standard deviations.
+const BAND_DEVIATIONS: f64 = 3.0;
+/// Each seed gets this many nodes.
+const NODES_PER_SEED: usize = 3;
 
 /// Points off a curve by more than this share of their spacing along it are not its vertices.
-const NOISY: f64 = 0.1;
+const NOISE_RATIO_MIN: f64 = 0.1;
 
 /// The curves of points, noisy or not.
 pub(super) fn fit(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Outcome, Error> {
@@ -91,7 +92,7 @@ fn fit_within(
     let found = seeds::seeds(points, index, monitor)?;
     let mut strands: Vec<Strand> =
         link::chains(&found, ends).into_iter().map(Strand::through).collect();
-    assign(&mut strands, points, WIDTH);
+    assign(&mut strands, points, POINT_DEVIATIONS_MAX);
     monitor.check()?;
     let mut straightened = 0;
     let mut refined = |strands: &[Strand], parts: usize, noise: &Noise, is_last: bool| {
@@ -102,21 +103,25 @@ fn fit_within(
                 corners::insert(&mut nodes, s, &found);
             }
             straightened += kinks::straighten(&mut nodes, s.closed);
-            Strand::new(nodes, s.closed, AROUND * PARTS)
+            Strand::new(nodes, s.closed, NOISE_SEEDS * NODES_PER_SEED)
         };
         strands.iter().map(one).collect::<Vec<Strand>>()
     };
-    strands = refined(&strands, PARTS, &Noise::UNKNOWN, false);
-    assign(&mut strands, points, WIDTH);
+    strands = refined(&strands, NODES_PER_SEED, &Noise::UNKNOWN, false);
+    assign(&mut strands, points, POINT_DEVIATIONS_MAX);
     monitor.check()?;
     // Of a strand without noise, distances are those of polylines.
-    let noisy = || strands.iter().filter(|s| noisiness(std::slice::from_ref(s)) > NOISY);
-    let noise = Noise::of(noisy(), WIDTH);
+    let noisy = || strands.iter().filter(|s| noisiness(std::slice::from_ref(s)) > NOISE_RATIO_MIN);
+    let noise = Noise::of(noisy(), POINT_DEVIATIONS_MAX);
     strands = refined(&strands, 1, &noise, true);
-    let outliers = assign(&mut strands, points, noise.edge.map_or(WIDTH, |edge| EDGES * edge));
+    let outliers = assign(
+        &mut strands,
+        points,
+        noise.edge.map_or(POINT_DEVIATIONS_MAX, |edge| EDGE_DEVIATIONS_MAX * edge),
+    );
     monitor.check()?;
     let deviation = typical(&strands, |_| 1.0);
-    let is_noisy = noisiness(&strands) > NOISY;
+    let is_noisy = noisiness(&strands) > NOISE_RATIO_MIN;
     let (curves, crossed) = output::curves(&strands, frame, ends, monitor)?;
     let counters = [
         ("seeds", found.len()),
@@ -131,7 +136,7 @@ fn fit_within(
         method: "fit",
         curves,
         outliers,
-        noise: frame.length(noise.edge.unwrap_or(BAND) * deviation),
+        noise: frame.length(noise.edge.unwrap_or(BAND_DEVIATIONS) * deviation),
         counters: counters.into_iter().map(|(name, n)| (name.into(), n as u64)).collect(),
         ..Outcome::default()
     };

@@ -7,13 +7,13 @@
 
 use super::strand::Strand;
 
-/// Noise has an edge where nine tenths of it lie within so many medians: between 1.8 of uniform and 2.44 of normal noise, and below
-/// the 2.33 of a triangular one.
-const EDGED: f64 = 2.13;
-/// Fewest points to tell the kind from.
-const FEWEST: usize = 100;
-/// Standard deviations within which noise counts, and between which and twice that background does.
-const NEAR: f64 = 3.0;
+/// Noise has an edge where nine tenths of it lie within this many medians: between 1.8 of uniform and 2.44 of normal
+/// noise, and below the 2.33 of a triangular one.
+const EDGE_MEDIANS_MAX: f64 = 2.13;
+/// The kind is told from at least this many points.
+const POINTS_MIN: usize = 100;
+/// Noise counts within this many standard deviations, and background does between that and twice as many.
+const NOISE_DEVIATIONS_MAX: f64 = 3.0;
 
 /// What is known about the noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,18 +28,18 @@ impl Noise {
     /// Nothing is known.
     pub(super) const UNKNOWN: Self = Self { edge: None, outliers: false };
 
-    /// Of the members of strands, whose distances go up to `width` deviations, more than [`NEAR`].
+    /// Of the members of strands, whose distances go up to `width` deviations, more than [`NOISE_DEVIATIONS_MAX`].
     pub(super) fn of<'a>(strands: impl Iterator<Item = &'a Strand>, width: f64) -> Self {
         let mut shares: Vec<f64> =
             strands.flat_map(|s| s.members.iter().map(|m| m.share)).collect();
         shares.sort_unstable_by(f64::total_cmp);
         let below = |z: f64| shares.partition_point(|&share| share <= z);
-        let near = below(NEAR);
-        if near < FEWEST {
+        let near = below(NOISE_DEVIATIONS_MAX);
+        if near < POINTS_MIN {
             return Self::UNKNOWN;
         }
-        let background = (shares.len() - near) as f64 / (width - NEAR);
-        let total = near as f64 - NEAR * background;
+        let background = (shares.len() - near) as f64 / (width - NOISE_DEVIATIONS_MAX);
+        let total = near as f64 - NOISE_DEVIATIONS_MAX * background;
         // The place below which lies a share of the noise.
         let quantile = |part: f64| {
             let (mut low, mut high) = (0, near);
@@ -51,10 +51,10 @@ impl Noise {
             shares[low.min(near - 1)]
         };
         let (median, most) = (quantile(0.5), quantile(0.9));
-        let edged = most < EDGED * median;
+        let edged = most < EDGE_MEDIANS_MAX * median;
         Self {
             edge: edged.then_some(most / 0.9),
-            outliers: edged && background * NEAR > 1e-3 * total,
+            outliers: edged && background * NOISE_DEVIATIONS_MAX > 1e-3 * total,
         }
     }
 }

@@ -10,8 +10,8 @@ use crate::Error;
 use crate::curve::Ends;
 use crate::curve::chains::{chains, repair};
 
-/// Most edges between two nodes.
-const MOST: f64 = 16.0;
+/// There are at most this many edges between two nodes.
+const EDGES_PER_NODE_MAX: f64 = 16.0;
 
 /// Fewest vertices of a piece that is left where edges crossed.
 const PIECE: usize = 8;
@@ -96,5 +96,5 @@ fn pieces(a: &Node, b: &Node) -> u32 {
     let allowed = 0.5 * a.error.max(b.error);
     let wanted = (sagitta / allowed).sqrt().ceil();
     // NaN, of no error and no sagitta, gives one piece.
-    if wanted > 1.0 { wanted.min(MOST) as u32 } else { 1 }
+    if wanted > 1.0 { wanted.min(EDGES_PER_NODE_MAX) as u32 } else { 1 }
 }

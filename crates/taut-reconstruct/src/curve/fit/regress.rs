@@ -2,7 +2,7 @@
 //!
 //! *Problem.* Points lie in a band around a curve, in order. Where is the middle line?
 //! *Idea.* In the frame of a place on the curve as known so far, a parabola is fitted to the points of a window, by least squares or, for
-//! noise with an edge, by the least largest residual. Windows grow by [`GROWTH`] for as long as what each says of the place
+//! noise with an edge, by the least largest residual. Windows grow by [`WINDOW_GROWTH`] for as long as what each says of the place
 //! agrees with what all shorter ones say, within their errors (Lepski's rule): then curvature does not bend the answer yet.
 //! *Guarantee.* Error O(n^(−4/9)) for least squares and O(n^(−4/5)) for the least largest residual, of a smooth curve.
 //! *Reference.* Lepski, Theory of Probability and its Applications 35 (1990), 454–466.
@@ -16,26 +16,26 @@ use super::strand::{Member, Node, Strand, hermite};
 
 type Point = [f64; 2];
 
-/// Every how many places windows are grown: their length changes slowly along the curve.
-const EVERY: usize = 3;
-/// Growth of windows.
-const GROWTH: f64 = 1.25;
-/// Fewest points of a window.
-const FEWEST: usize = 6;
-/// Lepski's factor: how many standard errors two windows may differ by.
-const AGREE: f64 = 1.0;
-/// A window by the frame of its middle holds |u| ≤ half. Along the curve that is up to half over this, as slopes are at most [`SLOPE`].
-const WITHIN: f64 = 0.8;
+/// Windows are grown at one place in this many: their length changes slowly along the curve.
+const PLACES_PER_WINDOW: usize = 3;
+/// Windows grow by this factor.
+const WINDOW_GROWTH: f64 = 1.25;
+/// A window has at least this many points.
+const WINDOW_POINTS_MIN: usize = 6;
+/// Lepski's factor: two windows may differ by this many standard errors.
+const STANDARD_ERRORS_MAX: f64 = 1.0;
+/// A window by the frame of its middle holds |u| ≤ half. Along the curve that is up to half over this, as slopes are at most [`SLOPE_MAX`].
+const HALF_LENGTH_RATIO: f64 = 0.8;
 /// The least largest residual of m points has a middle that is off by so many δ/m, in trials with uniform noise.
 const MINIMAX_ERROR: f64 = 5.5;
 /// Standard error, in deviations of the noise, from which on a window has its points on one side, or next to none.
 const ONE_SIDED: f64 = 0.75;
-/// Most outliers that a window leaves out one by one.
-const PEELS: usize = 8;
-/// Greatest slope against the frame within a window.
-const SLOPE: f64 = 0.8;
-/// Greatest deviation of the residuals of a window, in those of the noise.
-const SPREAD: f64 = 1.5;
+/// A window leaves out at most this many outliers one by one.
+const PEELED_OUTLIERS_MAX: usize = 8;
+/// The slope against the frame within a window is at most this.
+const SLOPE_MAX: f64 = 0.8;
+/// The residuals of a window have at most this deviation, in those of the noise.
+const DEVIATION_RATIO_MAX: f64 = 1.5;
 
 /// What windows say of one place.
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +57,7 @@ pub(super) fn regress(strand: &Strand, parts: usize, noise: &Noise) -> Vec<Node>
     let places: Vec<Place> = (0..strand.edges() * parts + usize::from(!strand.closed))
         .map(|number| Place::new(strand, number, parts))
         .collect();
-    let asked: Vec<&Place> = places.iter().step_by(EVERY).collect();
+    let asked: Vec<&Place> = places.iter().step_by(PLACES_PER_WINDOW).collect();
     let halves: Vec<f64> = asked
         .par_iter()
         .map_init(Window::default, |window, place| longest(strand, place, noise, window))
@@ -93,7 +93,10 @@ pub(super) fn regress(strand: &Strand, parts: usize, noise: &Noise) -> Vec<Node>
 
 /// The half at a place from those of the places that were asked, two of them around it.
 fn between(halves: &[f64], number: usize, closed: bool) -> f64 {
-    let (before, part) = (number / EVERY, (number % EVERY) as f64 / EVERY as f64);
+    let (before, part) = (
+        number / PLACES_PER_WINDOW,
+        (number % PLACES_PER_WINDOW) as f64 / PLACES_PER_WINDOW as f64,
+    );
     let after = match before + 1 {
         after if after < halves.len() => after,
         _ if closed => 0,
@@ -191,17 +194,20 @@ fn longest(strand: &Strand, place: &Place, noise: &Noise, window: &mut Window) -
     let mut agreed = [f64::NEG_INFINITY, f64::INFINITY];
     while half <= longest {
         if let Some(found) = measure(strand, place, half, noise, window) {
-            let interval = [found.offset - AGREE * found.error, found.offset + AGREE * found.error];
+            let interval = [
+                found.offset - STANDARD_ERRORS_MAX * found.error,
+                found.offset + STANDARD_ERRORS_MAX * found.error,
+            ];
             agreed = [agreed[0].max(interval[0]), agreed[1].min(interval[1])];
-            if agreed[0] > agreed[1] || found.deviation > SPREAD * place.deviation {
+            if agreed[0] > agreed[1] || found.deviation > DEVIATION_RATIO_MAX * place.deviation {
                 break;
             }
             best = half;
-            if found.slope.abs() + 2.0 * found.bend.abs() * half > SLOPE {
+            if found.slope.abs() + 2.0 * found.bend.abs() * half > SLOPE_MAX {
                 break;
             }
         }
-        half *= GROWTH;
+        half *= WINDOW_GROWTH;
     }
     best
 }
@@ -217,8 +223,8 @@ fn narrow(
     window: &mut Window,
 ) -> Option<Estimate> {
     let mut found = measure(strand, place, half, noise, window)?;
-    while found.deviation > SPREAD * place.deviation {
-        half /= GROWTH;
+    while found.deviation > DEVIATION_RATIO_MAX * place.deviation {
+        half /= WINDOW_GROWTH;
         let Some(shorter) = measure(strand, place, half, noise, window) else { break };
         found = shorter;
     }
@@ -242,12 +248,12 @@ fn measure(
     window: &mut Window,
 ) -> Option<Estimate> {
     window.points.clear();
-    for members in around(strand, place.arc, half / WITHIN) {
+    for members in around(strand, place.arc, half / HALF_LENGTH_RATIO) {
         let local = members.iter().map(|m| place.frame.local(m.at));
         window.points.extend(local.filter(|p| p[0].abs() <= half));
     }
     let count = window.points.len();
-    if count < FEWEST {
+    if count < WINDOW_POINTS_MIN {
         return None;
     }
     let found = least_squares(&window.points, half, place.deviation)?;
@@ -263,7 +269,7 @@ fn measure(
     // it turns out to be farther off, all are asked. Those far beyond the edge are outliers.
     let inside = (0.95 * edge - 6.0 * found.error).max(0.0);
     let most = 1.05 * edge + 3.0 * found.error;
-    let peels = if noise.outliers { PEELS } else { 0 };
+    let peels = if noise.outliers { PEELED_OUTLIERS_MAX } else { 0 };
     let fitted = window.minimax(&found, inside, most, 1.05 * edge, peels).and_then(|fitted| {
         let [a, b, c] = fitted.coefficients;
         match inside + a.abs() + half * (b.abs() + half * c.abs()) <= fitted.width {
@@ -361,7 +367,7 @@ fn least_squares(window: &[Point], half: f64, deviation: f64) -> Option<Estimate
 fn peeled(window: &mut Vec<Point>, widest: f64, most: usize) -> Option<Minimax> {
     let mut found = minimax(window)?;
     for _ in 0..most {
-        if found.width <= widest || window.len() <= FEWEST {
+        if found.width <= widest || window.len() <= WINDOW_POINTS_MIN {
             break;
         }
         let mut best: Option<(usize, Minimax)> = None;

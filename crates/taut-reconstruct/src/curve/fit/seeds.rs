@@ -3,7 +3,7 @@
 //! *Problem.* Noise turns the curve into a band. Find out how long a window must be to show which way the band runs, and put a
 //! seed on its middle line every now and then, everywhere.
 //! *Idea.* Points are taken in the order of their density, densest first. Around one that is not yet accounted for, windows
-//! grow until the points in it are [`FLATNESS`] times as long as their residuals from a parabola are wide, by more than chance:
+//! grow until the points in it are [`FLATNESS_MIN`] times as long as their residuals from a parabola are wide, by more than chance:
 //! a blob inside the band is about twice as long as wide. The window is centred anew on its parabola, and the seed there accounts
 //! for all points of the slab around it. What is left when density has fallen to a fraction are outliers.
 //! *Guarantee.* A function of the point set that turns and scales with it; every point of the slab of a seed is accounted for,
@@ -25,48 +25,51 @@ use crate::curve::index::{Index, distance2};
 
 type Point = [f64; 2];
 
-/// How many standard deviations of the residuals a window must be long, from its centre to its end.
-const FLATNESS: f64 = 8.0;
+/// A window must be this many standard deviations of the residuals long, from its centre to its end.
+const FLATNESS_MIN: f64 = 8.0;
 /// What the best of all windows must reach where none is flat enough.
 const FLATNESS_LEAST: f64 = 5.0;
-/// The share of the largest window within which no other is tried, where none was flat.
-const HOPELESS: f64 = 0.2;
+/// Where no window was flat, no other is tried within this share of the largest.
+const BARREN_RATIO: f64 = 0.2;
 /// How many points may be looked at in vain before that, for each point there is.
 const MOST_VAIN: usize = 8;
-/// A window is coarse whose deviation is so many times the median of those within it.
-const COARSE: f64 = 3.0;
-/// Windows end when they are so many times as long as the flattest.
-const DECLINE: f64 = 4.0;
+/// A window is coarse whose deviation is this many times the median of those within it.
+const COARSE_RATIO_MIN: f64 = 3.0;
+/// Windows end when they are this many times as long as the flattest.
+const WINDOW_RATIO_MAX: f64 = 4.0;
 /// Windows of fewer points may be flat by chance, of all those that are tried.
-const CHANCE: usize = 60;
-/// How much longer the window is that has to be flat as well, and which share of the flatness it must have.
-const CONFIRM: f64 = 1.4;
-const CONFIRMED: f64 = 0.75;
-/// Least ratio of the mean square of successive differences to twice the variance of residuals that are noise.
-const FILLED: f64 = 0.5;
-/// Growth of windows.
-const GROWTH: f64 = 1.2;
-/// How many lengths of a window are tried around the curve.
-const SHORTER: usize = 4;
-/// Points of a window that tell whether it is worth a fit, and how much flatter than they show it may be: so many tell the width to 3 %,
-/// but where few of the window lie in a band.
-const SAMPLE: usize = 512;
-const DOUBTFUL: f64 = 0.6;
-/// Neighbours whose distance tells the density at a point.
-const NEIGHBORS: usize = 8;
-/// Half the length of the slab of a seed as a share of its window.
-const SLAB: f64 = 0.45;
+const SURE_POINTS_MIN: usize = 60;
+/// The window that has to be flat as well is this many times as long.
+const CONFIRMING_RATIO: f64 = 1.4;
+/// It must have this share of the flatness.
+const CONFIRMED_FLATNESS_RATIO: f64 = 0.75;
+/// The mean square of successive differences of residuals that are noise is at least this times twice their variance.
+const NEUMANN_RATIO_MIN: f64 = 0.5;
+/// Windows grow by this factor.
+const WINDOW_GROWTH: f64 = 1.2;
+/// This many lengths of a window are tried around the curve.
+const LENGTHS_TRIED: usize = 4;
+/// This many points of a window tell whether it is worth a fit: they tell the width to 3 %, but where few of the window
+/// lie in a band.
+const SAMPLE_POINTS: usize = 512;
+/// A window that they show to have less than this share of the flatness is not worth a fit: it may be so much flatter
+/// than they show.
+const SAMPLE_FLATNESS_RATIO: f64 = 0.6;
+/// The distance of this many neighbours tells the density at a point.
+const DENSITY_NEIGHBORS: usize = 8;
+/// The slab of a seed has this half-length as a share of its window.
+const SLAB_RATIO: f64 = 0.45;
 /// Residuals of points of the slab, in standard deviations: 1.73 is the edge of uniform noise.
 const SLAB_WIDTH: f64 = 4.0;
 /// The density of outliers is less than that of nine tenths of the curve by the square of this.
-const SPARSE: f64 = 5.0;
+const SPACING_RATIO_MAX: f64 = 5.0;
 /// One of so many points is on curves at least: fewer, such as a clump in one place, do not tell how dense those are.
 const OF_CURVES: usize = 8;
 
 /// Stands for no seed.
 const NONE: u32 = u32::MAX;
 /// Stands for no seed that could be found.
-const VAIN: u32 = NONE - 1;
+const NO_SEED: u32 = NONE - 1;
 
 /// A place on the curve.
 #[derive(Clone, Copy, Debug)]
@@ -86,7 +89,7 @@ pub(super) struct Seed {
 impl Seed {
     /// Whether its window shows that another one is flat by chance.
     fn is_longer(&self, other: &Seed) -> bool {
-        self.reach > ALIKE * other.reach && self.deviation > AS_WIDE * other.deviation
+        self.reach > LENGTH_RATIO_MIN * other.reach && self.deviation > AS_WIDE * other.deviation
     }
 }
 
@@ -119,13 +122,15 @@ pub(super) fn seeds(
 }
 
 /// The same for points along the curve: a seed beside the curve has few.
-const DENSER: f64 = 4.0;
-/// Within so many windows most tangents are along that of a seed, to within 60°: it runs across the band by chance otherwise.
-const BESIDE: f64 = 1.5;
-const ALONG: f64 = 0.5;
+const DENSITY_RATIO_MAX: f64 = 4.0;
+/// Within this many windows most tangents are along that of a seed, to within 60°: it runs across the band by chance
+/// otherwise.
+const ALONG_WINDOWS: f64 = 1.5;
+/// The cosine of the angle within which they are along it: 60°.
+const ALONG_COS_MIN: f64 = 0.5;
 /// A window that others exceed by these factors, in length and in deviation, is flat by chance. In length alone they do where
 /// points are sparse, or where outliers hid the band.
-const ALIKE: f64 = 2.5;
+const LENGTH_RATIO_MIN: f64 = 2.5;
 const AS_WIDE: f64 = 1.5;
 
 /// The seeds that are not beside an earlier one, as two samples on either side of the band lead to one place, nor flat by chance.
@@ -141,7 +146,7 @@ fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
     let mut beside = vec![false; seeds.len()];
     for (i, seed) in seeds.iter().enumerate() {
         if !beside[number[i]] {
-            let apart = 0.5 * SLAB * seed.reach;
+            let apart = 0.5 * SLAB_RATIO * seed.reach;
             index.within(seed.at, apart * apart, &mut |place| beside[place as usize] = true);
             beside[number[i]] = false;
         }
@@ -168,15 +173,20 @@ fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
     };
     for (i, seed) in seeds.iter().enumerate() {
         around.clear();
-        let far = ALIKE * seed.reach;
+        let far = LENGTH_RATIO_MIN * seed.reach;
         index.within(seed.at, far * far, &mut |place| around.push(place));
         let density = middle(&around, &|s| s.density);
-        around.retain(|&p| distance2(places[p as usize], seed.at) <= (BESIDE * seed.reach).powi(2));
+        around.retain(|&p| {
+            distance2(places[p as usize], seed.at) <= (ALONG_WINDOWS * seed.reach).powi(2)
+        });
         let along = middle(&around, &|s| {
             (s.tangent[0] * seed.tangent[0] + s.tangent[1] * seed.tangent[1]).abs()
         });
         let [slabs, longer] = slabs[number[i]];
-        if 2 * longer >= slabs || seed.density * DENSER < density || along < ALONG {
+        if 2 * longer >= slabs
+            || seed.density * DENSITY_RATIO_MAX < density
+            || along < ALONG_COS_MIN
+        {
             beside[number[i]] = true;
         }
     }
@@ -184,11 +194,11 @@ fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
     seeds.into_iter().filter(|_| places.next().is_some_and(|place| !beside[place])).collect()
 }
 
-/// For each point the distance of its [`NEIGHBORS`]-th neighbour, and the sum of the squared distances of all.
+/// For each point the distance of its [`DENSITY_NEIGHBORS`]-th neighbour, and the sum of the squared distances of all.
 ///
 /// Two points are often the eighth of each other. Then the sum decides which is denser: numbers of points turn with nothing.
 fn spacings(index: &Index<'_>) -> Vec<(f64, f64)> {
-    index.neighbors_of_all(NEIGHBORS + 1, |found| {
+    index.neighbors_of_all(DENSITY_NEIGHBORS + 1, |found| {
         let last = found.last().map_or(0.0, |last| last.0.sqrt());
         (last, found.iter().map(|near| near.0).sum())
     })
@@ -218,7 +228,7 @@ struct Search<'a> {
     rank: &'a [u32],
     /// The seeds found, none where one was dropped again.
     seeds: Vec<Option<Seed>>,
-    /// For each point the seed that accounts for it, [`NONE`] or [`VAIN`].
+    /// For each point the seed that accounts for it, [`NONE`] or [`NO_SEED`].
     covered: Vec<u32>,
     window: Window,
     ids: Vec<u32>,
@@ -251,12 +261,12 @@ impl<'a> Search<'a> {
             }
             if self.covered[i] != NONE {
                 // Many in one place are no curve, and do not tell how dense curves are.
-                if self.covered[i] != VAIN {
+                if self.covered[i] != NO_SEED {
                     done.push(spacing[i].0);
                 }
                 continue;
             }
-            if done.value(fewest).is_some_and(|usual| spacing[i].0 > SPARSE * usual) {
+            if done.value(fewest).is_some_and(|usual| spacing[i].0 > SPACING_RATIO_MAX * usual) {
                 break;
             }
             let Some((parabola, reach)) = self.flat(self.points[i], spacing[i].0) else {
@@ -292,7 +302,7 @@ impl<'a> Search<'a> {
             index.within(at, reach * reach, &mut |place| {
                 within.push(deviations[order[place as usize] as usize]);
             });
-            if deviation > COARSE * median(&mut within) {
+            if deviation > COARSE_RATIO_MIN * median(&mut within) {
                 (*seed, dropped) = (None, true);
             }
         }
@@ -309,7 +319,8 @@ impl<'a> Search<'a> {
         let known =
             self.ids.iter().filter_map(|&i| self.seeds.get(self.covered[i as usize] as usize));
         let mut known: Vec<f64> = known.flatten().map(|seed| seed.deviation).collect();
-        known.len() * 4 > self.ids.len() && parabola.variance.sqrt() > COARSE * median(&mut known)
+        known.len() * 4 > self.ids.len()
+            && parabola.variance.sqrt() > COARSE_RATIO_MIN * median(&mut known)
     }
 
     fn fit(&mut self, at: Point, reach: f64) -> Option<Parabola> {
@@ -331,13 +342,13 @@ impl<'a> Search<'a> {
     fn fit_if_flat(&mut self, at: Point, reach: f64, least: f64) -> Option<Parabola> {
         self.look(at, reach);
         let points = self.points;
-        let step = (self.ids.len() / SAMPLE) as u32;
+        let step = (self.ids.len() / SAMPLE_POINTS) as u32;
         if step > 1 {
             // Every so many in the order of density: that is the same however the points are turned.
             let in_sample = |i: &&u32| self.rank[**i as usize].is_multiple_of(step);
             let sample = self.ids.iter().filter(in_sample).map(|&i| points[i as usize]);
             let sampled = self.window.fit(at, sample)?;
-            if flatness(&sampled, reach) < DOUBTFUL * least {
+            if flatness(&sampled, reach) < SAMPLE_FLATNESS_RATIO * least {
                 return None;
             }
         }
@@ -346,9 +357,9 @@ impl<'a> Search<'a> {
 
     /// The first window that is flat, centred on its parabola; or the flattest, where none is flat enough.
     fn flat(&mut self, start: Point, spacing: f64) -> Option<(Parabola, f64)> {
-        let most = (self.points.len() / 3).max(NEIGHBORS);
+        let most = (self.points.len() / 3).max(DENSITY_NEIGHBORS);
         // Not the spacing itself, at which the last neighbour is inside or outside as rounding will have it.
-        let mut reach = (GROWTH * spacing).max(REACH_MIN);
+        let mut reach = (WINDOW_GROWTH * spacing).max(REACH_MIN);
         let mut best: Option<(f64, Parabola, f64)> = None;
         let mut longest = f64::INFINITY;
         loop {
@@ -356,24 +367,25 @@ impl<'a> Search<'a> {
             if let Some(parabola) = self.fit_if_flat(start, reach, least) {
                 let flatness = flatness(&parabola, reach);
                 if flatness >= least && (!self.is_filled(&parabola) || self.is_coarse(&parabola)) {
-                    longest = longest.min(DECLINE * reach);
+                    longest = longest.min(WINDOW_RATIO_MAX * reach);
                 } else if flatness >= least && self.stays_flat(start, reach, &parabola, flatness) {
                     best = Some((flatness, parabola, reach));
-                    if flatness >= FLATNESS {
+                    if flatness >= FLATNESS_MIN {
                         break;
                     }
-                    longest = DECLINE * reach;
+                    longest = WINDOW_RATIO_MAX * reach;
                 }
             }
             let seen = self.ids.len();
             if seen > most || seen == self.points.len() || reach > longest {
                 break;
             }
-            reach *= GROWTH;
+            reach *= WINDOW_GROWTH;
         }
         let (as_flat, mut parabola, mut reach) = best?;
         for _ in 0..2 {
-            parabola = self.centered(parabola.foot(), &mut reach, CONFIRMED * as_flat)?;
+            parabola =
+                self.centered(parabola.foot(), &mut reach, CONFIRMED_FLATNESS_RATIO * as_flat)?;
         }
         let foot = parabola.foot();
         (distance2(foot, start) <= (0.5 * reach).powi(2) && self.is_filled(&parabola))
@@ -384,12 +396,12 @@ impl<'a> Search<'a> {
     ///
     /// What was left out of the window around a sample as off its curve, such as part of another one, may be within that around the curve.
     fn centered(&mut self, at: Point, reach: &mut f64, least: f64) -> Option<Parabola> {
-        for _ in 0..SHORTER {
+        for _ in 0..LENGTHS_TRIED {
             let parabola = self.fit(at, *reach)?;
             if flatness(&parabola, *reach) >= least {
                 return Some(parabola);
             }
-            *reach /= GROWTH;
+            *reach /= WINDOW_GROWTH;
         }
         None
     }
@@ -407,16 +419,16 @@ impl<'a> Search<'a> {
         along.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
         let squares: f64 = along.iter().map(|p| p[1] * p[1]).sum();
         let steps: f64 = along.windows(2).map(|p| (p[1][1] - p[0][1]).powi(2)).sum();
-        steps >= 2.0 * FILLED * squares
+        steps >= 2.0 * NEUMANN_RATIO_MIN * squares
     }
 
     /// Whether a window of few points is as flat as it is not by chance: a longer one is nearly so.
     fn stays_flat(&mut self, start: Point, reach: f64, found: &Parabola, as_flat: f64) -> bool {
-        if found.kept >= CHANCE {
+        if found.kept >= SURE_POINTS_MIN {
             return true;
         }
-        let longer = CONFIRM * reach;
-        let least = CONFIRMED * as_flat.min(FLATNESS);
+        let longer = CONFIRMING_RATIO * reach;
+        let least = CONFIRMED_FLATNESS_RATIO * as_flat.min(FLATNESS_MIN);
         self.fit(start, longer).is_some_and(|p| flatness(&p, longer) >= least)
     }
 
@@ -426,14 +438,14 @@ impl<'a> Search<'a> {
     /// that is no curve at all would be looked at as a whole from each of its points.
     fn give_up(&mut self, i: usize) {
         let covered = &mut self.covered;
-        covered[i] = VAIN;
+        covered[i] = NO_SEED;
         self.vain += self.ids.len();
         if self.vain > MOST_VAIN * self.points.len() {
             let at = self.points[i];
             let far =
                 |most: f64, &other: &u32| most.max(distance2(at, self.points[other as usize]));
-            let near2 = HOPELESS * HOPELESS * self.ids.iter().fold(0.0, far);
-            self.index.within(at, near2, &mut |i| covered[i as usize] = VAIN);
+            let near2 = BARREN_RATIO * BARREN_RATIO * self.ids.iter().fold(0.0, far);
+            self.index.within(at, near2, &mut |i| covered[i as usize] = NO_SEED);
         }
     }
 
@@ -441,7 +453,7 @@ impl<'a> Search<'a> {
     fn cover(&mut self, parabola: &Parabola, reach: f64) {
         let width = SLAB_WIDTH * parabola.variance.sqrt();
         for (&i, &local) in self.ids.iter().zip(&self.window.local) {
-            if local[0].abs() <= SLAB * reach && parabola.residual(local).abs() <= width {
+            if local[0].abs() <= SLAB_RATIO * reach && parabola.residual(local).abs() <= width {
                 self.covered[i as usize] = self.seeds.len() as u32;
             }
         }

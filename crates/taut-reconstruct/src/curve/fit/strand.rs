@@ -13,15 +13,16 @@ use crate::curve::index::{Index, Nearest};
 
 type Point = [f64; 2];
 
-/// Points whose nearest places are sought together.
-const RUN: usize = 16;
-/// Seeds on either side of one that tell the noise there.
-pub(super) const AROUND: usize = 2;
-/// The least deviation, in windows: of points without noise it would be that of roundings, and most would be farther off than that, as
-/// polylines and parabolas are. A window is eight deviations of noise and more long, and holds five points and more.
-const LEAST: f64 = 0.002;
-/// Pieces of the polyline between two nodes.
-const PIECES: usize = 4;
+/// The nearest places of this many points are sought together.
+const POINTS_PER_RUN: usize = 16;
+/// This many seeds on either side of one tell the noise there.
+pub(super) const NOISE_SEEDS: usize = 2;
+/// A node has at least this deviation, in windows: of points without noise it would be that of roundings, and most
+/// would be farther off than that, as polylines and parabolas are. A window is eight deviations of noise and more long,
+/// and holds five points and more.
+const DEVIATION_MIN: f64 = 0.002;
+/// The polyline has this many pieces between two nodes.
+const PIECES_PER_NODE: usize = 4;
 
 /// A place on the curve with its tangent.
 #[derive(Clone, Copy, Debug)]
@@ -91,7 +92,7 @@ impl Strand {
             deviation: s.deviation,
             error: s.deviation,
         };
-        Self::new(chain.seeds.iter().map(node).collect(), chain.closed, AROUND)
+        Self::new(chain.seeds.iter().map(node).collect(), chain.closed, NOISE_SEEDS)
     }
 
     /// A strand through nodes, without points. The noise at each is the median of what so many nodes on either side say: an outlier
@@ -99,12 +100,12 @@ impl Strand {
     pub(super) fn new(mut nodes: Vec<Node>, closed: bool, span: usize) -> Self {
         let deviations = medians(&nodes, closed, span);
         for (node, deviation) in nodes.iter_mut().zip(deviations) {
-            node.deviation = deviation.max(LEAST * node.reach);
+            node.deviation = deviation.max(DEVIATION_MIN * node.reach);
         }
         let mut strand = Self { nodes, closed, arc: vec![0.0], members: Vec::new() };
         let mut sum = 0.0;
         for edge in 0..strand.edges() {
-            let places: Vec<Point> = (0..=PIECES).map(|k| strand.piece(edge, k)).collect();
+            let places: Vec<Point> = (0..=PIECES_PER_NODE).map(|k| strand.piece(edge, k)).collect();
             sum += places
                 .windows(2)
                 .map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]))
@@ -144,7 +145,7 @@ impl Strand {
 
     fn piece(&self, edge: usize, k: usize) -> Point {
         let (a, b) = self.edge(edge);
-        hermite(a, b, k as f64 / PIECES as f64).0
+        hermite(a, b, k as f64 / PIECES_PER_NODE as f64).0
     }
 }
 
@@ -193,18 +194,20 @@ pub(super) fn assign(strands: &mut [Strand], points: &[Point], width: f64) -> Ve
         let strand = &shared[vertex.strand as usize];
         let (distance, arc) =
             project(strand, &lines[vertex.strand as usize], vertex.number as usize, p);
-        let node = &strand.nodes[(vertex.number as usize).div_ceil(PIECES) % strand.nodes.len()];
+        let node =
+            &strand.nodes[(vertex.number as usize).div_ceil(PIECES_PER_NODE) % strand.nodes.len()];
         (distance <= width * node.deviation)
             .then(|| (vertex.strand, arc, distance / node.deviation.max(f64::MIN_POSITIVE)))
     };
     // Points come in the order of a Hilbert curve: a run of them is in one place, as a rule.
     let mut found: Vec<Option<(u32, f64, f64)>> = vec![None; points.len()];
-    points.par_chunks(RUN).zip(found.par_chunks_mut(RUN)).with_min_len(1 << 6).for_each_init(
-        Nearest::default,
-        |nearest, (points, found)| {
+    points
+        .par_chunks(POINTS_PER_RUN)
+        .zip(found.par_chunks_mut(POINTS_PER_RUN))
+        .with_min_len(1 << 6)
+        .for_each_init(Nearest::default, |nearest, (points, found)| {
             index.nearest_to_each(points, nearest, |k, at| found[k] = place_of(points[k], at));
-        },
-    );
+        });
     let mut members: Vec<Vec<Member>> = vec![Vec::new(); strands.len()];
     let mut left = Vec::new();
     for (site, (&at, found)) in points.iter().zip(&found).enumerate() {
@@ -223,10 +226,10 @@ pub(super) fn assign(strands: &mut [Strand], points: &[Point], width: f64) -> Ve
 }
 
 fn polyline(strand: &Strand) -> Vec<(Point, f64)> {
-    let mut line: Vec<(Point, f64)> = Vec::with_capacity(strand.edges() * PIECES + 1);
+    let mut line: Vec<(Point, f64)> = Vec::with_capacity(strand.edges() * PIECES_PER_NODE + 1);
     for edge in 0..strand.edges() {
         let mut arc = strand.arc[edge];
-        for k in 0..PIECES {
+        for k in 0..PIECES_PER_NODE {
             let at = strand.piece(edge, k);
             if let Some(&(last, before)) = line.last().filter(|_| k > 0) {
                 arc = before + (at[0] - last[0]).hypot(at[1] - last[1]);

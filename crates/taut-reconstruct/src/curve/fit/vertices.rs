@@ -14,21 +14,23 @@ type Point = [f64; 2];
 
 /// Most places that are looked at.
 const PLACES: usize = 1000;
-/// Points of a short window and of a long one, with the one in the middle.
-const SHORT: usize = 9;
-const LONG: usize = 33;
+/// A short window has this many points, with the one in the middle.
+const SHORT_WINDOW_POINTS: usize = 9;
+/// A long window has this many points, with the one in the middle.
+const LONG_WINDOW_POINTS: usize = 33;
 /// Off a parabola by less than this share of their spacing, points are vertices.
-const SMOOTH: f64 = 0.05;
+const VERTEX_OFFSET_MAX: f64 = 0.05;
 /// Off it by more than this share, points are a blob or rugged.
-const ROUGH: f64 = 0.6;
-/// How much larger residuals of long windows are where points are rugged. Of blobs they are twice as large; in 1500 random draws of noisy
-/// curves they were at most 2.3 times as large, of the vertices of coastlines they are 3 times as large.
-const GROWTH: f64 = 2.6;
+const ROUGH_OFFSET_MIN: f64 = 0.6;
+/// Residuals of long windows are more than this many times larger where points are rugged. Of blobs they are twice as
+/// large; in 1500 random draws of noisy curves they were at most 2.3 times as large, of the vertices of coastlines they
+/// are 3 times as large.
+const RUGGED_GROWTH_MIN: f64 = 2.6;
 
 /// Whether most points are vertices.
 pub(super) fn are_vertices(points: &[Point], index: &Index<'_>) -> bool {
     // So few are cheap to fit, and a long window is not much of their curve.
-    if points.len() < 4 * LONG {
+    if points.len() < 4 * LONG_WINDOW_POINTS {
         return false;
     }
     let (mut window, mut near) = (Window::default(), Vec::new());
@@ -41,13 +43,14 @@ pub(super) fn are_vertices(points: &[Point], index: &Index<'_>) -> bool {
             let radius = near.last()?.0.sqrt();
             Some((found.variance.sqrt(), 2.0 * radius / (count - 1) as f64))
         };
-        if let (Some((short, spacing)), Some((long, _))) = (deviation_of(SHORT), deviation_of(LONG))
+        if let (Some((short, spacing)), Some((long, _))) =
+            (deviation_of(SHORT_WINDOW_POINTS), deviation_of(LONG_WINDOW_POINTS))
         {
             let share = short / spacing;
             looked_at += 1;
-            rough += usize::from(share > ROUGH);
+            rough += usize::from(share > ROUGH_OFFSET_MIN);
             // Where points are vertices, it is the bend of the curve that grows.
-            if share < SMOOTH {
+            if share < VERTEX_OFFSET_MAX {
                 smooth += 1;
             } else {
                 growths.push(long / short);
@@ -56,7 +59,8 @@ pub(super) fn are_vertices(points: &[Point], index: &Index<'_>) -> bool {
     }
     let is_most = |places: usize| 2 * places > looked_at;
     growths.sort_unstable_by(f64::total_cmp);
-    is_most(smooth) || is_most(rough) && growths.get(growths.len() / 2).is_some_and(|&g| g > GROWTH)
+    is_most(smooth)
+        || is_most(rough) && growths.get(growths.len() / 2).is_some_and(|&g| g > RUGGED_GROWTH_MIN)
 }
 
 #[cfg(test)]

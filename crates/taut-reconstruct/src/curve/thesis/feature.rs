@@ -19,15 +19,15 @@ use super::strip::{least_strip, reduce_to_hull};
 use super::{each, spread};
 use crate::Error;
 
-/// Looks taken; the estimate is their quantile 1/`QUANTILE`.
-const LOOKS: usize = 256;
-const QUANTILE: usize = 100;
+/// This many looks are taken; the estimate is their quantile 1/`QUANTILE_DIVISOR`.
+const LOOK_COUNT: usize = 256;
+const QUANTILE_DIVISOR: usize = 100;
 /// Each disk of a look is so much larger than the one before.
-const STEP: f64 = 1.15;
-/// Radius by width from which samples are flat: half of what δ = 1/144 gives, 1/(2√δ) = 6.
-const FLAT: f64 = 3.0;
-/// And below which they are round; an arc as long as its radius has 2, two parallel lines a little more than 1.
-const ROUND: f64 = 1.25;
+const DISK_GROWTH: f64 = 1.15;
+/// Samples are flat from this radius by width on: half of what δ = 1/144 gives, 1/(2√δ) = 6.
+const FLATNESS_MIN: f64 = 3.0;
+/// They are round below this; an arc as long as its radius has 2, two parallel lines a little more than 1.
+const ROUNDNESS_MAX: f64 = 1.25;
 
 /// The estimate; without a bend in sight it is the extent of the samples, and 0 only if there is none.
 pub(super) fn least_feature(
@@ -48,17 +48,17 @@ pub(super) fn least_feature(
         let first = (radii[a] as f32).total_cmp(&(radii[b] as f32));
         (2..=4).fold(first, |order, count| order.then_with(|| nearest(count)))
     });
-    let looks: Vec<usize> = order.into_iter().step_by(n.div_ceil(LOOKS).max(1)).collect();
+    let looks: Vec<usize> = order.into_iter().step_by(n.div_ceil(LOOK_COUNT).max(1)).collect();
     let mut found = each(looks.len(), monitor, |i| look(disks, looks[i], radii[looks[i]], extent))?;
     found.sort_by(f64::total_cmp);
-    Ok(found.get(found.len() / QUANTILE).copied().unwrap_or(0.0))
+    Ok(found.get(found.len() / QUANTILE_DIVISOR).copied().unwrap_or(0.0))
 }
 
 /// What one sample sees, in disks from a radius on.
 fn look(disks: &Disks<'_>, sample: usize, start: f64, extent: f64) -> f64 {
     let mut disk = Growing::around(disks, sample);
     // Beyond `start` lies a sample, and rounding may put it within or without.
-    let (mut radius, mut taken, mut hull) = (STEP * start, 0, Vec::new());
+    let (mut radius, mut taken, mut hull) = (DISK_GROWTH * start, 0, Vec::new());
     let (mut flattest, mut feature) = (0.0, extent);
     while radius > 0.0 && radius < 2.0 * extent {
         let near = disk.within(radius);
@@ -69,10 +69,10 @@ fn look(disks: &Disks<'_>, sample: usize, start: f64, extent: f64) -> f64 {
         if flatness > flattest {
             (flattest, feature) = (flatness, (flatness * radius).min(extent));
         }
-        if flattest >= FLAT && (flatness < ROUND || radius >= 2.0 * feature) {
+        if flattest >= FLATNESS_MIN && (flatness < ROUNDNESS_MAX || radius >= 2.0 * feature) {
             return feature.min(0.5 * radius);
         }
-        radius *= STEP;
+        radius *= DISK_GROWTH;
     }
-    if flattest >= FLAT { feature } else { extent }
+    if flattest >= FLATNESS_MIN { feature } else { extent }
 }

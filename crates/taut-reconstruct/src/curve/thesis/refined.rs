@@ -14,10 +14,10 @@ use std::f64::consts::PI;
 use super::disks::Sample;
 use super::strip::Strip;
 
-/// The slab turns by this much to either side.
-const TURN: f64 = PI / 10.0;
-/// Angles to either side of the strip's own.
-const ANGLES: i32 = 10;
+/// The slab turns by this much to either side, in radians.
+const SLAB_TURN: f64 = PI / 10.0;
+/// This many angles are tried to either side of the strip's own.
+const ANGLES_PER_SIDE: i32 = 10;
 
 /// The rectangle around the samples of the slab.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,14 +31,14 @@ pub(super) struct Rectangle {
 /// The lowest rectangle; `near` are the samples of the coarse disk.
 pub(super) fn refined(near: &[Sample], strip: Strip, width: f64) -> Rectangle {
     let half = 0.5 * width;
-    let ([x, y], (sin, cos)) = (strip.along, TURN.sin_cos());
+    let ([x, y], (sin, cos)) = (strip.along, SLAB_TURN.sin_cos());
     let candidates = Candidates::of(near.iter().filter_map(|&(_, [dx, dy])| {
         // In the frame of the strip; those that are in no turned slab are left out, with a margin for rounding.
         let (u, v) = (x * dx + y * dy, x * dy - y * dx);
         (cos * u.abs() <= 1.000_001 * half + sin * v.abs()).then_some([u, v])
     }));
-    let tried = (-ANGLES..=ANGLES).map(|k| {
-        let angle = TURN * f64::from(k) / f64::from(ANGLES);
+    let tried = (-ANGLES_PER_SIDE..=ANGLES_PER_SIDE).map(|k| {
+        let angle = SLAB_TURN * f64::from(k) / f64::from(ANGLES_PER_SIDE);
         let (low, high) = candidates.enclose(half, angle);
         (angle, high - low, 0.5 * (low + high))
     });

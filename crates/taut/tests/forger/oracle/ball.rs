@@ -11,8 +11,8 @@ use super::dyadic::{Dyadic, exact, sum};
 use super::enclosing::{Body, Bracket, bracket, digits, dual};
 use super::shapes::{Shape, shapes};
 
-/// Unit roundoff of `f64`, 2⁻⁵³.
-const UNIT: i64 = -53;
+/// The unit roundoff of `f64` is 2 to this, 2⁻⁵³.
+const ROUNDOFF_EXPONENT: i64 = -53;
 
 /// What is true of one input.
 pub struct BallOracle {
@@ -155,7 +155,7 @@ impl BallOracle {
         let lambda = exact(lambda);
         let weight = sum(lambda.iter().cloned());
         let off = (&weight - &Dyadic::integer(1)).abs();
-        if off > Dyadic::integer(2 * (support.len() as i64 + 2)).scaled(UNIT) {
+        if off > Dyadic::integer(2 * (support.len() as i64 + 2)).scaled(ROUNDOFF_EXPONENT) {
             return Truth::False(format!("the multipliers sum to 1 but for {}", off.text()));
         }
         // Points of ellipsoids are rounded, so their combination is not asked for.
@@ -169,8 +169,10 @@ impl BallOracle {
                 .map(|(&row, l)| l * &(&self.bodies[row as usize].position[j] - c)));
             let size = Dyadic::of(ball.center[j].abs());
             let granted = match ball.center_tail.is_empty() {
-                true => (&size + radius).scaled(UNIT + 2),
-                false => &radius.scaled(UNIT + 2) + &size.scaled(2 * UNIT + 3),
+                true => (&size + radius).scaled(ROUNDOFF_EXPONENT + 2),
+                false => {
+                    &radius.scaled(ROUNDOFF_EXPONENT + 2) + &size.scaled(2 * ROUNDOFF_EXPONENT + 3)
+                }
             };
             // Multipliers below 2⁻²⁰⁰ count as 0 in the checker.
             let granted = &(&granted + &granted.scaled(-40)) + &Dyadic::power(-1074);

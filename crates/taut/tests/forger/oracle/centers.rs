@@ -10,8 +10,8 @@ use super::ball::is_gap_granted;
 use super::dyadic::{Dyadic, exact};
 use super::enclosing::{Body, bracket, digits};
 
-/// Most rows: all subsets of them are looked at.
-const ROWS: usize = 10;
+/// There may be at most this many rows: all subsets of them are looked at.
+const ROWS_MAX: usize = 10;
 
 /// What rows are, and where centers may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -38,7 +38,7 @@ struct Optima {
 impl CentersOracle {
     /// Prepares to judge answers for few rows.
     pub fn new(values: &[f64], columns: usize) -> Self {
-        assert!(values.len() / columns <= ROWS, "too many rows for all of their subsets");
+        assert!(values.len() / columns <= ROWS_MAX, "too many rows for all of their subsets");
         CentersOracle { values: values.to_vec(), columns, solved: BTreeMap::new() }
     }
 

@@ -5,7 +5,7 @@ use super::interval::Interval;
 use super::mvee::Bracket;
 
 /// Numbers that differ by less than 2⁻¹⁰⁰ are not told apart from an optimum: a gap of 0 may be exact.
-const GRAIN: i64 = -100;
+const GRAIN_EXPONENT: i64 = -100;
 
 /// The first claim found false, and the first one left open.
 #[derive(Default)]
@@ -44,14 +44,14 @@ impl Claims {
 
     /// Claims that a number is at most the optimum: it is at the near end of the bracket, and is not beyond the far one.
     pub(super) fn below(&mut self, what: &str, value: &Interval, optimum: &Bracket) {
-        let least = value.minus(&Interval::integer(1).scaled(GRAIN));
+        let least = value.minus(&Interval::integer(1).scaled(GRAIN_EXPONENT));
         let holds = decided(least.at_most(&optimum.lower), least.at_most(&optimum.upper));
         self.holds(holds, || beside(what, value, optimum));
     }
 
     /// Claims that a number is at least the optimum.
     pub(super) fn above(&mut self, what: &str, value: &Interval, optimum: &Bracket) {
-        let most = value.plus(&Interval::integer(1).scaled(GRAIN));
+        let most = value.plus(&Interval::integer(1).scaled(GRAIN_EXPONENT));
         let holds = decided(optimum.upper.at_most(&most), optimum.lower.at_most(&most));
         self.holds(holds, || beside(what, value, optimum));
     }

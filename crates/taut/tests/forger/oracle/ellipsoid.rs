@@ -25,7 +25,7 @@ use super::linear::{
     Factor, Matrix, Vector, Way, determinant, difference, dot, exact, exact_rows, gram, image,
     squared_length, transposed,
 };
-use super::mvee::{self, Bracket, SHARP, Trial, larger};
+use super::mvee::{self, Bracket, MU_EXPONENT_MIN, Trial, larger};
 use super::{exchange, flat};
 
 /// 2⁻⁵³.
@@ -195,7 +195,7 @@ impl EllipsoidOracle {
                 return Some(found);
             }
         }
-        let weights = mvee::weights(&points, SHARP)?;
+        let weights = mvee::weights(&points, MU_EXPONENT_MIN)?;
         let found = mvee::bracket(&points, &weights).map(moved)?;
         let decides = lower.at_most(&found.lower) == Some(true);
         if let (true, Ok(mut known)) = (decides, self.weights.lock())
@@ -244,7 +244,7 @@ fn dual(
 fn optimum(bodies: &[Body], items: Items) -> Option<Bracket> {
     if bodies.iter().all(|body| body.shape.is_none()) || items == Items::Points {
         let points: Matrix = bodies.iter().map(|body| body.center.clone()).collect();
-        return mvee::bracket(&points, &mvee::weights(&points, SHARP)?);
+        return mvee::bracket(&points, &mvee::weights(&points, MU_EXPONENT_MIN)?);
     }
     exchange::bracket(bodies)
 }

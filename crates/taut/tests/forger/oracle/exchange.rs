@@ -8,11 +8,12 @@
 use super::body::{Body, Framed};
 use super::interval::Interval;
 use super::linear::{Matrix, Vector, Way, transposed};
-use super::mvee::{Bracket, SHARP, Trial, larger, weights};
+use super::mvee::{Bracket, MU_EXPONENT_MIN, Trial, larger, weights};
 
-/// Rounds at most, and the width (a power of two) at which they end.
-const ROUNDS: usize = 40;
-const NARROW: i64 = -58;
+/// At most this many rounds are made.
+const ROUNDS_MAX: usize = 40;
+/// Rounds end at this width, as a power of two.
+const WIDTH_EXPONENT: i64 = -58;
 
 /// A point of a body: where it touches for a direction.
 struct Contact {
@@ -27,7 +28,7 @@ pub(super) fn bracket(bodies: &[Body]) -> Option<Bracket> {
     let mut best: Option<Bracket> = None;
     let mut stalled = 0;
     let mut end = -40;
-    for _ in 0..ROUNDS {
+    for _ in 0..ROUNDS_MAX {
         let points = |way: Way| -> Option<Matrix> {
             contacts.iter().map(|c| bodies[c.body].touching(&c.direction, way)).collect()
         };
@@ -58,8 +59,8 @@ pub(super) fn bracket(bodies: &[Body]) -> Option<Bracket> {
             },
         });
         let now = best.as_ref().map(width)?;
-        end = (2 * now.binary_order() - 40).clamp(SHARP, end);
-        if now.binary_order() < NARROW {
+        end = (2 * now.binary_order() - 40).clamp(MU_EXPONENT_MIN, end);
+        if now.binary_order() < WIDTH_EXPONENT {
             break;
         }
         let is_slow = before.is_some_and(|b| now.at_most(&b.scaled(-1)) != Some(true));

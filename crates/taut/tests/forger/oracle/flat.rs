@@ -19,7 +19,7 @@ use super::linear::{
 pub(super) const OF_POINTS: f64 = 1e-10;
 
 /// One part in 10⁶ more than granted, for what the checker itself rounds.
-const ROUNDED: f64 = 1.0 + 1e-6;
+const ROUNDED_FACTOR: f64 = 1.0 + 1e-6;
 
 /// A subspace, to find distances from.
 struct Subspace {
@@ -63,7 +63,7 @@ pub(super) fn judge(
     let (dim, rank) = (center.len(), hull.basis.len());
     let basis = exact_rows(&hull.basis)?;
     let products = gram(&basis);
-    let tolerance = 16.0 * (dim + 4) as f64 * U * ROUNDED;
+    let tolerance = 16.0 * (dim + 4) as f64 * U * ROUNDED_FACTOR;
     for (i, row) in products.iter().enumerate() {
         for (j, product) in row.iter().enumerate() {
             let wanted = Interval::integer(i64::from(i == j));
@@ -74,7 +74,7 @@ pub(super) fn judge(
         return Some(());
     }
     let subspace = Subspace { metric: Factor::of(&products, Way::Proved)?, basis };
-    let rounding = 32.0 * (dim + 4) as f64 * ((rank + 1) as f64).sqrt() * U * ROUNDED;
+    let rounding = 32.0 * (dim + 4) as f64 * ((rank + 1) as f64).sqrt() * U * ROUNDED_FACTOR;
     let part = Interval::exact(rounding)?;
     for row in exact_rows(&answer.factor)? {
         let off = subspace.squared_distance(&row)?;
@@ -104,7 +104,7 @@ pub(super) fn judge(
         }
     }
     let allowed =
-        allowed(bodies, &subspace, dim, flatness)?.times(&Interval::exact(wider * ROUNDED)?);
+        allowed(bodies, &subspace, dim, flatness)?.times(&Interval::exact(wider * ROUNDED_FACTOR)?);
     claims.at_most("distance of a hull, with what is flat", &distance, &allowed);
     Some(())
 }
@@ -116,7 +116,7 @@ pub(super) fn is_near(hull: &Hull, offset: &[Interval]) -> Option<Option<bool>> 
     let (dim, rank) = (offset.len(), basis.len());
     let subspace = Subspace { metric: Factor::of(&gram(&basis), Way::Proved)?, basis };
     let off = subspace.squared_distance(offset)?.upper().root()?;
-    let rounding = 32.0 * (dim + 4) as f64 * ((rank + 1) as f64).sqrt() * U * ROUNDED;
+    let rounding = 32.0 * (dim + 4) as f64 * ((rank + 1) as f64).sqrt() * U * ROUNDED_FACTOR;
     let rounding = squared_length(offset).root()?.times(&Interval::exact(rounding)?);
     let distance = Interval::exact(hull.distance)?;
     // A solver states twice the distance of the rows that it kept, so that rounding does not decide about these.

@@ -2,7 +2,7 @@
 //!
 //! *Form.* An [`Interval`] is the set {x : |x − m·2ᵉ| ≤ r} with an integer m of any sign, an exponent e without limits, and
 //! a radius r. Each operation returns an interval that contains every result for every choice of operands: the integer is
-//! cut to [`PRECISION`] bits and what was cut off is added to the radius, and all radii are rounded up. An interval of
+//! cut to [`PRECISION_BITS`] bits and what was cut off is added to the radius, and all radii are rounded up. An interval of
 //! radius 0 is one number, so sums and products of few `f64` are exact.
 //! *Limits.* Nothing over- or underflows. A quotient by an interval that contains 0, the root of one that contains negative
 //! numbers only, and the logarithm of one that contains 0 are `None`.
@@ -21,8 +21,8 @@ use num_bigint::{BigInt, Sign};
 pub(crate) use self::functions::{log_unit_ball, pi};
 use self::radius::Radius;
 
-/// Bits of the integer m that are kept.
-const PRECISION: u64 = 256;
+/// This many bits of the integer m are kept.
+const PRECISION_BITS: u64 = 256;
 /// A summand whose leading bit lies this many bits below that of the other is counted in the radius alone.
 const FAR_APART: i64 = 4096;
 
@@ -65,13 +65,13 @@ impl Interval {
         Interval::integer(numerator).over(&Interval::integer(denominator))
     }
 
-    /// Cuts the integer to [`PRECISION`] bits.
+    /// Cuts the integer to [`PRECISION_BITS`] bits.
     fn of(mantissa: BigInt, exponent: i64, radius: Radius) -> Self {
         let bits = mantissa.bits();
-        if bits <= PRECISION {
+        if bits <= PRECISION_BITS {
             return Interval { mantissa, exponent, radius };
         }
-        let cut = (bits - PRECISION) as i64;
+        let cut = (bits - PRECISION_BITS) as i64;
         // The shift rounds down, which is less than one unit.
         Interval {
             mantissa: mantissa >> cut,
@@ -152,8 +152,9 @@ impl Interval {
         if self.is_zero() {
             return Some(Interval::zero());
         }
-        // So many bits more that the quotient has at least PRECISION of them.
-        let shift = (PRECISION + other.mantissa.bits()) as i64 + 2 - self.mantissa.bits() as i64;
+        // So many bits more that the quotient has at least PRECISION_BITS of them.
+        let shift =
+            (PRECISION_BITS + other.mantissa.bits()) as i64 + 2 - self.mantissa.bits() as i64;
         let shift = shift.max(0);
         let mantissa = (&self.mantissa << shift) / &other.mantissa;
         let exponent = self.exponent - other.exponent - shift;
@@ -191,7 +192,7 @@ impl Interval {
             let most = self.size().plus(self.radius).root();
             return Some(Interval { mantissa: BigInt::ZERO, exponent: 0, radius: most });
         }
-        let shift = (2 * PRECISION + 4).saturating_sub(self.mantissa.bits()) as i64;
+        let shift = (2 * PRECISION_BITS + 4).saturating_sub(self.mantissa.bits()) as i64;
         let shift = shift + ((self.exponent - shift) & 1);
         let mantissa = (&self.mantissa << shift).sqrt();
         let exponent = (self.exponent - shift) / 2;

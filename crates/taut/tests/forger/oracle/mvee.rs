@@ -12,12 +12,12 @@
 use super::interval::{Interval, log_unit_ball};
 use super::linear::{Factor, Matrix, Vector, Way, difference, dot};
 
-/// Points that take part in a solve at first.
-const FEW: usize = 40;
-/// Steps of one solve; each divides μ by about 10.
-const STEPS: usize = 160;
-/// μ at which a solve ends that is to be as sharp as can be, as a power of two.
-pub(super) const SHARP: i64 = -130;
+/// At most this many points take part in a solve at first.
+const FIRST_POINTS_MAX: usize = 40;
+/// One solve has at most this many steps; each divides μ by about 10.
+const STEPS_MAX: usize = 160;
+/// A solve that is to be as sharp as can be ends at this μ, as a power of two.
+pub(super) const MU_EXPONENT_MIN: i64 = -130;
 
 /// A lower and an upper bound.
 #[derive(Clone, Debug)]
@@ -130,14 +130,14 @@ pub(super) fn weights(points: &[Vector], end: i64) -> Option<Vector> {
             return Some(weights);
         }
         outside.sort_by(|a, b| b.0.total_cmp(&a.0));
-        chosen.extend(outside.iter().take(FEW / 4).map(|o| o.1));
+        chosen.extend(outside.iter().take(FIRST_POINTS_MAX / 4).map(|o| o.1));
     }
 }
 
 /// All of few points; of many, those farthest from the mean and along the axes.
 fn first_choice(whitened: &[Vector]) -> Vec<usize> {
     let n = whitened.len();
-    if n <= FEW {
+    if n <= FIRST_POINTS_MAX {
         return (0..n).collect();
     }
     let plain: Vec<Vec<f64>> =
@@ -148,7 +148,7 @@ fn first_choice(whitened: &[Vector]) -> Vec<usize> {
         order.sort_by(|&i, &j| score(&plain[j]).total_cmp(&score(&plain[i])));
         chosen.extend(order.into_iter().take(count));
     };
-    take(&|y| y.iter().map(|v| v * v).sum(), FEW / 2);
+    take(&|y| y.iter().map(|v| v * v).sum(), FIRST_POINTS_MAX / 2);
     for a in 0..plain[0].len() {
         take(&|y| y[a], 1);
         take(&|y| -y[a], 1);
@@ -172,7 +172,7 @@ fn interior(points: &[Vector], end: i64) -> Option<Vector> {
     });
     let mut lambda = most.times(&Interval::fraction(11, 10)?).into_middle();
     let mut s: Vector = (0..n).map(|i| way.keep(lambda.minus(&w[i][i]))).collect();
-    for _ in 0..STEPS {
+    for _ in 0..STEPS_MAX {
         let mu = way.keep(dot(&u, &s).over(&count)?);
         if mu.binary_order() < end {
             break;

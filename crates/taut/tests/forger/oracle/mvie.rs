@@ -13,9 +13,10 @@ use super::interval::{Interval, log_unit_ball};
 use super::linear::{Factor, Matrix, Vector, Way, dot, eliminated, image};
 use super::mvee::{Bracket, longest};
 
-/// Steps at most, and μ at which they end, as a power of two.
-const STEPS: usize = 120;
-const END: i64 = -110;
+/// At most this many steps are made.
+const STEPS_MAX: usize = 120;
+/// Steps end at this μ, as a power of two.
+const GAP_EXPONENT: i64 = -110;
 
 /// One half-space aᵀx ≤ b, with entries of a of about 1.
 #[derive(Clone)]
@@ -174,7 +175,7 @@ fn solve(sides: &[Side], inside: &[Interval]) -> Option<Guess> {
     let mut room = vec![one.clone(); m];
     let mut z: Vector = vec![];
     let count = Interval::integer(m as i64);
-    for step in 0..STEPS {
+    for step in 0..STEPS_MAX {
         let mut shape = shape_of(&unit, &y)?;
         let products = |shape: &Matrix| -> Matrix {
             let half: Matrix = unit.iter().map(|s| image(shape, &s.normal)).collect();
@@ -208,7 +209,7 @@ fn solve(sides: &[Side], inside: &[Interval]) -> Option<Guess> {
         let residual = (0..m)
             .map(|i| room[i].minus(&h[i]).minus(&z[i]).absolute().rounded())
             .fold(0.0, f64::max);
-        if gap.binary_order() < END && residual < 1e-30 {
+        if gap.binary_order() < GAP_EXPONENT && residual < 1e-30 {
             let center = inside.iter().zip(&x).map(|(c, x)| c.plus(x).into_middle()).collect();
             // The multipliers of the sides as they were: λ = yh, over the same distances.
             let multipliers = unit

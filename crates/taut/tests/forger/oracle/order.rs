@@ -6,8 +6,8 @@ use taut::{Order, OrderCurve, OrderVerdict, Solution};
 
 use super::Truth;
 
-/// Up to so many rows in one cell are in order of their coordinates.
-const FEW: usize = 6;
+/// Up to this many rows in one cell are in order of their coordinates.
+const COORDINATE_ORDER_MAX: usize = 6;
 
 /// What is true of one input.
 pub struct OrderOracle {
@@ -36,7 +36,8 @@ impl OrderOracle {
 
     fn sort(&self, rows: &mut [u64], curve: OrderCurve, is_all: bool, grids: &mut u64) {
         let at = |row: u64| &self.rows[row as usize];
-        let cells = (is_all || rows.len() > FEW).then(|| self.cells(rows)).flatten();
+        let cells =
+            (is_all || rows.len() > COORDINATE_ORDER_MAX).then(|| self.cells(rows)).flatten();
         let Some((cells, bits)) = cells else {
             rows.sort_by(|&a, &b| {
                 let by_coordinates = at(a).partial_cmp(at(b)).unwrap_or(Ordering::Equal);

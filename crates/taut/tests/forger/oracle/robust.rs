@@ -7,7 +7,7 @@
 //! *Truth.* Moments and distances are found in 256 bits from the lists of the certificate. They are compared in the frame of
 //! the answer, y = F(x − c), with the slack that the verdict states, and that with its definition.
 //! *The smallest.* A verdict calls an ellipsoid around the points kept a local optimum, so its volume may exceed the least by
-//! no more than [`LOOSE`], whatever gap is stated for it.
+//! no more than [`VOLUME_GAP_MAX`], whatever gap is stated for it.
 
 mod factors;
 mod moments;
@@ -35,11 +35,11 @@ use super::linear::{Matrix, Vector, congruent, exact_rows};
 
 /// By how much the log-volume of an ellipsoid around the points kept may exceed the least one: with a wider gap nothing tells
 /// that no C-step leads on.
-const LOOSE: f64 = 0.011;
+const VOLUME_GAP_MAX: f64 = 0.011;
 /// Rows nearer than this to the border of the ellipsoid around the points kept may be on it.
 const ON_BORDER: f64 = 1e-6;
 /// The checker's least slack.
-const LEAST: f64 = 1e-9;
+const SLACK_MIN: f64 = 1e-9;
 
 /// The truth about robust ellipsoids of one input.
 pub(crate) struct RobustOracle {
@@ -178,7 +178,7 @@ impl RobustOracle {
             _ => {
                 let ln_det =
                     around.log_determinant()?.minus(&self.log_det_factor(&ellipsoid, &factor)?);
-                let granted = LEAST * (1.0 + ln_det.rounded().abs()) + rank as f64 * slack;
+                let granted = SLACK_MIN * (1.0 + ln_det.rounded().abs()) + rank as f64 * slack;
                 claims.near("objective", &objective, &ln_det, granted);
                 rows.iter().map(|row| around.square(&row.y)).collect::<Option<_>>()?
             }
@@ -232,7 +232,7 @@ impl RobustOracle {
         let of_ball = super::interval::log_unit_ball(rank);
         let rank_times = Interval::integer(rank as i64).times(&border.ln()?);
         let log_det = volume.minus(&of_ball).scaled(1).minus(&rank_times);
-        let granted = LEAST * (1.0 + log_det.rounded().abs()) + rank as f64 * slack;
+        let granted = SLACK_MIN * (1.0 + log_det.rounded().abs()) + rank as f64 * slack;
         claims.near("log-determinant", &Interval::exact(answer.log_det)?, &log_det, granted);
         Some(())
     }
@@ -265,12 +265,12 @@ impl RobustOracle {
         }
         if !factor.is_empty() {
             let volume = log_volume(answer, &factor)?;
-            let granted = LEAST * (1.0 + volume.rounded().abs());
+            let granted = SLACK_MIN * (1.0 + volume.rounded().abs());
             claims.near("objective", objective, &volume, granted);
             if claims.is_settled_false() {
                 return Some(vec![]);
             }
-            let least = objective.minus(&Interval::exact(LOOSE)?);
+            let least = objective.minus(&Interval::exact(VOLUME_GAP_MAX)?);
             match oracle.optimum_for(answer.hull.as_ref(), &least) {
                 Some(optimum) => {
                     claims.below(
@@ -281,7 +281,8 @@ impl RobustOracle {
                 }
                 None => claims.undecided("the least volume around the points kept is not known"),
             }
-            let inside = Interval::exact(1.0 - ON_BORDER - LOOSE.min(proved.gap))?.square();
+            let inside =
+                Interval::exact(1.0 - ON_BORDER - VOLUME_GAP_MAX.min(proved.gap))?.square();
             let strictly = rows.iter().filter(|row| row.on_hull == Some(true));
             let count = strictly.filter(|row| row.square.at_most(&inside) == Some(true)).count();
             claims.holds(Some((count as u64) < certificate.kept), || {

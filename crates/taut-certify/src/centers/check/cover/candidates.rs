@@ -22,10 +22,12 @@ use super::super::meter::{Meter, Stop};
 use super::sets::Set;
 use crate::arithmetic::U;
 
-/// δ, ρ₃ and the radius within which items are taken, in units of ρ.
-const NEAR: f64 = 1e-10;
-const CIRCLE: f64 = 1.0 - 4e-9 + 1.2e-9;
-const TAKEN: f64 = 1.0 - 4e-9 + 2e-9;
+/// δ, in units of ρ: items within this of each other are at one place.
+const POINT_REACH_MAX: f64 = 1e-10;
+/// ρ₃, in units of ρ: the radius of the circles and spheres whose corners are candidates.
+const RIM_RADIUS: f64 = 1.0 - 4e-9 + 1.2e-9;
+/// The radius, in units of ρ, within which items are taken.
+const TAKEN_RADIUS: f64 = 1.0 - 4e-9 + 2e-9;
 
 /// Differences of items from one of them, scaled.
 struct About<const D: usize> {
@@ -71,7 +73,7 @@ fn speakers<const D: usize>(core: &Core) -> Vec<usize> {
             let difference: [f64; D] = std::array::from_fn(|j| {
                 (core.place(item)[j] - core.place(speaker)[j]) * core.scale.up
             });
-            dot(difference, difference).sqrt() < NEAR * core.reach(item)
+            dot(difference, difference).sqrt() < POINT_REACH_MAX * core.reach(item)
         };
         if !speakers.iter().any(about) {
             speakers.push(item);
@@ -88,14 +90,14 @@ pub(super) fn in_the_plane(core: &Core, meter: &mut Meter<'_>) -> Result<Vec<Set
         // At most two sets a pair, for each of which all items are looked at.
         meter.spend(2 * 2 * core.len() * (speakers.len() - position))?;
         let (about, rho) = (About::<2>::of(core, first), core.reach(first));
-        sets.push(about.within([0.0; 2], TAKEN * rho));
+        sets.push(about.within([0.0; 2], TAKEN_RADIUS * rho));
         for &second in &speakers[position + 1..] {
             let edge = about.places[second];
-            let Some((distance, height)) = rim(edge, CIRCLE * rho) else { continue };
+            let Some((distance, height)) = rim(edge, RIM_RADIUS * rho) else { continue };
             let normal = [-edge[1] / distance, edge[0] / distance];
             for height in [height, -height] {
                 let corner = along(along([0.0; 2], 0.5, edge), height, normal);
-                sets.push(about.within(corner, TAKEN * rho));
+                sets.push(about.within(corner, TAKEN_RADIUS * rho));
             }
         }
     }
@@ -109,19 +111,19 @@ pub(super) fn in_space(core: &Core, meter: &mut Meter<'_>) -> Result<Vec<Set>, S
     for (position, &first) in speakers.iter().enumerate() {
         meter.spend(3 * core.len() * (speakers.len() - position))?;
         let (about, rho) = (About::<3>::of(core, first), core.reach(first));
-        found.insert(about.within([0.0; 3], TAKEN * rho));
+        found.insert(about.within([0.0; 3], TAKEN_RADIUS * rho));
         for &second in &speakers[position + 1..] {
             let edge = about.places[second];
-            let Some((_, height)) = rim(edge, CIRCLE * rho) else { continue };
+            let Some((_, height)) = rim(edge, RIM_RADIUS * rho) else { continue };
             let corner = along(along([0.0; 3], 0.5, edge), height, normal_to(edge));
-            found.insert(about.within(corner, TAKEN * rho));
+            found.insert(about.within(corner, TAKEN_RADIUS * rho));
         }
         // Triples are looked at from the corner that is opposite to their longest side.
         let near: Vec<[f64; 3]> = speakers
             .iter()
             .filter(|&&other| other != first)
             .map(|&other| about.places[other])
-            .filter(|&edge| rim(edge, CIRCLE * rho).is_some())
+            .filter(|&edge| rim(edge, RIM_RADIUS * rho).is_some())
             .collect();
         for (position, &a) in near.iter().enumerate() {
             for &b in &near[position + 1..] {
@@ -130,9 +132,9 @@ pub(super) fn in_space(core: &Core, meter: &mut Meter<'_>) -> Result<Vec<Set>, S
                     continue;
                 }
                 meter.spend(32)?;
-                for (corner, off) in corners(a, b, CIRCLE * rho).into_iter().flatten() {
+                for (corner, off) in corners(a, b, RIM_RADIUS * rho).into_iter().flatten() {
                     meter.spend(3 * core.len())?;
-                    found.insert(about.within(corner, TAKEN * rho + off));
+                    found.insert(about.within(corner, TAKEN_RADIUS * rho + off));
                 }
             }
         }

@@ -15,11 +15,11 @@ const WORDS: usize = 4;
 /// Most items of a core-set that is looked at twice.
 pub(super) const ITEMS: usize = 200;
 
-/// Most nodes.
-pub(super) const NODES: u64 = 1 << 15;
+/// A cover is looked for in at most this many nodes.
+pub(super) const NODES_MAX: u64 = 1 << 15;
 
-/// Rounds of weights: the more, the nearer to the best there are; most of the way is gone after six.
-const ROUNDS: usize = 6;
+/// This many rounds of weights are made: the more, the nearer to the best there are; most of the way is gone after six.
+const WEIGHT_ROUNDS: usize = 6;
 
 /// A set of at most 256 items.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -123,14 +123,14 @@ impl Covering {
         if k == 0 {
             return Ok(Some(false));
         }
-        if self.nodes > NODES {
+        if self.nodes > NODES_MAX {
             return Ok(None);
         }
         if self.failed.contains(&(open, k, z)) {
             return Ok(Some(false));
         }
         let sets = maximal(sets.iter().map(|set| set.and(&open)).collect(), meter)?;
-        meter.spend(ROUNDS * (self.items * sets.len() + 16 * self.items))?;
+        meter.spend(WEIGHT_ROUNDS * (self.items * sets.len() + 16 * self.items))?;
         let counts = counts(&sets, self.items);
         if weighs_too_much(&open, &sets, &counts, k, z) {
             self.failed.insert((open, k, z));
@@ -174,7 +174,7 @@ fn weighs_too_much(open: &Set, sets: &[Set], counts: &[usize], k: usize, z: usiz
     for item in open.items() {
         weights[item] = if counts[item] == 0 { 1.0 } else { 1.0 / counts[item] as f64 };
     }
-    for _ in 0..ROUNDS {
+    for _ in 0..WEIGHT_ROUNDS {
         let mut heaviest = vec![0.0f64; counts.len()];
         for set in sets {
             let weight: f64 = set.items().map(|item| weights[item]).sum();

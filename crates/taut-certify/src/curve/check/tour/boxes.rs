@@ -1,13 +1,13 @@
 //! A tree of boxes over points with potentials, for the least edge out of a component.
 
-use super::{LENGTH, NONE, UNITS, distance, length};
+use super::{LENGTH_ROUNDING, NONE, UNITS, distance, length};
 
-/// Points a leaf has, at most.
-const LEAF: usize = 8;
+/// A leaf has at most this many points.
+const LEAF_SIZE: usize = 8;
 /// The mark of a box with points of several components.
-const MIXED: u32 = NONE;
+const MIXED_MARK: u32 = NONE;
 
-/// Points in an order in which each half of a run is again a run, to runs of [`LEAF`].
+/// Points in an order in which each half of a run is again a run, to runs of [`LEAF_SIZE`].
 pub(super) struct Boxes {
     /// The numbers of the points in that order, and what is needed of them.
     numbers: Vec<u32>,
@@ -25,7 +25,7 @@ struct Node {
     high: [f64; 2],
     /// The least potential of its points.
     potential: f64,
-    /// The component of all its points, or [`MIXED`].
+    /// The component of all its points, or [`MIXED_MARK`].
     component: u32,
 }
 
@@ -33,7 +33,7 @@ const EMPTY: Node = Node {
     low: [f64::INFINITY; 2],
     high: [f64::NEG_INFINITY; 2],
     potential: f64::INFINITY,
-    component: MIXED,
+    component: MIXED_MARK,
 };
 
 impl Boxes {
@@ -41,7 +41,7 @@ impl Boxes {
         let n = at.len();
         let mut numbers: Vec<u32> = (0..n as u32).collect();
         let mut levels = 0;
-        while n.div_ceil(1 << levels) > LEAF {
+        while n.div_ceil(1 << levels) > LEAF_SIZE {
             levels += 1;
         }
         halve(&mut numbers, at, levels);
@@ -94,13 +94,13 @@ impl Boxes {
     fn mark_from(&mut self, node: usize, from: usize, to: usize, components: &[u32]) -> u32 {
         let component = if self.is_leaf(node) {
             let of = |place: usize| components[self.numbers[place] as usize];
-            let first = if from < to { of(from) } else { MIXED };
-            if (from..to).all(|place| of(place) == first) { first } else { MIXED }
+            let first = if from < to { of(from) } else { MIXED_MARK };
+            if (from..to).all(|place| of(place) == first) { first } else { MIXED_MARK }
         } else {
             let middle = middle(from, to);
             let first = self.mark_from(2 * node + 1, from, middle, components);
             let second = self.mark_from(2 * node + 2, middle, to, components);
-            if first == second { first } else { MIXED }
+            if first == second { first } else { MIXED_MARK }
         };
         self.nodes[node].component = component;
         component
@@ -163,7 +163,7 @@ impl Boxes {
     fn least_weight(&self, node: usize, at: [f64; 2], pi: f64) -> f64 {
         let Node { low, high, potential, .. } = self.nodes[node];
         let nearest = [0, 1].map(|k| at[k].clamp(low[k], high[k].max(low[k])));
-        (distance(at, nearest) * (1.0 - 4.0 * LENGTH) * UNITS).floor() + (pi + potential)
+        (distance(at, nearest) * (1.0 - 4.0 * LENGTH_ROUNDING) * UNITS).floor() + (pi + potential)
     }
 }
 

@@ -8,7 +8,7 @@ use taut::oblivious::reference::{
 };
 use taut::oblivious::{Error, Probe, sample, shuffle};
 
-use super::loops::{self, Layout, SEARCHES};
+use super::loops::{self, Layout, SEARCH_COUNT};
 
 /// What is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -188,7 +188,7 @@ impl Algorithm {
             Strassen => words.powf(7f64.log2()) / (b * m.powf(7f64.log2() / 2.0 - 1.0)),
             Search(_, width) => {
                 let nodes = (block as f64 / width as f64).max(1.0);
-                SEARCHES as f64 * (words + 1.0).ln() / (nodes + 1.0).ln()
+                SEARCH_COUNT as f64 * (words + 1.0).ln() / (nodes + 1.0).ln()
             }
             Funnelsort | DistributionSort | DistributorSort | Columnsort => sort(words),
             Mergesort | Quicksort => halves,
@@ -204,7 +204,7 @@ impl Algorithm {
                 n as f64 * columns.map_or(n as f64, |columns| columns as f64)
             }
             Multiply | MultiplyLoops | Strassen => (n as f64).powi(3),
-            Search(..) => SEARCHES as f64,
+            Search(..) => SEARCH_COUNT as f64,
             _ => n as f64,
         }
     }

@@ -43,8 +43,8 @@ pub(super) enum Layout {
     BreadthFirst,
 }
 
-/// Searches that are made.
-pub(super) const SEARCHES: u64 = 10_000;
+/// This many searches are made.
+pub(super) const SEARCH_COUNT: u64 = 10_000;
 
 /// Searches for random leaves of a complete tree of `height` levels whose nodes have `width` bytes, of which the first
 /// sixteen are read. The tree need not be there: only its places are.
@@ -59,7 +59,7 @@ pub(super) fn search<P: Probe>(
     probe.place_at(base, width << height);
     let mut state = 1u64;
     let mut positions = vec![0; height];
-    for _ in 0..SEARCHES {
+    for _ in 0..SEARCH_COUNT {
         let mut node = 1;
         for depth in 0..height {
             positions[depth] = match layout {

@@ -75,7 +75,7 @@ pub(super) fn walk<T: Pod>(
             (2, _) if dense => past::join::<2>(columns, (from, stride), to),
             (3, _) if dense => past::join::<3>(columns, (from, stride), to),
             (4, _) if dense => past::join::<4>(columns, (from, stride), to),
-            _ if rows >= 64 && columns <= past::STRIP => {
+            _ if rows >= 64 && columns <= past::STRIP_COLUMNS_MAX => {
                 past::walk((rows, columns), (from, stride), (to, stride_to));
             }
             _ => return false,

@@ -2,8 +2,8 @@
 
 use super::*;
 
-/// The least memory from which on records are dealt.
-const MEMORY: usize = 16 << 20;
+/// This is the least memory from which on records are dealt, in bytes.
+const DEALT_MEMORY_MIN: usize = 16 << 20;
 
 fn check(layout: &RecordLayout, bytes: &[u8], what: &str) -> FileSort {
     let folder = Folder::with(bytes);
@@ -11,7 +11,7 @@ fn check(layout: &RecordLayout, bytes: &[u8], what: &str) -> FileSort {
     // More than two sort in place.
     for threads in [1, 2, 3] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        found = pool.install(|| folder.sort(layout, MEMORY)).expect("sorted");
+        found = pool.install(|| folder.sort(layout, DEALT_MEMORY_MIN)).expect("sorted");
         let output = fs::read(folder.path("out")).expect("an output");
         assert!(output == sorted, "{what}, width {}, {threads} threads", layout.width);
         sorted = output;

@@ -10,8 +10,8 @@ use crate::sort::external::medium::Medium;
 use crate::sort::external::plan::Plan;
 use crate::store::Store;
 
-/// Bytes of a record: an interpreter has time for few, and runs are as long as memory has room.
-const WIDTH: usize = if cfg!(miri) { 900 } else { 16 };
+/// A record has this many bytes: an interpreter has time for few, and runs are as long as memory has room.
+const RECORD_BYTES: usize = if cfg!(miri) { 900 } else { 16 };
 
 /// What an interpreter has time for, or else all.
 fn miri_or(few: u64, all: u64) -> u64 {
@@ -91,8 +91,8 @@ fn sort(
     output: Disk,
     memory: usize,
 ) -> Result<(FileSort, Vec<u8>), Error> {
-    let layout = whole_number(WIDTH);
-    let records = input.bytes.lock().expect("no panic").len() as u64 / WIDTH as u64;
+    let layout = whole_number(RECORD_BYTES);
+    let records = input.bytes.lock().expect("no panic").len() as u64 / RECORD_BYTES as u64;
     let plan = Plan::new(&layout, records, memory)?;
     let [mut input, mut runs, mut output] = [(input, "input"), (runs, "runs"), (output, "output")]
         .map(|(d, p)| Medium::new(d, p.into()));
@@ -103,12 +103,12 @@ fn sort(
 
 #[test]
 fn short_and_interrupted_calls_change_nothing() {
-    let bytes = records(miri_or(75, 50_000), WIDTH, 0, 0xFFFFF);
+    let bytes = records(miri_or(75, 50_000), RECORD_BYTES, 0, 0xFFFFF);
     let halves = || Disk { by_halves: true, ..Disk::default() };
     let input = Disk { by_halves: true, ..Disk::with(&bytes) };
-    let (found, sorted) = sort(input, halves(), halves(), LEAST).expect("sorted");
+    let (found, sorted) = sort(input, halves(), halves(), MEMORY_MIN).expect("sorted");
     assert!(found.runs > miri_or(1, 15), "{found:?}");
-    assert!(sorted == expected(&bytes, &whole_number(WIDTH)));
+    assert!(sorted == expected(&bytes, &whole_number(RECORD_BYTES)));
 }
 
 /// More runs than can be merged at once: twenty and four hundred, which takes three levels.
@@ -116,19 +116,19 @@ fn short_and_interrupted_calls_change_nothing() {
 #[cfg_attr(miri, ignore = "six hundred thousand records")]
 fn many_runs_are_merged_in_steps() {
     for n in [52_000, 600_000] {
-        let bytes = records(n, WIDTH, 0, 0xFFFFF);
+        let bytes = records(n, RECORD_BYTES, 0, 0xFFFFF);
         let (found, sorted) =
-            sort(Disk::with(&bytes), Disk::default(), Disk::default(), LEAST).expect("sorted");
+            sort(Disk::with(&bytes), Disk::default(), Disk::default(), MEMORY_MIN).expect("sorted");
         assert!(
             found.bytes_read > 2 * bytes.len() as u64 && found.bytes_read < 5 * bytes.len() as u64
         );
-        assert!(sorted == expected(&bytes, &whole_number(WIDTH)));
+        assert!(sorted == expected(&bytes, &whole_number(RECORD_BYTES)));
     }
 }
 
 #[test]
 fn a_full_disk_is_told_whenever_it_is_full() {
-    let bytes = records(miri_or(75, 20_000), WIDTH, 0, u64::MAX);
+    let bytes = records(miri_or(75, 20_000), RECORD_BYTES, 0, u64::MAX);
     let size = bytes.len() as u64;
     for room in [4097, size - 1, 0, 1, size / 3].into_iter().take(miri_or(1, 5) as usize) {
         for tells in [false, true] {
@@ -136,7 +136,8 @@ fn a_full_disk_is_told_whenever_it_is_full() {
             for (runs, output, name) in
                 [(full(), Disk::default(), "runs"), (Disk::default(), full(), "output")]
             {
-                let error = sort(Disk::with(&bytes), runs, output, LEAST).expect_err("no room");
+                let error =
+                    sort(Disk::with(&bytes), runs, output, MEMORY_MIN).expect_err("no room");
                 let Error::File { path, source } = error else { panic!("{error}") };
                 assert_eq!((path.as_str(), source.kind()), (name, io::ErrorKind::StorageFull));
             }
@@ -146,11 +147,12 @@ fn a_full_disk_is_told_whenever_it_is_full() {
 
 #[test]
 fn a_disk_that_forgets_is_found_out() {
-    let bytes = records(miri_or(75, 20_000), WIDTH, 0, u64::MAX);
+    let bytes = records(miri_or(75, 20_000), RECORD_BYTES, 0, u64::MAX);
     let places = [9, 0, bytes.len() / 3, bytes.len() - 1];
     for lost in places.into_iter().take(miri_or(1, 4) as usize) {
         let runs = Disk { forgets: Some(lost), ..Disk::default() };
-        let error = sort(Disk::with(&bytes), runs, Disk::default(), LEAST).expect_err("forgotten");
+        let error =
+            sort(Disk::with(&bytes), runs, Disk::default(), MEMORY_MIN).expect_err("forgotten");
         assert!(matches!(error, Error::ReadBack { .. }), "{error}");
     }
 }
@@ -158,10 +160,12 @@ fn a_disk_that_forgets_is_found_out() {
 /// An input that became shorter while it was read.
 #[test]
 fn an_input_that_ends_too_soon_is_an_error() {
-    let layout = whole_number(WIDTH);
-    let plan = Plan::new(&layout, miri_or(75, 20_000), LEAST).expect("a plan");
-    let mut input =
-        Medium::new(Disk::with(&records(miri_or(74, 19_999), WIDTH, 0, u64::MAX)), "input".into());
+    let layout = whole_number(RECORD_BYTES);
+    let plan = Plan::new(&layout, miri_or(75, 20_000), MEMORY_MIN).expect("a plan");
+    let mut input = Medium::new(
+        Disk::with(&records(miri_or(74, 19_999), RECORD_BYTES, 0, u64::MAX)),
+        "input".into(),
+    );
     let mut output = Medium::new(Disk::default(), "output".into());
     let mut runs = Medium::new(Disk::default(), "runs".into());
     let monitor = Monitor::silent();
@@ -174,9 +178,9 @@ fn an_input_that_ends_too_soon_is_an_error() {
 /// with the same key, which leave the multiset of the run as it was.
 #[test]
 fn an_input_that_changed_unseen_is_found_out() {
-    let (layout, n) = (whole_number(WIDTH), miri_or(110, 20_000));
-    let bytes = records(n, WIDTH, 0, miri_or(7, 0xFF));
-    let plan = Plan::new(&layout, n, LEAST).expect("a plan");
+    let (layout, n) = (whole_number(RECORD_BYTES), miri_or(110, 20_000));
+    let bytes = records(n, RECORD_BYTES, 0, miri_or(7, 0xFF));
+    let plan = Plan::new(&layout, n, MEMORY_MIN).expect("a plan");
     let resume = |input: &[u8], kept: &[u8], limit: u64| {
         let (cancel, told) = (AtomicBool::new(false), AtomicU64::new(0));
         let count = |more: u64| {
@@ -201,13 +205,13 @@ fn an_input_that_changed_unseen_is_found_out() {
     assert_eq!(found.expect("sorted").runs_resumed, miri_or(1, 5));
     assert!(output == expected(&bytes, &layout));
     let mut flipped = bytes.clone();
-    flipped[WIDTH * 10 + 12] ^= 1;
+    flipped[RECORD_BYTES * 10 + 12] ^= 1;
     let mut swapped = bytes.clone();
-    let same = |i: &usize| bytes[WIDTH * i..][..8] == bytes[..8];
+    let same = |i: &usize| bytes[RECORD_BYTES * i..][..8] == bytes[..8];
     let run = plan.made(0)[0].records as usize;
     let second = (1..run).find(same).expect("equal keys in the first run");
-    let (head, tail) = swapped.split_at_mut(WIDTH * second);
-    head[..WIDTH].swap_with_slice(&mut tail[..WIDTH]);
+    let (head, tail) = swapped.split_at_mut(RECORD_BYTES * second);
+    head[..RECORD_BYTES].swap_with_slice(&mut tail[..RECORD_BYTES]);
     for changed in [flipped, swapped] {
         let (found, after, output) = resume(&changed, &kept, u64::MAX);
         let error = found.expect_err("found out").to_string();

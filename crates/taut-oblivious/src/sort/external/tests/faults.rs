@@ -120,14 +120,14 @@ impl Case {
 
 /// Two runs by way of the cache, the second one short.
 fn by_runs(resumes: bool) -> Case {
-    Case::new(75, 900, LEAST, resumes)
+    Case::new(75, 900, MEMORY_MIN, resumes)
 }
 
 /// In memory; by runs without a name; by runs with one.
 #[test]
 #[cfg_attr(miri, ignore = "files")]
 fn any_call_by_way_of_the_cache() {
-    Case::new(40, 16, LEAST, false).every_call(&["in", "out"]);
+    Case::new(40, 16, MEMORY_MIN, false).every_call(&["in", "out"]);
     by_runs(false).every_call(&["in", "runs", "out"]);
     by_runs(true).every_call(&["runs"]);
 }
@@ -136,7 +136,7 @@ fn any_call_by_way_of_the_cache() {
 #[cfg_attr(miri, ignore = "files")]
 fn a_disk_full_from_any_byte_on() {
     let bytes = |n: u64, width| 0..n * width;
-    Case::new(40, 16, LEAST, false).full_at("out", bytes(40, 16));
+    Case::new(40, 16, MEMORY_MIN, false).full_at("out", bytes(40, 16));
     // Numbers without a common factor with blocks or records.
     by_runs(false).full_at("out", bytes(75, 900).step_by(997));
     by_runs(false).full_at("runs", bytes(75, 900).step_by(997));

@@ -15,7 +15,7 @@ fn a_folder_or_a_name_that_is_none_is_refused_at_once() {
     let never = |_| panic!("begun");
     let monitor = Monitor { on_points: Some(&never), ..Monitor::silent() };
     for name in ["out", "new/", "", "nowhere/out", ".."] {
-        let options = FileSortOptions { memory: LEAST, ..Default::default() };
+        let options = FileSortOptions { memory: MEMORY_MIN, ..Default::default() };
         let output = folder.path(name);
         let refused = sort_file(&folder.path("in"), &output, &whole_number(16), &options, &monitor);
         assert!(matches!(refused, Err(Error::File { .. })), "{name}: {refused:?}");
@@ -37,7 +37,7 @@ fn links_are_followed_and_permissions_kept() {
     fs::set_permissions(folder.path("other/private"), PermissionsExt::from_mode(0o600))
         .expect("set");
     symlink("other/private", folder.path("out")).expect("linked");
-    for memory in [LEAST, 1 << 20] {
+    for memory in [MEMORY_MIN, 1 << 20] {
         folder.sort(&whole_number(16), memory).expect("sorted");
         assert_eq!(
             fs::read_link(folder.path("out")).expect("a link"),
@@ -49,11 +49,11 @@ fn links_are_followed_and_permissions_kept() {
     fs::remove_file(folder.path("out")).expect("removed");
     symlink("other/second", folder.path("out")).expect("linked");
     symlink(folder.path("other/new"), folder.path("other/second")).expect("linked");
-    folder.sort(&whole_number(16), LEAST).expect("sorted");
+    folder.sort(&whole_number(16), MEMORY_MIN).expect("sorted");
     assert!(fs::read(folder.path("other/new")).expect("an output") == expected);
     fs::remove_file(folder.path("out")).expect("removed");
     symlink("out", folder.path("out")).expect("linked");
-    assert!(matches!(folder.sort(&whole_number(16), LEAST), Err(Error::File { .. })));
+    assert!(matches!(folder.sort(&whole_number(16), MEMORY_MIN), Err(Error::File { .. })));
     assert_eq!(folder.names(), ["in", "other", "out"]);
 }
 
@@ -68,7 +68,7 @@ fn what_is_read_only_is_refused() {
     if fs::File::options().append(true).open(folder.path("out")).is_ok() {
         return; // Nothing is refused to root.
     }
-    assert!(matches!(folder.sort(&whole_number(16), LEAST), Err(Error::File { .. })));
+    assert!(matches!(folder.sort(&whole_number(16), MEMORY_MIN), Err(Error::File { .. })));
     assert_eq!(fs::read(folder.path("out")).expect("as it was"), b"precious");
 }
 

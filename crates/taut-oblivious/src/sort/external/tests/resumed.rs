@@ -5,7 +5,7 @@ use super::*;
 const N: u64 = 40_000;
 
 fn options(folder: &Folder) -> FileSortOptions {
-    FileSortOptions { memory: LEAST, resume: Some(folder.path("runs")), scratch: None }
+    FileSortOptions { memory: MEMORY_MIN, resume: Some(folder.path("runs")), scratch: None }
 }
 
 /// Sorts until so many records were told of.
@@ -186,7 +186,7 @@ fn runs_of_another_sort_are_refused_and_left_alone() {
     refuse(&layout(32, 8..16, KeyKind::U64), &options(&folder));
     refuse(&layout(32, 0..8, KeyKind::I64), &options(&folder));
     refuse(&whole_number(16), &options(&folder));
-    refuse(&whole_number(32), &FileSortOptions { memory: LEAST * 2, ..options(&folder) });
+    refuse(&whole_number(32), &FileSortOptions { memory: MEMORY_MIN * 2, ..options(&folder) });
     fs::write(folder.path("in"), records(N, 32, 0, 0xFF)).expect("written");
     refuse(&whole_number(32), &options(&folder));
     assert!(fs::read(folder.path("runs")).expect("runs") == before);

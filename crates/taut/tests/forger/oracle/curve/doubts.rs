@@ -14,16 +14,17 @@ use super::{Edge, Judged, Stop, ensure};
 const SAMPLING_MOST: f64 = 0.25;
 
 /// φ is told up to this much of it.
-const CLOSE: f64 = 1.0 / 64.0;
+const RADIUS_TOLERANCE: f64 = 1.0 / 64.0;
 
 /// Relative error of a figure here or there beside that: R of a circle through a point at distance |w| is off by
 /// u·R/|w| of itself, and [`Scene::of`] gives up where an edge is shorter than 10⁻⁹ of the extent.
 const ROUNDING: f64 = 1e-6;
-const SHORTEST: f64 = 1e-9;
+const EDGE_RATIO_MIN: f64 = 1e-9;
 
-/// Gaps on either side of one that it is compared with, and the least variation supposed of them.
-const BESIDE: usize = 16;
-const EVEN: f64 = 0.1;
+/// A gap is compared with this many gaps on either side of it.
+const NEIGHBOR_GAPS: usize = 16;
+/// They are supposed to have at least this coefficient of variation.
+const VARIATION_MIN: f64 = 0.1;
 
 /// The curves and outliers, scaled so that the curves have coordinates of about 1.
 pub(super) struct Scene {
@@ -56,7 +57,8 @@ impl Scene {
             .enumerate()
             .map(|(k, one)| Course::of(k, one.vertices.iter().map(|&p| scaled(p)).collect()))
             .collect();
-        let is_long = |course: &Course| (0..course.points.len()).all(|k| course.gap(k) > SHORTEST);
+        let is_long =
+            |course: &Course| (0..course.points.len()).all(|k| course.gap(k) > EDGE_RATIO_MIN);
         if !courses.iter().all(is_long) {
             return Err("edges are so short beside the extent that figures are all rounding".into());
         }
@@ -75,7 +77,7 @@ impl Scene {
             let ratio = |k: usize| {
                 let half = course.gap(k) / 2.0;
                 let [next, after] = [k + 1, k + 2].map(|k| k % count);
-                let most = high[k].min(high[next]) * (1.0 + CLOSE);
+                let most = high[k].min(high[next]) * (1.0 + RADIUS_TOLERANCE);
                 // The checker looks at one more vertex, which makes the figure no smaller.
                 let least = low[k].min(low[next]).min(low[after]);
                 [half / most * (1.0 - ROUNDING), half / least * (1.0 + ROUNDING)]
@@ -84,7 +86,7 @@ impl Scene {
         };
         let lacunas = |course: &Course| {
             let count = course.points.len();
-            let beside = BESIDE.min((count - 1) / 2);
+            let beside = NEIGHBOR_GAPS.min((count - 1) / 2);
             let lacuna = |k: usize| {
                 let near: Vec<f64> = (1..=beside)
                     .flat_map(|step| [course.gap(k + step), course.gap(k + count - step)])
@@ -92,7 +94,7 @@ impl Scene {
                 let many = near.len() as f64;
                 let mean = near.iter().sum::<f64>() / many;
                 let variance = near.iter().map(|gap| (gap - mean).powi(2)).sum::<f64>() / many;
-                let varied = (variance.sqrt() / mean).clamp(EVEN, 1.0);
+                let varied = (variance.sqrt() / mean).clamp(VARIATION_MIN, 1.0);
                 let most = 1.0 + (9.0 + 1.5 * (count as f64).ln()) * varied;
                 [course.gap(k) / mean, most]
             };

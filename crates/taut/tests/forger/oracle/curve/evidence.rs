@@ -11,7 +11,7 @@ use super::planar::Point;
 use super::{Edge, Judged, Stop, ensure};
 
 /// Fewest rows of a curve of which evidence is told, where vertices are rows and else.
-const LEAST: [usize; 2] = [24, 128];
+const ROWS_MIN: [usize; 2] = [24, 128];
 
 /// Relative error of a distance here.
 const ROUNDING: f64 = 1e-12;
@@ -42,7 +42,7 @@ pub(super) fn judge(
         return unknown(doubt == Some(CurveDoubt::Open { curve }), "a curve is open");
     }
     let counts = counts(curve, edges, rows);
-    let least = LEAST[usize::from(!is_exact(curve))];
+    let least = ROWS_MIN[usize::from(!is_exact(curve))];
     // Rows in the middle between two curves count for either.
     if let Some(first) = counts.iter().position(|&[_, most]| most < least) {
         let is_told = match doubt {

@@ -12,11 +12,11 @@ use std::f64::consts::TAU;
 use super::Edge;
 use super::planar::Point;
 
-const SIGHT: f64 = 9.0;
-const SMOOTH: f64 = 2.0;
+const SIGHT_RATIO: f64 = 9.0;
+const SMOOTH_WAY_RATIO: f64 = 2.0;
 
-/// Halvings of an interval: to a relative 2⁻⁵⁰.
-const HALVINGS: usize = 50;
+/// An interval is halved this often: to a relative 2⁻⁵⁰.
+const HALVINGS_MAX: usize = 50;
 
 pub(super) fn minus(a: Point, b: Point) -> Point {
     [a[0] - b[0], a[1] - b[1]]
@@ -80,7 +80,7 @@ impl Course {
         let count = self.points.len();
         let seen = (0..count).map(|k| {
             let way = self.between(v, k).min(self.between(v, (k + 1) % count));
-            (SIGHT * self.gap(k)).min(most) - way
+            (SIGHT_RATIO * self.gap(k)).min(most) - way
         });
         seen.fold(0.0, f64::max)
     }
@@ -115,7 +115,7 @@ impl Course {
                 radius = circles.first_touch(edge.ends, radius);
             } else if start != v && end != v {
                 let off = self.way(v, start).min(self.way(end, v));
-                radius = match off < SMOOTH * self.gap(edge.number % count) {
+                radius = match off < SMOOTH_WAY_RATIO * self.gap(edge.number % count) {
                     true => {
                         edge.ends.into_iter().map(|p| circles.through(p)).fold(radius, f64::min)
                     }
@@ -159,7 +159,7 @@ impl Circles {
                 continue;
             }
             let (mut low, mut high) = (0.0, radius);
-            for _ in 0..HALVINGS {
+            for _ in 0..HALVINGS_MAX {
                 let middle = low + (high - low) / 2.0;
                 if meets(middle) { high = middle } else { low = middle }
             }

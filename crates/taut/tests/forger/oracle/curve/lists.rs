@@ -57,7 +57,7 @@ pub(super) fn check(curve: &Curve, certificate: &CurveCertificate, rows: &[Point
 
 /// The share of the distance of the curve by which the place of a row may be farther off, and how many roundings of the
 /// coordinates of the row and of its edge.
-const FARTHER: f64 = 1e-8;
+const PLACE_TOLERANCE: f64 = 1e-8;
 const ROUNDINGS: f64 = 256.0;
 
 /// Each place is on its curve, and no point of any curve is nearer to the row, up to the rounding of the coordinates near it.
@@ -85,7 +85,8 @@ pub(super) fn places(curve: &Curve, rows: &[Point], edges: &[Edge]) -> Judged {
         let nearest = nearest.fold(f64::INFINITY, f64::min);
         let [a, b] = edge.ends;
         let moved = place.1 * (b[0] / 2.0 - a[0] / 2.0).hypot(b[1] / 2.0 - a[1] / 2.0);
-        let slack = FARTHER * nearest + ROUNDINGS * f64::EPSILON * (size / 2.0 + nearest + moved);
+        let slack =
+            PLACE_TOLERANCE * nearest + ROUNDINGS * f64::EPSILON * (size / 2.0 + nearest + moved);
         ensure(claimed <= nearest + slack, || {
             format!("the place of row {row} is {claimed:e} away, the curve {nearest:e}, in halves")
         })?;

@@ -9,20 +9,20 @@ use super::lists::key;
 use super::planar::Point;
 use super::{Edge, Judged, ensure};
 
-/// The most of the rows that may be outliers.
-const MOST: f64 = 0.2;
+/// At most this part of the rows may be outliers.
+const OUTLIER_RATIO_MAX: f64 = 0.2;
 
 /// Outliers that may be linked, and how near two that are linked lie, over the gap that 95 of 100 samples have at most.
 const CLUSTER_MOST: usize = 9;
-const LINK: f64 = 1.5;
+const LINK_RATIO: f64 = 1.5;
 
 /// Fewest outliers of which it is asked whether they lie nearer to each other than chance would put them, and how near.
-const FEWEST: usize = 8;
+const OUTLIERS_MIN: usize = 8;
 const NEAR_LEAST: f64 = 0.75;
 
 /// Circles in which chance puts so many, and ln of how seldom it may fill one of them so.
 const EXPECTED: [f64; 7] = [0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
-const SELDOM: f64 = 6.0;
+const FILL_RARITY: f64 = 6.0;
 
 /// Relative error of a distance or a threshold.
 const ROUNDING: f64 = 1e-9;
@@ -60,12 +60,12 @@ impl Outliers {
         let mut outliers = Outliers {
             rows: (all.len() + others.len()) as u64,
             all,
-            link: LINK * usual,
+            link: LINK_RATIO * usual,
             near: f64::INFINITY,
             fullest: 0.0,
         };
         let many = outliers.all.len() as f64;
-        if outliers.all.len() >= FEWEST {
+        if outliers.all.len() >= OUTLIERS_MIN {
             let places = || {
                 let of_edges = edges.iter().flat_map(|edge| edge.ends);
                 of_edges.chain(outliers.all.iter().map(|&(_, p)| p))
@@ -79,7 +79,7 @@ impl Outliers {
                 return Err("the box around curves and outliers has no area in doubles".into());
             }
             let usual = 0.5 * (area / many).sqrt();
-            let most = (many * EXPECTED.len() as f64).ln() + SELDOM;
+            let most = (many * EXPECTED.len() as f64).ln() + FILL_RARITY;
             let (mut sum, mut fullest) = (0.0, 0.0f64);
             for &(_, p) in &outliers.all {
                 let apart = || {
@@ -103,7 +103,7 @@ impl Outliers {
 
     pub(super) fn are_many(&self, outliers: u64, rows: u64) -> bool {
         let is_so = outliers == self.all.len() as u64 && rows == self.rows;
-        is_so && outliers as f64 > MOST * rows as f64
+        is_so && outliers as f64 > OUTLIER_RATIO_MAX * rows as f64
     }
 
     /// Outliers linked with a given one, itself among them.
@@ -143,10 +143,12 @@ impl Outliers {
     /// None of the reasons holds.
     pub(super) fn are_few(&self) -> Judged {
         let count = self.all.len();
-        ensure(count as f64 <= MOST * self.rows as f64, || format!("{count} outliers"))?;
+        ensure(count as f64 <= OUTLIER_RATIO_MAX * self.rows as f64, || {
+            format!("{count} outliers")
+        })?;
         let is_cluster = |k: usize| self.linked(k, self.link * (1.0 - ROUNDING)) > CLUSTER_MOST;
         ensure(!(0..count).any(is_cluster), || "a cluster of outliers".into())?;
-        let is_gathered = count >= FEWEST && self.near < self.near_least() * (1.0 - ROUNDING);
+        let is_gathered = count >= OUTLIERS_MIN && self.near < self.near_least() * (1.0 - ROUNDING);
         let is_full = self.fullest > 1.0 + ROUNDING;
         ensure(!is_gathered && !is_full, || "outliers nearer to each other than by chance".into())
     }

@@ -17,15 +17,15 @@ use super::{Judged, Stop, ensure};
 /// Units in the largest distance, as a power of two.
 const BITS: u64 = 100;
 
-/// Most points of which the shortest tour is found.
-const FEW: usize = 11;
+/// The shortest tour is found of at most this many points.
+const TOUR_POINTS_MAX: usize = 11;
 
 /// How much more than proved the lower bound of a certificate may claim, relatively, as documented. What is told as the gap
 /// may not be less than the truth at all.
 const BOUND_SLACK: f64 = 1e-9;
 
 /// Potentials beyond this many extents say nothing that an oracle could compare: any are valid.
-const LARGEST: f64 = 4.0;
+const POTENTIAL_MAX: f64 = 4.0;
 
 /// Distances of the distinct points, and the shortest closed and open tour.
 pub(super) struct Tours {
@@ -60,7 +60,7 @@ impl Tours {
             .map(|row| row.iter().map(|s| length(s).expect("at most 101 bits")).collect())
             .collect();
         let exponent = i64::from(lattice.exponent) + down as i64 - up as i64;
-        let is_shortest = n <= FEW;
+        let is_shortest = n <= TOUR_POINTS_MAX;
         let short = [false, true].map(|is_open| match is_shortest {
             true => shortest(&distances, is_open),
             false => found(&distances, is_open),
@@ -149,7 +149,7 @@ impl Tours {
         let extent = (1i128 << BITS) as f64;
         let pi: Vec<i128> =
             potentials.iter().filter_map(|&pi| self.in_units(pi).to_i128()).collect();
-        if n < 3 || pi.len() < n || pi.iter().any(|&pi| pi.abs() as f64 > LARGEST * extent) {
+        if n < 3 || pi.len() < n || pi.iter().any(|&pi| pi.abs() as f64 > POTENTIAL_MAX * extent) {
             return Ok(());
         }
         let weight = |i: usize, j: usize| self.distances[order[i]][order[j]] + pi[i] + pi[j];

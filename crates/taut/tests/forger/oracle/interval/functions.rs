@@ -9,8 +9,8 @@ use std::sync::OnceLock;
 
 use super::Interval;
 
-/// Bits below the leading one from which on terms of a series are left to the radius.
-const SMALL: i64 = 280;
+/// Terms of a series are left to the radius from this many bits below the leading one on.
+const TERM_BITS: i64 = 280;
 
 /// Adds [−2·|term|, 2·|term|].
 fn widened(sum: &Interval, term: &Interval) -> Interval {
@@ -25,7 +25,7 @@ fn inverse_tangent(n: i64, alternates: bool) -> Option<Interval> {
     let mut sum = Interval::zero();
     for j in 0..200 {
         let term = power.over(&Interval::integer(2 * j + 1))?;
-        if term.binary_order() < -SMALL {
+        if term.binary_order() < -TERM_BITS {
             return Some(widened(&sum, &term));
         }
         sum = if alternates && j % 2 == 1 { sum.minus(&term) } else { sum.plus(&term) };
@@ -79,7 +79,7 @@ impl Interval {
         let (mut sum, mut term) = (Interval::integer(1), Interval::integer(1));
         for j in 1..400 {
             term = term.times(&x).over(&Interval::integer(j))?;
-            if term.size().is_zero() || term.binary_order() < -SMALL {
+            if term.size().is_zero() || term.binary_order() < -TERM_BITS {
                 let mut power = widened(&sum, &term);
                 for _ in 0..halvings {
                     power = power.square();
@@ -107,8 +107,8 @@ impl Interval {
             if term.size().plus(term.radius).is_zero() {
                 return Some(whole.plus(&sum));
             }
-            let is_small = term.upper().absolute().binary_order() < -SMALL
-                && term.lower().absolute().binary_order() < -SMALL;
+            let is_small = term.upper().absolute().binary_order() < -TERM_BITS
+                && term.lower().absolute().binary_order() < -TERM_BITS;
             if is_small || j > 40 {
                 // Whatever the radius of t is, the rest is bounded while |t| < 1/2.
                 let most =

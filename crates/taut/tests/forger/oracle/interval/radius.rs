@@ -12,8 +12,8 @@ pub(super) struct Radius {
 }
 
 /// More than one rounding of an `f64` costs, relatively.
-const UP: f64 = 1.0 + 4.0 * f64::EPSILON;
-const DOWN: f64 = 1.0 - 4.0 * f64::EPSILON;
+const ROUNDED_UP: f64 = 1.0 + 4.0 * f64::EPSILON;
+const ROUNDED_DOWN: f64 = 1.0 - 4.0 * f64::EPSILON;
 
 impl Radius {
     pub(super) const ZERO: Radius = Radius { value: 0.0, exponent: 0 };
@@ -46,7 +46,7 @@ impl Radius {
     pub(super) fn at_least(mantissa: &BigInt, exponent: i64) -> Self {
         let (value, rest) = Radius::leading(mantissa);
         let is_cut = rest > 0;
-        Radius::of(if is_cut { value * UP } else { value }, exponent + rest)
+        Radius::of(if is_cut { value * ROUNDED_UP } else { value }, exponent + rest)
     }
 
     /// |m|·2ᵉ, rounded down.
@@ -70,24 +70,24 @@ impl Radius {
         let (large, small) =
             if self.exponent >= other.exponent { (self, other) } else { (other, self) };
         let apart = (large.exponent - small.exponent).min(60) as i32;
-        Radius::of((large.value + small.value * 2f64.powi(-apart)) * UP, large.exponent)
+        Radius::of((large.value + small.value * 2f64.powi(-apart)) * ROUNDED_UP, large.exponent)
     }
 
     /// Rounded up.
     pub(super) fn times(self, other: Self) -> Self {
-        Radius::of(self.value * other.value * UP, self.exponent + other.exponent)
+        Radius::of(self.value * other.value * ROUNDED_UP, self.exponent + other.exponent)
     }
 
     /// The quotient by a number above 0 that was rounded down; rounded up.
     pub(super) fn over_lower(self, other: Self) -> Self {
-        Radius::of(self.value / other.value * UP, self.exponent - other.exponent)
+        Radius::of(self.value / other.value * ROUNDED_UP, self.exponent - other.exponent)
     }
 
     /// Rounded up.
     pub(super) fn root(self) -> Self {
         let odd = self.exponent & 1;
         let value = if odd == 1 { 2.0 * self.value } else { self.value };
-        Radius::of(value.sqrt() * UP, (self.exponent - odd) / 2)
+        Radius::of(value.sqrt() * ROUNDED_UP, (self.exponent - odd) / 2)
     }
 
     /// The difference, rounded down, if it is known to be above 0.
@@ -99,8 +99,8 @@ impl Radius {
             return None;
         }
         let apart = (self.exponent - other.exponent).min(60) as i32;
-        let rest = self.value * DOWN - other.value * UP * 2f64.powi(-apart);
-        (rest > 0.0).then(|| Radius::of(rest * DOWN, self.exponent))
+        let rest = self.value * ROUNDED_DOWN - other.value * ROUNDED_UP * 2f64.powi(-apart);
+        (rest > 0.0).then(|| Radius::of(rest * ROUNDED_DOWN, self.exponent))
     }
 
     /// The radius as an interval of one number.

@@ -9,10 +9,10 @@ use taut::{RobustCertificate, RobustMethod, RobustVerdict};
 
 use super::super::claims::Claims;
 
-/// What a factor may be off by, relatively: the checker grants 1e-9, and both are rounded.
-const GRANTED: f64 = 1.1e-9;
-/// What a probability may be off by: 4e-16 by the checker, and what the series here is rounded by.
-const ROUNDED: f64 = 1e-13;
+/// A factor may be off by this, relatively: the checker grants 1e-9, and both are rounded.
+const FACTOR_TOLERANCE: f64 = 1.1e-9;
+/// A probability may be off by this: 4e-16 by the checker, and what the series here is rounded by.
+const PROBABILITY_TOLERANCE: f64 = 1e-13;
 
 pub(super) fn claims(
     claims: &mut Claims,
@@ -39,18 +39,18 @@ pub(super) fn claims(
     let left = (rows - certificate.weighed_out.len()) as f64;
     let is_mcd = method == RobustMethod::Mcd;
     let first = if is_mcd {
-        consistency(h / n, rank) * small_sample(FIRST, h, n, rank)
+        consistency(h / n, rank) * small_sample(RAW_SMALL_SAMPLE, h, n, rank)
     } else {
         let small = if n > rank as f64 { 1.0 + 15.0 / (n - rank as f64) } else { 1.0 };
         small * small / quantile(h / (n + 1.0), rank)
     };
-    near("factor of the points kept", raw_scale, first, GRANTED * first);
+    near("factor of the points kept", raw_scale, first, FACTOR_TOLERANCE * first);
     if is_trim {
         return;
     }
     let rest = 1.0 - level;
     let beyond = 1.0 - probability(cutoff, rank);
-    near("part beyond the quantile", beyond, rest, GRANTED * rest + ROUNDED);
+    near("part beyond the quantile", beyond, rest, FACTOR_TOLERANCE * rest + PROBABILITY_TOLERANCE);
     let last = match (verdict.reweighted, left == n) {
         (false, _) => raw_scale,
         (true, true) => 1.0,
@@ -59,7 +59,7 @@ pub(super) fn claims(
         }
         (true, false) => consistency(left / n, rank),
     };
-    near("factor of the scatter", scale, last, GRANTED * last);
+    near("factor of the scatter", scale, last, FACTOR_TOLERANCE * last);
 }
 
 /// P(χ² ≤ x) with d degrees of freedom: yᵃe^(−y)/Γ(a + 1)·Σ yᵏ/((a + 1)…(a + k)) for y = x/2 and a = d/2.
@@ -110,7 +110,7 @@ struct Table {
     more: [[(f64, f64); 2]; 2],
 }
 
-const FIRST: Table = Table {
+const RAW_SMALL_SAMPLE: Table = Table {
     one: [(0.262024211897096, 0.604756680630497), (-0.351584646688712, 1.01646567502486)],
     two: [(0.673292623522027, 0.691365864961895), (0.446537815635445, 1.06690782995919)],
     more: [

@@ -9,10 +9,10 @@ use super::super::flat;
 use super::super::interval::Interval;
 use super::super::linear::{Matrix, Vector, difference, exact, image, squared_length};
 use super::super::mvee::larger;
-use super::LEAST;
+use super::SLACK_MIN;
 
 /// Differences in |F(x − c)| below this are not told apart.
-const GRAIN: f64 = 1e-25;
+const DIFFERENCE_MIN: f64 = 1e-25;
 
 /// Where a row is.
 pub(super) struct Row {
@@ -51,7 +51,7 @@ pub(super) fn flags(
     verdict: &RobustVerdict,
     rows: &[Row],
 ) -> Option<()> {
-    let excess = Interval::exact(verdict.flag_excess * (1.0 + 1e-9) + GRAIN)?;
+    let excess = Interval::exact(verdict.flag_excess * (1.0 + 1e-9) + DIFFERENCE_MIN)?;
     let (most, least) = (Interval::integer(1).plus(&excess), Interval::integer(1).minus(&excess));
     let (most, least) =
         (most.square(), if least.is_positive() { least.square() } else { Interval::zero() });
@@ -106,7 +106,7 @@ pub(super) fn slack(
     };
     let thin = 16.0 * (at.len() + 4) as f64 * U * seen(&extents)?;
     let far = 8.0 * U * seen(&at)?;
-    let wanted = (LEAST + thin + far).min(0.1);
+    let wanted = (SLACK_MIN + thin + far).min(0.1);
     claims.holds(Some(verdict.slack <= 1.001 * wanted), || {
         format!("the slack is {:e} in place of {wanted:e}", verdict.slack)
     });

@@ -17,26 +17,26 @@ use std::arch::x86_64::*;
 use super::{eight, lanes, turn_8x8};
 
 /// Most columns of a strip.
-pub(in crate::matrix::transpose) const STRIP: usize = 128;
-/// Columns from the tile to what is fetched early, in its own rows and, at the end of the strip, in the next ones: rows
-/// whose stride is a power of two share a set of the cache, which eight lines fill.
-const AHEAD: usize = 40;
+pub(in crate::matrix::transpose) const STRIP_COLUMNS_MAX: usize = 128;
+/// This many columns lie between the tile and what is fetched early, in its own rows and, at the end of the strip, in
+/// the next ones: rows whose stride is a power of two share a set of the cache, which eight lines fill.
+const PREFETCH_COLUMNS: usize = 40;
 /// Elements of a page of memory.
 const PAGE: usize = 512;
 
 /// Element (i, c) of a strip of `rows` rows, row i at `from + i · stride`, goes to `to[c · stride_to + i]`; any width.
 ///
 /// # Safety
-/// The processor has AVX-512F, both sides hold the strip, `to` is a multiple of 8, and there are at most [`STRIP`] columns.
+/// The processor has AVX-512F, both sides hold the strip, `to` is a multiple of 8, and there are at most [`STRIP_COLUMNS_MAX`] columns.
 #[target_feature(enable = "avx512f")]
 pub(super) unsafe fn walk(
     (rows, columns): (usize, usize),
     (from, stride): (*const f64, usize),
     (to, stride_to): (*mut f64, usize),
 ) {
-    let mut before = [_mm512_setzero_pd(); STRIP];
-    let mut pick = [_mm512_setzero_si512(); STRIP];
-    let mut head = [0; STRIP];
+    let mut before = [_mm512_setzero_pd(); STRIP_COLUMNS_MAX];
+    let mut pick = [_mm512_setzero_si512(); STRIP_COLUMNS_MAX];
+    let mut head = [0; STRIP_COLUMNS_MAX];
     for c in 0..columns {
         head[c] = to.wrapping_add(c * stride_to).align_offset(64);
         pick[c] = from_waiting(head[c]);
@@ -51,8 +51,11 @@ pub(super) unsafe fn walk(
             while j < columns {
                 let width = if j < lead { lead } else { 8 }.min(columns - j);
                 let tile = from.add(i * stride + j);
-                let ahead =
-                    if j + AHEAD < columns { j + AHEAD } else { j + AHEAD - columns + 8 * stride };
+                let ahead = if j + PREFETCH_COLUMNS < columns {
+                    j + PREFETCH_COLUMNS
+                } else {
+                    j + PREFETCH_COLUMNS - columns + 8 * stride
+                };
                 for k in 0..8 {
                     // An address, no access: beyond the matrix nothing happens.
                     let next = from.wrapping_add((i + k) * stride + ahead);
