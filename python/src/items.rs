@@ -1,4 +1,4 @@
-//! What the rows of an array are, and what is wrong with one of them, in the words of somebody who gave centres, radii
+//! What the rows of an array are, and what is wrong with one of them, in the words of somebody who gave centers, radii
 //! and shapes in arrays of their own.
 
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -8,23 +8,11 @@ use taut::certify::{CentersViolation, Violation};
 use taut::enclose::Error;
 use taut::points::shown_number;
 
-/// What the rows are, in a word.
-pub(crate) fn name_of_items(items: Items) -> &'static str {
-    match items {
-        Items::Points => "points",
-        Items::Balls => "balls",
-        Items::Ellipsoids => "ellipsoids",
-    }
-}
+use crate::choice::choice;
 
-/// The same read back.
+/// What the rows are, by its name in JSON.
 pub(crate) fn items_of_name(name: &str) -> PyResult<Items> {
-    let all = [Items::Points, Items::Balls, Items::Ellipsoids];
-    all.into_iter().find(|&items| name_of_items(items) == name).ok_or_else(|| {
-        PyValueError::new_err(format!(
-            "items {name:?} are not known: expected points, balls or ellipsoids"
-        ))
-    })
+    choice("items", name, Items::NAMES)
 }
 
 /// What a solver refused: a wrong input is a `ValueError`. `columns` is the length of a row.
@@ -42,12 +30,11 @@ pub(crate) fn raise(error: Error, items: Items, columns: usize) -> PyErr {
 }
 
 /// What a checker found.
-pub(crate) fn words(violation: Violation, items: Option<Items>, columns: usize) -> String {
+pub(crate) fn words(violation: Violation, items: Items, columns: usize) -> String {
     match (violation, items) {
-        (
-            Violation::NonFinite { row, column, value },
-            Some(items @ (Items::Balls | Items::Ellipsoids)),
-        ) => not_finite(items, row, column, value, items.dim(columns)),
+        (Violation::NonFinite { row, column, value }, Items::Balls | Items::Ellipsoids) => {
+            not_finite(items, row, column, value, items.dim(columns))
+        }
         (Violation::NegativeRadius { row, value }, _) => negative_radius(row, value),
         (Violation::Centers(CentersViolation::Weight { row, value }), _) => weight(row, value),
         (other, _) => other.to_string(),
