@@ -2,7 +2,8 @@
 
 A class derived from `Record` lists its attributes. Each is filled from the dict that the compiled part makes of a Rust
 struct, which has the names of the JSON: by default from the entry of its own name, else as one of the functions here
-says. In the dict of an answer, or of a certificate, ``within`` leads to both; in that of a part, to what it is a part of.
+says. In the dict of an answer, or of a certificate, ``within`` leads to both; in that of a part, to what it is a part
+of.
 """
 
 from __future__ import annotations

@@ -21,9 +21,11 @@ from ._record import brief
 class Solution:
     """An answer, what proves it, and how it came about.
 
-    Two solutions are equal when all their numbers are. Solutions can be pickled. In a notebook a solution shows its main
-    numbers and a picture. To draw it, and for nothing else, a solution that a function of taut returned keeps a reference
-    to the array that it was found for: it is neither compared nor pickled, and what is written to it is drawn.
+    Two solutions are equal when all their numbers are. Solutions can be pickled.
+
+    In a notebook a solution shows its main numbers and a picture. To draw it, and for nothing else, a solution that a
+    function of taut returned keeps a reference to the array that it was found for, which thus lives as long: the array
+    is neither compared nor pickled, and what was written to it since is drawn.
 
     Attributes
     ----------
@@ -225,8 +227,8 @@ class Solution:
         return facts
 
     def __repr__(self) -> str:
-        facts = ", ".join(f"{name}={brief(fact)}" for name, fact in [("kind", self.kind), *self._facts()])
-        return f"Solution({facts})"
+        facts = [("kind", self.kind), *self._facts()]
+        return f"Solution({', '.join(f'{name}={brief(fact)}' for name, fact in facts)})"
 
     def _repr_html_(self) -> str:
         picture = None if self._rows is None else self._found.svg(self._rows)

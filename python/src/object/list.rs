@@ -95,16 +95,23 @@ impl<'py> List<'py> {
         }
     }
 
-    pub(super) fn end_row(&mut self) {
-        self.ends.push(match &self.numbers {
+    fn count(&self) -> usize {
+        match &self.numbers {
             Numbers::Float(values) => values.len(),
             Numbers::Signed(values) => values.len(),
             Numbers::Short(values) => values.len(),
-        });
+        }
+    }
+
+    pub(super) fn end_row(&mut self) {
+        self.ends.push(self.count());
     }
 
     pub(super) fn into_object(self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         if !self.objects.is_empty() {
+            if self.count() > 0 {
+                return Err(PyValueError::new_err("a list has numbers and other things"));
+            }
             return Ok(PyList::new(py, self.objects)?.into_any());
         }
         let array = match self.numbers {

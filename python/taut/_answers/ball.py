@@ -25,7 +25,7 @@ class Ball(Record):
     radius: float
 
 
-@record("items", "gap", "support")
+@record("gap", "items", "support")
 class BallCertificate(Record):
     """Convex multipliers over few rows: the proof that no much smaller ball exists.
 

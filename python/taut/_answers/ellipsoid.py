@@ -9,7 +9,7 @@ from .._arrays import as_rows
 from .._record import FLOAT, ROW, Floats, Record, RowNumbers, column, one, record, table
 
 
-@record("distance", "basis")
+@record("basis", "distance")
 class Hull(Record):
     """The affine subspace c + z @ basis in which flat points lie, but for rounding.
 
@@ -84,7 +84,7 @@ class Ellipsoid(Record):
         return _native.norms(as_rows(points), center, tail, factor)
 
 
-@record("items", "gap", "support")
+@record("gap", "items", "support")
 class EllipsoidCertificate(Record):
     """Convex multipliers over few rows: the proof that no ellipsoid of much smaller volume exists.
 
