@@ -6,6 +6,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use taut::certify::Placement;
 use taut::enclose::Error;
+use taut::points::InputError;
 use taut::{CentersMethod, CentersOptions, centers_of_source};
 
 use crate::found::{Found, solve};
@@ -46,7 +47,9 @@ pub(crate) fn centers(
         rows,
         |source, monitor| centers_of_source(source, items, k, &options, monitor),
         |error, columns| match error {
-            Error::NonFinite { row, column, value } if weights && column + 1 == columns => {
+            Error::Input(InputError::NonFinite { row, column, value })
+                if weights && column + 1 == columns =>
+            {
                 PyValueError::new_err(weight(row, value))
             }
             error => raise(error, items, columns),

@@ -1,13 +1,12 @@
 //! `taut.curve`, behind its Python signature.
 
 use pyo3::prelude::*;
-use taut::reconstruct::Error;
-use taut::{CurveMethod, CurveOptions, Ends, curve_of_source};
+use taut::{CurveMethod, CurveOptions, Ends, Items, curve_of_source};
 
 use crate::choice::choice;
 use crate::found::{Found, solve};
+use crate::items::raise;
 use crate::numbers::whole;
-use crate::work::refused;
 
 /// The curves through the rows of an array.
 #[pyfunction]
@@ -35,6 +34,6 @@ pub(crate) fn curve(
         py,
         rows,
         |source, monitor| curve_of_source(source, &options, monitor),
-        |error, _| refused(&error, matches!(error, Error::Read(_) | Error::Cancelled(_))),
+        |error, columns| raise(error, Items::Points, columns),
     )
 }

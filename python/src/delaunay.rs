@@ -2,13 +2,12 @@
 
 use pyo3::prelude::*;
 use taut::certify::OrderCurve;
-use taut::delaunay::Error;
-use taut::{DelaunayOptions, InsertionOrder, delaunay_of_source, spatial_order as ordered};
+use taut::{DelaunayOptions, InsertionOrder, Items, delaunay_of_source, spatial_order as ordered};
 
 use crate::choice::choice;
 use crate::found::{Found, solve};
+use crate::items::raise;
 use crate::numbers::whole;
-use crate::work::refused;
 
 /// The Delaunay triangulation of the rows of an array.
 #[pyfunction]
@@ -25,7 +24,12 @@ pub(crate) fn delaunay(
         seed: whole("seed", seed, "0 to 2**64 - 1")?,
         ..DelaunayOptions::default()
     };
-    solve(py, rows, |source, monitor| delaunay_of_source(source, &options, monitor), raise)
+    solve(
+        py,
+        rows,
+        |source, monitor| delaunay_of_source(source, &options, monitor),
+        |error, columns| raise(error, Items::Points, columns),
+    )
 }
 
 /// The rows of an array in the order of a curve through them.
@@ -36,9 +40,10 @@ pub(crate) fn spatial_order(
     curve: &str,
 ) -> PyResult<Found> {
     let curve = choice("curve", curve, OrderCurve::NAMES)?;
-    solve(py, rows, |source, monitor| ordered(source, curve, monitor), raise)
-}
-
-fn raise(error: Error, _: usize) -> PyErr {
-    refused(&error, matches!(error, Error::Read(_) | Error::Cancelled(_)))
+    solve(
+        py,
+        rows,
+        |source, monitor| ordered(source, curve, monitor),
+        |error, columns| raise(error, Items::Points, columns),
+    )
 }

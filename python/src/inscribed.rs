@@ -3,6 +3,7 @@
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use taut::enclose::Error;
+use taut::points::InputError;
 use taut::{InscribedOptions, Items, inscribed_ellipsoid_of_source};
 
 use crate::found::{Found, solve};
@@ -30,7 +31,7 @@ pub(crate) fn inscribed_ellipsoid(
 /// What is wrong with a half-space, in the words of somebody who gave normals and offsets.
 fn refused(error: Error, columns: usize) -> PyErr {
     match error {
-        Error::NonFinite { row, column, value } => {
+        Error::Input(InputError::NonFinite { row, column, value }) => {
             let place = match column + 1 == columns {
                 true => format!("offset {row}"),
                 false => format!("coordinate {column} of normal {row}"),

@@ -3,10 +3,10 @@
 
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
-use taut::Items;
 use taut::certify::{CentersViolation, Violation};
-use taut::enclose::Error;
-use taut::points::shown_number;
+use taut::enclose::Error as Refused;
+use taut::points::{InputError, shown_number};
+use taut::{Error, Items};
 
 use crate::choice::choice;
 
@@ -15,17 +15,24 @@ pub(crate) fn items_of_name(name: &str) -> PyResult<Items> {
     choice("items", name, Items::NAMES)
 }
 
-/// What a solver refused: a wrong input is a `ValueError`. `columns` is the length of a row.
-pub(crate) fn raise(error: Error, items: Items, columns: usize) -> PyErr {
-    let dim = items.dim(columns);
+/// What a solver refused: what is wrong with the input is a `ValueError`. `columns` is the length of a row.
+pub(crate) fn raise(error: impl Into<Error>, items: Items, columns: usize) -> PyErr {
+    let error = error.into();
     match error {
-        Error::Read(_) | Error::Conic { .. } => PyRuntimeError::new_err(error.to_string()),
-        Error::NonFinite { row, column, value } if items != Items::Points => {
-            PyValueError::new_err(not_finite(items, row, column, value, dim))
+        Error::Input(InputError::NonFinite { row, column, value }) if items != Items::Points => {
+            PyValueError::new_err(not_finite(items, row, column, value, items.dim(columns)))
         }
-        Error::NegativeRadius { row, value } => PyValueError::new_err(negative_radius(row, value)),
-        Error::NonPositiveWeight { row, value } => PyValueError::new_err(weight(row, value)),
-        _ => PyValueError::new_err(error.to_string()),
+        Error::Input(ref input) if !input.is_fault_of_caller() => {
+            PyRuntimeError::new_err(error.to_string())
+        }
+        Error::Enclose(Refused::NegativeRadius { row, value }) => {
+            PyValueError::new_err(negative_radius(row, value))
+        }
+        Error::Enclose(Refused::NonPositiveWeight { row, value }) => {
+            PyValueError::new_err(weight(row, value))
+        }
+        Error::Enclose(Refused::Conic { .. }) => PyRuntimeError::new_err(error.to_string()),
+        error => PyValueError::new_err(error.to_string()),
     }
 }
 

@@ -2,14 +2,15 @@
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use taut::reconstruct::Error;
 use taut::reconstruct::thesis::{AlphaFilter, Extent, Priority, ThesisOptions};
-use taut::{Denoise, Positions, SurfaceMethod, SurfaceMode, SurfaceOptions, surface_of_source};
+use taut::{
+    Denoise, Items, Positions, SurfaceMethod, SurfaceMode, SurfaceOptions, surface_of_source,
+};
 
 use crate::choice::choice;
 use crate::found::{Found, solve};
+use crate::items::raise;
 use crate::numbers::whole;
-use crate::work::refused;
 
 /// The surface through the rows of an array.
 #[pyfunction]
@@ -87,6 +88,6 @@ pub(crate) fn surface(
         py,
         rows,
         |source, monitor| surface_of_source(source, &options, monitor),
-        |error, _| refused(&error, matches!(error, Error::Read(_) | Error::Cancelled(_))),
+        |error, columns| raise(error, Items::Points, columns),
     )
 }

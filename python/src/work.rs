@@ -4,7 +4,7 @@ use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::time::Duration;
 
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use taut::Monitor;
@@ -39,14 +39,6 @@ pub(crate) fn interruptible<R: Send>(
         raised?;
         result.map_err(|error| PyRuntimeError::new_err(format!("no threads to work with: {error}")))
     })
-}
-
-/// What a solver refused: a `ValueError` with its sentence, unless it lies with the machine.
-pub(crate) fn refused(error: &impl std::fmt::Display, lies_with_machine: bool) -> PyErr {
-    match lies_with_machine {
-        true => PyRuntimeError::new_err(error.to_string()),
-        false => PyValueError::new_err(error.to_string()),
-    }
 }
 
 /// Runs `work` in a pool whose threads live in this process.

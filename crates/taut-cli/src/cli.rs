@@ -2,11 +2,11 @@
 
 use clap::{Parser, Subcommand};
 
-use crate::exit::Outcome;
-use crate::{
+use crate::commands::{
     ball, centers, completions, curve, delaunay, draw, ellipsoid, formats, generate, inscribe, man,
     memory, surface, tour, verify,
 };
+use crate::exit::Outcome;
 
 /// Tight shapes around, through and inside point sets, with proof.
 #[derive(Debug, Parser)]

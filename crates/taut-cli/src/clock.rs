@@ -2,8 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use crate::numbers::seconds;
-use crate::report::Fact;
+use crate::output::numbers::seconds;
+use crate::reports::Field;
 
 pub(crate) struct Clock {
     start: Instant,
@@ -21,10 +21,10 @@ impl Clock {
         self.laps.push((what, self.start.elapsed() - before));
     }
 
-    pub(crate) fn fact(&self) -> Fact {
+    pub(crate) fn field(&self) -> Field {
         let all: Duration = self.laps.iter().map(|(_, time)| time).sum();
         let laps: Vec<String> =
             self.laps.iter().map(|(what, time)| format!("{what} {}", seconds(*time))).collect();
-        Fact::new("time", seconds(all)).remark(laps.join(", "))
+        Field::new("time", seconds(all)).remark(laps.join(", "))
     }
 }

@@ -3,7 +3,8 @@
 use std::io::Write;
 use std::process::ExitCode;
 
-use crate::{watch, writing};
+use crate::output::writing;
+use crate::watch;
 
 /// The exit code for bad input or usage, and for what the system refuses.
 pub(crate) const FAILED: u8 = 2;
@@ -28,7 +29,7 @@ pub(crate) fn code(end: anyhow::Result<Outcome>) -> ExitCode {
         Err(_) if watch::interrupted() => ExitCode::from(watch::INTERRUPTED),
         Err(error) => {
             // The outermost sentence is complete; the causes below it say parts of it again.
-            writing::complain(&error.to_string());
+            writing::print_error(&error.to_string());
             ExitCode::from(FAILED)
         }
     }
@@ -42,5 +43,5 @@ pub(crate) fn unparsed(unparsed: &clap::Error) -> ExitCode {
         return ExitCode::from(FAILED);
     }
     let printed = unparsed.print().and_then(|()| std::io::stdout().flush());
-    code(writing::said(printed).map(|()| Outcome::Done))
+    code(writing::unless_closed(printed).map(|()| Outcome::Done))
 }

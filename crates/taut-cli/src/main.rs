@@ -1,51 +1,20 @@
 //! The `taut` command: tight shapes of point sets, with proof.
 //!
-//! Each subcommand is a file of its own and the same four steps: open, solve, write, say. What they share (how
-//! points are read, how much effort is spent, how files are replaced) lies beside them, one thought per file.
-//! Nothing is calculated here: the answers are those of the library crates, and so are the checks.
+//! A subcommand is its options, its solver and its side outputs ([`commands`]); the [`pipeline`] opens, solves, checks,
+//! writes and reports, the same for all. What is said about an answer is in [`reports`]. Nothing is calculated here: the
+//! answers are those of the library crates, and so are the checks.
 
-mod answer_file;
-mod ball;
-mod ball_report;
-mod centers;
-mod centers_report;
 mod cli;
 mod clock;
-mod completions;
-mod curve;
-mod curve_report;
-mod delaunay;
-mod draw;
+mod commands;
 mod effort;
-mod elbow;
-mod ellipsoid;
-mod ellipsoid_report;
 mod exit;
-mod files;
-mod formats;
-mod generate;
-mod inscribe;
-mod inscribed_report;
-mod man;
-mod memory;
-mod numbers;
-mod order_report;
+mod input;
 mod out_of_memory;
-mod picture;
+mod output;
 mod pipeline;
-mod radii;
-mod reading;
-mod report;
-mod robust;
-mod robust_report;
-mod size;
-mod surface;
-mod surface_report;
-mod tour;
-mod triangulation;
-mod verify;
+mod reports;
 mod watch;
-mod writing;
 
 use std::process::ExitCode;
 

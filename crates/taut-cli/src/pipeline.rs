@@ -9,14 +9,14 @@ use anyhow::bail;
 use taut::{Monitor, Solution};
 
 use crate::clock::Clock;
+use crate::commands::verify::judge;
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::picture::{Look, Picture};
-use crate::reading::{Opened, Reading};
-use crate::report::{self, Fact, Report, Summary};
-use crate::verify::judge;
+use crate::input::reading::{Opened, Reading};
+use crate::output::picture::{Picture, PictureOptions};
+use crate::output::writing::{self, Outputs};
+use crate::reports::{self, Field, Report, Summary};
 use crate::watch::Watch;
-use crate::writing::{self, Outputs};
 
 /// A subcommand that finds one shape: its input, its solver and its outputs.
 pub(crate) trait Find {
@@ -49,7 +49,7 @@ pub(crate) trait Find {
     ) -> anyhow::Result<(Solution<Self::Answer>, Self::Extra)>;
 
     /// Fields of the summary beyond those of the answer.
-    fn side_fields(&self, _extra: &Self::Extra) -> Vec<Fact> {
+    fn side_fields(&self, _extra: &Self::Extra) -> Vec<Field> {
         Vec::new()
     }
 
@@ -140,11 +140,12 @@ pub(crate) fn run(command: &impl Find) -> anyhow::Result<Outcome> {
     }
 
     let report = Report { found: &found, points: &points, verdict };
-    let (title, mut fields) = (report.title(), report.facts());
+    let (title, mut fields) = (report.title(), report.fields());
     fields.extend(command.side_fields(&extra));
     let drawn = match picture {
         Some(picture) => {
-            let drawn = picture.draw(report.drawing(&Look::default())?, &Look::default())?;
+            let drawn = picture
+                .draw(report.drawing(&PictureOptions::default())?, &PictureOptions::default())?;
             clock.lap("drawing");
             Some(drawn)
         }
@@ -165,10 +166,10 @@ pub(crate) fn run(command: &impl Find) -> anyhow::Result<Outcome> {
     }
     if !output.is_standard_output() {
         if output.json {
-            outputs.say(&(found.to_json() + "\n"));
+            outputs.print(&(found.to_json() + "\n"));
         } else if !input.effort.quiet {
-            fields.push(clock.fact());
-            outputs.say(&report::text(&title, &fields));
+            fields.push(clock.field());
+            outputs.print(&reports::text(&title, &fields));
         }
     }
     outputs.finish()?;
@@ -189,7 +190,7 @@ pub(crate) fn check<A: Summary>(
         Ok(verdict) => Ok(Ok(Some(verdict))),
         Err(violation) => {
             let why = points.explain_violation(&violation, A::FOUND);
-            writing::complain(&format!("the check failed: {why}"));
+            writing::print_error(&format!("the check failed: {why}"));
             Ok(Err(Rejected))
         }
     }
@@ -208,7 +209,7 @@ impl<'a> Output<'a> {
         let picture = self.draw.map(Picture::of_path).transpose()?;
         let outputs: Vec<&Path> =
             [self.out, self.draw].into_iter().flatten().chain(others.iter().copied()).collect();
-        writing::look_at(&outputs, &[input])?;
+        writing::check_writable(&outputs, &[input])?;
         Ok(picture)
     }
 

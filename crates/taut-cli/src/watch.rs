@@ -14,7 +14,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use taut::Monitor;
 
 use crate::effort::Progress;
-use crate::writing;
+use crate::output::writing;
 
 /// Exit code after an interrupt: 128 and the number of the signal, as shells have it.
 pub(crate) const INTERRUPTED: u8 = 130;
@@ -63,10 +63,10 @@ impl Watch {
     }
 
     /// Says how far the work has come, where progress is shown.
-    pub(crate) fn say(&self, words: &str) {
+    pub(crate) fn print(&self, words: &str) {
         match self.how {
-            Progress::Always => writing::tell(words),
-            Progress::Auto if self.terminal => writing::tell(words),
+            Progress::Always => writing::print_line(words),
+            Progress::Auto if self.terminal => writing::print_line(words),
             Progress::Auto | Progress::Never => {}
         }
     }
@@ -79,7 +79,7 @@ impl Watch {
         let (done, shown, start) = (AtomicU64::new(0), AtomicBool::new(false), Instant::now());
         let on_pass = |pass: u64, points: u64| {
             if lines {
-                writing::tell(&format!("{what}: pass {pass} over {points} points"));
+                writing::print_line(&format!("{what}: pass {pass} over {points} points"));
             }
             done.store(0, Ordering::Relaxed);
             bar.set_length(points);

@@ -1,37 +1,11 @@
 //! What a triangulation can refuse.
 
-use taut_points::{Cancelled, ReadError};
+use taut_points::{Cancelled, InputError, ReadError};
 
 /// Why there is no triangulation.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Points are neither of the plane nor of space, or not of the one that was asked for.
-    #[error("points have {dim} coordinates: expected {expected}")]
-    Dimension {
-        /// Coordinates of a point.
-        dim: usize,
-        /// What would have been accepted.
-        expected: &'static str,
-    },
-    /// A coordinate is NaN or infinite.
-    #[error("coordinate {column} of point {row} is {value}: all coordinates must be finite")]
-    NonFinite {
-        /// Point, from 0.
-        row: u64,
-        /// Coordinate, from 0.
-        column: usize,
-        /// Its value.
-        value: f64,
-    },
-    /// Points are numbered with 32 bits in memory.
-    #[error("{points} points are more than the {most} that fit one triangulation in memory")]
-    TooManyPoints {
-        /// How many there are.
-        points: u64,
-        /// How many would have been accepted.
-        most: u64,
-    },
     /// Simplices are numbered with 30 bits in memory.
     #[error(
         "the triangulation has more than 2^30 simplices: too many for one triangulation in memory"
@@ -47,20 +21,19 @@ pub enum Error {
         /// Points given.
         given: u64,
     },
-    /// An option is outside its range.
-    #[error("option `{name}` is {value}: expected {expected}")]
-    Option {
-        /// The option.
-        name: &'static str,
-        /// What was given.
-        value: String,
-        /// What would have been accepted.
-        expected: &'static str,
-    },
-    /// The points could not be read.
+    /// The points or options are refused, whatever was asked of them; or they could not be read, or the caller asked to stop.
     #[error(transparent)]
-    Read(#[from] ReadError),
-    /// The caller asked to stop.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
+    Input(#[from] InputError),
+}
+
+impl From<ReadError> for Error {
+    fn from(error: ReadError) -> Self {
+        Error::Input(error.into())
+    }
+}
+
+impl From<Cancelled> for Error {
+    fn from(cancelled: Cancelled) -> Self {
+        Error::Input(cancelled.into())
+    }
 }

@@ -3,6 +3,7 @@
 
 use taut_certify::{Order, OrderCertificate, OrderCurve, Solution, Trace};
 use taut_oblivious::{hilbert_order, morton_order};
+use taut_points::InputError;
 use taut_points::{Monitor, PointSource, Points, Rows, Scalar, Scratch, hash_points};
 
 use crate::Error;
@@ -13,8 +14,8 @@ use crate::Error;
 /// rayon pool, and gives the same order on any number of threads. O(n log n); 12 bytes a point while it runs.
 ///
 /// # Errors
-/// [`Error::Dimension`] for other dimensions than two and three, [`Error::NonFinite`], [`Error::TooManyPoints`] for 2³²
-/// or more, [`Error::Read`], [`Error::Cancelled`] before it begins.
+/// [`Error::Input`] for other dimensions than two and three, [`Error::Input`] for 2³²
+/// or more, [`Error::Input`] before it begins.
 ///
 /// ```
 /// use taut_certify::OrderCurve;
@@ -34,17 +35,20 @@ pub fn spatial_order(
 ) -> Result<Solution<Order>, Error> {
     let dim = source.dim();
     if !(2..=3).contains(&dim) {
-        return Err(Error::Dimension { dim, expected: "2, the plane, or 3, space" });
+        return Err(Error::Input(InputError::Dimension {
+            dim,
+            expected: "2, the plane, or 3, space",
+        }));
     }
     let most = u64::from(u32::MAX);
     if source.len() > most {
-        return Err(Error::TooManyPoints { points: source.len(), most });
+        return Err(Error::Input(InputError::TooManyPoints { points: source.len(), most }));
     }
     monitor.check()?;
     let mut scratch = Scratch::new();
     let rows = source.read(0..source.len(), &mut scratch)?;
     if let Some((row, column, value)) = rows.first_non_finite() {
-        return Err(Error::NonFinite { row: row as u64, column, value });
+        return Err(Error::Input(InputError::NonFinite { row: row as u64, column, value }));
     }
     let rows = match rows {
         Rows::F32(points) => order(&points, curve),

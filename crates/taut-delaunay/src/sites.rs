@@ -8,6 +8,7 @@
 
 use rayon::prelude::*;
 use taut_oblivious::hilbert_order;
+use taut_points::InputError;
 use taut_points::{Monitor, Points, Scalar};
 
 use crate::Error;
@@ -77,7 +78,10 @@ impl<const D: usize> Sites<D> {
     ) -> Result<Self, Error> {
         let n = points.len();
         if n >= (1 << 30) {
-            return Err(Error::TooManyPoints { points: n as u64, most: (1 << 30) - 1 });
+            return Err(Error::Input(InputError::TooManyPoints {
+                points: n as u64,
+                most: (1 << 30) - 1,
+            }));
         }
         let largest = largest_magnitude(points)?;
         monitor.check()?;
@@ -126,7 +130,11 @@ fn largest_magnitude<T: Scalar>(points: &Points<'_, T>) -> Result<f64, Error> {
     let place =
         points.values().iter().position(|&v| !Into::<f64>::into(v).is_finite()).unwrap_or(0);
     let value = points.values()[place].into();
-    Err(Error::NonFinite { row: (place / dim) as u64, column: place % dim, value })
+    Err(Error::Input(InputError::NonFinite {
+        row: (place / dim) as u64,
+        column: place % dim,
+        value,
+    }))
 }
 
 /// The exponent of the lowest bit of a number that is not 0.
@@ -268,6 +276,9 @@ mod tests {
         let values = [0.0, 1.0, 2.0, f64::NAN, f64::INFINITY, 5.0];
         let points = Points::new(&values, 2).expect("whole rows");
         let refused = Sites::<2>::new(&points, true, &Monitor::silent());
-        assert!(matches!(refused, Err(Error::NonFinite { row: 1, column: 1, .. })), "{refused:?}");
+        assert!(
+            matches!(refused, Err(Error::Input(InputError::NonFinite { row: 1, column: 1, .. }))),
+            "{refused:?}"
+        );
     }
 }

@@ -7,6 +7,7 @@ use taut_certify::{
     Fingerprint, NO_NEIGHBOR, SiteHash, Solution, Stop, Trace, Triangulation as Answer,
     TriangulationCertificate, TriangulationCounts,
 };
+use taut_points::InputError;
 use taut_points::{Monitor, PointSource, Points, Rows, Scalar, Scratch, hash_points};
 
 use crate::canonical::{CanonicalOrder, arrangement};
@@ -22,7 +23,7 @@ const TASK: usize = 1 << 12;
 /// The answer is the same for any number of threads and any order of insertion, byte for byte.
 ///
 /// # Errors
-/// [`Error::Dimension`] for other dimensions than 2 and 3; else what [`Plane::build`] and [`Space::build`] refuse.
+/// [`Error::Input`] for other dimensions than 2 and 3; else what [`Plane::build`] and [`Space::build`] refuse.
 pub fn delaunay<T: Scalar>(
     points: &Points<'_, T>,
     options: &DelaunayOptions,
@@ -33,7 +34,7 @@ pub fn delaunay<T: Scalar>(
 /// The same for points of any source, with a monitor. They are held in memory while it works.
 ///
 /// # Errors
-/// As [`delaunay`], [`Error::Read`] when the points cannot be read, and [`Error::Cancelled`].
+/// As [`delaunay`], [`Error::Input`] when the points cannot be read, and [`Error::Input`].
 pub fn delaunay_of_source(
     source: &dyn PointSource,
     options: &DelaunayOptions,
@@ -47,7 +48,10 @@ pub fn delaunay_of_source(
         match points.dim() {
             2 => Plane::build(points, options, monitor)?.solution(points, monitor),
             3 => Space::build(points, options, monitor)?.solution(points, monitor),
-            dim => Err(Error::Dimension { dim, expected: "2, the plane, or 3, space" }),
+            dim => Err(Error::Input(InputError::Dimension {
+                dim,
+                expected: "2, the plane, or 3, space",
+            })),
         }
     }
     let mut scratch = Scratch::new();
@@ -72,7 +76,7 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
     /// `points` are those it was built from. O(simplices), and as much memory again.
     ///
     /// # Errors
-    /// [`Error::OtherPoints`] if `points` are so many or so few that they cannot be those, [`Error::Cancelled`], or [`Error::Read`] when hashing the points is stopped.
+    /// [`Error::OtherPoints`] if `points` are so many or so few that they cannot be those, [`Error::Input`], or [`Error::Input`] when hashing the points is stopped.
     pub fn solution<T: Scalar>(
         &self,
         points: &Points<'_, T>,

@@ -1,6 +1,7 @@
 //! The finished triangulation in memory, for walking around in.
 
-use taut_points::{Monitor, Points, Scalar, ThreadsError, thread_pool};
+use taut_points::InputError;
+use taut_points::{Monitor, Points, Scalar, on_threads};
 
 use crate::affine::{Span, apex, span_of_plane, span_of_space};
 use crate::cells::{self, Geometry, InPlane, InSpace};
@@ -58,8 +59,8 @@ impl Plane {
     /// the input on one thread, 110 on two.
     ///
     /// # Errors
-    /// [`Error::Dimension`] if points do not have two coordinates, [`Error::NonFinite`], [`Error::TooManyPoints`],
-    /// [`Error::TooManySimplices`], [`Error::Option`], and [`Error::Cancelled`] when the monitor says so.
+    /// [`Error::Input`] if points do not have two coordinates, [`Error::Input`],
+    /// [`Error::TooManySimplices`], [`Error::Input`] when the monitor says so.
     pub fn build<T: Scalar>(
         points: &Points<'_, T>,
         options: &DelaunayOptions,
@@ -104,8 +105,8 @@ impl Space {
     /// bytes a point of a volume beyond the input on one thread, 370 on two.
     ///
     /// # Errors
-    /// [`Error::Dimension`] if points do not have three coordinates, [`Error::NonFinite`], [`Error::TooManyPoints`],
-    /// [`Error::TooManySimplices`], [`Error::Option`], and [`Error::Cancelled`] when the monitor says so.
+    /// [`Error::Input`] if points do not have three coordinates, [`Error::Input`],
+    /// [`Error::TooManySimplices`], [`Error::Input`] when the monitor says so.
     pub fn build<T: Scalar>(
         points: &Points<'_, T>,
         options: &DelaunayOptions,
@@ -146,7 +147,7 @@ fn build<T: Scalar, const D: usize, const V: usize>(
     complex: impl FnOnce(&mut Sites<D>) -> Result<Built<V>, Error> + Send,
 ) -> Result<Triangulation<D, V>, Error> {
     if points.dim() != D {
-        return Err(Error::Dimension { dim: points.dim(), expected });
+        return Err(Error::Input(InputError::Dimension { dim: points.dim(), expected }));
     }
     let solve = || {
         monitor.pass(1, points.len() as u64);
@@ -157,15 +158,7 @@ fn build<T: Scalar, const D: usize, const V: usize>(
         }
         Ok(Triangulation { sites, complex, slots, counters, method: options.order.name() })
     };
-    match options.threads {
-        None => solve(),
-        Some(threads) => match thread_pool(threads) {
-            Ok(pool) => pool.install(solve),
-            Err(ThreadsError { expected }) => {
-                Err(Error::Option { name: "threads", value: threads.to_string(), expected })
-            }
-        },
-    }
+    on_threads(options.threads, solve)
 }
 
 /// The sites of a line from end to end.
@@ -184,7 +177,11 @@ fn cells_for(
     options: &DelaunayOptions,
 ) -> Result<usize, Error> {
     match options.cells {
-        Some(0) => Err(Error::Option { name: "cells", value: "0".into(), expected: "at least 1" }),
+        Some(0) => Err(Error::Input(InputError::Option {
+            name: "cells",
+            value: "0".into(),
+            expected: "at least 1",
+        })),
         // What cannot be filtered cannot be bounded by boxes either.
         _ if !settings.filtered => Ok(1),
         Some(cells) => Ok(cells),

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::PathBuf;
 
 use taut_draw::{
-    DrawOptions, Fact, Page, Section, Style, Theme, ball_figures, to_html, to_png, to_svg,
+    DrawOptions, Field, Page, Section, Style, Theme, ball_figures, to_html, to_png, to_svg,
 };
 use taut_enclose::{BallOptions, ball};
 use taut_points::{Distribution, Points, generate};
@@ -47,11 +47,11 @@ fn main() -> Result<(), Box<dyn Error>> {
             command: format!(
                 "taut ball {name}.csv -o {name}.json && taut verify {name}.json {name}.csv"
             ),
-            facts: vec![
-                Fact::new("radius", found.answer.radius),
-                Fact::new("relative gap, proved", format!("{:.1e}", found.certificate.gap)),
-                Fact::new("support", format!("{} points", found.certificate.support.len())),
-                Fact::new("passes over all points", found.trace.passes),
+            fields: vec![
+                Field::new("radius", found.answer.radius),
+                Field::new("relative gap, proved", format!("{:.1e}", found.certificate.gap)),
+                Field::new("support", format!("{} points", found.certificate.support.len())),
+                Field::new("passes over all points", found.trace.passes),
             ],
             figures,
         });

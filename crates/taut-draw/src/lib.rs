@@ -68,7 +68,7 @@ pub use delaunay::delaunay_figures;
 pub use ellipsoid::{ellipsoid_figures, robust_figures};
 pub use error::Error;
 pub use figure::Figure;
-pub use html::{Fact, Page, Section, to_html};
+pub use html::{Field, Page, Section, to_html};
 pub use inscribed::inscribed_figures;
 pub use options::DrawOptions;
 pub use plot::{Bar, Level, Plot, Scale, Series, SeriesLook};

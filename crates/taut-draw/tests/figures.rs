@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use roxmltree::{Document, Node};
 use taut_certify::{Ball, BallCertificate, Items, PassBounds, Solution, Trace};
 use taut_draw::{
-    DrawOptions, Error, Fact, Figure, Page, Section, Style, Theme, ball_figures, to_html, to_svg,
+    DrawOptions, Error, Field, Figure, Page, Section, Style, Theme, ball_figures, to_html, to_svg,
 };
 use taut_points::{Distribution, Monitor, Points, generate, hash_points};
 
@@ -279,7 +279,7 @@ fn words_from_outside_stay_words() {
                 heading: evil.into(),
                 text: evil.into(),
                 command: evil.into(),
-                facts: vec![Fact::new(evil, evil)],
+                fields: vec![Field::new(evil, evil)],
                 figures,
             }],
         };

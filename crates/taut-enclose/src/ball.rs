@@ -17,11 +17,11 @@ mod thesis;
 mod working_set;
 
 use taut_certify::{Ball, Items, Solution};
+use taut_points::on_threads;
 use taut_points::{Monitor, PointSource, Points, Scalar};
 
 use crate::Error;
 use crate::scan::Scan;
-use crate::threads::on_threads;
 pub use options::{BallMethod, BallOptions};
 pub(crate) use proof::reach_up;
 
@@ -48,7 +48,7 @@ pub(crate) use proof::reach_up;
 /// ```
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::NonFinite`], [`Error::Overflow`], [`Error::Option`]; [`Error::Conic`] from the methods
+/// [`Error::Empty`], [`Error::Input`], [`Error::Overflow`], [`Error::Input`]; [`Error::Conic`] from the methods
 /// that use a conic solver.
 pub fn ball<T: Scalar>(
     points: &Points<'_, T>,
@@ -106,7 +106,7 @@ pub fn ball_of_ellipsoids<T: Scalar>(
 /// medium the rows come from. `monitor` hears of each pass and can stop the work between two blocks or two steps.
 ///
 /// # Errors
-/// As [`ball_of_balls()`] and [`ball_of_ellipsoids()`], and [`Error::Read`] when the source fails or `monitor` stops the work.
+/// As [`ball_of_balls()`] and [`ball_of_ellipsoids()`], and [`Error::Input`] when the source fails or `monitor` stops the work.
 pub fn ball_of_source(
     source: &dyn PointSource,
     items: Items,

@@ -27,6 +27,8 @@ use std::collections::BTreeMap;
 use taut_certify::{
     Centers, CentersCertificate, Items, PassBounds, Placement, Solution, Stop, Trace,
 };
+use taut_points::InputError;
+use taut_points::on_threads;
 use taut_points::{Monitor, PointSource, Points, Scalar};
 
 use self::cloud::Cloud;
@@ -37,7 +39,6 @@ use self::read::Table;
 use self::start::Start;
 use self::tree::{Found, Shown};
 use crate::apart::claimed;
-use crate::threads::on_threads;
 use crate::{CoverOptions, Error, FarthestFirstOptions, cover_of_source, farthest_first_of_source};
 pub(crate) use answer::reach_of;
 pub(crate) use nearest::EVEN;
@@ -81,7 +82,7 @@ const PROOF_NODES: u64 = 10_000;
 /// ```
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::NonFinite`], [`Error::Overflow`], [`Error::Option`]; with weights also [`Error::NoWeight`] and
+/// [`Error::Empty`], [`Error::Input`], [`Error::Overflow`], [`Error::Input`]; with weights also [`Error::NoWeight`] and
 /// [`Error::NonPositiveWeight`].
 pub fn centers<T: Scalar>(
     points: &Points<'_, T>,
@@ -106,7 +107,7 @@ pub fn centers_of_balls<T: Scalar>(
 /// The same for the items of a source, which is read once, or twice by [`CentersMethod::Stream`].
 ///
 /// # Errors
-/// As [`centers_of_balls()`], and [`Error::Read`] when the source fails or `monitor` stops the work.
+/// As [`centers_of_balls()`], and [`Error::Input`] when the source fails or `monitor` stops the work.
 pub fn centers_of_source(
     source: &dyn PointSource,
     items: Items,
@@ -143,11 +144,11 @@ fn of_stream(
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Centers>, Error> {
     if items != Items::Points {
-        return Err(Error::Option {
+        return Err(Error::Input(InputError::Option {
             name: "method",
             value: CentersMethod::Stream.to_string(),
             expected: "one of the others for balls",
-        });
+        }));
     }
     cover_of_source(source, k, placement, &CoverOptions::default(), monitor)
 }
@@ -177,11 +178,11 @@ fn solve(
 ) -> Result<Solution<Centers>, Error> {
     let table = Table::read(source, items, options.weights, monitor)?;
     if options.outliers >= table.len() as u64 {
-        return Err(Error::Option {
+        return Err(Error::Input(InputError::Option {
             name: "outliers",
             value: options.outliers.to_string(),
             expected: "less than the number of items",
-        });
+        }));
     }
     let z = options.outliers as usize;
     if table.are_points()

@@ -19,6 +19,7 @@ mod summary;
 
 use rayon::prelude::*;
 use taut_certify::{Centers, Placement, Solution, Stop, Trace};
+use taut_points::InputError;
 use taut_points::{Blocks, Monitor, PointSource, Points, ReadError, Rows, Scalar, Scratch};
 
 use crate::apart::{Apart, rounded_up};
@@ -102,10 +103,10 @@ impl Cover {
     /// Nothing seen yet.
     ///
     /// # Errors
-    /// [`Error::Option`] when `dim`, `k` or an option is out of range.
+    /// [`Error::Input`] when `dim`, `k` or an option is out of range.
     pub fn new(dim: usize, k: usize, options: &CoverOptions) -> Result<Self, Error> {
         let wrong = |name, value: usize, expected| {
-            Err(Error::Option { name, value: value.to_string(), expected })
+            Err(Error::Input(InputError::Option { name, value: value.to_string(), expected }))
         };
         if dim == 0 {
             return wrong("dim", dim, "at least 1");
@@ -141,7 +142,7 @@ impl Cover {
     /// The next points; they are numbered on from those before. O(mkd) for each.
     ///
     /// # Errors
-    /// [`Error::Option`] when the points have another dimension, [`Error::NonFinite`] with the number of the row in the stream:
+    /// [`Error::Input`] when the points have another dimension, [`Error::Input`] with the number of the row in the stream:
     /// then none of these points is counted. [`Error::Overflow`] when a distance is beyond the largest `f64` or smaller than
     /// the normal ones: then this cover is of no more use.
     pub fn add<T: Scalar>(&mut self, points: &Points<'_, T>) -> Result<(), Error> {
@@ -155,14 +156,18 @@ impl Cover {
         monitor: &Monitor<'_>,
     ) -> Result<(), Error> {
         if points.dim() != self.dim {
-            return Err(Error::Option {
+            return Err(Error::Input(InputError::Option {
                 name: "points",
                 value: format!("of dimension {}", points.dim()),
                 expected: "points of the dimension that the cover was made for",
-            });
+            }));
         }
         if let Some((row, column, value)) = T::rows(*points).first_non_finite() {
-            return Err(Error::NonFinite { row: self.seen + row as u64, column, value });
+            return Err(Error::Input(InputError::NonFinite {
+                row: self.seen + row as u64,
+                column,
+                value,
+            }));
         }
         let mut taken = 0;
         while self.instances.is_empty() && taken < points.len() {
@@ -241,8 +246,8 @@ impl Cover {
     /// in the same order.
     ///
     /// # Errors
-    /// [`Error::Option`] when `source` has another shape than the points that came by; [`Error::Empty`],
-    /// [`Error::NonFinite`], [`Error::Overflow`], [`Error::Read`].
+    /// [`Error::Input`] when `source` has another shape than the points that came by; [`Error::Empty`],
+    /// [`Error::Input`], [`Error::Overflow`], [`Error::Input`].
     pub fn solution(
         &self,
         placement: Placement,
@@ -250,11 +255,11 @@ impl Cover {
         monitor: &Monitor<'_>,
     ) -> Result<Solution<Centers>, Error> {
         if (source.len(), source.dim()) != (self.seen, self.dim) {
-            return Err(Error::Option {
+            return Err(Error::Input(InputError::Option {
                 name: "source",
                 value: format!("{} points of dimension {}", source.len(), source.dim()),
                 expected: "the points that the cover has seen",
-            });
+            }));
         }
         let found = self.covered();
         let measured = measure(source, &found.centers, monitor)?;

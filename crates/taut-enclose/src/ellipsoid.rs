@@ -25,6 +25,7 @@ pub(crate) mod survey;
 mod whitener;
 
 use taut_certify::{Ellipsoid, Items, Solution};
+use taut_points::on_threads;
 use taut_points::{Monitor, PointSource, Points, Scalar};
 
 use self::flat::Look;
@@ -33,7 +34,6 @@ use self::sample::Sample;
 use self::survey::Survey;
 use self::whitener::Whitener;
 use crate::Error;
-use crate::threads::on_threads;
 pub use batch::{ellipsoids, ellipsoids_of_sources};
 pub(crate) use dense::cholesky;
 pub use options::{EllipsoidMethod, EllipsoidOptions};
@@ -66,7 +66,7 @@ const ROUNDING: f64 = 5e-15;
 /// ```
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::NonFinite`], [`Error::Overflow`], [`Error::Option`].
+/// [`Error::Empty`], [`Error::Input`], [`Error::Overflow`], [`Error::Input`].
 pub fn ellipsoid<T: Scalar>(
     points: &Points<'_, T>,
     options: &EllipsoidOptions,
@@ -144,7 +144,7 @@ pub fn ellipsoid_of_items(
 /// the rows come from. `monitor` hears of each pass and can stop the work between two blocks or two steps.
 ///
 /// # Errors
-/// As [`ellipsoid()`], and [`Error::Read`] when the source fails or `monitor` stops the work.
+/// As [`ellipsoid()`], and [`Error::Input`] when the source fails or `monitor` stops the work.
 pub fn ellipsoid_of_source(
     source: &dyn PointSource,
     options: &EllipsoidOptions,

@@ -1,6 +1,6 @@
 //! What an enclosing solver can refuse.
 
-use taut_points::{ReadError, shown_number};
+use taut_points::{InputError, ReadError, shown_number};
 
 /// Why there is no answer.
 #[derive(Debug, thiserror::Error)]
@@ -9,16 +9,6 @@ pub enum Error {
     /// There is nothing to enclose.
     #[error("the point set is empty: an enclosing shape needs at least one point")]
     Empty,
-    /// A coordinate is NaN or infinite.
-    #[error("coordinate {column} of point {row} is {value}: all coordinates must be finite")]
-    NonFinite {
-        /// Point, from 0.
-        row: u64,
-        /// Coordinate, from 0.
-        column: usize,
-        /// Its value.
-        value: f64,
-    },
     /// A ball of the input has a negative radius.
     #[error(
         "ball {row} has radius {}: radii are the last column and must be at least 0",
@@ -109,16 +99,6 @@ pub enum Error {
         "the sizes of the input, or their squares, are beyond what double precision can hold: scale the coordinates towards 1"
     )]
     Overflow,
-    /// An option is outside its range.
-    #[error("option `{name}` is {value}: expected {expected}")]
-    Option {
-        /// The option.
-        name: &'static str,
-        /// What was given.
-        value: String,
-        /// What would have been accepted.
-        expected: &'static str,
-    },
     /// The conic solver of the thesis' methods gave up on a core-set.
     #[error("the conic solver stopped with status {status} on a core-set of {points} points")]
     Conic {
@@ -135,7 +115,13 @@ pub enum Error {
         /// Why.
         error: Box<Error>,
     },
-    /// The points could not be read.
+    /// The points or options are refused, whatever was asked of them; or they could not be read, or the caller asked to stop.
     #[error(transparent)]
-    Read(#[from] ReadError),
+    Input(#[from] InputError),
+}
+
+impl From<ReadError> for Error {
+    fn from(error: ReadError) -> Self {
+        Error::Input(error.into())
+    }
 }

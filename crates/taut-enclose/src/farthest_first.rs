@@ -18,11 +18,12 @@ mod prefix;
 mod rows;
 
 use taut_certify::Trace;
+use taut_points::InputError;
+use taut_points::on_threads;
 use taut_points::{Monitor, PointSource, Points, PointsHash, Scalar};
 
 use crate::Error;
 use crate::frame::survey;
-use crate::threads::on_threads;
 use lazy::Job;
 
 /// Up to this many dimensions a box around neighbours says enough about them. Beyond, boxes are nearly as large as the whole.
@@ -79,7 +80,7 @@ pub struct FarthestFirst {
 /// ```
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::NonFinite`]; [`Error::Option`] when `count` is 0 or an option is out of range;
+/// [`Error::Empty`], [`Error::Input`] when `count` is 0 or an option is out of range;
 /// [`Error::Overflow`] when a radius is beyond the largest `f64`, or the points that are left differ from those in the
 /// order by less than 2⁻²⁵⁰ of the extent of all.
 pub fn farthest_first<T: Scalar>(
@@ -108,7 +109,7 @@ pub fn farthest_first<T: Scalar>(
 /// Memory: 8 bytes for each point, and a block for each thread. `monitor` can stop the work between two blocks.
 ///
 /// # Errors
-/// As [`farthest_first()`], and [`Error::Read`] when the source fails or `monitor` stops the work.
+/// As [`farthest_first()`], and [`Error::Input`] when the source fails or `monitor` stops the work.
 pub fn farthest_first_of_source(
     source: &dyn PointSource,
     count: u64,
@@ -129,17 +130,21 @@ fn prepare<'a>(
     monitor: &'a Monitor<'a>,
 ) -> Result<Job<'a>, Error> {
     if count == 0 {
-        return Err(Error::Option { name: "count", value: "0".into(), expected: "at least 1" });
+        return Err(Error::Input(InputError::Option {
+            name: "count",
+            value: "0".into(),
+            expected: "at least 1",
+        }));
     }
     if source.is_empty() {
         return Err(Error::Empty);
     }
     if options.start >= source.len() {
-        return Err(Error::Option {
+        return Err(Error::Input(InputError::Option {
             name: "start",
             value: options.start.to_string(),
             expected: "the number of a row, from 0 and below the number of rows",
-        });
+        }));
     }
     let survey = survey(source, monitor)?;
     Ok(Job {

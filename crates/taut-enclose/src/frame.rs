@@ -8,6 +8,7 @@
 //! *Trap.* What is smaller than 2⁻⁴⁵⁰ in these units squares to little or nothing: [`FLOOR`] is where a caller has to look
 //! twice.
 
+use taut_points::InputError;
 use taut_points::{
     Monitor, PointSource, Points, PointsHash, Rows, Scalar, gather, hash_block, map_blocks,
 };
@@ -95,7 +96,7 @@ impl Frame {
 /// One pass: the hash of the rows, and the frame in which to measure them.
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::NonFinite`], [`Error::Read`].
+/// [`Error::Empty`], [`Error::Input`].
 pub(crate) fn survey(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<Survey, Error> {
     survey_and(source, monitor, |_| ()).map(|(survey, _)| survey)
 }
@@ -117,7 +118,11 @@ pub(crate) fn survey_and<R: Send>(
             Rows::F64(points) => extent(points),
         };
         if !finite && let Some((row, column, value)) = rows.first_non_finite() {
-            return Err(Error::NonFinite { row: first + row as u64, column, value });
+            return Err(Error::Input(InputError::NonFinite {
+                row: first + row as u64,
+                column,
+                value,
+            }));
         }
         Ok((hash_block(&rows), box_of_rows, more(&rows)))
     })?;
@@ -219,7 +224,10 @@ mod tests {
             values[4 * dim] = f32::INFINITY;
             values[5 * dim] = f32::NAN;
             let found = survey(&Points::new(&values, dim).unwrap(), &Monitor::silent());
-            assert!(matches!(found, Err(Error::NonFinite { row: 4, column: 0, .. })), "{dim}");
+            assert!(
+                matches!(found, Err(Error::Input(InputError::NonFinite { row: 4, column: 0, .. }))),
+                "{dim}"
+            );
         }
     }
 }

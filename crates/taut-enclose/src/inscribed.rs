@@ -12,6 +12,7 @@ mod path;
 mod start;
 
 use taut_certify::{InscribedCertificate, InscribedEllipsoid, PassBounds, Solution, Stop, Trace};
+use taut_points::InputError;
 use taut_points::{
     Monitor, PointSource, Points, PointsHash, Rows, Scalar, hash_block, map_blocks, shown_number,
 };
@@ -79,7 +80,7 @@ impl HalfSpaces {
 /// ```
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::NonFinite`], [`Error::Overflow`], [`Error::Option`]; [`Error::NoNormal`];
+/// [`Error::Empty`], [`Error::Input`], [`Error::Overflow`], [`Error::Input`]; [`Error::NoNormal`];
 /// [`Error::Unbounded`] with a direction in which the polytope does not end; [`Error::NoInterior`] with multipliers that
 /// show why; [`Error::Undecided`] where rounding leaves neither proved.
 pub fn inscribed_ellipsoid<T: Scalar>(
@@ -92,13 +93,15 @@ pub fn inscribed_ellipsoid<T: Scalar>(
 /// The same for half-spaces from a source, which are held in memory; `monitor` can stop the work between two steps.
 ///
 /// # Errors
-/// As [`inscribed_ellipsoid`], and [`Error::Read`].
+/// As [`inscribed_ellipsoid`], and [`Error::Input`].
 pub fn inscribed_ellipsoid_of_source(
     source: &dyn PointSource,
     options: &InscribedOptions,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<InscribedEllipsoid>, Error> {
-    let wrong = |name, value: String, expected| Err(Error::Option { name, value, expected });
+    let wrong = |name, value: String, expected| {
+        Err(Error::Input(InputError::Option { name, value, expected }))
+    };
     if !(options.epsilon > 0.0 && options.epsilon < 1.0) {
         return wrong("epsilon", shown_number(options.epsilon), "a number in (0, 1)");
     }
@@ -122,7 +125,11 @@ fn read(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<HalfSpaces, E
     monitor.pass(1, source.len());
     let blocks = map_blocks(source, monitor, |first, rows| {
         if let Some((row, column, value)) = rows.first_non_finite() {
-            return Err(Error::NonFinite { row: first + row as u64, column, value });
+            return Err(Error::Input(InputError::NonFinite {
+                row: first + row as u64,
+                column,
+                value,
+            }));
         }
         let hash = hash_block(&rows);
         let values: Vec<f64> = match rows {

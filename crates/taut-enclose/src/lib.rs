@@ -42,7 +42,6 @@ mod robust;
 mod scan;
 mod shapes;
 mod sphere_tree;
-mod threads;
 mod top;
 
 pub use ball::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_ellipsoids, ball_of_source};

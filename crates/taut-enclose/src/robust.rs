@@ -22,6 +22,7 @@ use taut_certify::{
     Ellipsoid, Enclosure, Hull, RobustCertificate, RobustEllipsoid, RobustMethod, Solution, Stop,
     Trace, Unweighted,
 };
+use taut_points::on_threads;
 use taut_points::{Monitor, PointSource, Points, Scalar};
 
 use self::fit::{Fit, Placed};
@@ -29,7 +30,6 @@ use crate::Error;
 use crate::ellipsoid::dense::divide_rows;
 use crate::ellipsoid::outcome::log_unit_ball;
 use crate::ellipsoid::survey::Survey;
-use crate::threads::on_threads;
 pub use options::RobustOptions;
 
 /// Centre and scatter of most of `points`, n × d, the tolerance ellipsoid, and the points outside of it.
@@ -72,7 +72,7 @@ pub use options::RobustOptions;
 /// ```
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::NonFinite`], [`Error::Overflow`], [`Error::Option`].
+/// [`Error::Empty`], [`Error::Input`], [`Error::Overflow`], [`Error::Input`].
 pub fn robust_ellipsoid<T: Scalar>(
     points: &Points<'_, T>,
     options: &RobustOptions,
@@ -86,7 +86,7 @@ pub fn robust_ellipsoid<T: Scalar>(
 /// subspace, the points kept as well.
 ///
 /// # Errors
-/// As [`robust_ellipsoid()`], and [`Error::Read`] when the source fails or `monitor` stops the work.
+/// As [`robust_ellipsoid()`], and [`Error::Input`] when the source fails or `monitor` stops the work.
 pub fn robust_ellipsoid_of_source(
     source: &dyn PointSource,
     options: &RobustOptions,

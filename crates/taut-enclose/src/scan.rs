@@ -11,6 +11,7 @@
 mod pass;
 
 use taut_certify::Items;
+use taut_points::InputError;
 use taut_points::{Monitor, PointSource, PointsHash, gather, map_blocks};
 
 use self::pass::Pass;
@@ -74,7 +75,11 @@ impl<'a> Scan<'a> {
             }
             Items::Ellipsoids => {
                 let (name, value) = ("items", "ellipsoids".into());
-                return Err(Error::Option { name, value, expected: "points or balls" });
+                return Err(Error::Input(InputError::Option {
+                    name,
+                    value,
+                    expected: "points or balls",
+                }));
             }
             Items::Points | Items::Balls => {}
         }

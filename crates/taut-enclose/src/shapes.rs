@@ -16,6 +16,7 @@ mod thickening;
 
 use rayon::prelude::*;
 use taut_certify::Items;
+use taut_points::InputError;
 use taut_points::{
     BlockHash, Monitor, PointSource, PointsHash, Rows, ScalarKind, hash_block, map_blocks,
 };
@@ -204,7 +205,7 @@ impl Shapes {
 /// The hash and the values of a block of finite rows.
 fn block(first: u64, rows: &Rows<'_>) -> Result<(BlockHash, Vec<f64>), Error> {
     if let Some((row, column, value)) = rows.first_non_finite() {
-        return Err(Error::NonFinite { row: first + row as u64, column, value });
+        return Err(Error::Input(InputError::NonFinite { row: first + row as u64, column, value }));
     }
     let values = match rows {
         Rows::F32(points) => points.values().iter().map(|&v| v.into()).collect(),

@@ -14,10 +14,11 @@ mod split;
 
 use rayon::prelude::*;
 use taut_certify::Ball;
+use taut_points::InputError;
+use taut_points::on_threads;
 use taut_points::{Monitor, PointSource, Points, ReadError, Scalar, gather};
 
 use crate::frame::survey;
-use crate::threads::on_threads;
 use crate::{BallOptions, Error, ball};
 
 /// How to build the tree. Write `SphereTreeOptions { leaf_size: 1, ..Default::default() }`.
@@ -98,7 +99,7 @@ impl SphereTree {
 /// ```
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::NonFinite`], [`Error::Overflow`], [`Error::Option`].
+/// [`Error::Empty`], [`Error::Input`], [`Error::Overflow`], [`Error::Input`].
 pub fn sphere_tree<T: Scalar>(
     points: &Points<'_, T>,
     options: &SphereTreeOptions,
@@ -111,7 +112,7 @@ pub fn sphere_tree<T: Scalar>(
 /// The same for the points of a source, which are read into memory.
 ///
 /// # Errors
-/// As [`sphere_tree()`], and [`Error::Read`] when the source fails or `monitor` stops the work, which it is asked for each node.
+/// As [`sphere_tree()`], and [`Error::Input`] when the source fails or `monitor` stops the work, which it is asked for each node.
 pub fn sphere_tree_of_source(
     source: &dyn PointSource,
     options: &SphereTreeOptions,
@@ -129,7 +130,7 @@ impl SphereTreeOptions {
     fn check(&self, source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<(), Error> {
         if self.leaf_size == 0 {
             let (name, value) = ("leaf_size", "0".into());
-            return Err(Error::Option { name, value, expected: "at least 1" });
+            return Err(Error::Input(InputError::Option { name, value, expected: "at least 1" }));
         }
         // What a row is called, whatever is wrong with it: the balls know rows by their place in a node.
         survey(source, monitor).map(|_| ())

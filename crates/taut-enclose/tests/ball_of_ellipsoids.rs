@@ -5,6 +5,7 @@ mod shapes;
 use shapes::{Item, border, random_items, rows_of};
 use taut_certify::{Ball, Solution};
 use taut_enclose::{BallMethod, BallOptions, Error, ball, ball_of_balls, ball_of_ellipsoids};
+use taut_points::InputError;
 use taut_points::Points;
 
 fn solved(items: &[Item], epsilon: f64) -> Solution<Ball> {
@@ -115,13 +116,13 @@ fn bad_rows_are_named() {
     assert!(matches!(error(&indefinite, 5, &plain), Error::NegativeShape { row: 1 }));
     assert!(matches!(
         error(&[0.0, 0.0, f64::NAN, 0.0, 1.0], 5, &plain),
-        Error::NonFinite { row: 0, column: 2, .. }
+        Error::Input(InputError::NonFinite { row: 0, column: 2, .. })
     ));
     assert!(matches!(error(&[1.0; 4], 4, &plain), Error::NoShape { columns: 4 }));
     let thesis = BallOptions { method: BallMethod::ThesisFast, ..Default::default() };
     assert!(matches!(
         error(&[0.0, 0.0, 1.0, 0.0, 1.0], 5, &thesis),
-        Error::Option { name: "method", .. }
+        Error::Input(InputError::Option { name: "method", .. })
     ));
     assert!(matches!(error(&[0.0, -1.0], 2, &plain), Error::NegativeShape { row: 0 }));
 }

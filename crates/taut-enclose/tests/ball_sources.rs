@@ -11,6 +11,7 @@ use common::families::Random;
 use common::judge;
 use taut_certify::{Items, Stop};
 use taut_enclose::{BallOptions, Error, ball, ball_of_balls, ball_of_source};
+use taut_points::InputError;
 use taut_points::{
     Distribution, FileSource, GeneratedSource, MappedSource, Monitor, PointSource, Points,
     ReadError, Rows, ScalarKind, Scratch, generate,
@@ -45,7 +46,7 @@ fn the_first_bad_coordinate_is_named() {
             for threads in [1, 8] {
                 let options = BallOptions { threads: Some(threads), ..Default::default() };
                 match ball(&Points::new(&values, dim).unwrap(), &options) {
-                    Err(Error::NonFinite { row: r, column: c, value }) => {
+                    Err(Error::Input(InputError::NonFinite { row: r, column: c, value })) => {
                         assert_eq!((r, c), (row as u64, column));
                         assert_eq!(value.to_bits(), bad.to_bits());
                     }
@@ -56,14 +57,14 @@ fn the_first_bad_coordinate_is_named() {
     }
     let single = [1.0f32, f32::INFINITY, 2.0, 3.0];
     let found = ball(&Points::new(&single, 2).unwrap(), &options(0.0));
-    assert!(matches!(found, Err(Error::NonFinite { row: 0, column: 1, .. })));
+    assert!(matches!(found, Err(Error::Input(InputError::NonFinite { row: 0, column: 1, .. }))));
     // Where squares overflow, all numbers are looked at again: a bad one must still be found.
     let mut huge = vec![1e300; 2000];
     huge[1501] = f64::NAN;
     let found = ball(&Points::new(&huge, 2).unwrap(), &options(0.0));
-    assert!(matches!(found, Err(Error::NonFinite { row: 750, column: 1, .. })));
+    assert!(matches!(found, Err(Error::Input(InputError::NonFinite { row: 750, column: 1, .. }))));
     let found = ball_of_balls(&Points::new(&[0.0, 1.0, 1.0, f64::NAN], 2).unwrap(), &options(0.0));
-    assert!(matches!(found, Err(Error::NonFinite { row: 1, column: 1, .. })));
+    assert!(matches!(found, Err(Error::Input(InputError::NonFinite { row: 1, column: 1, .. }))));
 }
 
 #[test]
@@ -98,7 +99,7 @@ fn options_out_of_range_are_named() {
     ];
     for (wanted, options) in bad {
         match ball(&points, &options) {
-            Err(Error::Option { name, .. }) => assert_eq!(name, wanted),
+            Err(Error::Input(InputError::Option { name, .. })) => assert_eq!(name, wanted),
             other => panic!("{wanted}: {other:?}"),
         }
     }
@@ -163,7 +164,10 @@ fn a_monitor_hears_and_stops() {
     let monitor =
         Monitor { on_points: Some(&on_points), on_pass: Some(&on_pass), cancel: Some(&cancel) };
     let found = ball_of_source(&source, Items::Points, &options(0.0), &monitor);
-    assert!(matches!(found, Err(Error::Read(ReadError::Cancelled(_)))), "{found:?}");
+    assert!(
+        matches!(found, Err(Error::Input(InputError::Read(ReadError::Cancelled(_))))),
+        "{found:?}"
+    );
     assert_eq!(passes.load(Ordering::Relaxed), 3);
     assert_eq!(points.load(Ordering::Relaxed), 200_000);
 }
@@ -216,7 +220,7 @@ fn a_failing_source_is_reported_wherever_it_fails() {
                 judge(&values, 4, &found).unwrap();
                 ended_well = true;
             }
-            Err(Error::Read(ReadError::Io { path, .. })) => {
+            Err(Error::Input(InputError::Read(ReadError::Io { path, .. }))) => {
                 assert_eq!(path, PathBuf::from("drum"));
                 assert!(!ended_well);
             }
@@ -242,7 +246,10 @@ fn a_file_that_shrinks_is_reported() {
     let source = FileSource::open(file.path(), 0, n, dim, ScalarKind::F64).unwrap();
     file.as_file().set_len(n * dim as u64 * 8 - 1).unwrap();
     let found = ball_of_source(&source, Items::Points, &options(0.0), &Monitor::silent());
-    assert!(matches!(found, Err(Error::Read(ReadError::Io { .. }))), "{found:?}");
+    assert!(
+        matches!(found, Err(Error::Input(InputError::Read(ReadError::Io { .. })))),
+        "{found:?}"
+    );
     assert!(matches!(
         FileSource::open(file.path(), 0, n, dim, ScalarKind::F64),
         Err(ReadError::Truncated { .. })

@@ -10,6 +10,7 @@ use taut_enclose::{
     CentersMethod, CentersOptions, CoverOptions, Error, centers, centers_of_balls,
     centers_of_source,
 };
+use taut_points::InputError;
 use taut_points::{Distribution, Monitor, Points, generate};
 
 fn seeded(cases: u32) -> Config {
@@ -264,7 +265,7 @@ fn a_weight_draws_the_centre() {
 fn wrong_input_is_named() {
     let points = Points::new(&[0.0, 1.0, 2.0, -3.0], 2).unwrap();
     let option = |options: CentersOptions, k: usize| match centers(&points, k, &options) {
-        Err(Error::Option { name, .. }) => name,
+        Err(Error::Input(InputError::Option { name, .. })) => name,
         other => panic!("{other:?}"),
     };
     let plain = CentersOptions::default();
@@ -284,7 +285,7 @@ fn wrong_input_is_named() {
     assert_eq!(option(CentersOptions { weights: true, ..stream }, 1), "weights");
     assert_eq!(option(CentersOptions { assignment: true, ..stream }, 1), "assignment");
     let of_balls = centers_of_balls(&points, 1, &stream);
-    assert!(matches!(of_balls, Err(Error::Option { name: "method", .. })));
+    assert!(matches!(of_balls, Err(Error::Input(InputError::Option { name: "method", .. }))));
 
     let weights = CentersOptions { weights: true, ..plain };
     assert!(matches!(
@@ -302,7 +303,10 @@ fn wrong_input_is_named() {
     assert!(matches!(centers(&none, 1, &plain), Err(Error::Empty)));
     let odd = [0.0, 1.0, f64::NAN, 1.0];
     let odd = Points::new(&odd, 2).unwrap();
-    assert!(matches!(centers(&odd, 1, &plain), Err(Error::NonFinite { row: 1, column: 0, .. })));
+    assert!(matches!(
+        centers(&odd, 1, &plain),
+        Err(Error::Input(InputError::NonFinite { row: 1, column: 0, .. }))
+    ));
 }
 
 /// The optima of 15,112 German cities and 13,509 of the USA, where `TAUT_DATA` names the folder that holds `ball/`.

@@ -12,6 +12,7 @@ use taut_certify::{Centers, Placement, Solution};
 use taut_enclose::{
     CentersOptions, Cover, CoverOptions, Covered, Error, Summary, centers, cover_of_source,
 };
+use taut_points::InputError;
 use taut_points::{Distribution, Monitor, Points, generate, hash_points};
 
 fn seeded(cases: u32) -> Config {
@@ -199,18 +200,20 @@ fn what_is_no_input_is_named() {
         [(0, 1, 1, "dim"), (1, 0, 1, "k"), (1, 1, 0, "instances"), (1, 1, 1001, "instances")]
     {
         let found = Cover::new(dim, k, &CoverOptions { instances });
-        assert!(matches!(found, Err(Error::Option { name, .. }) if name == wrong));
+        assert!(
+            matches!(found, Err(Error::Input(InputError::Option { name, .. })) if name == wrong)
+        );
     }
     let mut cover = Cover::new(2, 1, &options).unwrap();
     cover.add(&Points::new(&[0.0; 6], 2).unwrap()).unwrap();
     let wrong = cover.add(&Points::new(&[1.0, 2.0, 3.0, f64::NAN], 2).unwrap());
-    assert!(matches!(wrong, Err(Error::NonFinite { row: 4, column: 1, .. })));
+    assert!(matches!(wrong, Err(Error::Input(InputError::NonFinite { row: 4, column: 1, .. }))));
     assert_eq!(cover.len(), 3, "none of a block with such a row is counted");
     let wrong = cover.add(&Points::new(&[1.0; 3], 3).unwrap());
-    assert!(matches!(wrong, Err(Error::Option { name: "points", .. })));
+    assert!(matches!(wrong, Err(Error::Input(InputError::Option { name: "points", .. }))));
     let other = Points::new(&[0.0; 4], 2).unwrap();
     let wrong = cover.solution(Placement::Free, &other, &Monitor::silent());
-    assert!(matches!(wrong, Err(Error::Option { name: "source", .. })));
+    assert!(matches!(wrong, Err(Error::Input(InputError::Option { name: "source", .. }))));
     let empty = Points::<f64>::new(&[], 2).unwrap();
     let wrong = cover_of_source(&empty, 1, Placement::Free, &options, &Monitor::silent());
     assert!(matches!(wrong, Err(Error::Empty)));
@@ -290,8 +293,14 @@ fn summaries_may_come_in_any_order() {
 fn summaries_that_do_not_belong_together_are_refused() {
     let one = Summary::of(&Points::new(&[1.0, 2.0], 1).unwrap(), 0, 5).unwrap();
     let two = Summary::of(&Points::new(&[1.0, 2.0], 2).unwrap(), 9, 5).unwrap();
-    assert!(matches!(one.clone().merge(two), Err(Error::Option { name: "other", .. })));
-    assert!(matches!(one.clone().merge(one.clone()), Err(Error::Option { name: "other", .. })));
+    assert!(matches!(
+        one.clone().merge(two),
+        Err(Error::Input(InputError::Option { name: "other", .. }))
+    ));
+    assert!(matches!(
+        one.clone().merge(one.clone()),
+        Err(Error::Input(InputError::Option { name: "other", .. }))
+    ));
     let nothing = Summary::default();
     assert!(nothing.is_empty() && matches!(nothing.points(), Err(Error::Empty)));
     let points = Points::new(&[1.0, 2.0], 1).unwrap();
@@ -299,24 +308,33 @@ fn summaries_that_do_not_belong_together_are_refused() {
     assert!(matches!(nothing.solve(1, Placement::Free, &points, silent), Err(Error::Empty)));
     let mut found = one.solve(1, Placement::Free, &points, silent).unwrap();
     found.certificate.core_set = vec![0, 7];
-    assert!(matches!(lift(&one, found, &points), Err(Error::Option { name: "found", .. })));
+    assert!(matches!(
+        lift(&one, found, &points),
+        Err(Error::Input(InputError::Option { name: "found", .. }))
+    ));
     // Solved for other points.
     let mut found = one.solve(1, Placement::Free, &points, silent).unwrap();
     let others = Points::new(&[1.0, 3.0], 1).unwrap();
     found.certificate.points_hash = hash_points(&others, silent).unwrap();
-    assert!(matches!(lift(&one, found, &points), Err(Error::Option { name: "found", .. })));
+    assert!(matches!(
+        lift(&one, found, &points),
+        Err(Error::Input(InputError::Option { name: "found", .. }))
+    ));
     // Of 0 and 2 alone no row is nearer than 2 to both; of 0, 1 and 2 there is one.
     let points = Points::new(&[0.0, 2.0, 1.0], 1).unwrap();
     let ends = Summary::of(&Points::new(&[0.0, 2.0], 1).unwrap(), 0, 2).unwrap();
     let options = CentersOptions { placement: Placement::Rows, ..Default::default() };
     let found = centers(&ends.points().unwrap(), 1, &options).unwrap();
     assert!(found.answer.lower_bound > 1.9);
-    assert!(matches!(lift(&ends, found, &points), Err(Error::Option { name: "found", .. })));
+    assert!(matches!(
+        lift(&ends, found, &points),
+        Err(Error::Input(InputError::Option { name: "found", .. }))
+    ));
     // Two points of three, and two centres: nothing is proved of the third.
     let points = Points::new(&[1.0, 2.0, 4.0], 1).unwrap();
     let one = Summary::of(&points, 0, 2).unwrap();
     let wrong = one.solve(2, Placement::Free, &points, silent);
-    assert!(matches!(wrong, Err(Error::Option { name: "found", .. })));
+    assert!(matches!(wrong, Err(Error::Input(InputError::Option { name: "found", .. }))));
     let all =
         Summary::of(&points, 0, 3).unwrap().solve(2, Placement::Free, &points, silent).unwrap();
     judge(&all, points.values(), 1);

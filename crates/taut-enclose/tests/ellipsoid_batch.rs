@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use taut_enclose::{EllipsoidMethod, EllipsoidOptions, Error, ellipsoid, ellipsoids};
 use taut_enclose::{ellipsoid_of_source, ellipsoids_of_sources};
+use taut_points::InputError;
 use taut_points::{Distribution, Monitor, PointSource, Points, ReadError, generate};
 
 /// Sets of 1 to 3000 points in 1 to 6 dimensions: few points are flat sets, many are several blocks.
@@ -74,7 +75,7 @@ fn an_error_names_the_first_set_it_is_about() {
     // What is wrong with the options is no fault of a set.
     let options = EllipsoidOptions { epsilon: -1.0, ..Default::default() };
     let error = ellipsoids(&sets, &options).unwrap_err();
-    assert!(matches!(error, Error::Option { name: "epsilon", .. }), "{error}");
+    assert!(matches!(error, Error::Input(InputError::Option { name: "epsilon", .. })), "{error}");
 }
 
 #[test]
@@ -102,5 +103,5 @@ fn a_monitor_hears_of_all_points_and_stops_the_work() {
     let cancel = AtomicBool::new(true);
     let monitor = Monitor { cancel: Some(&cancel), ..Monitor::silent() };
     let error = ellipsoids_of_sources(&sources, &options, &monitor).unwrap_err();
-    assert!(matches!(error, Error::Read(ReadError::Cancelled(_))), "{error}");
+    assert!(matches!(error, Error::Input(InputError::Read(ReadError::Cancelled(_)))), "{error}");
 }

@@ -4,6 +4,7 @@ mod ellipsoids;
 
 use ellipsoids::{exact, log_unit_ball, mapped, normal, rotation, shell, uniform};
 use taut_enclose::{EllipsoidOptions, Error, ellipsoid};
+use taut_points::InputError;
 use taut_points::Points;
 
 const GAP: f64 = 1e-12;
@@ -188,11 +189,11 @@ fn what_is_not_finite_is_named() {
     values[3 * 45_000] = f64::INFINITY;
     let refused = ellipsoid(&Points::new(&values, 3).unwrap(), &EllipsoidOptions::default());
     assert!(
-        matches!(refused, Err(Error::NonFinite { row: 40_000, column: 2, value }) if value.is_nan())
+        matches!(refused, Err(Error::Input(InputError::NonFinite { row: 40_000, column: 2, value })) if value.is_nan())
     );
     values[4] = f64::NEG_INFINITY;
     let refused = ellipsoid(&Points::new(&values, 3).unwrap(), &EllipsoidOptions::default());
-    assert!(matches!(refused, Err(Error::NonFinite { row: 1, column: 1, .. })));
+    assert!(matches!(refused, Err(Error::Input(InputError::NonFinite { row: 1, column: 1, .. }))));
     let none: Vec<f64> = vec![];
     let refused = ellipsoid(&Points::new(&none, 3).unwrap(), &EllipsoidOptions::default());
     assert!(matches!(refused, Err(Error::Empty)));
@@ -213,7 +214,7 @@ fn options_out_of_range_are_named() {
     let points = [0.0, 1.0];
     let points = Points::new(&points, 1).unwrap();
     let refused = |options: EllipsoidOptions| match ellipsoid(&points, &options) {
-        Err(Error::Option { name, .. }) => name,
+        Err(Error::Input(InputError::Option { name, .. })) => name,
         other => panic!("{other:?}"),
     };
     for epsilon in [-1e-9, 1.0, f64::NAN] {

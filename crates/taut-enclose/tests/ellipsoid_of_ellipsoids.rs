@@ -8,6 +8,7 @@ use taut_enclose::{
     EllipsoidMethod, EllipsoidOptions, Error, ellipsoid, ellipsoid_of_balls,
     ellipsoid_of_ellipsoids, ellipsoid_of_items,
 };
+use taut_points::InputError;
 use taut_points::{Monitor, Points};
 
 /// Solves items and has the answer checked.
@@ -266,14 +267,14 @@ fn bad_rows_are_named() {
         Error::NegativeShape { row: 1 }
     ));
     let nan = error(&after_good([0.0, 0.0, 1.0, f64::NAN, 1.0]), 5);
-    assert!(matches!(nan, Error::NonFinite { row: 1, column: 3, .. }));
+    assert!(matches!(nan, Error::Input(InputError::NonFinite { row: 1, column: 3, .. })));
     assert!(matches!(error(&[1.0; 4], 4), Error::NoShape { columns: 4 }));
     assert!(matches!(error(&[], 5), Error::Empty));
     let rows = Points::new(&good, 5).unwrap();
     let slow = EllipsoidOptions { method: EllipsoidMethod::AwaySteps, ..Default::default() };
     assert!(matches!(
         ellipsoid_of_ellipsoids(&rows, &slow),
-        Err(Error::Option { name: "method", .. })
+        Err(Error::Input(InputError::Option { name: "method", .. }))
     ));
     let balls = Points::new(&[0.0, 1.0, 0.0, -1.0], 2).unwrap();
     let negative = ellipsoid_of_balls(&balls, &options).unwrap_err();

@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use ellipsoids::{by, judge, normal, shell, within};
 use taut_certify::Stop;
 use taut_enclose::{EllipsoidMethod, EllipsoidOptions, Error, ellipsoid, ellipsoid_of_source};
+use taut_points::InputError;
 use taut_points::{
     Distribution, FileSource, GeneratedSource, MappedSource, Monitor, PointSource, Points,
     ReadError, ScalarKind, generate,
@@ -95,6 +96,9 @@ fn a_monitor_hears_of_passes_and_can_stop() {
     };
     let monitor = Monitor { on_pass: Some(&hear), cancel: Some(&stop), ..Monitor::silent() };
     let stopped = ellipsoid_of_source(&points, &within(1e-12), &monitor);
-    assert!(matches!(stopped, Err(Error::Read(ReadError::Cancelled(_)))), "{stopped:?}");
+    assert!(
+        matches!(stopped, Err(Error::Input(InputError::Read(ReadError::Cancelled(_))))),
+        "{stopped:?}"
+    );
     assert_eq!(passes.load(Ordering::Relaxed), 1);
 }

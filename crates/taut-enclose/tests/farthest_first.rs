@@ -12,6 +12,7 @@ use taut_certify::Placement;
 use taut_enclose::{
     Error, FarthestFirst, FarthestFirstOptions, farthest_first, farthest_first_of_source,
 };
+use taut_points::InputError;
 use taut_points::{Distribution, Monitor, PointSource, Points, Scalar, generate};
 
 fn seeded(cases: u32) -> Config {
@@ -237,7 +238,9 @@ fn what_is_no_input_is_named() {
             farthest_first_of_source(&points, 2, &options, &Monitor::silent()).unwrap_err();
         for error in [memory, stored] {
             let (row, column) = (2 / dim as u64, 2 % dim);
-            let Error::NonFinite { row: r, column: c, value } = error else { panic!("{error}") };
+            let Error::Input(InputError::NonFinite { row: r, column: c, value }) = error else {
+                panic!("{error}")
+            };
             assert_eq!((r, c, value.is_nan()), (row, column, true));
         }
     }
@@ -245,9 +248,12 @@ fn what_is_no_input_is_named() {
     let wrong = |count, start, threads| {
         farthest_first(&points, count, &FarthestFirstOptions { start, threads }).unwrap_err()
     };
-    assert!(matches!(wrong(0, 0, None), Error::Option { name: "count", .. }));
-    assert!(matches!(wrong(1, 2, None), Error::Option { name: "start", .. }));
-    assert!(matches!(wrong(1, 0, Some(0)), Error::Option { name: "threads", .. }));
+    assert!(matches!(wrong(0, 0, None), Error::Input(InputError::Option { name: "count", .. })));
+    assert!(matches!(wrong(1, 2, None), Error::Input(InputError::Option { name: "start", .. })));
+    assert!(matches!(
+        wrong(1, 0, Some(0)),
+        Error::Input(InputError::Option { name: "threads", .. })
+    ));
     let empty = Points::new(&values[..0], 1).unwrap();
     let empty = farthest_first(&empty, 1, &FarthestFirstOptions::default());
     assert!(matches!(empty, Err(Error::Empty)));
@@ -255,7 +261,7 @@ fn what_is_no_input_is_named() {
     let points = Points::new(&[0.0, 1.0, 3.0], 1).unwrap();
     for k in [0, 3] {
         let wrong = found.solution(k, Placement::Free, &points);
-        assert!(matches!(wrong, Err(Error::Option { name: "k", .. })));
+        assert!(matches!(wrong, Err(Error::Input(InputError::Option { name: "k", .. }))));
     }
 }
 

@@ -2,6 +2,7 @@
 
 use taut_certify::{CheckError, InscribedEllipsoid, Solution, Stop, Violation};
 use taut_enclose::{Error, InscribedOptions, inscribed_ellipsoid};
+use taut_points::InputError;
 use taut_points::{Distribution, Points, generate};
 
 fn solved(rows: &[f64], dim: usize) -> Solution<InscribedEllipsoid> {
@@ -125,7 +126,10 @@ fn polytopes_without_an_ellipsoid_are_named_with_the_reason() {
         }
     }
     assert!(matches!(solve(&[0.0, 0.0, 1.0], 3), Error::NoNormal { row: 0 }));
-    assert!(matches!(solve(&[1.0, f64::NAN, 1.0], 3), Error::NonFinite { row: 0, column: 1, .. }));
+    assert!(matches!(
+        solve(&[1.0, f64::NAN, 1.0], 3),
+        Error::Input(InputError::NonFinite { row: 0, column: 1, .. })
+    ));
     assert!(matches!(solve(&[1.0], 1), Error::NoNormal { row: 0 }));
     assert!(matches!(solve(&[], 3), Error::Empty));
 }

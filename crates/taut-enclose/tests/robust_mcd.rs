@@ -5,6 +5,7 @@ mod robust;
 use robust::{by, classical, contaminated, judge, mapped, normal, real, solve};
 use taut_certify::RobustMethod;
 use taut_enclose::{Error, RobustOptions, robust_ellipsoid};
+use taut_points::InputError;
 use taut_points::Points;
 
 fn mcd() -> RobustOptions {
@@ -270,7 +271,10 @@ fn offsets_and_ranges_are_borne() {
 fn bad_input_is_named() {
     let nan = [0.0, 1.0, f64::NAN, 3.0];
     let refused = robust_ellipsoid(&Points::new(&nan, 2).unwrap(), &mcd()).unwrap_err();
-    assert!(matches!(refused, Error::NonFinite { row: 1, column: 0, .. }), "{refused}");
+    assert!(
+        matches!(refused, Error::Input(InputError::NonFinite { row: 1, column: 0, .. })),
+        "{refused}"
+    );
     let empty = robust_ellipsoid(&Points::<f64>::new(&[], 2).unwrap(), &mcd()).unwrap_err();
     assert!(matches!(empty, Error::Empty));
     let huge = [0.0, f64::MAX, -f64::MAX, f64::MAX / 2.0, 1.0];
@@ -285,7 +289,7 @@ fn bad_input_is_named() {
         RobustOptions { threads: Some(0), ..mcd() },
     ] {
         let refused = robust_ellipsoid(&points, &options).unwrap_err();
-        assert!(matches!(refused, Error::Option { .. }), "{options:?}");
+        assert!(matches!(refused, Error::Input(InputError::Option { .. })), "{options:?}");
     }
 }
 

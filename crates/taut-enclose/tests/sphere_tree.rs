@@ -8,6 +8,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use taut_certify::Ball;
 use taut_enclose::{BallOptions, Error, SphereTree, SphereTreeOptions, ball, sphere_tree};
+use taut_points::InputError;
 use taut_points::{Distribution, Points, generate};
 
 fn tree(values: &[f64], dim: usize, leaf_size: usize) -> SphereTree {
@@ -205,15 +206,15 @@ fn what_is_no_input_is_named() {
     let points = Points::new(&values, 1).unwrap();
     let options = SphereTreeOptions::default();
     let wrong = sphere_tree(&points, &options);
-    assert!(matches!(wrong, Err(Error::NonFinite { row: 3, column: 0, .. })));
+    assert!(matches!(wrong, Err(Error::Input(InputError::NonFinite { row: 3, column: 0, .. }))));
     let points = Points::new(&values[..0], 1).unwrap();
     assert!(matches!(sphere_tree(&points, &options), Err(Error::Empty)));
     let points = Points::new(&values[..3], 1).unwrap();
     let wrong = |options| sphere_tree(&points, &options).unwrap_err();
     let leaf = SphereTreeOptions { leaf_size: 0, ..options };
-    assert!(matches!(wrong(leaf), Error::Option { name: "leaf_size", .. }));
+    assert!(matches!(wrong(leaf), Error::Input(InputError::Option { name: "leaf_size", .. })));
     let epsilon = SphereTreeOptions { epsilon: 1.0, ..options };
-    assert!(matches!(wrong(epsilon), Error::Option { name: "epsilon", .. }));
+    assert!(matches!(wrong(epsilon), Error::Input(InputError::Option { name: "epsilon", .. })));
     let threads = SphereTreeOptions { threads: Some(0), ..options };
-    assert!(matches!(wrong(threads), Error::Option { name: "threads", .. }));
+    assert!(matches!(wrong(threads), Error::Input(InputError::Option { name: "threads", .. })));
 }

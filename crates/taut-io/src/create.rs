@@ -90,7 +90,7 @@ pub(crate) fn folder_of_output(path: &Path) -> Option<PathBuf> {
 ///
 /// # Errors
 /// Those of [`create`].
-pub fn look_at(path: &Path) -> Result<(), Error> {
+pub fn check_writable(path: &Path) -> Result<(), Error> {
     let shown = shown_path(path);
     let failed = |source| Error::writing(&shown, source);
     let behind = match fs::metadata(path) {

@@ -57,7 +57,7 @@ mod write;
 
 pub use array::NpyArray;
 pub use columns::Columns;
-pub use create::{AtomicFile, create, look_at, remove_unfinished};
+pub use create::{AtomicFile, check_writable, create, remove_unfinished};
 pub use device::refuse_device;
 pub use error::{Error, MeshPlace, Place};
 pub use format::{Compression, Format};

@@ -113,3 +113,59 @@ pub enum ReadError {
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
+
+/// What is wrong with points or options, whichever algorithm they were given to. The errors of the crates with algorithms wrap
+/// it, so that a caller explains it once.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum InputError {
+    /// A coordinate is NaN or infinite.
+    #[error("coordinate {column} of point {row} is {value}: all coordinates must be finite")]
+    NonFinite {
+        /// Point, from 0.
+        row: u64,
+        /// Coordinate, from 0.
+        column: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// Points have too few coordinates, or too many.
+    #[error("points have {dim} coordinates: expected {expected}")]
+    Dimension {
+        /// Coordinates of a point.
+        dim: usize,
+        /// What would have been accepted.
+        expected: &'static str,
+    },
+    /// More points than can be numbered in memory.
+    #[error("{points} points are more than the {most} that fit in memory")]
+    TooManyPoints {
+        /// How many there are.
+        points: u64,
+        /// How many would have been accepted.
+        most: u64,
+    },
+    /// An option is outside its range.
+    #[error("option `{name}` is {value}: expected {expected}")]
+    Option {
+        /// The option.
+        name: &'static str,
+        /// What was given.
+        value: String,
+        /// What would have been accepted.
+        expected: &'static str,
+    },
+    /// The points could not be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The caller asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl InputError {
+    /// Whether the fault is in what the caller gave, not in reading it or in a wish to stop.
+    pub fn is_fault_of_caller(&self) -> bool {
+        !matches!(self, InputError::Read(_) | InputError::Cancelled(_))
+    }
+}

@@ -2,6 +2,8 @@
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use crate::InputError;
+
 /// Most threads of a pool. More than any machine has processors only cost memory, and starting them takes ever longer.
 pub const THREADS_MAX: usize = 1024;
 
@@ -38,6 +40,23 @@ pub fn thread_pool(threads: usize) -> Result<ThreadPool, ThreadsError> {
     check_threads(threads)?;
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     pool.map_err(|_| ThreadsError { expected: "as many threads as the system grants" })
+}
+
+/// Does `work` on a pool of `threads` threads, or on the pool of the caller where the number is `None`.
+///
+/// # Errors
+/// [`InputError::Option`] as [`thread_pool`]; what `work` says.
+pub fn on_threads<R: Send, E: From<InputError> + Send>(
+    threads: Option<usize>,
+    work: impl FnOnce() -> Result<R, E> + Send,
+) -> Result<R, E> {
+    let Some(threads) = threads else { return work() };
+    let refused = |refused: ThreadsError| InputError::Option {
+        name: "threads",
+        value: threads.to_string(),
+        expected: refused.expected,
+    };
+    thread_pool(threads).map_err(refused)?.install(work)
 }
 
 #[cfg(test)]

@@ -1,23 +1,11 @@
 //! What a reconstruction can refuse.
 
-use taut_points::{Cancelled, ReadError};
+use taut_points::{Cancelled, InputError, ReadError};
 
 /// Why there is no curve or surface.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Points are not of the plane.
-    #[error("points have {dim} coordinates: curves are sought in the plane, which has 2")]
-    Dimension {
-        /// Coordinates of a point.
-        dim: usize,
-    },
-    /// Points are not of space.
-    #[error("points have {dim} coordinates: surfaces are sought in space, which has 3")]
-    SpaceDimension {
-        /// Coordinates of a point.
-        dim: usize,
-    },
     /// The points have no volume, so there is no surface around it.
     #[error("{}: a surface needs four points that are on no common plane", span.of(*points))]
     Flat {
@@ -26,43 +14,33 @@ pub enum Error {
         /// What they have instead.
         span: Span,
     },
-    /// A coordinate is NaN or infinite.
-    #[error("coordinate {column} of point {row} is {value}: all coordinates must be finite")]
-    NonFinite {
-        /// Point, from 0.
-        row: u64,
-        /// Coordinate, from 0.
-        column: usize,
-        /// Its value.
-        value: f64,
-    },
-    /// Points are numbered with 32 bits in memory.
-    #[error("{points} points are more than the {most} that fit in memory")]
-    TooManyPoints {
-        /// How many there are.
-        points: u64,
-        /// How many would have been accepted.
-        most: u64,
-    },
-    /// An option is outside its range.
-    #[error("option `{name}` is {value}: expected {expected}")]
-    Option {
-        /// The option.
-        name: &'static str,
-        /// What was given.
-        value: String,
-        /// What would have been accepted.
-        expected: &'static str,
-    },
     /// The triangulation that a method stands on could not be built.
     #[error(transparent)]
-    Triangulation(#[from] taut_delaunay::Error),
-    /// The points could not be read.
+    Triangulation(taut_delaunay::Error),
+    /// The points or options are refused, whatever was asked of them; or they could not be read, or the caller asked to stop.
     #[error(transparent)]
-    Read(#[from] ReadError),
-    /// The caller asked to stop.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
+    Input(#[from] InputError),
+}
+
+impl From<taut_delaunay::Error> for Error {
+    fn from(error: taut_delaunay::Error) -> Self {
+        match error {
+            taut_delaunay::Error::Input(error) => Error::Input(error),
+            other => Error::Triangulation(other),
+        }
+    }
+}
+
+impl From<ReadError> for Error {
+    fn from(error: ReadError) -> Self {
+        Error::Input(error.into())
+    }
+}
+
+impl From<Cancelled> for Error {
+    fn from(cancelled: Cancelled) -> Self {
+        Error::Input(cancelled.into())
+    }
 }
 
 /// What points without a volume are.

@@ -13,7 +13,6 @@
 mod curve;
 mod error;
 mod surface;
-mod threads;
 mod tour;
 
 pub use curve::{CurveMethod, CurveOptions, Ends, curve, curve_of_source};

@@ -9,6 +9,7 @@ use num_traits::ToPrimitive;
 use samples::rational::{Fraction, Pencil, Vector, fraction, vector};
 use samples::{Point, Random, soup, sphere};
 use taut_delaunay::{Complex, DelaunayOptions, Space};
+use taut_points::InputError;
 use taut_points::{Monitor, Points};
 use taut_reconstruct::Error;
 use taut_reconstruct::alpha::{
@@ -276,16 +277,19 @@ fn bad_input_is_named() {
     let cube = space(&soup(20, 1));
     for alpha in [-1.0, f64::NAN] {
         let refused = alpha_shape(&cube, alpha);
-        assert!(matches!(refused, Err(Error::Option { name: "alpha", .. })));
+        assert!(matches!(refused, Err(Error::Input(InputError::Option { name: "alpha", .. }))));
         let filter = AlphaFilter::Circumradius(alpha);
         let refused = filtered_hull(&cube, 0.0, Emptiness::Apexes, filter);
-        assert!(matches!(refused, Err(Error::Option { name: "alpha", .. })));
+        assert!(matches!(refused, Err(Error::Input(InputError::Option { name: "alpha", .. }))));
     }
     for epsilon in [-1e-9, 1.0, f64::NAN] {
         let refused = filtered_hull(&cube, epsilon, Emptiness::Apexes, AlphaFilter::None);
-        assert!(matches!(refused, Err(Error::Option { name: "epsilon", .. })));
+        assert!(matches!(refused, Err(Error::Input(InputError::Option { name: "epsilon", .. }))));
     }
-    assert!(matches!(optimal_alpha(&cube, 0), Err(Error::Option { name: "solids", .. })));
+    assert!(matches!(
+        optimal_alpha(&cube, 0),
+        Err(Error::Input(InputError::Option { name: "solids", .. }))
+    ));
     let flat: Vec<Point> = soup(20, 1).into_iter().map(|[x, y, _]| [x, y, 1.0]).collect();
     for points in [vec![], vec![[1.0; 3]], vec![[1.0; 3], [2.0; 3], [3.0; 3]], flat] {
         let space = space(&points);

@@ -10,6 +10,7 @@ use std::sync::atomic::AtomicBool;
 use judge::{Found, assert_exact, closed, found};
 use points::{Point, chances, circle, cube, sphere, tube};
 use taut_certify::Apex;
+use taut_points::InputError;
 use taut_points::{Monitor, Points};
 use taut_reconstruct::{
     Denoise, Error, Positions, Span, SurfaceMode, SurfaceOptions, surface, surface_of_source,
@@ -127,15 +128,15 @@ fn wrong_input_is_named() {
     let view = Points::new(points.as_flattened(), 3).expect("whole rows");
     let refused = surface(&view, &SurfaceOptions::default());
     assert!(
-        matches!(refused, Err(Error::NonFinite { row: 13, column: 2, value }) if value.is_nan())
+        matches!(refused, Err(Error::Input(InputError::NonFinite { row: 13, column: 2, value })) if value.is_nan())
     );
     let flat = [0.0, 1.0, 2.0, 3.0];
     let plane = Points::new(&flat, 2).expect("whole rows");
     let refused = surface(&plane, &SurfaceOptions::default());
-    assert!(matches!(refused, Err(Error::SpaceDimension { dim: 2 })));
+    assert!(matches!(refused, Err(Error::Input(InputError::Dimension { dim: 2, .. }))));
     let view = Points::new(&points.as_flattened()[..30], 3).expect("whole rows");
     let refused = surface(&view, &SurfaceOptions { threads: Some(0), ..Default::default() });
-    assert!(matches!(refused, Err(Error::Option { name: "threads", .. })));
+    assert!(matches!(refused, Err(Error::Input(InputError::Option { name: "threads", .. }))));
 }
 
 #[test]
@@ -145,7 +146,7 @@ fn a_monitor_stops_it() {
     let stop = AtomicBool::new(true);
     let monitor = Monitor { cancel: Some(&stop), ..Monitor::silent() };
     let stopped = surface_of_source(&view, &SurfaceOptions::default(), &monitor);
-    assert!(matches!(stopped, Err(Error::Cancelled(_))));
+    assert!(matches!(stopped, Err(Error::Input(InputError::Cancelled(_)))));
 }
 
 #[test]
@@ -232,7 +233,7 @@ fn wrong_ways_to_take_out_noise_are_named() {
     let refused = |denoise| {
         let options = SurfaceOptions { denoise: Some(denoise), ..Default::default() };
         match surface(&view, &options) {
-            Err(Error::Option { name, .. }) => name,
+            Err(Error::Input(InputError::Option { name, .. })) => name,
             other => panic!("{other:?}"),
         }
     };

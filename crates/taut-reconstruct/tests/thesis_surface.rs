@@ -5,6 +5,7 @@ mod samples;
 use samples::{Point, Random, rings, rounded_rings, soup, sphere, torus, waves, wedge};
 use taut_delaunay::{DelaunayOptions, Space};
 use taut_mesh::{Topology, TriangleMesh, self_intersections, topology};
+use taut_points::InputError;
 use taut_points::{Cancelled, Monitor, Points};
 use taut_reconstruct::thesis::{
     AlphaFilter, Emptiness, Extent, Pinches, Priority, ThesisOptions, ThesisSurface,
@@ -347,7 +348,7 @@ fn coordinates_of_all_magnitudes_are_accepted() {
 #[test]
 fn options_out_of_range_are_named() {
     let refused = |options: ThesisOptions| match grown(&sphere(50), &options) {
-        Err(Error::Option { name, .. }) => name,
+        Err(Error::Input(InputError::Option { name, .. })) => name,
         other => panic!("{:?}", other.map(|(_, surface)| surface)),
     };
     for epsilon in [-0.1, 1.0, f64::NAN] {
@@ -377,5 +378,5 @@ fn the_caller_can_stop_it() {
     let stop = std::sync::atomic::AtomicBool::new(true);
     let monitor = Monitor { cancel: Some(&stop), ..Monitor::silent() };
     let stopped = thesis_surface(&space.expect("finite"), &ThesisOptions::default(), &monitor);
-    assert!(matches!(stopped, Err(Error::Cancelled(Cancelled))));
+    assert!(matches!(stopped, Err(Error::Input(InputError::Cancelled(Cancelled)))));
 }

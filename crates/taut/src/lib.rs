@@ -110,8 +110,10 @@
 //! Not for: distances other than Euclidean, or weights other than those of centres.
 #![forbid(unsafe_code)]
 
+mod error;
 pub mod files;
 
+pub use error::Error;
 pub use taut_certify as certify;
 pub use taut_certify::{
     Answer, AnySolution, Ball, BallCertificate, Centers, CentersCertificate, CentersVerdict, Curve,

@@ -39,24 +39,24 @@ pub struct Section {
     /// A command that makes this section again; may be empty.
     pub command: String,
     /// Numbers with their names.
-    pub facts: Vec<Fact>,
+    pub fields: Vec<Field>,
     /// Pictures.
     pub figures: Vec<Figure>,
 }
 
 /// A number with its name.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Fact {
+pub struct Field {
     /// What it is.
     pub name: String,
     /// How much, as it is to be printed.
     pub value: String,
 }
 
-impl Fact {
-    /// A fact from anything that prints.
+impl Field {
+    /// A field from anything that prints.
     pub fn new(name: impl Into<String>, value: impl ToString) -> Self {
-        Fact { name: name.into(), value: value.to_string() }
+        Field { name: name.into(), value: value.to_string() }
     }
 }
 
@@ -122,7 +122,7 @@ fn section(out: &mut String, part: &Section) {
         let _ = writeln!(out, "<h2>{}</h2>", escape(&part.heading));
     }
     out.push_str(&paragraphs(&part.text));
-    let words = !part.facts.is_empty() || !part.command.is_empty();
+    let words = !part.fields.is_empty() || !part.command.is_empty();
     let (lead, rest) = match part.figures.split_first() {
         Some((lead @ (Figure::Plane(_) | Figure::Space(_) | Figure::Views(_)), rest)) => {
             (Some(lead), rest)
@@ -134,7 +134,7 @@ fn section(out: &mut String, part: &Section) {
         let _ = writeln!(out, "<div class=\"{columns}\">");
         if words {
             out.push_str("<div>\n");
-            facts(out, part);
+            fields(out, part);
             out.push_str("</div>\n");
         }
         if let Some(lead) = lead {
@@ -152,11 +152,11 @@ fn section(out: &mut String, part: &Section) {
     out.push_str("</section>\n");
 }
 
-fn facts(out: &mut String, part: &Section) {
-    if !part.facts.is_empty() {
+fn fields(out: &mut String, part: &Section) {
+    if !part.fields.is_empty() {
         out.push_str("<table>\n");
-        for fact in &part.facts {
-            let (name, value) = (escape(&fact.name), escape(&fact.value));
+        for field in &part.fields {
+            let (name, value) = (escape(&field.name), escape(&field.value));
             let _ = writeln!(out, "<tr><th scope=\"row\">{name}</th><td>{value}</td></tr>");
         }
         out.push_str("</table>\n");

@@ -11,6 +11,7 @@
 
 use rayon::prelude::*;
 use taut_certify::{Ball, BallCertificate, Items, PassBounds, Solution, Stop, Trace};
+use taut_points::InputError;
 use taut_points::{Monitor, PointSource, ReadError};
 
 use super::active_set::{ActiveSet, TOLERANCE};
@@ -70,11 +71,11 @@ pub(super) fn solve(
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Ball>, Error> {
     if options.method != BallMethod::CoreSet {
-        return Err(Error::Option {
+        return Err(Error::Input(InputError::Option {
             name: "method",
             value: options.method.name().to_owned(),
             expected: "core-set, the one method for ellipsoids",
-        });
+        }));
     }
     let shapes = Shapes::read(source, Items::Ellipsoids, monitor)?;
     let (origin, scale) = units(&shapes)?;

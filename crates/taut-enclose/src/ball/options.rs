@@ -3,6 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use taut_points::InputError;
 use taut_points::{check_threads, shown_number};
 
 use crate::Error;
@@ -51,11 +52,11 @@ impl FromStr for BallMethod {
     type Err = Error;
     fn from_str(name: &str) -> Result<Self, Error> {
         BallMethod::ALL.into_iter().find(|method| method.name() == name).ok_or_else(|| {
-            Error::Option {
+            Error::Input(InputError::Option {
                 name: "method",
                 value: name.to_owned(),
                 expected: "core-set, thesis-pure, thesis-fast or badoiu-clarkson",
-            }
+            })
         })
     }
 }
@@ -94,7 +95,9 @@ impl Default for BallOptions {
 
 impl BallOptions {
     pub(super) fn check(&self) -> Result<(), Error> {
-        let wrong = |name, value: String, expected| Err(Error::Option { name, value, expected });
+        let wrong = |name, value: String, expected| {
+            Err(Error::Input(InputError::Option { name, value, expected }))
+        };
         if !(0.0..1.0).contains(&self.epsilon) {
             return wrong("epsilon", shown_number(self.epsilon), "a number in [0, 1)");
         }

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use taut_certify::Placement;
+use taut_points::InputError;
 use taut_points::{check_threads, shown_number};
 
 use crate::Error;
@@ -56,11 +57,11 @@ impl FromStr for CentersMethod {
     type Err = Error;
     fn from_str(name: &str) -> Result<Self, Error> {
         CentersMethod::ALL.into_iter().find(|method| method.name() == name).ok_or_else(|| {
-            Error::Option {
+            Error::Input(InputError::Option {
                 name: "method",
                 value: name.to_owned(),
                 expected: "tree, thesis, farthest-first or stream",
-            }
+            })
         })
     }
 }
@@ -107,7 +108,9 @@ impl Default for CentersOptions {
 
 impl CentersOptions {
     pub(super) fn check(&self, k: usize) -> Result<(), Error> {
-        let wrong = |name, value: String, expected| Err(Error::Option { name, value, expected });
+        let wrong = |name, value: String, expected| {
+            Err(Error::Input(InputError::Option { name, value, expected }))
+        };
         if k == 0 {
             return wrong("k", "0".into(), "at least 1");
         }

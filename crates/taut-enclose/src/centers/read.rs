@@ -5,6 +5,7 @@
 //! *Guarantee.* Moved and scaled rows are the rows, without rounding; what cannot be is refused.
 
 use taut_certify::Items;
+use taut_points::InputError;
 use taut_points::{Monitor, PointSource, PointsHash, Rows, hash_block, map_blocks};
 
 use super::items::{ItemSet, Position, Shape};
@@ -55,11 +56,19 @@ impl Table {
             (Items::Balls, false) => Shape::Balls,
             (Items::Balls, true) => {
                 let (name, value) = ("weights", "true".into());
-                return Err(Error::Option { name, value, expected: "false for balls" });
+                return Err(Error::Input(InputError::Option {
+                    name,
+                    value,
+                    expected: "false for balls",
+                }));
             }
             (Items::Ellipsoids, _) => {
                 let (name, value) = ("items", "ellipsoids".into());
-                return Err(Error::Option { name, value, expected: "points or balls" });
+                return Err(Error::Input(InputError::Option {
+                    name,
+                    value,
+                    expected: "points or balls",
+                }));
             }
         };
         match shape {
@@ -163,7 +172,11 @@ impl Table {
 impl Block {
     fn read(shape: Shape, first: u64, rows: &Rows<'_>) -> Result<Self, Error> {
         if let Some((row, column, value)) = rows.first_non_finite() {
-            return Err(Error::NonFinite { row: first + row as u64, column, value });
+            return Err(Error::Input(InputError::NonFinite {
+                row: first + row as u64,
+                column,
+                value,
+            }));
         }
         let (values, columns): (Vec<f64>, usize) = match rows {
             Rows::F32(points) => {

@@ -26,6 +26,7 @@ use std::collections::BTreeMap;
 use taut_certify::{
     Centers, CentersCertificate, Items, LowerBound, PassBounds, Placement, Solution, Stop, Trace,
 };
+use taut_points::InputError;
 use taut_points::{Monitor, PointSource};
 
 use self::core_set::CoreSet;
@@ -63,11 +64,11 @@ pub(crate) fn solve(
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Centers>, Error> {
     if !source.is_empty() && options.outliers >= source.len() {
-        return Err(Error::Option {
+        return Err(Error::Input(InputError::Option {
             name: "outliers",
             value: options.outliers.to_string(),
             expected: "less than the number of items",
-        });
+        }));
     }
     let sites = Sites::read(source, items, options.weights, monitor)?;
     let outliers = options.outliers as usize;

@@ -24,7 +24,7 @@ pub(super) struct Measured {
 /// The largest distance of a point of `source` to the nearest of `centers`.
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::NonFinite`], [`Error::Overflow`], [`Error::Read`].
+/// [`Error::Empty`], [`Error::Input`], [`Error::Overflow`], [`Error::Input`].
 pub(super) fn measure(
     source: &dyn PointSource,
     centers: &[Vec<f64>],

@@ -11,6 +11,7 @@
 //! VLDB 2019 (larger summaries).
 
 use taut_certify::{Centers, CentersCertificate, Items, LowerBound, Placement, Solution};
+use taut_points::InputError;
 use taut_points::{Monitor, PointSource, Points, Scalar, hash_points};
 
 use super::measure::measure;
@@ -107,7 +108,7 @@ impl Summary {
     /// summaries are put together does not matter.
     ///
     /// # Errors
-    /// [`Error::Option`] when the points are of different dimensions, or a row is in both.
+    /// [`Error::Input`] when the points are of different dimensions, or a row is in both.
     pub fn merge(self, other: Summary) -> Result<Self, Error> {
         if self.is_empty() {
             return Ok(other);
@@ -116,11 +117,11 @@ impl Summary {
             return Ok(self);
         }
         if self.dim != other.dim {
-            return Err(Error::Option {
+            return Err(Error::Input(InputError::Option {
                 name: "other",
                 value: format!("of dimension {}", other.dim),
                 expected: "a summary of points of the same dimension",
-            });
+            }));
         }
         let dim = self.dim;
         let both = self.rows.iter().zip(self.coordinates.chunks_exact(dim));
@@ -128,11 +129,11 @@ impl Summary {
         let mut all: Vec<(u64, &[f64])> = both.chain(others).map(|(&row, x)| (row, x)).collect();
         all.sort_unstable_by_key(|&(row, _)| row);
         if let Some(twice) = all.windows(2).find(|pair| pair[0].0 == pair[1].0) {
-            return Err(Error::Option {
+            return Err(Error::Input(InputError::Option {
                 name: "other",
                 value: format!("with row {}", twice[0].0),
                 expected: "a summary of other rows than those of the first",
-            });
+            }));
         }
         Ok(Summary {
             dim,
@@ -182,9 +183,9 @@ impl Summary {
     /// [`farthest_first()`] give it.
     ///
     /// # Errors
-    /// [`Error::Option`] for centres of anything but all of these points, without weights, for those among the rows with
+    /// [`Error::Input`] for centres of anything but all of these points, without weights, for those among the rows with
     /// another proof, and for those whose lower bound is 0 while points are left out, as happens with summaries of no more
-    /// rows than centres; [`Error::NonFinite`], [`Error::Overflow`], [`Error::Read`].
+    /// rows than centres; [`Error::Input`], [`Error::Overflow`], [`Error::Input`].
     pub fn lift(
         &self,
         found: Solution<Centers>,
@@ -192,10 +193,12 @@ impl Summary {
         monitor: &Monitor<'_>,
     ) -> Result<Solution<Centers>, Error> {
         let Solution { mut answer, mut certificate, mut trace } = found;
-        let wrong = |value: &str| Error::Option {
-            name: "found",
-            value: value.into(),
-            expected: "centres of the points of the summary with a lower bound, without weights and outliers",
+        let wrong = |value: &str| {
+            Error::Input(InputError::Option {
+                name: "found",
+                value: value.into(),
+                expected: "centres of the points of the summary with a lower bound, without weights and outliers",
+            })
         };
         if certificate.items != Items::Points || certificate.weights || certificate.outliers > 0 {
             return Err(wrong("of weighted points, of balls, or with outliers"));

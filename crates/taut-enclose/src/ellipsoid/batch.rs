@@ -9,11 +9,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use taut_certify::{Ellipsoid, Solution};
+use taut_points::InputError;
+use taut_points::on_threads;
 use taut_points::{Monitor, PointSource, Points, ReadError, Scalar};
 
 use super::{EllipsoidOptions, solve};
 use crate::Error;
-use crate::threads::on_threads;
 
 /// The ellipsoid of least volume of each of `sets`, in their order; sets may differ in size and dimension.
 ///
@@ -42,7 +43,7 @@ use crate::threads::on_threads;
 /// ```
 ///
 /// # Errors
-/// [`Error::Set`] with the number of the first set that cannot be solved, and why; [`Error::Option`].
+/// [`Error::Set`] with the number of the first set that cannot be solved, and why; [`Error::Input`].
 pub fn ellipsoids<T: Scalar>(
     sets: &[Points<'_, T>],
     options: &EllipsoidOptions,
@@ -54,7 +55,7 @@ pub fn ellipsoids<T: Scalar>(
 /// The same for the points of sources; `monitor` hears of one pass over all points, and can stop the work at any time.
 ///
 /// # Errors
-/// As [`ellipsoids()`], and [`Error::Read`] when `monitor` stops the work.
+/// As [`ellipsoids()`], and [`Error::Input`] when `monitor` stops the work.
 pub fn ellipsoids_of_sources(
     sources: &[&dyn PointSource],
     options: &EllipsoidOptions,
@@ -82,7 +83,9 @@ pub fn ellipsoids_of_sources(
         Some(found)
     };
     let found: Vec<Option<Result<Solution<Ellipsoid>, Error>>> =
-        on_threads(options.threads, || Ok((0..sources.len()).into_par_iter().map(one).collect()))?;
+        on_threads(options.threads, || {
+            Ok::<_, Error>((0..sources.len()).into_par_iter().map(one).collect())
+        })?;
     let sets = found.into_iter().enumerate();
     sets.filter_map(|(set, found)| found.map(|found| found.map_err(|error| named(set, error))))
         .collect()
@@ -91,7 +94,7 @@ pub fn ellipsoids_of_sources(
 /// The error of one set, with its number, unless it is about all of them.
 fn named(set: usize, error: Error) -> Error {
     match error {
-        Error::Read(ReadError::Cancelled(_)) => error,
+        Error::Input(InputError::Read(ReadError::Cancelled(_)) | InputError::Cancelled(_)) => error,
         error => Error::Set { set: set as u64, error: Box::new(error) },
     }
 }

@@ -20,6 +20,7 @@ mod rounds;
 mod touches;
 
 use taut_certify::{Ellipsoid, EllipsoidCertificate, Items, Solution, Trace};
+use taut_points::InputError;
 use taut_points::{Monitor, OwnedPoints, PointSource};
 
 use self::base::Base;
@@ -43,11 +44,11 @@ pub(super) fn solve(
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Ellipsoid>, Error> {
     if options.method != EllipsoidMethod::Newton {
-        return Err(Error::Option {
+        return Err(Error::Input(InputError::Option {
             name: "method",
             value: options.method.name().to_owned(),
             expected: "newton, the one method for balls and ellipsoids",
-        });
+        }));
     }
     let shapes = Shapes::read(source, items, monitor)?;
     let generators = generators(&shapes)?;

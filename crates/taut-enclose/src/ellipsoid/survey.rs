@@ -6,6 +6,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
+use taut_points::InputError;
 use taut_points::{
     BlockHash, Monitor, PointSource, Points, PointsHash, Rows, Scalar, gather, hash_block,
     map_blocks,
@@ -130,7 +131,11 @@ impl<'a> Survey<'a> {
             let mut hash = None;
             if first {
                 if let Some((at, column, value)) = rows.first_non_finite() {
-                    return Err(Error::NonFinite { row: row + at as u64, column, value });
+                    return Err(Error::Input(InputError::NonFinite {
+                        row: row + at as u64,
+                        column,
+                        value,
+                    }));
                 }
                 hash = Some(hash_block(&rows));
             }
@@ -261,7 +266,11 @@ fn take_block<T: Scalar>(
     if first {
         let rows = T::rows(*points);
         if !finite && let Some((row, column, value)) = rows.first_non_finite() {
-            return Err(Error::NonFinite { row: first_row + row as u64, column, value });
+            return Err(Error::Input(InputError::NonFinite {
+                row: first_row + row as u64,
+                column,
+                value,
+            }));
         }
         hash = Some(hash_block(&rows));
     }
@@ -336,7 +345,11 @@ fn block<T: Scalar>(
         if !report.finite
             && let Some((row, column, value)) = rows.first_non_finite()
         {
-            return Err(Error::NonFinite { row: first_row + row as u64, column, value });
+            return Err(Error::Input(InputError::NonFinite {
+                row: first_row + row as u64,
+                column,
+                value,
+            }));
         }
         report.hash = Some(hash_block(&rows));
     }

@@ -1,6 +1,7 @@
 //! The beginnings of a traversal as answers to the k-center problem.
 
 use taut_certify::{Centers, Placement, Solution};
+use taut_points::InputError;
 use taut_points::{PointSource, gather};
 
 use super::FarthestFirst;
@@ -29,7 +30,7 @@ impl FarthestFirst {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Option`] when `k` is 0, or more than were asked for; [`Error::Read`] when `source` has other rows than those of
+    /// [`Error::Input`] when `k` is 0, or more than were asked for; [`Error::Input`] when `source` has other rows than those of
     /// the traversal; [`Error::Overflow`] where the lower bound is too small to be a number.
     pub fn solution(
         &self,
@@ -39,11 +40,11 @@ impl FarthestFirst {
     ) -> Result<Solution<Centers>, Error> {
         let known = self.order.len() as u64;
         if k == 0 || (k > known && self.next.is_some()) {
-            return Err(Error::Option {
+            return Err(Error::Input(InputError::Option {
                 name: "k",
                 value: k.to_string(),
                 expected: "from 1 to the number of points that the traversal was asked for",
-            });
+            }));
         }
         let taken = k.min(known) as usize;
         let radius = self.radii[taken - 1];

@@ -1,6 +1,7 @@
 //! What to keep, and how sure to be.
 
 use taut_certify::RobustMethod;
+use taut_points::InputError;
 use taut_points::{check_threads, shown_number};
 
 use crate::Error;
@@ -45,7 +46,9 @@ impl Default for RobustOptions {
 
 impl RobustOptions {
     pub(super) fn check(&self) -> Result<(), Error> {
-        let wrong = |name, value: String, expected| Err(Error::Option { name, value, expected });
+        let wrong = |name, value: String, expected| {
+            Err(Error::Input(InputError::Option { name, value, expected }))
+        };
         let (inside, expected) = match (self.method, self.coverage) {
             (_, None) => (true, ""),
             (RobustMethod::Trim, Some(part)) => (part > 0.0 && part <= 1.0, "a number in (0, 1]"),

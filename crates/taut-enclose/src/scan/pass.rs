@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use taut_certify::Items;
+use taut_points::InputError;
 use taut_points::{BlockHash, Points, PointsHash, Rows, Scalar, hash_block, map_blocks};
 
 use super::{Found, Query, Scan};
@@ -108,7 +109,11 @@ impl<'p> Pass<'p> {
         let Measured { farthest, finite } = self.block(first_row, points);
         // What is not finite among the coordinates makes a reach that is not; large coordinates do, too.
         if !finite && let Some((row, column, value)) = rows.first_non_finite() {
-            return Err(Error::NonFinite { row: first_row + row as u64, column, value });
+            return Err(Error::Input(InputError::NonFinite {
+                row: first_row + row as u64,
+                column,
+                value,
+            }));
         }
         let largest = match self.scan.items {
             Items::Balls => Some(largest_radius(first_row, points)?),

@@ -2,6 +2,7 @@
 
 use taut_certify::{Items, Placement};
 use taut_enclose::{CentersMethod, CentersOptions, Error, centers_of_source};
+use taut_points::InputError;
 use taut_points::{Monitor, Points};
 
 /// Rows at most: more are solved as well, but each case should take a moment.
@@ -66,11 +67,13 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
             assert_eq!(found.answer.assignment.len(), assigned);
         }
         Err(Error::Empty) => assert!(values.is_empty()),
-        Err(Error::NonFinite { row, column, value }) => {
+        Err(Error::Input(InputError::NonFinite { row, column, value })) => {
             let at = values[row as usize * columns + column];
             assert!(!at.is_finite() && at.to_bits() == value.to_bits());
         }
-        Err(Error::Option { name: "outliers", .. }) => assert!(outliers >= rows as u64),
+        Err(Error::Input(InputError::Option { name: "outliers", .. })) => {
+            assert!(outliers >= rows as u64)
+        }
         Err(Error::Overflow) => assert!(!is_whole, "{values:?}"),
         Err(other) => panic!("{other}\n{values:?}"),
     }

@@ -2,6 +2,7 @@
 
 use taut_certify::Items;
 use taut_enclose::{BallOptions, Error, ball_of_source};
+use taut_points::InputError;
 use taut_points::{Monitor, Points};
 
 /// The first byte chooses dimension, kind and batch; the rest are coordinates, as the bits of `f64` or as small
@@ -31,7 +32,7 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
             found.check(&points).unwrap_or_else(|error| panic!("{error}\n{values:?}\n{found:?}"));
         }
         Err(Error::Empty) => assert!(values.is_empty()),
-        Err(Error::NonFinite { row, column, value }) => {
+        Err(Error::Input(InputError::NonFinite { row, column, value })) => {
             let at = values[row as usize * columns + column];
             assert!(!at.is_finite() && at.to_bits() == value.to_bits());
         }

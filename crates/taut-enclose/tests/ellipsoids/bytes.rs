@@ -1,6 +1,7 @@
 //! Points and options made of any bytes: solved, and judged by the checker. Shared with the fuzz target.
 
 use taut_enclose::{EllipsoidMethod, EllipsoidOptions, Error, ellipsoid};
+use taut_points::InputError;
 use taut_points::Points;
 
 /// The first byte chooses dimension, method and kind of number; the rest are coordinates, as the bits of `f64` or as
@@ -37,7 +38,7 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
             found.check(&points).unwrap_or_else(|error| panic!("{error}\n{values:?}\n{found:?}"));
         }
         Err(Error::Empty) => assert!(values.is_empty()),
-        Err(Error::NonFinite { row, column, value }) => {
+        Err(Error::Input(InputError::NonFinite { row, column, value })) => {
             let at = values[row as usize * dim + column];
             assert!(!at.is_finite() && at.to_bits() == value.to_bits());
         }

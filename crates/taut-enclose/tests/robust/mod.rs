@@ -35,7 +35,7 @@ pub fn judge(
     assert_eq!(verdict.rank, found.answer.factor.len(), "{name}");
     match AnySolution::from_json(&found.to_json()) {
         Ok(again @ AnySolution::Robust(_)) => {
-            assert_eq!(again, AnySolution::Robust(Box::new(found.clone())), "{name}");
+            assert_eq!(again, AnySolution::Robust(found.clone()), "{name}");
             assert!(again.check(&points, &Monitor::silent()).is_ok());
         }
         other => panic!("{name}: JSON does not read back: {other:?}"),

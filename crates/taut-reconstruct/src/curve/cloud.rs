@@ -1,6 +1,7 @@
 //! The distinct points of the input, in an order that depends on them alone.
 
 use taut_oblivious::hilbert_order;
+use taut_points::InputError;
 use taut_points::{Monitor, PointSource, Rows, Scratch};
 
 use crate::Error;
@@ -22,17 +23,20 @@ impl Cloud {
     pub(super) fn read(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<Self, Error> {
         const MOST: u64 = 1 << 31;
         if source.dim() != 2 {
-            return Err(Error::Dimension { dim: source.dim() });
+            return Err(Error::Input(InputError::Dimension {
+                dim: source.dim(),
+                expected: "2, as curves are sought in the plane",
+            }));
         }
         let points = source.len();
         if points >= MOST {
-            return Err(Error::TooManyPoints { points, most: MOST - 1 });
+            return Err(Error::Input(InputError::TooManyPoints { points, most: MOST - 1 }));
         }
         monitor.pass(1, points);
         let mut scratch = Scratch::new();
         let rows = source.read(0..points, &mut scratch)?;
         if let Some((row, column, value)) = rows.first_non_finite() {
-            return Err(Error::NonFinite { row: row as u64, column, value });
+            return Err(Error::Input(InputError::NonFinite { row: row as u64, column, value }));
         }
         monitor.check()?;
         // −0 equals 0, but is another pattern of bits.

@@ -13,10 +13,11 @@ mod thesis;
 mod tour;
 
 use taut_certify::{Curve, Solution};
+use taut_points::InputError;
+use taut_points::on_threads;
 use taut_points::{Monitor, PointSource, Points, Scalar, shown_number};
 
 use crate::Error;
-use crate::threads::on_threads;
 use answer::{Outcome, finish};
 use cloud::Cloud;
 
@@ -25,7 +26,7 @@ pub use options::{CurveMethod, CurveOptions, Ends};
 /// The curves that points of the plane were sampled from, with what is known about them.
 ///
 /// # Errors
-/// [`Error::Dimension`], [`Error::NonFinite`], [`Error::TooManyPoints`], [`Error::Option`].
+/// [`Error::Input`].
 pub fn curve<T: Scalar>(
     points: &Points<'_, T>,
     options: &CurveOptions,
@@ -36,14 +37,15 @@ pub fn curve<T: Scalar>(
 /// The same for points of any source, with a monitor. They are held in memory while it works.
 ///
 /// # Errors
-/// As [`curve`], [`Error::Read`] when the points cannot be read, and [`Error::Cancelled`].
+/// As [`curve`], [`Error::Input`] when the points cannot be read, and [`Error::Input`].
 pub fn curve_of_source(
     source: &dyn PointSource,
     options: &CurveOptions,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Curve>, Error> {
-    let wrong =
-        |name, value: f64, expected| Error::Option { name, value: shown_number(value), expected };
+    let wrong = |name, value: f64, expected| {
+        Error::Input(InputError::Option { name, value: shown_number(value), expected })
+    };
     if !(options.rho >= 1.0 && options.rho.is_finite()) {
         return Err(wrong("rho", options.rho, "a number of at least 1"));
     }

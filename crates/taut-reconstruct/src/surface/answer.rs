@@ -8,6 +8,7 @@ use taut_certify::{
 };
 use taut_delaunay::Space;
 use taut_mesh::{Topology, TriangleMesh, self_intersections, topology};
+use taut_points::InputError;
 use taut_points::PointsHash;
 
 use super::cells::Cells;
@@ -88,9 +89,11 @@ pub(super) fn finish(
     points_hash: PointsHash,
 ) -> Result<Solution<Surface>, Error> {
     // Coordinates are finite and sites exist; only the number of triangles can be refused.
-    let refused = |_| Error::TooManyPoints {
-        points: sites.points.len() as u64,
-        most: u64::from(u32::MAX / 6),
+    let refused = |_| {
+        Error::Input(InputError::TooManyPoints {
+            points: sites.points.len() as u64,
+            most: u64::from(u32::MAX / 6),
+        })
     };
     let mesh = TriangleMesh::new(&sites.points, &facets.triangles).map_err(refused)?;
     let known = facets.facets.take();

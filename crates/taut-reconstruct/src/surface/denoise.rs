@@ -13,6 +13,7 @@
 use std::cmp::Ordering;
 
 use rayon::prelude::*;
+use taut_points::InputError;
 use taut_points::Monitor;
 
 use super::Denoise;
@@ -36,14 +37,17 @@ pub(super) struct Denoised {
 /// Takes out noise. Coordinates are of a magnitude whose squares are numbers.
 ///
 /// # Errors
-/// [`Error::TooManyPoints`] and [`Error::Cancelled`].
+/// [`Error::Input`].
 pub(super) fn denoise(
     all: &[Point],
     options: &Denoise,
     monitor: &Monitor<'_>,
 ) -> Result<Denoised, Error> {
     if u32::try_from(all.len()).is_err() {
-        return Err(Error::TooManyPoints { points: all.len() as u64, most: u32::MAX.into() });
+        return Err(Error::Input(InputError::TooManyPoints {
+            points: all.len() as u64,
+            most: u32::MAX.into(),
+        }));
     }
     // Equal points are one: each is where its first is moved, or left out with it.
     let first = firsts(all);

@@ -15,6 +15,7 @@ use taut_predicates::space::{
     equatorial_radius, in_equatorial_sphere, shrunk_sphere, sphere_radius,
 };
 
+use taut_points::InputError;
 use taut_points::shown_number;
 
 use super::sides::{Side, Sides};
@@ -70,10 +71,8 @@ impl Filter {
         emptiness: Emptiness,
         alpha: AlphaFilter,
     ) -> Result<Self, Error> {
-        let wrong = |name, value: f64, expected| Error::Option {
-            name,
-            value: shown_number(value),
-            expected,
+        let wrong = |name, value: f64, expected| {
+            Error::Input(InputError::Option { name, value: shown_number(value), expected })
         };
         if !(0.0..1.0).contains(&epsilon) {
             return Err(wrong("epsilon", epsilon, "a number from 0 on, below 1"));

@@ -47,9 +47,10 @@ mod witness;
 
 use taut_certify::{Solution, Surface, SurfaceMethod, SurfaceMode as Promise};
 use taut_delaunay::{Complex, DelaunayOptions, Space};
+use taut_points::InputError;
+use taut_points::on_threads;
 use taut_points::{Monitor, PointSource, Points, PointsHash, Rows, Scalar, Scratch, hash_points};
 
-use crate::threads::on_threads;
 use crate::{Error, Span};
 use alpha::{alpha_shape, filtered_hull, optimal_alpha};
 use answer::{Facets, Sites, finish};
@@ -82,7 +83,7 @@ pub use options::{Denoise, Positions, SurfaceMode, SurfaceOptions};
 /// those of sections 4.2 to 4.5 of the thesis, `alpha` that of Edelsbrunner and Mücke, ACM Transactions on Graphics 13(1), 1994.
 ///
 /// # Errors
-/// [`Error::SpaceDimension`], [`Error::NonFinite`], [`Error::Flat`], [`Error::TooManyPoints`], [`Error::Option`], and
+/// [`Error::Input`], [`Error::Flat`], [`Error::Input`], and
 /// [`Error::Triangulation`] for more cells than can be numbered.
 pub fn surface<T: Scalar>(
     points: &Points<'_, T>,
@@ -94,14 +95,17 @@ pub fn surface<T: Scalar>(
 /// The same for points of any source, with a monitor. They are held in memory while it works.
 ///
 /// # Errors
-/// As [`surface`], [`Error::Read`] when the points cannot be read, and [`Error::Cancelled`].
+/// As [`surface`], [`Error::Input`] when the points cannot be read, and [`Error::Input`].
 pub fn surface_of_source(
     source: &dyn PointSource,
     options: &SurfaceOptions,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Surface>, Error> {
     if source.dim() != 3 {
-        return Err(Error::SpaceDimension { dim: source.dim() });
+        return Err(Error::Input(InputError::Dimension {
+            dim: source.dim(),
+            expected: "3, as surfaces are sought in space",
+        }));
     }
     if let Some(how) = &options.denoise {
         how.check()?;
@@ -111,7 +115,7 @@ pub fn surface_of_source(
         let mut scratch = Scratch::new();
         let rows = source.read(0..source.len(), &mut scratch)?;
         if let Some((row, column, value)) = rows.first_non_finite() {
-            return Err(Error::NonFinite { row: row as u64, column, value });
+            return Err(Error::Input(InputError::NonFinite { row: row as u64, column, value }));
         }
         let mut given = coordinates(rows);
         let points_hash = hash_points(source, monitor)?;
@@ -163,7 +167,7 @@ fn solve(
 ) -> Result<Solution<Surface>, Error> {
     let view = Points::new(points.as_flattened(), 3);
     let Ok(view) = view else { return Err(Error::Flat { points: 0, span: Span::Nothing }) };
-    let space = Space::build(&view, &in_one_cell(), monitor).map_err(refused)?;
+    let space = Space::build(&view, &in_one_cell(), monitor)?;
     check_span(&space)?;
     let sites = Sites::of(&space, rows);
     let (mode, facets, cells) = match options.method {
@@ -197,7 +201,7 @@ fn of_filters(
         if let Some(seed) = thesis.joggle {
             let (value, expected) =
                 (seed.to_string(), "none, as joggled points are not those given");
-            return Err(Error::Option { name: "joggle", value, expected });
+            return Err(Error::Input(InputError::Option { name: "joggle", value, expected }));
         }
         let found =
             thesis_surface(space, &ThesisOptions { threads: None, ..thesis.clone() }, monitor)?;
@@ -239,15 +243,4 @@ fn of_filters(
 /// threads could share: 10⁶ points of dc take two threads with a cell each half as long again as one thread alone.
 fn in_one_cell() -> DelaunayOptions {
     DelaunayOptions { cells: Some(1), ..DelaunayOptions::default() }
-}
-
-/// What a triangulation refuses, as a surface says it.
-fn refused(error: taut_delaunay::Error) -> Error {
-    use taut_delaunay::Error as Refused;
-    match error {
-        Refused::NonFinite { row, column, value } => Error::NonFinite { row, column, value },
-        Refused::TooManyPoints { points, most } => Error::TooManyPoints { points, most },
-        Refused::Cancelled(cancelled) => Error::Cancelled(cancelled),
-        other => Error::Triangulation(other),
-    }
 }

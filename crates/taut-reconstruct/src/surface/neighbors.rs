@@ -5,6 +5,7 @@
 //! *Guarantee.* Equal distances are ordered by coordinates, so what is found depends on the points alone. O(n log n).
 
 use std::cmp::Ordering;
+use taut_points::InputError;
 
 use rayon::prelude::*;
 use taut_oblivious::hilbert_order;
@@ -36,9 +37,11 @@ pub(super) fn of_neighbors<R: Send>(
 fn refused(error: taut_oblivious::Error, points: usize) -> Error {
     match error {
         taut_oblivious::Error::NonFinite { row, column, value } => {
-            Error::NonFinite { row, column, value }
+            Error::Input(InputError::NonFinite { row, column, value })
         }
-        _ => Error::TooManyPoints { points: points as u64, most: u32::MAX.into() },
+        _ => {
+            Error::Input(InputError::TooManyPoints { points: points as u64, most: u32::MAX.into() })
+        }
     }
 }
 

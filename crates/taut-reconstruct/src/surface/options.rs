@@ -1,6 +1,7 @@
 //! How a surface is sought.
 
 use taut_certify::SurfaceMethod;
+use taut_points::InputError;
 
 use super::thesis::ThesisOptions;
 use crate::Error;
@@ -75,7 +76,9 @@ pub struct Denoise {
 impl Denoise {
     /// What is outside its range.
     pub(super) fn check(&self) -> Result<(), Error> {
-        let wrong = |name, value: String, expected| Err(Error::Option { name, value, expected });
+        let wrong = |name, value: String, expected| {
+            Err(Error::Input(InputError::Option { name, value, expected }))
+        };
         if !(4..=1000).contains(&self.neighbors) {
             return wrong("neighbors", self.neighbors.to_string(), "a number from 4 to 1000");
         }

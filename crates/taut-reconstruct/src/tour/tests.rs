@@ -1,5 +1,6 @@
 //! Tours beside the best of all, and laws.
 
+use taut_points::InputError;
 use taut_points::Monitor;
 
 use super::*;
@@ -236,6 +237,6 @@ fn a_stop_is_heard() {
     let sites: Vec<[f64; 2]> = (0..500).map(|_| [random(), random()]).collect();
     assert!(matches!(
         tour(&sites, false, &monitor),
-        Err(Error::Cancelled(_) | Error::Triangulation(_))
+        Err(Error::Input(InputError::Cancelled(_)) | Error::Triangulation(_))
     ));
 }

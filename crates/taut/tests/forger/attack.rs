@@ -106,37 +106,82 @@ pub fn budget() -> u64 {
     wanted.unwrap_or(FORGERIES)
 }
 
-/// Forges the documents of all cases in turn, and judges what the checker lets pass.
-pub fn attack(kind: &str, cases: &[Case]) -> Tally {
-    let mut tally = Tally::default();
-    let forgers: Vec<Forger> =
-        cases.iter().map(|case| Forger::new(&case.own, &case.foreign)).collect();
-    let mut oracles: Vec<CaseOracle<'_>> =
-        cases.iter().map(|case| CaseOracle::new(&case.input)).collect();
-    let mut ledgers: Vec<Ledger> = cases.iter().map(|_| Ledger::default()).collect();
-    for (case, oracle) in cases.iter().zip(&mut oracles) {
-        for (way, document) in &case.own {
-            let forgery = Forgery { text: document.to_string(), edits: vec![way.clone()] };
-            let told = || told(kind, None, case, &forgery);
-            let solution = AnySolution::from_json(&forgery.text).expect("a solver writes JSON");
-            match case.input.check(&solution) {
-                Ok(verdict) => tally.note(oracle.judge(&solution, &verdict), &told),
-                // That is a fault of the solver or of the checker, and no false claim.
-                Err(error) => {
-                    println!("{kind}: the answer of a solver is refused: {error}\n{}", told())
+/// Judges the documents of the solvers, then forges those of all cases in turn, and judges what the checker lets pass.
+pub fn attack(kind: &'static str, cases: &[Case]) -> Tally {
+    let mut attack = Attack::new(kind, cases);
+    attack.judge_solvers();
+    for number in 0..budget() {
+        let at = (number % cases.len() as u64) as usize;
+        attack.forge(at, Some(number), &mut Random::new(kind, number));
+    }
+    attack.tally
+}
+
+/// An attack under way.
+pub struct Attack<'a> {
+    kind: &'static str,
+    tally: Tally,
+    cases: Vec<Attacked<'a>>,
+}
+
+/// A case, what forges its documents, what knows the truth about it, and what was said of it.
+struct Attacked<'a> {
+    case: &'a Case,
+    forger: Forger,
+    oracle: CaseOracle<'a>,
+    ledger: Ledger,
+}
+
+impl<'a> Attack<'a> {
+    /// Prepares an attack.
+    pub fn new(kind: &'static str, cases: &'a [Case]) -> Self {
+        let attacked = |case: &'a Case| Attacked {
+            case,
+            forger: Forger::new(&case.own, &case.foreign),
+            oracle: CaseOracle::new(&case.input),
+            ledger: Ledger::default(),
+        };
+        Attack { kind, tally: Tally::default(), cases: cases.iter().map(attacked).collect() }
+    }
+
+    /// Checks the documents as solvers wrote them.
+    fn judge_solvers(&mut self) {
+        let (kind, tally) = (self.kind, &mut self.tally);
+        for Attacked { case, oracle, .. } in &mut self.cases {
+            for (way, document) in &case.own {
+                let forgery = Forgery { text: document.to_string(), edits: vec![way.clone()] };
+                let told = || told(kind, None, case, &forgery);
+                let solution = AnySolution::from_json(&forgery.text).expect("a solver writes JSON");
+                match case.input.check(&solution) {
+                    Ok(verdict) => tally.note(oracle.judge(&solution, &verdict), &told),
+                    // That is a fault of the solver or of the checker, and no false claim.
+                    Err(error) => {
+                        println!("{kind}: the answer of a solver is refused: {error}\n{}", told())
+                    }
                 }
             }
         }
     }
-    for number in 0..budget() {
-        let at = (number % cases.len() as u64) as usize;
-        let (case, oracle, ledger) = (&cases[at], &mut oracles[at], &mut ledgers[at]);
-        let forgery = forgers[at].forge(&mut Random::new(kind, number));
-        let told = || told(kind, Some(number), case, &forgery);
+
+    /// Makes one forgery of any case.
+    ///
+    /// # Panics
+    /// When a false answer is accepted.
+    pub fn forge_any(&mut self, random: &mut Random) {
+        self.forge(random.below(self.cases.len()), None, random);
+        assert!(self.tally.failures.is_empty(), "{}", self.tally.failures.join("\n"));
+    }
+
+    /// Makes one forgery of a case and judges it if the checker lets it pass.
+    fn forge(&mut self, at: usize, number: Option<u64>, random: &mut Random) {
+        let (kind, tally) = (self.kind, &mut self.tally);
+        let Attacked { case, forger, oracle, ledger } = &mut self.cases[at];
+        let forgery = forger.forge(random);
+        let told = || told(kind, number, case, &forgery);
         tally.forgeries += 1;
         let Ok(solution) = AnySolution::from_json(&forgery.text) else {
             tally.unread += 1;
-            continue;
+            return;
         };
         let begin = Instant::now();
         let checked = case.input.check(&solution);
@@ -152,12 +197,11 @@ pub fn attack(kind: &str, cases: &[Case]) -> Tally {
             }
         }
     }
-    tally
 }
 
 /// The forgery, so that it can be made again.
 fn told(kind: &str, number: Option<u64>, case: &Case, forgery: &Forgery) -> String {
-    let number = number.map_or("the solver's".into(), |number| format!("forgery {number}"));
+    let number = number.map_or(String::new(), |number| format!(" forgery {number},"));
     let text = match forgery.text.len() {
         0..2500 => forgery.text.clone(),
         _ => head_of(&forgery.text),
@@ -167,7 +211,7 @@ fn told(kind: &str, number: Option<u64>, case: &Case, forgery: &Forgery) -> Stri
         _ => String::new(),
     };
     let edits = forgery.edits.join("\n  ");
-    format!("{kind}, {number}, of {}\n  {edits}\n  {text}{values}", case.input.name)
+    format!("{kind},{number} of {}\n  {edits}\n  {text}{values}", case.input.name)
 }
 
 /// A document that is too long to be shown: the start of it.

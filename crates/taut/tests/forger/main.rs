@@ -11,7 +11,8 @@ mod forge;
 mod oracle;
 mod random;
 
-use attack::attack;
+use attack::{Attack, attack};
+use random::Random;
 
 #[test]
 fn no_false_ball_is_accepted() {
@@ -71,4 +72,18 @@ fn no_false_transpose_is_accepted() {
 #[test]
 fn no_false_sample_is_accepted() {
     attack_files::attack("sample", &cases::files::samples()).report("sample");
+}
+
+/// As fuzzers ask for them: the bytes alone say which forgery is made.
+#[test]
+fn forgeries_that_bytes_choose_are_judged_too() {
+    let cases = cases::order::all();
+    let mut attack = Attack::new("order", &cases);
+    for number in 0..500u64 {
+        let mut random = Random::new("bytes", number);
+        let bytes: Vec<u8> = (0..random.below(40)).map(|_| random.next() as u8).collect();
+        attack.forge_any(&mut Random::from_bytes(&bytes));
+    }
+    assert_eq!(Random::from_bytes(&[1, 2, 3]).next(), Random::from_bytes(&[1, 2, 9]).next());
+    assert_ne!(Random::from_bytes(&[1, 2]).next(), Random::from_bytes(&[1, 3]).next());
 }

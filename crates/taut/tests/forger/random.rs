@@ -1,8 +1,12 @@
-//! Random numbers that depend on a seed alone: SplitMix64.
+//! Random numbers that depend on a seed alone, SplitMix64, or on bytes as long as there are some.
 
 /// A stream of random numbers.
 #[derive(Clone, Debug)]
-pub struct Random(u64);
+pub struct Random {
+    state: u64,
+    /// Two of them make the next number.
+    bytes: std::vec::IntoIter<u8>,
+}
 
 impl Random {
     /// Returns the stream of a name and a number.
@@ -10,15 +14,29 @@ impl Random {
         let seed = name.bytes().fold(0xcbf2_9ce4_8422_2325, |h: u64, byte| {
             (h ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
         });
-        let mut random = Random(seed ^ number.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        let state = seed ^ number.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let mut random = Random { state, bytes: vec![].into_iter() };
         random.next();
         random
     }
 
+    /// Returns the stream that bytes choose, two for each number: a byte that changes changes one number.
+    pub fn from_bytes(bytes: &[u8]) -> Self {
+        Random { state: 0, bytes: Vec::from(bytes).into_iter() }
+    }
+
     /// Returns 64 random bits.
     pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
+        let mut z = match self.bytes.next() {
+            Some(byte) => {
+                let other = self.bytes.next().unwrap_or(0);
+                u64::from(u16::from_be_bytes([byte, other])).wrapping_mul(0x9e37_79b9_7f4a_7c15)
+            }
+            None => {
+                self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+                self.state
+            }
+        };
         z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
         z ^ z >> 31

@@ -7,6 +7,7 @@
 
 use rayon::prelude::*;
 use taut_certify::Items;
+use taut_points::InputError;
 use taut_points::{Monitor, PointSource, PointsHash, ReadError, Rows, hash_block, map_blocks};
 
 use crate::Error;
@@ -52,12 +53,20 @@ impl Sites {
             Items::Points | Items::Balls => {}
             Items::Ellipsoids => {
                 let (name, value) = ("items", "ellipsoids".into());
-                return Err(Error::Option { name, value, expected: "points or balls" });
+                return Err(Error::Input(InputError::Option {
+                    name,
+                    value,
+                    expected: "points or balls",
+                }));
             }
         }
         if weights && items == Items::Balls {
             let (name, value) = ("weights", "true".into());
-            return Err(Error::Option { name, value, expected: "false for balls" });
+            return Err(Error::Input(InputError::Option {
+                name,
+                value,
+                expected: "false for balls",
+            }));
         }
         if source.is_empty() {
             return Err(Error::Empty);
@@ -330,7 +339,7 @@ impl Sites {
 /// The values of a block, unless one of them is not finite.
 fn finite_values(first: u64, rows: &Rows<'_>) -> Result<Vec<f64>, Error> {
     if let Some((row, column, value)) = rows.first_non_finite() {
-        return Err(Error::NonFinite { row: first + row as u64, column, value });
+        return Err(Error::Input(InputError::NonFinite { row: first + row as u64, column, value }));
     }
     Ok(match rows {
         Rows::F32(points) => points.values().iter().map(|&v| v.into()).collect(),

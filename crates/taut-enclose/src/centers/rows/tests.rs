@@ -4,6 +4,7 @@ mod judge;
 mod other;
 
 use taut_certify::{Centers, Items, LowerBound, Placement, Solution, Stop};
+use taut_points::InputError;
 use taut_points::{Distribution, Monitor, Points, generate};
 
 use self::judge::{Problem, judge};
@@ -199,9 +200,12 @@ fn wrong_input_is_refused_by_name() {
     };
     let is = Items::Points;
     assert!(matches!(ask(&[], 2, is, 1, false), Error::Empty));
-    assert!(matches!(ask(&[1.0], 1, is, 0, false), Error::Option { name: "k", .. }));
+    assert!(matches!(
+        ask(&[1.0], 1, is, 0, false),
+        Error::Input(InputError::Option { name: "k", .. })
+    ));
     let nan = ask(&[1.0, 2.0, f64::NAN, 3.0], 2, is, 1, false);
-    assert!(matches!(nan, Error::NonFinite { row: 1, column: 0, .. }));
+    assert!(matches!(nan, Error::Input(InputError::NonFinite { row: 1, column: 0, .. })));
     let weight = ask(&[1.0, 2.0, 1.0, 0.0], 2, is, 1, true);
     assert!(matches!(weight, Error::NonPositiveWeight { row: 1, .. }));
     assert!(matches!(ask(&[1.0], 1, is, 1, true), Error::NoWeight { columns: 1 }));
@@ -209,12 +213,12 @@ fn wrong_input_is_refused_by_name() {
     assert!(matches!(radius, Error::NegativeRadius { row: 0, .. }));
     assert!(matches!(ask(&[1.0], 1, Items::Balls, 1, false), Error::NoRadius { .. }));
     let shapes = ask(&[1.0, 1.0], 2, Items::Ellipsoids, 1, false);
-    assert!(matches!(shapes, Error::Option { name: "items", .. }));
+    assert!(matches!(shapes, Error::Input(InputError::Option { name: "items", .. })));
     let problem = points(&[1.0, 2.0, 3.0], 1, 1, 3);
     let refused = self::ask(&problem, &exact(&problem));
-    assert!(matches!(refused, Err(Error::Option { name: "outliers", .. })));
+    assert!(matches!(refused, Err(Error::Input(InputError::Option { name: "outliers", .. }))));
     let both = ask(&[1.0, 1.0], 2, Items::Balls, 1, true);
-    assert!(matches!(both, Error::Option { name: "weights", .. }));
+    assert!(matches!(both, Error::Input(InputError::Option { name: "weights", .. })));
 }
 
 #[test]
@@ -249,7 +253,10 @@ fn the_traversal_alone_proves_a_factor_of_two() {
     let best = solved(&problem).answer.radius;
     assert!(found.answer.lower_bound <= best && best < found.answer.radius);
     let thesis = CentersOptions { method: CentersMethod::Thesis, ..exact(&problem) };
-    assert!(matches!(ask(&problem, &thesis), Err(Error::Option { name: "placement", .. })));
+    assert!(matches!(
+        ask(&problem, &thesis),
+        Err(Error::Input(InputError::Option { name: "placement", .. }))
+    ));
 }
 
 #[test]
@@ -304,5 +311,5 @@ fn cancelling_stops_the_search() {
     let cancel = std::sync::atomic::AtomicBool::new(true);
     let monitor = Monitor { cancel: Some(&cancel), ..Monitor::silent() };
     let refused = solve(&points, Items::Points, 3, &CentersOptions::default(), &monitor);
-    assert!(matches!(refused, Err(Error::Read(_))));
+    assert!(matches!(refused, Err(Error::Input(InputError::Read(_)))));
 }

@@ -22,7 +22,7 @@ pub struct FilteredHull {
 /// The Delaunay facets whose equatorial sphere, shrunk by 1 − `epsilon`, is empty, and that are small enough.
 ///
 /// # Errors
-/// [`Error::Flat`] if the sites do not span space, [`Error::Option`] if `epsilon` is not in [0, 1) or the radius of the filter is
+/// [`Error::Flat`] if the sites do not span space, [`Error::Input`] if `epsilon` is not in [0, 1) or the radius of the filter is
 /// negative or no number.
 pub fn filtered_hull(
     space: &Space,

@@ -20,6 +20,7 @@ pub(super) use optimal::least;
 pub use optimal::optimal_alpha;
 pub use shape::{AlphaShape, FacetClass, alpha_shape};
 
+use taut_points::InputError;
 use taut_points::shown_number;
 
 use crate::Error;
@@ -30,5 +31,5 @@ fn checked(alpha: f64) -> Result<f64, Error> {
         return Ok(alpha);
     }
     let (value, expected) = (shown_number(alpha), "a radius of at least 0");
-    Err(Error::Option { name: "alpha", value, expected })
+    Err(Error::Input(InputError::Option { name: "alpha", value, expected }))
 }

@@ -11,6 +11,7 @@
 
 use rayon::prelude::*;
 use taut_delaunay::Space;
+use taut_points::InputError;
 
 use crate::Error;
 use crate::surface::filter::cell_at_most;
@@ -21,11 +22,11 @@ use crate::surface::vector::{dot, minus, sphere_centre};
 /// Infinite if that is beyond all numbers.
 ///
 /// # Errors
-/// [`Error::Flat`] if the sites do not span space, [`Error::Option`] if `solids` is 0.
+/// [`Error::Flat`] if the sites do not span space, [`Error::Input`] if `solids` is 0.
 pub fn optimal_alpha(space: &Space, solids: usize) -> Result<f64, Error> {
     if solids == 0 {
         let (value, expected) = ("0".into(), "at least 1");
-        return Err(Error::Option { name: "solids", value, expected });
+        return Err(Error::Input(InputError::Option { name: "solids", value, expected }));
     }
     let sides = Sides::of(space, &[])?;
     let radius = |cell| (!sides.is_ghost(cell)).then(|| (radius(&sides, cell).to_bits(), cell));

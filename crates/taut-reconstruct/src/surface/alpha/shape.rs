@@ -70,7 +70,7 @@ pub struct AlphaShape {
 /// ```
 ///
 /// # Errors
-/// [`Error::Flat`] if the sites do not span space, [`Error::Option`] if `alpha` is negative or no number.
+/// [`Error::Flat`] if the sites do not span space, [`Error::Input`] if `alpha` is negative or no number.
 pub fn alpha_shape(space: &Space, alpha: f64) -> Result<AlphaShape, Error> {
     let lengths: Vec<f64> = Some(checked(alpha)?).filter(|a| a.is_finite()).into_iter().collect();
     let sides = Sides::of(space, &lengths)?;

@@ -26,11 +26,11 @@ mod pinches;
 mod ring;
 
 use taut_delaunay::{DelaunayOptions, Space};
+use taut_points::on_threads;
 use taut_points::{Monitor, Points, Scalar};
 
 use super::sides::Sides;
 use crate::Error;
-use crate::threads::on_threads;
 use candidates::Candidates;
 use front::Front;
 
@@ -42,7 +42,7 @@ pub use options::{Extent, Pinches, Priority, ThesisOptions};
 /// [`thesis_surface_of_points`] alone.
 ///
 /// # Errors
-/// [`Error::Flat`] if the sites do not span space, [`Error::Option`], and [`Error::Cancelled`] when the monitor says so.
+/// [`Error::Flat`] if the sites do not span space, [`Error::Input`] when the monitor says so.
 pub fn thesis_surface(
     space: &Space,
     options: &ThesisOptions,

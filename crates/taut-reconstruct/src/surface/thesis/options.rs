@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
+use taut_points::InputError;
 use taut_points::{check_threads, shown_number};
 
 use crate::Error;
@@ -110,14 +111,18 @@ impl ThesisOptions {
         for (name, angle) in angles {
             if !(0.0..=FRAC_PI_2).contains(&angle) {
                 let expected = "an angle from 0 to π/2 in radians";
-                return Err(Error::Option { name, value: shown_number(angle), expected });
+                return Err(Error::Input(InputError::Option {
+                    name,
+                    value: shown_number(angle),
+                    expected,
+                }));
             }
         }
         if let Some(threads) = self.threads
             && let Err(refused) = check_threads(threads)
         {
             let (value, expected) = (threads.to_string(), refused.expected);
-            return Err(Error::Option { name: "threads", value, expected });
+            return Err(Error::Input(InputError::Option { name: "threads", value, expected }));
         }
         Filter::new(self.epsilon, self.emptiness, self.alpha)
     }

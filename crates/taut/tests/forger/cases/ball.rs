@@ -55,6 +55,7 @@ pub fn ellipsoids(dim: usize) -> Vec<Input> {
         ("segments", rows(4, &[1.0])),
         ("ellipsoids of all sizes", [rows(2, &[1.0, 1.0, 1.0]), rows(2, &[1e-6, 1e-6])].concat()),
         ("one ellipsoid", rows(1, &[1.0, 0.1, 0.1])),
+        ("one needle", rows(1, &[1.0, 1e-5, 1e-5])),
         ("ellipsoids of 1e-18", scaled(1e-18)),
         ("ellipsoids of 1e150", scaled(1e150)),
     ]

@@ -1,5 +1,6 @@
 //! Few centers of few rows: anywhere or at rows, with outliers, weights and assignments.
 
+use serde_json::{Value, json};
 use taut::enclose::CentersMethod;
 use taut::{CentersOptions, Items, Monitor, Placement, centers_of_source};
 
@@ -16,7 +17,31 @@ pub fn all() -> Vec<Case> {
     }
     found.extend(cases(weighted(), |input| solve(input, Items::Points, true)));
     found.extend(cases(balls(), |input| solve(input, Items::Balls, false)));
+    for case in &mut found {
+        let roomy: Vec<_> = case
+            .own
+            .iter()
+            .step_by(2)
+            .filter_map(|(way, document)| with_room(way, document))
+            .collect();
+        case.own.extend(roomy);
+    }
     found
+}
+
+/// A document that leaves rows out, with leave for two more and with no more than what that leaves true: a list of outliers
+/// can be forged without being too long.
+fn with_room(way: &str, document: &Value) -> Option<(String, Value)> {
+    let most = document["certificate"]["outliers"].as_u64()?;
+    let mut roomy = document.clone();
+    if document["answer"]["outliers"].is_null() {
+        // An empty list is not written down, and would not be forged.
+        roomy["answer"]["outliers"] = json!([]);
+    }
+    roomy["certificate"]["outliers"] = json!(most + 2);
+    roomy["certificate"]["gap"] = json!(f64::MAX);
+    roomy["answer"]["lower_bound"] = json!(0.0);
+    Some((format!("{way}, with leave for two more outliers"), roomy))
 }
 
 /// Returns rows of a point and a last number above 0.

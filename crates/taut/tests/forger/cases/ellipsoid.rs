@@ -4,12 +4,15 @@ use taut::enclose::EllipsoidMethod;
 use taut::{EllipsoidOptions, Items, Monitor, ellipsoid_of_items};
 
 use super::{Case, Input, Solved, ball, cases, clouds, document, hand};
+use crate::random::Random;
 
 /// Returns the cases of the minimum-volume enclosing ellipsoid.
 pub fn all() -> Vec<Case> {
     let mut found = vec![];
     for (dim, count) in [(1, 5), (2, 12), (3, 10), (5, 10)] {
-        found.extend(around(clouds::points(dim, count), dim, Items::Points));
+        let mut inputs = clouds::points(dim, count);
+        inputs.extend([1e-5, 1e-9].map(|width| skew(dim, count, width)));
+        found.extend(around(inputs, dim, Items::Points));
     }
     for dim in 2..=3 {
         found.extend(around(ball::balls(dim), dim, Items::Balls));
@@ -21,6 +24,18 @@ pub fn all() -> Vec<Case> {
     found
 }
 
+/// Points beside a line along no axis: in the frame of an ellipsoid around them coordinates cancel, and what they were rounded by
+/// counts many times.
+fn skew(dim: usize, count: usize, width: f64) -> Input {
+    let mut random = Random::new("skew", dim as u64);
+    let row = |i: usize| [3.0, -1.0, 0.5, 2.0, 7.0].map(|slope| (i as f64 - 3.3) * slope);
+    let rows = (0..count).map(row);
+    let values =
+        rows.flat_map(|row| row.map(|x| x + width * random.signed()).into_iter().take(dim));
+    let values = values.collect();
+    Input::new(format!("{width:e} beside a line, d = {dim}"), values, dim)
+}
+
 fn around(inputs: Vec<Input>, dim: usize, items: Items) -> Vec<Case> {
     let mut found = cases(inputs, |input| solve(input, items));
     let word = match items {
@@ -30,6 +45,8 @@ fn around(inputs: Vec<Input>, dim: usize, items: Items) -> Vec<Case> {
     };
     for case in &mut found {
         case.foreign.extend(hand::flat_ellipsoids(&case.input, dim, word));
+        let leaning = case.own.iter().flat_map(|(way, document)| hand::leaning(way, document));
+        case.foreign.extend(leaning);
     }
     found
 }

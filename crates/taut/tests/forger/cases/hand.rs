@@ -1,4 +1,4 @@
-//! Documents made by hand, of answers that no solver gives: flat ellipsoids around rows that may be anything.
+//! Documents made by hand, of answers that no solver gives: flat ellipsoids around rows that may be anything, and such as lean.
 
 use serde_json::{Value, json};
 
@@ -56,4 +56,48 @@ pub fn flat_ellipsoids(input: &Input, dim: usize, items: &str) -> Vec<(String, V
         }
     }
     found
+}
+
+/// Returns a flat ellipsoid with a factor that leans out of the hull, by a lot and by a little: the images of places in the hull
+/// stay, and so does all that is said of them.
+pub fn leaning(way: &str, document: &Value) -> Vec<(String, Value)> {
+    let table = |rows: &Value| -> Option<Vec<Vec<f64>>> {
+        let row = |row: &Value| row.as_array()?.iter().map(Value::as_f64).collect();
+        rows.as_array()?.iter().map(row).collect()
+    };
+    let answer = &document["answer"];
+    let (Some(factor), Some(basis)) = (table(&answer["factor"]), table(&answer["hull"]["basis"]))
+    else {
+        return vec![];
+    };
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let Some(dim) = factor.first().map(Vec::len) else { return vec![] };
+    // What the hull leaves of the axis that leans farthest out of it.
+    let off = |axis: usize| -> Vec<f64> {
+        let mut rest = vec![0.0; dim];
+        rest[axis] = 1.0;
+        for row in &basis {
+            let along = row[axis];
+            rest.iter_mut().zip(row).for_each(|(rest, b)| *rest -= along * b);
+        }
+        rest
+    };
+    let farthest = |a: &Vec<f64>, b: &Vec<f64>| dot(a, a).total_cmp(&dot(b, b));
+    let Some(normal) = (0..dim).map(off).max_by(farthest) else { return vec![] };
+    let lean = |by: f64| {
+        let mut leaning = factor.clone();
+        for row in &mut leaning {
+            let size = row.iter().fold(0.0f64, |m, f| m.max(f.abs()));
+            row.iter_mut().zip(&normal).for_each(|(f, n)| *f += by * size * n);
+        }
+        let square = |j: usize, k: usize| leaning.iter().map(|row| row[j] * row[k]).sum::<f64>();
+        let matrix: Vec<Vec<f64>> =
+            (0..dim).map(|j| (0..dim).map(|k| square(j.min(k), j.max(k))).collect()).collect();
+        let is_finite = matrix.iter().flatten().all(|q| q.is_finite());
+        let mut found = document.clone();
+        found["answer"]["factor"] = json!(leaning);
+        found["answer"]["matrix"] = json!(matrix);
+        is_finite.then(|| (format!("{way}, leaning by {by:e}"), found))
+    };
+    [0.5, 1e-9, 1e-12].into_iter().filter_map(lean).collect()
 }

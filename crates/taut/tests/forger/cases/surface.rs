@@ -1,5 +1,6 @@
 //! Surfaces through few points of space.
 
+use serde_json::{Value, json};
 use taut::{Monitor, SurfaceMethod, SurfaceMode, SurfaceOptions, surface_of_source};
 
 use super::{Case, Input, Solved, cases, clouds, document};
@@ -9,7 +10,62 @@ use crate::random::Random;
 pub fn all() -> Vec<Case> {
     let mut inputs = samples();
     inputs.extend(clouds::points(3, 9));
-    cases(inputs, solve)
+    let mut found = cases(inputs, solve);
+    for case in &mut found {
+        let tight =
+            case.own.iter().flat_map(|(way, document)| as_tight(&case.input, way, document));
+        case.foreign.extend(tight);
+    }
+    found
+}
+
+/// The document with its surface said to be the alpha shape of a radius that its largest circle just has, or misses by a unit
+/// or two in the last place: what rounding cannot tell.
+fn as_tight(input: &Input, way: &str, document: &Value) -> Vec<(String, Value)> {
+    let Some(mut radius) = largest_circle(input, document).filter(|radius| radius.is_finite())
+    else {
+        return vec![];
+    };
+    (0..3).for_each(|_| radius = radius.next_down());
+    let mut found = vec![];
+    for _ in 0..7 {
+        let mut tight = document.clone();
+        tight["certificate"]["mode"] = json!({ "alpha": { "radius": radius } });
+        found.push((format!("{way}, no circle larger than {radius:e}"), tight));
+        radius = radius.next_up();
+    }
+    found
+}
+
+/// The radius of the largest circle through the vertices of a triangle, as `f64` has it.
+fn largest_circle(input: &Input, document: &Value) -> Option<f64> {
+    let answer = &document["answer"];
+    let moved = answer["vertices"].as_array();
+    let place = |row: &Value| -> Option<[f64; 3]> {
+        let row = row.as_u64()? as usize;
+        Some(match moved {
+            Some(places) => [0, 1, 2].map(|j| places[row][j].as_f64().unwrap_or(0.0)),
+            None => [0, 1, 2].map(|j| input.values[3 * row + j]),
+        })
+    };
+    let length = |v: [f64; 3]| v[0].hypot(v[1]).hypot(v[2]);
+    let circle = |triangle: &Value| -> Option<f64> {
+        let [a, b, c] = [place(&triangle[0])?, place(&triangle[1])?, place(&triangle[2])?];
+        let edge = |from: [f64; 3], to: [f64; 3]| [0, 1, 2].map(|j| to[j] - from[j]);
+        let (u, v, w) = (edge(a, b), edge(a, c), edge(b, c));
+        // Unit vectors, as products of the edges themselves may leave the range.
+        let (p, q) = (u.map(|x| x / length(u)), v.map(|x| x / length(v)));
+        let sine = [0, 1, 2].map(|j| {
+            let (k, l) = ((j + 1) % 3, (j + 2) % 3);
+            p[k] * q[l] - p[l] * q[k]
+        });
+        Some(length(w) / length(sine) / 2.0)
+    };
+    let triangles = answer["triangles"].as_array()?;
+    triangles
+        .iter()
+        .filter_map(circle)
+        .fold(None, |most, r| Some(most.map_or(r, |m: f64| m.max(r))))
 }
 
 /// Samples of a sphere, of two of them, of a cube, of a sheet, with rows that are in no triangle.

@@ -88,7 +88,7 @@ impl BallOracle {
                 })
             })
             .and(|| self.multipliers(solution, &center, &radius))
-            .and(|| self.proved(solution, verdict.lower))
+            .and(|| self.proved(solution, verdict, &radius))
     }
 
     /// Every ellipsoid lies in the ball.
@@ -103,8 +103,9 @@ impl BallOracle {
         })
     }
 
-    /// The lower bound is no larger than what the multipliers prove, or the radius of a ball of the support.
-    fn proved(&self, solution: &Solution<Ball>, lower: f64) -> Truth {
+    /// The lower bound is no larger than what the multipliers prove, or the radius of a ball of the support; and the gap is
+    /// that to it, or more. The optimum may be far above what they prove, and would hide a gap that is too small.
+    fn proved(&self, solution: &Solution<Ball>, verdict: &Verdict, radius: &Dyadic) -> Truth {
         if self.bodies.is_empty() {
             return Truth::True;
         }
@@ -115,11 +116,23 @@ impl BallOracle {
         let by_lambda = dual(&support, &exact(&certificate.multipliers), bits);
         let largest = support.iter().map(|body| &body.radius).max().into_iter().cloned();
         let most = largest.fold(by_lambda, Dyadic::max);
-        Truth::claim(Dyadic::of(lower) <= &most + &most.scaled(-100), || {
+        let most = &most + &most.scaled(-100);
+        let Verdict { lower, gap, .. } = *verdict;
+        let is_below = Truth::claim(Dyadic::of(lower) <= most, || {
             format!(
                 "the lower bound {lower:e} exceeds {}, which the multipliers prove",
                 most.text()
             )
+        });
+        is_below.and(|| {
+            let is_covered = gap == f64::INFINITY
+                || &(&Dyadic::integer(1) + &Dyadic::of(gap)) * &most >= *radius;
+            Truth::claim(is_covered, || {
+                format!(
+                    "the radius exceeds {}, which the multipliers prove, by more than a gap of {gap:e}",
+                    most.text()
+                )
+            })
         })
     }
 

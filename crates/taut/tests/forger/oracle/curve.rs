@@ -11,6 +11,7 @@ mod features;
 mod lists;
 mod outliers;
 mod planar;
+#[cfg(test)]
 mod tests;
 mod tour;
 

@@ -36,6 +36,8 @@ pub(crate) struct EllipsoidOracle {
     items: Items,
     dim: usize,
     bodies: Option<Vec<Body>>,
+    /// Whether the rows are in single precision.
+    is_single: bool,
     /// The numbers that a certificate has for these bodies, ascending.
     rows: Vec<u64>,
     /// Of full dimension, found when it is first asked for.
@@ -61,7 +63,21 @@ impl EllipsoidOracle {
         items: Items,
     ) -> Self {
         let (optimum, weights) = (OnceLock::new(), Mutex::new(vec![]));
-        EllipsoidOracle { items, dim, bodies, rows, optimum, weights }
+        EllipsoidOracle { items, dim, bodies, is_single: false, rows, optimum, weights }
+    }
+
+    /// The same for rows that are in single precision or not.
+    pub(crate) fn in_precision(self, is_single: bool) -> Self {
+        EllipsoidOracle { is_single, ..self }
+    }
+
+    /// The part of its extent by which a flat set may lie off its hull.
+    fn flatness(&self) -> f64 {
+        match (self.items, self.is_single) {
+            (Items::Ellipsoids, false) => 1e-6,
+            (Items::Ellipsoids, true) => 1e-3 * (self.dim as f64).sqrt(),
+            _ => flat::OF_POINTS,
+        }
     }
 
     fn whole(&self) -> Option<&Bracket> {
@@ -113,7 +129,14 @@ impl EllipsoidOracle {
             claims.at_most("lower end of a single point", &exactly.lower, &zero);
             claims.at_most("upper end of a single point", &zero, &exactly.upper);
             claims.holds(Some(answer.log_volume == 0.0), || "log-volume of a single point".into());
-            flat::claims(claims, answer, &exactly.center, bodies, self.items, verdict.off_hull);
+            flat::claims(
+                claims,
+                answer,
+                &exactly.center,
+                bodies,
+                self.flatness(),
+                verdict.off_hull,
+            );
             return;
         }
         let Some(volume) = log_volume(answer, &exactly.factor) else {
@@ -126,15 +149,27 @@ impl EllipsoidOracle {
         let granted = log_volume_tolerance(&answer.factor, volume.rounded()) + of_basis;
         claims.near("log-volume", &exactly.log_volume, &volume, granted);
         if answer.hull.is_some() {
-            flat::claims(claims, answer, &exactly.center, bodies, self.items, verdict.off_hull);
+            flat::claims(
+                claims,
+                answer,
+                &exactly.center,
+                bodies,
+                self.flatness(),
+                verdict.off_hull,
+            );
         }
         let Some(mut optimum) = self.optimum_for(answer.hull.as_ref(), &exactly.lower) else {
             return claims.undecided("the least log-volume is not known");
         };
-        if let Some(lower) = dual(bodies, &self.rows, certificate, answer.hull.as_ref()) {
+        claims.holds(Some(is_gap_granted(verdict.gap, certificate.gap, verdict.rank)), || {
+            format!("gap {:e} proved, {:e} claimed", verdict.gap, certificate.gap)
+        });
+        let proved = dual(bodies, &self.rows, certificate, answer.hull.as_ref());
+        if let Some(lower) = proved.clone() {
             optimum.lower = larger(optimum.lower, lower).lower();
         }
-        about_optimum(claims, &exactly, &volume, &optimum, answer);
+        let proved = proved.filter(|_| are_directions_kept(bodies, &self.rows, certificate));
+        about_optimum(claims, &exactly, &volume, &optimum, answer, proved.as_ref());
     }
 
     /// The bracket for the whole space or a hull, narrow enough to tell whether `lower` is below it, if possible.
@@ -346,6 +381,7 @@ fn about_optimum(
     volume: &Interval,
     optimum: &Bracket,
     answer: &Ellipsoid,
+    proved: Option<&Interval>,
 ) {
     let (rank, is_flat) = (answer.rank(), answer.hull.is_some());
     claims.below("lower end", &exactly.lower, optimum);
@@ -364,4 +400,36 @@ fn about_optimum(
     );
     let least = enlarged.minus(&exactly.gap);
     claims.below("log-volume less the gap", &least, optimum);
+    // The optimum may be above what the multipliers prove, and would hide a gap that is too small.
+    if let Some(proved) = proved {
+        let bracket = Bracket { lower: proved.lower(), upper: proved.upper() };
+        claims.below("log-volume less the gap, as the multipliers prove it", &least, &bracket);
+    }
+}
+
+/// Whether the checker takes the directions as they are: it brings the largest entry to 1, first of a direction and then of one
+/// whose entries are multiplied by powers of two near the widths, and rounds. Another point of the item is as good, but what
+/// the multipliers prove with it is not known here.
+fn are_directions_kept(bodies: &[Body], rows: &[u64], certificate: &EllipsoidCertificate) -> bool {
+    let is_kept = |(row, direction): (&u64, &Vec<f64>)| {
+        let Some(shape) = rows.binary_search(row).ok().and_then(|at| bodies[at].shape.as_ref())
+        else {
+            return true;
+        };
+        let wide = direction.iter().enumerate().map(|(j, a)| {
+            let width = shape.matrix()[j][j].root().map_or(0.0, |width| width.rounded());
+            let power = if width > 0.0 { width.log2().floor().exp2() } else { 0.0 };
+            a * power
+        });
+        let is_power = |size: f64| size.is_normal() && size.log2().floor().exp2() == size;
+        let most =
+            |sizes: &mut dyn Iterator<Item = f64>| sizes.fold(0.0, |m: f64, v| m.max(v.abs()));
+        is_power(most(&mut direction.iter().copied())) && is_power(most(&mut wide.into_iter()))
+    };
+    certificate.support.iter().zip(&certificate.directions).all(is_kept)
+}
+
+/// Whether a gap in log-volume is as small as the one claimed, up to the slack that the format grants.
+pub(super) fn is_gap_granted(proved: f64, claimed: f64, rank: usize) -> bool {
+    proved <= (claimed * (1.0 + 1e-9) + 2e-15 * rank as f64) * (1.0 + 1e-15)
 }

@@ -26,6 +26,7 @@ pub fn judge(
         AnyFileSolution::Sample(found) => {
             drawn(&found.answer, found.certificate.seed, verdict, output)
         }
+        _ => Truth::Undecided("no oracle knows this kind".into()),
     })
 }
 

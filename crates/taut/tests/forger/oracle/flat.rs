@@ -2,10 +2,10 @@
 //!
 //! With u = 2⁻⁵³, the documentation grants: products of the basis off orthonormal by 16(d + 4)u; rows of the factor, and
 //! offsets of points, off the hull by ρ = 32(d + 4)√(r + 1)·u of their length, and widths of bodies by √ρ of them. A set is flat if the
-//! distance stated is at most 1e-10 of its extent (1e-6 for ellipsoids) and what rounding its coordinates explains.
+//! distance stated is at most 1e-10 of its extent (1e-6 for ellipsoids, 1e-3·√d in single precision) and what rounding its coordinates explains.
 
+use taut::Ellipsoid;
 use taut::certify::Hull;
-use taut::{Ellipsoid, Items};
 
 use super::body::Body;
 use super::claims::Claims;
@@ -14,6 +14,9 @@ use super::interval::Interval;
 use super::linear::{
     Factor, Matrix, Vector, Way, difference, exact_rows, gram, image, squared_length,
 };
+
+/// The part of their extent by which points and balls that are called flat may lie off their hull.
+pub(super) const OF_POINTS: f64 = 1e-10;
 
 /// One part in 10⁶ more than granted, for what the checker itself rounds.
 const ROUNDED: f64 = 1.0 + 1e-6;
@@ -36,10 +39,10 @@ pub(super) fn claims(
     answer: &Ellipsoid,
     center: &[Interval],
     bodies: &[Body],
-    items: Items,
+    flatness: f64,
     told: f64,
 ) {
-    let found = judge(claims, answer, center, bodies, items, 1.0, Some(told));
+    let found = judge(claims, answer, center, bodies, flatness, 1.0, Some(told));
     if found.is_none() {
         claims.undecided("the hull is not one");
     }
@@ -52,7 +55,7 @@ pub(super) fn judge(
     answer: &Ellipsoid,
     center: &[Interval],
     bodies: &[Body],
-    items: Items,
+    flatness: f64,
     wider: f64,
     told: Option<f64>,
 ) -> Option<()> {
@@ -100,8 +103,8 @@ pub(super) fn judge(
             claims.at_most(&format!("distance of row {row} from the hull, told"), &reach, &told);
         }
     }
-    let share = if items == Items::Ellipsoids { 1e-6 } else { 1e-10 };
-    let allowed = allowed(bodies, &subspace, dim, share)?.times(&Interval::exact(wider * ROUNDED)?);
+    let allowed =
+        allowed(bodies, &subspace, dim, flatness)?.times(&Interval::exact(wider * ROUNDED)?);
     claims.at_most("distance of a hull, with what is flat", &distance, &allowed);
     Some(())
 }

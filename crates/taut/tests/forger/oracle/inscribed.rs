@@ -14,7 +14,7 @@ use taut::{InscribedEllipsoid, InscribedVerdict, Solution};
 
 use super::Truth;
 use super::claims::Claims;
-use super::ellipsoid::log_volume_tolerance;
+use super::ellipsoid::{is_gap_granted, log_volume_tolerance};
 use super::interval::{Interval, log_unit_ball};
 use super::linear::{Matrix, Vector, determinant, dot, exact, exact_rows, squared_length};
 use super::mvee::Bracket;
@@ -67,6 +67,14 @@ impl InscribedOracle {
         let granted = log_volume_tolerance(&answer.axes, volume.rounded());
         claims.near("log-volume", stated, &volume, granted);
         claims.near("lower end, the log-volume", lower, &volume, 2.0 * granted);
+        claims.at_most("lower end, as the log-volume", lower, &volume);
+        if verdict.upper < f64::MAX {
+            claims.at_most("log-volume and gap, as the upper end", &volume.plus(gap), upper);
+        }
+        let (found, claimed) = (verdict.gap, solution.certificate.gap);
+        claims.holds(Some(is_gap_granted(found, claimed, dim)), || {
+            format!("gap {found:e} proved, {claimed:e} claimed")
+        });
         if claims.is_settled_false() {
             return claims.truth();
         }

@@ -113,7 +113,7 @@ impl<'a> CaseOracle<'a> {
 
     /// Judges every claim of an answer that the checker let pass.
     pub fn judge(&mut self, solution: &AnySolution, verdict: &AnyVerdict) -> Truth {
-        let Input { values, columns, .. } = self.input;
+        let Input { values, columns, is_single, .. } = self.input;
         match (solution, verdict) {
             (AnySolution::Ball(found), AnyVerdict::Ball(verdict)) => {
                 let items = found.certificate.items;
@@ -134,10 +134,9 @@ impl<'a> CaseOracle<'a> {
             }
             (AnySolution::Ellipsoid(found), AnyVerdict::Ellipsoid(verdict)) => {
                 let items = found.certificate.items;
-                let oracle = self
-                    .ellipsoids
-                    .entry(items as u8)
-                    .or_insert_with(|| EllipsoidOracle::new(values, *columns, items));
+                let oracle = self.ellipsoids.entry(items as u8).or_insert_with(|| {
+                    EllipsoidOracle::new(values, *columns, items).in_precision(*is_single)
+                });
                 oracle.judge(found, &finite(verdict))
             }
             (AnySolution::Inscribed(found), AnyVerdict::Inscribed(verdict)) => {

@@ -127,7 +127,7 @@ impl RobustOracle {
             (0..points.len()).filter(|&row| !is_out(&certificate.left_out, row)).collect();
         if answer.hull.is_some() {
             let near: Vec<Body> = kept.iter().map(|&row| points[row].clone()).collect();
-            flat::judge(claims, &ellipsoid, &at, &near, Items::Points, 4.0, None)?;
+            flat::judge(claims, &ellipsoid, &at, &near, flat::OF_POINTS, 4.0, None)?;
         }
         let rows = rows(&ellipsoid, &at, &factor, points)?;
         let sure = rows.iter().filter(|row| row.on_hull == Some(true)).count() as u64;

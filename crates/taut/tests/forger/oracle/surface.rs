@@ -11,6 +11,7 @@ mod lists;
 mod scene;
 mod shape;
 mod sides;
+#[cfg(test)]
 mod tests;
 
 use std::sync::OnceLock;

@@ -8,6 +8,7 @@
 
 mod build;
 mod hash;
+#[cfg(test)]
 mod tests;
 
 use std::collections::HashMap;

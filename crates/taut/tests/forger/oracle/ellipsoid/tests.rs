@@ -316,7 +316,7 @@ fn an_ellipsoid_around_an_indefinite_shape_holds_what_the_lower_bound_is_about()
             multipliers: vec![0.25; 4],
             directions: vec![vec![1.0, 1.0], vec![-1.0, -1.0], vec![1.0, -1.0], vec![-1.0, 1.0]],
             left_out: vec![],
-            gap: 2.0,
+            gap: 3.0,
             points_hash: hash_points(&points, &Monitor::silent()).unwrap(),
         };
         let verdict = EllipsoidVerdict {

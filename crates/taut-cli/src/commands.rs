@@ -1,0 +1,20 @@
+//! The subcommands: each is its options, its solver and its outputs.
+
+pub(crate) mod ball;
+pub(crate) mod centers;
+pub(crate) mod completions;
+pub(crate) mod curve;
+pub(crate) mod delaunay;
+pub(crate) mod draw;
+mod elbow;
+pub(crate) mod ellipsoid;
+pub(crate) mod formats;
+pub(crate) mod generate;
+pub(crate) mod inscribe;
+pub(crate) mod man;
+pub(crate) mod memory;
+mod radii;
+mod robust;
+pub(crate) mod surface;
+pub(crate) mod tour;
+pub(crate) mod verify;

@@ -1,0 +1,131 @@
+//! `taut ball`: the smallest ball around points or balls.
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use taut::{Ball, BallMethod, BallOptions, Items, Monitor, Solution, ball_of_source};
+
+use crate::effort::Effort;
+use crate::exit::Outcome;
+use crate::input::reading::{Opened, Points, Reading};
+use crate::pipeline::{self, Find, Input, Output, OutputOptions};
+use crate::reports;
+use crate::watch::Watch;
+
+/// Find the smallest ball around a point set, with proof.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
+      3 stopped early by a budget, or where rounding hides the gap that was asked for;
+        the gap reached is reported
+Example: taut ball points.csv -o ball.json --draw ball.svg && taut verify ball.json points.csv")]
+pub(crate) struct Args {
+    #[command(flatten)]
+    points: Points,
+    /// Rows are balls: the coordinates of a centre, then the radius
+    #[arg(long)]
+    balls: bool,
+    /// Rows are ellipsoids {m + v : vvᵀ ⪯ S}: the coordinates of the centre m, then the lower triangle of the shape
+    /// matrix S, row by row; all are held in memory
+    #[arg(long, conflicts_with_all = ["balls", "draw"])]
+    ellipsoids: bool,
+    /// Proved relative gap to reach, in [0, 1): radius ≤ (1 + ε) · smallest; 0 is exact to rounding
+    #[arg(long, value_name = "REAL", default_value = "1e-9", allow_negative_numbers = true)]
+    epsilon: f64,
+    /// The way to find it; all end in the same certificate
+    #[arg(long, value_name = "NAME", default_value = BallMethod::default().name(), value_parser = methods())]
+    method: BallMethod,
+    /// Far points taken to the core-set per pass, by core-set; at least 1 [default: by dimension]
+    #[arg(long, value_name = "N")]
+    batch: Option<usize>,
+    /// Most reads of all points, then the best ball so far is given with its gap: at least 3, 4 for the thesis'
+    /// methods; a read or two more settle the scale of extreme coordinates
+    #[arg(long, value_name = "N", default_value_t = BallOptions::default().max_passes)]
+    max_passes: u64,
+    /// Chooses the point from which the thesis' methods start
+    #[arg(long, value_name = "N", default_value_t = BallOptions::default().seed)]
+    seed: u64,
+    #[command(flatten)]
+    output: OutputOptions,
+    #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
+    effort: Effort,
+}
+
+fn methods() -> impl TypedValueParser<Value = BallMethod> {
+    let explained = BallMethod::ALL.map(|method| {
+        PossibleValue::new(method.name()).help(match method {
+            BallMethod::CoreSet => "batches of far points, exact on the core-set: the best",
+            BallMethod::ThesisPure => {
+                "Algorithm 1: one far point per pass, a conic solver on the core-set"
+            }
+            BallMethod::ThesisFast => "d/3 steps of Bădoiu and Clarkson, then Algorithm 1",
+            BallMethod::BadoiuClarkson => "Algorithm 10: steps to the farthest point; needs ε > 0",
+        })
+    });
+    PossibleValuesParser::new(explained).try_map(|name| name.parse::<BallMethod>())
+}
+
+impl Find for Args {
+    type Answer = Ball;
+    type Extra = ();
+
+    fn input(&self) -> Input<'_> {
+        Input { path: &self.points.path, reading: &self.reading, effort: &self.effort }
+    }
+
+    fn output(&self) -> Output<'_> {
+        self.output.output()
+    }
+
+    fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Ball>, ())> {
+        let items = items(self.balls, self.ellipsoids);
+        let solve = |monitor: &Monitor<'_>| {
+            ball_of_source(points.source(), items, &self.options(), monitor)
+        };
+        let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
+        Ok((found, ()))
+    }
+
+    fn outcome(&self, found: &Solution<Ball>) -> Outcome {
+        reports::outcome(found.trace.stop, found.certificate.gap, self.epsilon)
+    }
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
+        pipeline::run(self)
+    }
+
+    fn options(&self) -> BallOptions {
+        BallOptions {
+            epsilon: self.epsilon,
+            method: self.method,
+            batch: self.batch,
+            max_passes: self.max_passes,
+            threads: None, // those of the pool, which reading and checking use as well
+            seed: self.seed,
+        }
+    }
+}
+
+/// What the rows are, by the options of that name.
+pub(crate) fn items(balls: bool, ellipsoids: bool) -> Items {
+    match (balls, ellipsoids) {
+        (_, true) => Items::Ellipsoids,
+        (true, false) => Items::Balls,
+        (false, false) => Items::Points,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{Args as _, FromArgMatches};
+
+    #[test]
+    fn the_defaults_are_those_of_the_library() {
+        let command = super::Args::augment_args(clap::Command::new("ball"));
+        let matches = command.get_matches_from(["ball", "points.csv"]);
+        let args = super::Args::from_arg_matches(&matches).unwrap();
+        assert_eq!(args.options(), taut::BallOptions::default());
+    }
+}

@@ -1,0 +1,193 @@
+//! `taut centers`: k equal balls around all points but so many, as small as can be.
+
+use anyhow::bail;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use taut::certify::Placement;
+use taut::{Centers, CentersMethod, CentersOptions, Items, Monitor, Solution, centers_of_source};
+
+use crate::commands::elbow::{self, Range};
+use crate::effort::Effort;
+use crate::exit::Outcome;
+use crate::input::reading::{Opened, Points, Reading};
+use crate::pipeline::{self, Find, Input, Output, OutputOptions};
+use crate::reports;
+use crate::watch::Watch;
+
+/// Find k centres such that the farthest point is as near to one of them as can be, with proof.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+The search takes time exponential in k: seconds for ten centres in the plane, and for twenty a --max-nodes or a larger
+--epsilon is wise. farthest-first takes any number of centres, and stream files larger than memory.
+Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
+      3 stopped early by the budget of nodes, of the search or of its proof, or where rounding hides the gap
+        that was asked for;
+        the gap reached is reported
+Example: taut centers points.csv -k 5 -o centers.json --draw centers.svg && taut verify centers.json points.csv
+         taut centers points.csv --elbow 1..10 --draw elbow.svg")]
+pub(crate) struct Args {
+    #[command(flatten)]
+    points: Points,
+    /// Most centres, at least 1
+    #[arg(short, long = "k", value_name = "K", required_unless_present = "elbow")]
+    k: Option<usize>,
+    /// Instead of one k all of a range, both ends included: a table of radius and lower bound by k; -o writes it as CSV,
+    /// --draw plots it
+    #[arg(
+        long, value_name = "K1..K2", value_parser = elbow::range,
+        conflicts_with_all = ["k", "json", "assignment"]
+    )]
+    elbow: Option<Range>,
+    /// Proved relative gap to reach, in [0, 1): radius ≤ (1 + ε) · least; 0 is exact to rounding
+    #[arg(long, value_name = "REAL", default_value = "0.01", allow_negative_numbers = true)]
+    epsilon: f64,
+    /// The way to find them; all end in the same kind of certificate
+    #[arg(
+        long, value_name = "NAME", default_value = CentersMethod::default().name(), value_parser = methods()
+    )]
+    method: CentersMethod,
+    /// Centres are points of the input, not anywhere in space
+    #[arg(long)]
+    discrete: bool,
+    /// Most points that may be left out
+    #[arg(long, value_name = "Z", default_value_t = 0)]
+    outliers: u64,
+    /// The last column holds weights w > 0: a point counts with w times its distance
+    #[arg(long, conflicts_with = "balls")]
+    weights: bool,
+    /// Rows are balls: the coordinates of a centre, then the radius; each is to lie in one of the k
+    #[arg(long)]
+    balls: bool,
+    /// Most nodes of the search, then the best centres so far are given with their gap
+    #[arg(long, value_name = "N", default_value_t = CentersOptions::default().max_nodes)]
+    max_nodes: u64,
+    /// Say for each point in the JSON which centre is next to it
+    #[arg(long)]
+    assignment: bool,
+    #[command(flatten)]
+    output: OutputOptions,
+    #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
+    effort: Effort,
+}
+
+fn methods() -> impl TypedValueParser<Value = CentersMethod> {
+    let explained = CentersMethod::ALL.map(|method| {
+        PossibleValue::new(method.name()).help(match method {
+            CentersMethod::Tree => "a tree over a small growing core-set: the best",
+            CentersMethod::Thesis => {
+                "Algorithm 2, with a bound that holds; free centres, no weights, no outliers"
+            }
+            CentersMethod::FarthestFirst => {
+                "at most twice the least radius, whatever --epsilon says; for any k, fast"
+            }
+            CentersMethod::Stream => {
+                "at most 2.96 times the least radius, whatever --epsilon says; two passes over files of any size, which are \
+                 not held in memory; no balls, weights, outliers or assignment"
+            }
+        })
+    });
+    PossibleValuesParser::new(explained).try_map(|name| name.parse::<CentersMethod>())
+}
+
+impl Find for Args {
+    type Answer = Centers;
+    type Extra = ();
+
+    fn input(&self) -> Input<'_> {
+        Input { path: &self.points.path, reading: &self.reading, effort: &self.effort }
+    }
+
+    fn output(&self) -> Output<'_> {
+        self.output.output()
+    }
+
+    fn check_options(&self) -> anyhow::Result<()> {
+        self.check_method()?;
+        self.output().refuse_pictures_as_json()
+    }
+
+    fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Centers>, ())> {
+        let k = self.k.expect("one of -k and --elbow is required");
+        let solve = |monitor: &Monitor<'_>| {
+            centers_of_source(points.source(), self.items(), k, &self.options(), monitor)
+        };
+        let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
+        Ok((found, ()))
+    }
+
+    fn outcome(&self, found: &Solution<Centers>) -> Outcome {
+        reports::outcome(found.trace.stop, found.certificate.gap, self.epsilon)
+    }
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
+        match &self.elbow {
+            Some(range) => {
+                self.check_options()?;
+                elbow::run(range, self.items(), &self.options(), self.input(), self.output())
+            }
+            None => pipeline::run(self),
+        }
+    }
+
+    fn options(&self) -> CentersOptions {
+        CentersOptions {
+            epsilon: self.epsilon,
+            method: self.method,
+            placement: if self.discrete { Placement::Rows } else { Placement::Free },
+            outliers: self.outliers,
+            weights: self.weights,
+            max_nodes: self.max_nodes,
+            assignment: self.assignment,
+            threads: None, // those of the pool, which reading and checking use as well
+        }
+    }
+
+    fn items(&self) -> Items {
+        if self.balls { Items::Balls } else { Items::Points }
+    }
+
+    /// What some methods do not do, in the words of the command line.
+    fn check_method(&self) -> anyhow::Result<()> {
+        let asked = [
+            ("--discrete", self.discrete),
+            ("--balls", self.balls),
+            ("--weights", self.weights),
+            ("--outliers", self.outliers > 0),
+            ("--assignment", self.assignment),
+        ];
+        let (names, knows) = match self.method {
+            CentersMethod::Tree | CentersMethod::FarthestFirst => return Ok(()),
+            CentersMethod::Thesis => {
+                (&["--discrete", "--weights", "--outliers"][..], "free centres of points and balls")
+            }
+            CentersMethod::Stream => (
+                &["--balls", "--weights", "--outliers", "--assignment"][..],
+                "centres of points alone, which it does not look at again",
+            ),
+        };
+        match asked.into_iter().find(|(name, is_asked)| *is_asked && names.contains(name)) {
+            Some((name, _)) => bail!(
+                "{name} has no meaning with --method {}, which knows {knows}: leave out one of the two",
+                self.method
+            ),
+            None => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{Args as _, FromArgMatches};
+
+    #[test]
+    fn the_defaults_are_those_of_the_library() {
+        let command = super::Args::augment_args(clap::Command::new("centers"));
+        let matches = command.get_matches_from(["centers", "points.csv", "-k", "3"]);
+        let args = super::Args::from_arg_matches(&matches).unwrap();
+        assert_eq!(args.options(), taut::CentersOptions::default());
+        assert_eq!(args.k, Some(3));
+    }
+}

@@ -1,0 +1,248 @@
+//! `taut delaunay`: the Delaunay triangulation of points in the plane or in space.
+
+mod alpha;
+mod built;
+mod voronoi;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::bail;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use taut::{DelaunayOptions, InsertionOrder, Monitor, Solution, Triangulation};
+use taut_io::{MeshFormat, mesh_file};
+
+use self::alpha::Alpha;
+use self::built::Built;
+use crate::effort::Effort;
+use crate::exit::Outcome;
+use crate::input::reading::{Opened, Points, Reading};
+use crate::output::picture::Picture;
+use crate::output::writing::{self, Outputs};
+use crate::pipeline::{self, Find, Input, Output};
+use crate::reports::Field;
+use crate::watch::Watch;
+
+/// Triangulate points in the plane or in space, with proof.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Ids are rows of the input, from 0. Of equal points the first stands for all; the others are listed as duplicates.
+Points on a line or on a plane in space are no error: their chain or their triangles are the answer.
+Exit: 0 done · 1 the check failed · 2 bad input or usage, nothing written
+Example: taut delaunay points.csv -o mesh.ply --draw mesh.html && taut verify mesh.ply points.csv")]
+pub(crate) struct Args {
+    #[command(flatten)]
+    points: Points,
+    /// In which order points are inserted; the answer does not depend on it
+    #[arg(long, value_name = "NAME", default_value = order_name(InsertionOrder::default()), value_parser = orders())]
+    order: InsertionOrder,
+    /// Chooses the random orders; the answer does not depend on it
+    #[arg(long, value_name = "N", default_value_t = DelaunayOptions::default().seed)]
+    seed: u64,
+    /// Do without the independent check, which takes about a quarter of the time
+    #[arg(long)]
+    no_verify: bool,
+
+    /// Write the simplices: .json with the certificate, or a mesh as .ply, .obj, .off, .vtu or .parquet; - is JSON on
+    /// standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
+    out: Option<PathBuf>,
+    /// Print the JSON instead of the summary
+    #[arg(long, help_heading = "Writing")]
+    json: bool,
+    /// Leave the neighbours out of the JSON, which makes it half as large and its check slower
+    #[arg(long, help_heading = "Writing")]
+    no_neighbors: bool,
+    /// Write the facets of the convex hull as a mesh
+    #[arg(long, value_name = "FILE", help_heading = "Writing")]
+    hull: Option<PathBuf>,
+    /// Write the Voronoi cells, clipped to the box of the points and a tenth more: GeoJSON in the plane, faces as JSON in
+    /// space
+    #[arg(long, value_name = "FILE", help_heading = "Writing")]
+    voronoi: Option<PathBuf>,
+    #[command(flatten)]
+    alpha: Alpha,
+    /// Draw the triangulation; .svg and .png show one picture, .html all
+    #[arg(long, value_name = "FILE", help_heading = "Writing")]
+    draw: Option<PathBuf>,
+
+    #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
+    effort: Effort,
+}
+
+fn order_name(wanted: InsertionOrder) -> &'static str {
+    InsertionOrder::NAMES.iter().find(|(_, order)| *order == wanted).map_or("", |(name, _)| name)
+}
+
+fn orders() -> impl TypedValueParser<Value = InsertionOrder> {
+    let explained = InsertionOrder::NAMES.map(|(name, order)| {
+        PossibleValue::new(name).help(match order {
+            InsertionOrder::Strided => {
+                "rounds of every 8ᵏ-th point along the Hilbert curve: the best"
+            }
+            InsertionOrder::Random => "rounds of random points, each eight times the last (BRIO)",
+            InsertionOrder::LocalRic => "random within blocks of growing size, simplex by simplex",
+            _ => "along the Hilbert curve, in one round",
+        })
+    });
+    PossibleValuesParser::new(explained).map(|name| {
+        InsertionOrder::NAMES
+            .iter()
+            .find(|(known, _)| *known == name)
+            .map_or_else(InsertionOrder::default, |(_, order)| *order)
+    })
+}
+
+/// What side outputs of a triangulation are made from.
+pub(crate) struct Extra {
+    built: Built,
+    complex: Option<alpha::Complex>,
+}
+
+impl Find for Args {
+    type Answer = Triangulation;
+    type Extra = Extra;
+
+    fn input(&self) -> Input<'_> {
+        Input { path: &self.points.path, reading: &self.reading, effort: &self.effort }
+    }
+
+    fn output(&self) -> Output<'_> {
+        Output {
+            no_verify: self.no_verify,
+            out: self.out.as_deref(),
+            json: self.json,
+            draw: self.draw.as_deref(),
+        }
+    }
+
+    fn check_options(&self) -> anyhow::Result<()> {
+        self.mesh_format()?;
+        for path in self.hull.iter().chain(self.alpha.files()) {
+            if MeshFormat::of_path(path).0.is_none() {
+                return Err(taut_io::Error::UnknownMesh { path: path.display().to_string() }.into());
+            }
+        }
+        if let Some(path) = self.voronoi.as_ref().filter(|path| !writing::is_stream(path)) {
+            let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
+            if extension.is_none_or(|extension| extension != "json" && extension != "geojson") {
+                bail!("{}: Voronoi cells are .geojson or .json; name one of these", path.display());
+            }
+        }
+        Ok(())
+    }
+
+    fn side_files(&self) -> Vec<&Path> {
+        let files = [&self.hull, &self.voronoi].into_iter().flatten().chain(self.alpha.files());
+        files.map(|path| &**path).collect()
+    }
+
+    fn solve(
+        &self,
+        points: &Opened,
+        watch: &Watch,
+    ) -> anyhow::Result<(Solution<Triangulation>, Extra)> {
+        let (source, options) = (points.source(), self.options());
+        let built = watch
+            .during("solving", |monitor| Built::new(source, &options, monitor))
+            .map_err(|error| points.explain(error))?;
+        let found = watch
+            .during("ordering", |monitor| built.solution(source, monitor))
+            .map_err(|error| points.explain(error))?;
+        let complex = self.alpha.complex(&built);
+        Ok((found, Extra { built, complex }))
+    }
+
+    fn side_fields(&self, extra: &Extra) -> Vec<Field> {
+        let complex = extra.complex.as_ref().map(alpha::Complex::field);
+        complex.into_iter().chain([extra.built.signs()]).collect()
+    }
+
+    fn write(
+        &self,
+        found: &mut Solution<Triangulation>,
+        extra: &Extra,
+        points: &Opened,
+        outputs: &mut Outputs,
+        monitor: &Monitor<'_>,
+    ) -> anyhow::Result<()> {
+        if self.no_neighbors {
+            found.certificate.neighbors = Vec::new();
+        }
+        let answer = &found.answer;
+        let file = |simplices: &[u32], width: usize, path: &Path| {
+            mesh_file(points.source(), simplices, width, path, None, monitor)
+        };
+        match (&self.out, self.mesh_format()?) {
+            (Some(out), Some(_)) => {
+                outputs.hold(file(&answer.simplices, answer.vertices_per_simplex(), out)?);
+            }
+            (Some(out), None) => outputs.add_json(out, found)?,
+            (None, _) => {}
+        }
+        if let Some(hull) = &self.hull {
+            let width = answer.hull_dimension.map_or(0, usize::from);
+            if width == 0 {
+                bail!("{}: all points are equal, so there is no hull to write", points.name());
+            }
+            outputs.hold(file(&answer.hull, width, hull)?);
+        }
+        if let Some(complex) = &extra.complex {
+            complex.write(outputs, &self.alpha, points.source(), monitor)?;
+        }
+        match &self.voronoi {
+            Some(path) => outputs.add(path, &voronoi::cells(&extra.built, points.source())?),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
+        pipeline::run(self)
+    }
+
+    /// The format of the mesh that goes to `--out`; none where JSON does.
+    fn mesh_format(&self) -> anyhow::Result<Option<MeshFormat>> {
+        let Some(out) = &self.out else { return Ok(None) };
+        let json = out.extension().is_none_or(|extension| extension.eq_ignore_ascii_case("json"));
+        match MeshFormat::of_path(out).0 {
+            Some(format) => Ok(Some(format)),
+            None if json => Ok(None),
+            None if Picture::of_path(out).is_ok() => {
+                bail!("{}: -o writes JSON or a mesh; draw with --draw {0}", out.display())
+            }
+            None => {
+                let names: Vec<_> = MeshFormat::ALL.iter().map(|format| format.name()).collect();
+                bail!(
+                    "{}: -o writes .json or a mesh as .{}; name one of these",
+                    out.display(),
+                    names.join(", .")
+                )
+            }
+        }
+    }
+
+    fn options(&self) -> DelaunayOptions {
+        DelaunayOptions {
+            threads: None, // those of the pool, which reading and checking use as well
+            order: self.order,
+            seed: self.seed,
+            ..DelaunayOptions::default()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{Args as _, FromArgMatches};
+
+    #[test]
+    fn the_defaults_are_those_of_the_library() {
+        let command = super::Args::augment_args(clap::Command::new("delaunay"));
+        let matches = command.get_matches_from(["delaunay", "points.csv"]);
+        let args = super::Args::from_arg_matches(&matches).unwrap();
+        assert_eq!(args.options(), taut::DelaunayOptions::default());
+    }
+}

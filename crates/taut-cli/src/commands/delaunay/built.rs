@@ -1,0 +1,72 @@
+//! A triangulation of the plane or of space, whichever the points ask for.
+
+use taut::delaunay::{Counters, Error};
+use taut::points::{Rows, Scalar, Scratch};
+use taut::{DelaunayOptions, Monitor, Plane, PointSource, Points, Solution, Space, Triangulation};
+
+use crate::output::numbers::{count, counted};
+use crate::reports::Field;
+
+pub(super) enum Built {
+    Plane(Plane),
+    Space(Space),
+}
+
+impl Built {
+    pub(super) fn new(
+        source: &dyn PointSource,
+        options: &DelaunayOptions,
+        monitor: &Monitor<'_>,
+    ) -> Result<Self, Error> {
+        fn build<T: Scalar>(
+            points: &Points<'_, T>,
+            options: &DelaunayOptions,
+            monitor: &Monitor<'_>,
+        ) -> Result<Built, Error> {
+            match points.dim() {
+                2 => Ok(Built::Plane(Plane::build(points, options, monitor)?)),
+                // Other dimensions are refused there.
+                _ => Ok(Built::Space(Space::build(points, options, monitor)?)),
+            }
+        }
+        let mut scratch = Scratch::new();
+        match source.read(0..source.len(), &mut scratch)? {
+            Rows::F32(points) => build(&points, options, monitor),
+            Rows::F64(points) => build(&points, options, monitor),
+        }
+    }
+
+    pub(super) fn solution(
+        &self,
+        source: &dyn PointSource,
+        monitor: &Monitor<'_>,
+    ) -> Result<Solution<Triangulation>, Error> {
+        let mut scratch = Scratch::new();
+        match (self, source.read(0..source.len(), &mut scratch)?) {
+            (Built::Plane(built), Rows::F32(points)) => built.solution(&points, monitor),
+            (Built::Plane(built), Rows::F64(points)) => built.solution(&points, monitor),
+            (Built::Space(built), Rows::F32(points)) => built.solution(&points, monitor),
+            (Built::Space(built), Rows::F64(points)) => built.solution(&points, monitor),
+        }
+    }
+
+    fn counters(&self) -> &Counters {
+        match self {
+            Built::Plane(built) => built.counters(),
+            Built::Space(built) => built.counters(),
+        }
+    }
+
+    /// How the signs were decided. It depends on the threads, so it is for the terminal alone.
+    pub(super) fn signs(&self) -> Field {
+        let counters = self.counters();
+        let (all, stages) = (counters.orientations + counters.conflict_tests, counters.stages);
+        Field::new("signs", count(all)).remark(format!(
+            "{} by exact whole numbers, {} by double-double, {} by long integers, {}",
+            count(stages.integer),
+            count(stages.double_double),
+            count(stages.wide + stages.unbounded),
+            counted(stages.ties, "tie")
+        ))
+    }
+}

@@ -1,0 +1,127 @@
+//! `taut memory order`: points along a Hilbert curve or in Z-order.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use taut::points::{OwnedPoints, ScalarKind, Scratch};
+use taut::{Monitor, Order, OrderCurve, PointSource, Solution, spatial_order};
+use taut_io::write_points;
+
+use crate::effort::Effort;
+use crate::exit::Outcome;
+use crate::input::reading::{Opened, Points, Reading};
+use crate::output::writing::Outputs;
+use crate::pipeline::{self, Find, Input, Output};
+use crate::watch::Watch;
+
+/// Put points of the plane or of space in an order in which neighbours are near each other.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+The order depends on the set of points alone; equal points are side by side, the first row first.
+Exit: 0 done · 1 the check failed · 2 bad input or usage, nothing written
+Example: taut memory order points.csv -o order.json --points sorted.csv && taut verify order.json points.csv")]
+pub(super) struct Args {
+    #[command(flatten)]
+    points: Points,
+    /// Along which curve
+    #[arg(long, value_enum, default_value = "hilbert")]
+    curve: Curve,
+    /// Do without the independent check
+    #[arg(long)]
+    no_verify: bool,
+    /// Write the numbers of the rows in order, from 0, and the certificate as JSON; - is standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
+    out: Option<PathBuf>,
+    /// Write the points in that order, in the format that the name tells
+    #[arg(long = "points", value_name = "FILE", help_heading = "Writing")]
+    sorted: Option<PathBuf>,
+    #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
+    effort: Effort,
+}
+
+/// Which curve.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Curve {
+    /// steps are short: cells that follow each other share a side
+    Hilbert,
+    /// Z-order, the bits of coordinates interleaved: cells of a grid of any size are runs
+    Morton,
+}
+
+impl Find for Args {
+    type Answer = Order;
+    type Extra = ();
+
+    fn input(&self) -> Input<'_> {
+        Input { path: &self.points.path, reading: &self.reading, effort: &self.effort }
+    }
+
+    fn output(&self) -> Output<'_> {
+        Output { no_verify: self.no_verify, out: self.out.as_deref(), json: false, draw: None }
+    }
+
+    fn check_options(&self) -> anyhow::Result<()> {
+        Ok(())
+    }
+
+    fn side_files(&self) -> Vec<&Path> {
+        self.sorted.as_deref().into_iter().collect()
+    }
+
+    fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Order>, ())> {
+        let curve = match self.curve {
+            Curve::Hilbert => OrderCurve::Hilbert,
+            Curve::Morton => OrderCurve::Morton,
+        };
+        let solve = |monitor: &Monitor<'_>| spatial_order(points.source(), curve, monitor);
+        let found = watch.during("ordering", solve).map_err(|error| points.explain(error))?;
+        Ok((found, ()))
+    }
+
+    fn write(
+        &self,
+        found: &mut Solution<Order>,
+        _: &(),
+        points: &Opened,
+        outputs: &mut Outputs,
+        monitor: &Monitor<'_>,
+    ) -> anyhow::Result<()> {
+        if let Some(path) = &self.out {
+            outputs.add_json(path, found)?;
+        }
+        if let Some(path) = &self.sorted {
+            let names = points.names(points.source().dim());
+            let sorted = reordered(points, &found.answer.rows)?;
+            write_points(&*sorted, &names, path, None, monitor)?;
+        }
+        Ok(())
+    }
+}
+
+impl Args {
+    pub(super) fn run(&self) -> anyhow::Result<Outcome> {
+        pipeline::run(self)
+    }
+}
+
+/// The points in another order, in the precision of the file.
+fn reordered(points: &Opened, order: &[u64]) -> anyhow::Result<Box<dyn PointSource>> {
+    let dim = points.source().dim();
+    let mut scratch = Scratch::new();
+    let rows = points.source().read(0..points.source().len(), &mut scratch);
+    let rows = rows.map_err(|error| points.reading_failed(error))?;
+    let mut sorted = vec![0.0; order.len() * dim];
+    for (place, &row) in sorted.chunks_exact_mut(dim).zip(order) {
+        rows.copy_row(row as usize, place);
+    }
+    let refused = |error| anyhow!("{}: {error}", points.name());
+    Ok(match points.source().scalar() {
+        ScalarKind::F64 => Box::new(OwnedPoints::new(sorted, dim).map_err(refused)?),
+        ScalarKind::F32 => {
+            let narrow: Vec<f32> = sorted.into_iter().map(|value| value as f32).collect();
+            Box::new(OwnedPoints::new(narrow, dim).map_err(refused)?)
+        }
+    })
+}

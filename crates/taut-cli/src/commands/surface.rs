@@ -1,0 +1,323 @@
+//! `taut surface`: the surface that points of space were sampled from, with what is known about it.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{anyhow, bail};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use taut::points::{PointSource, Scratch};
+use taut::reconstruct::thesis::{AlphaFilter, Extent, Priority, ThesisOptions};
+use taut::{
+    Denoise, Monitor, Positions, Solution, Surface, SurfaceMethod, SurfaceMode, SurfaceOptions,
+    surface_of_source,
+};
+use taut_io::{Shape, ShapeFormat, ShapeOptions, ShapeView, open_shape, shape_file};
+
+use crate::effort::Effort;
+use crate::exit::Outcome;
+use crate::input::reading::{Opened, Points, Reading};
+use crate::output::picture::Picture;
+use crate::output::writing::{self, Outputs};
+use crate::pipeline::{self, Find, Input, Output};
+use crate::watch::Watch;
+
+/// Find the surface that points of space were sampled from: triangles between the points, and whether they are a surface.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Certified means: an oriented manifold of Delaunay triangles that meets itself nowhere. Where that cannot be said, the reason is
+told, and the exit code is 0 all the same.
+A mesh has the points as vertices, in their order, used or not; normals and colours of a ply, obj, off or xyz file go with them.
+Exit: 0 done · 1 the check failed · 2 bad input or usage, nothing written
+Example: taut surface bunny.ply -o bunny.stl
+         taut surface points.csv -o surface.json --draw surface.html && taut verify surface.json points.csv")]
+pub(crate) struct Args {
+    #[command(flatten)]
+    points: Points,
+    /// The way to find it
+    #[arg(
+        long, value_name = "NAME", default_value = SurfaceMethod::default().name(), value_parser = methods()
+    )]
+    method: SurfaceMethod,
+    /// Of tree, leave gaps in the samples open: sheets end where their points end
+    #[arg(long, conflicts_with = "closed")]
+    open: bool,
+    /// Of tree, close everything, as the boundary of bodies; the default
+    #[arg(long)]
+    closed: bool,
+    /// Take noise out of the points first: leave outliers out and move each other point onto the sheet that its neighbours show
+    #[arg(long)]
+    denoise: bool,
+    /// With --denoise, how many nearest points show the sheet of a point, itself among them; from 4 to 1000 [default: 24]
+    #[arg(long, value_name = "N", requires = "denoise")]
+    neighbors: Option<usize>,
+    /// With --denoise, how many times each point is moved; 0 leaves out outliers alone [default: 2]
+    #[arg(long, value_name = "N", requires = "denoise")]
+    iterations: Option<u32>,
+    /// With --denoise, leave the vertices where the points are given: triangles are those of the moved points
+    #[arg(long, requires = "denoise")]
+    original: bool,
+    /// Of alpha, the radius [default: the least at which all points are on one solid or in it]; of thesis and hull, the largest
+    /// circumradius of a triangle [default: any]
+    #[arg(long, value_name = "RADIUS", allow_negative_numbers = true)]
+    alpha: Option<f64>,
+    /// Of thesis and hull, by which part of its radius the sphere of a triangle is shrunk before it has to be empty [default: 2e-5]
+    #[arg(long, value_name = "REAL", allow_negative_numbers = true)]
+    epsilon: Option<f64>,
+    /// Of thesis, the angle in radians below which two triangles at an edge are on slivers [default: π/12]
+    #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
+    sliver_angle: Option<f64>,
+    /// Of thesis, the least angle in radians between two triangles [default: π/4]
+    #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
+    forbidden_angle: Option<f64>,
+    /// Of thesis, what the front prefers [default: circumcentre-distance]
+    #[arg(long, value_name = "NAME", value_parser = priorities())]
+    priority: Option<Priority>,
+    /// Of thesis, start another front where no triangle reaches
+    #[arg(long)]
+    restarts: bool,
+    /// Do without the independent check
+    #[arg(long)]
+    no_verify: bool,
+
+    /// Write the answer: .json with the certificate, or the mesh alone as .ply, .obj, .off, .stl, .glb, .gltf, .dxf, .wrl or .pov; - is
+    /// JSON on standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
+    out: Option<PathBuf>,
+    /// Print the JSON instead of the summary
+    #[arg(long, help_heading = "Writing")]
+    json: bool,
+    /// Draw the surface with the points it leaves out; .svg and .png show one picture, .html all
+    #[arg(long, value_name = "FILE", help_heading = "Writing")]
+    draw: Option<PathBuf>,
+
+    #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
+    effort: Effort,
+}
+
+fn methods() -> impl TypedValueParser<Value = SurfaceMethod> {
+    let explained = SurfaceMethod::ALL.map(|method| {
+        PossibleValue::new(method.name()).help(match method {
+            SurfaceMethod::Tree => {
+                "all space is inside or outside, by the strongest of what neighbouring cells say"
+            }
+            SurfaceMethod::Thesis => "a front that grows over facets with empty equatorial spheres",
+            SurfaceMethod::Alpha => "the alpha shape",
+            SurfaceMethod::Hull => "all facets with empty equatorial spheres, without choosing",
+        })
+    });
+    PossibleValuesParser::new(explained).map(|name| {
+        SurfaceMethod::ALL.into_iter().find(|method| method.name() == name).unwrap_or_default()
+    })
+}
+
+impl Find for Args {
+    type Answer = Surface;
+    type Extra = ();
+
+    fn input(&self) -> Input<'_> {
+        Input { path: &self.points.path, reading: &self.reading, effort: &self.effort }
+    }
+
+    fn output(&self) -> Output<'_> {
+        Output {
+            no_verify: self.no_verify,
+            out: self.out.as_deref(),
+            json: self.json,
+            draw: self.draw.as_deref(),
+        }
+    }
+
+    fn check_options(&self) -> anyhow::Result<()> {
+        self.check_method_options()?;
+        self.mesh_format().map(drop)
+    }
+
+    fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Surface>, ())> {
+        let solve =
+            |monitor: &Monitor<'_>| surface_of_source(points.source(), &self.options(), monitor);
+        let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
+        Ok((found, ()))
+    }
+
+    fn write(
+        &self,
+        found: &mut Solution<Surface>,
+        _: &(),
+        points: &Opened,
+        outputs: &mut Outputs,
+        _: &Monitor<'_>,
+    ) -> anyhow::Result<()> {
+        match (&self.out, self.mesh_format()?) {
+            (Some(out), Some(format)) => outputs.hold(self.mesh(found, points, out, format)?),
+            (Some(out), None) => outputs.add_json(out, found)?,
+            (None, _) => {}
+        }
+        Ok(())
+    }
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
+        pipeline::run(self)
+    }
+
+    /// Refuses options that the method does not have, rather than passing over them.
+    fn check_method_options(&self) -> anyhow::Result<()> {
+        let options = [
+            ("open", self.open),
+            ("closed", self.closed),
+            ("alpha", self.alpha.is_some()),
+            ("epsilon", self.epsilon.is_some()),
+            ("sliver-angle", self.sliver_angle.is_some()),
+            ("forbidden-angle", self.forbidden_angle.is_some()),
+            ("priority", self.priority.is_some()),
+            ("restarts", self.restarts),
+        ];
+        for (name, is_given) in options {
+            let methods = SurfaceOptions::methods_of(name);
+            if is_given && !methods.contains(&self.method) {
+                let names: Vec<&str> = methods.iter().map(|method| method.name()).collect();
+                let method = self.method.name();
+                bail!("--{name} is of --method {}, not of {method}", names.join(" and "));
+            }
+        }
+        Ok(())
+    }
+
+    /// The format of the mesh that goes to `--out`; none where JSON does.
+    fn mesh_format(&self) -> anyhow::Result<Option<ShapeFormat>> {
+        let Some(out) = &self.out else { return Ok(None) };
+        let json = out.extension().is_none_or(|extension| extension.eq_ignore_ascii_case("json"));
+        let shown = out.display();
+        match ShapeFormat::of_path(out).0 {
+            Some(format) if format.can_write() => Ok(Some(format)),
+            None if json => Ok(None),
+            None if Picture::of_path(out).is_ok() => {
+                bail!("{shown}: -o writes JSON or the mesh; draw with --draw {shown}")
+            }
+            _ => {
+                let formats = ShapeFormat::ALL.into_iter().filter(|format| format.can_write());
+                let names: Vec<String> =
+                    formats.map(|format| format!(".{}", format.extensions()[0])).collect();
+                bail!("{shown}: -o writes .json, {}; name one of these", names.join(", "))
+            }
+        }
+    }
+
+    /// The file of the mesh, with what the file of the points says of them.
+    fn mesh(
+        &self,
+        found: &Solution<Surface>,
+        points: &Opened,
+        out: &Path,
+        format: ShapeFormat,
+    ) -> anyhow::Result<taut_io::AtomicFile> {
+        let vertices = match found.answer.vertices.is_empty() {
+            true => places(points)?,
+            false => found.answer.vertices.clone(),
+        };
+        let kept = self.attributes(vertices.len())?;
+        let shape = Shape { vertices, triangles: found.answer.triangles.clone(), ..kept };
+        let view: ShapeView<'_> =
+            shape.view().map_err(|error| anyhow!("{}: {error}", out.display()))?;
+        let options = ShapeOptions { format: Some(format), ..ShapeOptions::default() };
+        Ok(shape_file(&view, out, &options)?)
+    }
+
+    /// Normals and colours of the points, where their file has them and all its rows are points in its order.
+    fn attributes(&self, points: usize) -> anyhow::Result<Shape> {
+        let path = &self.points.path;
+        let format = ShapeFormat::of_path(path).0.filter(|format| format.can_read());
+        let Some(format) = format.filter(|_| !writing::is_stream(path)) else {
+            return Ok(Shape::default());
+        };
+        let shape = open_shape(path, Some(format))?;
+        Ok(match shape.vertices.len() == points {
+            true => Shape { vertices: Vec::new(), triangles: Vec::new(), ..shape },
+            false => Shape::default(),
+        })
+    }
+
+    fn noise(&self) -> Denoise {
+        let usual = Denoise::default();
+        Denoise {
+            neighbors: self.neighbors.unwrap_or(usual.neighbors),
+            iterations: self.iterations.unwrap_or(usual.iterations),
+            positions: if self.original { Positions::Original } else { Positions::Projected },
+        }
+    }
+
+    fn thesis(&self) -> ThesisOptions {
+        let usual = ThesisOptions::default();
+        ThesisOptions {
+            epsilon: self.epsilon.unwrap_or(usual.epsilon),
+            alpha: match self.method {
+                SurfaceMethod::Thesis | SurfaceMethod::Hull => {
+                    self.alpha.map_or(AlphaFilter::None, AlphaFilter::Circumradius)
+                }
+                _ => AlphaFilter::None,
+            },
+            sliver_angle: self.sliver_angle.unwrap_or(usual.sliver_angle),
+            forbidden_angle: self.forbidden_angle.unwrap_or(usual.forbidden_angle),
+            priority: self.priority.unwrap_or(usual.priority),
+            extent: if self.restarts { Extent::Restarts } else { Extent::Front },
+            ..usual
+        }
+    }
+
+    fn options(&self) -> SurfaceOptions {
+        SurfaceOptions {
+            method: self.method,
+            mode: if self.open { SurfaceMode::Open } else { SurfaceMode::Closed },
+            alpha: self.alpha.filter(|_| self.method == SurfaceMethod::Alpha),
+            thesis: self.thesis(),
+            denoise: self.denoise.then(|| self.noise()),
+            threads: None, // those of the pool, which reading and checking use as well
+        }
+    }
+}
+
+fn priorities() -> impl TypedValueParser<Value = Priority> {
+    let explained = Priority::NAMES.map(|(name, priority)| {
+        PossibleValue::new(name).help(match priority {
+            Priority::CircumcentreDistance => "a circumcentre near that of the triangle before",
+            Priority::Circumradius => "a small circle",
+            Priority::EmptyBall => "a small empty ball",
+        })
+    });
+    PossibleValuesParser::new(explained).map(|name| {
+        Priority::NAMES
+            .iter()
+            .find(|(known, _)| *known == name)
+            .map_or_else(Priority::default, |(_, priority)| *priority)
+    })
+}
+
+/// The coordinates of all points.
+fn places(points: &Opened) -> anyhow::Result<Vec<[f64; 3]>> {
+    let source: &dyn PointSource = points.source();
+    let mut scratch = Scratch::new();
+    let rows =
+        source.read(0..source.len(), &mut scratch).map_err(|error| points.reading_failed(error))?;
+    let mut place = [0.0; 3];
+    Ok((0..rows.len())
+        .map(|row| {
+            rows.copy_row(row, &mut place);
+            place
+        })
+        .collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{Args as _, FromArgMatches};
+
+    #[test]
+    fn the_defaults_are_those_of_the_library() {
+        let command = super::Args::augment_args(clap::Command::new("surface"));
+        let matches = command.get_matches_from(["surface", "points.csv"]);
+        let args = super::Args::from_arg_matches(&matches).unwrap();
+        assert_eq!(args.options(), taut::SurfaceOptions::default());
+    }
+}

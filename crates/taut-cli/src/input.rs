@@ -1,0 +1,5 @@
+//! What a subcommand reads: points, answers, amounts of memory.
+
+pub(crate) mod answer_file;
+pub(crate) mod reading;
+pub(crate) mod size;

@@ -1,0 +1,282 @@
+//! How points are read, the same for every subcommand that reads some.
+
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use taut::certify::Fault;
+use taut::enclose::Error as SolveError;
+use taut::points::{InputError, ReadError, ScalarKind, shown_number};
+use taut::{PointSource, Violation};
+use taut_io::{Columns, Format, Header, Input, RawLayout, ReadOptions};
+
+use crate::input::size;
+use crate::output::numbers::coordinates;
+use crate::output::writing;
+
+#[derive(Clone, Debug, clap::Args)]
+#[command(next_help_heading = "Reading")]
+pub(crate) struct Reading {
+    /// Format of the points; `taut formats` lists them [default: told by the name]
+    #[arg(long, value_name = "F", value_parser = formats(Format::can_read), hide_possible_values = true)]
+    format: Option<Format>,
+    /// Columns that are coordinates, by name, number from 0 or range: x,y,z or 0-2,5 or 1- [default: all]
+    #[arg(long, value_name = "LIST")]
+    columns: Option<Columns>,
+    /// Whether the first row of a text file holds names
+    #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = header())]
+    header: Header,
+    /// Most memory for points, such as 512M or 2GiB; what is larger is read from disk [default: all]
+    #[arg(long, value_name = "SIZE", value_parser = size::parse)]
+    memory: Option<u64>,
+    /// Coordinates of a point in a raw file, at least 1
+    #[arg(long, value_name = "D")]
+    raw_dim: Option<usize>,
+    /// Type of a coordinate in a raw file, little-endian
+    #[arg(long, value_name = "TYPE", value_parser = scalar())]
+    raw_type: Option<ScalarKind>,
+    /// Bytes before the first coordinate in a raw file [default: 0]
+    #[arg(long, value_name = "BYTES")]
+    raw_offset: Option<u64>,
+}
+
+/// A parser of the names of formats.
+pub(crate) fn formats(usable: fn(Format) -> bool) -> impl TypedValueParser<Value = Format> {
+    let names = Format::ALL
+        .into_iter()
+        .filter(move |&format| usable(format))
+        .map(|format| PossibleValue::new(format.name()).help(format.description()));
+    PossibleValuesParser::new(names).try_map(|name| name.parse::<Format>())
+}
+
+/// A parser of the names of number types.
+pub(crate) fn scalar() -> impl TypedValueParser<Value = ScalarKind> {
+    PossibleValuesParser::new(["f32", "f64"]).map(|name| match name.as_str() {
+        "f32" => ScalarKind::F32,
+        _ => ScalarKind::F64,
+    })
+}
+
+fn header() -> impl TypedValueParser<Value = Header> {
+    PossibleValuesParser::new(["auto", "present", "absent"]).map(|name| match name.as_str() {
+        "present" => Header::Present,
+        "absent" => Header::Absent,
+        _ => Header::Auto,
+    })
+}
+
+impl Reading {
+    fn options(&self) -> anyhow::Result<ReadOptions> {
+        let raw = match (self.raw_dim, self.raw_type) {
+            (Some(dim), Some(scalar)) => {
+                Some(RawLayout { dim, scalar, offset: self.raw_offset.unwrap_or(0) })
+            }
+            (None, None) if self.raw_offset.is_none() => None,
+            _ => return Err(anyhow!("a raw file needs both --raw-dim D and --raw-type f32|f64")),
+        };
+        Ok(ReadOptions {
+            format: self.format.or(raw.map(|_| Format::Raw)),
+            columns: self.columns.clone(),
+            header: self.header,
+            memory: self.memory,
+            raw,
+            temp_dir: None,
+        })
+    }
+
+    /// Opens the points of `path`; `-` is standard input.
+    pub(crate) fn open(&self, path: &Path) -> anyhow::Result<Opened> {
+        if path == Path::new("-") && std::io::stdin().is_terminal() {
+            writing::print_error("reading points from the terminal; Ctrl-D ends them");
+        }
+        Ok(Opened { input: taut_io::open(path, &self.options()?)? })
+    }
+}
+
+/// Points that were opened, and what is known of their file.
+pub(crate) struct Opened {
+    input: Input,
+}
+
+impl Opened {
+    pub(crate) fn of_bytes(bytes: &[u8], name: &str) -> anyhow::Result<Self> {
+        let input = taut_io::open_bytes(bytes.to_vec(), name, &ReadOptions::default())?;
+        Ok(Opened { input })
+    }
+
+    pub(crate) fn source(&self) -> &dyn PointSource {
+        &*self.input.source
+    }
+
+    /// The file as shown to people.
+    pub(crate) fn name(&self) -> &str {
+        &self.input.path
+    }
+
+    /// Names of the first `dim` coordinates, as far as the file has some.
+    pub(crate) fn names(&self, dim: usize) -> Vec<String> {
+        self.input.columns.iter().take(dim).cloned().collect()
+    }
+
+    /// What a solver refused, with the place in the file, which it cannot know.
+    pub(crate) fn explain(&self, error: impl Into<taut::Error>) -> anyhow::Error {
+        match error.into() {
+            taut::Error::Input(error) => self.explain_input(error),
+            taut::Error::Enclose(error) => self.explain_enclosing(error),
+            other => anyhow!("{}: {other}", self.name()),
+        }
+    }
+
+    /// What any solver refuses.
+    fn explain_input(&self, error: InputError) -> anyhow::Error {
+        match error {
+            InputError::NonFinite { row, column, value } => self.not_finite(row, column, value),
+            InputError::Dimension { dim, expected } => anyhow!(
+                "{}: points have {dim} coordinate{}: expected {expected}; choose them with --columns",
+                self.name(),
+                if dim == 1 { "" } else { "s" }
+            ),
+            InputError::Option { name, value, expected } => wrong_option(name, &value, expected),
+            InputError::Read(error) => self.reading_failed(error),
+            InputError::Cancelled(_) => error.into(),
+            other => anyhow!("{}: {other}", self.name()),
+        }
+    }
+
+    /// What is refused of balls, ellipsoids, weights and half-spaces.
+    fn explain_enclosing(&self, error: SolveError) -> anyhow::Error {
+        let last = self.input.source.dim() - 1;
+        match error {
+            SolveError::NegativeRadius { row, value } => anyhow!(
+                "{}: the radius is {}, and radii (the last column with --balls) must be at least 0: repair \
+                 or remove that row, or choose the columns with --columns",
+                self.input.describe_cell(row, last),
+                shown_number(value)
+            ),
+            SolveError::NoRadius { .. } => anyhow!(
+                "{}: a ball needs a centre and a radius, at least two columns, but there is one: leave out --balls \
+                 or choose more with --columns",
+                self.name()
+            ),
+            SolveError::NonPositiveWeight { row, value } => anyhow!(
+                "{}: the weight is {}, and weights (the last column with --weights) must be more than 0: repair \
+                 or remove that row, or choose the columns with --columns",
+                self.input.describe_cell(row, last),
+                shown_number(value)
+            ),
+            SolveError::NoWeight { .. } => anyhow!(
+                "{}: a point with a weight needs a coordinate and a weight, at least two columns, but there is one: \
+                 leave out --weights or choose more with --columns",
+                self.name()
+            ),
+            SolveError::NoShape { columns } => anyhow!(
+                "{}: ellipsoids in dimension d have d(d + 3)/2 columns, 2, 5, 9, 14, …, the centre and the lower \
+                 triangle of the shape matrix, but there are {columns}: leave out --ellipsoids or choose others with \
+                 --columns",
+                self.name()
+            ),
+            SolveError::NegativeShape { row } => anyhow!(
+                "{}, row {}: the shape matrix of ellipsoid {row} is not positive semidefinite: its eigenvalues, the \
+                 squared half axes, must be at least 0; repair or remove that row, or choose the columns with \
+                 --columns",
+                self.name(),
+                self.row(row)
+            ),
+            SolveError::NoNormal { .. } if last == 0 => anyhow!(
+                "{}: a half-space needs a normal and an offset, at least two columns, but there is one: choose more \
+                 with --columns",
+                self.name()
+            ),
+            SolveError::NoNormal { row } => anyhow!(
+                "{}, row {}: the half-space has no normal, as all numbers but the last, the offset, are 0: repair or \
+                 remove that row, or choose the columns with --columns",
+                self.name(),
+                self.row(row)
+            ),
+            SolveError::Unbounded { direction } => anyhow!(
+                "{}: the polytope goes on for ever in the direction {}, so no ellipsoid in it is the largest: add \
+                 half-spaces that end it",
+                self.name(),
+                coordinates(&direction, 1.0)
+            ),
+            SolveError::NoInterior { rows, radius, .. } => anyhow!(
+                "{}: the polytope has no interior point, or hardly any: a ball in it has at most {radius:.0e} times its \
+                 extent as radius, so there is no ellipsoid; the half-spaces of {} say so",
+                self.name(),
+                self.rows(&rows)
+            ),
+            SolveError::Undecided => anyhow!("{}: {error}", self.name()),
+            SolveError::Empty | SolveError::Overflow => anyhow!("{}: {error}", self.name()),
+            other => other.into(),
+        }
+    }
+
+    /// The number of a row in the file.
+    fn row(&self, row: u64) -> u64 {
+        self.input.describe_cell(row, 0).row
+    }
+
+    /// Numbers of rows in the file; of many, the first few.
+    fn rows(&self, rows: &[u64]) -> String {
+        const SHOWN: usize = 8;
+        let places: Vec<String> =
+            rows.iter().take(SHOWN).map(|&row| self.row(row).to_string()).collect();
+        let more = rows.len().saturating_sub(SHOWN);
+        match (places.len(), more) {
+            (1, _) => format!("row {}", places[0]),
+            (_, 0) => format!("rows {}", places.join(", ")),
+            (_, more) => format!("rows {} and {more} others", places.join(", ")),
+        }
+    }
+
+    /// A coordinate that is NaN or infinite.
+    pub(crate) fn not_finite(&self, row: u64, column: usize, value: f64) -> anyhow::Error {
+        anyhow!(
+            "{}: the value is {value}, and all coordinates must be finite: repair or remove that row, or \
+             choose other columns with --columns",
+            self.input.describe_cell(row, column)
+        )
+    }
+
+    /// Why an answer was rejected: in which of the two files, and where, which a checker cannot know.
+    pub(crate) fn explain_violation(&self, violation: &Violation, answer: &str) -> String {
+        let points = self.name();
+        match violation.fault(self.input.source.len()) {
+            // Points count from 0, rows of a file from 1.
+            Fault::Row(row) => format!("{points}, row {}: {violation}", self.row(row)),
+            Fault::Points => format!("{points} does not belong to {answer}: {violation}"),
+            Fault::Answer => format!("{answer}: {violation}"),
+        }
+    }
+
+    /// What went wrong while the points were read again.
+    pub(crate) fn reading_failed(&self, error: ReadError) -> anyhow::Error {
+        match error {
+            // These name the file themselves.
+            ReadError::Io { .. } | ReadError::Truncated { .. } => error.into(),
+            other => anyhow!("{}: {other}", self.name()),
+        }
+    }
+}
+
+/// What a library says of an option, under the name that the command line gives it.
+pub(crate) fn wrong_option(name: &str, value: &str, expected: &str) -> anyhow::Error {
+    anyhow!("option `--{}` is {value}: expected {expected}", name.replace('_', "-"))
+}
+
+/// The file of points, as every subcommand takes it.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct Points {
+    /// Points, in any format of `taut formats`; - is standard input
+    #[arg(value_name = "POINTS")]
+    pub(crate) path: PathBuf,
+}
+
+/// The file of half-spaces.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct HalfSpaces {
+    /// Half-spaces a·x ≤ b, in each row the d numbers of a, then b, in any format of `taut formats`; - is standard input
+    #[arg(value_name = "HALF-SPACES")]
+    pub(crate) path: PathBuf,
+}

@@ -1,0 +1,6 @@
+//! What a subcommand writes: files that appear whole, pictures, numbers as people read them.
+
+pub(crate) mod files;
+pub(crate) mod numbers;
+pub(crate) mod picture;
+pub(crate) mod writing;

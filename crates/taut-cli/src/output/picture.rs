@@ -1,0 +1,188 @@
+//! A picture file of an answer: SVG, PNG or a page of HTML, by the extension.
+
+use std::path::Path;
+
+use anyhow::{anyhow, bail};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use taut_draw::{
+    DrawOptions, Error as DrawError, Field, Figure, Page, Section, Style, Theme, to_html, to_svg,
+};
+
+use crate::input::reading::{Opened, wrong_option};
+use crate::reports;
+
+/// The kinds of picture file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Picture {
+    Svg,
+    #[cfg(feature = "png")]
+    Png,
+    Html,
+}
+
+/// How it is to options.
+#[derive(Clone, Debug, clap::Args)]
+#[command(next_help_heading = "Drawing")]
+pub(crate) struct PictureOptions {
+    /// Which picture to draw to SVG or PNG, from 1: the scene comes first, then plots
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    figure: usize,
+    /// Colours of SVG and PNG; HTML follows the reader
+    #[arg(long, value_name = "NAME", default_value = "light", value_parser = themes())]
+    theme: Theme,
+    /// Width, pixels, from 240 to 10000
+    #[arg(long, value_name = "PX", default_value_t = DrawOptions::default().width)]
+    width: f64,
+    /// Height without the caption, pixels, from 180 to 10000
+    #[arg(long, value_name = "PX", default_value_t = DrawOptions::default().height)]
+    height: f64,
+    /// Pixels of a PNG for each pixel of width, from 0.1 to 10
+    #[cfg(feature = "png")]
+    #[arg(long, value_name = "REAL", default_value_t = 2.0)]
+    scale: f32,
+    /// Most points drawn, at least 1; the support is always drawn
+    #[arg(long, value_name = "N", default_value_t = DrawOptions::default().max_points)]
+    max_points: usize,
+}
+
+impl Default for PictureOptions {
+    fn default() -> Self {
+        let DrawOptions { width, height, max_points, .. } = DrawOptions::default();
+        PictureOptions {
+            figure: 1,
+            theme: Theme::Light,
+            width,
+            height,
+            #[cfg(feature = "png")]
+            scale: 2.0,
+            max_points,
+        }
+    }
+}
+
+impl PictureOptions {
+    /// The same as the library has it; `columns` are the names of the coordinates.
+    pub(crate) fn options(&self, columns: Vec<String>) -> DrawOptions {
+        let PictureOptions { max_points, width, height, .. } = *self;
+        DrawOptions { max_points, width, height, columns }
+    }
+}
+
+/// Pictures of an answer, and what stands beside them.
+pub(crate) struct Drawing {
+    pub(crate) title: String,
+    /// The file of the points.
+    pub(crate) heading: String,
+    pub(crate) fields: Vec<Field>,
+    pub(crate) figures: Vec<Figure>,
+}
+
+fn themes() -> impl TypedValueParser<Value = Theme> {
+    PossibleValuesParser::new(["light", "dark"]).map(|name| match name.as_str() {
+        "dark" => Theme::Dark,
+        _ => Theme::Light,
+    })
+}
+
+impl Picture {
+    /// The kind that the name of a file tells.
+    pub(crate) fn of_path(path: &Path) -> anyhow::Result<Self> {
+        let extension = path.extension().map(|e| e.to_ascii_lowercase());
+        match extension.as_deref().and_then(|e| e.to_str()) {
+            Some("svg") => Ok(Picture::Svg),
+            Some("png") => png(),
+            Some("html" | "htm") => Ok(Picture::Html),
+            _ => bail!("{}: pictures are .svg, .png or .html; name one of these", path.display()),
+        }
+    }
+
+    /// The bytes of the file.
+    pub(crate) fn draw(
+        self,
+        drawing: Drawing,
+        options: &PictureOptions,
+    ) -> anyhow::Result<Vec<u8>> {
+        let Drawing { title, heading, fields, mut figures } = drawing;
+        let style = Style { theme: options.theme };
+        if self == Picture::Html {
+            let page = Page {
+                title,
+                intro: String::new(),
+                sections: vec![Section {
+                    heading,
+                    text: String::new(),
+                    command: command(),
+                    fields,
+                    figures: worth_drawing(figures),
+                }],
+                footer: format!("Drawn by taut {}.", env!("CARGO_PKG_VERSION")),
+            };
+            return Ok(to_html(&page).into_bytes());
+        }
+        let drawn = figures.len();
+        if options.figure == 0 || options.figure > drawn {
+            bail!("option `--figure` is {}: expected 1 to {drawn}", options.figure);
+        }
+        let figure = figures.swap_remove(options.figure - 1);
+        match self {
+            #[cfg(feature = "png")]
+            Picture::Png => taut_draw::to_png(&figure, &style, options.scale).map_err(explain),
+            _ => Ok(to_svg(&figure, &style).into_bytes()),
+        }
+    }
+}
+
+#[cfg(feature = "png")]
+fn png() -> anyhow::Result<Picture> {
+    Ok(Picture::Png)
+}
+
+#[cfg(not(feature = "png"))]
+fn png() -> anyhow::Result<Picture> {
+    bail!("this build of taut draws no PNG: draw SVG or HTML, or build it with the feature `png`")
+}
+
+/// What drawing refused of these points.
+pub(crate) fn refused(error: DrawError, points: &Opened) -> anyhow::Error {
+    match error {
+        DrawError::Read(error) => points.reading_failed(error),
+        DrawError::Option { .. } => explain(error),
+        other => anyhow!("{}: {other}", points.name()),
+    }
+}
+
+/// The pictures without charts of a single value, such as the gap by pass after one pass.
+pub(crate) fn worth_drawing(figures: Vec<Figure>) -> Vec<Figure> {
+    let tells = |figure: &Figure| match figure {
+        Figure::Plot(plot) => {
+            !plot.bars.is_empty() || plot.series.iter().any(|series| series.points.len() > 1)
+        }
+        _ => true,
+    };
+    figures.into_iter().filter(tells).collect()
+}
+
+fn explain(error: DrawError) -> anyhow::Error {
+    match error {
+        DrawError::Option { name, value, expected } => wrong_option(name, &value, expected),
+        other => other.into(),
+    }
+}
+
+/// A field as a page shows it.
+pub(crate) fn field(field: reports::Field) -> Field {
+    Field::new(field.name, field.value)
+}
+
+/// The command that is running, as it would be typed.
+fn command() -> String {
+    let typed = std::env::args_os().skip(1).map(|word| {
+        let word = word.to_string_lossy().into_owned();
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,:=+@%".contains(c);
+        match word.chars().all(plain) && !word.is_empty() {
+            true => word,
+            false => format!("'{}'", word.replace('\'', r"'\''")),
+        }
+    });
+    std::iter::once("taut".to_owned()).chain(typed).collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,208 @@
+//! Text and pictures to files, whole or not at all, and words to standard output.
+//!
+//! *Idea.* Everything that can fail is done before the first file takes its name: places are looked at before the
+//! work, bytes go to temporary files after it, then the words to standard output, and the renames come last. So an
+//! error leaves earlier files as they were.
+
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{anyhow, bail};
+use taut::{Answer, Solution};
+use taut_io::{AtomicFile, Error};
+
+use crate::watch::interrupted;
+
+/// Refuses places that cannot be written, that are among the `inputs`, or that are named twice, before any work is done.
+pub(crate) fn check_writable(outputs: &[&Path], inputs: &[&Path]) -> anyhow::Result<()> {
+    for &output in outputs.iter().filter(|output| !is_stream(output)) {
+        let path = output.display().to_string();
+        if output.is_dir() {
+            return Err(Error::Directory { path }.into());
+        }
+        let folder = output.parent().filter(|folder| !folder.as_os_str().is_empty());
+        if folder.is_some_and(|folder| !folder.is_dir()) {
+            return Err(Error::NotFound { path }.into());
+        }
+        if inputs.iter().any(|input| same_file(output, input)) {
+            bail!("`{path}` is the input: name another file for the answer");
+        }
+    }
+    for (place, &output) in outputs.iter().enumerate() {
+        if outputs[..place].iter().any(|earlier| same_place(output, earlier)) {
+            let path = output.display();
+            bail!("`{path}` is named for two outputs: name another file for one of them");
+        }
+    }
+    // A folder that takes no new files says so only when one is made.
+    let files = outputs.iter().filter(|output| !is_stream(output));
+    Ok(files.copied().try_for_each(taut_io::check_writable)?)
+}
+
+/// Whether two outputs would end up in one place, there already or not.
+fn same_place(one: &Path, other: &Path) -> bool {
+    let place = |path: &Path| -> Option<PathBuf> {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        Some(folder.unwrap_or(Path::new(".")).canonicalize().ok()?.join(path.file_name()?))
+    };
+    one == other || same_file(one, other) || place(one).is_some_and(|one| Some(one) == place(other))
+}
+
+/// Whether `-` is meant, standard input or output.
+pub(crate) fn is_stream(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// Whether writing to the regular file `output` would replace what is read from `input`.
+fn same_file(output: &Path, input: &Path) -> bool {
+    let input = if is_stream(input) { Path::new("/dev/stdin") } else { input };
+    let (Ok(to), Ok(from)) = (output.metadata(), input.metadata()) else { return false };
+    #[cfg(unix)]
+    let same = {
+        use std::os::unix::fs::MetadataExt;
+        (to.dev(), to.ino()) == (from.dev(), from.ino())
+    };
+    #[cfg(not(unix))]
+    let same =
+        output.canonicalize().is_ok_and(|to| input.canonicalize().is_ok_and(|from| to == from));
+    to.is_file() && from.is_file() && same
+}
+
+/// Files and words that are written together.
+#[derive(Default)]
+pub(crate) struct Outputs {
+    files: Vec<AtomicFile>,
+    words: Vec<u8>,
+}
+
+impl Outputs {
+    /// Prepares the file `path`; `-` is standard output.
+    pub(crate) fn add(&mut self, path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+        if is_stream(path) {
+            self.words.extend_from_slice(bytes);
+            return Ok(());
+        }
+        if interrupted() {
+            bail!("interrupted: {} is as it was", path.display());
+        }
+        let mut file = taut_io::create(path)?;
+        file.write_all(bytes)
+            .and_then(|()| file.flush())
+            .map_err(|source| failed(file.path(), &source))?;
+        self.files.push(file);
+        Ok(())
+    }
+
+    /// Prepares the file `path` with the JSON of an answer, piece by piece; `-` is standard output.
+    pub(crate) fn add_json<A: Answer>(
+        &mut self,
+        path: &Path,
+        found: &Solution<A>,
+    ) -> anyhow::Result<()> {
+        if is_stream(path) {
+            self.words.extend_from_slice((found.to_json() + "\n").as_bytes());
+            return Ok(());
+        }
+        let mut file = taut_io::create(path)?;
+        found
+            .write_json(&mut file)
+            .and_then(|()| file.write_all(b"\n"))
+            .and_then(|()| file.flush())
+            .map_err(|source| failed(file.path(), &source))?;
+        self.hold(file);
+        Ok(())
+    }
+
+    /// Keeps a file that is complete, until all of them are.
+    pub(crate) fn hold(&mut self, file: AtomicFile) {
+        self.files.push(file);
+    }
+
+    /// Whether no file is prepared.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.files.is_empty()
+    }
+
+    /// Words for standard output.
+    pub(crate) fn print(&mut self, words: &str) {
+        self.words.extend_from_slice(words.as_bytes());
+    }
+
+    /// Says the words, then gives the files their names.
+    pub(crate) fn finish(self) -> anyhow::Result<()> {
+        if self.files.is_empty() {
+            return print(&self.words);
+        }
+        self.finish_after(|| Ok(()))
+    }
+
+    /// The same, after something else that takes its name.
+    pub(crate) fn finish_after(
+        self,
+        first: impl FnOnce() -> anyhow::Result<()>,
+    ) -> anyhow::Result<()> {
+        if interrupted() {
+            bail!("interrupted: all files are as they were");
+        }
+        first()?;
+        print(&self.words)?;
+        self.files.into_iter().try_for_each(AtomicFile::commit)?;
+        Ok(())
+    }
+}
+
+/// Replaces the file `path` by `bytes`, or writes them to standard output for `-`.
+pub(crate) fn replace(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+    let mut outputs = Outputs::default();
+    outputs.add(path, bytes)?;
+    outputs.finish()
+}
+
+/// Writes to standard output, at once.
+pub(crate) fn print(bytes: &[u8]) -> anyhow::Result<()> {
+    let mut out = std::io::stdout().lock();
+    unless_closed(out.write_all(bytes).and_then(|()| out.flush()))
+}
+
+/// What it means how writing to standard output went.
+pub(crate) fn unless_closed(written: std::io::Result<()>) -> anyhow::Result<()> {
+    match written {
+        // Whoever reads has enough: that changes neither what is written to files nor how the command ends.
+        Err(source) if source.kind() == ErrorKind::BrokenPipe => Ok(()),
+        written => written.map_err(|source| failed("standard output", &source)),
+    }
+}
+
+/// Says on standard error, in one line, what is wrong or to be done.
+pub(crate) fn print_error(words: &str) {
+    print_line(&format!("taut: {}", printable(words)));
+}
+
+/// Says a line on standard error, if anybody can hear it: nothing depends on that.
+pub(crate) fn print_line(line: &str) {
+    writeln!(std::io::stderr(), "{line}").ok();
+}
+
+/// What a terminal can show as it is: names in files may hold characters that would command it.
+pub(crate) fn printable(words: &str) -> String {
+    let mut shown = String::with_capacity(words.len());
+    for c in words.chars() {
+        match c.is_control() {
+            true => shown.extend(c.escape_default()),
+            false => shown.push(c),
+        }
+    }
+    shown
+}
+
+fn failed(what: &str, source: &std::io::Error) -> anyhow::Error {
+    anyhow!("{what}: writing failed: {source}")
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn nothing_shown_commands_the_terminal() {
+        assert_eq!(super::printable("a\u{1b}[31m\n\u{9b}ä"), "a\\u{1b}[31m\\n\\u{9b}ä");
+    }
+}

@@ -1,0 +1,67 @@
+//! Why there is no answer, whichever function was asked.
+
+use taut_points::InputError;
+
+/// What the functions of this crate refuse. Each error says where the fault is, its value, and what would be accepted.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum Error {
+    /// Points or options that no function accepts, points that could not be read, or a caller who asked to stop.
+    Input(InputError),
+    /// A ball, an ellipsoid or centers were asked for.
+    Enclose(taut_enclose::Error),
+    /// A triangulation or an order was asked for.
+    Delaunay(taut_delaunay::Error),
+    /// Curves or a surface were asked for.
+    Reconstruct(taut_reconstruct::Error),
+}
+
+impl std::fmt::Display for Error {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Error::Input(error) => error.fmt(f),
+            Error::Enclose(error) => error.fmt(f),
+            Error::Delaunay(error) => error.fmt(f),
+            Error::Reconstruct(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for Error {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Error::Input(error) => error.source(),
+            Error::Enclose(error) => error.source(),
+            Error::Delaunay(error) => error.source(),
+            Error::Reconstruct(error) => error.source(),
+        }
+    }
+}
+
+impl From<taut_enclose::Error> for Error {
+    fn from(error: taut_enclose::Error) -> Self {
+        match error {
+            taut_enclose::Error::Input(error) => Error::Input(error),
+            other => Error::Enclose(other),
+        }
+    }
+}
+
+impl From<taut_delaunay::Error> for Error {
+    fn from(error: taut_delaunay::Error) -> Self {
+        match error {
+            taut_delaunay::Error::Input(error) => Error::Input(error),
+            other => Error::Delaunay(other),
+        }
+    }
+}
+
+impl From<taut_reconstruct::Error> for Error {
+    fn from(error: taut_reconstruct::Error) -> Self {
+        match error {
+            taut_reconstruct::Error::Input(error) => Error::Input(error),
+            taut_reconstruct::Error::Triangulation(error) => error.into(),
+            other => Error::Reconstruct(other),
+        }
+    }
+}
