@@ -3,14 +3,11 @@
 use std::str::FromStr;
 
 use pyo3::prelude::*;
-use taut::certify::AnySolution;
 use taut::{BallMethod, BallOptions, ball_of_source};
 
+use crate::found::{Found, solve};
 use crate::items::{items_of_name, raise};
 use crate::numbers::whole;
-use crate::rows::Rows;
-use crate::solution::Solution;
-use crate::work::interruptible;
 
 /// The smallest ball around the rows of an array; `items` says what they are.
 #[pyfunction]
@@ -24,25 +21,22 @@ pub(crate) fn ball(
     max_passes: &Bound<'_, PyAny>,
     threads: &Bound<'_, PyAny>,
     seed: &Bound<'_, PyAny>,
-) -> PyResult<Solution> {
+) -> PyResult<Found> {
     let items = items_of_name(items)?;
     let method = BallMethod::from_str(method).map_err(|error| raise(error, items, 0))?;
+    let passes = "at least 3, and 4 for the methods of the thesis";
     let options = BallOptions {
         epsilon,
         method,
         batch: whole("batch", batch, "at least 1, or None")?,
-        max_passes: whole(
-            "max_passes",
-            max_passes,
-            "at least 3, and 4 for the methods of the thesis",
-        )?,
+        max_passes: whole("max_passes", max_passes, passes)?,
         threads: whole("threads", threads, "1 to 1024, or None")?,
         seed: whole("seed", seed, "0 to 2**64 - 1")?,
     };
-    let rows = Rows::borrow(rows)?;
-    let source = rows.source()?;
-    let found =
-        interruptible(py, |monitor| ball_of_source(source.as_ref(), items, &options, monitor))?
-            .map_err(|error| raise(error, items, source.dim()))?;
-    Solution::new(py, AnySolution::Ball(found))
+    solve(
+        py,
+        rows,
+        |source, monitor| ball_of_source(source, items, &options, monitor),
+        |error, columns| raise(error, items, columns),
+    )
 }

@@ -6,16 +6,17 @@ use std::path::{Path, PathBuf};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
-use taut::certify::{AnyFileSolution, Data, FileCheckError, Files, SortedFile, TransposedFile};
+use taut::certify::{AnyFileSolution, Data, FileCheckError, Files, with_file_solution};
 use taut::files::{StoredMatrix, sorted, transposed};
 use taut::oblivious::external::{FileSortOptions, KeyKind, RecordLayout, sort_file as sort};
 use taut::oblivious::{
     Error, TransposeFileOptions, sample as draw, transpose_file_pending as transpose,
 };
 
+use crate::choice::choice;
+use crate::found::Violation;
 use crate::numbers::whole;
-use crate::rows::numbers;
-use crate::solution::{Trace, Violation};
+use crate::object::plain;
 use crate::work::interruptible;
 
 /// Most numbers that the options for memory and widths take.
@@ -33,24 +34,14 @@ pub(crate) fn sort_file(
     memory: &Bound<'_, PyAny>,
     scratch: Option<PathBuf>,
     resume: Option<PathBuf>,
-) -> PyResult<FileSolution> {
-    let kind = match kind {
-        "u64" => KeyKind::U64,
-        "i64" => KeyKind::I64,
-        "f64" => KeyKind::F64,
-        "bytes" => KeyKind::Bytes,
-        _ => {
-            let problem =
-                format!("option `kind` is {kind:?}: expected one of u64, i64, f64, bytes");
-            return Err(PyValueError::new_err(problem));
-        }
-    };
+) -> PyResult<FoundFile> {
+    let kind = choice("kind", kind, KeyKind::NAMES)?;
     let key = whole::<usize>("key", &key.0, SIZE)?..whole::<usize>("key", &key.1, SIZE)?;
     let layout = RecordLayout { width: whole("width", width, "1 to 16777216 bytes")?, key, kind };
     let options = FileSortOptions { memory: whole("memory", memory, SIZE)?, scratch, resume };
     let found = interruptible(py, |monitor| sort(&input, &output, &layout, &options, monitor))?
         .map_err(raise)?;
-    FileSolution::new(py, AnyFileSolution::Sort(sorted(&layout, &found)))
+    Ok(FoundFile(sorted(&layout, &found).into()))
 }
 
 /// Transposes a matrix in a file; `header` goes before the elements of the output.
@@ -66,7 +57,7 @@ pub(crate) fn transpose_file(
     dtype: Option<String>,
     header: &[u8],
     memory: &Bound<'_, PyAny>,
-) -> PyResult<FileSolution> {
+) -> PyResult<FoundFile> {
     let rows: u64 = whole("rows", &shape.0, "a number of rows")?;
     let columns: u64 = whole("columns", &shape.1, "a number of columns")?;
     let width: usize = whole("width", width, SIZE)?;
@@ -86,7 +77,7 @@ pub(crate) fn transpose_file(
     })?;
     let (found, certified) = done.map_err(raise)?;
     let certificate = certified.map_err(judged)?;
-    FileSolution::new(py, AnyFileSolution::Transpose(transposed(answer, certificate, &found)))
+    Ok(FoundFile(transposed(answer, certificate, &found).into()))
 }
 
 /// Draws `k` different numbers below `n`.
@@ -100,7 +91,10 @@ pub(crate) fn sample(
     let [n, k, seed] = [("n", n), ("k", k), ("seed", seed)]
         .map(|(name, value)| whole::<u64>(name, value, "0 to 2**64 - 1"));
     let (n, k, seed) = (n?, k?, seed?);
-    numbers(py, interruptible(py, |_| draw(seed, n, k))?.map_err(raise)?)
+    let drawn = interruptible(py, |_| draw(seed, n, k))?.map_err(raise)?;
+    let array = PyArray1::from_vec(py, drawn);
+    array.call_method1("setflags", (false,))?;
+    Ok(array.unbind())
 }
 
 /// A wrong input is a `ValueError`, what the system refuses an `OSError`, both with the library's sentence.
@@ -128,93 +122,32 @@ fn judged(error: FileCheckError) -> PyErr {
     }
 }
 
-/// A file that was written, what proves its content, and how it came about.
-///
-/// Two are equal when all that they say is. They can be pickled.
-///
-/// Attributes
-/// ----------
-/// kind : str
-///     ``"sort"``, ``"transpose"`` or ``"sample"``.
-/// answer : dict
-///     What the file is said to be, by the names of the JSON. A fresh copy each time.
-/// certificate : dict
-///     Its proof. A fresh copy each time.
-/// trace : Trace
-///     Counters of the run.
-#[pyclass(frozen, module = "taut")]
-pub(crate) struct FileSolution {
-    solution: AnyFileSolution,
-    #[pyo3(get)]
-    trace: Py<Trace>,
-}
-
-impl FileSolution {
-    fn new(py: Python<'_>, solution: AnyFileSolution) -> PyResult<Self> {
-        let trace = match &solution {
-            AnyFileSolution::Sort(found) => found.trace.clone(),
-            AnyFileSolution::Transpose(found) => found.trace.clone(),
-            AnyFileSolution::Sample(found) => found.trace.clone(),
-        };
-        Ok(FileSolution { solution, trace: Py::new(py, Trace::new(trace))? })
-    }
-
-    /// A part of the document as Python's own objects.
-    fn part(&self, py: Python<'_>, name: &str) -> PyResult<Py<PyAny>> {
-        let document = py.import("json")?.getattr("loads")?.call1((self.solution.to_json(),))?;
-        Ok(document.get_item(name)?.unbind())
-    }
-}
+/// What a `taut.FileSolution` holds.
+#[pyclass(frozen, eq, module = "taut._native")]
+#[derive(PartialEq)]
+pub(crate) struct FoundFile(AnyFileSolution);
 
 #[pymethods]
-impl FileSolution {
+impl FoundFile {
     #[getter]
     fn kind(&self) -> &'static str {
-        match self.solution {
-            AnyFileSolution::Sort(_) => "sort",
-            AnyFileSolution::Transpose(_) => "transpose",
-            AnyFileSolution::Sample(_) => "sample",
-        }
+        self.0.kind()
     }
 
-    #[getter]
-    fn answer(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        self.part(py, "answer")
+    /// Answer, certificate and trace, each as a dict by the names of the JSON.
+    fn parts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        with_file_solution!(&self.0, found => {
+            plain(py, &(&found.answer, &found.certificate, &found.trace))
+        })
     }
 
-    #[getter]
-    fn certificate(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        self.part(py, "certificate")
-    }
-
-    /// A second opinion: reads the file that was written, and compares it with the one it was made from.
-    ///
-    /// Parameters
-    /// ----------
-    /// output : path
-    ///     The file that was written.
-    /// input : path, optional
-    ///     The file that was read. Without it the content is judged by the hash of the certificate.
-    ///
-    /// Returns
-    /// -------
-    /// FileVerdict
-    ///
-    /// Raises
-    /// ------
-    /// Violation
-    ///     When the file is not what this says.
-    /// OSError
-    ///     When a file cannot be read.
-    /// ValueError
-    ///     When an input is named for a sample, which is made from none.
-    #[pyo3(signature = (output, input=None))]
-    fn check(
+    /// What the checker proves of the file that was written, as a dict.
+    fn check<'py>(
         &self,
-        py: Python<'_>,
+        py: Python<'py>,
         output: PathBuf,
         input: Option<PathBuf>,
-    ) -> PyResult<FileVerdict> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let opened = |path: &Path| {
             let failed = |source| raise(Error::File { path: path.display().to_string(), source });
             File::open(path).map_err(failed)
@@ -223,90 +156,19 @@ impl FileSolution {
         let mut from = input.as_deref().map(opened).transpose()?;
         let judgement = interruptible(py, |monitor| {
             let input = from.as_mut().map(|file| file as &mut dyn Data);
-            self.solution.check(Files { input, output: &mut to }, monitor)
+            self.0.check(Files { input, output: &mut to }, monitor)
         })?;
-        let proved = judgement.map_err(judged)?;
-        Ok(FileVerdict { items: proved.items, compared: proved.compared })
+        plain(py, &judgement.map_err(judged)?)
     }
 
-    /// The solution as a JSON document, as the command line writes it.
-    ///
-    /// Returns
-    /// -------
-    /// str
     fn to_json(&self) -> String {
-        self.solution.to_json()
+        self.0.to_json()
     }
 
-    /// Reads what `to_json` or the command line wrote.
-    ///
-    /// Parameters
-    /// ----------
-    /// text : str
-    ///     The document. Nothing in it is believed until `check` has judged it.
-    ///
-    /// Returns
-    /// -------
-    /// FileSolution
-    ///
-    /// Raises
-    /// ------
-    /// ValueError
-    ///     When the text is not an answer about files, or of a newer schema.
     #[staticmethod]
-    fn from_json(py: Python<'_>, text: &str) -> PyResult<Self> {
-        let solution = AnyFileSolution::from_json(text)
-            .map_err(|error| PyValueError::new_err(error.to_string()))?;
-        FileSolution::new(py, solution)
-    }
-
-    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
-        other.cast::<FileSolution>().is_ok_and(|other| self.solution == other.get().solution)
-    }
-
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
-        Ok((py.get_type::<FileSolution>().getattr("from_json")?, (self.to_json(),)))
-    }
-
-    fn __repr__(&self) -> String {
-        let kind = self.kind();
-        match &self.solution {
-            AnyFileSolution::Sort(found) => {
-                let SortedFile { records, width, .. } = found.answer;
-                format!("FileSolution(kind='{kind}', records={records}, width={width})")
-            }
-            AnyFileSolution::Transpose(found) => {
-                let TransposedFile { rows, columns, width, .. } = found.answer;
-                format!(
-                    "FileSolution(kind='{kind}', rows={rows}, columns={columns}, width={width})"
-                )
-            }
-            AnyFileSolution::Sample(found) => {
-                let (of, drawn) = (found.answer.of, found.answer.drawn);
-                format!("FileSolution(kind='{kind}', of={of}, drawn={drawn})")
-            }
-        }
-    }
-}
-
-/// What was proved of a file.
-///
-/// Attributes
-/// ----------
-/// items : int
-///     Records, elements or numbers that were read, in each of the files.
-/// compared : bool
-///     Whether the file that was read was compared, or the certificate's word taken for it.
-#[pyclass(frozen, get_all, module = "taut")]
-pub(crate) struct FileVerdict {
-    items: u64,
-    compared: bool,
-}
-
-#[pymethods]
-impl FileVerdict {
-    fn __repr__(&self) -> String {
-        let compared = if self.compared { "True" } else { "False" };
-        format!("FileVerdict(items={}, compared={compared})", self.items)
+    fn from_json(text: &str) -> PyResult<Self> {
+        AnyFileSolution::from_json(text)
+            .map(FoundFile)
+            .map_err(|error| PyValueError::new_err(error.to_string()))
     }
 }

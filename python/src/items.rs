@@ -1,53 +1,47 @@
-//! What the rows of an array are, and what is wrong with one of them, in the words of somebody who gave centres, radii
+//! What the rows of an array are, and what is wrong with one of them, in the words of somebody who gave centers, radii
 //! and shapes in arrays of their own.
 
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
-use taut::Items;
 use taut::certify::{CentersViolation, Violation};
-use taut::enclose::Error;
-use taut::points::shown_number;
+use taut::enclose::Error as Refused;
+use taut::points::{InputError, shown_number};
+use taut::{Error, Items};
 
-/// What the rows are, in a word.
-pub(crate) fn name_of_items(items: Items) -> &'static str {
-    match items {
-        Items::Points => "points",
-        Items::Balls => "balls",
-        Items::Ellipsoids => "ellipsoids",
-    }
-}
+use crate::choice::choice;
 
-/// The same read back.
+/// What the rows are, by its name in JSON.
 pub(crate) fn items_of_name(name: &str) -> PyResult<Items> {
-    let all = [Items::Points, Items::Balls, Items::Ellipsoids];
-    all.into_iter().find(|&items| name_of_items(items) == name).ok_or_else(|| {
-        PyValueError::new_err(format!(
-            "items {name:?} are not known: expected points, balls or ellipsoids"
-        ))
-    })
+    choice("items", name, Items::NAMES)
 }
 
-/// What a solver refused: a wrong input is a `ValueError`. `columns` is the length of a row.
-pub(crate) fn raise(error: Error, items: Items, columns: usize) -> PyErr {
-    let dim = items.dim(columns);
+/// What a solver refused: what is wrong with the input is a `ValueError`. `columns` is the length of a row.
+pub(crate) fn raise(error: impl Into<Error>, items: Items, columns: usize) -> PyErr {
+    let error = error.into();
     match error {
-        Error::Read(_) | Error::Conic { .. } => PyRuntimeError::new_err(error.to_string()),
-        Error::NonFinite { row, column, value } if items != Items::Points => {
-            PyValueError::new_err(not_finite(items, row, column, value, dim))
+        Error::Input(InputError::NonFinite { row, column, value }) if items != Items::Points => {
+            PyValueError::new_err(not_finite(items, row, column, value, items.dim(columns)))
         }
-        Error::NegativeRadius { row, value } => PyValueError::new_err(negative_radius(row, value)),
-        Error::NonPositiveWeight { row, value } => PyValueError::new_err(weight(row, value)),
-        _ => PyValueError::new_err(error.to_string()),
+        Error::Input(ref input) if !input.is_fault_of_caller() => {
+            PyRuntimeError::new_err(error.to_string())
+        }
+        Error::Enclose(Refused::NegativeRadius { row, value }) => {
+            PyValueError::new_err(negative_radius(row, value))
+        }
+        Error::Enclose(Refused::NonPositiveWeight { row, value }) => {
+            PyValueError::new_err(weight(row, value))
+        }
+        Error::Enclose(Refused::Conic { .. }) => PyRuntimeError::new_err(error.to_string()),
+        error => PyValueError::new_err(error.to_string()),
     }
 }
 
 /// What a checker found.
-pub(crate) fn words(violation: Violation, items: Option<Items>, columns: usize) -> String {
+pub(crate) fn words(violation: Violation, items: Items, columns: usize) -> String {
     match (violation, items) {
-        (
-            Violation::NonFinite { row, column, value },
-            Some(items @ (Items::Balls | Items::Ellipsoids)),
-        ) => not_finite(items, row, column, value, items.dim(columns)),
+        (Violation::NonFinite { row, column, value }, Items::Balls | Items::Ellipsoids) => {
+            not_finite(items, row, column, value, items.dim(columns))
+        }
         (Violation::NegativeRadius { row, value }, _) => negative_radius(row, value),
         (Violation::Centers(CentersViolation::Weight { row, value }), _) => weight(row, value),
         (other, _) => other.to_string(),

@@ -1,28 +1,30 @@
 //! The Python package of taut: thin bindings.
 //!
-//! What a user calls is in `taut/*.py` with its documentation; here is what Python cannot do: view an array as
-//! points without a copy (`rows`), work with the interpreter released and still hear Ctrl-C (`work`), and hold
-//! a solution (`solution`). No geometry is calculated in this crate.
+//! What a user calls is in `taut/*.py` with its documentation, and so are the classes of answers; here is what Python cannot
+//! do: view an array as points without a copy (`rows`), work with the interpreter released and still hear Ctrl-C (`work`),
+//! hold a solution (`found`), and hand over its data (`object`). No geometry is calculated in this crate.
 #![forbid(unsafe_code)]
 
 mod ball;
 mod centers;
+mod choice;
 mod curve;
 mod delaunay;
 mod ellipsoid;
 mod farthest_first;
 mod files;
+mod found;
 mod generate;
 mod inscribed;
 mod items;
+mod names;
 mod numbers;
-mod order;
+mod object;
+mod picture;
 mod robust;
 mod rows;
-mod solution;
 mod sphere_tree;
 mod surface;
-mod triangulation;
 mod work;
 
 use pyo3::prelude::*;
@@ -33,37 +35,31 @@ mod _native {
     #[pymodule_export]
     use crate::ball::ball;
     #[pymodule_export]
-    use crate::centers::{Centers, CentersCertificate, CentersVerdict, centers};
+    use crate::centers::centers;
     #[pymodule_export]
-    use crate::curve::{Curve, CurveCertificate, CurveComponent, CurveVerdict, curve};
+    use crate::curve::curve;
     #[pymodule_export]
-    use crate::delaunay::delaunay;
+    use crate::delaunay::{delaunay, spatial_order};
     #[pymodule_export]
-    use crate::ellipsoid::{
-        Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipsoid, ellipsoids,
-    };
+    use crate::ellipsoid::{ellipsoid, ellipsoids, norms};
     #[pymodule_export]
-    use crate::farthest_first::{FarthestFirst, farthest_first};
+    use crate::farthest_first::farthest_first;
     #[pymodule_export]
-    use crate::files::{FileSolution, FileVerdict, sample, sort_file, transpose_file};
+    use crate::files::{FoundFile, sample, sort_file, transpose_file};
+    #[pymodule_export]
+    use crate::found::{Found, Violation};
     #[pymodule_export]
     use crate::generate::generate;
     #[pymodule_export]
-    use crate::inscribed::{
-        InscribedCertificate, InscribedEllipsoid, InscribedVerdict, inscribed_ellipsoid,
-    };
+    use crate::inscribed::inscribed_ellipsoid;
     #[pymodule_export]
-    use crate::order::{Order, OrderCertificate, OrderVerdict, spatial_order};
+    use crate::names::names;
     #[pymodule_export]
-    use crate::robust::{RobustCertificate, RobustEllipsoid, RobustVerdict, robust_ellipsoid};
+    use crate::robust::robust_ellipsoid;
     #[pymodule_export]
-    use crate::solution::{Ball, BallCertificate, PassBounds, Solution, Trace, Verdict, Violation};
+    use crate::sphere_tree::sphere_tree;
     #[pymodule_export]
-    use crate::sphere_tree::{SphereTree, sphere_tree};
-    #[pymodule_export]
-    use crate::surface::{Surface, SurfaceCertificate, SurfaceComponent, SurfaceVerdict, surface};
-    #[pymodule_export]
-    use crate::triangulation::{Triangulation, TriangulationCertificate, TriangulationVerdict};
+    use crate::surface::surface;
 
     #[pymodule_export]
     #[allow(non_upper_case_globals)]

@@ -1,4 +1,4 @@
-//! Numbers as Python has them: whole ones of any size, and others as it writes them.
+//! Whole numbers as Python has them, of any size.
 
 use pyo3::exceptions::{PyOverflowError, PyValueError};
 use pyo3::prelude::*;
@@ -17,9 +17,4 @@ pub(crate) fn whole<'py, T: FromPyObjectOwned<'py>>(
             error
         }
     })
-}
-
-/// A number as Python writes it.
-pub(crate) fn float(py: Python<'_>, value: f64) -> PyResult<String> {
-    Ok(value.into_pyobject(py)?.repr()?.to_string())
 }

@@ -1,10 +1,9 @@
-//! NumPy arrays as points, without a copy; and answers as arrays that cannot be written to, as what was proved of them
-//! would no longer hold.
+//! NumPy arrays as points, without a copy.
 //!
 //! *Trap.* `as_slice` of rust-numpy also accepts Fortran order, whose rows are columns: C order is checked here,
 //! although `taut/_arrays.py` has already seen to it.
 
-use numpy::{Element, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{Element, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use taut::points::Scalar;
@@ -46,23 +45,4 @@ pub(crate) fn points<'a, T: Scalar + Element>(
     }
     Points::new(array.as_slice()?, array.shape()[1])
         .map_err(|error| PyValueError::new_err(error.to_string()))
-}
-
-/// An array of the numbers that cannot be written to.
-pub(crate) fn numbers<T: Element>(py: Python<'_>, values: Vec<T>) -> PyResult<Py<PyArray1<T>>> {
-    let array = PyArray1::from_vec(py, values);
-    array.call_method1("setflags", (false,))?;
-    Ok(array.unbind())
-}
-
-/// Rows of `width` numbers that cannot be written to.
-pub(crate) fn table<T: Element>(
-    py: Python<'_>,
-    values: Vec<T>,
-    width: usize,
-) -> PyResult<Py<PyArray2<T>>> {
-    let rows = values.len().checked_div(width).unwrap_or(0);
-    let array = PyArray1::from_vec(py, values).reshape([rows, width])?;
-    array.call_method1("setflags", (false,))?;
-    Ok(array.unbind())
 }

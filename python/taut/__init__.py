@@ -11,55 +11,28 @@ True
 The names, options and defaults are those of the Rust library and of the command line.
 """
 
+from ._answers.ball import Ball, BallCertificate, Verdict
+from ._answers.centers import Centers, CentersCertificate, CentersVerdict, FarthestFirst, SphereTree
+from ._answers.curve import Curve, CurveCertificate, CurveComponent, CurveVerdict
+from ._answers.ellipsoid import Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull
+from ._answers.file import FileVerdict
+from ._answers.inscribed import InscribedCertificate, InscribedEllipsoid, InscribedVerdict
+from ._answers.order import Order, OrderCertificate, OrderVerdict
+from ._answers.robust import RobustCertificate, RobustEllipsoid, RobustVerdict
+from ._answers.surface import Surface, SurfaceCertificate, SurfaceComponent, SurfaceVerdict
+from ._answers.trace import PassBounds, Trace
+from ._answers.triangulation import Triangulation, TriangulationCertificate, TriangulationVerdict
 from ._ball import ball, ball_of_balls
 from ._centers import centers, farthest_first, sphere_tree
 from ._curve import curve
 from ._delaunay import delaunay
 from ._ellipsoid import ellipsoid, ellipsoids, inscribed_ellipsoid
+from ._file_solution import FileSolution
 from ._generate import generate
 from ._memory import sample, sort_file, spatial_order, transpose_file
-from ._native import (
-    Ball,
-    BallCertificate,
-    Centers,
-    CentersCertificate,
-    CentersVerdict,
-    Curve,
-    CurveCertificate,
-    CurveComponent,
-    CurveVerdict,
-    Ellipsoid,
-    EllipsoidCertificate,
-    EllipsoidVerdict,
-    FarthestFirst,
-    FileSolution,
-    FileVerdict,
-    Hull,
-    InscribedCertificate,
-    InscribedEllipsoid,
-    InscribedVerdict,
-    Order,
-    OrderCertificate,
-    OrderVerdict,
-    PassBounds,
-    RobustCertificate,
-    RobustEllipsoid,
-    RobustVerdict,
-    Solution,
-    SphereTree,
-    Surface,
-    SurfaceCertificate,
-    SurfaceComponent,
-    SurfaceVerdict,
-    Trace,
-    Triangulation,
-    TriangulationCertificate,
-    TriangulationVerdict,
-    Verdict,
-    Violation,
-    __version__,
-)
+from ._native import Violation, __version__
 from ._robust import robust_ellipsoid
+from ._solution import Solution
 from ._surface import surface
 from ._verify import verify
 

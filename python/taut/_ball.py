@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from ._arrays import as_rows
-from ._native import Solution
+from ._solution import Solution
 
 BallMethod = Literal["core-set", "thesis-pure", "thesis-fast", "badoiu-clarkson"]
 
@@ -92,7 +92,7 @@ def ball(
     """
     items = "points" if shapes is None else "ellipsoids"
     rows = as_rows(points, shapes=shapes)
-    return _native.ball(rows, items, epsilon, method, batch, max_passes, threads, seed)
+    return Solution(_native.ball(rows, items, epsilon, method, batch, max_passes, threads, seed), rows)
 
 
 def ball_of_balls(
@@ -141,4 +141,4 @@ def ball_of_balls(
     if radii is None:
         raise TypeError("radii are None: expected one for each center; points have `taut.ball`")
     rows = as_rows(centers, radii)
-    return _native.ball(rows, "balls", epsilon, method, batch, max_passes, threads, seed)
+    return Solution(_native.ball(rows, "balls", epsilon, method, batch, max_passes, threads, seed), rows)

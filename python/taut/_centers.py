@@ -7,8 +7,9 @@ from typing import Literal
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._answers.centers import FarthestFirst, SphereTree
 from ._arrays import as_rows
-from ._native import FarthestFirst, Solution, SphereTree
+from ._solution import Solution
 
 CentersMethod = Literal["tree", "thesis", "farthest-first", "stream"]
 
@@ -105,7 +106,7 @@ def centers(
         raise ValueError("only one of radii and weights can be given: points alone can have weights")
     rows = as_rows(points, radii, weights=weights)
     items = "points" if radii is None else "balls"
-    return _native.centers(
+    found = _native.centers(
         rows,
         k,
         items,
@@ -118,6 +119,7 @@ def centers(
         assignment,
         threads,
     )
+    return Solution(found, rows)
 
 
 def farthest_first(
@@ -168,7 +170,8 @@ def farthest_first(
     >>> found.radii[1:]
     array([2., 1.])
     """
-    return _native.farthest_first(as_rows(points), count, start, threads)
+    order, radii, after = _native.farthest_first(as_rows(points), count, start, threads)
+    return FarthestFirst(order=order, radii=radii, next=after)
 
 
 def sphere_tree(
@@ -225,4 +228,5 @@ def sphere_tree(
     >>> tree.order[start:end]
     array([0, 2])
     """
-    return _native.sphere_tree(as_rows(points), leaf_size, epsilon, threads)
+    centers, radii, ranges, children, order = _native.sphere_tree(as_rows(points), leaf_size, epsilon, threads)
+    return SphereTree(centers=centers, radii=radii, ranges=ranges, children=children, order=order)

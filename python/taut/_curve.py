@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from ._arrays import as_rows
-from ._native import Solution
+from ._solution import Solution
 
 CurveMethod = Literal[
     "auto",
@@ -107,4 +107,5 @@ def curve(
     >>> tour.check([[0, 0], [3, 0], [3, 4], [0, 4]]).tour_gap < 0.01
     True
     """
-    return _native.curve(as_rows(points), method, open, rho, omega, feature, places, threads)
+    rows = as_rows(points)
+    return Solution(_native.curve(rows, method, open, rho, omega, feature, places, threads), rows)

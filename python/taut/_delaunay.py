@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from ._arrays import as_rows
-from ._native import Solution
+from ._solution import Solution
 
 InsertionOrder = Literal["strided", "random", "local-ric", "hilbert"]
 
@@ -76,4 +76,5 @@ def delaunay(
     >>> found.check(points)
     TriangulationVerdict(sites=4, simplices=2, hull=4, ties=0)
     """
-    return _native.delaunay(as_rows(points), order, threads, seed)
+    rows = as_rows(points)
+    return Solution(_native.delaunay(rows, order, threads, seed), rows)

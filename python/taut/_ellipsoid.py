@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from ._arrays import as_rows, as_sets
-from ._native import Solution
+from ._solution import Solution
 
 EllipsoidMethod = Literal["newton", "thesis-initial", "thesis-khachiyan", "thesis-core-set", "away-steps"]
 
@@ -105,7 +105,8 @@ def ellipsoid(
     if radii is not None and shapes is not None:
         raise TypeError("radii and shapes are given: expected one of them, for balls or for ellipsoids")
     items = "balls" if radii is not None else "points" if shapes is None else "ellipsoids"
-    return _native.ellipsoid(as_rows(points, radii, shapes), items, epsilon, method, max_passes, threads, seed)
+    rows = as_rows(points, radii, shapes)
+    return Solution(_native.ellipsoid(rows, items, epsilon, method, max_passes, threads, seed), rows)
 
 
 def ellipsoids(
@@ -172,7 +173,9 @@ def ellipsoids(
     >>> [found.answer.rank for found in taut.ellipsoids(groups)]
     [2, 1]
     """
-    return _native.ellipsoids(as_sets(sets), epsilon, method, max_passes, threads, seed)
+    given = as_sets(sets)
+    found = _native.ellipsoids(given, epsilon, method, max_passes, threads, seed)
+    return list(map(Solution, found, given))
 
 
 def inscribed_ellipsoid(
@@ -229,4 +232,5 @@ def inscribed_ellipsoid(
     """
     if offsets is None:
         raise TypeError("offsets are None: expected one for each normal")
-    return _native.inscribed_ellipsoid(as_rows(normals, offsets=offsets), epsilon, max_steps)
+    rows = as_rows(normals, offsets=offsets)
+    return Solution(_native.inscribed_ellipsoid(rows, epsilon, max_steps), rows)

@@ -12,9 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._arrays import as_rows
-from ._native import FileSolution, Solution
+from ._file_solution import FileSolution, Path
+from ._solution import Solution
 
-Path = str | os.PathLike[str]
+KeyKind = Literal["u64", "i64", "f64", "bytes"]
+OrderCurve = Literal["hilbert", "morton"]
 
 
 def sort_file(
@@ -23,7 +25,7 @@ def sort_file(
     *,
     width: int,
     key: tuple[int, int] | None = None,
-    kind: Literal["u64", "i64", "f64", "bytes"] = "u64",
+    kind: KeyKind = "u64",
     memory: int = 256 << 20,
     scratch: Path | None = None,
     resume: Path | None = None,
@@ -90,7 +92,7 @@ def sort_file(
         raise ValueError("`scratch` and `resume` exclude each other: runs that are kept stand in the file of `resume`")
     input, output = os.fsdecode(input), os.fsdecode(output)
     scratch, resume = (path if path is None else os.fsdecode(path) for path in (scratch, resume))
-    return _native.sort_file(input, output, width, (start, end), kind, memory, scratch, resume)
+    return FileSolution(_native.sort_file(input, output, width, (start, end), kind, memory, scratch, resume))
 
 
 def transpose_file(
@@ -162,7 +164,8 @@ def transpose_file(
     if not of_npy[0]:
         if rows is None or columns is None:
             raise ValueError(f"{input} is no .npy file: give `rows` and `columns`")
-        return _native.transpose_file(input, output, (rows, columns), width, False, offset, None, b"", memory)
+        found = _native.transpose_file(input, output, (rows, columns), width, False, offset, None, b"", memory)
+        return FileSolution(found)
     if rows is not None or columns is not None or width != 8 or offset != 0:
         raise ValueError("`rows`, `columns`, `width` and `offset` belong to raw files: leave them out")
     shape, fortran, dtype, offset = _header(input)
@@ -175,9 +178,10 @@ def transpose_file(
     # Spaces and a line feed bring the elements to a multiple of 64 bytes.
     text += " " * (-(len(text) + 11) % 64) + "\n"
     header = b"\x93NUMPY\x01\x00" + len(text).to_bytes(2, "little") + text.encode("latin1")
-    return _native.transpose_file(
+    found = _native.transpose_file(
         input, output, (shape[0], shape[1]), dtype.itemsize, fortran, offset, descr, header, memory
     )
+    return FileSolution(found)
 
 
 def _header(path: str) -> tuple[tuple[int, ...], bool, np.dtype[Any], int]:
@@ -226,7 +230,7 @@ def sample(n: int, k: int, *, seed: int = 0) -> NDArray[np.uint64]:
     return _native.sample(n, k, seed)
 
 
-def spatial_order(points: ArrayLike, *, curve: Literal["hilbert", "morton"] = "hilbert") -> Solution:
+def spatial_order(points: ArrayLike, *, curve: OrderCurve = "hilbert") -> Solution:
     """Put points of the plane or of space in an order in which neighbours are near each other.
 
     The order depends on the set of points alone; equal points are side by side, the first row first.
@@ -258,4 +262,5 @@ def spatial_order(points: ArrayLike, *, curve: Literal["hilbert", "morton"] = "h
     >>> found.check(square).points
     4
     """
-    return _native.spatial_order(as_rows(points), curve)
+    rows = as_rows(points)
+    return Solution(_native.spatial_order(rows, curve), rows)

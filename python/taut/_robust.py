@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from ._arrays import as_rows
-from ._native import Solution
+from ._solution import Solution
 
 RobustMethod = Literal["mcd", "mve", "trim"]
 
@@ -80,4 +80,5 @@ def robust_ellipsoid(
     >>> found.check(points).rank
     2
     """
-    return _native.robust_ellipsoid(as_rows(points), method, coverage, level, epsilon, threads)
+    rows = as_rows(points)
+    return Solution(_native.robust_ellipsoid(rows, method, coverage, level, epsilon, threads), rows)

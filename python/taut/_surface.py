@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from ._arrays import as_rows
-from ._native import Solution
+from ._solution import Solution
 
 SurfaceMethod = Literal["tree", "thesis", "alpha", "hull"]
 Priority = Literal["circumcentre-distance", "circumradius", "empty-ball"]
@@ -111,8 +111,9 @@ def surface(
     >>> found.check(points).certified
     True
     """
-    return _native.surface(
-        as_rows(points),
+    rows = as_rows(points)
+    found = _native.surface(
+        rows,
         method,
         open,
         denoise,
@@ -127,3 +128,4 @@ def surface(
         restarts,
         threads,
     )
+    return Solution(found, rows)

@@ -4,30 +4,8 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from ._native import (
-    CentersVerdict,
-    CurveVerdict,
-    EllipsoidVerdict,
-    InscribedVerdict,
-    OrderVerdict,
-    RobustVerdict,
-    Solution,
-    SurfaceVerdict,
-    TriangulationVerdict,
-    Verdict,
-)
-
-AnyVerdict = (
-    Verdict
-    | EllipsoidVerdict
-    | InscribedVerdict
-    | RobustVerdict
-    | CentersVerdict
-    | CurveVerdict
-    | SurfaceVerdict
-    | OrderVerdict
-    | TriangulationVerdict
-)
+from ._answers.kinds import AnyVerdict
+from ._solution import Solution
 
 
 def verify(

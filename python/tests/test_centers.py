@@ -221,7 +221,7 @@ def test_farthest_first_is_what_its_definition_says(points):
     assert found.next is not None
     again = taut.farthest_first(points, 40, start=7, threads=1)
     assert (again.order == found.order).all() and (again.radii == found.radii).all()
-    assert repr(found) == "FarthestFirst(order=<40 rows>)"
+    assert repr(found) == f"FarthestFirst(order=<40 numbers>, next={found.next})"
 
 
 def test_farthest_first_ends_with_the_last_different_point():
@@ -261,7 +261,7 @@ def test_a_tree_of_balls_holds_every_point_in_every_node(points, dtype):
             assert tree.ranges[left, 1] == tree.ranges[right, 0]
     again = taut.sphere_tree(points, leaf_size=4, threads=1)
     assert (again.order == tree.order).all() and (again.radii == tree.radii).all()
-    assert repr(tree) == f"SphereTree(nodes=<{m}>, order=<300 rows>)"
+    assert repr(tree) == f"SphereTree(centers=<{m} rows>, order=<300 numbers>)"
     with pytest.raises(ValueError, match="read-only"):
         tree.radii[0] = 1
 

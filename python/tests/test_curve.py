@@ -97,7 +97,7 @@ def test_answers_travel_and_lies_are_found(rings):
     assert pickle.loads(pickle.dumps(found)) == found
     assert found.kind == "curve"
     assert repr(found) == "Solution(kind='curve', curves=3)"
-    assert repr(found.answer) == "Curve(curves=<3>, noise=0.0, outliers=<0>)"
+    assert repr(found.answer) == "Curve(curves=<3>, noise=0.0, outliers=[])"
     assert repr(found.answer.curves[0]).startswith("CurveComponent(closed=True, vertices=<")
     assert repr(found.certificate).startswith("CurveCertificate(certified=")
     assert taut.verify(found.to_json(), rings).simple

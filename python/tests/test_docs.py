@@ -19,10 +19,19 @@ MODULES = [taut, _ball, _centers, _curve, _delaunay, _ellipsoid, _generate, _mem
 
 @pytest.mark.parametrize("module", MODULES, ids=lambda m: m.__name__)
 def test_examples_run(module):
-    # The classes of the compiled part are found as members of `taut`, which they say they are.
     failed, attempted = doctest.testmod(module, optionflags=FLAGS)
     assert failed == 0
     assert attempted > 0
+
+
+@pytest.mark.parametrize("public", [taut.Ellipsoid, taut.Solution], ids=lambda c: c.__name__)
+def test_examples_of_methods_run(public):
+    runner = doctest.DocTestRunner(optionflags=FLAGS)
+    # Without a module: classes say that they are of `taut`, their methods are of the file they are in.
+    for test in doctest.DocTestFinder().find(public, module=False, globs={}):
+        runner.run(test)
+    assert runner.summarize().failed == 0
+    assert runner.tries > 0
 
 
 @pytest.mark.parametrize("name", taut.__all__)

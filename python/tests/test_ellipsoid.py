@@ -244,7 +244,7 @@ def test_nothing_can_be_written_to(found):
 def test_representations_say_what_matters(points, found):
     answer, gap = found.answer, found.certificate.gap
     assert repr(found) == f"Solution(kind='ellipsoid', log_volume={answer.log_volume!r}, gap={gap!r})"
-    assert repr(answer) == f"Ellipsoid(log_volume={answer.log_volume!r}, rank=4, center=<4 coordinates>)"
+    assert repr(answer) == f"Ellipsoid(log_volume={answer.log_volume!r}, rank=4, center=<4 numbers>)"
     assert repr(found.certificate).startswith("EllipsoidCertificate(gap=")
     assert "rank=4" in repr(found.check(points))
     assert repr(taut.ellipsoid([[0, 0], [3, 4]]).answer.hull).startswith("Hull(basis=<1 rows>")

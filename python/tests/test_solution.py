@@ -137,7 +137,7 @@ def test_arrays_and_attributes_cannot_be_written_to(found):
 
 def test_representations_say_what_matters(found):
     assert repr(found).startswith("Solution(kind='ball', radius=")
-    assert repr(found.answer) == f"Ball(radius={found.answer.radius!r}, center=<6 coordinates>)"
+    assert repr(found.answer) == f"Ball(radius={found.answer.radius!r}, center=<6 numbers>)"
     assert f"passes={found.trace.passes}" in repr(found.trace)
     assert "gap=" in repr(found.certificate)
     assert repr(found.trace.history[-1]).startswith("PassBounds(lower=")

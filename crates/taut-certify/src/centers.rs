@@ -124,7 +124,7 @@ pub struct CentersCertificate {
 }
 
 /// What was proved of centres.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CentersVerdict {
     /// No k centres have a smaller radius.
     pub lower: f64,

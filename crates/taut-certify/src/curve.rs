@@ -102,7 +102,7 @@ pub struct TourBound {
 }
 
 /// What was proved of a curve.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CurveVerdict {
     /// Rows there are.
     pub rows: u64,

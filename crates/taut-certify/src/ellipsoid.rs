@@ -161,7 +161,7 @@ pub struct EllipsoidCertificate {
 }
 
 /// What was proved of an ellipsoid.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EllipsoidVerdict {
     /// No enclosing ellipsoid has a log-volume below this.
     pub lower: f64,

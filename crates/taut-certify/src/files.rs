@@ -73,7 +73,7 @@ impl<A: FileAnswer> FileSolution<A> {
 }
 
 /// What was proved of a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct FileVerdict {
     /// Records, elements or numbers that were read, in each of the files.
     pub items: u64,

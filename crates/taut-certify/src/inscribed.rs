@@ -50,7 +50,7 @@ pub struct InscribedCertificate {
 }
 
 /// What was proved of an inscribed ellipsoid.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct InscribedVerdict {
     /// The log-volume of the answer, rounded down as found here: it lies in every half-space, so the optimum is no less.
     pub lower: f64,

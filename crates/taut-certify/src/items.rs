@@ -25,6 +25,10 @@ pub enum Items {
 }
 
 impl Items {
+    /// All of them with their names in JSON.
+    pub const NAMES: [(&'static str, Self); 3] =
+        [("points", Self::Points), ("balls", Self::Balls), ("ellipsoids", Self::Ellipsoids)];
+
     /// The dimension of the space in which rows of `columns` numbers lie; for ellipsoids, 0 when no dimension has rows
     /// of that many numbers.
     pub fn dim(self, columns: usize) -> usize {

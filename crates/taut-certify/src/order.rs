@@ -19,6 +19,12 @@ pub enum OrderCurve {
     Morton,
 }
 
+impl OrderCurve {
+    /// All curves with their names in JSON.
+    pub const NAMES: [(&'static str, Self); 2] =
+        [("hilbert", Self::Hilbert), ("morton", Self::Morton)];
+}
+
 /// The rows of a point set of the plane or of space in the order of a curve through them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "an order: an object with curve and rows")]
@@ -39,7 +45,7 @@ pub struct OrderCertificate {
 }
 
 /// What was proved of an order: it is the one that the points have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct OrderVerdict {
     /// Points.
     pub points: u64,

@@ -3,6 +3,7 @@
 //! To add a kind, implement [`Answer`] (or [`FileAnswer`]) and name it here. [`with_solution!`](crate::with_solution) runs
 //! one expression on a solution of any kind, so that other crates need no list of their own.
 
+use serde::Serialize;
 use taut_points::{Monitor, PointSource};
 
 use crate::json::{kind_of, parse_document, without_mark};
@@ -126,8 +127,9 @@ macro_rules! define_solutions {
 /// The verdicts of the same kinds, and the check that returns one.
 macro_rules! define_verdicts {
     ($($(#[$kind:meta])* $name:ident($answer:ty),)*) => {
-        /// What was proved of an answer of any kind.
-        #[derive(Clone, Copy, Debug, PartialEq)]
+        /// What was proved of an answer of any kind; serde sees the verdict alone.
+        #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+        #[serde(untagged)]
         #[non_exhaustive]
         pub enum AnyVerdict {
             $($(#[$kind])* $name(<$answer as Answer>::Verdict),)*

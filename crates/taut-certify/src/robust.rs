@@ -178,7 +178,7 @@ pub struct Enclosure {
 }
 
 /// What was proved of a robust ellipsoid.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RobustVerdict {
     /// What the method minimises, of the points kept, as found here. By `mcd` no C-step lowers it; that no other points
     /// have less is not proved.

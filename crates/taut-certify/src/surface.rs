@@ -127,7 +127,7 @@ pub struct SurfaceCertificate {
 }
 
 /// What was proved of a surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SurfaceVerdict {
     /// Rows there are.
     pub rows: u64,

@@ -107,7 +107,7 @@ pub struct TriangulationCounts {
 }
 
 /// What was proved of a triangulation: it is the Delaunay triangulation of these points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct TriangulationVerdict {
     /// How many there are of what.
     pub counts: TriangulationCounts,

@@ -1,11 +1,12 @@
 //! What a checker says.
 
+use serde::Serialize;
 use taut_points::ReadError;
 
 use crate::{CentersViolation, CurveViolation, MeshViolation, OrderViolation, SurfaceViolation};
 
 /// What was proved of an enclosing shape.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Verdict {
     /// No enclosing shape is smaller than this.
     pub lower: f64,

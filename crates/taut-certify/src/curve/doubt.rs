@@ -1,5 +1,7 @@
 //! Why a curve is not certified.
 
+use serde::{Serialize, Serializer};
+
 /// The first reason not to call a curve homeomorphic to the one that was sampled, and where.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -152,4 +154,11 @@ pub enum CurveDoubt {
         /// How many.
         rows: usize,
     },
+}
+
+/// As its sentence.
+impl Serialize for CurveDoubt {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
 }

@@ -1,5 +1,7 @@
 //! Why a surface is not certified.
 
+use serde::{Serialize, Serializer};
+
 /// The first reason not to call a surface certified, and where. Triangles and components are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -60,4 +62,11 @@ pub enum SurfaceDoubt {
     /// It is not claimed that triangles are Delaunay triangles.
     #[error("no balls are named: that its triangles are Delaunay triangles is not claimed")]
     NoBalls,
+}
+
+/// As its sentence.
+impl Serialize for SurfaceDoubt {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
 }

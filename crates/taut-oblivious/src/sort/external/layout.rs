@@ -19,6 +19,12 @@ pub enum KeyKind {
     Bytes,
 }
 
+impl KeyKind {
+    /// All kinds with their names in Python and in JSON.
+    pub const NAMES: [(&'static str, Self); 4] =
+        [("u64", Self::U64), ("i64", Self::I64), ("f64", Self::F64), ("bytes", Self::Bytes)];
+}
+
 /// Records of fixed width, and the key in each.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct RecordLayout {

@@ -1,0 +1,21 @@
+//! Options that are words.
+
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+/// What a word stands for; another word is a `ValueError` that names those that are known.
+pub(crate) fn choice<T>(
+    option: &str,
+    word: &str,
+    known: impl IntoIterator<Item = (&'static str, T)>,
+) -> PyResult<T> {
+    let (mut names, mut meant) = (Vec::new(), None);
+    for (name, value) in known {
+        names.push(name);
+        meant = meant.or((name == word).then_some(value));
+    }
+    meant.ok_or_else(|| {
+        let names = names.join(", ");
+        PyValueError::new_err(format!("option `{option}` is {word:?}: expected one of {names}"))
+    })
+}

@@ -1,0 +1,101 @@
+"""The kinds of solutions about points, each stated once."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from .._record import Record
+from .ball import Ball, BallCertificate, Verdict
+from .centers import Centers, CentersCertificate, CentersVerdict
+from .curve import Curve, CurveCertificate, CurveVerdict
+from .ellipsoid import Ellipsoid, EllipsoidCertificate, EllipsoidVerdict
+from .inscribed import InscribedCertificate, InscribedEllipsoid, InscribedVerdict
+from .order import Order, OrderCertificate, OrderVerdict
+from .robust import RobustCertificate, RobustEllipsoid, RobustVerdict
+from .surface import Surface, SurfaceCertificate, SurfaceVerdict
+from .triangulation import Triangulation, TriangulationCertificate, TriangulationVerdict
+
+AnyVerdict = (
+    Verdict
+    | EllipsoidVerdict
+    | InscribedVerdict
+    | RobustVerdict
+    | CentersVerdict
+    | CurveVerdict
+    | SurfaceVerdict
+    | OrderVerdict
+    | TriangulationVerdict
+)
+
+
+class Kind(NamedTuple):
+    """What is particular about a kind."""
+
+    answer: type[Record]
+    certificate: type[Record]
+    verdict: type[Record]
+    does: str
+    """What the answer does to its items, as errors say it."""
+    facts: tuple[str, ...]
+    """The attributes by which a solution prints itself, as paths."""
+    items: str = "points"
+    """What the rows are, where the certificate does not say so."""
+
+
+KINDS = {
+    "ball": Kind(Ball, BallCertificate, Verdict, "encloses", ("answer.radius", "certificate.gap")),
+    "ellipsoid": Kind(
+        Ellipsoid,
+        EllipsoidCertificate,
+        EllipsoidVerdict,
+        "encloses",
+        ("answer.log_volume", "certificate.gap"),
+    ),
+    "inscribed-ellipsoid": Kind(
+        InscribedEllipsoid,
+        InscribedCertificate,
+        InscribedVerdict,
+        "lies in",
+        ("answer.log_volume", "certificate.gap"),
+        items="half-spaces",
+    ),
+    "robust-ellipsoid": Kind(
+        RobustEllipsoid,
+        RobustCertificate,
+        RobustVerdict,
+        "speaks of",
+        ("answer.log_det", "answer.outliers"),
+    ),
+    "centers": Kind(
+        Centers,
+        CentersCertificate,
+        CentersVerdict,
+        "is about",
+        ("certificate.k", "answer.radius", "answer.lower_bound"),
+    ),
+    "curve": Kind(Curve, CurveCertificate, CurveVerdict, "speaks of", ("answer.curves",)),
+    "surface": Kind(
+        Surface,
+        SurfaceCertificate,
+        SurfaceVerdict,
+        "speaks of",
+        ("answer.triangles", "answer.components"),
+    ),
+    "order": Kind(Order, OrderCertificate, OrderVerdict, "speaks of", ("answer.curve", "answer.rows")),
+    "delaunay": Kind(
+        Triangulation,
+        TriangulationCertificate,
+        TriangulationVerdict,
+        "joins",
+        ("certificate.sites", "answer.simplices", "answer.hull"),
+    ),
+}
+
+# For what rows are, the array that belongs to them beside points, centers or normals.
+ARRAYS = {
+    "points": "",
+    "balls": "radii",
+    "ellipsoids": "shapes",
+    "half-spaces": "offsets",
+    "points with weights": "weights",
+}
