@@ -1,7 +1,7 @@
 //! Any bytes as points or balls: solved, and the answer judged by the checker.
 #![no_main]
 
-#[path = "../../crates/taut-enclose/tests/common/bytes.rs"]
+#[path = "../../crates/taut-enclose/tests/enclose/common/bytes.rs"]
 mod bytes;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| bytes::solve_and_check(bytes));

@@ -1,7 +1,7 @@
 //! Any bytes as points of the plane: triangulated in two ways, and the answer judged by the checker.
 #![no_main]
 
-#[path = "../../crates/taut-delaunay/tests/common/bytes.rs"]
+#[path = "../../crates/taut-delaunay/tests/delaunay/common/bytes.rs"]
 mod bytes;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| bytes::solve_and_check(2, bytes));

@@ -8,7 +8,7 @@ use taut_draw::{
 };
 
 /// Most simplices of a picture: unlike points they are never thinned, and a notebook keeps all that it shows.
-const MOST: usize = 20_000;
+const SIMPLICES_MAX: usize = 20_000;
 
 /// The first figure, as SVG; none for orders, for too many simplices, and where drawing refuses the rows.
 pub(crate) fn picture(found: &AnySolution, rows: &dyn PointSource) -> Option<String> {
@@ -20,10 +20,10 @@ pub(crate) fn picture(found: &AnySolution, rows: &dyn PointSource) -> Option<Str
         AnySolution::Robust(found) => robust_figures(found, rows, &options),
         AnySolution::Centers(found) => centers_figures(found, rows, &options),
         AnySolution::Curve(found) => curve_figures(found, rows, &options),
-        AnySolution::Surface(found) if found.answer.triangles.len() <= MOST => {
+        AnySolution::Surface(found) if found.answer.triangles.len() <= SIMPLICES_MAX => {
             surface_figures(found, rows, &options)
         }
-        AnySolution::Triangulation(found) if found.answer.len() <= MOST => {
+        AnySolution::Triangulation(found) if found.answer.len() <= SIMPLICES_MAX => {
             delaunay_figures(found, rows, &options)
         }
         _ => return None,

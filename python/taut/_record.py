@@ -26,7 +26,7 @@ FLOAT, ROW, ID = np.float64, np.int64, np.uint32
 ITSELF = "."
 
 # Most numbers of an array that are shown one by one.
-FEW = 3
+NUMBERS_SHOWN_MAX = 3
 
 Said = Mapping[str, Any]
 
@@ -186,7 +186,7 @@ def _same(a: Any, b: Any) -> bool:
 
 def brief(found: Any) -> str:
     """A few words for a value of any size."""
-    if isinstance(found, np.ndarray) and found.ndim == 1 and len(found) <= FEW:
+    if isinstance(found, np.ndarray) and found.ndim == 1 and len(found) <= NUMBERS_SHOWN_MAX:
         return repr(found.tolist())
     if isinstance(found, np.ndarray):
         return f"<{len(found)} {'numbers' if found.ndim == 1 else 'rows'}>"

@@ -1,0 +1,7 @@
+//! The tests of `taut-delaunay` from outside, in one program: linking one for each file would take longer than running them.
+
+mod bytes;
+mod canonical;
+mod golden;
+mod query;
+mod wrong_ids;

@@ -1,0 +1,11 @@
+//! The tests of `taut-draw` from outside, in one program: linking one for each file would take longer than running them.
+
+mod centers;
+mod curve;
+mod delaunay;
+mod ellipsoids;
+mod figures;
+mod inscribed;
+mod robust;
+mod surface;
+mod viewer;

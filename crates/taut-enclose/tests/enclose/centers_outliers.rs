@@ -1,0 +1,96 @@
+//! The best points to leave out, up to five, against all circles through two and three points.
+
+use crate::circles;
+
+use circles::{brute_force, one_without};
+use taut_certify::{Centers, Solution, Stop};
+use taut_enclose::{CentersOptions, centers};
+use taut_points::{Distribution, Points, generate};
+
+/// The answer for a gap, which the checker confirms.
+fn solved(values: &[f64], k: usize, outliers: u64, epsilon: f64) -> Solution<Centers> {
+    let points = Points::new(values, 2).unwrap();
+    let options = CentersOptions { epsilon, outliers, ..Default::default() };
+    let found = centers(&points, k, &options).unwrap();
+    let verdict = found.check(&points).unwrap_or_else(|error| panic!("{error}\n{found:?}"));
+    assert!(verdict.gap <= epsilon * (1.0 + 1e-9), "k = {k}, {outliers} out: {verdict:?}");
+    assert_eq!(found.trace.stop, Stop::Converged);
+    found
+}
+
+fn pairs(values: &[f64]) -> Vec<[f64; 2]> {
+    values.as_chunks().0.to_vec()
+}
+
+fn sets(n: usize, seed: u64) -> Vec<(&'static str, Vec<f64>)> {
+    let of = |kind| generate::<f64>(kind, n, 2, seed).unwrap();
+    let mut grid = of(Distribution::Uniform);
+    grid.iter_mut().for_each(|v| *v = (*v * 6.0).round());
+    vec![
+        ("uniform", of(Distribution::Uniform)),
+        ("normal", of(Distribution::Normal)),
+        ("clusters", of(Distribution::Clusters { count: 3, spread: 0.05 })),
+        ("a grid, with copies", grid),
+    ]
+}
+
+#[test]
+fn forty_points_against_all_circles() {
+    for (name, values) in [sets(40, 1), sets(23, 2)].concat() {
+        let points = pairs(&values);
+        for k in 1..=3 {
+            for z in 0..=5 {
+                let radius = solved(&values, k, z, 1e-9).answer.radius;
+                let wanted = brute_force(&points, k, z as usize);
+                assert!(
+                    (radius - wanted).abs() <= 2e-9 * wanted,
+                    "{name}, k = {k}, {z} out: {radius} against {wanted}"
+                );
+            }
+        }
+    }
+}
+
+/// Both ways of the comparison agree where both can go.
+#[test]
+fn the_smallest_circles_are_those_of_all_circles() {
+    for (name, values) in sets(30, 3) {
+        // Copies leave no point that all smaller circles leave out.
+        if name.contains("copies") {
+            continue;
+        }
+        let points = pairs(&values);
+        for (z, radius) in one_without(&points, 5).into_iter().enumerate() {
+            let wanted = brute_force(&points, 1, z);
+            assert!((radius - wanted).abs() <= 1e-9 * wanted, "{name}, {z} out");
+        }
+    }
+}
+
+#[test]
+fn two_thousand_points_and_one_circle() {
+    for (name, values) in sets(2000, 4).into_iter().take(3) {
+        for (z, wanted) in one_without(&pairs(&values), 5).into_iter().enumerate() {
+            let radius = solved(&values, 1, z as u64, 1e-9).answer.radius;
+            assert!(
+                (radius - wanted).abs() <= 2e-9 * wanted,
+                "{name}, {z} out: {radius} against {wanted}"
+            );
+        }
+    }
+}
+
+/// Beyond brute force the checker has the word: no two circles smaller by 1e-6 hold all points but z.
+#[test]
+fn two_thousand_points_and_two_circles() {
+    for n in [200, 2000] {
+        for (name, values) in sets(n, 5) {
+            let mut before = f64::INFINITY;
+            for z in 0..=5 {
+                let found = solved(&values, 2, z, 1e-6);
+                assert!(found.answer.radius <= before * (1.0 + 1e-6), "{name}, {z} out");
+                before = found.answer.radius;
+            }
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! The tests of `taut-reconstruct` from outside, in one program: linking one for each file would take longer than running them.
+
+mod alpha_shapes;
+mod clean_data;
+mod clean_guarantees;
+mod curve_bytes;
+mod curve_certificates;
+mod curve_fit;
+mod samples;
+mod surface_bytes;
+mod surface_data;
+mod surface_laws;
+mod surface_original;
+mod surface_shapes;
+mod thesis_data;
+mod thesis_surface;
