@@ -5,8 +5,7 @@ use std::path::Path;
 
 use anyhow::{Context as _, Result, bail, ensure};
 use taut_certify::Items;
-use taut_points::generate::RadiusLaw;
-use taut_points::{Distribution, PointSource, Points, generate};
+use taut_points::{Distribution, PointSource, Points, generate, generate::RadiusLaw};
 
 /// The seed of every generated input.
 pub(crate) const SEED: u64 = 42;

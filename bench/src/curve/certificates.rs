@@ -6,9 +6,9 @@ use anyhow::Result;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use taut_mesh::compare;
-use taut_points::Points;
-use taut_points::generate::curves::{
-    CurveNoise, TestCurve, TruthCurves, epsilon_sample, sample_curve,
+use taut_points::{
+    Points,
+    generate::curves::{CurveNoise, TestCurve, TruthCurves, epsilon_sample, sample_curve},
 };
 use taut_reconstruct::{CurveMethod, CurveOptions};
 

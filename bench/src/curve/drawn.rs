@@ -8,8 +8,10 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use taut_certify::{Curve, Solution};
 use taut_mesh::{Polyline, Quality, compare};
-use taut_points::Points;
-use taut_points::generate::curves::{CurveNoise, TestCurve, TruthCurves, sample_curve};
+use taut_points::{
+    Points,
+    generate::curves::{CurveNoise, TestCurve, TruthCurves, sample_curve},
+};
 use taut_reconstruct::{CurveOptions, curve};
 
 use crate::stats::Summary;

@@ -4,8 +4,10 @@ use std::ops::Range;
 
 use anyhow::{Result, ensure};
 use serde_json::{Value, json};
-use taut_points::generate::curves::{CurveNoise, TestCurve, sample_curve};
-use taut_points::{Distribution, Points, generate};
+use taut_points::{
+    Distribution, Points, generate,
+    generate::curves::{CurveNoise, TestCurve, sample_curve},
+};
 use taut_reconstruct::{CurveMethod, CurveOptions};
 
 use super::drawn::{NOISE, solve, truth};

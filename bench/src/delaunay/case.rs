@@ -1,7 +1,6 @@
 //! The list of cases: which inputs, beside whom, and what has to be reached.
 
-use taut_points::generate::Parameters;
-use taut_points::{Distribution, Error};
+use taut_points::{Distribution, Error, generate::Parameters};
 
 use super::goals::Goal;
 use super::program::Peer;

@@ -9,8 +9,10 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, Result};
 use taut_certify::Curve;
 use taut_draw::{Aspect, Axis, Figure, Layer2, Look, Point2, Scene2, Shape2, Style, Tone, to_svg};
-use taut_points::generate::curves::{CurveNoise, TestCurve, sample_curve};
-use taut_points::{Distribution, Points, generate};
+use taut_points::{
+    Distribution, Points, generate,
+    generate::curves::{CurveNoise, TestCurve, sample_curve},
+};
 use taut_reconstruct::{CurveMethod, CurveOptions, curve};
 
 use crate::input::SEED;

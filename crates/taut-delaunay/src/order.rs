@@ -3,8 +3,7 @@
 
 use taut_certify::{Order, OrderCertificate, OrderCurve, Solution, Trace};
 use taut_oblivious::{hilbert_order, morton_order};
-use taut_points::InputError;
-use taut_points::{Monitor, PointSource, Points, Rows, Scalar, Scratch, hash_points};
+use taut_points::{InputError, Monitor, PointSource, Points, Rows, Scalar, Scratch, hash_points};
 
 use crate::Error;
 

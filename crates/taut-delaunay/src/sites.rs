@@ -8,8 +8,7 @@
 
 use rayon::prelude::*;
 use taut_oblivious::hilbert_order;
-use taut_points::InputError;
-use taut_points::{Monitor, Points, Scalar};
+use taut_points::{InputError, Monitor, Points, Scalar};
 
 use crate::Error;
 use crate::kernel::Settings;

@@ -7,8 +7,7 @@ use taut_certify::{
     Fingerprint, NO_NEIGHBOR, SiteHash, Solution, Stop, Trace, Triangulation as Answer,
     TriangulationCertificate, TriangulationCounts,
 };
-use taut_points::InputError;
-use taut_points::{Monitor, PointSource, Points, Rows, Scalar, Scratch, hash_points};
+use taut_points::{InputError, Monitor, PointSource, Points, Rows, Scalar, Scratch, hash_points};
 
 use crate::canonical::{CanonicalOrder, arrangement};
 use crate::simplex::{Simplex, Slots, code, decode};

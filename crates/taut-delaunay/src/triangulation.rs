@@ -1,7 +1,6 @@
 //! The finished triangulation in memory, for walking around in.
 
-use taut_points::InputError;
-use taut_points::{Monitor, Points, Scalar, on_threads};
+use taut_points::{InputError, Monitor, Points, Scalar, on_threads};
 
 use crate::affine::{Span, apex, span_of_plane, span_of_space};
 use crate::cells::{self, Geometry, InPlane, InSpace};

@@ -17,8 +17,7 @@ mod thesis;
 mod working_set;
 
 use taut_certify::{Ball, Items, Solution};
-use taut_points::on_threads;
-use taut_points::{Monitor, PointSource, Points, Scalar};
+use taut_points::{Monitor, PointSource, Points, Scalar, on_threads};
 
 use crate::Error;
 use crate::scan::Scan;

@@ -27,9 +27,7 @@ use std::collections::BTreeMap;
 use taut_certify::{
     Centers, CentersCertificate, Items, PassBounds, Placement, Solution, Stop, Trace,
 };
-use taut_points::InputError;
-use taut_points::on_threads;
-use taut_points::{Monitor, PointSource, Points, Scalar};
+use taut_points::{InputError, Monitor, PointSource, Points, Scalar, on_threads};
 
 use self::cloud::Cloud;
 pub(crate) use self::few::Few;

@@ -19,8 +19,9 @@ mod summary;
 
 use rayon::prelude::*;
 use taut_certify::{Centers, Placement, Solution, Stop, Trace};
-use taut_points::InputError;
-use taut_points::{Blocks, Monitor, PointSource, Points, ReadError, Rows, Scalar, Scratch};
+use taut_points::{
+    Blocks, InputError, Monitor, PointSource, Points, ReadError, Rows, Scalar, Scratch,
+};
 
 use crate::apart::{Apart, rounded_up};
 use crate::{CentersMethod, Error};

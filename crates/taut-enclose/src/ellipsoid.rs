@@ -25,8 +25,7 @@ pub(crate) mod survey;
 mod whitener;
 
 use taut_certify::{Ellipsoid, Items, Solution};
-use taut_points::on_threads;
-use taut_points::{Monitor, PointSource, Points, Scalar};
+use taut_points::{Monitor, PointSource, Points, Scalar, on_threads};
 
 use self::flat::Look;
 use self::outcome::Outcome;

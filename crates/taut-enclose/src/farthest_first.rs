@@ -18,9 +18,7 @@ mod prefix;
 mod rows;
 
 use taut_certify::Trace;
-use taut_points::InputError;
-use taut_points::on_threads;
-use taut_points::{Monitor, PointSource, Points, PointsHash, Scalar};
+use taut_points::{InputError, Monitor, PointSource, Points, PointsHash, Scalar, on_threads};
 
 use crate::Error;
 use crate::frame::survey;

@@ -8,9 +8,9 @@
 //! *Trap.* What is smaller than 2⁻⁴⁵⁰ in these units squares to little or nothing: [`SQUARE_MIN`] is where a caller has to look
 //! twice.
 
-use taut_points::InputError;
 use taut_points::{
-    Monitor, PointSource, Points, PointsHash, Rows, Scalar, gather, hash_block, map_blocks,
+    InputError, Monitor, PointSource, Points, PointsHash, Rows, Scalar, gather, hash_block,
+    map_blocks,
 };
 
 use crate::Error;

@@ -12,9 +12,9 @@ mod path;
 mod start;
 
 use taut_certify::{InscribedCertificate, InscribedEllipsoid, PassBounds, Solution, Stop, Trace};
-use taut_points::InputError;
 use taut_points::{
-    Monitor, PointSource, Points, PointsHash, Rows, Scalar, hash_block, map_blocks, shown_number,
+    InputError, Monitor, PointSource, Points, PointsHash, Rows, Scalar, hash_block, map_blocks,
+    shown_number,
 };
 
 use crate::Error;

@@ -22,8 +22,7 @@ use taut_certify::{
     Ellipsoid, Enclosure, Hull, RobustCertificate, RobustEllipsoid, RobustMethod, Solution, Stop,
     Trace, Unweighted,
 };
-use taut_points::on_threads;
-use taut_points::{Monitor, PointSource, Points, Scalar};
+use taut_points::{Monitor, PointSource, Points, Scalar, on_threads};
 
 use self::fit::{Fit, Placed};
 use crate::Error;

@@ -11,8 +11,7 @@
 mod pass;
 
 use taut_certify::Items;
-use taut_points::InputError;
-use taut_points::{Monitor, PointSource, PointsHash, gather, map_blocks};
+use taut_points::{InputError, Monitor, PointSource, PointsHash, gather, map_blocks};
 
 use self::pass::Pass;
 use crate::Error;

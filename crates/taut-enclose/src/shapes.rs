@@ -16,9 +16,9 @@ mod thickening;
 
 use rayon::prelude::*;
 use taut_certify::Items;
-use taut_points::InputError;
 use taut_points::{
-    BlockHash, Monitor, PointSource, PointsHash, Rows, ScalarKind, hash_block, map_blocks,
+    BlockHash, InputError, Monitor, PointSource, PointsHash, Rows, ScalarKind, hash_block,
+    map_blocks,
 };
 
 use self::eigen::eigen;

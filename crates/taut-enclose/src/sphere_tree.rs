@@ -14,9 +14,9 @@ mod split;
 
 use rayon::prelude::*;
 use taut_certify::Ball;
-use taut_points::InputError;
-use taut_points::on_threads;
-use taut_points::{Monitor, PointSource, Points, ReadError, Scalar, gather};
+use taut_points::{
+    InputError, Monitor, PointSource, Points, ReadError, Scalar, gather, on_threads,
+};
 
 use crate::frame::survey;
 use crate::{BallOptions, Error, ball};

@@ -1,9 +1,9 @@
 //! Balls whose radius is known from geometry, near 1 and at the ends of the range of `f64`.
 
-use crate::common;
-
 use common::{Case, certify, is_inside, truth};
 use taut_certify::{Items, Violation};
+
+use crate::common;
 
 /// The case is accepted, and its bracket holds the true radius.
 fn accept(case: &Case, radius: f64) {

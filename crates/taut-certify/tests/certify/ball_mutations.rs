@@ -1,12 +1,12 @@
 //! Damaged certificates: every one must be refused.
 
-use crate::common;
-
 use std::collections::BTreeMap;
 
 use common::{Case, brute_force, certify, normalised, numbers};
 use taut_certify::{CheckError, Items, Violation};
 use taut_points::PointsHash;
+
+use crate::common;
 
 /// Valid solutions of many kinds, all with the gap that is true.
 fn valid() -> Vec<Case> {

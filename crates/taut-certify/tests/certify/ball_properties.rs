@@ -1,7 +1,5 @@
 //! The checker against exact fractions: what is inside, ties included, and what multipliers prove.
 
-use crate::common;
-
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::{Case, brute_force, certify, is_inside, normalised, truth};
@@ -9,6 +7,8 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use taut_certify::{Ball, BallCertificate, CheckError, Items, Solution, Trace, Violation};
 use taut_points::{Monitor, Points, hash_points};
+
+use crate::common;
 
 /// The first row outside according to the checker; the centre and gap may be as wrong as they like.
 fn first_outside(values: &[f64], columns: usize, items: Items, ball: Ball) -> Option<u64> {

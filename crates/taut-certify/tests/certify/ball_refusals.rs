@@ -1,12 +1,12 @@
 //! Input and answers that are refused for what they are, and in which order.
 
-use crate::common;
-
 use std::sync::atomic::AtomicBool;
 
 use common::{Case, certify};
 use taut_certify::{Answer, CheckError, Items, Violation};
 use taut_points::{Monitor, Points, ReadError};
+
+use crate::common;
 
 fn square() -> Case {
     let values = [0.0, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 1.0];

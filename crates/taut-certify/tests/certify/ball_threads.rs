@@ -1,10 +1,10 @@
 //! The verdict does not depend on the number of threads.
 
-use crate::common;
-
 use common::{Case, certify, normalised};
 use taut_certify::{CheckError, Items};
 use taut_points::{Monitor, Points, hash_points};
+
+use crate::common;
 
 fn said(case: &Case, threads: usize) -> String {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();

@@ -1,13 +1,13 @@
 //! Damaged answers and certificates: every one must be refused.
 
-use crate::common;
-
 use std::collections::BTreeMap;
 
 use common::centers::{Best, Case, Task, best, everything, log, members};
 use common::numbers;
 use taut_certify::{CheckError, Items, LowerBound, Placement};
 use taut_points::PointsHash;
+
+use crate::common;
 
 /// A valid case, and what is needed to know which damage is one.
 struct Known {

@@ -1,11 +1,11 @@
 //! Against all partitions of few items: each kind of proof confirms the optimum, and nothing above it.
 
-use crate::common;
-
 use common::centers::{Best, Case, Task, best, everything, log, members};
 use common::numbers;
 use proptest::prelude::*;
 use taut_certify::{CentersViolation, Items, LowerBound, Placement, Violation};
+
+use crate::common;
 
 /// Checks what is claimed of one task, for all k and z up to 2.
 fn all_proofs(name: &str, task: &Task, exactness: f64) {

@@ -1,7 +1,5 @@
 //! What is refused by name, closed forms, the assignment, and documents.
 
-use crate::common;
-
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use common::centers::{Best, Case, Task, best, everything, log};
@@ -12,6 +10,8 @@ use taut_certify::{
     Items, LowerBound, Placement, Solution, Trace, Violation,
 };
 use taut_points::{Monitor, Points, PointsHash, ReadError, hash_points};
+
+use crate::common;
 
 /// k centres at these places, of this radius.
 fn by_hand(

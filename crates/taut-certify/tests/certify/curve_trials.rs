@@ -6,8 +6,11 @@ use taut_certify::{
     CheckError, Curve, CurveCertificate, CurveComponent, CurveDoubt, CurveVerdict, Solution, Trace,
 };
 use taut_mesh::{Polyline, compare};
-use taut_points::generate::curves::{CurveNoise, TestCurve, TruthCurves, sample_curve};
-use taut_points::{Monitor, Points, hash_points};
+use taut_points::{
+    Monitor, Points,
+    generate::curves::{CurveNoise, TestCurve, TruthCurves, sample_curve},
+    hash_points,
+};
 
 /// Trials of each kind. The environment variable asks for more.
 fn trials(usual: u64) -> u64 {

@@ -1,11 +1,11 @@
 //! Sets whose smallest ellipsoid is known: the checker must confirm it to the last digits.
 
-use crate::common;
-
 use common::ellipsoids::{
     certify, cross_polytope, cube, embedded, log_unit_ball, orthonormal, polygon, simplex, uniform,
 };
 use common::{normalised, numbers};
+
+use crate::common;
 
 /// log-volume to 1e-13, with a gap proved that is no more than rounding.
 fn is_tight(case: &common::ellipsoids::Case, log_volume: f64) {

@@ -1,7 +1,5 @@
 //! More than a thousand damaged answers and certificates of ellipsoids, each of which must be refused.
 
-use crate::common;
-
 use std::collections::BTreeMap;
 
 use common::ellipsoids::{
@@ -10,6 +8,8 @@ use common::ellipsoids::{
 };
 use common::numbers;
 use taut_certify::{CheckError, Ellipsoid, EllipsoidCertificate, Hull, Items, Solution, Trace};
+
+use crate::common;
 
 /// Sound cases of every kind.
 fn sound() -> Vec<Case> {

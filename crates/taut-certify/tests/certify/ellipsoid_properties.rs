@@ -1,8 +1,6 @@
 //! Random sets: the gap that is proved is the true one, by exact fractions; items inside are accepted, items outside are
 //! not, however small the margin.
 
-use crate::common;
-
 use common::ellipsoids::{
     Case, certify, certify_but, hash, orthonormal, solve, solved, transposed_product,
 };
@@ -11,6 +9,8 @@ use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 use proptest::prelude::*;
 use taut_certify::{Items, Violation};
+
+use crate::common;
 
 /// det W of the head of the checker's lower bound, by fractions, and the largest |F(x − c)|² of all rows.
 fn truth(case: &Case) -> (BigRational, BigRational) {

@@ -1,7 +1,5 @@
 //! In which order faults are named, what a monitor stops, and that threads change nothing.
 
-use crate::common;
-
 use std::sync::atomic::AtomicBool;
 
 use common::ellipsoids::{Case, cube, hash, solve, uniform};
@@ -10,6 +8,8 @@ use taut_certify::{
     Answer, CheckError, Ellipsoid, EllipsoidCertificate, Hull, Items, Solution, Trace, Violation,
 };
 use taut_points::{Monitor, Points, ReadError};
+
+use crate::common;
 
 #[test]
 fn bad_rows_are_named_before_the_hash_and_before_rows_outside() {

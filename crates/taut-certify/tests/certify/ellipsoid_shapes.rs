@@ -1,11 +1,11 @@
 //! Balls and ellipsoids as items: reach by brute force, bounds by points of the items, closed forms.
 
-use crate::common;
-
 use common::ellipsoids::{Case, dot, hash, log_unit_ball, solve, transposed_product};
 use common::{normalised, numbers};
 use proptest::prelude::*;
 use taut_certify::{Ellipsoid, EllipsoidCertificate, Items, Solution, Trace, Violation};
+
+use crate::common;
 
 /// An axis-parallel ellipsoid about the origin as the answer for the items given.
 fn aligned(

@@ -1,7 +1,5 @@
 //! Shape matrices that rounding has made indefinite: no direction may name a point far outside of the item.
 
-use crate::common;
-
 use common::ellipsoids::{Case, hash, log_unit_ball, transposed_product};
 use common::exact;
 use num_rational::BigRational;
@@ -11,6 +9,8 @@ use taut_certify::{
     Violation,
 };
 use taut_points::Points;
+
+use crate::common;
 
 /// ss′ for s of length 1.608, each entry rounded: the determinant is -3.9e-17.
 const SHAPE: [f64; 3] = [0.9565739104051543, 1.2487000506648323, 1.6300379924327413];

@@ -1,11 +1,11 @@
 //! Triangles that meet, with balls claimed or not: what empty balls prove against brute force in fractions, and forged surfaces.
 
-use crate::surface;
-
 use proptest::collection::vec;
 use proptest::prelude::*;
 use surface::{Case, Point, cube, oracle};
 use taut_certify::{Apex, SurfaceDoubt, SurfaceViolation, Violation};
+
+use crate::surface;
 
 /// A matrix of whole numbers that turns and reflects, times three: planes stay planes and spheres spheres, exactly.
 fn tilted([x, y, z]: Point) -> Point {

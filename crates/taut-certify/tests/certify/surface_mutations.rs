@@ -1,10 +1,10 @@
 //! Damaged surfaces and certificates: every one must be refused, also when the rest was made to fit.
 
-use crate::surface;
-
 use surface::{Case, both, cube, reversed, sphere, tetrahedron};
 use taut_certify::{AnySolution, Apex, Surface, SurfaceMode};
 use taut_points::Points;
+
+use crate::surface;
 
 /// Surfaces of all kinds, with rows unused for every reason.
 fn valid() -> Vec<(&'static str, Case)> {

@@ -1,11 +1,11 @@
 //! The checker of surfaces against brute force in fractions: balls, crossings, insides, topology.
 
-use crate::surface;
-
 use proptest::collection::vec;
 use proptest::prelude::*;
 use surface::{Case, Point, oracle};
 use taut_certify::{Apex, SurfaceViolation, Violation};
+
+use crate::surface;
 
 /// Places on a small grid, all different, each coordinate moved by an ulp or not.
 fn places(count: std::ops::Range<usize>, side: i32) -> impl Strategy<Value = Vec<Point>> {

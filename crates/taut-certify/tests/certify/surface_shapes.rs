@@ -1,12 +1,12 @@
 //! Known surfaces: what is true of them is confirmed, and what keeps one from being certified is named.
 
-use crate::surface;
-
 use surface::{Case, band, both, cube, reversed, sphere, tetrahedron, torus};
 use taut_certify::{
     AnySolution, AnyVerdict, Apex, SurfaceDoubt, SurfaceMode, SurfaceViolation, Violation,
 };
 use taut_points::{Monitor, Points};
+
+use crate::surface;
 
 #[test]
 fn known_surfaces_are_certified() {

@@ -1,11 +1,11 @@
 //! Triangulations that are right are accepted, whatever the points.
 
-use crate::mesh;
-
 use mesh::{Case, Dice, brute_force, certify, set, solved};
 use taut_certify::{AnySolution, MeshViolation, check_simplices};
 use taut_certify::{CheckError, Violation};
 use taut_points::{Monitor, Points};
+
+use crate::mesh;
 
 fn is_accepted(case: &Case) {
     let verdict = case.solution.check(&case.points());

@@ -1,12 +1,12 @@
 //! Damaged triangulations and certificates: every one must be refused, also when the rest was made to fit.
 
-use crate::mesh;
-
 use std::collections::BTreeSet;
 
 use mesh::{Case, Dice, brute_force, certify, hull_of, rows, set, solved};
 use taut_certify::{CheckError, MeshViolation, Triangulation, Violation, check_simplices};
 use taut_points::Monitor;
+
+use crate::mesh;
 
 fn valid() -> Vec<Case> {
     let mut dice = Dice(11);

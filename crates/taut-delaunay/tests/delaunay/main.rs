@@ -1,6 +1,6 @@
 //! The tests of `taut-delaunay` from outside, in one program: linking one for each file would take longer than running them.
 
-mod bytes;
+mod any_bytes;
 mod canonical;
 mod golden;
 mod query;

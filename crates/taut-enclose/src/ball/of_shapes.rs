@@ -11,8 +11,7 @@
 
 use rayon::prelude::*;
 use taut_certify::{Ball, BallCertificate, Items, PassBounds, Solution, Stop, Trace};
-use taut_points::InputError;
-use taut_points::{Monitor, PointSource, ReadError};
+use taut_points::{InputError, Monitor, PointSource, ReadError};
 
 use super::active_set::{ActiveSet, VIOLATION_TOLERANCE};
 use super::core_set::{ROUNDING, solve_working_set};

@@ -3,8 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use taut_points::InputError;
-use taut_points::{check_threads, shown_number};
+use taut_points::{InputError, check_threads, shown_number};
 
 use crate::Error;
 

@@ -5,8 +5,7 @@
 //! *Guarantee.* Moved and scaled rows are the rows, without rounding; what cannot be is refused.
 
 use taut_certify::Items;
-use taut_points::InputError;
-use taut_points::{Monitor, PointSource, PointsHash, Rows, hash_block, map_blocks};
+use taut_points::{InputError, Monitor, PointSource, PointsHash, Rows, hash_block, map_blocks};
 
 use super::items::{ItemSet, Position, Shape};
 use crate::Error;

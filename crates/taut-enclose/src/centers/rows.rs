@@ -26,8 +26,7 @@ use std::collections::BTreeMap;
 use taut_certify::{
     Centers, CentersCertificate, Items, LowerBound, PassBounds, Placement, Solution, Stop, Trace,
 };
-use taut_points::InputError;
-use taut_points::{Monitor, PointSource};
+use taut_points::{InputError, Monitor, PointSource};
 
 use self::core_set::CoreSet;
 use self::proof::{Proof, prove};

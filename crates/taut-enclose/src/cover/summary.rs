@@ -11,8 +11,7 @@
 //! VLDB 2019 (larger summaries).
 
 use taut_certify::{Centers, CentersCertificate, Items, LowerBound, Placement, Solution};
-use taut_points::InputError;
-use taut_points::{Monitor, PointSource, Points, Scalar, hash_points};
+use taut_points::{InputError, Monitor, PointSource, Points, Scalar, hash_points};
 
 use super::measure::measure;
 use crate::apart::{gap, rounded_up};

@@ -9,9 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use taut_certify::{Ellipsoid, Solution};
-use taut_points::InputError;
-use taut_points::on_threads;
-use taut_points::{Monitor, PointSource, Points, ReadError, Scalar};
+use taut_points::{InputError, Monitor, PointSource, Points, ReadError, Scalar, on_threads};
 
 use super::{EllipsoidOptions, solve};
 use crate::Error;

@@ -20,8 +20,7 @@ mod rounds;
 mod touches;
 
 use taut_certify::{Ellipsoid, EllipsoidCertificate, Items, Solution, Trace};
-use taut_points::InputError;
-use taut_points::{Monitor, OwnedPoints, PointSource};
+use taut_points::{InputError, Monitor, OwnedPoints, PointSource};
 
 use self::base::Base;
 use super::flat::{self, Look, lifted};

@@ -6,10 +6,9 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use taut_points::InputError;
 use taut_points::{
-    BlockHash, Monitor, PointSource, Points, PointsHash, Rows, Scalar, gather, hash_block,
-    map_blocks,
+    BlockHash, InputError, Monitor, PointSource, Points, PointsHash, Rows, Scalar, gather,
+    hash_block, map_blocks,
 };
 
 use crate::Error;

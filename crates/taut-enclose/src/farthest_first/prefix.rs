@@ -1,8 +1,7 @@
 //! The beginnings of a traversal as answers to the k-center problem.
 
 use taut_certify::{Centers, Placement, Solution};
-use taut_points::InputError;
-use taut_points::{PointSource, gather};
+use taut_points::{InputError, PointSource, gather};
 
 use super::FarthestFirst;
 use crate::Error;

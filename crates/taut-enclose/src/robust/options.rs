@@ -1,8 +1,7 @@
 //! What to keep, and how sure to be.
 
 use taut_certify::RobustMethod;
-use taut_points::InputError;
-use taut_points::{check_threads, shown_number};
+use taut_points::{InputError, check_threads, shown_number};
 
 use crate::Error;
 

@@ -4,8 +4,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use taut_certify::Items;
-use taut_points::InputError;
-use taut_points::{BlockHash, Points, PointsHash, Rows, Scalar, hash_block, map_blocks};
+use taut_points::{
+    BlockHash, InputError, Points, PointsHash, Rows, Scalar, hash_block, map_blocks,
+};
 
 use super::{Found, Query, Scan};
 use crate::Error;

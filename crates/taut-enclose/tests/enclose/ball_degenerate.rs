@@ -2,13 +2,13 @@
 //!
 //! `TAUT_SOAK=<rounds>` lengthens the stress, raises its dimensions to 200 and prints the worst of what it saw.
 
-use crate::common;
-
 use common::families::{Random, instance};
 use common::{exact, exact_with, judge};
 use taut_certify::Stop;
 use taut_enclose::{BallOptions, Error, ball};
 use taut_points::Points;
+
+use crate::common;
 
 /// The gap every exact answer must prove.
 const GAP: f64 = 1e-13;

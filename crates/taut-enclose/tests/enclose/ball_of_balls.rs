@@ -1,11 +1,11 @@
 //! Balls around balls: closed forms, laws of radii, near-tangency, and a random stress; every answer judged.
 
-use crate::common;
-
 use common::families::Random;
 use common::{exact, exact_of_balls, judge};
 use taut_enclose::{BallOptions, ball_of_balls};
 use taut_points::{Distribution, Points, generate};
+
+use crate::common;
 
 const GAP: f64 = 1e-12;
 

@@ -1,12 +1,11 @@
 //! The ball of ellipsoids: closed forms, laws, degenerate items, refusals.
 
-use crate::shapes;
-
 use shapes::{Item, border, random_items, rows_of};
 use taut_certify::{Ball, Solution};
 use taut_enclose::{BallMethod, BallOptions, Error, ball, ball_of_balls, ball_of_ellipsoids};
-use taut_points::InputError;
-use taut_points::Points;
+use taut_points::{InputError, Points};
+
+use crate::shapes;
 
 fn solved(items: &[Item], epsilon: f64) -> Solution<Ball> {
     let (values, columns) = rows_of(items);

@@ -1,13 +1,13 @@
 //! Laws that the smallest enclosing ball obeys, and agreement with a brute force, on random small sets.
 
-use crate::common;
-
 use common::{brute_force, exact, judge};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use taut_enclose::{BallOptions, ball, ball_of_balls};
 use taut_points::{Distribution, Points, generate};
+
+use crate::common;
 
 const GAP: f64 = 1e-13;
 

@@ -1,7 +1,5 @@
 //! What is refused, what stops early, and that neither threads nor the kind of source change a byte.
 
-use crate::common;
-
 use std::io::Write;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -11,11 +9,12 @@ use common::families::Random;
 use common::judge;
 use taut_certify::{Items, Stop};
 use taut_enclose::{BallOptions, Error, ball, ball_of_balls, ball_of_source};
-use taut_points::InputError;
 use taut_points::{
-    Distribution, FileSource, GeneratedSource, MappedSource, Monitor, PointSource, Points,
-    ReadError, Rows, ScalarKind, Scratch, generate,
+    Distribution, FileSource, GeneratedSource, InputError, MappedSource, Monitor, PointSource,
+    Points, ReadError, Rows, ScalarKind, Scratch, generate,
 };
+
+use crate::common;
 
 fn options(epsilon: f64) -> BallOptions {
     BallOptions { epsilon, ..Default::default() }

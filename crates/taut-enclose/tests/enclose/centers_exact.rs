@@ -1,7 +1,5 @@
 //! Centres against a brute force over all colourings, and every proof replayed by code of its own.
 
-use crate::centers;
-
 use centers::{brute_force, judge};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -9,6 +7,8 @@ use proptest::test_runner::{Config, RngSeed};
 use taut_certify::Items;
 use taut_enclose::{CentersMethod, CentersOptions, centers_of_source};
 use taut_points::{Monitor, Points};
+
+use crate::centers;
 
 fn seeded(cases: u32) -> Config {
     Config { cases, rng_seed: RngSeed::Fixed(50), failure_persistence: None, ..Config::default() }

@@ -1,7 +1,5 @@
 //! Laws that centres obey, inputs at the edges, and the optima of real places.
 
-use crate::centers;
-
 use centers::judge;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
@@ -10,8 +8,9 @@ use taut_enclose::{
     CentersMethod, CentersOptions, CoverOptions, Error, centers, centers_of_balls,
     centers_of_source,
 };
-use taut_points::InputError;
-use taut_points::{Distribution, Monitor, Points, generate};
+use taut_points::{Distribution, InputError, Monitor, Points, generate};
+
+use crate::centers;
 
 fn seeded(cases: u32) -> Config {
     Config { cases, rng_seed: RngSeed::Fixed(51), failure_persistence: None, ..Config::default() }

@@ -1,11 +1,11 @@
 //! The best points to leave out, up to five, against all circles through two and three points.
 
-use crate::circles;
-
 use circles::{brute_force, one_without};
 use taut_certify::{Centers, Solution, Stop};
 use taut_enclose::{CentersOptions, centers};
 use taut_points::{Distribution, Points, generate};
+
+use crate::circles;
 
 /// The answer for a gap, which the checker confirms.
 fn solved(values: &[f64], k: usize, outliers: u64, epsilon: f64) -> Solution<Centers> {

@@ -1,8 +1,5 @@
 //! Streams and partitions against the optimum, in orders that are made to be hard.
 
-use crate::common;
-use crate::covering;
-
 use common::families::Random;
 use covering::{judge, least_distance, optima, optimum_on_a_line, radius};
 use proptest::collection::vec;
@@ -12,8 +9,10 @@ use taut_certify::{Centers, Placement, Solution};
 use taut_enclose::{
     CentersOptions, Cover, CoverOptions, Covered, Error, Summary, centers, cover_of_source,
 };
-use taut_points::InputError;
-use taut_points::{Distribution, Monitor, Points, generate, hash_points};
+use taut_points::{Distribution, InputError, Monitor, Points, generate, hash_points};
+
+use crate::common;
+use crate::covering;
 
 fn seeded(cases: u32) -> Config {
     Config { cases, rng_seed: RngSeed::Fixed(8), failure_persistence: None, ..Config::default() }

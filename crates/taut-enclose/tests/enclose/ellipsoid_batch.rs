@@ -4,8 +4,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use taut_enclose::{EllipsoidMethod, EllipsoidOptions, Error, ellipsoid, ellipsoids};
 use taut_enclose::{ellipsoid_of_source, ellipsoids_of_sources};
-use taut_points::InputError;
-use taut_points::{Distribution, Monitor, PointSource, Points, ReadError, generate};
+use taut_points::{Distribution, InputError, Monitor, PointSource, Points, ReadError, generate};
 
 /// Sets of 1 to 3000 points in 1 to 6 dimensions: few points are flat sets, many are several blocks.
 fn tables() -> Vec<(Vec<f64>, usize)> {

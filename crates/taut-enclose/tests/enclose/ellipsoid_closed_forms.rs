@@ -1,8 +1,8 @@
 //! Sets whose ellipsoid is known: simplices, cubes, cross-polytopes, polygons, the moment curve, real data.
 
-use crate::ellipsoids;
-
 use ellipsoids::{exact, log_unit_ball, mapped, normal, rotation};
+
+use crate::ellipsoids;
 
 /// The gap asked of every case.
 const GAP: f64 = 1e-12;

@@ -1,11 +1,10 @@
 //! Ellipsoids of what is not in general position, of any size, and of what has no ellipsoid.
 
-use crate::ellipsoids;
-
 use ellipsoids::{exact, log_unit_ball, mapped, normal, rotation, shell, uniform};
 use taut_enclose::{EllipsoidOptions, Error, ellipsoid};
-use taut_points::InputError;
-use taut_points::Points;
+use taut_points::{InputError, Points};
+
+use crate::ellipsoids;
 
 const GAP: f64 = 1e-12;
 

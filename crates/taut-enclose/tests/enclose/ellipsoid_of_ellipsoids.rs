@@ -1,15 +1,14 @@
 //! The ellipsoid of balls and of ellipsoids: closed forms, laws, degenerate items, refusals.
 
-use crate::shapes;
-
 use shapes::{Item, border, random_items, rows_of};
 use taut_certify::{Ellipsoid, Items, Solution};
 use taut_enclose::{
     EllipsoidMethod, EllipsoidOptions, Error, ellipsoid, ellipsoid_of_balls,
     ellipsoid_of_ellipsoids, ellipsoid_of_items,
 };
-use taut_points::InputError;
-use taut_points::{Monitor, Points};
+use taut_points::{InputError, Monitor, Points};
+
+use crate::shapes;
 
 /// Solves items and has the answer checked.
 fn solved(items: &[Item], epsilon: f64) -> Solution<Ellipsoid> {

@@ -1,10 +1,10 @@
 //! Laws of the ellipsoid over random sets: what maps, orders, copies and inner points do to it.
 
-use crate::ellipsoids;
-
 use ellipsoids::{exact, log_determinant, map, mapped, normal, shell};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
+
+use crate::ellipsoids;
 
 const GAP: f64 = 1e-12;
 

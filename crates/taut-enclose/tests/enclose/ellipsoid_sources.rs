@@ -1,18 +1,17 @@
 //! Neither threads nor the kind of source change a byte of an ellipsoid, and a run can be stopped.
 
-use crate::ellipsoids;
-
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use ellipsoids::{by, judge, normal, shell, within};
 use taut_certify::Stop;
 use taut_enclose::{EllipsoidMethod, EllipsoidOptions, Error, ellipsoid, ellipsoid_of_source};
-use taut_points::InputError;
 use taut_points::{
-    Distribution, FileSource, GeneratedSource, MappedSource, Monitor, PointSource, Points,
-    ReadError, ScalarKind, generate,
+    Distribution, FileSource, GeneratedSource, InputError, MappedSource, Monitor, PointSource,
+    Points, ReadError, ScalarKind, generate,
 };
+
+use crate::ellipsoids;
 
 fn json(source: &dyn PointSource, options: &EllipsoidOptions) -> String {
     ellipsoid_of_source(source, options, &Monitor::silent()).unwrap().to_json()

@@ -1,11 +1,11 @@
 //! The methods of the literature: they promise what they keep, and their counts stay within the theory.
 
-use crate::ellipsoids;
-
 use ellipsoids::{by, exact, normal, solve};
 use taut_certify::Stop;
 use taut_enclose::EllipsoidMethod::{self, *};
 use taut_enclose::EllipsoidOptions;
+
+use crate::ellipsoids;
 
 #[test]
 fn names_read_back() {

@@ -1,8 +1,5 @@
 //! The farthest-first traversal against its definition, and the same bytes however it is called.
 
-use crate::common;
-use crate::covering;
-
 use common::families::Random;
 use covering::{judge, optima};
 use proptest::collection::vec;
@@ -12,8 +9,10 @@ use taut_certify::Placement;
 use taut_enclose::{
     Error, FarthestFirst, FarthestFirstOptions, farthest_first, farthest_first_of_source,
 };
-use taut_points::InputError;
-use taut_points::{Distribution, Monitor, PointSource, Points, Scalar, generate};
+use taut_points::{Distribution, InputError, Monitor, PointSource, Points, Scalar, generate};
+
+use crate::common;
+use crate::covering;
 
 fn seeded(cases: u32) -> Config {
     Config { cases, rng_seed: RngSeed::Fixed(5), failure_persistence: None, ..Config::default() }

@@ -2,8 +2,7 @@
 
 use taut_certify::{CheckError, InscribedEllipsoid, Solution, Stop, Violation};
 use taut_enclose::{Error, InscribedOptions, inscribed_ellipsoid};
-use taut_points::InputError;
-use taut_points::{Distribution, Points, generate};
+use taut_points::{Distribution, InputError, Points, generate};
 
 fn solved(rows: &[f64], dim: usize) -> Solution<InscribedEllipsoid> {
     let rows = Points::new(rows, dim + 1).unwrap();

@@ -1,11 +1,11 @@
 //! Points so far from the origin that no `f64` is near enough to their center.
 
-use crate::robust;
-
 use robust::by;
 use taut_certify::RobustMethod;
 use taut_enclose::robust_ellipsoid;
 use taut_points::Points;
+
+use crate::robust;
 
 /// n × d numbers of a generator with a fixed seed, around `at` and at most 1 away.
 fn around(at: f64, n: usize, dim: usize, seed: u64) -> Vec<f64> {

@@ -1,12 +1,11 @@
 //! The minimum covariance determinant: classical sets, breakdown, exact fits, and what it must not depend on.
 
-use crate::robust;
-
 use robust::{by, classical, contaminated, judge, mapped, normal, real, solve};
 use taut_certify::RobustMethod;
 use taut_enclose::{Error, RobustOptions, robust_ellipsoid};
-use taut_points::InputError;
-use taut_points::Points;
+use taut_points::{InputError, Points};
+
+use crate::robust;
 
 fn mcd() -> RobustOptions {
     by(RobustMethod::Mcd)

@@ -1,11 +1,11 @@
 //! A checker is worth what it rejects: every number and every list of a robust ellipsoid, doctored one at a time.
 
-use crate::robust;
-
 use robust::{by, classical, contaminated, normal, solve};
 use taut_certify::{CheckError, RobustEllipsoid, RobustMethod, Solution, Unweighted, Violation};
 use taut_enclose::RobustOptions;
 use taut_points::Points;
+
+use crate::robust;
 
 type Found = Solution<RobustEllipsoid>;
 

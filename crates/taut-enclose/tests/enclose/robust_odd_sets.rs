@@ -1,11 +1,11 @@
 //! Sets that lie at the limits of `f64` or of what a scatter is: whatever is answered passes the checker.
 
-use crate::robust;
-
 use robust::{by, contaminated, normal};
 use taut_certify::RobustMethod;
 use taut_enclose::{RobustOptions, robust_ellipsoid};
 use taut_points::Points;
+
+use crate::robust;
 
 /// Each row made of the row of normal numbers and its number.
 fn rows(n: usize, dim: usize, seed: u64, row: impl Fn(usize, &[f64]) -> Vec<f64>) -> Vec<f64> {

@@ -1,11 +1,11 @@
 //! The minimum volume ellipsoid and trimming: the ellipsoid is the smallest around the points kept, and holds no others.
 
-use crate::robust;
-
 use robust::{by, contaminated, judge, mapped, normal, real, solve};
 use taut_certify::RobustMethod;
 use taut_enclose::{EllipsoidOptions, RobustOptions, ellipsoid, robust_ellipsoid};
 use taut_points::Points;
+
+use crate::robust;
 
 /// ln |det A| of a 3 × 3 matrix.
 fn log_determinant(a: &[f64]) -> f64 {

@@ -1,15 +1,14 @@
 //! The tree of balls: every point in every ball on its way, and nothing lost.
 
-use crate::covering;
-
 use covering::distance;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use taut_certify::Ball;
 use taut_enclose::{BallOptions, Error, SphereTree, SphereTreeOptions, ball, sphere_tree};
-use taut_points::InputError;
-use taut_points::{Distribution, Points, generate};
+use taut_points::{Distribution, InputError, Points, generate};
+
+use crate::covering;
 
 fn tree(values: &[f64], dim: usize, leaf_size: usize) -> SphereTree {
     let points = Points::new(values, dim).unwrap();

@@ -1,8 +1,7 @@
 //! The distinct points of the input, in an order that depends on them alone.
 
 use taut_oblivious::hilbert_order;
-use taut_points::InputError;
-use taut_points::{Monitor, PointSource, Rows, Scratch};
+use taut_points::{InputError, Monitor, PointSource, Rows, Scratch};
 
 use crate::Error;
 

@@ -13,9 +13,7 @@ mod thesis;
 mod tour;
 
 use taut_certify::{Curve, Solution};
-use taut_points::InputError;
-use taut_points::on_threads;
-use taut_points::{Monitor, PointSource, Points, Scalar, shown_number};
+use taut_points::{InputError, Monitor, PointSource, Points, Scalar, on_threads, shown_number};
 
 use crate::Error;
 use answer::{Outcome, finish};

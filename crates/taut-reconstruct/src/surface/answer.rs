@@ -8,8 +8,7 @@ use taut_certify::{
 };
 use taut_delaunay::Space;
 use taut_mesh::{Topology, TriangleMesh, self_intersections, topology};
-use taut_points::InputError;
-use taut_points::PointsHash;
+use taut_points::{InputError, PointsHash};
 
 use super::cells::Cells;
 use super::changes::Changes;

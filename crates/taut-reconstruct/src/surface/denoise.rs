@@ -13,8 +13,7 @@
 use std::cmp::Ordering;
 
 use rayon::prelude::*;
-use taut_points::InputError;
-use taut_points::Monitor;
+use taut_points::{InputError, Monitor};
 
 use super::Denoise;
 use super::neighbors::of_neighbors;

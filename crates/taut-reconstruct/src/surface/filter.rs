@@ -15,8 +15,7 @@ use taut_predicates::space::{
     equatorial_radius, in_equatorial_sphere, shrunk_sphere, sphere_radius,
 };
 
-use taut_points::InputError;
-use taut_points::shown_number;
+use taut_points::{InputError, shown_number};
 
 use super::sides::{Side, Sides};
 use crate::Error;

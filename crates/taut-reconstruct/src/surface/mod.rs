@@ -47,9 +47,10 @@ mod witness;
 
 use taut_certify::{Solution, Surface, SurfaceMethod, SurfaceMode as Promise};
 use taut_delaunay::{Complex, DelaunayOptions, Space};
-use taut_points::InputError;
-use taut_points::on_threads;
-use taut_points::{Monitor, PointSource, Points, PointsHash, Rows, Scalar, Scratch, hash_points};
+use taut_points::{
+    InputError, Monitor, PointSource, Points, PointsHash, Rows, Scalar, Scratch, hash_points,
+    on_threads,
+};
 
 use crate::{Error, Span};
 use alpha::{alpha_shape, filtered_hull, optimal_alpha};

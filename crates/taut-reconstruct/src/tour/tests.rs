@@ -1,7 +1,6 @@
 //! Tours beside the best of all, and laws.
 
-use taut_points::InputError;
-use taut_points::Monitor;
+use taut_points::{InputError, Monitor};
 
 use super::*;
 

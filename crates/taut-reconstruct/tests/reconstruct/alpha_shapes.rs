@@ -1,7 +1,5 @@
 //! Alpha shapes and filtered hulls against fractions: every facet of small sets, asked by all points.
 
-use crate::samples;
-
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::AddAssign;
 
@@ -9,12 +7,13 @@ use num_traits::ToPrimitive;
 use samples::rational::{Fraction, Pencil, Vector, fraction, vector};
 use samples::{Point, Random, soup, sphere};
 use taut_delaunay::{Complex, DelaunayOptions, Space};
-use taut_points::InputError;
-use taut_points::{Monitor, Points};
+use taut_points::{InputError, Monitor, Points};
 use taut_reconstruct::Error;
 use taut_reconstruct::alpha::{
     AlphaFilter, AlphaShape, Emptiness, FacetClass, alpha_shape, filtered_hull, optimal_alpha,
 };
+
+use crate::samples;
 
 fn space(points: &[Point]) -> Space {
     let points = Points::new(points.as_flattened(), 3).expect("whole rows");

@@ -1,7 +1,9 @@
 //! Dense samples of random smooth curves give exactly the edges between neighbours, as each method promises.
 
-use taut_points::Points;
-use taut_points::generate::curves::{TestCurve, epsilon_sample};
+use taut_points::{
+    Points,
+    generate::curves::{TestCurve, epsilon_sample},
+};
 use taut_reconstruct::{CurveMethod, CurveOptions, Ends, curve};
 
 #[test]

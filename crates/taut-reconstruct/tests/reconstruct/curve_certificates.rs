@@ -8,8 +8,10 @@ use std::f64::consts::{PI, TAU};
 use rayon::prelude::*;
 use taut_certify::{Curve, CurveVerdict, Solution};
 use taut_mesh::{Polyline, compare};
-use taut_points::Points;
-use taut_points::generate::curves::{CurveNoise, TestCurve, TruthCurves, sample_curve};
+use taut_points::{
+    Points,
+    generate::curves::{CurveNoise, TestCurve, TruthCurves, sample_curve},
+};
 use taut_reconstruct::{CurveMethod, CurveOptions, curve};
 
 /// Trials of each kind. The environment variable asks for more.

@@ -2,8 +2,10 @@
 
 use taut_certify::{Curve, Solution};
 use taut_mesh::{Polyline, Quality, compare};
-use taut_points::generate::curves::{CurveNoise, TestCurve, TruthCurves, sample_curve};
-use taut_points::{Distribution, Points, generate};
+use taut_points::{
+    Distribution, Points, generate,
+    generate::curves::{CurveNoise, TestCurve, TruthCurves, sample_curve},
+};
 use taut_reconstruct::{CurveMethod, CurveOptions, curve};
 
 fn fitted(points: &[f64]) -> Solution<Curve> {

@@ -7,6 +7,7 @@ mod curve_bytes;
 mod curve_certificates;
 mod curve_fit;
 mod samples;
+mod surface_any;
 mod surface_bytes;
 mod surface_data;
 mod surface_laws;

@@ -1,14 +1,13 @@
 //! Sets of points whose surface is known, where the folder `TAUT_DATA` holds them under `surface/`.
 
-#[path = "surface_any/judge.rs"]
-mod judge;
-
 use std::io::Read;
 use std::path::PathBuf;
 
 use judge::{assert_exact, closed, found};
 use taut_mesh::{SurfaceOptions as Sampling, TriangleMesh, compare_surfaces};
 use taut_reconstruct::{SurfaceMode, SurfaceOptions};
+
+use crate::surface_any::judge;
 
 type Point = [f64; 3];
 

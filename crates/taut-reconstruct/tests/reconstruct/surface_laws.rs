@@ -1,20 +1,17 @@
 //! What a surface does not depend on, and what is refused.
 
-#[path = "surface_any/judge.rs"]
-mod judge;
-#[path = "surface_any/points.rs"]
-mod points;
-
 use std::sync::atomic::AtomicBool;
 
 use judge::{Found, assert_exact, closed, found};
 use points::{Point, chances, circle, cube, sphere, tube};
 use taut_certify::Apex;
-use taut_points::InputError;
-use taut_points::{Monitor, Points};
+use taut_points::{InputError, Monitor, Points};
 use taut_reconstruct::{
     Denoise, Error, Positions, Span, SurfaceMode, SurfaceOptions, surface, surface_of_source,
 };
+
+use crate::surface_any::judge;
+use crate::surface_any::points;
 
 /// A torus on a grid, which is full of ties, a random sphere, and points within it.
 fn sample() -> Vec<Point> {

@@ -1,8 +1,5 @@
 //! Surfaces found among moved points and delivered where these were given: all claims are about the places that are delivered.
 
-#[path = "surface_any/points.rs"]
-mod points;
-
 use points::{Point, chances, circle, sphere, tube};
 use taut_certify::SurfaceMode::{Alpha, Open};
 use taut_certify::{Solution, Surface, SurfaceVerdict};
@@ -11,6 +8,8 @@ use taut_predicates::space::equatorial_radius;
 use taut_reconstruct::{
     Denoise, Error, Positions, SurfaceMethod, SurfaceMode, SurfaceOptions, surface,
 };
+
+use crate::surface_any::points;
 
 /// Points of a sphere of radius 1, evenly by area, along a spiral of the golden angle.
 fn fibonacci(count: u32) -> Vec<Point> {

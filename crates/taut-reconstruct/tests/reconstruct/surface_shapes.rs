@@ -1,16 +1,14 @@
 //! Surfaces whose parts and handles are known: all points used, nothing crossed.
 
-#[path = "surface_any/judge.rs"]
-mod judge;
-#[path = "surface_any/points.rs"]
-mod points;
-
 use judge::{assert_exact, closed, found};
 use points::{Point, chances, circle, cube, sphere, tube};
 use taut_points::Points;
 use taut_reconstruct::{SurfaceMode, SurfaceOptions, looks_one_sided, surface};
 
 use std::f64::consts::{PI, TAU};
+
+use crate::surface_any::judge;
+use crate::surface_any::points;
 
 #[test]
 fn a_random_sphere() {

@@ -1,17 +1,16 @@
 //! The surfaces that the thesis' front grows, and what it may never do.
 
-use crate::samples;
-
 use samples::{Point, Random, rings, rounded_rings, soup, sphere, torus, waves, wedge};
 use taut_delaunay::{DelaunayOptions, Space};
 use taut_mesh::{Topology, TriangleMesh, self_intersections, topology};
-use taut_points::InputError;
-use taut_points::{Cancelled, Monitor, Points};
+use taut_points::{Cancelled, InputError, Monitor, Points};
 use taut_reconstruct::thesis::{
     AlphaFilter, Emptiness, Extent, Pinches, Priority, ThesisOptions, ThesisSurface,
     thesis_surface, thesis_surface_of_points,
 };
 use taut_reconstruct::{Error, Span};
+
+use crate::samples;
 
 fn grown(points: &[Point], options: &ThesisOptions) -> Result<(Space, ThesisSurface), Error> {
     let points = Points::new(points.as_flattened(), 3).expect("whole rows");

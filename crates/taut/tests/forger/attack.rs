@@ -8,8 +8,8 @@ use taut::AnySolution;
 use crate::cases::Case;
 use crate::forge::{Forger, Forgery};
 use crate::oracle::{CaseOracle, Interval, Truth};
-use crate::random::Random;
 
+use crate::random::Random;
 /// Forgeries of each kind where `TAUT_FORGERIES` does not say another number.
 const FORGERIES_DEFAULT: u64 = 10_000;
 

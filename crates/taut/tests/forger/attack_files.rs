@@ -7,11 +7,11 @@ use taut::Monitor;
 use taut::certify::{AnyFileSolution, Data, Files};
 
 use crate::attack::{Tally, budget};
+
 use crate::cases::files::FileCase;
 use crate::forge::Forger;
 use crate::oracle::files::judge;
 use crate::random::Random;
-
 /// Forges documents and files of all cases in turn, and judges what the checker lets pass.
 pub fn attack(kind: &str, cases: &[FileCase]) -> Tally {
     let mut tally = Tally::default();

@@ -6,8 +6,8 @@ use std::io::Write;
 use liblzma::write::XzEncoder;
 
 use super::{gzip, npy_header};
-use crate::desk::Desk;
 
+use crate::desk::Desk;
 /// Files of each text format, whose line with the given number goes on and on.
 fn endless_lines() -> Vec<(&'static str, u64, Vec<u8>)> {
     let long = |start: &str, piece: &str| {

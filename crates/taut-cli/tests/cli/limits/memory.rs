@@ -6,8 +6,8 @@ use std::fs::File;
 use std::io::Write;
 
 use super::npy_header;
-use crate::desk::Desk;
 
+use crate::desk::Desk;
 /// An array of two columns, big-endian or little-endian, of `rows` zeros that take no room on the disk.
 fn zeros(desk: &Desk, name: &str, kind: &str, rows: u64) {
     let mut file = File::create(desk.path(name)).unwrap();

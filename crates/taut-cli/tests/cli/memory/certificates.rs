@@ -1,8 +1,8 @@
 //! Certificates of files through `taut verify`.
 
 use super::{records, words};
-use crate::desk::Desk;
 
+use crate::desk::Desk;
 #[test]
 fn a_sorted_file_is_verified_with_and_without_its_input() {
     let desk = Desk::new();

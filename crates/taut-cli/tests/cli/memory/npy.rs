@@ -1,8 +1,8 @@
 //! Matrices in `.npy` files.
 
 use super::words;
-use crate::desk::Desk;
 
+use crate::desk::Desk;
 /// An array as NumPy writes it.
 fn npy(dtype: &str, fortran: bool, shape: &str, values: &[u8]) -> Vec<u8> {
     let order = if fortran { "True" } else { "False" };

@@ -7,8 +7,9 @@
 
 use rayon::prelude::*;
 use taut_certify::Items;
-use taut_points::InputError;
-use taut_points::{Monitor, PointSource, PointsHash, ReadError, Rows, hash_block, map_blocks};
+use taut_points::{
+    InputError, Monitor, PointSource, PointsHash, ReadError, Rows, hash_block, map_blocks,
+};
 
 use crate::Error;
 use crate::centers::{EXACT_DISTANCES, reach_of};

@@ -4,8 +4,7 @@ mod judge;
 mod other;
 
 use taut_certify::{Centers, Items, LowerBound, Placement, Solution, Stop};
-use taut_points::InputError;
-use taut_points::{Distribution, Monitor, Points, generate};
+use taut_points::{Distribution, InputError, Monitor, Points, generate};
 
 use self::judge::{Problem, judge};
 use super::solve;

@@ -2,8 +2,7 @@
 
 use taut_certify::{Items, Placement};
 use taut_enclose::{CentersMethod, CentersOptions, Error, centers_of_source};
-use taut_points::InputError;
-use taut_points::{Monitor, Points};
+use taut_points::{InputError, Monitor, Points};
 
 /// A case has at most this many rows: more are solved as well, but each case should take a moment.
 const ROWS_MAX: usize = 24;

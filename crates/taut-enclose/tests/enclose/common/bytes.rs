@@ -2,8 +2,7 @@
 
 use taut_certify::Items;
 use taut_enclose::{BallOptions, Error, ball_of_source};
-use taut_points::InputError;
-use taut_points::{Monitor, Points};
+use taut_points::{InputError, Monitor, Points};
 
 /// The first byte chooses dimension, kind and batch; the rest are coordinates, as the bits of `f64` or as small
 /// integers, which bring ties and copies.

@@ -1,8 +1,7 @@
 //! Points and options made of any bytes: solved, and judged by the checker. Shared with the fuzz target.
 
 use taut_enclose::{EllipsoidMethod, EllipsoidOptions, Error, ellipsoid};
-use taut_points::InputError;
-use taut_points::Points;
+use taut_points::{InputError, Points};
 
 /// The first byte chooses dimension, method and kind of number; the rest are coordinates, as the bits of `f64` or as
 /// small integers, which bring ties, copies and flat sets.

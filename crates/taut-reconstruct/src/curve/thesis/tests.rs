@@ -1,8 +1,10 @@
 use std::f64::consts::PI;
 
 use taut_mesh::{Polyline, Quality, compare};
-use taut_points::Points;
-use taut_points::generate::curves::{CurveNoise, TestCurve, sample_curve};
+use taut_points::{
+    Points,
+    generate::curves::{CurveNoise, TestCurve, sample_curve},
+};
 
 use super::strip::{least_strip, reduce_to_hull};
 use super::*;

@@ -20,8 +20,7 @@ pub(super) use optimal::least;
 pub use optimal::optimal_alpha;
 pub use shape::{AlphaShape, FacetClass, alpha_shape};
 
-use taut_points::InputError;
-use taut_points::shown_number;
+use taut_points::{InputError, shown_number};
 
 use crate::Error;
 

@@ -26,8 +26,7 @@ mod pinches;
 mod ring;
 
 use taut_delaunay::{DelaunayOptions, Space};
-use taut_points::on_threads;
-use taut_points::{Monitor, Points, Scalar};
+use taut_points::{Monitor, Points, Scalar, on_threads};
 
 use super::sides::Sides;
 use crate::Error;

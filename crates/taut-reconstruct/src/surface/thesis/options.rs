@@ -2,8 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-use taut_points::InputError;
-use taut_points::{check_threads, shown_number};
+use taut_points::{InputError, check_threads, shown_number};
 
 use crate::Error;
 use crate::surface::filter::{AlphaFilter, Emptiness, Filter};

@@ -4,8 +4,8 @@ use taut::enclose::BallMethod;
 use taut::{BallOptions, Items, Monitor, ball_of_source};
 
 use super::{Case, Input, Solved, cases, clouds, document};
-use crate::random::Random;
 
+use crate::random::Random;
 /// Returns the cases of the minimum enclosing ball.
 pub fn all() -> Vec<Case> {
     let mut found = vec![];

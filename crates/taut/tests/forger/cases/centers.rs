@@ -5,8 +5,8 @@ use taut::enclose::CentersMethod;
 use taut::{CentersOptions, Items, Monitor, Placement, centers_of_source};
 
 use super::{Case, Input, Solved, cases, clouds, document};
-use crate::random::Random;
 
+use crate::random::Random;
 /// Returns the cases of k centers.
 pub fn all() -> Vec<Case> {
     let mut found = vec![];

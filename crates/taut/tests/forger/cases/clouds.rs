@@ -1,8 +1,8 @@
 //! Point sets that are small and mean: ties, flats, copies, both ends of the range.
 
 use super::Input;
-use crate::random::Random;
 
+use crate::random::Random;
 /// Returns points in `dim` dimensions: a few of each sort.
 pub fn points(dim: usize, count: usize) -> Vec<Input> {
     let mut random = Random::new("points", dim as u64);

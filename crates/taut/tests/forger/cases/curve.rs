@@ -3,8 +3,8 @@
 use taut::{CurveMethod, CurveOptions, Ends, Monitor, curve_of_source};
 
 use super::{Case, Input, Solved, cases, clouds, document};
-use crate::random::Random;
 
+use crate::random::Random;
 /// Returns the cases of curves.
 pub fn all() -> Vec<Case> {
     let mut inputs = samples();

@@ -4,8 +4,8 @@ use taut::enclose::EllipsoidMethod;
 use taut::{EllipsoidOptions, Items, Monitor, ellipsoid_of_items};
 
 use super::{Case, Input, Solved, ball, cases, clouds, document, hand};
-use crate::random::Random;
 
+use crate::random::Random;
 /// Returns the cases of the minimum-volume enclosing ellipsoid.
 pub fn all() -> Vec<Case> {
     let mut found = vec![];

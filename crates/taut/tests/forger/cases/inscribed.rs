@@ -3,8 +3,8 @@
 use taut::{InscribedOptions, Monitor, enclose::inscribed_ellipsoid_of_source};
 
 use super::{Case, Input, Solved, cases, document};
-use crate::random::Random;
 
+use crate::random::Random;
 /// Returns the cases of the maximum-volume inscribed ellipsoid.
 pub fn all() -> Vec<Case> {
     let mut found = vec![];

@@ -3,8 +3,8 @@
 use taut::{Monitor, OrderCurve, spatial_order};
 
 use super::{Case, Input, cases, clouds, document};
-use crate::random::Random;
 
+use crate::random::Random;
 /// Returns the cases of orders.
 pub fn all() -> Vec<Case> {
     let mut found = vec![];

@@ -3,8 +3,8 @@
 use taut::{Monitor, RobustMethod, RobustOptions, enclose::robust_ellipsoid_of_source};
 
 use super::{Case, Input, Solved, cases, clouds, document};
-use crate::random::Random;
 
+use crate::random::Random;
 /// Returns the cases of robust ellipsoids.
 pub fn all() -> Vec<Case> {
     let mut found = vec![];

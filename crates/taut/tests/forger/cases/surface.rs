@@ -4,8 +4,8 @@ use serde_json::{Value, json};
 use taut::{Monitor, SurfaceMethod, SurfaceMode, SurfaceOptions, surface_of_source};
 
 use super::{Case, Input, Solved, cases, clouds, document};
-use crate::random::Random;
 
+use crate::random::Random;
 /// Returns the cases of surfaces.
 pub fn all() -> Vec<Case> {
     let mut inputs = samples();

@@ -3,8 +3,8 @@
 use serde_json::Value;
 
 use super::number;
-use crate::random::Random;
 
+use crate::random::Random;
 /// A change of the places of a list.
 #[derive(Clone, Debug)]
 enum Shuffle {

@@ -38,8 +38,8 @@ use self::order::OrderOracle;
 use self::robust::RobustOracle;
 use self::surface::SurfaceOracle;
 use self::triangulation::TriangulationOracle;
-use crate::cases::Input;
 
+use crate::cases::Input;
 /// What an oracle says of an accepted answer and of every field of its verdict.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Truth {
