@@ -373,7 +373,7 @@ pub enum Violation {
     Mesh(#[from] MeshViolation),
 }
 
-/// In what the fault lies that a violation tells of.
+/// What a violation blames: the answer, one point, or the point set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// The answer or its certificate.
@@ -385,7 +385,7 @@ pub enum Fault {
 }
 
 impl Violation {
-    /// In what the fault lies, where there are `rows` points.
+    /// Returns what this violation blames, given that there are `rows` points.
     pub fn fault(&self, rows: u64) -> Fault {
         let of_list = |row: u64| if row < rows { Fault::Answer } else { Fault::Points };
         match *self {

@@ -132,7 +132,7 @@ pub(crate) fn run(command: &impl Find) -> anyhow::Result<Outcome> {
     let (mut found, extra) = command.solve(&points, &watch)?;
     clock.lap("solving");
 
-    let Ok(verdict) = check(&found, &points, &watch, output)? else {
+    let Ok(verdict) = check(&found, &points, &watch, output, "")? else {
         return Ok(Outcome::CheckFailed);
     };
     if verdict.is_some() {
@@ -164,7 +164,9 @@ pub(crate) fn run(command: &impl Find) -> anyhow::Result<Outcome> {
     if !outputs.is_empty() {
         clock.lap("writing");
     }
-    if !output.is_standard_output() {
+    let side_files = command.side_files();
+    // Where data go to standard output, nothing else does.
+    if !output.is_standard_output() && !side_files.into_iter().any(writing::is_stream) {
         if output.json {
             outputs.print(&(found.to_json() + "\n"));
         } else if !input.effort.quiet {
@@ -176,12 +178,14 @@ pub(crate) fn run(command: &impl Find) -> anyhow::Result<Outcome> {
     Ok(command.outcome(&found))
 }
 
-/// The verdict, `Ok(None)` where no check is wanted; `Err` where it failed, which has been reported.
+/// Verifies the answer unless `--no-verify` is given. If the check fails, prints the violation, after words on which answer it
+/// is, and returns `Err(Rejected)`.
 pub(crate) fn check<A: Summary>(
     found: &Solution<A>,
     points: &Opened,
     watch: &Watch,
     output: Output<'_>,
+    which: &str,
 ) -> anyhow::Result<Result<Option<A::Verdict>, Rejected>> {
     if output.no_verify {
         return Ok(Ok(None));
@@ -190,7 +194,7 @@ pub(crate) fn check<A: Summary>(
         Ok(verdict) => Ok(Ok(Some(verdict))),
         Err(violation) => {
             let why = points.explain_violation(&violation, A::FOUND);
-            writing::print_error(&format!("the check failed: {why}"));
+            writing::print_error(&format!("the check failed{which}: {why}"));
             Ok(Err(Rejected))
         }
     }
@@ -200,7 +204,7 @@ pub(crate) fn check<A: Summary>(
 pub(crate) struct Rejected;
 
 impl<'a> Output<'a> {
-    /// Refuses what cannot be written, before any work; the kind of picture that is wanted.
+    /// Checks that all outputs can be written, and returns the requested picture format.
     pub(crate) fn check_files(
         &self,
         input: &Path,

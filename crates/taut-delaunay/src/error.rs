@@ -21,7 +21,7 @@ pub enum Error {
         /// Points given.
         given: u64,
     },
-    /// The points or options are refused, whatever was asked of them; or they could not be read, or the caller asked to stop.
+    /// Invalid points or options, a read error, or cancellation by the caller.
     #[error(transparent)]
     Input(#[from] InputError),
 }

@@ -115,7 +115,7 @@ pub enum Error {
         /// Why.
         error: Box<Error>,
     },
-    /// The points or options are refused, whatever was asked of them; or they could not be read, or the caller asked to stop.
+    /// Invalid points or options, a read error, or cancellation by the caller.
     #[error(transparent)]
     Input(#[from] InputError),
 }

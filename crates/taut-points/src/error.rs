@@ -114,8 +114,8 @@ pub enum ReadError {
     Cancelled(#[from] Cancelled),
 }
 
-/// What is wrong with points or options, whichever algorithm they were given to. The errors of the crates with algorithms wrap
-/// it, so that a caller explains it once.
+/// Invalid points or options, a read error, or cancellation by the caller. The errors of the crates with algorithms wrap it, so
+/// that a caller explains it once.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum InputError {

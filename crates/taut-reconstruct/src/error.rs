@@ -17,7 +17,7 @@ pub enum Error {
     /// The triangulation that a method stands on could not be built.
     #[error(transparent)]
     Triangulation(taut_delaunay::Error),
-    /// The points or options are refused, whatever was asked of them; or they could not be read, or the caller asked to stop.
+    /// Invalid points or options, a read error, or cancellation by the caller.
     #[error(transparent)]
     Input(#[from] InputError),
 }

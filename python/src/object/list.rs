@@ -124,7 +124,7 @@ impl<'py> List<'py> {
             return closed(array.call_method1("reshape", ((self.ends.len(), width),))?);
         }
         let starts = &self.ends[..self.ends.len() - 1];
-        py.import("numpy")?.call_method1("split", (array, starts))
+        py.import("numpy")?.call_method1("split", (closed(array)?, starts))
     }
 }
 

@@ -119,7 +119,7 @@ pub(crate) fn run(
                 centers_of_source(points.source(), items, k, options, monitor)
             })
             .map_err(|error| points.explain(error))?;
-        if check(&found, &points, &watch, output)?.is_err() {
+        if check(&found, &points, &watch, output, &format!(" for k = {k}"))?.is_err() {
             return Ok(Outcome::CheckFailed);
         }
         let row = Row::of(k, &found);

@@ -20,7 +20,7 @@ pub(crate) enum Picture {
     Html,
 }
 
-/// How it is to options.
+/// Options for the appearance of a picture.
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Drawing")]
 pub(crate) struct PictureOptions {
@@ -61,7 +61,7 @@ impl Default for PictureOptions {
 }
 
 impl PictureOptions {
-    /// The same as the library has it; `columns` are the names of the coordinates.
+    /// Returns these options as the library takes them; `columns` are the names of the coordinates.
     pub(crate) fn options(&self, columns: Vec<String>) -> DrawOptions {
         let PictureOptions { max_points, width, height, .. } = *self;
         DrawOptions { max_points, width, height, columns }

@@ -103,6 +103,9 @@ impl Outputs {
             self.words.extend_from_slice((found.to_json() + "\n").as_bytes());
             return Ok(());
         }
+        if interrupted() {
+            bail!("interrupted: {} is as it was", path.display());
+        }
         let mut file = taut_io::create(path)?;
         found
             .write_json(&mut file)
@@ -130,9 +133,6 @@ impl Outputs {
 
     /// Says the words, then gives the files their names.
     pub(crate) fn finish(self) -> anyhow::Result<()> {
-        if self.files.is_empty() {
-            return print(&self.words);
-        }
         self.finish_after(|| Ok(()))
     }
 

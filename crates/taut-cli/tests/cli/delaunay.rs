@@ -226,6 +226,7 @@ fn voronoi_cells_fill_the_box() {
     let desk = desk();
     desk.taut("delaunay points.csv --voronoi cells.geojson").ends(0);
     let cells: serde_json::Value = serde_json::from_str(&desk.text("cells.geojson")).unwrap();
+    assert_eq!(desk.taut("delaunay points.csv --voronoi -").ends(0).json(), cells);
     let features = cells["features"].as_array().unwrap();
     assert_eq!((features.len(), &cells["type"]), (5, &"FeatureCollection".into()));
     let mut area = 0.0;

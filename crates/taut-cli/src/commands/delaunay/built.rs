@@ -1,7 +1,7 @@
 //! A triangulation of the plane or of space, whichever the points ask for.
 
 use taut::delaunay::{Counters, Error};
-use taut::points::{Rows, Scalar, Scratch};
+use taut::points::{InputError, Rows, Scalar, Scratch};
 use taut::{DelaunayOptions, Monitor, Plane, PointSource, Points, Solution, Space, Triangulation};
 
 use crate::output::numbers::{count, counted};
@@ -25,8 +25,11 @@ impl Built {
         ) -> Result<Built, Error> {
             match points.dim() {
                 2 => Ok(Built::Plane(Plane::build(points, options, monitor)?)),
-                // Other dimensions are refused there.
-                _ => Ok(Built::Space(Space::build(points, options, monitor)?)),
+                3 => Ok(Built::Space(Space::build(points, options, monitor)?)),
+                dim => {
+                    let expected = "2, the plane, or 3, space";
+                    Err(InputError::Dimension { dim, expected }.into())
+                }
             }
         }
         let mut scratch = Scratch::new();

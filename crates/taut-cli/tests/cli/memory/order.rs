@@ -40,6 +40,9 @@ fn names_of_columns_and_equal_points_are_kept() {
     assert_eq!(desk.text("sorted.csv"), "x,y\n0,0\n0,0\n1,1\n1,1\n");
     let run = desk.taut("memory order points.csv -o -").ends(0);
     assert!(run.out.contains("\"kind\": \"order\""), "{}", run.out);
+    // Where the points go to standard output, nothing else does.
+    let run = desk.taut("memory order points.csv --points -").ends(0);
+    assert_eq!(run.out, "x,y\n0,0\n0,0\n1,1\n1,1\n");
     desk.put("one.csv", "5,6,7\n");
     desk.taut("memory order one.csv -o one.json").ends(0);
     desk.taut("verify one.json one.csv").ends(0).says(&["Verified: 1 point"]);
