@@ -27,7 +27,7 @@ fn drawn(triangles: &[[u32; 3]]) -> Option<BTreeMap<String, f64>> {
     let name = format!("taut-viewer-{}-{}.html", std::process::id(), triangles.len());
     let path = std::env::temp_dir().join(name);
     std::fs::write(&path, html).unwrap();
-    let dom = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/page/dom.js");
+    let dom = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/draw/page/dom.js");
     let output = Command::new("node").arg(dom).arg(&path).stderr(Stdio::inherit()).output();
     std::fs::remove_file(&path).unwrap();
     let Ok(output) = output else {
