@@ -84,7 +84,7 @@ pub use options::{Denoise, Positions, SurfaceMode, SurfaceOptions};
 /// those of sections 4.2 to 4.5 of the thesis, `alpha` that of Edelsbrunner and Mücke, ACM Transactions on Graphics 13(1), 1994.
 ///
 /// # Errors
-/// [`Error::Input`], [`Error::Flat`], [`Error::Input`], and
+/// [`Error::Input`], [`Error::Flat`], and
 /// [`Error::Triangulation`] for more cells than can be numbered.
 pub fn surface<T: Scalar>(
     points: &Points<'_, T>,
@@ -96,7 +96,7 @@ pub fn surface<T: Scalar>(
 /// The same for points of any source, with a monitor. They are held in memory while it works.
 ///
 /// # Errors
-/// As [`surface`], [`Error::Input`] when the points cannot be read, and [`Error::Input`].
+/// As [`surface`], and [`Error::Input`] when the points cannot be read or the monitor says so.
 pub fn surface_of_source(
     source: &dyn PointSource,
     options: &SurfaceOptions,

@@ -299,7 +299,7 @@ fn degenerate_points_have_an_error() {
     assert_eq!(on(&plane), Span::Plane);
     assert!(matches!(
         grown(&[[f64::NAN; 3]; 5], &ThesisOptions::default()),
-        Err(Error::Triangulation(_))
+        Err(Error::Input(InputError::NonFinite { row: 0, column: 0, .. }))
     ));
     let joggled = ThesisOptions { joggle: Some(1), ..Default::default() };
     assert!(matches!(grown(&[[f64::INFINITY; 3]; 5], &joggled), Err(Error::Triangulation(_))));

@@ -69,7 +69,7 @@ pub fn thesis_surface(
 /// The same for points: with their triangulation, which is that of the joggled points if that is asked for.
 ///
 /// # Errors
-/// As [`thesis_surface`], and [`Error::Triangulation`] for points that are not of space, not finite, or too many.
+/// As [`thesis_surface`], and [`Error::Input`] for points that are not of space, not finite, or too many.
 pub fn thesis_surface_of_points<T: Scalar>(
     points: &Points<'_, T>,
     options: &ThesisOptions,
