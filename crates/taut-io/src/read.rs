@@ -15,6 +15,8 @@ pub(crate) mod quiet;
 mod raw;
 mod rows;
 mod shapes;
+#[cfg(feature = "arrow")]
+pub(crate) mod thrift;
 mod tsplib;
 mod xyz;
 

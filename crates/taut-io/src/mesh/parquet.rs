@@ -7,7 +7,6 @@ use arrow_array::types::{Int32Type, Int64Type, UInt32Type, UInt64Type};
 use arrow_array::{Array, ArrayRef, RecordBatch, UInt32Array};
 use arrow_schema::{DataType, Field, Schema};
 use parquet::arrow::ArrowWriter;
-use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::basic::Compression;
 use parquet::errors::ParquetError;
 use parquet::file::properties::WriterProperties;
@@ -17,7 +16,7 @@ use super::reading::Building;
 use super::writing::Job;
 use crate::error::Refuse;
 use crate::input::{self, Medium};
-use crate::read::{Seekable, first_line, quiet};
+use crate::read::{Seekable, first_line, quiet, thrift};
 use crate::write::Out;
 use crate::{Error, Format, MeshPlace, ReadOptions};
 
@@ -61,8 +60,7 @@ pub(super) fn read(mesh: &mut Building<'_>, medium: Medium) -> Result<(), Error>
 
 fn read_chunks<R: ChunkReader + 'static>(mesh: &mut Building<'_>, chunks: R) -> Result<(), Error> {
     let at = MeshPlace::File;
-    let builder = ParquetRecordBatchReaderBuilder::try_new(chunks)
-        .map_err(|e| mesh.damaged(at, first_line(&e)))?;
+    let builder = thrift::open(chunks).map_err(|e| mesh.damaged(at, first_line(&e)))?;
     let names: Vec<&str> = builder.schema().fields().iter().map(|f| f.name().as_str()).collect();
     let width = names.len();
     if !(1..=4).contains(&width)

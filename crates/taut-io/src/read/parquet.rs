@@ -5,14 +5,13 @@ use std::fs::File;
 use arrow_array::RecordBatch;
 use bytes::Bytes;
 use parquet::arrow::ProjectionMask;
-use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::file::metadata::ParquetMetaData;
 use parquet::file::reader::ChunkReader;
 use parquet::schema::types::SchemaDescriptor;
 use taut_points::Blocks;
 
 use super::columnar::Plan;
-use super::{Decoded, first_line, guarded};
+use super::{Decoded, first_line, guarded, thrift};
 use crate::input::{Job, Medium};
 use crate::{Error, Format};
 
@@ -35,8 +34,7 @@ fn read_chunks<R: ChunkReader + 'static>(job: &Job<'_>, chunks: R) -> Result<Dec
         format: Format::Parquet,
         problem,
     };
-    let builder =
-        ParquetRecordBatchReaderBuilder::try_new(chunks).map_err(|e| damaged(first_line(&e)))?;
+    let builder = thrift::open(chunks).map_err(|e| damaged(first_line(&e)))?;
     let plan = Plan::new(job, builder.schema())?;
     let mut held = plan.numbers.clone();
     held.sort_unstable();

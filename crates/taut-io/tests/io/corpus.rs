@@ -22,3 +22,14 @@ fn every_kept_input_is_read_or_refused() {
         assert!(count > 0, "{name} has no seed");
     }
 }
+
+/// A list of lists of booleans, which take no bytes: the decoder by itself goes through 2³¹ · 2³¹ of them.
+#[test]
+fn a_page_header_that_never_ends_is_refused() {
+    let seed = "../../fuzz/seeds/mesh_parquet/booleans-of-no-bytes";
+    let Ok(bytes) = std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(seed)) else {
+        return println!("skipped a_page_header_that_never_ends_is_refused: no seeds");
+    };
+    let refused = taut_io::open_mesh_bytes(bytes, "found.parquet").unwrap_err().to_string();
+    assert!(refused.contains("no reader can pass over"), "{refused}");
+}
