@@ -1,14 +1,10 @@
-//! The memory hierarchy: searching, sorting, transposing, sampling and the rest of `taut-oblivious` beside its peers.
+//! The memory hierarchy: `taut-oblivious` and the reference code of `taut-reference` beside their peers.
 
 mod draw;
-mod fft;
 mod files;
 mod guests;
 mod in_place;
 mod lanes;
-mod lists;
-mod lu;
-mod multiply;
 pub(crate) mod one;
 mod order;
 mod packed;
@@ -88,12 +84,6 @@ const SECTIONS: &[Section] = &[
         run: files::run,
     },
     Section {
-        name: "multiply",
-        about: "Products of matrices beside matrixmultiply and faer; two levels of Strassen beside the classic product.",
-        run: multiply::run,
-    },
-    Section { name: "lu", about: "LU factors beside faer's and nalgebra's.", run: lu::run },
-    Section {
         name: "packed",
         about: "Ordered sets of 10⁷ u64 beside std's BTreeSet and indexset.",
         run: packed::run,
@@ -115,7 +105,7 @@ const SECTIONS: &[Section] = &[
     },
     Section {
         name: "simulate",
-        about: "Touches per second of the simulator; misses of algorithms beside their bounds.",
+        about: "Accesses per second of the simulator; misses of algorithms beside their bounds.",
         run: simulate::run,
     },
     Section {
@@ -123,12 +113,6 @@ const SECTIONS: &[Section] = &[
         about: "10⁷ keys with values through a queue, beside std's BinaryHeap and quickheap.",
         run: queue::run,
     },
-    Section {
-        name: "lists",
-        about: "A linked list of 10⁷ nodes in order, beside following it.",
-        run: lists::run,
-    },
-    Section { name: "fft", about: "Fourier transforms beside rustfft.", run: fft::run },
 ];
 
 /// Runs the sections that were asked for.

@@ -2,7 +2,7 @@
 #![no_main]
 
 #[allow(dead_code)]
-#[path = "../../crates/taut-oblivious/tests/memory_any/bytes.rs"]
+#[path = "../../crates/taut-reference/tests/reference/any_bytes/bytes.rs"]
 mod bytes;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| bytes::queue_any(bytes));

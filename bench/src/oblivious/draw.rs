@@ -27,16 +27,6 @@ impl Draw {
     pub(super) fn points(&mut self, n: usize) -> Vec<[f64; 3]> {
         (0..n).map(|_| std::array::from_fn(|_| self.unit())).collect()
     }
-
-    /// All numbers below `n` in random order, by Fisher and Yates.
-    pub(super) fn permutation(&mut self, n: u32) -> Vec<u32> {
-        let mut order: Vec<u32> = (0..n).collect();
-        for last in (1..order.len()).rev() {
-            let other = (u128::from(self.word()) * (last as u128 + 1)) >> 64;
-            order.swap(last, other as usize);
-        }
-        order
-    }
 }
 
 /// What keys look like.

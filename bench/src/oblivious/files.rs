@@ -7,14 +7,15 @@ use std::path::Path;
 use anyhow::{Context as _, Result, bail, ensure};
 use clap::ValueEnum;
 use serde_json::{Value, json};
-use taut_oblivious::external::{Multiset, verify};
-use taut_oblivious::{FileCheck, FileMatrix, check_transposed_file};
+use taut_certify::{
+    ElementOrder, FileAnswer, Files, Hash128, KeyKind, SortCertificate, SortedFile, TransposedFile,
+};
 use taut_points::Monitor;
 use tempfile::TempDir;
 
 use super::draw::Draw;
 use super::lanes::have_memory;
-use super::one::{FileCost, RECORD_BYTES, Work, layout};
+use super::one::{FileCost, RECORD_BYTES, Work};
 use crate::context::Context;
 use crate::goals::Goals;
 use crate::raw::alone;
@@ -126,11 +127,20 @@ fn sort(
         }
         if let Some((records, [high, low])) = cost.certificate {
             let hash = u128::from(high) << 64 | u128::from(low);
-            certificate = Some(Multiset { records, hash });
+            certificate = Some((records, SortCertificate { hash: Hash128(hash) }));
         }
-        let certificate = certificate.as_ref().context("taut comes first")?;
-        ensure!(certificate.records == sizes.records as u64, "records are missing");
-        Ok(verify(to, &layout(), certificate, &Monitor::silent())?)
+        let (records, certificate) = certificate.as_ref().context("taut comes first")?;
+        ensure!(*records == sizes.records as u64, "records are missing");
+        let answer = SortedFile {
+            records: *records,
+            width: RECORD_BYTES as u64,
+            key: [0, 8],
+            key_kind: KeyKind::U64,
+        };
+        let mut output = File::open(to)?;
+        let files = Files { input: None, output: &mut output };
+        answer.check(certificate, files, &Monitor::silent())?;
+        Ok(())
     };
     let works = [Work::Sort, Work::Extsort, Work::Queue, Work::Disk, Work::Copy];
     let file = (sizes.records * RECORD_BYTES) as u64;
@@ -147,19 +157,22 @@ fn transposition(
     let mut draw = Draw(2);
     write(from, sizes.rows * sizes.columns, || draw.word())?;
     let (rows, columns) = (sizes.rows as u64, sizes.columns as u64);
-    let matrix = FileMatrix { rows, columns, width: 8, offset: 0 };
+    let answer = TransposedFile {
+        rows,
+        columns,
+        width: 8,
+        order: ElementOrder::Rows,
+        input_offset: 0,
+        output_offset: 0,
+        dtype: None,
+    };
     let judge = |work, _: &FileCost| -> Result<()> {
-        match work {
-            Work::Transpose => Ok(check_transposed_file(
-                from,
-                matrix,
-                to,
-                0,
-                FileCheck::Whole,
-                &Monitor::silent(),
-            )?),
-            _ => Ok(()),
+        if work == Work::Transpose {
+            let [mut input, mut output] = [File::open(from)?, File::open(to)?];
+            let files = Files { input: Some(&mut input), output: &mut output };
+            answer.certify(files, &Monitor::silent())?;
         }
+        Ok(())
     };
     let works = [Work::Transpose, Work::Copy];
     let file = rows * columns * 8;
@@ -182,7 +195,7 @@ fn by_turns(
             arguments
                 .extend([format!("--memory={memory}").into(), format!("--rows={rows}").into()]);
             arguments.extend([from.into(), to.into()]);
-            // A host that took free memory back gives it again at the cost of whoever touches it first.
+            // A host that took free memory back gives it again at the cost of whoever accesses it first.
             have_memory(memory)?;
             let cost: FileCost = alone(&arguments)?;
             judge(work, &cost)?;

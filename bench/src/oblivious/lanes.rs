@@ -1,6 +1,6 @@
 //! Programs that take turns on one thread; of each the least processor time counts.
 //!
-//! *Trap.* A virtual machine may hand free memory back to its host after a moment. Whoever touches it first then pays for
+//! *Trap.* A virtual machine may hand free memory back to its host after a moment. Whoever accesses it first then pays for
 //! the host, in processor time of the thread: up to 4 ms for a page of 2 MiB, where clearing it takes 0.2 ms.
 
 use std::hint::black_box;

@@ -10,8 +10,9 @@ use extsort::{ExternalSorter, Sortable};
 use rustix::fs::OFlags;
 use serde::{Deserialize, Serialize};
 use taut_oblivious::external::{FileSortOptions, KeyKind, RecordLayout, sort_file};
-use taut_oblivious::{FileMatrix, SpillingQueue, TransposeFileOptions, transpose_file};
+use taut_oblivious::{FileMatrix, TransposeFileOptions, transpose_file};
 use taut_points::Monitor;
+use taut_reference::SpillingQueue;
 
 use crate::meter::{Meter, peak};
 

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use anyhow::{Result, ensure};
 use indexset::BTreeSet as IndexSet;
 use serde_json::{Value, json};
-use taut_oblivious::packed::PackedSet;
+use taut_reference::packed::PackedSet;
 
 use super::draw::Draw;
 use super::lanes::{Lanes, thread_cpu};

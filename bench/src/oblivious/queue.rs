@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use anyhow::{Result, ensure};
 use serde_json::{Value, json};
-use taut_oblivious::PriorityQueue;
+use taut_reference::PriorityQueue;
 
 use super::draw::Draw;
 use super::guests::Guests;

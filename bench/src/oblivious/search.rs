@@ -5,9 +5,8 @@ use anyhow::{Result, ensure};
 use memmap2::Advice;
 use memmap2::MmapMut;
 use serde_json::{Value, json};
-use taut_oblivious::search::{
-    BlockedVanEmdeBoas, Eytzinger, SPlusTree, Sorted, SortedIndex, VanEmdeBoas,
-};
+use taut_reference::algorithms::VebTree;
+use taut_reference::search::{BlockedVanEmdeBoas, Eytzinger, SPlusTree, Sorted, SortedIndex};
 
 use super::draw::Draw;
 use super::lanes::Lanes;
@@ -47,13 +46,13 @@ pub(super) fn run(context: &Context) -> Result<Value> {
     let queries = Queries::draw(&keys, asked);
     let sorted = Sorted::new(&keys)?;
     let eytzinger = Eytzinger::new(&keys)?;
-    let veb = VanEmdeBoas::new(&keys)?;
+    let veb = VebTree::new(&keys)?;
     let blocked = BlockedVanEmdeBoas::new(&keys)?;
     let splus = SPlusTree::new(&keys)?;
     let layouts = [
         Names { single: "sorted", batch: "sorted, batch", dependent: "sorted, dependent" },
         Names { single: "Eytzinger", batch: "Eytzinger, batch", dependent: "Eytzinger, dependent" },
-        Names { single: "vEB", batch: "vEB, batch", dependent: "vEB, dependent" },
+        Names { single: "vEB", batch: "", dependent: "vEB, dependent" },
         Names { single: "blocked", batch: "blocked, batch", dependent: "blocked, dependent" },
         Names { single: "S+ tree", batch: "S+ tree, batch", dependent: "S+ tree, dependent" },
     ];
@@ -63,7 +62,7 @@ pub(super) fn run(context: &Context) -> Result<Value> {
         queries.ask(&mut lanes, &STD_HUGE, |key| binary_search(huge, key))?;
         queries.ask_index(&mut lanes, &layouts[0], &sorted)?;
         queries.ask_index(&mut lanes, &layouts[1], &eytzinger)?;
-        queries.ask_index(&mut lanes, &layouts[2], &veb)?;
+        queries.ask(&mut lanes, &layouts[2], |key| veb.lower_bound(key))?;
         queries.ask_index(&mut lanes, &layouts[3], &blocked)?;
         queries.ask_index(&mut lanes, &layouts[4], &splus)?;
     }

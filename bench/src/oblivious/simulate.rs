@@ -3,11 +3,11 @@
 use anyhow::{Result, ensure};
 use serde_json::{Value, json};
 use taut_oblivious::Probe;
-use taut_oblivious::reference::{
-    MatrixSizes, distribution_sort_probed, funnelsort_probed, mergesort_probed, multiply_probed,
-    transpose_probed,
+use taut_reference::algorithms::{
+    MatrixSizes, distribution_sort_instrumented, funnelsort_instrumented, mergesort_instrumented,
+    multiply_instrumented, transpose_instrumented,
 };
-use taut_oblivious::simulate::{CacheShape, Simulator, StackDistances};
+use taut_reference::simulate::{CacheShape, Simulator, StackDistances};
 
 use super::draw::Draw;
 use super::lanes::thread_cpu;
@@ -26,7 +26,7 @@ const STACK: &str = "stack distances";
 /// M and B.
 type Shape = (usize, usize);
 
-/// Touches per second, then misses.
+/// Accesses per second, then misses.
 pub(super) fn run(context: &Context) -> Result<Value> {
     let mut goals = Goals::default();
     let rates = rates(context)?;
@@ -36,7 +36,7 @@ pub(super) fn run(context: &Context) -> Result<Value> {
         // Stack distances answer for all sizes of memory at once, in O(log n).
         let must = if *name == STACK { 5.0 } else { 20.0 };
         if *name != THREE {
-            goals.at_least(&format!("{name}: million touches per second"), least, (must, None));
+            goals.at_least(&format!("{name}: million accesses per second"), least, (must, None));
         }
     }
     for row in &bounds {
@@ -51,7 +51,7 @@ pub(super) fn run(context: &Context) -> Result<Value> {
     Ok(json!({ "rates": rates, "bounds": bounds, "goals": goals.json() }))
 }
 
-/// Million touches per second of a product, a sort, and touches at random in 32 MiB.
+/// Million accesses per second of a product, a sort, and accesses at random in 32 MiB.
 fn rates(context: &Context) -> Result<Vec<(&'static str, [f64; 3])>> {
     let mut found = vec![];
     for (name, shapes) in [
@@ -62,17 +62,17 @@ fn rates(context: &Context) -> Result<Vec<(&'static str, [f64; 3])>> {
         (THREE, vec![CacheShape::L1, CacheShape::L2, CacheShape::DTLB]),
     ] {
         let fresh = || -> Result<_> { Ok(Simulator::new(&shapes)?) };
-        let touches = |simulator: &Simulator| simulator.counts(0).touches;
-        found.push((name, fastest(context, fresh, touches)?));
+        let accesses = |simulator: &Simulator| simulator.counts(0).accesses;
+        found.push((name, fastest(context, fresh, accesses)?));
     }
     let fresh = || -> Result<_> { Ok(StackDistances::new(64)?) };
-    found.push((STACK, fastest(context, fresh, StackDistances::touches)?));
+    found.push((STACK, fastest(context, fresh, StackDistances::accesses)?));
     let mut table = Table::new(&["memory", "product", "sort", "at random"]);
     for (name, rates) in &found {
         let cells = rates.iter().map(|&rate| times(rate));
         table.push([(*name).to_owned()].into_iter().chain(cells).collect());
     }
-    println!("million touches per second\n\n{table}");
+    println!("million accesses per second\n\n{table}");
     Ok(found)
 }
 
@@ -80,7 +80,7 @@ fn rates(context: &Context) -> Result<Vec<(&'static str, [f64; 3])>> {
 fn fastest<P: Probe>(
     context: &Context,
     fresh: impl Fn() -> Result<P>,
-    touches: impl Fn(&P) -> u64,
+    accesses: impl Fn(&P) -> u64,
 ) -> Result<[f64; 3]> {
     let works: [fn(&mut P) -> Result<()>; 3] = [product, sort, scattered];
     let mut best = [0.0f64; 3];
@@ -89,7 +89,7 @@ fn fastest<P: Probe>(
             let mut probe = fresh()?;
             let start = thread_cpu();
             work(&mut probe)?;
-            *best = best.max(touches(&probe) as f64 / (thread_cpu() - start) * 1e-6);
+            *best = best.max(accesses(&probe) as f64 / (thread_cpu() - start) * 1e-6);
         }
     }
     Ok(best)
@@ -98,17 +98,17 @@ fn fastest<P: Probe>(
 fn product<P: Probe>(probe: &mut P) -> Result<()> {
     let n = 100;
     let (a, b, mut c) = (vec![1.0; n * n], vec![1.0; n * n], vec![0.0; n * n]);
-    Ok(multiply_probed(&a, &b, &mut c, MatrixSizes::square(n), 1, probe)?)
+    Ok(multiply_instrumented(&a, &b, &mut c, MatrixSizes::square(n), 1, probe)?)
 }
 
 fn sort<P: Probe>(probe: &mut P) -> Result<()> {
     let mut keys = Draw(1).words(50_000);
-    mergesort_probed(&mut keys, probe);
+    mergesort_instrumented(&mut keys, probe);
     ensure!(keys.is_sorted(), "not in order");
     Ok(())
 }
 
-/// Every touch a miss, or nearly.
+/// Every access a miss, or nearly.
 fn scattered<P: Probe>(probe: &mut P) -> Result<()> {
     let (array, mut draw) = (vec![0u64; 1 << 22], Draw(1));
     probe.place(&array);
@@ -127,14 +127,14 @@ struct Bound {
     allowed: f64,
 }
 
-/// The bounds that take seconds; `cargo test -p taut-oblivious --test io_bounds` has all of them.
+/// The bounds that take seconds; `cargo test -p taut-reference --test reference io_bounds` has all of them.
 fn bounds(context: &Context) -> Result<Vec<Bound>> {
     let side = if context.quick { 256 } else { 1024 };
     let mut found = vec![];
     let (from, mut to) = (vec![1.0f64; side * side], vec![0.0; side * side]);
     let largest = ratio(
         &[(4096, 8), (4096, 32), (32_768, 64)],
-        |probe| Ok(transpose_probed(&from, &mut to, side, side, 1, probe)?),
+        |probe| Ok(transpose_instrumented(&from, &mut to, side, side, 1, probe)?),
         |_, b| 2.0 * (side * side) as f64 / b,
     )?;
     let name = format!("transposition, n = {side}");
@@ -143,7 +143,7 @@ fn bounds(context: &Context) -> Result<Vec<Bound>> {
     let (a, b, mut c) = (vec![1.0; side * side], vec![1.0; side * side], vec![0.0; side * side]);
     let largest = ratio(
         &[(1024, 8), (4096, 8), (4096, 32), (16_384, 32)],
-        |probe| Ok(multiply_probed(&a, &b, &mut c, MatrixSizes::square(side), 1, probe)?),
+        |probe| Ok(multiply_instrumented(&a, &b, &mut c, MatrixSizes::square(side), 1, probe)?),
         |m, b| (side as f64).powi(3) / (b * m.sqrt()),
     )?;
     let name = format!("product, n = {side}");
@@ -169,7 +169,7 @@ fn bounds(context: &Context) -> Result<Vec<Bound>> {
     let largest = ratio(
         &grid,
         |probe| {
-            funnelsort_probed(&mut keys, probe);
+            funnelsort_instrumented(&mut keys, probe);
             Ok(())
         },
         scans,
@@ -180,7 +180,7 @@ fn bounds(context: &Context) -> Result<Vec<Bound>> {
     let largest = ratio(
         &grid,
         |probe| {
-            distribution_sort_probed(&mut keys, 7, probe);
+            distribution_sort_instrumented(&mut keys, 7, probe);
             Ok(())
         },
         scans,
@@ -197,7 +197,7 @@ fn bounds(context: &Context) -> Result<Vec<Bound>> {
     Ok(found)
 }
 
-/// The largest ratio of misses to a formula of M and B, of memories that all hear the same run.
+/// The largest ratio of misses to a formula of M and B, of memories that all record the same run.
 fn ratio(
     grid: &[Shape],
     work: impl FnOnce(&mut Simulator) -> Result<()>,
@@ -207,7 +207,7 @@ fn ratio(
         grid.iter().map(|&(m, b)| CacheShape::lru(m * WORD, b * WORD)).collect();
     let mut simulator = Simulator::new(&shapes)?;
     work(&mut simulator)?;
-    ensure!(simulator.unannounced() == 0, "a touch outside all arrays");
+    ensure!(simulator.unannounced() == 0, "an access outside all arrays");
     let ratio = |(at, &(m, b)): (usize, &Shape)| {
         simulator.counts(at).misses as f64 / formula(m as f64, b as f64)
     };

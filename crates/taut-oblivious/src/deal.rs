@@ -16,8 +16,8 @@
 
 use std::ops::Range;
 
+use crate::level::prefetch;
 use crate::probe::Probe;
-use crate::search::prefetch;
 
 /// Bytes of a block: enough for a memory to deliver them at its speed.
 const BLOCK_BYTES: usize = 1 << 10;
@@ -89,7 +89,7 @@ impl<'a, T: Copy> Dealt<'a, T> {
             let owner = bucket(&item);
             let end = &mut ends[owner];
             rest[*end] = item;
-            if P::LISTENS {
+            if P::IS_RECORDING {
                 probe.read(&items[i..=i]);
                 probe.write(&rest[*end..=*end]);
             }

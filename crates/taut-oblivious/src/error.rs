@@ -24,14 +24,6 @@ pub enum Error {
         /// What it is.
         value: f64,
     },
-    /// Keys that were to be sorted are not.
-    #[error(
-        "key {place} is smaller than the one before it: sort the keys first, floats by `total_cmp`"
-    )]
-    Unsorted {
-        /// The place of the first key that is smaller than the one before it.
-        place: u64,
-    },
     /// Arrays of children are not those of one binary tree.
     #[error("node {node} {reason}: expected one binary tree, each node but the root a child once")]
     Tree {
@@ -79,28 +71,6 @@ pub enum Error {
         path: String,
         /// Where the run begins that is not in order.
         offset: u64,
-    },
-    /// A file that should be sorted is not.
-    #[error(
-        "{path}: record {record} (from 0) is before the one it follows: the file is not sorted"
-    )]
-    UnsortedFile {
-        /// Which file.
-        path: String,
-        /// The first record whose key is below the key before it.
-        record: u64,
-    },
-    /// A file does not hold the records that it should.
-    #[error(
-        "{path}: {found} records are not the {expected} records of the certificate, or not with the same content"
-    )]
-    OtherRecords {
-        /// Which file.
-        path: String,
-        /// Number of records of the certificate.
-        expected: u64,
-        /// Number of records in the file.
-        found: u64,
     },
     /// A file is longer or shorter than what it should hold.
     #[error("{path} has {bytes} bytes: expected {expected}")]

@@ -10,14 +10,12 @@ use std::fmt::Debug;
 
 use bytemuck::Pod;
 
-use crate::search::Lanes;
-
 mod sealed {
     pub trait Sealed {}
 }
 
 /// The unsigned word that a [`Key`] is compared by: `u32` or `u64`.
-pub trait Word: Key<Word = Self> + Lanes + Ord + Default + Into<u64> {
+pub trait Word: Key<Word = Self> + Ord + Default + Into<u64> {
     /// The largest word.
     const MAX: Self;
     /// Words in a line of memory of 64 bytes.

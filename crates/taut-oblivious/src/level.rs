@@ -1,23 +1,19 @@
-//! Which instructions this machine has, asked once, for all kernels of the crate.
+//! The instruction sets that this processor has, asked once for all kernels of the crate; its last cache; prefetches.
 //!
 //! *Guarantee.* A value of [`Avx2`] or [`Avx512`] is the proof that the processor has what it stands for: only asking it
 //! makes one. Whoever takes a [`Level`] gives the same bits on every level.
 
 /// Proof that the processor has AVX2, FMA and POPCNT.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Avx2(());
+pub struct Avx2(());
 
 /// Proof that the processor has AVX-512F besides AVX2, FMA and POPCNT.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Avx512(());
+pub struct Avx512(());
 
 /// A set of instructions that this machine can run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(
-    any(not(target_arch = "x86_64"), miri),
-    allow(dead_code, reason = "vectors are never chosen elsewhere, nor under Miri")
-)]
-pub(crate) enum Level {
+pub enum Level {
     /// One number at a time, on any processor.
     Portable,
     /// Vectors of 32 bytes.
@@ -29,7 +25,7 @@ pub(crate) enum Level {
 impl Level {
     /// The fastest one of this machine. The answer is kept, as searches of some nanoseconds ask.
     #[inline(always)]
-    pub(crate) fn best() -> Self {
+    pub fn best() -> Self {
         #[cfg(all(target_arch = "x86_64", not(miri)))]
         match kept() {
             PORTABLE => Level::Portable,
@@ -40,9 +36,8 @@ impl Level {
         Level::Portable
     }
 
-    /// All of this machine, the fastest last.
-    #[cfg(test)]
-    pub(crate) fn all() -> Vec<Self> {
+    /// Returns all levels of this machine, the fastest last: what tests compare.
+    pub fn all() -> Vec<Self> {
         let best = Self::best();
         let mut all = vec![Level::Portable];
         if best != Level::Portable {
@@ -124,4 +119,21 @@ fn ask_last_cache_bytes() -> usize {
     }
     #[cfg(not(all(target_arch = "x86_64", not(miri))))]
     CACHE_BYTES_DEFAULT
+}
+
+/// Asks for the line of `words` that holds word `at`, to be in the second cache soon; any `at` is allowed.
+///
+/// The second cache, as it waits for twice as many lines at once as the first: 12 instead of 22 ns for a search of 2²⁴
+/// keys in batches.
+#[allow(unsafe_code, reason = "a prefetch")]
+#[inline(always)]
+pub fn prefetch<W>(words: &[W], at: usize) {
+    #[cfg(all(target_arch = "x86_64", not(miri)))]
+    // SAFETY: a prefetch reads nothing, whatever the address.
+    unsafe {
+        use std::arch::x86_64::{_MM_HINT_T1, _mm_prefetch};
+        _mm_prefetch::<_MM_HINT_T1>(words.as_ptr().wrapping_add(at).cast());
+    }
+    #[cfg(not(all(target_arch = "x86_64", not(miri))))]
+    let _ = (words, at);
 }

@@ -1,30 +1,19 @@
-//! Algorithms for the memory hierarchy, which the rest of taut stands on.
+//! The algorithms for the memory hierarchy that the solvers and the command of taut stand on.
 //!
 //! | you want | call | promise | cost |
 //! |---|---|---|---|
-//! | points in an order where neighbours in space are neighbours in memory | [`hilbert_order()`] | a function of the point set alone, equal points side by side | a few passes of O(n) |
+//! | points in an order where neighbors in space are neighbors in memory | [`hilbert_order()`] | a function of the point set alone, equal points side by side | a few passes of O(n) |
 //! | the same in Z-order | [`morton_order()`] | as above | as above, keys at half the cost |
 //! | the place of one cell on the curve | [`hilbert_key()`], [`morton_key()`] | consecutive cells of the Hilbert curve share a face | O(bits) |
 //! | numbers in order | [`sort()`] | the total order; NaN is no error | O(n log n), eight at a time |
 //! | records in order of a number | [`sort_records()`] | stable | a few passes of O(n) |
 //! | a file of records in order | [`external::sort_file`] | stable, within a limit on memory, with a certificate | each byte read twice and written twice |
+//! | the transpose of a matrix, in memory or in a file | [`transpose()`], [`transpose_in_place()`], [`transpose_file()`] | a permutation of bytes; a file is whole or not there | O(mn), one pass |
 //! | some of many, in order | [`sample()`], [`bernoulli()`], [`Sequential`] | all sets equally likely; a function of the seed | O(1) for each |
 //! | some of a stream | [`Reservoir`] | all sets equally likely | O(1) an item |
 //! | items in random order | [`shuffle()`] | all orders equally likely; a function of the seed | a few passes of O(n) |
-//! | the k-th smallest number, the median | [`select()`], [`median()`] | the total order | O(n) |
-//! | an array from its end to its beginning | [`reverse()`] | each line read and written once | O(n) |
-//! | how many sorted keys are smaller | [`search`] | the same ranks from every layout | a line of memory a factor of 9 |
-//! | an ordered set whose ranges are read like an array | [`packed`] | all densities within bounds | O(log² n) moves an insertion, few in a batch |
 //! | the points nearest to a place | [`kdtree`] | the nearest by distances calculated to rounding, also of the largest and smallest coordinates; ties to the lowest row | O(log n), few lines of memory |
 //! | a tree in an order for walks from its root | [`layout::permute`] | the same tree | O(n) |
-//! | a priority queue, also larger than memory | [`PriorityQueue`], [`SpillingQueue`] | keys in order, no entry lost | expected O(log n) |
-//! | linked lists in order | [`list_order()`] | every node once, closed lists too | O(n) |
-//! | the transpose of a matrix, in memory or in a file | [`transpose()`], [`transpose_in_place()`], [`transpose_file()`] | a permutation of bytes; a file is whole or not there | O(mn), one pass |
-//! | a product of matrices | [`multiply()`] | stated errors, the same bits on any processor | O(mnk) |
-//! | LU factors | [`lu()`], [`lu_solve()`] | as above; a zero pivot is told | O(mn·min(m, n)) |
-//! | a Fourier transform in two passes | [`fft()`] | relative error 10⁻¹⁵·log₂ n | O(n log n) |
-//! | how often an algorithm misses in a memory of any size | [`simulate`] | exact, the same on every machine | some 10 ns a touch |
-//! | the algorithms of the literature, to measure them | [`reference`](mod@reference) | as in the papers, short, not fast | |
 //!
 //! ```
 //! let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
@@ -35,6 +24,9 @@
 //! }
 //! ```
 //!
+//! The algorithms of the thesis that nothing in taut calls, and the simulated memories that count their misses, are reference
+//! code in the crate `taut-reference`, which imports this one.
+//!
 //! Not for: points with coordinates that are not finite (validate first), or 2³² of them or more.
 
 mod deal;
@@ -44,43 +36,36 @@ pub mod kdtree;
 mod key;
 pub mod layout;
 mod level;
-mod list;
 mod matrix;
 mod morton;
 mod order;
-pub mod packed;
 mod pages;
 mod probe;
-mod queue;
 mod random;
-pub mod reference;
 mod sample;
-pub mod search;
-mod select;
-pub mod simulate;
 mod sort;
 mod store;
+
+/// What kernels ask of the machine, for algorithms in other crates: instruction sets, large pages, prefetches, and bytes of
+/// files by position.
+pub mod machine {
+    pub use crate::level::{Avx2, Avx512, Level, prefetch};
+    pub use crate::pages::Pages;
+    pub use crate::store::Store;
+}
 
 pub use error::Error;
 pub use hilbert::hilbert_key;
 pub use key::{Key, Word};
-pub use list::{Lists, NO_NODE, list_order, list_order_probed};
-pub use matrix::fft::{Direction, fft, fft_probed};
-pub use matrix::lu::{Lu, lu, lu_probed, lu_solve};
-pub use matrix::multiply::{MultiplyOptions, multiply, multiply_probed};
-pub use matrix::transpose::in_place::{transpose_in_place, transpose_in_place_probed};
-pub use matrix::transpose::{transpose, transpose_probed};
-pub use matrix::transpose_file::check::{FileCheck, check_transposed_file};
+pub use matrix::transpose::in_place::{transpose_in_place, transpose_in_place_instrumented};
+pub use matrix::transpose::{transpose, transpose_instrumented};
+pub use matrix::transpose_file::check::check_transposed_samples;
 pub use matrix::transpose_file::{
     FileMatrix, FileTransposition, TransposeFileOptions, transpose_file, transpose_file_pending,
 };
-pub use matrix::view::{MatrixView, MatrixViewMut};
 pub use morton::morton_key;
-pub use num_complex::Complex64;
 pub use order::{hilbert_order, morton_order};
 pub use probe::{Access, NoProbe, Probe};
-pub use queue::{PriorityQueue, SpillingQueue};
-pub use sample::{Reservoir, Sequential, bernoulli, sample, shuffle, shuffle_probed};
-pub use select::{median, reverse, reverse_probed, select};
-pub use sort::{external, sort, sort_probed, sort_records, sort_records_probed};
+pub use sample::{Reservoir, Sequential, bernoulli, sample, shuffle, shuffle_instrumented};
+pub use sort::{external, sort, sort_instrumented, sort_records, sort_records_instrumented};
 pub use store::Pending;

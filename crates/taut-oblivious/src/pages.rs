@@ -1,9 +1,9 @@
 //! Arrays of words that start at a line of memory, and if they are large lie in pages of 2 MiB.
 //!
-//! *Problem.* A search of a large array touches a new page at nearly every step, and the translation of addresses covers
+//! *Problem.* A search of a large array accesses a new page at nearly every step, and the translation of addresses covers
 //! only a few megabytes in pages of 4 KiB: 44 ns instead of 24 for a search of 2²² keys. What is written to files past the
 //! system's cache must begin at a page of 4 KiB.
-//! *Idea.* Map memory of our own, aligned to 2 MiB, and ask for large pages before the first touch. Smaller arrays are
+//! *Idea.* Map memory of our own, aligned to 2 MiB, and ask for large pages before the first access. Smaller arrays are
 //! allocated, those of 4 KiB or more from such a page on.
 //! *Trap.* The request is advice. Where a system has no large pages, or no mapping, the array works as well and is slower.
 
@@ -26,7 +26,7 @@ enum Store<W> {
 }
 
 /// An array of `len` words; the first one starts a line of memory.
-pub(crate) struct Pages<W> {
+pub struct Pages<W> {
     store: Store<W>,
     /// Where the array starts, in bytes.
     first: usize,
@@ -35,13 +35,16 @@ pub(crate) struct Pages<W> {
 
 impl<W: Pod> Pages<W> {
     /// `len` words with all bits zero.
-    pub(crate) fn zeroed(len: usize) -> Self {
+    pub fn zeroed(len: usize) -> Self {
         let spare = Self::spare(len);
         Self::mapped(len).unwrap_or_else(|| Self::heap(vec![W::zeroed(); len + spare], len))
     }
 
-    /// The same for an algorithm with an option `memory`, which the error is about if the system refuses.
-    pub(crate) fn try_zeroed(len: usize) -> Result<Self, Error> {
+    /// As [`Pages::zeroed`], for an algorithm with an option `memory`.
+    ///
+    /// # Errors
+    /// [`Error::Option`] about that option if the system refuses.
+    pub fn try_zeroed(len: usize) -> Result<Self, Error> {
         if let Some(pages) = Self::mapped(len) {
             return Ok(pages);
         }
@@ -81,8 +84,9 @@ impl<W: Pod> Pages<W> {
         Self { store: Store::Heap(heap), first, len }
     }
 
+    /// Returns the array.
     #[inline(always)]
-    pub(crate) fn words(&self) -> &[W] {
+    pub fn words(&self) -> &[W] {
         match &self.store {
             Store::Heap(heap) => {
                 let first = self.first / size_of::<W>().max(1);
@@ -94,8 +98,9 @@ impl<W: Pod> Pages<W> {
         }
     }
 
+    /// Returns the array, to be written.
     #[inline(always)]
-    pub(crate) fn words_mut(&mut self) -> &mut [W] {
+    pub fn words_mut(&mut self) -> &mut [W] {
         match &mut self.store {
             Store::Heap(heap) => {
                 let first = self.first / size_of::<W>().max(1);

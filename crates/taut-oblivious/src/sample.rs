@@ -22,4 +22,4 @@ mod weights;
 pub use divide::{bernoulli, sample};
 pub use reservoir::Reservoir;
 pub use sequential::Sequential;
-pub use shuffle::{shuffle, shuffle_probed};
+pub use shuffle::{shuffle, shuffle_instrumented};

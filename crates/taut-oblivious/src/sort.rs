@@ -34,14 +34,14 @@ const COMPARISON_SORT_MAX: usize = 16;
 /// assert_eq!(format!("{numbers:?}"), "[-inf, -0.0, 0.0, 1.0, NaN]");
 /// ```
 pub fn sort<K: Key>(keys: &mut [K]) {
-    sort_probed(keys, &mut NoProbe);
+    sort_instrumented(keys, &mut NoProbe);
 }
 
-/// [`sort`], on one thread if anybody listens to the touches.
+/// [`sort`], on one thread if the probe records.
 ///
 /// # Panics
 /// If the probe does; the numbers are then other ones.
-pub fn sort_probed<K: Key, P: Probe>(keys: &mut [K], probe: &mut P) {
+pub fn sort_instrumented<K: Key, P: Probe>(keys: &mut [K], probe: &mut P) {
     probe.place(keys);
     probe.read(keys);
     if keys.len() <= COMPARISON_SORT_MAX {
@@ -134,11 +134,11 @@ pub fn sort_records<T: Copy + Send + Sync, K: Key>(
     records: &mut [T],
     key: impl Fn(&T) -> K + Sync,
 ) {
-    sort_records_probed(records, key, &mut NoProbe);
+    sort_records_instrumented(records, key, &mut NoProbe);
 }
 
-/// [`sort_records`], on one thread if anybody listens to the touches.
-pub fn sort_records_probed<T: Copy + Send + Sync, K: Key, P: Probe>(
+/// [`sort_records`], on one thread if the probe records.
+pub fn sort_records_instrumented<T: Copy + Send + Sync, K: Key, P: Probe>(
     records: &mut [T],
     key: impl Fn(&T) -> K + Sync,
     probe: &mut P,

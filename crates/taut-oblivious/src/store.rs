@@ -38,7 +38,7 @@ pub(crate) fn regular(path: &Path) -> io::Result<()> {
 }
 
 /// Bytes by position: a file, or what a test puts in its place.
-pub(crate) trait Store {
+pub trait Store {
     /// Reads some bytes at `at`, none at the end.
     fn read_at(&self, buffer: &mut [u8], at: u64) -> io::Result<usize>;
 

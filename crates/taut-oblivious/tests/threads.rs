@@ -8,7 +8,6 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use taut_oblivious::external::{FileSortOptions, KeyKind, RecordLayout, sort_file};
 use taut_oblivious::kdtree::KdTree;
-use taut_oblivious::packed::{PackedMap, PackedSet};
 use taut_oblivious::*;
 use taut_points::Monitor;
 
@@ -54,14 +53,6 @@ fn through_files(input: &[u8], run: impl FnOnce(&Path, &Path)) -> Vec<u8> {
     std::fs::write(&from, input).expect("written");
     run(&from, &to);
     std::fs::read(&to).expect("an output")
-}
-
-fn product(seed: u64, n: usize, options: &MultiplyOptions) -> Vec<u8> {
-    let (a, b, mut c) = (numbers(n * n, seed), numbers(n * n, !seed), vec![0.0; n * n]);
-    let view = |data| MatrixView::new(data, n, n).expect("a matrix");
-    let target = MatrixViewMut::new(&mut c, n, n).expect("a matrix");
-    multiply(view(&a), view(&b), target, options).expect("a product");
-    bytes(&c)
 }
 
 type Job = (&'static str, fn(u64) -> Vec<u8>);
@@ -119,25 +110,6 @@ const JOBS: &[Job] = &[
         };
         [run(8 << 20), run(1 << 20)].concat()
     }),
-    // From 2²¹ products.
-    ("multiply", |seed| product(seed, 143, &MultiplyOptions::default())),
-    ("multiply by Strassen", |seed| {
-        product(seed, 263, &MultiplyOptions { strassen_above: Some(130) })
-    }),
-    ("lu", |seed| {
-        let mut matrix = numbers(310 * 310, seed);
-        let factors = lu(MatrixViewMut::new(&mut matrix, 310, 310).expect("a matrix"));
-        let pivots: Vec<u64> = factors.pivots.iter().map(|&pivot| pivot as u64).collect();
-        [bytes(&matrix), bytes(&pivots)].concat()
-    }),
-    ("fft", |seed| {
-        let numbers = numbers(1 << 17, seed);
-        let mut signal: Vec<_> =
-            numbers.as_chunks().0.iter().map(|&[a, b]| Complex64::new(a, b)).collect();
-        let mut spectrum = vec![Complex64::default(); signal.len()];
-        fft(&mut signal, &mut spectrum, Direction::Forward).expect("a spectrum");
-        spectrum.iter().flat_map(|z| bytes(&[z.re, z.im])).collect()
-    }),
     // From 2¹⁵ samples or items.
     ("sample", |seed| bytes(&sample(seed, 1 << 50, 80_000).expect("a sample"))),
     ("bernoulli", |seed| bytes(&bernoulli(seed, 1 << 30, 8e4 / 2f64.powi(30)).expect("some"))),
@@ -168,23 +140,6 @@ const JOBS: &[Job] = &[
         let all: Vec<_> = tree.nearest_all(&places).into_iter().flatten().collect();
         let few = places.iter().step_by(50).flat_map(|&place| tree.nearest_k(place, 5));
         [rows(&all), rows(&few.collect::<Vec<_>>())].concat()
-    }),
-    // The batch is sorted as records are.
-    ("insert_batch of a map", |seed| {
-        let mut map = PackedMap::<u64, u64>::new();
-        for seed in [seed, !seed] {
-            let entries: Vec<_> =
-                words(80_000, seed).into_iter().map(|w| w >> 46).zip(0..).collect();
-            map.insert_batch(&entries);
-        }
-        map.check().expect("densities within their bounds");
-        map.iter().flat_map(|(key, value)| bytes(&[key, value])).collect()
-    }),
-    ("insert_batch of a set", |seed| {
-        let mut set = PackedSet::<u64>::new();
-        set.insert_batch(&words(150_000, seed));
-        set.insert_batch(&words(150_000, !seed));
-        bytes(&set.iter().chain([set.slots() as u64, set.moves()]).collect::<Vec<_>>())
     }),
 ];
 

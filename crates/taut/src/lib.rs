@@ -20,7 +20,7 @@
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`Plane`], [`Space`] | the same | [mod@delaunay] |
 //! | edges that must be there | [`Plane::constrained`] | exact, Delaunay as far as they let it be | [mod@delaunay] |
 //! | rows in an order where neighbours are near each other | [`spatial_order()`] | a function of the point set alone, proved | [mod@delaunay] |
-//! | files sorted or transposed that memory does not hold, samples, search, simulated memories | [mod@oblivious] | each with its own | [mod@oblivious], [`files`] |
+//! | files sorted or transposed that memory does not hold, samples, orders, nearest points | [mod@oblivious] | each with its own | [mod@oblivious], [`files`] |
 //! | the curves that noisy points were sampled from | [`curve()`] | no crossings; each point within the band told or named as an outlier; whether sampling was dense enough | [mod@reconstruct] |
 //! | the curves through points without noise, a short tour through points | [`curve()`] with a [`CurveMethod`] | what each is known for, a bound beside the tour | [mod@reconstruct] |
 //! | a second opinion on any answer | [`Solution::check`] | a proved bracket, or the first violation | [`certify`] |
@@ -168,22 +168,12 @@ mod pages {
     struct Robust;
     #[doc = include_str!("../../../docs/surface.md")]
     struct Surface;
-    #[doc = include_str!("../../../docs/memory/figures.md")]
-    struct Figures;
     #[doc = include_str!("../../../docs/memory/matrix.md")]
     struct Matrix;
     #[doc = include_str!("../../../docs/memory/order.md")]
     struct Order;
-    #[doc = include_str!("../../../docs/memory/packed.md")]
-    struct Packed;
-    #[doc = include_str!("../../../docs/memory/queue.md")]
-    struct Queue;
     #[doc = include_str!("../../../docs/memory/sample.md")]
     struct Sample;
-    #[doc = include_str!("../../../docs/memory/search.md")]
-    struct Search;
-    #[doc = include_str!("../../../docs/memory/simulate.md")]
-    struct Simulate;
     #[doc = include_str!("../../../docs/memory/sort.md")]
     struct Sort;
 }

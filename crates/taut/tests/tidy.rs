@@ -10,7 +10,7 @@ use std::process::Command;
 use serde_json::Value;
 
 /// The floor of each package, the threshold below the ground: an arrow may only go to a lower one.
-const FLOORS: [(&str, i32); 15] = [
+const FLOORS: [(&str, i32); 16] = [
     ("taut-points", -1),
     ("taut-certify", 0),
     ("taut-io", 0),
@@ -19,6 +19,7 @@ const FLOORS: [(&str, i32); 15] = [
     ("taut-predicates", 0),
     ("taut-delaunay", 1),
     ("taut-enclose", 1),
+    ("taut-reference", 1),
     ("taut-inscribe", 2),
     ("taut-recognize", 2),
     ("taut-reconstruct", 2),
@@ -36,8 +37,14 @@ const LEVEL: [(&str, &str); 3] =
 const TOOLS: [&str; 2] = ["bench", "fuzz"];
 
 /// The crates with named kernels, where `unsafe` is denied but can be allowed with a reason.
-const KERNELS: [&str; 5] =
-    ["taut-points", "taut-enclose", "taut-delaunay", "taut-oblivious", "taut-cli"];
+const KERNELS: [&str; 6] = [
+    "taut-points",
+    "taut-enclose",
+    "taut-delaunay",
+    "taut-oblivious",
+    "taut-reference",
+    "taut-cli",
+];
 
 /// Words that cannot be searched for and say nothing: no constant has one of them as its whole name.
 const BARE_WORDS: [&str; 86] = [

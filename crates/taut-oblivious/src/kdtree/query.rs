@@ -19,8 +19,7 @@ use rayon::prelude::*;
 
 use super::wide::is_plain;
 use super::{BUCKET_SIZE, IS_BUCKET, KdTree, Node};
-use crate::level::Level;
-use crate::search::prefetch;
+use crate::level::{Level, prefetch};
 use crate::{NoProbe, Probe, hilbert_order};
 
 /// A point found near a place.
@@ -59,7 +58,7 @@ trait Found {
     /// The largest squared distance at which a point may still count.
     fn reach(&self) -> f64;
 
-    /// Hears of the squared distances and rows of a bucket.
+    /// Receives the squared distances and rows of a bucket.
     fn offer(&mut self, distances: &[[f64; LANES]; BUCKET_SIZE / LANES], rows: &[u32; BUCKET_SIZE]);
 }
 
@@ -238,11 +237,15 @@ impl<const D: usize> KdTree<D> {
     /// The point nearest to `place`, of several equally near the one of the lowest row; none if there are no points, or a
     /// coordinate of `place` is not a number. O(log n) on average for points in general position.
     pub fn nearest(&self, place: [f64; D]) -> Option<Nearest> {
-        self.nearest_probed(place, &mut NoProbe)
+        self.nearest_instrumented(place, &mut NoProbe)
     }
 
-    /// [`KdTree::nearest`], heard by a probe.
-    pub fn nearest_probed<P: Probe>(&self, place: [f64; D], probe: &mut P) -> Option<Nearest> {
+    /// [`KdTree::nearest`], recorded by a probe.
+    pub fn nearest_instrumented<P: Probe>(
+        &self,
+        place: [f64; D],
+        probe: &mut P,
+    ) -> Option<Nearest> {
         if !(self.plain && is_plain(place)) {
             return self.nearest_wide(place, 1, |a, b| a.cmp(&b), probe).first().copied();
         }
@@ -253,11 +256,11 @@ impl<const D: usize> KdTree<D> {
 
     /// The `k` points nearest to `place`, or all if there are fewer, by distance and then by row.
     pub fn nearest_k(&self, place: [f64; D], k: usize) -> Vec<Nearest> {
-        self.nearest_k_probed(place, k, &mut NoProbe)
+        self.nearest_k_instrumented(place, k, &mut NoProbe)
     }
 
-    /// [`KdTree::nearest_k`], heard by a probe.
-    pub fn nearest_k_probed<P: Probe>(
+    /// [`KdTree::nearest_k`], recorded by a probe.
+    pub fn nearest_k_instrumented<P: Probe>(
         &self,
         place: [f64; D],
         k: usize,

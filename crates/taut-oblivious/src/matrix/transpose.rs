@@ -98,7 +98,7 @@ pub fn transpose<T: Pod + Send + Sync>(
 ///
 /// # Errors
 /// As [`transpose()`].
-pub fn transpose_probed<T: Pod, P: Probe>(
+pub fn transpose_instrumented<T: Pod, P: Probe>(
     from: &[T],
     rows: usize,
     columns: usize,
@@ -290,7 +290,7 @@ impl Shape {
         (scratch, stride): (&mut [T], usize),
         probe: &mut P,
     ) {
-        if P::LISTENS {
+        if P::IS_RECORDING {
             for i in rows.clone() {
                 probe.read(&from[i * self.columns..][columns.clone()]);
             }

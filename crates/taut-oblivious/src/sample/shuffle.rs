@@ -36,8 +36,12 @@ pub fn shuffle<T: Copy + Send + Sync>(items: &mut [T], seed: u64) {
     part::<T, NoProbe, WHOLE_SHUFFLE_MAX>(items, seed, 1, &mut NoProbe);
 }
 
-/// [`shuffle`], on one thread if anybody listens to the touches.
-pub fn shuffle_probed<T: Copy + Send + Sync, P: Probe>(items: &mut [T], seed: u64, probe: &mut P) {
+/// [`shuffle`], on one thread if the probe records.
+pub fn shuffle_instrumented<T: Copy + Send + Sync, P: Probe>(
+    items: &mut [T],
+    seed: u64,
+    probe: &mut P,
+) {
     probe.place(items);
     part::<T, P, WHOLE_SHUFFLE_MAX>(items, seed, 1, probe);
 }
@@ -74,7 +78,7 @@ pub(super) fn part<T: Copy + Send + Sync, P: Probe, const WHOLE_SHUFFLE_MAX: usi
         start = end;
         buckets.push((child(i), bucket));
     }
-    if P::LISTENS || rayon::current_num_threads() == 1 {
+    if P::IS_RECORDING || rayon::current_num_threads() == 1 {
         for (node, bucket) in buckets {
             part::<T, P, WHOLE_SHUFFLE_MAX>(bucket, seed, node, probe);
         }
@@ -90,7 +94,7 @@ fn exchange<T, P: Probe>(items: &mut [T], random: &mut Random, probe: &mut P) {
     for last in (1..items.len()).rev() {
         let other = random.below(last as u64 + 1) as usize;
         items.swap(last, other);
-        if P::LISTENS {
+        if P::IS_RECORDING {
             for i in [last, other] {
                 probe.read(&items[i..=i]);
                 probe.write(&items[i..=i]);

@@ -329,7 +329,7 @@ const GOLDEN_ORDER: [u64; 8] = [0, 1, 7, 6, 5, 2, 4, 3];
 
 #[test]
 fn the_ends_of_every_range() {
-    assert_eq!(sample(1, 0, 0).expect("nothing"), []);
+    assert!(sample(1, 0, 0).expect("nothing").is_empty());
     assert_eq!(sample(1, 1, 1).expect("all"), [0]);
     let n = if cfg!(miri) { 300 } else { 10_000 };
     assert!(sample(1, n, n).expect("all").into_iter().eq(0..n));
@@ -342,7 +342,7 @@ fn the_ends_of_every_range() {
         assert!(matches!(bernoulli(1, 9, p), Err(Error::Option { name: "p", .. })));
     }
     assert!(bernoulli(1, u64::MAX, 0.5).is_err());
-    assert_eq!(bernoulli(1, 9, 0.0).expect("none"), []);
+    assert!(bernoulli(1, 9, 0.0).expect("none").is_empty());
     assert_eq!(bernoulli(1, 9, 1.0).expect("all").len(), 9);
     let mut none = Reservoir::new(1, 0);
     (0..10).for_each(|i| none.push(i));

@@ -9,7 +9,7 @@
 //! the memory, 240 GB for 256 MiB (below 16 MiB of memory some 60 runs); a file that fits is read and written once. The
 //! output appears whole under its name or not at all. What is read back from runs is compared with what was read first by a
 //! hash of 128 bits of the multiset of records, which is the certificate, and held to its order, whoever made the run;
-//! [`verify`] shares no code with the sort.
+//! `taut-certify` has the checker, which shares no code with the sort.
 //! *Trap.* Waiting for the disk and sorting in turn wastes both: a block is written while the next one is filled, and the
 //! next blocks are asked for before they are needed.
 //! *Trap.* Memory that is allowed need not be taken: where the file does not fit, runs are made as long as lets their merge
@@ -30,7 +30,6 @@ mod merge;
 mod plan;
 #[cfg(test)]
 mod tests;
-mod verify;
 
 use std::path::{Path, PathBuf};
 
@@ -38,7 +37,6 @@ use taut_points::Monitor;
 
 use crate::error::Error;
 pub use layout::{KeyKind, RecordLayout};
-pub use verify::{Inspection, inspect, verify};
 
 use crate::store::Pending;
 
@@ -77,7 +75,7 @@ pub struct Multiset {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FileSort {
     /// The records that were read. If they did not fit, those that came back from the runs for the output were found to be
-    /// the same. What the disk made of the output nobody has looked at: [`verify`] does.
+    /// the same. Nobody has read the output: the checker of `taut-certify` does.
     pub certificate: Multiset,
     /// Runs that the input was cut into; 1 if it fitted.
     pub runs: u64,

@@ -12,10 +12,10 @@ use crate::probe::{NoProbe, Probe};
 /// Up to this many keys are sorted by the standard library: a network would be filled with nothing.
 const STANDARD_SORT_MAX: usize = 16;
 
-/// Sorts; on the current rayon pool if nobody listens.
+/// Sorts; on the current rayon pool if the probe does not record.
 pub(super) fn sort<P: Probe>(keys: &mut [u64], probe: &mut P) {
     #[cfg(target_arch = "x86_64")]
-    if !P::LISTENS
+    if !P::IS_RECORDING
         && keys.len() >= vector::SHARED_KEYS_MIN
         && rayon::current_num_threads() > 1
         && let Level::Avx512(kernel) = Level::best()

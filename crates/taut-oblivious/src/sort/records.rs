@@ -52,7 +52,7 @@ pub(super) fn sort<T: Copy + Send + Sync, P: Probe>(
     probe: &mut P,
 ) {
     probe.place(records);
-    if P::LISTENS || rayon::current_num_threads() == 1 {
+    if P::IS_RECORDING || rayon::current_num_threads() == 1 {
         rooms.within(|room| alone(records, rank, Look::Sample, room, probe));
     } else {
         shared(records, rank, Look::Sample, rooms);

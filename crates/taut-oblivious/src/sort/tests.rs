@@ -137,7 +137,7 @@ macro_rules! kinds_of_numbers {
                 let mut expected = keys.clone();
                 expected.sort_unstable_by(compare);
                 sort(&mut keys);
-                prop_assert_eq!(bytemuck::cast_slice::<_, u8>(&keys), bytemuck::cast_slice(&expected));
+                prop_assert_eq!(bytemuck::cast_slice::<_, u8>(&keys), bytemuck::cast_slice::<_, u8>(&expected));
             })+
         }
     };
@@ -268,7 +268,7 @@ fn a_key_that_panics_leaves_records_that_can_be_used() {
     assert!(records.is_sorted_by_key(|record| record.0));
 }
 
-/// Counts bytes, and holds every touch to what was placed.
+/// Counts bytes, and holds every access to what was placed.
 #[derive(Default)]
 struct Count {
     placed: HashMap<usize, usize>,
@@ -277,7 +277,7 @@ struct Count {
 }
 
 impl Probe for Count {
-    const LISTENS: bool = true;
+    const IS_RECORDING: bool = true;
 
     fn place_at(&mut self, address: usize, bytes: usize) {
         self.placed.insert(address, bytes);
@@ -287,7 +287,7 @@ impl Probe for Count {
         self.placed.remove(&address).expect("lifted after it was placed");
     }
 
-    fn touch(&mut self, address: usize, bytes: usize, access: Access) {
+    fn record(&mut self, address: usize, bytes: usize, access: Access) {
         let inside =
             |(&from, &len): (&usize, &usize)| from <= address && address + bytes <= from + len;
         assert!(bytes == 0 || self.placed.iter().any(inside), "{bytes} bytes were not placed");
@@ -296,18 +296,18 @@ impl Probe for Count {
 }
 
 #[test]
-fn touches_are_told_and_stay_within_what_was_placed() {
+fn accesses_are_told_and_stay_within_what_was_placed() {
     let n = if cfg!(miri) { 400 } else { 40_000 };
     let keys = Words(6).take(n);
     let (mut count, mut sorted) = (Count::default(), keys.clone());
-    sort_probed(&mut sorted, &mut count);
+    sort_instrumented(&mut sorted, &mut count);
     // Twenty levels of a partition, at the very most.
     assert!(sorted.is_sorted() && (8 * n..20 * 8 * n).contains(&count.read), "{}", count.read);
     assert!((8 * n..20 * 8 * n).contains(&count.written), "{}", count.written);
 
     let (mut count, mut records) =
         (Count::default(), keys.iter().map(|&k| [k; 4]).collect::<Vec<_>>());
-    sort_records_probed(&mut records, |record| record[0], &mut count);
+    sort_records_instrumented(&mut records, |record| record[0], &mut count);
     assert!(records.is_sorted());
     // Dealt, collected, moved out of the way, gathered; and the words. So few as in Miri are not dealt.
     let bounds = if cfg!(miri) { 1 } else { 4 } * 32 * n..9 * 32 * n;
@@ -317,6 +317,6 @@ fn touches_are_told_and_stay_within_what_was_placed() {
 
     let (mut count, mut singles) =
         (Count::default(), keys.iter().map(|&k| k as f32).collect::<Vec<_>>());
-    sort_probed(&mut singles, &mut count);
+    sort_instrumented(&mut singles, &mut count);
     assert!(singles.is_sorted() && count.placed.len() == 1);
 }

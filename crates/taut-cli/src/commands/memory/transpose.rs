@@ -6,8 +6,8 @@ use anyhow::bail;
 use taut::certify::{AnyFileSolution, FileCheckError, Files, TransposedFile};
 use taut::files::{StoredMatrix, transposed};
 use taut::oblivious::{
-    Error, FileCheck, FileMatrix, FileTransposition, Pending, TransposeFileOptions,
-    check_transposed_file, transpose_file_pending,
+    Error, FileMatrix, FileTransposition, Pending, TransposeFileOptions, check_transposed_samples,
+    transpose_file_pending,
 };
 use taut_io::NpyArray;
 
@@ -187,10 +187,9 @@ impl Args {
         if elements == 0 {
             return Ok(Outcome::Done);
         }
-        let check = FileCheck::Sample { elements, seed: self.seed };
-        let header = job.header.len() as u64;
+        let (header, drawn) = (job.header.len() as u64, [elements, self.seed]);
         let checked = watch.during("checking", |monitor| {
-            check_transposed_file(&self.input, job.matrix, &self.out, header, check, monitor)
+            check_transposed_samples(&self.input, job.matrix, &self.out, header, drawn, monitor)
         });
         match checked {
             Ok(()) => Ok(Outcome::Done),

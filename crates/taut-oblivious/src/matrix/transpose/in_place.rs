@@ -34,14 +34,14 @@ pub fn transpose_in_place<T: Pod>(
     rows: usize,
     columns: usize,
 ) -> Result<(), Error> {
-    transpose_in_place_probed(matrix, rows, columns, &mut NoProbe)
+    transpose_in_place_instrumented(matrix, rows, columns, &mut NoProbe)
 }
 
 /// As [`transpose_in_place`], and tells `probe` of every block, row or group of columns.
 ///
 /// # Errors
 /// As [`transpose_in_place`].
-pub fn transpose_in_place_probed<T: Pod, P: Probe>(
+pub fn transpose_in_place_instrumented<T: Pod, P: Probe>(
     matrix: &mut [T],
     rows: usize,
     columns: usize,

@@ -128,10 +128,11 @@ fn nothing_in_nothing_out() {
     transpose::<f64>(&[], 5, 0, &mut []).unwrap();
     transpose(&[(); 6], 2, 3, &mut [(); 6]).unwrap();
     in_place::transpose_in_place::<f64>(&mut [], 0, 5).unwrap();
-    // Nothing is asked for and nothing is touched; something is not nothing.
+    // Nothing is asked for and nothing is accessed; something is not nothing.
     let mut counts = Counts::default();
-    transpose_probed::<f64, _>(&[], usize::MAX, 0, &mut [], &mut counts).unwrap();
-    in_place::transpose_in_place_probed::<f64, _>(&mut [], 0, usize::MAX, &mut counts).unwrap();
+    transpose_instrumented::<f64, _>(&[], usize::MAX, 0, &mut [], &mut counts).unwrap();
+    in_place::transpose_in_place_instrumented::<f64, _>(&mut [], 0, usize::MAX, &mut counts)
+        .unwrap();
     assert_eq!((counts.placed, counts.read, counts.written), (0, 0, 0));
     assert!(transpose(&[1u8], 0, 5, &mut [0]).is_err());
     assert!(in_place::transpose_in_place(&mut [1u8], 5, 0).is_err());
@@ -157,14 +158,14 @@ struct Counts {
 }
 
 impl Probe for Counts {
-    const LISTENS: bool = true;
+    const IS_RECORDING: bool = true;
     fn place_at(&mut self, _: usize, _: usize) {
         self.placed += 1;
     }
     fn lift_from(&mut self, _: usize) {
         self.placed -= 1;
     }
-    fn touch(&mut self, _: usize, bytes: usize, access: crate::Access) {
+    fn record(&mut self, _: usize, bytes: usize, access: crate::Access) {
         *match access {
             crate::Access::Read => &mut self.read,
             crate::Access::Write => &mut self.written,
@@ -173,17 +174,17 @@ impl Probe for Counts {
 }
 
 #[test]
-fn the_probe_hears_of_every_element_in_and_out_of_the_scratch() {
+fn the_probe_records_every_element_in_and_out_of_the_scratch() {
     let (rows, columns) = if cfg!(miri) { (24, 16) } else { (96, 80) };
     let from = numbered::<u64>(rows * columns);
     let mut to = vec![0; from.len()];
     let mut counts = Counts::default();
-    transpose_probed(&from, rows, columns, &mut to, &mut counts).unwrap();
+    transpose_instrumented(&from, rows, columns, &mut to, &mut counts).unwrap();
     assert_eq!(to, plain(&from, rows, columns));
     assert_eq!(counts.placed, 0);
     assert!(counts.read >= 2 * 8 * from.len() && counts.read <= 2 * 9 * from.len());
     assert!(counts.written >= 2 * 8 * from.len() && counts.written <= 2 * 9 * from.len());
     let mut counts = Counts::default();
-    in_place::transpose_in_place_probed(&mut to, columns, rows, &mut counts).unwrap();
+    in_place::transpose_in_place_instrumented(&mut to, columns, rows, &mut counts).unwrap();
     assert_eq!((to, counts.placed), (from, 0));
 }

@@ -3,8 +3,9 @@ use std::io::{self, ErrorKind};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use proptest::prelude::*;
+use taut_certify::{ElementOrder, Files, TransposedFile};
 
-use super::check::{FileCheck, check_transposed_file};
+use super::check::check_transposed_samples;
 use super::*;
 
 fn bytes(n: usize) -> Vec<u8> {
@@ -163,7 +164,7 @@ mod on_disk {
 
     #[test]
     #[cfg_attr(miri, ignore = "files")]
-    fn the_checks_accept_the_transpose_and_nothing_else() {
+    fn samples_accept_the_transpose_and_refuse_another_matrix() {
         let folder = tempfile::tempdir().unwrap();
         let (from, content) = source(folder.path());
         let to = folder.path().join("to.bin");
@@ -175,30 +176,36 @@ mod on_disk {
         let mut turned = std::fs::read(&to).unwrap();
         assert!(turned[7..] == plain(&content[3..], 300, 211, 8));
 
-        let silent = Monitor::silent();
-        let sample = FileCheck::Sample { elements: 100_000, seed: 1 };
-        for check in [FileCheck::Whole, sample] {
-            check_transposed_file(&from, MATRIX, &to, 7, check, &silent).unwrap();
-        }
-        // One bit, two neighbours, and the untransposed matrix.
-        let mut doctored = vec![turned.clone(); 3];
-        doctored[0][7 + 8 * 1000] ^= 1;
-        doctored[1][7..23].rotate_left(8);
-        doctored[2][7..].copy_from_slice(&content[3..]);
-        for (k, wrong) in doctored.into_iter().enumerate() {
-            std::fs::write(&to, wrong).unwrap();
-            for check in [FileCheck::Whole, sample] {
-                if k < 2 && check == sample {
-                    continue; // one place of 63 300 may escape
-                }
-                let found = check_transposed_file(&from, MATRIX, &to, 7, check, &silent);
-                assert!(matches!(found, Err(Error::Differs { .. })), "{k} {check:?}: {found:?}");
-            }
-        }
+        let check =
+            || check_transposed_samples(&from, MATRIX, &to, 7, [100_000, 1], &Monitor::silent());
+        certified(MATRIX, &from, &to, 7);
+        check().unwrap();
+        // The untransposed matrix, whose differences no sample of that size misses.
+        let mut doctored = turned.clone();
+        doctored[7..].copy_from_slice(&content[3..]);
+        std::fs::write(&to, doctored).unwrap();
+        let found = check();
+        assert!(matches!(found, Err(Error::Differs { .. })), "{found:?}");
         turned.pop();
         std::fs::write(&to, &turned).unwrap();
-        let found = check_transposed_file(&from, MATRIX, &to, 7, FileCheck::Whole, &silent);
+        let found = check();
         assert!(matches!(found, Err(Error::Length { .. })), "{found:?}");
+    }
+
+    /// Checks every element with the checker of `taut-certify`.
+    fn certified(matrix: FileMatrix, from: &Path, to: &Path, header: u64) {
+        let answer = TransposedFile {
+            rows: matrix.rows,
+            columns: matrix.columns,
+            width: matrix.width as u64,
+            order: ElementOrder::Rows,
+            input_offset: matrix.offset,
+            output_offset: header,
+            dtype: None,
+        };
+        let [mut input, mut output] = [from, to].map(|path| File::open(path).unwrap());
+        let files = Files { input: Some(&mut input), output: &mut output };
+        answer.certify(files, &Monitor::silent()).unwrap();
     }
 
     #[test]
@@ -274,9 +281,7 @@ mod on_disk {
         let file = File::create(&from).unwrap();
         let none = FileMatrix { rows: 0, columns: 5, width: usize::MAX, offset: 0 };
         std::fs::write(&to, "").unwrap();
-        for check in [FileCheck::Whole, FileCheck::Sample { elements: 3, seed: 1 }] {
-            check_transposed_file(&from, none, &to, 0, check, &Monitor::silent()).unwrap();
-        }
+        check_transposed_samples(&from, none, &to, 0, [3, 1], &Monitor::silent()).unwrap();
         let options = TransposeFileOptions { memory: usize::MAX };
         let found = transpose_file(&from, none, &to, b"head", &options, &Monitor::silent());
         assert_eq!(found.unwrap().bytes_written, 4);
@@ -388,6 +393,6 @@ mod on_disk {
         let begin = std::time::Instant::now();
         let done = transpose_file(&from, matrix, &to, b"", &options, &Monitor::silent()).unwrap();
         println!("{done:?} in {:?}", begin.elapsed());
-        check_transposed_file(&from, matrix, &to, 0, FileCheck::Whole, &Monitor::silent()).unwrap();
+        certified(matrix, &from, &to, 0);
     }
 }

@@ -105,7 +105,7 @@ impl Plan {
     /// Records of a run for which making runs takes as much memory as merging them with the largest blocks; more only if so
     /// many runs could not be merged at once.
     ///
-    /// To use more than that gains nothing and has its price, the first touch of each page: 240 MiB instead of 56 cost a tenth
+    /// To use more than that gains nothing and has its price, the first access of each page: 240 MiB instead of 56 cost a tenth
     /// of the processor's time of sorting 3.2 GB.
     fn balanced(&self) -> usize {
         let (width, bytes) = (self.layout.width, self.bytes());

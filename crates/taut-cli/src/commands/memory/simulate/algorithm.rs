@@ -1,12 +1,12 @@
 //! The algorithms that can be run under a simulated memory, each with the formula of its misses.
 
-use taut::oblivious::reference::{
-    DistributorForm, LIST_END, MatrixSizes, columnsort_probed, distribution_sort_probed,
-    distributor_sort_probed, funnelsort_probed, list_ranks_probed, mergesort_probed,
-    multiply_probed, quicksort_probed, reverse_probed, select_probed, strassen_probed,
-    transpose_probed,
-};
 use taut::oblivious::{Error, Probe, sample, shuffle};
+use taut_reference::algorithms::{
+    DistributorForm, LIST_END, MatrixSizes, columnsort_instrumented,
+    distribution_sort_instrumented, distributor_sort_instrumented, funnelsort_instrumented,
+    list_ranks_instrumented, mergesort_instrumented, multiply_instrumented, quicksort_instrumented,
+    reverse_instrumented, select_instrumented, strassen_instrumented, transpose_instrumented,
+};
 
 use super::loops::{self, Layout, SEARCH_COUNT};
 
@@ -64,7 +64,11 @@ impl Algorithm {
             "n numbers by algorithms 8 and 9 of the thesis; the same formula",
         ),
         ("distributor-sort", DistributorSort, "n numbers by k-distributors; the same formula"),
-        ("columnsort", Columnsort, "n numbers, the same touches for all of them; the same formula"),
+        (
+            "columnsort",
+            Columnsort,
+            "n numbers, the same accesses for all of them; the same formula",
+        ),
         ("mergesort", Mergesort, "n numbers; (n/B)(2 + log₂(n/M))"),
         ("quicksort", Quicksort, "n numbers; the same formula"),
         ("select", Select, "the median of n numbers; n/B"),
@@ -139,35 +143,37 @@ impl Algorithm {
                 let columns = columns.unwrap_or(size);
                 let from = vec![1u64; size * columns];
                 let mut to = vec![0; size * columns];
-                transpose_probed(&from, &mut to, size, columns, base, probe)?;
+                transpose_instrumented(&from, &mut to, size, columns, base, probe)?;
             }
             TransposeLoops(columns) => loops::transpose(size, columns.unwrap_or(size), probe),
             Multiply => {
                 let mut to = square();
                 let sizes = MatrixSizes::square(size);
-                multiply_probed(&square(), &square(), &mut to, sizes, base, probe)?;
+                multiply_instrumented(&square(), &square(), &mut to, sizes, base, probe)?;
             }
             MultiplyLoops => loops::multiply(size, probe),
-            Strassen => strassen_probed(&square(), &square(), &mut square(), size, base, probe)?,
+            Strassen => {
+                strassen_instrumented(&square(), &square(), &mut square(), size, base, probe)?
+            }
             Search(layout, width) => loops::search(layout, height(n), width, probe)?,
-            Funnelsort => funnelsort_probed(&mut numbers, probe),
-            DistributionSort => distribution_sort_probed(&mut numbers, 1, probe),
+            Funnelsort => funnelsort_instrumented(&mut numbers, probe),
+            DistributionSort => distribution_sort_instrumented(&mut numbers, 1, probe),
             DistributorSort => {
-                distributor_sort_probed(&mut numbers, DistributorForm::Unfolded, 1, probe);
+                distributor_sort_instrumented(&mut numbers, DistributorForm::Unfolded, 1, probe);
             }
-            Columnsort => columnsort_probed(&mut numbers, probe),
-            Mergesort => mergesort_probed(&mut numbers, probe),
-            Quicksort => quicksort_probed(&mut numbers, 1, probe),
+            Columnsort => columnsort_instrumented(&mut numbers, probe),
+            Mergesort => mergesort_instrumented(&mut numbers, probe),
+            Quicksort => quicksort_instrumented(&mut numbers, 1, probe),
             Select => {
-                select_probed(&mut numbers, size / 2, probe);
+                select_instrumented(&mut numbers, size / 2, probe);
             }
-            Reverse => reverse_probed(&mut numbers, probe),
+            Reverse => reverse_instrumented(&mut numbers, probe),
             ListRanking => {
                 let mut order: Vec<u32> = (0..n as u32).collect();
                 shuffle(&mut order, 1);
                 let mut next = vec![LIST_END; size];
                 order.windows(2).for_each(|pair| next[pair[0] as usize] = pair[1]);
-                list_ranks_probed(&next, 1, probe)?;
+                list_ranks_instrumented(&next, 1, probe)?;
             }
         }
         Ok(())

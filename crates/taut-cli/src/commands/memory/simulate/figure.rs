@@ -4,8 +4,8 @@
 //! these machines had, which explain the seconds and are the same everywhere.
 
 use anyhow::bail;
-use taut::oblivious::simulate::{CacheShape, Simulator};
 use taut_draw::{Plot, Scale, Series, SeriesLook, Tone};
+use taut_reference::simulate::{CacheShape, Simulator};
 
 use super::algorithm::Algorithm::{self, *};
 use super::loops::Layout;

@@ -1,8 +1,8 @@
 //! The programs that the literature compares with: loops in the order in which one writes them down, and trees laid out
 //! in other ways.
 
-use taut::oblivious::reference::VebIndex;
 use taut::oblivious::{Access, Error, Probe};
+use taut_reference::algorithms::VebIndex;
 
 /// Rows of the source, one after the other, into columns of the target.
 pub(super) fn transpose<P: Probe>(rows: usize, columns: usize, probe: &mut P) {
@@ -70,7 +70,7 @@ pub(super) fn search<P: Probe>(
                     positions[depth - 1] + 1 + (node & 1) * ((1 << (height - depth)) - 1)
                 }
             };
-            probe.touch(base + positions[depth] * width, width.min(16), Access::Read);
+            probe.record(base + positions[depth] * width, width.min(16), Access::Read);
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             node = 2 * node + (state >> 63) as usize;
         }

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use taut::oblivious::simulate::{CacheShape, Replacement, Simulator, Trace};
 use taut_draw::{Axis, DrawOptions, Plot, Scale, Series, SeriesLook, Tone};
+use taut_reference::simulate::{CacheShape, Replacement, Simulator, Trace};
 
 use super::algorithm::Algorithm;
 use crate::input::reading::wrong_option;
@@ -11,11 +11,11 @@ use crate::input::reading::wrong_option;
 /// Which block makes room.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(super) enum Policy {
-    /// the one whose last touch is longest ago
+    /// the one whose last access is longest ago
     Lru,
     /// the one that came first
     Fifo,
-    /// the one whose next touch is farthest away, which no other choice beats; 16 bytes for each touch
+    /// the one whose next access is farthest away, which no other choice beats; 16 bytes for each access
     Optimal,
 }
 

@@ -329,7 +329,7 @@ unsafe fn turn_8_wide(
         let height = (rows - i).min(8);
         for j in (left..columns).step_by(8) {
             let width = (columns - j).min(8);
-            // SAFETY: the tile, cut to the block, lies in both slices; what a mask leaves out is not touched.
+            // SAFETY: the tile, cut to the block, lies in both slices; what a mask leaves out is not accessed.
             unsafe {
                 let (tile, turned) = (from.add(i * stride + j), to.add(j * stride_to + i));
                 if height == 8 && width == 8 {

@@ -102,7 +102,6 @@ fn large_blocks_come_back_as_they_were() {
         assert!(found.runs > 1, "{found:?}");
         assert_eq!(found.bytes_read + found.bytes_written, 4 * bytes.len() as u64);
         assert!(fs::read(folder.path("out")).expect("an output") == expected(&bytes, &layout));
-        verify(&folder.path("out"), &layout, &found.certificate, &Monitor::silent())
-            .expect("confirmed");
+        folder.verify(&layout, &found.certificate);
     }
 }

@@ -5,8 +5,8 @@
 //! that waited and those that came.
 //! *Guarantee.* Lines of the target are written whole, once; the elements before the first and after the last line of a
 //! row go one at a time.
-//! *Trap.* Each side walks over pages of 4 KiB, and the processor translates the address of a page only when it is touched:
-//! where narrow rows are split or joined, a touch of each page two pages early makes 15 GB/s of 10⁷ × 3 into 19, above a plain
+//! *Trap.* Each side walks over pages of 4 KiB, and the processor translates the address of a page only when it is accessed:
+//! where narrow rows are split or joined, an access of each page two pages early makes 15 GB/s of 10⁷ × 3 into 19, above a plain
 //! copy past the caches. Lines that are fetched early within their page gain nothing there.
 //! *Trap.* Reading a block and then writing it costs the sum of both, not the longer: measured, copying in blocks of
 //! 16 KiB runs at two thirds of copying line by line.
@@ -99,8 +99,8 @@ pub(super) unsafe fn split<const D: usize>(rows: usize, from: *const f64, to: *m
         for i in (0..rows / 8 * 8).step_by(8) {
             if i % PAGE == 0 {
                 for c in 0..D {
-                    touch_early(from.wrapping_add(i * D + (c + 2 * D) * PAGE));
-                    touch_early(to.wrapping_add(c * rows + i + 2 * PAGE));
+                    access_early(from.wrapping_add(i * D + (c + 2 * D) * PAGE));
+                    access_early(to.wrapping_add(c * rows + i + 2 * PAGE));
                 }
             }
             let columns = split_eight::<D>(&table, from.add(i * D));
@@ -143,8 +143,8 @@ pub(super) unsafe fn join<const D: usize>(
         for j in 0..groups {
             if 8 * j % PAGE == 0 {
                 for c in 0..D {
-                    touch_early(from.wrapping_add(c * stride + 8 * j + 2 * PAGE));
-                    touch_early(to.wrapping_add(8 * j * D + (c + 2 * D) * PAGE));
+                    access_early(from.wrapping_add(c * stride + 8 * j + 2 * PAGE));
+                    access_early(to.wrapping_add(8 * j * D + (c + 2 * D) * PAGE));
                 }
             }
             let parts = join_eight::<D>(&table, (from.add(8 * j), stride));
@@ -163,7 +163,7 @@ pub(super) unsafe fn join<const D: usize>(
 
 /// Has the processor translate an address, by asking for its line: no access, so that it may be beyond the matrix.
 #[inline(always)]
-fn touch_early(address: *const f64) {
+fn access_early(address: *const f64) {
     // SAFETY: every x86-64 has the instruction, and it never faults.
     unsafe { _mm_prefetch::<_MM_HINT_NTA>(address.cast()) };
 }
