@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use serde::Serialize;
-use taut_io::Shape;
+use taut_io::Mesh;
 use taut_mesh::{SurfaceOptions, TriangleMesh, compare_surfaces};
 
 use super::samples::Point;
@@ -27,8 +27,8 @@ pub(super) struct Distances {
 
 impl Distances {
     /// Measures a result of triangles on places.
-    pub(super) fn of(reference: &Shape, places: &[Point], triangles: &[[u32; 3]]) -> Result<Self> {
-        let reference = reference.view()?.mesh;
+    pub(super) fn of(reference: &Mesh, places: &[Point], triangles: &[[u32; 3]]) -> Result<Self> {
+        let reference = TriangleMesh::new(&reference.vertices, reference.triangles())?;
         let result = TriangleMesh::new(places, triangles)?;
         let quality = compare_surfaces(&reference, &result, &SurfaceOptions::default());
         let [missed, invented] = [quality.reference_to_result, quality.result_to_reference]

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result};
-use taut_io::{Shape, open_shape};
+use taut_io::{Content, Mesh, open_mesh};
 
 use super::samples::Point;
 
@@ -71,9 +71,10 @@ pub(super) fn cactus() -> Result<Option<Vec<Point>>> {
 
 impl Model {
     /// Its mesh, if it is there.
-    pub(super) fn read(&self) -> Result<Option<Shape>> {
+    pub(super) fn read(&self) -> Result<Option<Mesh>> {
         let Some(path) = path(&format!("{}.off.xz", self.file)) else { return Ok(None) };
-        let shape = open_shape(&path, None).with_context(|| path.display().to_string())?;
+        let shape =
+            open_mesh(&path, Content::Surface, None).with_context(|| path.display().to_string())?;
         Ok(Some(shape))
     }
 }

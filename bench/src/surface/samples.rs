@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use anyhow::Result;
-use taut_io::Shape;
+use taut_io::Mesh;
 use taut_points::{Distribution, generate};
 
 /// A point of space.
@@ -30,9 +30,9 @@ pub(super) fn noisy(points: &[Point], deviation: f64, seed: u64) -> Result<Vec<P
 }
 
 /// Points of the triangles of a mesh, independent of each other and even by area.
-pub(super) fn on_triangles(mesh: &Shape, count: usize, seed: u64) -> Result<Vec<Point>> {
+pub(super) fn on_triangles(mesh: &Mesh, count: usize, seed: u64) -> Result<Vec<Point>> {
     let mut below = 0.0;
-    let corners = mesh.triangles.iter().map(|t| t.map(|v| mesh.vertices[v as usize]));
+    let corners = mesh.triangles().iter().map(|t| t.map(|v| mesh.vertices[v as usize]));
     let (triangles, areas): (Vec<[Point; 3]>, Vec<f64>) = corners
         .map(|[a, b, c]| {
             let (u, v) = ([0, 1, 2].map(|k| b[k] - a[k]), [0, 1, 2].map(|k| c[k] - a[k]));
@@ -181,7 +181,7 @@ mod tests {
     #[test]
     fn points_of_triangles_are_on_them_by_area() {
         let vertices = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 3.0]];
-        let mesh = Shape { vertices, triangles: vec![[0, 1, 2], [0, 1, 3]], ..Shape::default() };
+        let mesh = Mesh::of_triangles(vertices, &[[0, 1, 2], [0, 1, 3]]);
         let points = on_triangles(&mesh, 10_000, 1).unwrap();
         let flat = points.iter().filter(|point| point[2] == 0.0).count();
         assert!((2300..2700).contains(&flat), "{flat}");

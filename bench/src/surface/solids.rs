@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use anyhow::Result;
-use taut_io::Shape;
+use taut_io::Mesh;
 use taut_points::{Distribution, generate};
 
 use super::samples::{Point, chances, on_triangles};
@@ -33,7 +33,7 @@ impl Solid {
     }
 
     /// Its faces, cut into triangles; corners are not shared.
-    fn shape(self) -> Shape {
+    fn shape(self) -> Mesh {
         match self {
             // A corner of the box belongs to every second corner of the octagon.
             Solid::Bored => ring(8, |k| {
@@ -106,15 +106,16 @@ impl Place {
 }
 
 /// Triangles of four corners.
-fn push_quad(shape: &mut Shape, corners: [Point; 4]) {
+fn push_quad(shape: &mut Mesh, corners: [Point; 4]) {
     let first = shape.vertices.len() as u32;
     shape.vertices.extend(corners);
-    shape.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    let corners = [[0, 1, 2], [0, 2, 3]];
+    shape.simplices.extend(corners.as_flattened().iter().map(|corner| first + corner));
 }
 
 /// The prism of height 1 over what lies between an outer and an inner polygon, given corner by corner.
-fn ring(count: usize, corner: impl Fn(usize) -> [[f64; 2]; 2]) -> Shape {
-    let mut shape = Shape::default();
+fn ring(count: usize, corner: impl Fn(usize) -> [[f64; 2]; 2]) -> Mesh {
+    let mut shape = Mesh::default();
     for k in 0..count {
         let ([outer, inner], [outer_next, inner_next]) = (corner(k), corner((k + 1) % count));
         let at = |[x, y]: [f64; 2], z: f64| [x, y, z];
@@ -129,8 +130,8 @@ fn ring(count: usize, corner: impl Fn(usize) -> [[f64; 2]; 2]) -> Shape {
 }
 
 /// So many steps of width and height 1/4, a unit deep.
-fn stairs(steps: usize) -> Shape {
-    let mut shape = Shape::default();
+fn stairs(steps: usize) -> Mesh {
+    let mut shape = Mesh::default();
     let end = 0.25 * steps as f64;
     for step in 0..steps {
         let (from, to) = (0.25 * step as f64, 0.25 * (step + 1) as f64);
@@ -226,7 +227,7 @@ mod tests {
     fn solids_have_the_area_of_their_faces() {
         let area = |solid: Solid| {
             let shape = solid.shape();
-            let corners = shape.triangles.iter().map(|t| t.map(|v| shape.vertices[v as usize]));
+            let corners = shape.triangles().iter().map(|t| t.map(|v| shape.vertices[v as usize]));
             corners
                 .map(|[a, b, c]| {
                     let [u, v] = [b, c].map(|p| [0, 1, 2].map(|k| p[k] - a[k]));

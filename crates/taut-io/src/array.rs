@@ -7,8 +7,7 @@ use std::io::{self, BufReader};
 use std::path::Path;
 
 use crate::error::shown_path;
-use crate::read::literal::Literal;
-use crate::read::npy::{MAGIC, damaged, dictionary, entry};
+use crate::npy_header::{MAGIC, NpyHeader};
 use crate::{Error, Format};
 
 /// An array in a `.npy` file: elements of one fixed width, side by side after a header.
@@ -52,27 +51,21 @@ impl NpyArray {
             return Err(failed(not));
         }
         let file = File::open(path).map_err(failed)?;
-        let (entries, offset) = dictionary(&shown, &mut BufReader::new(file))?;
-        let entry = |key| entry(&shown, &entries, key);
+        let NpyHeader { descr, fortran, shape, offset } =
+            NpyHeader::read(&shown, &mut BufReader::new(file))?;
         let refused = |problem, remedy| Err(Error::Array { path: shown.clone(), problem, remedy });
-        let Literal::Text(dtype) = entry("descr")? else {
+        let Some(dtype) = descr else {
             let remedy = "view each record as bytes first (`array.view(\"V16\")`)";
             return refused("its elements are records with fields".to_owned(), remedy);
         };
-        let Some(width) = width(dtype) else {
+        let Some(width) = width(&dtype) else {
             let problem = format!("its element type is `{}`", dtype.escape_debug());
             return refused(
                 problem,
                 "save it with elements of a fixed number of bytes, at least 1",
             );
         };
-        let Literal::Bool(fortran) = *entry("fortran_order")? else {
-            return Err(damaged(&shown, "`fortran_order` is neither True nor False".to_owned()));
-        };
-        let Literal::Tuple(shape) = entry("shape")? else {
-            return Err(damaged(&shown, "`shape` is no tuple of numbers".to_owned()));
-        };
-        let array = NpyArray { dtype: dtype.clone(), width, fortran, shape: shape.clone(), offset };
+        let array = NpyArray { dtype, width, fortran, shape, offset };
         let (expected, found) = (array.bytes(), kind.len().saturating_sub(offset));
         if expected != Some(found) {
             return Err(Error::Count {

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, ErrorKind, Read};
 
-use crate::error::Refuse;
+use crate::mesh::Building;
 use crate::{Error, MeshPlace};
 
 /// The longest line of a header that is text.
@@ -58,7 +58,7 @@ impl<'a> Cursor<'a> {
     pub(crate) fn fill(
         &mut self,
         bytes: &mut [u8],
-        mesh: &impl Refuse,
+        mesh: &Building<'_>,
         place: MeshPlace,
     ) -> Result<(), Error> {
         self.stream.read_exact(bytes).map_err(|source| match source.kind() {
@@ -70,7 +70,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// A number as it is stored, in the lowest bytes.
-    fn raw(&mut self, kind: Kind, mesh: &impl Refuse, place: MeshPlace) -> Result<[u8; 8], Error> {
+    fn raw(&mut self, kind: Kind, mesh: &Building<'_>, place: MeshPlace) -> Result<[u8; 8], Error> {
         let mut bytes = [0; 8];
         let stored = &mut bytes[..kind.size()];
         self.fill(stored, mesh, place)?;
@@ -84,7 +84,7 @@ impl<'a> Cursor<'a> {
     pub(crate) fn real(
         &mut self,
         kind: Kind,
-        mesh: &impl Refuse,
+        mesh: &Building<'_>,
         place: MeshPlace,
     ) -> Result<f64, Error> {
         let raw = self.raw(kind, mesh, place)?;
@@ -99,7 +99,7 @@ impl<'a> Cursor<'a> {
     pub(crate) fn whole(
         &mut self,
         kind: Kind,
-        mesh: &impl Refuse,
+        mesh: &Building<'_>,
         place: MeshPlace,
     ) -> Result<i64, Error> {
         let raw = self.raw(kind, mesh, place)?;
@@ -113,7 +113,7 @@ impl<'a> Cursor<'a> {
     pub(crate) fn skip(
         &mut self,
         count: u64,
-        mesh: &impl Refuse,
+        mesh: &Building<'_>,
         place: MeshPlace,
     ) -> Result<(), Error> {
         let skipped = std::io::copy(&mut (&mut self.stream).take(count), &mut std::io::sink())

@@ -1,7 +1,6 @@
 //! What can be wrong with a file, said so that a person can mend it: file, row, column, value, remedy.
 
 mod place;
-mod refuse;
 mod shown;
 mod system;
 
@@ -9,14 +8,13 @@ use std::io;
 
 use taut_points::ReadError;
 
-use crate::{Compression, Format, MeshFormat, ShapeFormat};
+use crate::{Compression, Content, Format};
 
 pub use place::{MeshPlace, Place};
-pub(crate) use refuse::Refuse;
 pub(crate) use shown::shown_path;
 
 use place::Row;
-use shown::{Clean, Few, columns, meshes, shapes};
+use shown::{Clean, Few, columns, format_of, names, names_or_extensions};
 
 /// Why points could not be read or a file could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -109,30 +107,46 @@ pub enum Error {
         path: String,
     },
     /// The name does not tell which format to write.
-    #[error("{path}: the format cannot be told from the name; name it (one of {})", Format::ALL.into_iter().filter(|f| f.can_write()).map(Format::name).collect::<Vec<_>>().join(", "))]
+    #[error("{path}: the {} cannot be told from the name; name it {}", format_of(*content), names_or_extensions(*content, |f| f.writes(*content)))]
     UnknownOutput {
         /// The file.
         path: String,
+        /// What would be written.
+        content: Content,
     },
     /// Neither name nor content tells the format.
-    #[error("{path}: the format cannot be told from the name; name it (one of {})", Format::ALL.map(Format::name).join(", "))]
+    #[error("{path}: the {} cannot be told from the name; name it {}", format_of(*content), names_or_extensions(*content, |f| f.reads(*content)))]
     UnknownFormat {
         /// The file.
         path: String,
+        /// What would be read.
+        content: Content,
     },
     /// No format has this name.
-    #[error("`{name}` is no format; the formats are {}", Format::ALL.map(Format::name).join(", "))]
+    #[error("`{name}` is no format; the formats are {}", names(|_| true))]
     FormatName {
         /// What was asked for.
         name: String,
     },
-    /// The format can be read, not written.
-    #[error("{path}: {format} files are read, not written; write one of {}", Format::ALL.into_iter().filter(|f| f.can_write()).map(Format::name).collect::<Vec<_>>().join(", "))]
+    /// Such content is not read from this format.
+    #[error("{path}: {format} files are {}; read one of {}", if format.is_read() { format!("not read as {content}") } else { "written, not read".to_owned() }, names(|f| f.reads(*content)))]
+    NotReadable {
+        /// The file.
+        path: String,
+        /// The format.
+        format: Format,
+        /// What was asked for.
+        content: Content,
+    },
+    /// Such content is not written in this format.
+    #[error("{path}: {format} files are {}; write one of {}", if format.is_written() { format!("not written as {content}") } else { "read, not written".to_owned() }, names(|f| f.writes(*content)))]
     NotWritable {
         /// The file.
         path: String,
         /// The format.
         format: Format,
+        /// What was given.
+        content: Content,
     },
     /// The format was left out of this build.
     #[error(
@@ -347,12 +361,14 @@ pub enum Error {
         columns: Vec<String>,
     },
     /// The file is not what its format demands.
-    #[error("{path} is damaged or no {format} file: {problem}")]
+    #[error("{path} is damaged or no {format} file: {place}{problem}")]
     Damaged {
         /// The file.
         path: String,
         /// The format.
         format: Format,
+        /// Where, as far as the problem does not say it.
+        place: MeshPlace,
         /// What is wrong.
         problem: String,
     },
@@ -446,15 +462,16 @@ pub enum Error {
     },
     /// The format holds points of another dimension.
     #[error(
-        "{path}: {format} files hold points of dimension {expected}, not {dim}: write another format"
+        "{path}: {format} files hold points of dimension {expected}, not {dim}{}",
+        if *format == Format::Xyz { ": write another format" } else { "" }
     )]
     Dimension {
         /// The file.
         path: String,
         /// The format.
         format: Format,
-        /// The dimension it holds.
-        expected: usize,
+        /// The dimension it holds, or several.
+        expected: &'static str,
         /// The dimension of the points.
         dim: usize,
     },
@@ -468,71 +485,19 @@ pub enum Error {
         /// The dimension.
         dim: usize,
     },
-    /// The name of a file does not tell which format of meshes it has.
-    #[error("{path}: the format of the mesh cannot be told from the name; name it .{}", meshes(MeshFormat::is_built).replace(", ", ", ."))]
-    UnknownMesh {
-        /// The file.
-        path: String,
-    },
-    /// The name of a file does not tell which format of curves it has.
-    #[error(
-        "{path}: the format of the curves cannot be told from the name; name it .csv, .geojson or .svg"
-    )]
-    UnknownPolylines {
-        /// The file.
-        path: String,
-    },
-    /// No format of meshes has this name.
-    #[error("`{name}` is no format of meshes; these are {}", meshes(|_| true))]
-    MeshFormatName {
-        /// What was asked for.
-        name: String,
-    },
-    /// The format was left out of this build.
-    #[error(
-        "{path}: this build of taut reads and writes no {format} files; build it with the feature `arrow`"
-    )]
-    MeshNotBuilt {
-        /// The file.
-        path: String,
-        /// The format.
-        format: MeshFormat,
-    },
     /// The format has no place for such simplices.
-    #[error("{path}: {format} files hold no {}; write one of {}", crate::mesh::nouns(*width), meshes(|f| f.holds(*width) && f.is_built()))]
+    #[error("{path}: {format} files hold no {}; write one of {}", crate::mesh::nouns(*width), names(|f| f.writes(Content::Triangulation) && f.holds_simplices(*width)))]
     MeshWidth {
         /// The file.
         path: String,
         /// The format.
-        format: MeshFormat,
+        format: Format,
         /// Vertices of a simplex.
         width: usize,
     },
-    /// The points of a mesh are not of the plane or of space.
-    #[error("{path}: {format} files hold points of the plane or of space, not of dimension {dim}")]
-    MeshDimension {
-        /// The file.
-        path: String,
-        /// The format.
-        format: MeshFormat,
-        /// The dimension of the points.
-        dim: usize,
-    },
-    /// A file is not the mesh that its format demands.
-    #[error("{path} is damaged or no {format} file: {place}{problem}")]
-    Mesh {
-        /// The file.
-        path: String,
-        /// The format.
-        format: MeshFormat,
-        /// Where.
-        place: MeshPlace,
-        /// What is wrong.
-        problem: String,
-    },
     /// A file of a mesh is of a kind that is not read.
     #[error("{path}: {place}{problem}, which is not read: write the mesh {remedy}")]
-    MeshKind {
+    Unsupported {
         /// The file.
         path: String,
         /// Where.
@@ -542,79 +507,17 @@ pub enum Error {
         /// How to write it instead.
         remedy: &'static str,
     },
-    /// There is no simplex in a file of a mesh.
-    #[error("{path} holds no simplex")]
-    NoSimplices {
+    /// There is no simplex in a file of a triangulation, or no vertex in that of a surface.
+    #[error("{path} holds no {missing}")]
+    EmptyMesh {
         /// The file.
         path: String,
+        /// `simplex` or `vertex`.
+        missing: &'static str,
     },
-    /// The name of a file does not tell which format of shapes it has.
-    #[error("{path}: the format of the shape cannot be told from the name; name it (one of {})", shapes(|_| true))]
-    UnknownShape {
-        /// The file.
-        path: String,
-    },
-    /// No format of shapes has this name.
-    #[error("`{name}` is no format of shapes; these are {}", shapes(|_| true))]
-    ShapeFormatName {
-        /// What was asked for.
-        name: String,
-    },
-    /// The format can be written, not read.
-    #[error(
-        "{path}: {format} files are written, not read; read one of {}",
-        shapes(ShapeFormat::can_read)
-    )]
-    ShapeNotReadable {
-        /// The file.
-        path: String,
-        /// The format.
-        format: ShapeFormat,
-    },
-    /// The format can be read, not written.
-    #[error(
-        "{path}: {format} files are read, not written, as shapes; write one of {}",
-        shapes(ShapeFormat::can_write)
-    )]
-    ShapeNotWritable {
-        /// The file.
-        path: String,
-        /// The format.
-        format: ShapeFormat,
-    },
-    /// A file is not the shape that its format demands.
-    #[error("{path} is damaged or no {format} file: {place}{problem}")]
-    Shape {
-        /// The file.
-        path: String,
-        /// The format.
-        format: ShapeFormat,
-        /// Where.
-        place: MeshPlace,
-        /// What is wrong.
-        problem: String,
-    },
-    /// A file of a shape is of a kind that is not read.
-    #[error("{path}: {place}{problem}, which is not read: write the shape {remedy}")]
-    ShapeKind {
-        /// The file.
-        path: String,
-        /// Where.
-        place: MeshPlace,
-        /// What it is.
-        problem: String,
-        /// How to write it instead.
-        remedy: &'static str,
-    },
-    /// There is no vertex in a file of a shape.
-    #[error("{path} holds no vertex")]
-    NoVertices {
-        /// The file.
-        path: String,
-    },
-    /// Normals or colours for another number of vertices.
+    /// Normals or colors for another number of vertices.
     #[error("{path}: {found} {what} were given for {vertices} vertices: give one for each")]
-    ShapeAttributes {
+    MeshAttributes {
         /// The file.
         path: String,
         /// What was given.
@@ -628,7 +531,7 @@ pub enum Error {
     #[error(
         "{path}: coordinate {column} of normal {vertex}, both counted from 0, is {value}: all must be finite"
     )]
-    ShapeNormal {
+    MeshNormal {
         /// The file.
         path: String,
         /// The vertex, from 0.
@@ -639,22 +542,20 @@ pub enum Error {
         value: f64,
     },
     /// The format has no place for vertices without triangles, or there are not even vertices.
-    #[error("{path}: there is no triangle to write; vertices alone are written as {}", shapes(|f| f.holds_points() && f.can_write()))]
-    ShapePoints {
+    #[error("{path}: there is no triangle to write; vertices alone are written as {}", names(|f| f.holds_bare_vertices() && f.writes(Content::Surface)))]
+    NoTriangles {
         /// The file.
         path: String,
-        /// The format.
-        format: ShapeFormat,
     },
     /// A coordinate does not fit into the single precision of the format.
     #[error(
-        "{path}: coordinate {column} of vertex {vertex}, both counted from 0, is {value:?}, too large for the single precision of {format}: scale the shape, or write ply, obj or off"
+        "{path}: coordinate {column} of vertex {vertex}, both counted from 0, is {value:?}, too large for the single precision of {format}: scale the mesh, or write ply, obj or off"
     )]
-    ShapeRange {
+    MeshRange {
         /// The file.
         path: String,
         /// The format.
-        format: ShapeFormat,
+        format: Format,
         /// The vertex, from 0.
         vertex: usize,
         /// The coordinate: 0, 1 or 2.
@@ -663,8 +564,8 @@ pub enum Error {
         value: f64,
     },
     /// A binary file of glTF would be longer than its header can say.
-    #[error("{path}: glb files hold 4 GiB at most, and this shape takes more: write it as ply")]
-    ShapeTooLarge {
+    #[error("{path}: glb files hold 4 GiB at most, and this mesh takes more: write it as ply")]
+    MeshTooLarge {
         /// The file.
         path: String,
     },

@@ -1,15 +1,58 @@
-//! The formats, their names, and how a file tells which one it has.
+//! The formats of points, meshes and curves, and how a file tells which one it has.
+
+mod table;
 
 use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-use crate::{Error, ShapeFormat};
+use crate::Error;
+use table::{Access, Entry, TABLE};
 
-/// A file format of points.
+/// What a file holds, or is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Content {
+    /// Points of any dimension.
+    Points,
+    /// Simplices of one dimension on given points: vertices are the points in their order.
+    Triangulation,
+    /// Triangles in space on vertices of their own, or vertices alone, with normals and colors.
+    Surface,
+    /// Curves of the plane.
+    Curves,
+}
+
+impl fmt::Display for Content {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Content::Points => "points",
+            Content::Triangulation => "triangulations",
+            Content::Surface => "surfaces",
+            Content::Curves => "curves",
+        })
+    }
+}
+
+/// A file format. The table says what each one holds of a surface; `taut formats` lists the rest.
+///
+/// | format | read | written | normals, colors | coordinates |
+/// |---|---|---|---|---|
+/// | ply, text or binary of either byte order | yes | text, binary little-endian | both | exact |
+/// | obj | yes | yes | both | exact |
+/// | off | yes | yes | both | exact |
+/// | stl | text, binary | text, binary | neither | text exact, binary in single precision |
+/// | xyz, pts | yes | no: see [`write_points`](crate::write_points) | both | exact |
+/// | glb, gltf | no | yes | both | single precision |
+/// | dxf, of release 12 | no | yes | neither | exact |
+/// | vrml 2.0 | no | yes | both | exact |
+/// | pov, as `mesh2` | no | yes | normals | exact |
+///
+/// Exact is what reads back to the same bits. A binary stl file, glb and gltf round coordinates to single precision, which can
+/// make one place of two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Format {
-    /// Text, a point per line, columns parted by commas (or semicolons or tabs, found in the first row).
+    /// Text, a point per line, columns parted by commas (or semicolons or tabs, found in the first row); of curves, a row
+    /// for each vertex.
     Csv,
     /// Text, columns parted by tabs.
     Tsv,
@@ -17,134 +60,152 @@ pub enum Format {
     Whitespace,
     /// A NumPy array.
     Npy,
-    /// Apache Parquet.
+    /// Stanford PLY.
+    Ply,
+    /// Wavefront OBJ.
+    Obj,
+    /// Object File Format, as Geomview has it.
+    Off,
+    /// Stereolithography.
+    Stl,
+    /// Three coordinates per line, with normals and colors, or with element symbols and a count line.
+    Xyz,
+    /// Unstructured grid of VTK, in XML with raw data appended.
+    Vtu,
+    /// Apache Parquet: points, or simplices as rows of ids.
     Parquet,
     /// Arrow IPC, file or stream.
     Arrow,
     /// A problem of TSPLIB with coordinates.
     Tsplib,
-    /// Three coordinates per line, with or without element symbols and a count line.
-    Xyz,
-    /// The vertices of a Stanford PLY file.
-    Ply,
-    /// The vertices of a Wavefront OBJ file.
-    Obj,
-    /// The vertices of an Object File Format file.
-    Off,
-    /// The corners of a stereolithography file, equal ones once.
-    Stl,
     /// Little-endian values without a header.
     Raw,
+    /// glTF 2.0 in one binary file.
+    Glb,
+    /// glTF 2.0 as JSON, with its buffer in it.
+    Gltf,
+    /// Drawing Exchange Format of AutoCAD, release 12, as text.
+    Dxf,
+    /// Virtual Reality Modeling Language 2.0.
+    Vrml,
+    /// Scene description of the Persistence of Vision Raytracer.
+    Pov,
+    /// Polygons with their holes, line strings and points, as in RFC 7946.
+    GeoJson,
+    /// One path of SVG.
+    Svg,
 }
 
 impl Format {
+    fn entry(self) -> &'static Entry {
+        &TABLE[self as usize]
+    }
+
+    /// The formats of some content, whether read or written, in a fixed order.
+    pub fn of(content: Content) -> impl Iterator<Item = Format> {
+        Format::all().filter(move |format| format.holds(content))
+    }
+
     /// Every format.
-    pub const ALL: [Format; 13] = [
-        Format::Csv,
-        Format::Tsv,
-        Format::Whitespace,
-        Format::Npy,
-        Format::Parquet,
-        Format::Arrow,
-        Format::Tsplib,
-        Format::Xyz,
-        Format::Ply,
-        Format::Obj,
-        Format::Off,
-        Format::Stl,
-        Format::Raw,
-    ];
+    pub fn all() -> impl Iterator<Item = Format> {
+        TABLE.iter().map(|entry| entry.format)
+    }
 
     /// The name, as [`FromStr`] reads it.
     pub fn name(self) -> &'static str {
-        match self {
-            Format::Csv => "csv",
-            Format::Tsv => "tsv",
-            Format::Whitespace => "whitespace",
-            Format::Npy => "npy",
-            Format::Parquet => "parquet",
-            Format::Arrow => "arrow",
-            Format::Tsplib => "tsplib",
-            Format::Xyz => "xyz",
-            Format::Ply => "ply",
-            Format::Obj => "obj",
-            Format::Off => "off",
-            Format::Stl => "stl",
-            Format::Raw => "raw",
-        }
+        self.entry().name
     }
 
-    /// The extensions that mean this format, in lower case and without a dot.
+    /// The extensions that mean this format, in lower case and without a dot; the first is the usual one.
     pub fn extensions(self) -> &'static [&'static str] {
-        match self {
-            Format::Csv => &["csv"],
-            Format::Tsv => &["tsv", "tab"],
-            Format::Whitespace => &["txt", "dat", "xy", "asc"],
-            Format::Npy => &["npy"],
-            Format::Parquet => &["parquet", "pq"],
-            Format::Arrow => &["arrow", "arrows", "feather", "ipc"],
-            Format::Tsplib => &["tsp"],
-            Format::Xyz => &["xyz", "pts"],
-            Format::Ply => &["ply"],
-            Format::Obj => &["obj"],
-            Format::Off => &["off"],
-            Format::Stl => &["stl"],
-            Format::Raw => &["raw", "bin", "f32", "f64"],
-        }
+        self.entry().extensions
     }
 
-    /// One line for a list of formats.
-    pub fn description(self) -> &'static str {
-        match self {
-            Format::Csv => "comma-separated text (also ; and tab), header found or not, # comments",
-            Format::Tsv => "tab-separated text",
-            Format::Whitespace => "text, columns parted by spaces and tabs",
-            Format::Npy => "NumPy array, n × d or n; f4, f8 and integers, either byte order",
-            Format::Parquet => "Apache Parquet, numeric columns or one list column",
-            Format::Arrow => {
-                "Arrow IPC (Feather), file or stream, numeric columns or one list column"
-            }
-            Format::Tsplib => "TSPLIB problem with a NODE_COORD_SECTION, not on the earth (GEO)",
-            Format::Xyz => {
-                "x y z per line, optional element symbol, optional count and comment lines"
-            }
-            Format::Ply => "Stanford PLY, text or binary: its vertices",
-            Format::Obj => "Wavefront OBJ, text: its vertices",
-            Format::Off => "Object File Format, text: its vertices",
-            Format::Stl => "stereolithography, text or binary: its corners, equal ones once",
-            Format::Raw => "little-endian f32 or f64 without a header; needs dimension and type",
-        }
+    fn access(self, content: Content) -> Option<(Access, &'static str)> {
+        let uses = self.entry().uses.iter();
+        uses.copied().find(|(held, ..)| *held == content).map(|(_, access, line)| (access, line))
     }
 
-    /// Whether [`open`](crate::open) reads it in this build.
-    pub fn can_read(self) -> bool {
+    /// One line for a list of the formats of some content; empty where it holds none of that.
+    pub fn description(self, content: Content) -> &'static str {
+        self.access(content).map_or("", |(_, line)| line)
+    }
+
+    /// Whether some build reads or writes such content in this format.
+    pub fn holds(self, content: Content) -> bool {
+        self.access(content).is_some()
+    }
+
+    /// Whether this build has it.
+    pub fn is_built(self) -> bool {
         cfg!(feature = "arrow") || !matches!(self, Format::Parquet | Format::Arrow)
     }
 
-    /// Whether [`write_points`](crate::write_points) writes it in this build.
-    pub fn can_write(self) -> bool {
-        let shape = self.shape().is_some();
-        !shape && self != Format::Tsplib && self.can_read()
+    /// Whether this build reads such content from it.
+    pub fn reads(self, content: Content) -> bool {
+        let access = self.access(content).map(|(access, _)| access);
+        self.is_built() && matches!(access, Some(Access::Read | Access::Both))
     }
 
-    /// Of a format of shapes, which.
-    pub(crate) fn shape(self) -> Option<ShapeFormat> {
+    /// Whether this build writes such content to it.
+    pub fn writes(self, content: Content) -> bool {
+        let access = self.access(content).map(|(access, _)| access);
+        self.is_built() && matches!(access, Some(Access::Write | Access::Both))
+    }
+
+    /// Whether anything is read from it.
+    pub(crate) fn is_read(self) -> bool {
+        self.entry().uses.iter().any(|(_, access, _)| *access != Access::Write)
+    }
+
+    /// Whether anything is written to it.
+    pub(crate) fn is_written(self) -> bool {
+        self.entry().uses.iter().any(|(_, access, _)| *access != Access::Read)
+    }
+
+    /// Whether a mesh in it can have simplices of so many vertices; a format of surfaces alone has triangles.
+    pub fn holds_simplices(self, width: usize) -> bool {
         match self {
-            Format::Ply => Some(ShapeFormat::Ply),
-            Format::Obj => Some(ShapeFormat::Obj),
-            Format::Off => Some(ShapeFormat::Off),
-            Format::Stl => Some(ShapeFormat::Stl),
-            _ => None,
+            Format::Ply | Format::Vtu | Format::Parquet => (1..=4).contains(&width),
+            Format::Obj | Format::Off => (1..=3).contains(&width),
+            _ => self.holds(Content::Surface) && width == 3,
         }
+    }
+
+    /// Whether it is written as a surface with vertices alone, without any triangle.
+    pub fn holds_bare_vertices(self) -> bool {
+        use Format::{Glb, Gltf, Obj, Off, Ply, Xyz};
+        matches!(self, Ply | Obj | Off | Xyz | Glb | Gltf)
     }
 
     /// The format and compression that the name of a file tells: `points.csv.gz` is CSV and gzip.
     pub fn of_path(path: &Path) -> (Option<Format>, Option<Compression>) {
         let (inner, compression) = Compression::split(path);
-        let format = inner.and_then(|inner| {
-            Format::ALL.into_iter().find(|format| format.extensions().contains(&inner.as_str()))
-        });
+        let format = inner
+            .and_then(|inner| Format::all().find(|known| known.extensions().contains(&&*inner)));
         (format, compression)
+    }
+
+    /// The format that the name of a file tells, if that can hold the content.
+    pub fn of_path_for(path: &Path, content: Content) -> Option<Format> {
+        Format::of_path(path).0.filter(|format| format.holds(content))
+    }
+}
+
+/// The format and the compression in which `content` goes to `path`: the given format, or that of the name; of points to standard
+/// output it is CSV.
+pub(crate) fn format_to_write(
+    path: &Path,
+    shown: &str,
+    given: Option<Format>,
+    content: Content,
+) -> Result<(Format, Option<Compression>), Error> {
+    let (named, compression) = Format::of_path(path);
+    let usual = content == Content::Points && path.as_os_str() == "-";
+    match given.or(named).or(usual.then_some(Format::Csv)) {
+        None => Err(Error::UnknownOutput { path: shown.to_owned(), content }),
+        Some(format) if format.writes(content) => Ok((format, compression)),
+        Some(format) => Err(Error::not_writable(shown, format, content)),
     }
 }
 
@@ -160,9 +221,8 @@ impl FromStr for Format {
     /// Reads a name or an extension, in either case.
     fn from_str(text: &str) -> Result<Self, Error> {
         let lower = text.to_ascii_lowercase();
-        Format::ALL
-            .into_iter()
-            .find(|format| format.name() == lower || format.extensions().contains(&lower.as_str()))
+        Format::all()
+            .find(|format| format.name() == lower || format.extensions().contains(&&*lower))
             .ok_or_else(|| Error::FormatName { name: text.to_owned() })
     }
 }

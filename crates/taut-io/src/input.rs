@@ -10,7 +10,7 @@ use taut_points::PointSource;
 use crate::device::refuse_device;
 use crate::error::shown_path;
 use crate::read::{self, Decoded};
-use crate::{Compression, Error, Format, Place, ReadOptions, ShapeFormat, compress};
+use crate::{Compression, Content, Error, Format, Place, ReadOptions, compress};
 
 /// Points of a file, and what is known of it.
 pub struct Input {
@@ -70,6 +70,50 @@ pub(crate) enum Medium {
 }
 
 impl Medium {
+    /// Opens the file at `path`, or standard input for `-`, and says how messages show it.
+    pub(crate) fn open(path: &Path) -> Result<(Medium, String), Error> {
+        if path.as_os_str() == "-" {
+            refuse_device_at_stdin()?;
+            let stream = Box::new(BufReader::with_capacity(1 << 18, io::stdin()));
+            return Ok((Medium::Stream(stream), "standard input".to_owned()));
+        }
+        let shown = shown_path(path);
+        let failed = |source| Error::reading(&shown, source);
+        let kind = fs::metadata(path).map_err(failed)?;
+        if kind.is_dir() {
+            return Err(Error::Directory { path: shown });
+        }
+        let file = File::open(path).map_err(failed)?;
+        refuse_device(&file, &shown)?;
+        // A pipe has a path on some systems, but no place to go back to.
+        let medium = match kind.is_file() {
+            true => Medium::File(file, path.to_owned()),
+            false => Medium::Stream(Box::new(BufReader::with_capacity(1 << 18, file))),
+        };
+        Ok((medium, shown))
+    }
+
+    /// The bytes that the compression of the name, or that of the first bytes if `sniff` says so, stands for; and the first
+    /// of them, of which there must be one.
+    pub(crate) fn decompressed(
+        self,
+        shown: &str,
+        named: Option<Compression>,
+        sniff: bool,
+    ) -> Result<(Vec<u8>, Medium), Error> {
+        let empty = || Error::Empty { path: shown.to_owned() };
+        let (head, medium) = self.peek(shown)?;
+        if head.is_empty() {
+            return Err(empty());
+        }
+        let Some(compression) = named.or(Compression::of_magic(&head).filter(|_| sniff)) else {
+            return Ok((head, medium));
+        };
+        let stream = compress::decoder(compression, medium.stream(), shown)?;
+        let (head, medium) = Medium::Stream(stream).peek(shown)?;
+        if head.is_empty() { Err(empty()) } else { Ok((head, medium)) }
+    }
+
     pub(crate) fn stream(self) -> Box<dyn BufRead> {
         match self {
             Medium::File(file, _) => Box::new(BufReader::with_capacity(1 << 18, file)),
@@ -134,29 +178,13 @@ impl Medium {
 /// [`Error`], with file, row, column and value. Values of files that are read in place are not looked at: a solver
 /// reports what it finds there, and [`Input::describe_cell`] says where that is.
 pub fn open(path: &Path, options: &ReadOptions) -> Result<Input, Error> {
-    if path.as_os_str() == "-" {
-        refuse_device_at_stdin()?;
-        let stream = Box::new(BufReader::with_capacity(1 << 18, io::stdin()));
-        return open_medium(Medium::Stream(stream), None, "standard input", options);
-    }
-    let shown = shown_path(path);
-    let failed = |source| Error::reading(&shown, source);
-    let kind = fs::metadata(path).map_err(failed)?;
-    if kind.is_dir() {
-        return Err(Error::Directory { path: shown });
-    }
-    let file = File::open(path).map_err(failed)?;
-    refuse_device(&file, &shown)?;
-    // A pipe has a path on some systems, but no place to go back to.
-    let medium = match kind.is_file() {
-        true => Medium::File(file, path.to_owned()),
-        false => Medium::Stream(Box::new(BufReader::with_capacity(1 << 18, file))),
-    };
-    open_medium(medium, Some(path).filter(|_| kind.is_file()), &shown, options)
+    let (medium, shown) = Medium::open(path)?;
+    let name = matches!(medium, Medium::File(..)).then_some(path);
+    open_medium(medium, name, &shown, options)
 }
 
 /// Refuses a device as standard input, which no path would name.
-pub(crate) fn refuse_device_at_stdin() -> Result<(), Error> {
+fn refuse_device_at_stdin() -> Result<(), Error> {
     #[cfg(unix)]
     {
         use std::os::fd::AsFd;
@@ -187,34 +215,19 @@ fn open_medium(
     options: &ReadOptions,
 ) -> Result<Input, Error> {
     let (named_format, named_compression) = name.map_or((None, None), Format::of_path);
-    let known = options.format.or(named_format);
-    let (mut head, mut medium) = medium.peek(shown)?;
-    if head.is_empty() {
-        return Err(Error::Empty { path: shown.to_owned() });
-    }
+    let known = options.format.or(named_format.filter(|format| format.holds(Content::Points)));
     // Raw values may begin with any bytes, so only a name says that they are compressed.
-    let sniffed = Compression::of_magic(&head).filter(|_| known != Some(Format::Raw));
-    if let Some(compression) = named_compression.or(sniffed) {
-        let stream = compress::decoder(compression, medium.stream(), shown)?;
-        (head, medium) = Medium::Stream(stream).peek(shown)?;
-        if head.is_empty() {
-            return Err(Error::Empty { path: shown.to_owned() });
-        }
-    }
+    let sniff = known != Some(Format::Raw);
+    let (head, medium) = medium.decompressed(shown, named_compression, sniff)?;
+    let unknown = || match named_format {
+        Some(format) => Error::not_readable(shown, format, Content::Points),
+        None => Error::UnknownFormat { path: shown.to_owned(), content: Content::Points },
+    };
     let format = known
         .or_else(|| read::format_of_magic(&head))
         .or(name.is_none().then_some(Format::Csv))
-        .ok_or_else(|| unknown(name, shown))?;
+        .ok_or_else(unknown)?;
     let job = Job { path: shown, format, options };
     let Decoded { source, columns, numbers } = read::read(&job, medium)?;
     Ok(Input { source, columns, format, path: shown.to_owned(), numbers })
-}
-
-/// What is wrong with a file whose name tells no format that points are read from.
-fn unknown(name: Option<&Path>, shown: &str) -> Error {
-    let path = shown.to_owned();
-    match name.and_then(|name| ShapeFormat::of_path(name).0) {
-        Some(format) if !format.can_read() => Error::ShapeNotReadable { path, format },
-        _ => Error::UnknownFormat { path },
-    }
 }

@@ -7,11 +7,9 @@
 //! | a file | [`create`] | the earlier file stays as it was until [`AtomicFile::commit`] |
 //! | points as a file | [`write_points`] | block by block, so the points may be larger than memory |
 //! | curves of the plane as a file | [`write_polylines`] | loops within loops are holes where a format knows them |
-//! | a mesh on points as a file | [`write_mesh`] | every point is a vertex, in input order |
-//! | a mesh of a file | [`open_mesh`] | every simplex, or an error that names file and line or element |
+//! | a mesh as a file: simplices on points, or a surface | [`write_mesh`] | every bit, where the format has room |
+//! | a mesh of a file, whoever wrote it | [`open_mesh`] | every vertex and simplex, or an error that names file and line or element |
 //! | type, shape, order and place of a NumPy array in a file | [`NpyArray::open`] | elements of any fixed width, as many as the header promises |
-//! | triangles, or points with normals and colours, as a file | [`write_shape`] | every bit, where the format has room |
-//! | such a shape of a file, whoever wrote it | [`open_shape`] | every vertex and triangle, or an error as above |
 //!
 //! ```
 //! use taut_io::{ReadOptions, open_bytes};
@@ -26,8 +24,9 @@
 //! Everything else is decoded once, to memory or, when it outgrows [`ReadOptions::memory`], to a temporary file of
 //! raw values. The names `.gz`, `.xz` and `.zst` compress any format.
 //!
-//! A *mesh* is simplices of any one dimension on given points, as triangulations are; a *shape* is triangles in space on
-//! vertices of its own, as surfaces and scans are.
+//! A *mesh* is simplices of one dimension on vertices: a [triangulation](Content::Triangulation) on given points, or a
+//! [surface](Content::Surface) of triangles on vertices of its own. [`Format`] is the one table of formats, of points, meshes
+//! and curves.
 //!
 //! Not for: points of differing dimension, polygons that stay polygons, textures, images.
 
@@ -44,12 +43,11 @@ mod format;
 mod input;
 mod limits;
 mod mesh;
+mod npy_header;
 mod number;
 mod options;
-mod ply;
 mod polylines;
 mod read;
-mod shape;
 mod sink;
 mod space;
 mod words;
@@ -60,15 +58,13 @@ pub use columns::Columns;
 pub use create::{AtomicFile, check_writable, create, remove_unfinished};
 pub use device::refuse_device;
 pub use error::{Error, MeshPlace, Place};
-pub use format::{Compression, Format};
+pub use format::{Compression, Content, Format};
 pub use input::{Input, open, open_bytes};
 pub use limits::LONGEST_LINE;
-pub use mesh::{Mesh, MeshFormat, mesh_file, open_mesh, open_mesh_bytes, write_mesh};
-pub use options::{Header, RawLayout, ReadOptions};
-pub use polylines::{PolylineFormat, polylines_file, write_polylines};
-pub use shape::{
-    Encoding, Shape, ShapeFormat, ShapeOptions, ShapeView, open_shape, open_shape_bytes,
-    shape_file, write_shape,
+pub use mesh::{
+    Encoding, Mesh, MeshOptions, MeshView, mesh_file, open_mesh, open_mesh_bytes, write_mesh,
 };
+pub use options::{Header, RawLayout, ReadOptions};
+pub use polylines::{polylines_file, write_polylines};
 pub use taut_mesh::Polyline;
 pub use write::write_points;

@@ -1,24 +1,151 @@
-//! Simplicial meshes on points, to files and back.
+//! Meshes: points, edges, triangles or tetrahedra on vertices, with the normals and colors that vertices have.
 //!
-//! *Idea.* A simplex is a row of ids, and an id is the number of a row of the points, from 0. So every point is written
-//! as a vertex, in input order and copies too, and what is read back speaks of the same rows. Points of the plane get
-//! the height 0 where a format wants three coordinates.
-//! *Guarantee.* Coordinates and ids are read back to the same bits. What is read names no vertex that is not there.
-//! *Trap.* A face of four corners is a quadrilateral in obj and off, never a tetrahedron: these two hold none.
+//! *Idea.* One codec per format. A reader hands what it finds to one builder, which checks it: coordinates are finite, corners
+//! are vertices. The caller says which content it wants. A *triangulation* has simplices of one dimension, and whatever else
+//! the file holds is refused. A *surface* has triangles or vertices alone: a polygon of more than three corners becomes the fan
+//! of triangles around its first corner, and edges, points, textures, materials, groups and opacity are passed over.
+//! *Guarantee.* Vertices keep their order, used or not. Coordinates and ids of a triangulation are read back to the same bits;
+//! the table of [`Format`](crate::Format) says what each format keeps of a surface. What a file says of its own length is
+//! compared with what is there and never trusted: memory grows with what was read.
+//! *Trap.* Normals and colors are kept where each vertex has one, and only one.
 
-mod format;
-pub(crate) mod obj;
+mod building;
+mod colors;
+mod dxf;
+mod gltf;
+mod normal;
+mod obj;
 mod off;
 #[cfg(feature = "arrow")]
 mod parquet;
 mod ply;
+mod pov;
 mod reading;
+mod stl;
+mod vrml;
 mod vtu;
 mod writing;
+mod xyz;
 
-pub use format::MeshFormat;
-pub use reading::{Mesh, open_mesh, open_mesh_bytes};
-pub use writing::{mesh_file, write_mesh};
+use taut_mesh::TriangleMesh;
+use taut_points::PointSource;
+
+pub(crate) use building::{Building, printable};
+pub(crate) use reading::read_stream;
+pub use reading::{open_mesh, open_mesh_bytes};
+pub use writing::{Encoding, MeshOptions, mesh_file, write_mesh};
+
+/// Simplices of one dimension on vertices, or vertices alone, as files hold them.
+///
+/// A mesh that was read is sound: all coordinates and normals are finite, and all ids are vertices.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// The vertices, used or not, in the order of the file; empty where the format has none.
+    pub vertices: Vec<[f64; 3]>,
+    /// Vertices of a simplex, 1 to 4; 3 of a surface.
+    pub width: usize,
+    /// The simplices: rows of `width` ids, each the number of a vertex, from 0. Empty of a point set.
+    pub simplices: Vec<u32>,
+    /// The normal of each vertex, of any length, as the file has it.
+    pub normals: Option<Vec<[f64; 3]>>,
+    /// Red, green and blue of each vertex.
+    pub colors: Option<Vec<[u8; 3]>>,
+}
+
+impl Default for Mesh {
+    /// A surface without vertices.
+    fn default() -> Self {
+        Mesh { vertices: Vec::new(), width: 3, simplices: Vec::new(), normals: None, colors: None }
+    }
+}
+
+impl Mesh {
+    /// A surface without normals and colors.
+    pub fn of_triangles(vertices: Vec<[f64; 3]>, triangles: &[[u32; 3]]) -> Self {
+        Mesh { vertices, simplices: triangles.as_flattened().to_vec(), ..Mesh::default() }
+    }
+
+    /// The triangles; none where simplices are of another dimension.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        if self.width == 3 { self.simplices.as_chunks().0 } else { &[] }
+    }
+
+    /// The surface as it is written. O(n).
+    ///
+    /// # Errors
+    /// Those of [`TriangleMesh::new`]; a surface that was read has none of them.
+    pub fn view(&self) -> Result<MeshView<'_>, taut_mesh::Error> {
+        let mesh = TriangleMesh::new(&self.vertices, self.triangles())?;
+        let (normals, colors) = (self.normals.as_deref(), self.colors.as_deref());
+        Ok(MeshView { normals, colors, ..mesh.into() })
+    }
+}
+
+/// A mesh, borrowed, as it is written: a surface from [`Mesh::view`] or a [`TriangleMesh`], or simplices
+/// [on points](MeshView::on_points).
+#[derive(Clone, Copy)]
+pub struct MeshView<'a> {
+    vertices: Vertices<'a>,
+    width: usize,
+    simplices: &'a [u32],
+    normals: Option<&'a [[f64; 3]]>,
+    colors: Option<&'a [[u8; 3]]>,
+}
+
+#[derive(Clone, Copy)]
+enum Vertices<'a> {
+    /// The rows of a point set, which may be larger than memory.
+    Points(&'a dyn PointSource),
+    /// Finite places in memory.
+    Places(&'a [[f64; 3]]),
+}
+
+impl<'a> MeshView<'a> {
+    /// A triangulation: rows of `width` ids, 1 to 4, of rows of `points`. All points are written as vertices, in order.
+    pub fn on_points(points: &'a dyn PointSource, simplices: &'a [u32], width: usize) -> Self {
+        let vertices = Vertices::Points(points);
+        MeshView { vertices, width, simplices, normals: None, colors: None }
+    }
+
+    /// Number of vertices.
+    fn vertex_count(&self) -> u64 {
+        match self.vertices {
+            Vertices::Points(source) => source.len(),
+            Vertices::Places(places) => places.len() as u64,
+        }
+    }
+
+    /// Number of simplices.
+    fn simplex_count(&self) -> usize {
+        self.simplices.len() / self.width
+    }
+
+    /// The vertices of a surface.
+    fn places(&self) -> &'a [[f64; 3]] {
+        match self.vertices {
+            Vertices::Points(_) => &[],
+            Vertices::Places(places) => places,
+        }
+    }
+
+    /// The triangles of a surface.
+    fn triangles(&self) -> &'a [[u32; 3]] {
+        self.simplices.as_chunks().0
+    }
+}
+
+impl<'a> From<TriangleMesh<'a>> for MeshView<'a> {
+    /// Without normals and colors.
+    fn from(mesh: TriangleMesh<'a>) -> Self {
+        MeshView {
+            vertices: Vertices::Places(mesh.vertices()),
+            width: 3,
+            simplices: mesh.triangles().as_flattened(),
+            normals: None,
+            colors: None,
+        }
+    }
+}
 
 /// The word for simplices of so many vertices.
 pub(crate) fn nouns(width: usize) -> &'static str {

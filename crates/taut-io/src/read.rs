@@ -6,15 +6,14 @@ mod arrow;
 mod columnar;
 mod delimited;
 mod lines;
-pub(crate) mod literal;
-pub(crate) mod npy;
+mod meshes;
+mod npy;
 #[cfg(feature = "arrow")]
 mod parquet;
 #[cfg(feature = "arrow")]
 pub(crate) mod quiet;
 mod raw;
 mod rows;
-mod shapes;
 #[cfg(feature = "arrow")]
 pub(crate) mod thrift;
 mod tsplib;
@@ -30,9 +29,11 @@ use std::path::Path;
 
 use taut_points::{FileSource, MappedSource, PointSource, ScalarKind};
 
+#[cfg(feature = "arrow")]
+use crate::MeshPlace;
 use crate::input::{Job, Medium};
-use crate::limits;
-use crate::{Error, Format, ShapeFormat};
+use crate::{Content, Error, Format};
+use crate::{limits, npy_header};
 
 /// Points, and what the file says of them.
 pub(crate) struct Decoded {
@@ -46,7 +47,7 @@ pub(crate) struct Decoded {
 /// The format whose files begin with these bytes.
 pub(crate) fn format_of_magic(bytes: &[u8]) -> Option<Format> {
     const MAGIC: [(&[u8], Format); 6] = [
-        (npy::MAGIC, Format::Npy),
+        (npy_header::MAGIC, Format::Npy),
         (b"PAR1", Format::Parquet),
         (b"ARROW1", Format::Arrow),
         (b"ply\n", Format::Ply),
@@ -66,20 +67,14 @@ pub(crate) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
         Format::Csv | Format::Tsv | Format::Whitespace => delimited::read(job, medium.stream()),
         Format::Tsplib => tsplib::read(job, medium.stream()),
         Format::Xyz => xyz::read(job, medium.stream()),
-        Format::Ply => shapes::read(job, medium, ShapeFormat::Ply),
-        Format::Obj => shapes::read(job, medium, ShapeFormat::Obj),
-        Format::Off => shapes::read(job, medium, ShapeFormat::Off),
-        Format::Stl => shapes::read(job, medium, ShapeFormat::Stl),
+        Format::Ply | Format::Obj | Format::Off | Format::Stl => meshes::read(job, medium),
         Format::Npy => read_npy(job, medium),
         Format::Raw => read_raw(job, medium),
         #[cfg(feature = "arrow")]
         Format::Parquet => parquet::read(job, medium),
         #[cfg(feature = "arrow")]
         Format::Arrow => arrow::read(job, medium.stream()),
-        #[cfg(not(feature = "arrow"))]
-        Format::Parquet | Format::Arrow => {
-            Err(Error::NotBuilt { path: job.path.to_owned(), format: job.format })
-        }
+        _ => Err(Error::not_readable(job.path, job.format, Content::Points)),
     }
 }
 
@@ -145,6 +140,7 @@ fn guarded(job: &Job<'_>, read: impl FnOnce() -> Result<Decoded, Error>) -> Resu
         Err(Error::Damaged {
             path: job.path.to_owned(),
             format: job.format,
+            place: MeshPlace::File,
             problem: "its decoder stumbled over bytes that contradict each other".to_owned(),
         })
     })

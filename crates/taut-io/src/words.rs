@@ -2,9 +2,7 @@
 
 use std::io::{BufRead, Read};
 
-use crate::error::Refuse;
-use crate::number::{self, Misread, UNDERFLOW};
-use crate::ply::printable;
+use crate::mesh::Building;
 use crate::{Error, MeshPlace};
 
 /// A line, its comment, and where it stands.
@@ -29,25 +27,21 @@ pub(crate) struct Lines {
 }
 
 impl Lines {
-    pub(crate) fn new(stream: Box<dyn BufRead>) -> Self {
-        Lines { stream, line: Vec::new(), number: 0, open: false, joined: false, cut: false }
+    /// Lines after the first `number`; `open` says whether the last one may lack its end.
+    pub(crate) fn new(stream: Box<dyn BufRead>, number: u64, open: bool) -> Self {
+        Lines { stream, line: Vec::new(), number, open, joined: false, cut: false }
     }
 
-    /// Lines after the first `number`, the last of which may lack its end, as editors leave it.
-    pub(crate) fn open_ended(stream: Box<dyn BufRead>, number: u64) -> Self {
-        Lines { number, open: true, ..Lines::new(stream) }
-    }
-
-    /// As [`open_ended`](Self::open_ended), and a backslash at the end of a line joins the next one to it.
-    pub(crate) fn joined(stream: Box<dyn BufRead>) -> Self {
-        Lines { joined: true, ..Lines::open_ended(stream, 0) }
+    /// A backslash at the end of a line joins the next one to it.
+    pub(crate) fn joined(self) -> Self {
+        Lines { joined: true, ..self }
     }
 
     /// Goes to the next line that is not blank; false where there is none.
     ///
     /// A last line without its end is refused, unless the lines are open-ended: a file that was cut within a number
     /// could look whole.
-    pub(crate) fn advance(&mut self, mesh: &impl Refuse) -> Result<bool, Error> {
+    pub(crate) fn advance(&mut self, mesh: &Building<'_>) -> Result<bool, Error> {
         loop {
             self.line.clear();
             loop {
@@ -104,7 +98,7 @@ impl Lines {
     }
 
     /// Goes to the next line that holds words.
-    pub(crate) fn skip_comments(&mut self, mesh: &impl Refuse) -> Result<(), Error> {
+    pub(crate) fn skip_comments(&mut self, mesh: &Building<'_>) -> Result<(), Error> {
         while self.advance(mesh)? && self.line.trim_ascii_start().starts_with(b"#") {}
         Ok(())
     }
@@ -127,34 +121,6 @@ pub(crate) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
 /// A whole number.
 pub(crate) fn whole(word: &[u8]) -> Option<i64> {
     std::str::from_utf8(word).ok()?.parse().ok()
-}
-
-/// Reads at least three coordinates; further words are colours or weights.
-pub(crate) fn place<'a>(
-    mesh: &impl Refuse,
-    line: MeshPlace,
-    words: impl Iterator<Item = &'a [u8]>,
-) -> Result<[f64; 3], Error> {
-    let no_place = || mesh.damaged(line, "a vertex needs three numbers, and nothing but numbers");
-    let mut at = [0.0; 3];
-    let mut count = 0;
-    for word in words {
-        let value = number::parse(word).map_err(|misread| match misread {
-            Misread::NotANumber => no_place(),
-            Misread::Underflow => underflow(mesh, line, word),
-        })?;
-        if let Some(slot) = at.get_mut(count) {
-            *slot = value;
-        }
-        count += 1;
-    }
-    if count >= 3 { Ok(at) } else { Err(no_place()) }
-}
-
-/// Refuses a number that would be read as 0.
-pub(crate) fn underflow(mesh: &impl Refuse, at: MeshPlace, word: &[u8]) -> Error {
-    let word = printable(&String::from_utf8_lossy(word));
-    mesh.damaged(at, format!("`{word}` {UNDERFLOW}"))
 }
 
 /// Writes three coordinates as [`put_number`], with blanks between them, and ends the line.

@@ -16,8 +16,9 @@ use taut_points::{Blocks, Monitor, PointSource, ReadError, Rows, Scratch};
 use crate::compress::Encoder;
 use crate::create::{AtomicFile, create};
 use crate::error::shown_path;
+use crate::format::format_to_write;
 use crate::space::{check_space, least_bytes};
-use crate::{Compression, Error, Format};
+use crate::{Compression, Content, Error, Format};
 
 /// Bytes gathered before they are written.
 const PIECE: usize = 1 << 18;
@@ -38,23 +39,12 @@ pub fn write_points(
     monitor: &Monitor<'_>,
 ) -> Result<(), Error> {
     let shown = shown_path(path);
-    let stdout = path.as_os_str() == "-";
-    let (named, compression) = Format::of_path(path);
-    let format = format
-        .or(named)
-        .or(stdout.then_some(Format::Csv))
-        .ok_or_else(|| Error::UnknownOutput { path: shown.clone() })?;
+    let (format, compression) = format_to_write(path, &shown, format, Content::Points)?;
     if !columns.is_empty() && columns.len() != source.dim() {
         return Err(Error::Names { path: shown, names: columns.len(), dim: source.dim() });
     }
     if format == Format::Xyz && source.dim() != 3 {
-        return Err(Error::Dimension { path: shown, format, expected: 3, dim: source.dim() });
-    }
-    if !format.can_write() {
-        return Err(match format.can_read() {
-            true => Error::NotWritable { path: shown, format },
-            false => Error::NotBuilt { path: shown, format },
-        });
+        return Err(Error::Dimension { path: shown, format, expected: "3", dim: source.dim() });
     }
     check_space(path, &shown, least_bytes(source, format, compression))?;
     let mut out = Out::create(path, &shown, compression)?;
@@ -69,7 +59,7 @@ pub fn write_points(
         Format::Parquet => columnar::write_parquet(&points, &mut out)?,
         #[cfg(feature = "arrow")]
         Format::Arrow => columnar::write_arrow(&points, &mut out)?,
-        _ => return Err(Error::NotWritable { path: shown, format }),
+        _ => return Err(Error::not_writable(&shown, format, Content::Points)),
     }
     out.finish()?.commit()
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use taut::{Curve, CurveMethod, CurveOptions, Ends, Monitor, Solution, curve_of_source};
-use taut_io::{Polyline, PolylineFormat, polylines_file};
+use taut_io::{Content, Format, Polyline, polylines_file};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
@@ -115,7 +115,7 @@ impl Find for Args {
     fn check_options(&self) -> anyhow::Result<()> {
         self.line_format()?;
         match &self.svg_path {
-            Some(path) if PolylineFormat::of_path(path).0 != Some(PolylineFormat::Svg) => {
+            Some(path) if Format::of_path(path).0 != Some(Format::Svg) => {
                 bail!("{}: --path writes SVG; name it .svg", path.display())
             }
             _ => Ok(()),
@@ -153,7 +153,7 @@ impl Find for Args {
             (None, _) => {}
         }
         if let Some(path) = &self.svg_path {
-            outputs.hold(polylines_file(&curves, path, Some(PolylineFormat::Svg))?);
+            outputs.hold(polylines_file(&curves, path, Some(Format::Svg))?);
         }
         Ok(())
     }
@@ -165,12 +165,12 @@ impl Args {
     }
 
     /// The format of the curves that go to `--out`; none where JSON does.
-    fn line_format(&self) -> anyhow::Result<Option<PolylineFormat>> {
+    fn line_format(&self) -> anyhow::Result<Option<Format>> {
         let Some(out) = &self.out else { return Ok(None) };
         let json = out.extension().is_none_or(|extension| extension.eq_ignore_ascii_case("json"));
         let shown = out.display();
-        match PolylineFormat::of_path(out).0 {
-            Some(PolylineFormat::Svg) => bail!(
+        match Format::of_path_for(out, Content::Curves) {
+            Some(Format::Svg) => bail!(
                 "{shown}: -o writes JSON, or the curves as .csv or .geojson; draw with --draw {shown}, or write their \
                  path alone with --path {shown}"
             ),

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use taut::{DelaunayOptions, InsertionOrder, Monitor, Solution, Triangulation};
-use taut_io::{MeshFormat, mesh_file};
+use taut_io::{Content, Format, MeshOptions, MeshView, mesh_file};
 
 use self::alpha::Alpha;
 use self::built::Built;
@@ -120,8 +120,9 @@ impl Find for Args {
     fn check_options(&self) -> anyhow::Result<()> {
         self.mesh_format()?;
         for path in self.hull.iter().chain(self.alpha.files()) {
-            if MeshFormat::of_path(path).0.is_none() {
-                return Err(taut_io::Error::UnknownMesh { path: path.display().to_string() }.into());
+            if Format::of_path_for(path, Content::Triangulation).is_none() {
+                let (path, content) = (path.display().to_string(), Content::Triangulation);
+                return Err(taut_io::Error::UnknownOutput { path, content }.into());
             }
         }
         if let Some(path) = self.voronoi.as_ref().filter(|path| !writing::is_stream(path)) {
@@ -172,7 +173,8 @@ impl Find for Args {
         }
         let answer = &found.answer;
         let file = |simplices: &[u32], width: usize, path: &Path| {
-            mesh_file(points.source(), simplices, width, path, None, monitor)
+            let mesh = MeshView::on_points(points.source(), simplices, width);
+            mesh_file(&mesh, path, &MeshOptions::default(), monitor)
         };
         match (&self.out, self.mesh_format()?) {
             (Some(out), Some(_)) => {
@@ -204,17 +206,17 @@ impl Args {
     }
 
     /// The format of the mesh that goes to `--out`; none where JSON does.
-    fn mesh_format(&self) -> anyhow::Result<Option<MeshFormat>> {
+    fn mesh_format(&self) -> anyhow::Result<Option<Format>> {
         let Some(out) = &self.out else { return Ok(None) };
         let json = out.extension().is_none_or(|extension| extension.eq_ignore_ascii_case("json"));
-        match MeshFormat::of_path(out).0 {
+        match Format::of_path_for(out, Content::Triangulation) {
             Some(format) => Ok(Some(format)),
             None if json => Ok(None),
             None if Picture::of_path(out).is_ok() => {
                 bail!("{}: -o writes JSON or a mesh; draw with --draw {0}", out.display())
             }
             None => {
-                let names: Vec<_> = MeshFormat::ALL.iter().map(|format| format.name()).collect();
+                let names: Vec<_> = Format::of(Content::Triangulation).map(Format::name).collect();
                 bail!(
                     "{}: -o writes .json or a mesh as .{}; name one of these",
                     out.display(),

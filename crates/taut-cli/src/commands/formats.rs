@@ -1,6 +1,6 @@
 //! `taut formats`: what can be read and written.
 
-use taut_io::{Compression, Format, MeshFormat, PolylineFormat, ShapeFormat};
+use taut_io::{Compression, Content, Format};
 
 use crate::exit::Outcome;
 use crate::output::writing;
@@ -23,14 +23,16 @@ fn table() -> String {
         let extensions = format.extensions().join(" ");
         [
             format.name().to_owned(),
-            word(format.can_read()).to_owned(),
-            word(format.can_write()).to_owned(),
+            word(format.reads(Content::Points)).to_owned(),
+            word(format.writes(Content::Points)).to_owned(),
             extensions,
         ]
     };
     let head = ["format", "read", "write", "extensions"].map(str::to_owned);
-    let rows: Vec<[String; 4]> = std::iter::once(head).chain(Format::ALL.map(row)).collect();
-    let notes = std::iter::once("what it is").chain(Format::ALL.map(Format::description));
+    let rows: Vec<[String; 4]> =
+        std::iter::once(head).chain(Format::of(Content::Points).map(row)).collect();
+    let notes = Format::of(Content::Points).map(|format| format.description(Content::Points));
+    let notes = std::iter::once("what it is").chain(notes);
     let widths: [usize; 4] =
         std::array::from_fn(|i| rows.iter().map(|row| row[i].len()).max().unwrap_or(0));
 
@@ -48,17 +50,15 @@ fn table() -> String {
         "\nAny of them may be compressed, with one of {} as a further extension.\n",
         packed.join(", ")
     );
-    text += "\nMeshes of triangulations, compressed likewise:\n";
-    for format in MeshFormat::ALL.into_iter().filter(|format| format.is_built()) {
-        text += &format!("{:<9}{}\n", format.name(), format.description());
-    }
-    text += "\nCurves alone, compressed likewise:\n";
-    for format in PolylineFormat::ALL {
-        text += &format!("{:<9}{}\n", format.name(), format.description());
-    }
-    text += "\nSurfaces alone, compressed likewise:\n";
-    for format in ShapeFormat::ALL.into_iter().filter(|format| format.can_write()) {
-        text += &format!("{:<9}{}\n", format.name(), format.description());
+    for (title, content) in [
+        ("Meshes of triangulations", Content::Triangulation),
+        ("Curves alone", Content::Curves),
+        ("Surfaces alone", Content::Surface),
+    ] {
+        text += &format!("\n{title}, compressed likewise:\n");
+        for format in Format::of(content).filter(|format| format.writes(content)) {
+            text += &format!("{:<9}{}\n", format.name(), format.description(content));
+        }
     }
     text += "\nAnswers are written as json, pictures as svg, png and html.\n";
     text

@@ -75,7 +75,7 @@ pub(crate) struct Args {
     #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Writing")]
     out: PathBuf,
     /// Format of the points; `taut formats` lists them [default: told by the name, csv for -]
-    #[arg(long, value_name = "F", value_parser = formats(Format::can_write), hide_possible_values = true, help_heading = "Writing")]
+    #[arg(long, value_name = "F", value_parser = formats(Format::writes), hide_possible_values = true, help_heading = "Writing")]
     format: Option<Format>,
     /// Type of a coordinate; points are drawn in f64, then rounded
     #[arg(long = "type", value_name = "TYPE", default_value = "f64", value_parser = scalar(), help_heading = "Writing")]

@@ -10,7 +10,7 @@ use taut::{
     Denoise, Monitor, Positions, Solution, Surface, SurfaceMethod, SurfaceMode, SurfaceOptions,
     surface_of_source,
 };
-use taut_io::{Shape, ShapeFormat, ShapeOptions, ShapeView, open_shape, shape_file};
+use taut_io::{Content, Format, Mesh, MeshOptions, mesh_file, open_mesh};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
@@ -186,18 +186,18 @@ impl Args {
     }
 
     /// The format of the mesh that goes to `--out`; none where JSON does.
-    fn mesh_format(&self) -> anyhow::Result<Option<ShapeFormat>> {
+    fn mesh_format(&self) -> anyhow::Result<Option<Format>> {
         let Some(out) = &self.out else { return Ok(None) };
         let json = out.extension().is_none_or(|extension| extension.eq_ignore_ascii_case("json"));
         let shown = out.display();
-        match ShapeFormat::of_path(out).0 {
-            Some(format) if format.can_write() => Ok(Some(format)),
+        match Format::of_path_for(out, Content::Surface) {
+            Some(format) if format.writes(Content::Surface) => Ok(Some(format)),
             None if json => Ok(None),
             None if Picture::of_path(out).is_ok() => {
                 bail!("{shown}: -o writes JSON or the mesh; draw with --draw {shown}")
             }
             _ => {
-                let formats = ShapeFormat::ALL.into_iter().filter(|format| format.can_write());
+                let formats = Format::all().filter(|format| format.writes(Content::Surface));
                 let names: Vec<String> =
                     formats.map(|format| format!(".{}", format.extensions()[0])).collect();
                 bail!("{shown}: -o writes .json, {}; name one of these", names.join(", "))
@@ -211,32 +211,29 @@ impl Args {
         found: &Solution<Surface>,
         points: &Opened,
         out: &Path,
-        format: ShapeFormat,
+        format: Format,
     ) -> anyhow::Result<taut_io::AtomicFile> {
         let vertices = match found.answer.vertices.is_empty() {
             true => places(points)?,
             false => found.answer.vertices.clone(),
         };
-        let kept = self.attributes(vertices.len())?;
-        let shape = Shape { vertices, triangles: found.answer.triangles.clone(), ..kept };
-        let view: ShapeView<'_> =
-            shape.view().map_err(|error| anyhow!("{}: {error}", out.display()))?;
-        let options = ShapeOptions { format: Some(format), ..ShapeOptions::default() };
-        Ok(shape_file(&view, out, &options)?)
+        let Mesh { normals, colors, .. } = self.attributes(vertices.len())?;
+        let mesh = Mesh::of_triangles(vertices, &found.answer.triangles);
+        let mesh = Mesh { normals, colors, ..mesh };
+        let view = mesh.view().map_err(|error| anyhow!("{}: {error}", out.display()))?;
+        let options = MeshOptions { format: Some(format), ..MeshOptions::default() };
+        Ok(mesh_file(&view, out, &options, &Monitor::silent())?)
     }
 
-    /// Normals and colours of the points, where their file has them and all its rows are points in its order.
-    fn attributes(&self, points: usize) -> anyhow::Result<Shape> {
+    /// A mesh with the normals and colors of the points, where their file has them and all its rows are points in its order.
+    fn attributes(&self, points: usize) -> anyhow::Result<Mesh> {
         let path = &self.points.path;
-        let format = ShapeFormat::of_path(path).0.filter(|format| format.can_read());
+        let format = Format::of_path(path).0.filter(|format| format.reads(Content::Surface));
         let Some(format) = format.filter(|_| !writing::is_stream(path)) else {
-            return Ok(Shape::default());
+            return Ok(Mesh::default());
         };
-        let shape = open_shape(path, Some(format))?;
-        Ok(match shape.vertices.len() == points {
-            true => Shape { vertices: Vec::new(), triangles: Vec::new(), ..shape },
-            false => Shape::default(),
-        })
+        let mesh = open_mesh(path, Content::Surface, Some(format))?;
+        Ok(if mesh.vertices.len() == points { mesh } else { Mesh::default() })
     }
 
     fn noise(&self) -> Denoise {

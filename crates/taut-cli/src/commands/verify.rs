@@ -10,7 +10,7 @@ use taut::certify::{
 use taut::enclose::Error as SolveError;
 use taut::points::{Blocks, Scratch};
 use taut::{Answer, AnySolution, Solution, Violation};
-use taut_io::{Mesh, MeshFormat, open_mesh};
+use taut_io::{Content, Format, Mesh, open_mesh};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
@@ -51,7 +51,7 @@ pub(crate) struct Args {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         let watch = self.effort.start()?;
-        if MeshFormat::of_path(&self.answer).0.is_some() {
+        if Format::of_path_for(&self.answer, Content::Triangulation).is_some() {
             return self.run_mesh(&watch);
         }
         let answer = match read_document(&self.answer, &self.files[0])? {
@@ -120,16 +120,17 @@ impl Args {
 
     /// Judges the simplices of a file of a mesh, which has no certificate.
     fn run_mesh(&self, watch: &Watch) -> anyhow::Result<Outcome> {
-        let mesh = open_mesh(&self.answer)?;
+        let mesh = open_mesh(&self.answer, Content::Triangulation, None)?;
+        let name = shown(&self.answer);
         let points = self.open_points()?;
-        let judged = match other_vertices(&mesh, &points)? {
+        let judged = match other_vertices(&mesh, &name, &points)? {
             Some(problem) => Err(problem),
             None => {
                 let check = |monitor: &taut::Monitor<'_>| {
                     check_simplices(points.source(), &mesh.simplices, mesh.width, monitor)
                 };
                 verdict(watch.during("checking", check), &points)?
-                    .map_err(|violation| points.explain_violation(&violation, &mesh.path))
+                    .map_err(|violation| points.explain_violation(&violation, &name))
             }
         };
         let (outcome, text) = match judged {
@@ -148,11 +149,14 @@ impl Args {
 }
 
 /// How the vertices of a mesh are not the points, if they are not: ids would then mean something else.
-fn other_vertices(mesh: &Mesh, points: &Opened) -> anyhow::Result<Option<String>> {
-    let Some(vertices) = &mesh.vertices else { return Ok(None) };
+fn other_vertices(mesh: &Mesh, file: &str, points: &Opened) -> anyhow::Result<Option<String>> {
+    // Parquet holds ids alone.
+    let vertices = &mesh.vertices;
+    if vertices.is_empty() {
+        return Ok(None);
+    }
     let (source, name) = (points.source(), points.name());
-    let mine =
-        |problem: String| Ok(Some(format!("{name} does not belong to {}: {problem}", mesh.path)));
+    let mine = |problem: String| Ok(Some(format!("{name} does not belong to {file}: {problem}")));
     if vertices.len() as u64 != source.len() {
         return mine(format!("there are {} points, but {} vertices", source.len(), vertices.len()));
     }

@@ -9,7 +9,7 @@ use taut::certify::Fault;
 use taut::enclose::Error as SolveError;
 use taut::points::{InputError, ReadError, ScalarKind, shown_number};
 use taut::{PointSource, Violation};
-use taut_io::{Columns, Format, Header, Input, RawLayout, ReadOptions};
+use taut_io::{Columns, Content, Format, Header, Input, RawLayout, ReadOptions};
 
 use crate::input::size;
 use crate::output::numbers::coordinates;
@@ -19,7 +19,7 @@ use crate::output::writing;
 #[command(next_help_heading = "Reading")]
 pub(crate) struct Reading {
     /// Format of the points; `taut formats` lists them [default: told by the name]
-    #[arg(long, value_name = "F", value_parser = formats(Format::can_read), hide_possible_values = true)]
+    #[arg(long, value_name = "F", value_parser = formats(Format::reads), hide_possible_values = true)]
     format: Option<Format>,
     /// Columns that are coordinates, by name, number from 0 or range: x,y,z or 0-2,5 or 1- [default: all]
     #[arg(long, value_name = "LIST")]
@@ -42,11 +42,12 @@ pub(crate) struct Reading {
 }
 
 /// A parser of the names of formats.
-pub(crate) fn formats(usable: fn(Format) -> bool) -> impl TypedValueParser<Value = Format> {
-    let names = Format::ALL
-        .into_iter()
-        .filter(move |&format| usable(format))
-        .map(|format| PossibleValue::new(format.name()).help(format.description()));
+pub(crate) fn formats(
+    usable: fn(Format, Content) -> bool,
+) -> impl TypedValueParser<Value = Format> {
+    let names = Format::all()
+        .filter(move |&format| usable(format, Content::Points))
+        .map(|format| PossibleValue::new(format.name()).help(format.description(Content::Points)));
     PossibleValuesParser::new(names).try_map(|name| name.parse::<Format>())
 }
 

@@ -3,19 +3,31 @@
 use std::fmt;
 use std::path::Path;
 
-use crate::{MeshFormat, ShapeFormat};
+use crate::{Content, Format};
 
-/// The names of the formats of meshes that `usable` says.
-pub(super) fn meshes(usable: impl Fn(MeshFormat) -> bool) -> String {
-    let names = MeshFormat::ALL.into_iter().filter(|&format| usable(format)).map(MeshFormat::name);
+/// The names of the formats that `usable` says.
+pub(super) fn names(usable: impl Fn(Format) -> bool) -> String {
+    let names = Format::all().filter(|&format| usable(format)).map(Format::name);
     names.collect::<Vec<_>>().join(", ")
 }
 
-/// The names of the formats of shapes that `usable` says.
-pub(super) fn shapes(usable: impl Fn(ShapeFormat) -> bool) -> String {
-    let names =
-        ShapeFormat::ALL.into_iter().filter(|&format| usable(format)).map(ShapeFormat::name);
-    names.collect::<Vec<_>>().join(", ")
+/// What cannot be told of a file.
+pub(super) fn format_of(content: Content) -> &'static str {
+    match content {
+        Content::Points => "format",
+        Content::Triangulation | Content::Surface => "format of the mesh",
+        Content::Curves => "format of the curves",
+    }
+}
+
+/// How to say the format: of points by a name, as an option takes one; of all else by an extension.
+pub(super) fn names_or_extensions(content: Content, usable: impl Fn(Format) -> bool) -> String {
+    if content == Content::Points {
+        return format!("(one of {})", names(usable));
+    }
+    let usable = Format::all().filter(|&format| usable(format));
+    let extensions = usable.map(|format| format!(".{}", format.extensions()[0]));
+    extensions.collect::<Vec<_>>().join(", ")
 }
 
 /// A path as messages show it: control characters are escaped, so that no name of a file can speak to a terminal.

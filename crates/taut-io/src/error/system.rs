@@ -2,7 +2,7 @@
 
 use std::io;
 
-use crate::Error;
+use crate::{Content, Error, Format};
 
 impl Error {
     /// What an error of opening or reading the file shown as `path` means, for those who read it themselves.
@@ -36,6 +36,24 @@ impl Error {
         match Error::writing(path, source) {
             Error::Write { path, source } => Error::Replace { path, source },
             other => other,
+        }
+    }
+
+    /// Why such content is not read from a file of this format.
+    pub(crate) fn not_readable(path: &str, format: Format, content: Content) -> Error {
+        let path = path.to_owned();
+        match format.holds(content) && !format.is_built() {
+            true => Error::NotBuilt { path, format },
+            false => Error::NotReadable { path, format, content },
+        }
+    }
+
+    /// Why such content is not written to a file of this format.
+    pub(crate) fn not_writable(path: &str, format: Format, content: Content) -> Error {
+        let path = path.to_owned();
+        match format.holds(content) && !format.is_built() {
+            true => Error::NotBuilt { path, format },
+            false => Error::NotWritable { path, format, content },
         }
     }
 }

@@ -1,87 +1,256 @@
-//! Wavefront OBJ: `v x y z`, then `p`, `l` or `f` with ids from 1.
+//! Wavefront OBJ: `v x y z`, `vn` with a normal, and `f` with corners, each a vertex and perhaps a texture and a normal.
 //!
-//! *Trap.* The format says nowhere how much there is, so a file cut at the end of a line would pass for a smaller mesh.
-//! A comment of ours at its top tells the counts, and where it stands they must hold.
+//! A corner is `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1, or back from the last one if negative. Three values after
+//! the coordinates are a color, as most programs write it. Textures, materials, groups, points and lines are passed over;
+//! free-form surfaces are refused.
+//!
+//! *Trap.* Normals belong to corners. They are kept where all corners of a vertex agree; a vertex of no corner takes the
+//! normal of its own number, where there are as many normals as vertices, which is how point sets have them.
+//! *Trap.* The format says nowhere how much there is. A comment of ours at its top tells the counts, and where it stands
+//! they must hold, up to the end of the last line.
 
 use std::io::BufRead;
 
-use super::reading::Building;
+use super::colors::fraction;
 use super::writing::Job;
-use crate::Error;
-use crate::error::Refuse;
-use crate::words::{Line, Lines, place, put_ids, put_place, whole, words};
+use super::{Building, printable};
+use crate::words::{Line, put_number, put_numbers, put_place, put_whole, whole, words};
 use crate::write::Out;
+use crate::{Error, MeshPlace};
 
-/// The keyword for simplices of so many vertices.
-const KEYWORDS: [&str; 3] = ["p", "l", "f"];
+/// The keyword of simplices of so many vertices.
+const KEYWORDS: [&[u8]; 3] = [b"p", b"l", b"f"];
 
-pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
-    out.put(format!("# {} vertices, {} simplices\n", job.vertices(), job.len()).as_bytes())?;
-    job.each_vertex(out, |at, bytes| {
-        bytes.extend_from_slice(b"v ");
-        put_place(at, bytes);
-    })?;
-    let keyword = KEYWORDS[job.width - 1].as_bytes();
-    job.each_simplex(out, |ids, bytes| {
-        bytes.extend_from_slice(keyword);
-        put_ids(ids, 1, bytes);
-    })
+/// Keywords that say nothing of a surface.
+const PASSED_OVER: [&[u8]; 22] = [
+    b"vt",
+    b"vp",
+    b"o",
+    b"g",
+    b"s",
+    b"mg",
+    b"usemtl",
+    b"mtllib",
+    b"usemap",
+    b"maplib",
+    b"bevel",
+    b"c_interp",
+    b"d_interp",
+    b"lod",
+    b"shadow_obj",
+    b"trace_obj",
+    b"ctech",
+    b"stech",
+    b"cstype",
+    b"deg",
+    b"bmat",
+    b"step",
+];
+
+/// Keywords of free-form curves and surfaces.
+const FREE_FORM: [&[u8]; 3] = [b"curv", b"curv2", b"surf"];
+
+/// Normals by the corners that name them.
+#[derive(Default)]
+struct Normals {
+    all: Vec<[f64; 3]>,
+    /// The normal of each vertex, as far as corners have named one.
+    of_vertex: Vec<Option<u32>>,
+    /// Whether the corners of a vertex disagree.
+    differ: bool,
 }
 
 pub(super) fn read(mesh: &mut Building<'_>, stream: Box<dyn BufRead>) -> Result<(), Error> {
-    let mut lines = Lines::new(stream);
-    let mut promised = None;
     mesh.first = 1;
-    let mut ids = Vec::new();
+    let mut lines = mesh.lines(stream, 0).joined();
+    let mut normals = Normals::default();
+    let (mut promised, mut simplices) = (None, 0);
+    let (mut values, mut corners) = (Vec::new(), Vec::new());
     while lines.advance(mesh)? {
         let Some(Line { at, words: line, comment }) = lines.current() else { break };
-        if line.is_empty() {
-            promised = promised.or(counts(comment));
-            continue;
-        }
         let mut rest = words(line);
-        let keyword = rest.next().unwrap_or_default();
-        match keyword {
-            b"v" => {
-                let vertex = place(mesh, at, rest)?;
-                mesh.vertex(at, vertex)?;
+        match rest.next() {
+            None => promised = promised.or(counts(comment)),
+            Some(b"v") => {
+                numbers(mesh, at, rest, &mut values)?;
+                read_vertex(mesh, at, &values)?;
             }
-            b"p" | b"l" | b"f" => {
-                ids.clear();
+            Some(b"vn") => {
+                numbers(mesh, at, rest, &mut values)?;
+                let &[x, y, z] = &values[..] else {
+                    let problem = format!("a normal has {} values, not 3", values.len());
+                    return Err(mesh.damaged(at, problem));
+                };
+                if normals.all.len() >= u32::MAX as usize {
+                    return Err(mesh.damaged(at, "there are more normals than ids of 32 bits"));
+                }
+                normals.all.push(mesh.finite(at, "normal", [x, y, z])?);
+            }
+            Some(b"p" | b"l") if !mesh.is_triangulation() => simplices += 1,
+            Some(keyword @ (b"p" | b"l" | b"f")) => {
+                corners.clear();
                 for word in rest {
-                    // What follows a slash are texture and normal.
-                    let id = whole(word.split(|&b| b == b'/').next().unwrap_or_default());
-                    let id = id.ok_or_else(|| mesh.damaged(at, "an id is no whole number"))?;
-                    // From 1, or counted back from the last vertex.
-                    let back = mesh.vertices.len() as i64;
-                    ids.push(if id < 0 { id.saturating_add(back) } else { id.saturating_sub(1) });
+                    corners.push(read_corner(mesh, at, word, &mut normals)?);
                 }
-                let wanted = KEYWORDS.iter().position(|k| k.as_bytes() == keyword).map(|k| k + 1);
-                if wanted != Some(ids.len()) {
-                    let (found, keyword) = (ids.len(), String::from_utf8_lossy(keyword));
-                    return Err(mesh.kind(at, format!("`{keyword}` has {found} vertices")));
+                let known = mesh.vertices.len() as u64;
+                match keyword {
+                    b"p" => mesh.simplex(at, &corners, 1, known)?,
+                    b"l" => mesh.simplex(at, &corners, 2, known)?,
+                    _ => mesh.polygon(at, &corners, known)?,
                 }
-                mesh.simplex(at, &ids)?;
+                simplices += 1;
             }
-            // Normals, textures, materials and groups are no part of the mesh.
-            b"vn" | b"vt" | b"vp" | b"o" | b"g" | b"s" | b"usemtl" | b"mtllib" => {}
-            _ => return Err(mesh.damaged(at, "it begins with no keyword of obj files")),
+            Some(keyword) if PASSED_OVER.contains(&keyword) => {}
+            Some(keyword) if FREE_FORM.contains(&keyword) => {
+                return Err(mesh.unsupported(at, "it is a free-form curve or surface"));
+            }
+            Some(keyword) => {
+                let keyword = printable(keyword);
+                return Err(mesh.damaged(at, format!("`{keyword}` is no keyword of obj files")));
+            }
         }
     }
-    match promised {
-        Some((vertices, simplices)) => {
-            mesh.expect("vertices", vertices, mesh.vertices.len() as u64)?;
-            mesh.expect("simplices", simplices, mesh.len())
+    if let Some((vertices, promised)) = promised {
+        mesh.expect("vertices", vertices, mesh.vertices.len() as u64)?;
+        mesh.expect("simplices", promised, simplices)?;
+        if lines.cut() {
+            return Err(mesh.damaged(MeshPlace::File, "its last line has no end"));
         }
-        None => Ok(()),
+    }
+    mesh.normals = normals.by_vertex(mesh.vertices.len());
+    Ok(())
+}
+
+fn numbers<'a>(
+    mesh: &Building<'_>,
+    at: MeshPlace,
+    words: impl Iterator<Item = &'a [u8]>,
+    values: &mut Vec<f64>,
+) -> Result<(), Error> {
+    values.clear();
+    for word in words {
+        values.push(mesh.number(at, word)?);
+    }
+    Ok(())
+}
+
+/// Coordinates, then nothing, a weight, a color, or a color and its opacity.
+fn read_vertex(mesh: &mut Building<'_>, at: MeshPlace, values: &[f64]) -> Result<(), Error> {
+    match *values {
+        [x, y, z] | [x, y, z, _] => mesh.vertex(at, [x, y, z]),
+        [x, y, z, r, g, b] | [x, y, z, r, g, b, _] => {
+            mesh.vertex(at, [x, y, z])?;
+            // Fractions, whatever the numbers look like.
+            mesh.color(at, [r, g, b], true)
+        }
+        _ => {
+            let problem = format!("a vertex has {} values, which is none of obj", values.len());
+            Err(mesh.damaged(at, problem))
+        }
+    }
+}
+
+/// The vertex of a corner, from 0; its normal is noted.
+fn read_corner(
+    mesh: &Building<'_>,
+    at: MeshPlace,
+    word: &[u8],
+    normals: &mut Normals,
+) -> Result<i64, Error> {
+    let no_corner = || {
+        let word = printable(word);
+        mesh.damaged(at, format!("`{word}` is no corner of a face"))
+    };
+    let mut parts = word.split(|&byte| byte == b'/');
+    let vertex = parts.next().and_then(whole).ok_or_else(no_corner)?;
+    let vertex = from_zero(vertex, mesh.vertices.len());
+    parts.next();
+    if let Some(part) = parts.next() {
+        let id = whole(part).ok_or_else(no_corner)?;
+        let known = normals.all.len();
+        let normal = usize::try_from(from_zero(id, known)).ok().filter(|&normal| normal < known);
+        let Some(normal) = normal else {
+            return Err(mesh.damaged(at, format!("it names normal {id}, but there are {known}")));
+        };
+        if let Some(vertex) = usize::try_from(vertex).ok().filter(|&v| v < mesh.vertices.len()) {
+            normals.note(vertex, normal as u32);
+        }
+    }
+    match parts.next() {
+        None => Ok(vertex),
+        Some(_) => Err(no_corner()),
+    }
+}
+
+/// A number counted from 1, or back from the last of `known`, as one from 0; it may be none of them.
+fn from_zero(id: i64, known: usize) -> i64 {
+    if id < 0 { id.saturating_add(known as i64) } else { id - 1 }
+}
+
+impl Normals {
+    /// A corner at `vertex` has this normal.
+    fn note(&mut self, vertex: usize, normal: u32) {
+        if self.of_vertex.len() <= vertex {
+            self.of_vertex.resize(vertex + 1, None);
+        }
+        let first = *self.of_vertex[vertex].get_or_insert(normal);
+        self.differ |= self.all[first as usize] != self.all[normal as usize];
+    }
+
+    /// The normal of each of `n` vertices; none of all where one has none or several.
+    fn by_vertex(mut self, n: usize) -> Vec<[f64; 3]> {
+        if self.differ || self.all.is_empty() {
+            return Vec::new();
+        }
+        if self.of_vertex.is_empty() && self.all.len() == n {
+            return self.all;
+        }
+        self.of_vertex.resize(n, None);
+        let same_number = self.all.len() == n;
+        let found = self.of_vertex.iter().enumerate().map(|(vertex, normal)| match normal {
+            Some(normal) => Some(self.all[*normal as usize]),
+            None => self.all.get(vertex).copied().filter(|_| same_number),
+        });
+        found.collect::<Option<Vec<_>>>().unwrap_or_default()
     }
 }
 
 /// What our comment promises: vertices and simplices.
-pub(crate) fn counts(comment: &[u8]) -> Option<(u64, u64)> {
+fn counts(comment: &[u8]) -> Option<(u64, u64)> {
     let text = std::str::from_utf8(comment).ok()?;
     let (vertices, simplices) = text.strip_prefix("# ")?.split_once(" vertices, ")?;
     Some((vertices.parse().ok()?, simplices.strip_suffix(" simplices")?.parse().ok()?))
+}
+
+pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+    let (normals, colors) = (job.mesh.normals, job.mesh.colors);
+    let (vertices, simplices) = (job.mesh.vertex_count(), job.mesh.simplex_count());
+    out.put(format!("# {vertices} vertices, {simplices} simplices\n").as_bytes())?;
+    job.each_vertex(out, |i, at, bytes| {
+        bytes.extend_from_slice(b"v ");
+        put_numbers(at, b" ", bytes);
+        for byte in colors.map(|colors| colors[i]).into_iter().flatten() {
+            bytes.push(b' ');
+            put_number(fraction(byte), bytes);
+        }
+        bytes.push(b'\n');
+    })?;
+    out.each(normals.unwrap_or_default(), |&normal, bytes| {
+        bytes.extend_from_slice(b"vn ");
+        put_place(normal, bytes);
+    })?;
+    job.each_simplex(out, |ids, bytes| {
+        bytes.extend_from_slice(KEYWORDS[ids.len() - 1]);
+        for &id in ids {
+            bytes.push(b' ');
+            put_whole(u64::from(id) + 1, bytes);
+            if normals.is_some() {
+                bytes.extend_from_slice(b"//");
+                put_whole(u64::from(id) + 1, bytes);
+            }
+        }
+        bytes.push(b'\n');
+    })
 }
 
 #[cfg(test)]

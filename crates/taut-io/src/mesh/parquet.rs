@@ -12,19 +12,18 @@ use parquet::errors::ParquetError;
 use parquet::file::properties::WriterProperties;
 use parquet::file::reader::ChunkReader;
 
-use super::reading::Building;
+use super::Building;
 use super::writing::Job;
-use crate::error::Refuse;
 use crate::input::{self, Medium};
 use crate::read::{Seekable, first_line, quiet, thrift};
 use crate::write::Out;
 use crate::{Error, Format, MeshPlace, ReadOptions};
 
 pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
-    let (path, failure) = (out.path, out.failure);
+    let (path, failure, width) = (out.path, out.failure, job.mesh.width);
     let failed = |source: ParquetError| failure(path, source.into());
     let field = |i| Field::new(format!("v{i}"), DataType::UInt32, false);
-    let schema = Arc::new(Schema::new((0..job.width).map(field).collect::<Vec<_>>()));
+    let schema = Arc::new(Schema::new((0..width).map(field).collect::<Vec<_>>()));
     // Ids hardly repeat within a page, so a dictionary would only be tried and given up.
     let properties = WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
@@ -35,9 +34,9 @@ pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
     for piece in job.pieces() {
         let piece = piece?;
         let column = |i: usize| -> ArrayRef {
-            Arc::new(UInt32Array::from_iter_values(piece.chunks_exact(job.width).map(|row| row[i])))
+            Arc::new(UInt32Array::from_iter_values(piece.chunks_exact(width).map(|row| row[i])))
         };
-        let batch = RecordBatch::try_new(schema.clone(), (0..job.width).map(column).collect())
+        let batch = RecordBatch::try_new(schema.clone(), (0..width).map(column).collect())
             .expect("the columns fit the schema of the simplices");
         writer.write(&batch).map_err(failed)?;
     }
@@ -66,7 +65,7 @@ fn read_chunks<R: ChunkReader + 'static>(mesh: &mut Building<'_>, chunks: R) -> 
     if !(1..=4).contains(&width)
         || names.iter().enumerate().any(|(i, name)| *name != format!("v{i}"))
     {
-        return Err(mesh.kind(at, "its columns are not v0, v1, … up to v3"));
+        return Err(mesh.unsupported(at, "its columns are not v0, v1, … up to v3"));
     }
     let batches = builder.build().map_err(|e| mesh.damaged(at, first_line(&e)))?;
     let mut row = 0;
@@ -76,7 +75,7 @@ fn read_chunks<R: ChunkReader + 'static>(mesh: &mut Building<'_>, chunks: R) -> 
             batch.map_err(|e| mesh.damaged(MeshPlace::Element("row", row), first_line(&e)))?;
         let columns =
             batch.columns().iter().map(ids).collect::<Option<Vec<_>>>().ok_or_else(|| {
-                mesh.kind(
+                mesh.unsupported(
                     at,
                     "its columns are not whole numbers of 32 or 64 bits, or some are missing",
                 )
@@ -85,7 +84,7 @@ fn read_chunks<R: ChunkReader + 'static>(mesh: &mut Building<'_>, chunks: R) -> 
             for (id, column) in simplex.iter_mut().zip(&columns) {
                 *id = column[i];
             }
-            mesh.simplex(MeshPlace::Element("row", row), &simplex)?;
+            mesh.simplex(MeshPlace::Element("row", row), &simplex, width, u32::MAX.into())?;
             row += 1;
         }
     }

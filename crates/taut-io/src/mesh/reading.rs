@@ -1,193 +1,100 @@
 //! A mesh of a file, whatever its format.
 
-use std::fs::{self, File};
-use std::io::BufReader;
+use std::io::BufRead;
 use std::path::Path;
 
-use super::{MeshFormat, obj, off, ply, vtu};
+use super::building::Building;
+use super::{Mesh, obj, off, ply, stl, vtu, xyz};
 use crate::cursor::Cursor;
-use crate::device::refuse_device;
-use crate::error::{Refuse, shown_path};
+use crate::error::shown_path;
 use crate::input::Medium;
-use crate::{Compression, Error, MeshPlace, compress};
+use crate::{Content, Error, Format};
 
-/// Simplices of a file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mesh {
-    /// Vertices of a simplex, 1 to 4.
-    pub width: usize,
-    /// The simplices: rows of `width` ids, each the number of a vertex, from 0.
-    pub simplices: Vec<u32>,
-    /// The vertices, in order; `None` where the format has none.
-    pub vertices: Option<Vec<[f64; 3]>>,
-    /// The format that was read.
-    pub format: MeshFormat,
-    /// The file as shown to people.
-    pub path: String,
-}
-
-/// Reads the mesh of `path`, as [`write_mesh`](crate::write_mesh) writes it: of ply what is binary and little-endian,
-/// of vtu what is appended raw. What is compressed is told by the extension or by the first bytes.
+/// Reads a mesh of `path` in the given format, or in that of the extension; `-` is standard input. What is compressed is
+/// told by the extension or by the first bytes.
+///
+/// [`Content::Triangulation`] asks for simplices of one dimension, as [`write_mesh`](crate::write_mesh) writes them on points;
+/// anything else in the file is refused.
+///
+/// [`Content::Surface`] asks for triangles and vertices. Vertices keep their order, used or not; of stl, corners with equal
+/// coordinates are one vertex. A polygon of more than three corners becomes the fan of triangles around its first corner,
+/// which is right where the polygon is convex. Normals and colors are kept where each vertex has one, and only one; all else
+/// that files hold of edges, faces, textures, materials and opacity is passed over. Colours that are full at 1 are brought to
+/// 255.
 ///
 /// # Errors
-/// [`Error::UnknownMesh`], [`Error::Mesh`] and [`Error::MeshKind`] with line or element, [`Error::NoSimplices`], and those of
-/// opening a file.
-pub fn open_mesh(path: &Path) -> Result<Mesh, Error> {
-    let shown = shown_path(path);
-    let failed = |source| Error::reading(&shown, source);
-    let kind = fs::metadata(path).map_err(failed)?;
-    if kind.is_dir() {
-        return Err(Error::Directory { path: shown });
-    }
-    let file = File::open(path).map_err(failed)?;
-    refuse_device(&file, &shown)?;
-    let medium = match kind.is_file() {
-        true => Medium::File(file, path.to_owned()),
-        false => Medium::Stream(Box::new(BufReader::with_capacity(1 << 18, file))),
-    };
-    read(medium, path, &shown)
+/// [`Error::UnknownFormat`] and [`Error::NotReadable`] of the format; [`Error::Damaged`] and [`Error::Unsupported`], with
+/// line or element, of what the file holds; [`Error::EmptyMesh`]; and those of opening a file.
+pub fn open_mesh(path: &Path, content: Content, format: Option<Format>) -> Result<Mesh, Error> {
+    let (medium, shown) = Medium::open(path)?;
+    read(medium, path, content, format, &shown)
 }
 
 /// Reads the mesh of a file whose bytes are in memory; `name` tells the format as a path would.
 ///
+/// ```
+/// use taut_io::{Content, open_mesh_bytes};
+///
+/// let text = b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n".to_vec();
+/// let mesh = open_mesh_bytes(text, "triangle.off", Content::Surface, None)?;
+/// assert_eq!((mesh.vertices[1], mesh.triangles()[0]), ([1.0, 0.0, 0.0], [0, 1, 2]));
+/// # Ok::<(), taut_io::Error>(())
+/// ```
+///
 /// # Errors
 /// As [`open_mesh`].
-pub fn open_mesh_bytes(bytes: Vec<u8>, name: &str) -> Result<Mesh, Error> {
-    read(Medium::Bytes(bytes.into()), Path::new(name), &shown_path(name.as_ref()))
+pub fn open_mesh_bytes(
+    bytes: Vec<u8>,
+    name: &str,
+    content: Content,
+    format: Option<Format>,
+) -> Result<Mesh, Error> {
+    let shown = shown_path(name.as_ref());
+    read(Medium::Bytes(bytes.into()), Path::new(name), content, format, &shown)
 }
 
-fn read(medium: Medium, name: &Path, shown: &str) -> Result<Mesh, Error> {
-    let (format, compression) = MeshFormat::of_path(name);
-    let format = format.ok_or_else(|| Error::UnknownMesh { path: shown.to_owned() })?;
-    let (head, mut medium) = medium.peek(shown)?;
-    if head.is_empty() {
-        return Err(Error::Empty { path: shown.to_owned() });
+fn read(
+    medium: Medium,
+    name: &Path,
+    content: Content,
+    format: Option<Format>,
+    shown: &str,
+) -> Result<Mesh, Error> {
+    let (named, compression) = Format::of_path(name);
+    let path = || shown.to_owned();
+    let format = format.or(named).ok_or_else(|| Error::UnknownFormat { path: path(), content })?;
+    if !format.reads(content) {
+        return Err(Error::not_readable(shown, format, content));
     }
-    if let Some(compression) = compression.or(Compression::of_magic(&head)) {
-        medium = Medium::Stream(compress::decoder(compression, medium.stream(), shown)?);
+    let (_, medium) = medium.decompressed(shown, compression, true)?;
+    #[cfg(feature = "arrow")]
+    if format == Format::Parquet {
+        let mut mesh = Building::new(shown, format, content, None);
+        super::parquet::read(&mut mesh, medium)?;
+        return mesh.finish();
     }
-    let mut mesh = Building {
-        path: shown,
-        format,
-        first: 0,
-        vertices: Vec::new(),
-        has_vertices: format != MeshFormat::Parquet,
-        width: 0,
-        simplices: Vec::new(),
-    };
+    read_stream(medium.stream(), format, content, name, shown, None)
+}
+
+/// Reads a mesh from bytes that are not compressed; `name` tells the columns of a file without a header as a path would, and
+/// `memory` how many bytes may be held.
+pub(crate) fn read_stream(
+    stream: Box<dyn BufRead>,
+    format: Format,
+    content: Content,
+    name: &Path,
+    shown: &str,
+    memory: Option<u64>,
+) -> Result<Mesh, Error> {
+    let mut mesh = Building::new(shown, format, content, memory);
     match format {
-        MeshFormat::Ply => ply::read(&mut mesh, &mut Cursor::new(medium.stream(), shown))?,
-        MeshFormat::Obj => obj::read(&mut mesh, medium.stream())?,
-        MeshFormat::Off => off::read(&mut mesh, medium.stream())?,
-        MeshFormat::Vtu => vtu::read(&mut mesh, &mut Cursor::new(medium.stream(), shown))?,
-        #[cfg(feature = "arrow")]
-        MeshFormat::Parquet => super::parquet::read(&mut mesh, medium)?,
-        #[cfg(not(feature = "arrow"))]
-        MeshFormat::Parquet => {
-            return Err(Error::MeshNotBuilt { path: shown.to_owned(), format });
-        }
+        Format::Ply => ply::read(&mut mesh, Cursor::new(stream, shown))?,
+        Format::Obj => obj::read(&mut mesh, stream)?,
+        Format::Off => off::read(&mut mesh, stream)?,
+        Format::Stl => stl::read(&mut mesh, stream, shown)?,
+        Format::Xyz => xyz::read(&mut mesh, stream, name)?,
+        Format::Vtu => vtu::read(&mut mesh, &mut Cursor::new(stream, shown))?,
+        _ => return Err(Error::not_readable(shown, format, content)),
     }
     mesh.finish()
-}
-
-/// A mesh as far as it was read, and what is wrong with the rest.
-pub(super) struct Building<'a> {
-    pub(super) path: &'a str,
-    pub(super) format: MeshFormat,
-    /// The id of the first vertex in this format.
-    pub(super) first: i64,
-    pub(super) vertices: Vec<[f64; 3]>,
-    has_vertices: bool,
-    width: usize,
-    simplices: Vec<u32>,
-}
-
-impl Refuse for Building<'_> {
-    fn path(&self) -> &str {
-        self.path
-    }
-
-    fn damaged(&self, place: MeshPlace, problem: impl Into<String>) -> Error {
-        let (path, format) = (self.path.to_owned(), self.format);
-        Error::Mesh { path, format, place, problem: problem.into() }
-    }
-}
-
-impl Building<'_> {
-    /// Number of simplices so far.
-    pub(super) fn len(&self) -> u64 {
-        (self.simplices.len() / self.width.max(1)) as u64
-    }
-
-    pub(super) fn vertex(&mut self, place: MeshPlace, at: [f64; 3]) -> Result<(), Error> {
-        if at.iter().any(|x| !x.is_finite()) {
-            return Err(self.damaged(place, "a coordinate is not finite"));
-        }
-        if self.vertices.len() >= u32::MAX as usize {
-            return Err(self.damaged(place, "there are more vertices than ids of 32 bits"));
-        }
-        self.vertices.push(at);
-        Ok(())
-    }
-
-    /// Adds a simplex whose vertices, numbered from 0, have been read before.
-    pub(super) fn simplex(&mut self, place: MeshPlace, ids: &[i64]) -> Result<(), Error> {
-        if self.width == 0 {
-            self.width = ids.len();
-        }
-        if ids.len() != self.width {
-            let problem =
-                format!("{} vertices, where the first simplex has {}", ids.len(), self.width);
-            return Err(self.kind(place, problem));
-        }
-        let known = if self.has_vertices { self.vertices.len() } else { u32::MAX as usize };
-        for &id in ids {
-            match u32::try_from(id).ok().filter(|&id| (id as usize) < known) {
-                Some(id) => self.simplices.push(id),
-                None => {
-                    let id = id.saturating_add(self.first);
-                    let problem = match self.has_vertices {
-                        true => format!("it names vertex {id}, and {known} were read before it"),
-                        false => format!("it names vertex {id}, which is no id of 32 bits"),
-                    };
-                    return Err(self.damaged(place, problem));
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Refuses a count that does not hold.
-    pub(super) fn expect(&self, what: &str, promised: u64, found: u64) -> Result<(), Error> {
-        match promised == found {
-            true => Ok(()),
-            false => {
-                let problem = format!("it promises {promised} {what}, but has {found}");
-                Err(self.damaged(MeshPlace::File, problem))
-            }
-        }
-    }
-
-    /// What is no damage, but not read either.
-    pub(super) fn kind(&self, place: MeshPlace, problem: impl Into<String>) -> Error {
-        let remedy = match self.format {
-            MeshFormat::Ply => "as binary little-endian ply, of simplices of one dimension",
-            MeshFormat::Vtu => "as vtu with uncompressed raw appended data",
-            _ => "with simplices of one dimension",
-        };
-        Error::MeshKind { path: self.path.to_owned(), place, problem: problem.into(), remedy }
-    }
-
-    fn finish(self) -> Result<Mesh, Error> {
-        if self.simplices.is_empty() {
-            return Err(Error::NoSimplices { path: self.path.to_owned() });
-        }
-        Ok(Mesh {
-            width: self.width,
-            simplices: self.simplices,
-            vertices: self.has_vertices.then_some(self.vertices),
-            format: self.format,
-            path: self.path.to_owned(),
-        })
-    }
 }

@@ -3,10 +3,9 @@
 //! *Trap.* Raw bytes within XML are no XML, although VTK and ParaView write and read them so: only what stands before
 //! the underscore that begins them is read as tags.
 
-use super::reading::Building;
+use super::Building;
 use super::writing::Job;
 use crate::cursor::{Cursor, Kind};
-use crate::error::Refuse;
 use crate::write::Out;
 use crate::{Error, MeshPlace};
 
@@ -18,7 +17,8 @@ const LONGEST_TAG: u64 = 1 << 16;
 const MOST_TAGS: usize = 1 << 10;
 
 pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
-    let (vertices, cells, width) = (job.vertices(), job.len() as u64, job.width as u64);
+    let (vertices, width) = (job.mesh.vertex_count(), job.mesh.width as u64);
+    let cells = job.mesh.simplex_count() as u64;
     // Each array is its length in bytes, as 8 bytes, and its values.
     let sizes = [24 * vertices, 8 * cells * width, 8 * cells, cells];
     let mut at = [0; 4];
@@ -43,7 +43,7 @@ pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
     );
     out.put(header.as_bytes())?;
     out.put(&sizes[0].to_le_bytes())?;
-    job.each_vertex(out, |at, bytes| at.iter().for_each(|x| bytes.extend(x.to_le_bytes())))?;
+    job.each_vertex(out, |_, at, bytes| at.iter().for_each(|x| bytes.extend(x.to_le_bytes())))?;
     out.put(&sizes[1].to_le_bytes())?;
     job.each_simplex(out, |ids, bytes| {
         ids.iter().for_each(|&id| bytes.extend(u64::from(id).to_le_bytes()));
@@ -79,48 +79,48 @@ struct Array {
 }
 
 pub(super) fn read(mesh: &mut Building<'_>, cursor: &mut Cursor<'_>) -> Result<(), Error> {
-    let whole = |problem: &str| Error::Mesh {
-        path: mesh.path.to_owned(),
-        format: mesh.format,
-        place: MeshPlace::File,
-        problem: problem.to_owned(),
-    };
     let mut tags: Vec<Tag> = Vec::new();
     while tags.last().is_none_or(|tag| tag.name != "AppendedData") {
         let text = cursor.text_before(b'>', LONGEST_TAG)?;
-        let text = text.ok_or_else(|| whole("there is no appended data"))?;
-        tags.extend(tag(&text).ok_or_else(|| whole("its description is no XML"))?);
+        let text =
+            text.ok_or_else(|| mesh.damaged(MeshPlace::File, "there is no appended data"))?;
+        tags.extend(
+            tag(&text).ok_or_else(|| mesh.damaged(MeshPlace::File, "its description is no XML"))?,
+        );
         if tags.len() > MOST_TAGS {
-            return Err(whole("its description has no end"));
+            return Err(mesh.damaged(MeshPlace::File, "its description has no end"));
         }
     }
     let mark = cursor.text_before(b'_', LONGEST_TAG)?;
     if mark.is_none_or(|blank| !blank.trim().is_empty()) {
-        return Err(whole("its appended data do not begin with an underscore"));
+        return Err(
+            mesh.damaged(MeshPlace::File, "its appended data do not begin with an underscore")
+        );
     }
     let find = |name: &str| tags.iter().find(|tag| tag.name == name);
-    let file = find("VTKFile").ok_or_else(|| whole("there is no tag `VTKFile`"))?;
+    let file = find("VTKFile")
+        .ok_or_else(|| mesh.damaged(MeshPlace::File, "there is no tag `VTKFile`"))?;
     let wanted =
         [("type", "UnstructuredGrid"), ("byte_order", "LittleEndian"), ("header_type", "UInt64")];
     for (key, value) in wanted {
         if file.get(key) != Some(value) {
-            return Err(mesh.kind(MeshPlace::File, format!("its `{key}` is not {value}")));
+            return Err(mesh.unsupported(MeshPlace::File, format!("its `{key}` is not {value}")));
         }
     }
     if file.get("compressor").is_some()
         || find("AppendedData").and_then(|tag| tag.get("encoding")) != Some("raw")
     {
-        return Err(mesh.kind(MeshPlace::File, "its data are compressed or encoded"));
+        return Err(mesh.unsupported(MeshPlace::File, "its data are compressed or encoded"));
     }
     let pieces: Vec<&Tag> = tags.iter().filter(|tag| tag.name == "Piece").collect();
     let [piece] = pieces[..] else {
-        return Err(mesh.kind(MeshPlace::File, format!("it has {} pieces", pieces.len())));
+        return Err(mesh.unsupported(MeshPlace::File, format!("it has {} pieces", pieces.len())));
     };
     let count = |key: &str| {
         piece
             .get(key)
             .and_then(|count| count.parse::<u64>().ok())
-            .ok_or_else(|| whole(&format!("its piece has no count `{key}`")))
+            .ok_or_else(|| mesh.damaged(MeshPlace::File, format!("its piece has no count `{key}`")))
     };
     let (vertices, cells) = (count("NumberOfPoints")?, count("NumberOfCells")?);
     let mut arrays = Vec::new();
@@ -162,13 +162,13 @@ pub(super) fn read(mesh: &mut Building<'_>, cursor: &mut Cursor<'_>) -> Result<(
     for (number, (&end, &kind)) in (0..).zip(ends.iter().zip(&types)) {
         let place = MeshPlace::Element("cell", number);
         let width = CELLS.iter().position(|&cell| i64::from(cell) == kind).map(|place| place + 1);
-        let width =
-            width.ok_or_else(|| mesh.kind(place, format!("it is of type {kind}, no simplex")))?;
+        let width = width
+            .ok_or_else(|| mesh.unsupported(place, format!("it is of type {kind}, no simplex")))?;
         let row = usize::try_from(end).ok().filter(|&end| end == from + width);
         let row = row.and_then(|end| ids.get(from..end));
         let row = row.ok_or_else(|| mesh.damaged(place, "its offset does not fit its type"))?;
         from += width;
-        mesh.simplex(place, row)?;
+        mesh.simplex(place, row, width, vertices)?;
     }
     mesh.expect("ids", ids.len() as u64, from as u64)
 }
@@ -188,12 +188,16 @@ fn array(mesh: &Building<'_>, tags: &[Tag], name: &'static str) -> Result<Array,
         Some("Int32") => Kind::I32,
         Some("UInt32") => Kind::U32,
         Some("UInt8") => Kind::U8,
-        _ => return Err(mesh.kind(MeshPlace::File, format!("array `{name}` is of an odd type"))),
+        _ => {
+            return Err(
+                mesh.unsupported(MeshPlace::File, format!("array `{name}` is of an odd type"))
+            );
+        }
     };
     let offset = tag.get("offset").and_then(|offset| offset.parse().ok());
     match (tag.get("format"), offset) {
         (Some("appended"), Some(offset)) => Ok(Array { name, kind, offset }),
-        _ => Err(mesh.kind(MeshPlace::File, format!("array `{name}` is not appended"))),
+        _ => Err(mesh.unsupported(MeshPlace::File, format!("array `{name}` is not appended"))),
     }
 }
 

@@ -1,116 +1,204 @@
-//! A mesh to a file, block by block.
+//! A mesh to a file, whatever its format.
 
 use std::path::Path;
 
-use taut_points::{Monitor, PointSource, ReadError, Rows};
+use taut_points::{Monitor, ReadError, Rows};
 
-use super::{MeshFormat, obj, off, ply, vtu};
-use crate::Error;
+use super::{MeshView, Vertices, dxf, gltf, obj, off, ply, pov, stl, vrml, vtu};
 use crate::create::AtomicFile;
 use crate::error::shown_path;
+use crate::format::format_to_write;
 use crate::write::{Out, Points};
+use crate::{Content, Error, Format};
 
 /// Simplices in one piece of output.
-const PIECE: usize = 1 << 14;
+const PIECE_SIMPLICES: usize = 1 << 14;
 
-/// What is to be written.
+/// How to write a mesh. Write `MeshOptions { encoding: Encoding::Text, ..Default::default() }`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MeshOptions {
+    /// The format; by default that of the extension.
+    pub format: Option<Format>,
+    /// How ply and stl are written, which know both ways. Default [`Encoding::Binary`].
+    pub encoding: Encoding,
+}
+
+/// Numbers as bytes or as decimals.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Encoding {
+    /// As bytes: shorter and faster.
+    #[default]
+    Binary,
+    /// As decimals that read back to the same bits.
+    Text,
+}
+
+/// What every writer is told.
 pub(super) struct Job<'a> {
-    points: Points<'a>,
-    pub(super) width: usize,
-    simplices: &'a [u32],
+    pub(super) mesh: &'a MeshView<'a>,
+    pub(super) encoding: Encoding,
+    monitor: &'a Monitor<'a>,
 }
 
-/// Writes simplices on points to `path` in the given format, or in that of the extension, as [`mesh_file`] and
-/// [`AtomicFile::commit`].
+/// Writes a mesh to `path`, as [`mesh_file`] and [`AtomicFile::commit`].
+///
+/// ```
+/// use taut_io::{Content, MeshOptions, open_mesh, write_mesh};
+/// use taut_mesh::TriangleMesh;
+/// use taut_points::Monitor;
+///
+/// let vertices = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.1, 0.0]];
+/// let mesh = TriangleMesh::new(&vertices, &[[0, 1, 2]])?;
+/// let path = std::env::temp_dir().join(format!("taut-{}.ply", std::process::id()));
+/// write_mesh(&mesh.into(), &path, &MeshOptions::default(), &Monitor::silent())?;
+/// assert_eq!(open_mesh(&path, Content::Surface, None)?.vertices, vertices);
+/// # std::fs::remove_file(path)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
-/// [`Error`]; an earlier file of that name is then as it was.
-pub fn write_mesh(
-    points: &dyn PointSource,
-    simplices: &[u32],
-    width: usize,
-    path: &Path,
-    format: Option<MeshFormat>,
-    monitor: &Monitor<'_>,
-) -> Result<(), Error> {
-    mesh_file(points, simplices, width, path, format, monitor)?.commit()
-}
-
-/// The file that [`write_mesh`] writes, complete, but not yet in its place.
-///
-/// `simplices` are rows of `width` ids, 1 to 4, of rows of `points`. All points are written as vertices, in order. The
-/// extensions `.gz`, `.xz` and `.zst` compress.
-///
-/// # Errors
-/// [`Error::UnknownMesh`], [`Error::MeshWidth`], [`Error::MeshDimension`], [`Error::MeshNotBuilt`], those of
-/// [`create`](crate::create), and [`Error::Points`].
+/// As [`mesh_file`], and those of the commit; an earlier file of that name is then as it was.
 ///
 /// # Panics
-/// If an id is no row of `points`, or `simplices` has no whole number of rows.
-pub fn mesh_file(
-    points: &dyn PointSource,
-    simplices: &[u32],
-    width: usize,
+/// As [`mesh_file`].
+pub fn write_mesh(
+    mesh: &MeshView<'_>,
     path: &Path,
-    format: Option<MeshFormat>,
+    options: &MeshOptions,
+    monitor: &Monitor<'_>,
+) -> Result<(), Error> {
+    mesh_file(mesh, path, options, monitor)?.commit()
+}
+
+/// The file that [`write_mesh`] writes, complete, but not yet in its place; `-` is standard output. The extensions `.gz`,
+/// `.xz` and `.zst` compress. Points of the plane get the height 0 where a format wants three coordinates.
+///
+/// # Errors
+/// Before anything is written: [`Error::UnknownFormat`], [`Error::NotBuilt`] and [`Error::NotWritable`] of the format,
+/// [`Error::MeshWidth`] and [`Error::Dimension`] of a triangulation, [`Error::MeshAttributes`], [`Error::MeshNormal`],
+/// [`Error::NoTriangles`] and [`Error::MeshRange`] of a surface. Then [`Error::MeshTooLarge`], [`Error::Points`] and those of
+/// [`create`](crate::create) and of writing.
+///
+/// # Panics
+/// If an id of a triangulation is no row of its points, or its ids make no whole number of simplices.
+pub fn mesh_file(
+    mesh: &MeshView<'_>,
+    path: &Path,
+    options: &MeshOptions,
     monitor: &Monitor<'_>,
 ) -> Result<AtomicFile, Error> {
     let shown = shown_path(path);
-    let (named, compression) = MeshFormat::of_path(path);
-    let format = format.or(named).ok_or_else(|| Error::UnknownMesh { path: shown.clone() })?;
-    if !format.is_built() {
-        return Err(Error::MeshNotBuilt { path: shown, format });
+    let content = match mesh.vertices {
+        Vertices::Points(_) => Content::Triangulation,
+        Vertices::Places(_) => Content::Surface,
+    };
+    let (format, compression) = format_to_write(path, &shown, options.format, content)?;
+    match content {
+        Content::Triangulation => check_triangulation(mesh, &shown, format)?,
+        _ => check_surface(mesh, &shown, format, options.encoding)?,
     }
-    if !format.holds(width) {
-        return Err(Error::MeshWidth { path: shown, format, width });
-    }
-    if !(1..=3).contains(&points.dim()) {
-        return Err(Error::MeshDimension { path: shown, format, dim: points.dim() });
-    }
-    assert!(simplices.len().is_multiple_of(width), "simplices are whole rows");
-    assert!(
-        simplices.iter().all(|&id| u64::from(id) < points.len()),
-        "simplices name rows of the points"
-    );
     let mut out = Out::create(path, &shown, compression)?;
-    let job = Job { points: Points { source: points, columns: &[], monitor }, width, simplices };
+    let job = Job { mesh, encoding: options.encoding, monitor };
     match format {
-        MeshFormat::Ply => ply::write(&job, &mut out)?,
-        MeshFormat::Obj => obj::write(&job, &mut out)?,
-        MeshFormat::Off => off::write(&job, &mut out)?,
-        MeshFormat::Vtu => vtu::write(&job, &mut out)?,
+        Format::Ply => ply::write(&job, &mut out)?,
+        Format::Obj => obj::write(&job, &mut out)?,
+        Format::Off => off::write(&job, &mut out)?,
+        Format::Vtu => vtu::write(&job, &mut out)?,
         #[cfg(feature = "arrow")]
-        MeshFormat::Parquet => super::parquet::write(&job, &mut out)?,
-        #[cfg(not(feature = "arrow"))]
-        MeshFormat::Parquet => return Err(Error::MeshNotBuilt { path: shown, format }),
+        Format::Parquet => super::parquet::write(&job, &mut out)?,
+        Format::Stl => stl::write(&job, &mut out)?,
+        Format::Glb => gltf::write_binary(mesh, &mut out)?,
+        Format::Gltf => gltf::write_json(mesh, &mut out)?,
+        Format::Dxf => dxf::write(mesh, &mut out)?,
+        Format::Vrml => vrml::write(mesh, &mut out)?,
+        Format::Pov => pov::write(mesh, &mut out)?,
+        _ => return Err(Error::not_writable(&shown, format, content)),
     }
     out.finish()
 }
 
+/// Refuses a triangulation that the format cannot hold.
+fn check_triangulation(mesh: &MeshView<'_>, shown: &str, format: Format) -> Result<(), Error> {
+    let (path, width) = (shown.to_owned(), mesh.width);
+    if !format.holds_simplices(width) {
+        return Err(Error::MeshWidth { path, format, width });
+    }
+    if let Vertices::Points(source) = mesh.vertices
+        && !(1..=3).contains(&source.dim())
+    {
+        return Err(Error::Dimension { path, format, expected: "1, 2 or 3", dim: source.dim() });
+    }
+    assert!(mesh.simplices.len().is_multiple_of(width), "simplices are whole rows");
+    assert!(
+        mesh.simplices.iter().all(|&id| u64::from(id) < mesh.vertex_count()),
+        "simplices name rows of the points"
+    );
+    Ok(())
+}
+
+/// Refuses a surface that the format cannot hold.
+fn check_surface(
+    mesh: &MeshView<'_>,
+    shown: &str,
+    format: Format,
+    encoding: Encoding,
+) -> Result<(), Error> {
+    let path = || shown.to_owned();
+    let vertices = mesh.places();
+    let given =
+        [("normals", mesh.normals.map(<[_]>::len)), ("colors", mesh.colors.map(<[_]>::len))];
+    for (what, found) in given {
+        if let Some(found) = found.filter(|&found| found != vertices.len()) {
+            let vertices = vertices.len();
+            return Err(Error::MeshAttributes { path: path(), what, found, vertices });
+        }
+    }
+    let normals = mesh.normals.unwrap_or_default().as_flattened();
+    if let Some(place) = normals.iter().position(|value| !value.is_finite()) {
+        let (vertex, column, value) = (place / 3, place % 3, normals[place]);
+        return Err(Error::MeshNormal { path: path(), vertex, column, value });
+    }
+    if mesh.simplices.is_empty() && (vertices.is_empty() || !format.holds_bare_vertices()) {
+        return Err(Error::NoTriangles { path: path() });
+    }
+    let single = match format {
+        Format::Glb | Format::Gltf => true,
+        Format::Stl => encoding == Encoding::Binary,
+        _ => false,
+    };
+    let flat = vertices.as_flattened();
+    match flat.iter().position(|&value| single && !(value as f32).is_finite()) {
+        None => Ok(()),
+        Some(place) => {
+            let (vertex, column, value) = (place / 3, place % 3, flat[place]);
+            Err(Error::MeshRange { path: path(), format, vertex, column, value })
+        }
+    }
+}
+
 impl Job<'_> {
-    /// Number of vertices.
-    pub(super) fn vertices(&self) -> u64 {
-        self.points.source.len()
-    }
-
-    /// Number of simplices.
-    pub(super) fn len(&self) -> usize {
-        self.simplices.len() / self.width
-    }
-
-    /// Writes what `write` makes of each vertex.
+    /// Writes what `write` makes of each vertex and its number.
     pub(super) fn each_vertex(
         &self,
         out: &mut Out<'_>,
-        mut write: impl FnMut([f64; 3], &mut Vec<u8>),
+        mut write: impl FnMut(usize, [f64; 3], &mut Vec<u8>),
     ) -> Result<(), Error> {
+        let source = match self.mesh.vertices {
+            Vertices::Points(source) => source,
+            Vertices::Places(places) => {
+                return out.each(places.iter().enumerate(), |(i, &at), bytes| write(i, at, bytes));
+            }
+        };
         let mut bytes = Vec::new();
-        self.points.blocks(|rows: Rows<'_>| {
+        let mut number = 0;
+        let points = Points { source, columns: &[], monitor: self.monitor };
+        points.blocks(|rows: Rows<'_>| {
             bytes.clear();
             for i in 0..rows.len() {
                 let mut at = [0.0; 3];
-                rows.copy_row(i, &mut at[..self.points.source.dim()]);
-                write(at, &mut bytes);
+                rows.copy_row(i, &mut at[..source.dim()]);
+                write(number, at, &mut bytes);
+                number += 1;
             }
             out.put(&bytes)
         })
@@ -125,7 +213,7 @@ impl Job<'_> {
         let mut bytes = Vec::new();
         for piece in self.pieces() {
             bytes.clear();
-            piece?.chunks_exact(self.width).for_each(|ids| write(ids, &mut bytes));
+            piece?.chunks_exact(self.mesh.width).for_each(|ids| write(ids, &mut bytes));
             out.put(&bytes)?;
         }
         Ok(())
@@ -133,8 +221,8 @@ impl Job<'_> {
 
     /// The ids of many simplices at a time; an error when the monitor says so.
     pub(super) fn pieces(&self) -> impl Iterator<Item = Result<&[u32], Error>> {
-        self.simplices.chunks(PIECE * self.width).map(|piece| {
-            self.points.monitor.check().map_err(ReadError::from)?;
+        self.mesh.simplices.chunks(PIECE_SIMPLICES * self.mesh.width).map(|piece| {
+            self.monitor.check().map_err(ReadError::from)?;
             Ok(piece)
         })
     }

@@ -18,7 +18,7 @@ use super::columnar::Plan;
 use super::{Decoded, first_line, guarded};
 use crate::input::Job;
 use crate::limits;
-use crate::{Error, Format};
+use crate::{Error, Format, MeshPlace};
 
 const MAGIC: &[u8] = b"ARROW1";
 
@@ -229,5 +229,10 @@ fn upto(job: &Job<'_>, stream: &mut dyn BufRead, count: u64) -> Result<Vec<u8>, 
 }
 
 fn damaged(job: &Job<'_>, problem: &str) -> Error {
-    Error::Damaged { path: job.path.to_owned(), format: Format::Arrow, problem: problem.to_owned() }
+    Error::Damaged {
+        path: job.path.to_owned(),
+        format: Format::Arrow,
+        place: MeshPlace::File,
+        problem: problem.to_owned(),
+    }
 }

@@ -10,13 +10,11 @@ use std::io::{self, BufRead, Read};
 use taut_points::{Scalar, ScalarKind};
 
 use super::Decoded;
-use super::literal::{self, Literal};
 use crate::input::Job;
 use crate::limits;
+use crate::npy_header::{self, NpyHeader};
 use crate::sink::Sink;
 use crate::{Error, Format, Place};
-
-pub(crate) const MAGIC: &[u8] = b"\x93NUMPY";
 
 /// Values read at a time.
 const CHUNK: usize = 1 << 13;
@@ -100,71 +98,17 @@ impl Header {
     }
 }
 
-/// The dictionary of a header, and the bytes up to the first value; leaves `stream` there.
-pub(crate) fn dictionary(
-    path: &str,
-    stream: &mut dyn BufRead,
-) -> Result<(Vec<(String, Literal)>, u64), Error> {
-    let mut fixed = [0; 8];
-    exact(path, stream, &mut fixed)?;
-    if !fixed.starts_with(MAGIC) {
-        return Err(damaged(path, "it does not begin as one".to_owned()));
-    }
-    let (length, before) = match fixed[6] {
-        1 => {
-            let mut length = [0; 2];
-            exact(path, stream, &mut length)?;
-            (u64::from(u16::from_le_bytes(length)), 10)
-        }
-        2 | 3 => {
-            let mut length = [0; 4];
-            exact(path, stream, &mut length)?;
-            (u64::from(u32::from_le_bytes(length)), 12)
-        }
-        version => return Err(damaged(path, format!("its version is {version}, not 1, 2 or 3"))),
-    };
-    let mut text = Vec::new();
-    stream.take(length).read_to_end(&mut text).map_err(|e| Error::reading(path, e))?;
-    if (text.len() as u64) < length {
-        return Err(damaged(path, "it ends within its header".to_owned()));
-    }
-    let text = String::from_utf8_lossy(&text);
-    match literal::parse(&text) {
-        Some(Literal::Dict(entries)) => Ok((entries, before + length)),
-        _ => Err(damaged(path, "its header is no dictionary".to_owned())),
-    }
-}
-
-/// The value of a key of a header; of a doubled one the last, as in Python.
-pub(crate) fn entry<'a>(
-    path: &str,
-    entries: &'a [(String, Literal)],
-    key: &str,
-) -> Result<&'a Literal, Error> {
-    let found = entries.iter().rfind(|(name, _)| name == key).map(|(_, value)| value);
-    found.ok_or_else(|| damaged(path, format!("its header has no `{key}`")))
-}
-
 /// Reads the header and leaves `stream` at the first value.
 pub(super) fn header(job: &Job<'_>, stream: &mut dyn BufRead) -> Result<Header, Error> {
-    let (entries, offset) = dictionary(job.path, stream)?;
-    let entry = |key: &str| entry(job.path, &entries, key);
-    let (element, big_endian) = match entry("descr")? {
-        Literal::Text(descr) => element(job, descr)?,
-        _ => {
-            return Err(Error::Array {
-                path: job.path.to_owned(),
-                problem: "its elements are records with fields".to_owned(),
-                remedy: "save the coordinate fields as one array, for instance with np.column_stack",
-            });
-        }
+    let NpyHeader { descr, fortran, shape, offset } = NpyHeader::read(job.path, stream)?;
+    let Some(descr) = descr else {
+        return Err(Error::Array {
+            path: job.path.to_owned(),
+            problem: "its elements are records with fields".to_owned(),
+            remedy: "save the coordinate fields as one array, for instance with np.column_stack",
+        });
     };
-    let Literal::Bool(fortran) = *entry("fortran_order")? else {
-        return Err(damaged(job.path, "`fortran_order` is neither True nor False".to_owned()));
-    };
-    let Literal::Tuple(shape) = entry("shape")? else {
-        return Err(damaged(job.path, "`shape` is no tuple of numbers".to_owned()));
-    };
+    let (element, big_endian) = element(job, &descr)?;
     let (n, dim) = match shape[..] {
         [n] => (n, 1),
         [n, dim] => (n, dim),
@@ -185,7 +129,12 @@ pub(super) fn header(job: &Job<'_>, stream: &mut dyn BufRead) -> Result<Header, 
             });
         }
         Ok(dim) => dim,
-        Err(_) => return Err(damaged(job.path, format!("its shape {shape:?} is out of range"))),
+        Err(_) => {
+            return Err(npy_header::damaged(
+                job.path,
+                &format!("its shape {shape:?} is out of range"),
+            ));
+        }
     };
     if n == 0 {
         return Err(Error::NoRows { path: job.path.to_owned() });
@@ -388,15 +337,4 @@ impl<'a, T: Scalar> Decoder<'a, T> {
     fn bytes_read(&self) -> u64 {
         self.read.saturating_mul(self.header.element.size() as u64)
     }
-}
-
-fn exact(path: &str, stream: &mut dyn BufRead, bytes: &mut [u8]) -> Result<(), Error> {
-    stream.read_exact(bytes).map_err(|source| match source.kind() {
-        io::ErrorKind::UnexpectedEof => damaged(path, "it ends within its header".to_owned()),
-        _ => Error::reading(path, source),
-    })
-}
-
-pub(crate) fn damaged(path: &str, problem: String) -> Error {
-    Error::Damaged { path: path.to_owned(), format: Format::Npy, problem }
 }

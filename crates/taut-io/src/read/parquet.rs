@@ -13,7 +13,7 @@ use taut_points::Blocks;
 use super::columnar::Plan;
 use super::{Decoded, first_line, guarded, thrift};
 use crate::input::{Job, Medium};
-use crate::{Error, Format};
+use crate::{Error, Format, MeshPlace};
 
 pub(super) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
     guarded(job, || match medium.seekable(job)? {
@@ -32,6 +32,7 @@ fn read_chunks<R: ChunkReader + 'static>(job: &Job<'_>, chunks: R) -> Result<Dec
     let damaged = |problem: String| Error::Damaged {
         path: job.path.to_owned(),
         format: Format::Parquet,
+        place: MeshPlace::File,
         problem,
     };
     let builder = thrift::open(chunks).map_err(|e| damaged(first_line(&e)))?;

@@ -12,7 +12,7 @@ use super::lines::Lines;
 use super::rows::{Delimiter, Rows, is_number, shown, split};
 use crate::input::Job;
 use crate::sink::Sink;
-use crate::{Error, Format};
+use crate::{Error, Format, MeshPlace};
 
 pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, Error> {
     let mut lines = Lines::new(stream, job);
@@ -88,5 +88,10 @@ fn is_node(line: &[u8]) -> bool {
 }
 
 fn damaged(job: &Job<'_>, problem: String) -> Error {
-    Error::Damaged { path: job.path.to_owned(), format: Format::Tsplib, problem }
+    Error::Damaged {
+        path: job.path.to_owned(),
+        format: Format::Tsplib,
+        place: MeshPlace::File,
+        problem,
+    }
 }

@@ -1,6 +1,6 @@
 //! Lines of `x y z`, as point clouds have them, or after a count, a comment and with element symbols, as molecules do.
 //!
-//! Further columns (colours, charges) are not coordinates unless selected.
+//! Further columns (colors, charges) are not coordinates unless selected.
 
 use std::io::BufRead;
 
@@ -9,7 +9,7 @@ use super::lines::Lines;
 use super::rows::{Delimiter, Rows, is_number, split};
 use crate::input::Job;
 use crate::sink::Sink;
-use crate::{Error, Format};
+use crate::{Error, Format, MeshPlace};
 
 pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, Error> {
     let mut lines = Lines::new(stream, job);
@@ -34,7 +34,12 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
     let width = fields.len() - skip;
     if width < 3 {
         let problem = format!("line {} has {width} coordinates, not at least 3", first.0);
-        return Err(Error::Damaged { path: job.path.to_owned(), format: Format::Xyz, problem });
+        return Err(Error::Damaged {
+            path: job.path.to_owned(),
+            format: Format::Xyz,
+            place: MeshPlace::File,
+            problem,
+        });
     }
     let mut rows = Rows::new(job, Delimiter::White, skip, width);
     rows.names = ["x", "y", "z"].map(str::to_owned).to_vec();

@@ -3,25 +3,17 @@
 use taut_points::{Rows, ScalarKind};
 
 use super::{Out, Points};
-use crate::Error;
+use crate::{Error, NpyArray};
 
 pub(super) fn write(points: &Points<'_>, out: &mut Out<'_>) -> Result<(), Error> {
-    let descr = match points.source.scalar() {
-        ScalarKind::F32 => "<f4",
-        ScalarKind::F64 => "<f8",
+    let dtype = match points.source.scalar() {
+        ScalarKind::F32 => "<f4".to_owned(),
+        ScalarKind::F64 => "<f8".to_owned(),
     };
-    let (n, dim) = (points.source.len(), points.source.dim());
-    let mut header =
-        format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': ({n}, {dim}), }}");
-    // Spaces and a line feed bring the values to a multiple of 64 bytes, so that they can be mapped.
-    let before = 10;
-    while (before + header.len() + 1) % 64 != 0 {
-        header.push(' ');
-    }
-    header.push('\n');
-    out.put(b"\x93NUMPY\x01\x00")?;
-    out.put(&(header.len() as u16).to_le_bytes())?;
-    out.put(header.as_bytes())?;
+    let width = points.source.scalar().size();
+    let shape = vec![points.source.len(), points.source.dim() as u64];
+    // It is a multiple of 64 bytes, so that the values can be mapped.
+    out.put(&NpyArray { dtype, width, fortran: false, shape, offset: 0 }.header())?;
     write_values(points, out)
 }
 

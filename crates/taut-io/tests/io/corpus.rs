@@ -30,6 +30,9 @@ fn a_page_header_that_never_ends_is_refused() {
     let Ok(bytes) = std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(seed)) else {
         return println!("skipped a_page_header_that_never_ends_is_refused: no seeds");
     };
-    let refused = taut_io::open_mesh_bytes(bytes, "found.parquet").unwrap_err().to_string();
+    let refused =
+        taut_io::open_mesh_bytes(bytes, "found.parquet", taut_io::Content::Triangulation, None)
+            .unwrap_err()
+            .to_string();
     assert!(refused.contains("no reader can pass over"), "{refused}");
 }

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use taut_io::{Error, create};
+use taut_io::{Content, Error, create};
 
 #[test]
 fn the_earlier_file_stays_until_the_commit() {
@@ -68,7 +68,7 @@ fn a_full_device_is_said_and_stays_a_device() {
     assert!(said);
     let values = vec![0.5; 300_000];
     let points = Points::new(&values, 3).unwrap();
-    for format in taut_io::Format::ALL.into_iter().filter(|format| format.can_write()) {
+    for format in taut_io::Format::all().filter(|format| format.writes(Content::Points)) {
         let written = taut_io::write_points(&points, &[], full, Some(format), &Monitor::silent());
         let said = written.unwrap_err().to_string();
         assert!(said.contains("/dev/full: writing failed"), "{format}: {said}");
@@ -148,7 +148,7 @@ fn a_write_that_fails_half_way_leaves_the_earlier_file() {
         }
     }
     let folder = tempfile::tempdir().unwrap();
-    for format in taut_io::Format::ALL.into_iter().filter(|format| format.can_write()) {
+    for format in taut_io::Format::all().filter(|format| format.writes(Content::Points)) {
         let path = folder.path().join("points");
         std::fs::write(&path, "earlier").unwrap();
         let written = taut_io::write_points(&Failing, &[], &path, Some(format), &Monitor::silent());

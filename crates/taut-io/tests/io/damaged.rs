@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use proptest::prelude::*;
-use taut_io::{Format, RawLayout, ReadOptions, open, open_bytes, write_points};
+use taut_io::{Content, Format, RawLayout, ReadOptions, open, open_bytes, write_points};
 use taut_points::{Distribution, Monitor, Points, ScalarKind, generate};
 
 /// 40 points of dimension 3 as a file of the given name.
@@ -17,7 +17,7 @@ fn sample(folder: &Path, name: &str) -> Vec<u8> {
 
 fn names() -> Vec<&'static str> {
     let all = ["p.npy", "p.parquet", "p.arrow", "p.csv.gz", "p.csv.xz", "p.csv.zst", "p.npy.gz"];
-    let read = |name: &&str| Format::of_path(Path::new(name)).0.unwrap().can_read();
+    let read = |name: &&str| Format::of_path(Path::new(name)).0.unwrap().reads(Content::Points);
     all.into_iter().filter(read).collect()
 }
 
@@ -187,7 +187,7 @@ proptest! {
         let starts: [&[u8]; 4] = [b"", b"\x93NUMPY\x01\x00\x76\x00{'descr': '<f8', ", b"PAR1", b"ARROW1\0\0\xff\xff\xff\xff"];
         let bytes = [starts[start], &bytes].concat();
         let options = ReadOptions {
-            format: Some(Format::ALL[which]),
+            format: Format::of(Content::Points).nth(which),
             raw: Some(RawLayout { dim, scalar: ScalarKind::F32, offset: 0 }),
             ..Default::default()
         };

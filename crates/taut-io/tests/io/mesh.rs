@@ -4,7 +4,7 @@ use std::path::Path;
 
 use proptest::collection::vec;
 use proptest::prelude::*;
-use taut_io::{Error, Mesh, MeshFormat, open_mesh, open_mesh_bytes, write_mesh};
+use taut_io::{Content, Error, Format, Mesh, MeshOptions, MeshView, write_mesh};
 use taut_points::{Monitor, Points};
 
 /// A point repeated, a negative zero, and numbers that need all their digits.
@@ -16,13 +16,23 @@ const SPACE: [f64; 15] =
 const ROWS: [&[u32]; 4] =
     [&[3], &[0, 4, 4, 1], &[0, 1, 3, 4, 3, 1, 0, 4, 1], &[0, 1, 3, 4, 4, 3, 1, 0]];
 
-fn formats(width: usize) -> impl Iterator<Item = MeshFormat> {
-    MeshFormat::ALL.into_iter().filter(move |format| format.is_built() && format.holds(width))
+fn formats(width: usize) -> impl Iterator<Item = Format> {
+    let written = Format::all().filter(|format| format.writes(Content::Triangulation));
+    written.filter(move |format| format.holds_simplices(width))
+}
+
+fn open_mesh(path: &Path) -> Result<Mesh, Error> {
+    taut_io::open_mesh(path, Content::Triangulation, None)
+}
+
+fn open_mesh_bytes(bytes: Vec<u8>, name: &str) -> Result<Mesh, Error> {
+    taut_io::open_mesh_bytes(bytes, name, Content::Triangulation, None)
 }
 
 fn write(values: &[f64], dim: usize, rows: &[u32], width: usize, path: &Path) -> Result<(), Error> {
     let points = Points::new(values, dim).unwrap();
-    write_mesh(&points, rows, width, path, None, &Monitor::silent())
+    let mesh = MeshView::on_points(&points, rows, width);
+    write_mesh(&mesh, path, &MeshOptions::default(), &Monitor::silent())
 }
 
 /// The bytes of a mesh of triangles in the plane.
@@ -31,8 +41,10 @@ fn sample(folder: &Path, name: &str) -> Vec<u8> {
     std::fs::read(folder.join(name)).unwrap()
 }
 
+/// None of a format that holds ids alone.
 fn bits(mesh: &Mesh) -> Option<Vec<[u64; 3]>> {
-    Some(mesh.vertices.as_ref()?.iter().map(|at| at.map(f64::to_bits)).collect())
+    let bits: Vec<_> = mesh.vertices.iter().map(|at| at.map(f64::to_bits)).collect();
+    (!bits.is_empty()).then_some(bits)
 }
 
 #[test]
@@ -50,9 +62,8 @@ fn every_format_keeps_every_bit() {
                     write(values, dim, rows, width, &path).unwrap();
                     let mesh = open_mesh(&path).unwrap();
                     assert_eq!((mesh.width, &mesh.simplices[..]), (width, rows), "{format}");
-                    let has_vertices = format != MeshFormat::Parquet;
+                    let has_vertices = format != Format::Parquet;
                     assert_eq!(bits(&mesh), has_vertices.then(|| expected.clone()), "{format}");
-                    assert_eq!(mesh.format, format);
                 }
             }
         }
@@ -64,9 +75,10 @@ fn points_in_single_precision_are_their_exact_copies() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mesh.off");
     let points = Points::new(&[0.1f32, 0.2, 0.3, 0.4, 0.5, 0.7], 2).unwrap();
-    write_mesh(&points, &[0, 1, 2], 3, &path, None, &Monitor::silent()).unwrap();
+    let mesh = MeshView::on_points(&points, &[0, 1, 2], 3);
+    write_mesh(&mesh, &path, &MeshOptions::default(), &Monitor::silent()).unwrap();
     let mesh = open_mesh(&path).unwrap();
-    assert_eq!(mesh.vertices.unwrap()[0], [f64::from(0.1f32), f64::from(0.2f32), 0.0]);
+    assert_eq!(mesh.vertices[0], [f64::from(0.1f32), f64::from(0.2f32), 0.0]);
 }
 
 #[test]
@@ -80,9 +92,12 @@ fn what_a_format_cannot_hold_is_refused_before_anything_is_written() {
         );
     }
     let refused = write(&PLANE, 2, ROWS[2], 3, &folder.path().join("mesh.stl")).unwrap_err();
-    assert!(refused.to_string().contains("name it .ply, .obj"), "{refused}");
+    let said = "stl files are not written as triangulations; write one of ply, obj, off, vtu";
+    assert!(refused.to_string().contains(said), "{refused}");
+    let refused = write(&PLANE, 2, ROWS[2], 3, &folder.path().join("mesh.step")).unwrap_err();
+    assert!(refused.to_string().contains("name it .ply, .obj, .off, .vtu"), "{refused}");
     let four = write(&[0.0; 4], 4, &[0], 1, &folder.path().join("mesh.ply")).unwrap_err();
-    assert!(four.to_string().contains("not of dimension 4"), "{four}");
+    assert!(four.to_string().contains("points of dimension 1, 2 or 3, not 4"), "{four}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
@@ -114,9 +129,13 @@ fn refusals_name_file_and_place() {
             "m.obj is damaged or no obj file: line 3: it names vertex 3",
         ),
         ("m.obj", "v 0 0 0\nf 1 0 1\n", "line 2: it names vertex 0"),
-        ("m.obj", "v 0 0 x\n", "line 1: a vertex needs three numbers"),
-        ("m.obj", "v 0 0 NaN\n", "line 1: a coordinate is not finite"),
-        ("m.obj", "v 0 0 0\nf 1 1 1 1\n", "m.obj: line 2: `f` has 4 vertices, which is not read"),
+        ("m.obj", "v 0 0 x\n", "line 1: `x` is no number"),
+        ("m.obj", "v 0 0 NaN\n", "line 1: coordinate z is NaN, and must be finite"),
+        (
+            "m.obj",
+            "v 0 0 0\nf 1 1 1 1\n",
+            "m.obj: line 2: it has 4 vertices, not 3, which is not read",
+        ),
         ("m.obj", "v 0 0 0\nf 1 1 1\nl 1 1\n", "line 3: 2 vertices, where the first simplex has 3"),
         ("m.obj", "v 0 0 0\nf 1 1 1", "line 2: it does not end with a line feed"),
         (
@@ -125,17 +144,19 @@ fn refusals_name_file_and_place() {
             "it promises 2 vertices, but has 1",
         ),
         ("m.obj", "v 0 0 0\n", "m.obj holds no simplex"),
-        ("m.obj", "\u{1b}[31m\n", "line 1: it begins with no keyword"),
-        ("m.off", "OFF\n1 1 0\n0 0 0\n3 0 0 1\n", "line 4: it names vertex 1, and 1 were read"),
+        ("m.obj", "\u{1b}[31m\n", "line 1: `\\u{1b}[31m` is no keyword of obj files"),
+        ("m.off", "OFF\n1 1 0\n0 0 0\n3 0 0 1\n", "line 4: it names vertex 1, but there are 1"),
         ("m.off", "OFF\n1 2 0\n0 0 0\n3 0 0 0\n", "it ends before face 1 of 2"),
         ("m.off", "OFF\n1 1 0\n0 0 0\n3 0 0 0\n7 8 9\n", "line 5: there is more"),
-        ("m.off", "OFF\n1 1 0\n0 0 0\n4 0 0 0 0\n", "m.off: line 4: a face has 4 vertices"),
+        ("m.off", "OFF\n1 1 0\n0 0 0\n4 0 0 0 0\n", "m.off: line 4: it has 4 vertices, not 3"),
         ("m.off", "OFF\n-1 1 0\n", "line 2: it does not count"),
-        ("m.off", "COFF\n", "line 1: the first line is not `OFF`"),
+        ("m.off", "QOFF\n", "m.off: line 1: it begins with `QOFF`, which is not read"),
+        ("m.off", "OFF\n1 1 0\n0 0 0\n3 0 0 0", "line 4: it does not end with a line feed"),
         (
             "m.ply",
-            "ply\nformat ascii 1.0\nend_header\n",
-            "m.ply: line 2: the format is `ascii`, which is not read",
+            "ply\nformat ascii 1.0\nelement vertex 0\nproperty int x\nproperty int y\nproperty int z\n\
+             element strip 1\nproperty int n\nend_header\n",
+            "m.ply: there are elements `strip`, which is not read",
         ),
         ("m.ply", "plX\n", "line 1: the first line is not `ply`"),
         ("m.ply", "ply\nproperty int x\n", "line 2: a property stands before any element"),
@@ -152,7 +173,11 @@ fn refusals_name_file_and_place() {
         ),
         ("m.vtu", "<VTKFile>", "there is no appended data"),
         ("m.parquet", "PAR1", "m.parquet is damaged or no parquet file"),
-        ("m.stl", "solid", "m.stl: the format of the mesh cannot be told"),
+        (
+            "m.stl",
+            "solid",
+            "m.stl: stl files are not read as triangulations; read one of ply, obj, off, vtu",
+        ),
         ("m.ply", "", "m.ply is empty"),
     ] {
         if !cfg!(feature = "arrow") && name == "m.parquet" {
@@ -172,8 +197,29 @@ fn ids_that_are_far_too_large_are_refused() {
         assert!(open_mesh_bytes(text.into(), "m.obj").is_err(), "{id}");
     }
     // Counted back from the last vertex, and with textures and normals.
-    let mesh = open_mesh_bytes(b"v 0 0 0\nv 1 0 0\nf -1 -2 1/7/9\n".to_vec(), "m.obj").unwrap();
+    let mesh =
+        open_mesh_bytes(b"v 0 0 0\nv 1 0 0\nvn 0 0 1\nf -1 -2 1/7/1\n".to_vec(), "m.obj").unwrap();
     assert_eq!(mesh.simplices, [1, 0, 0]);
+}
+
+/// Text and the other byte order are read as those of a surface are, edges and tetrahedra too.
+#[test]
+fn simplices_of_ply_are_read_in_every_encoding() {
+    let header = |word: &str, rest: &str| {
+        format!(
+            "ply\nformat {word} 1.0\nelement vertex 4\nproperty uchar x\nproperty uchar y\n\
+             property uchar z\n{rest}end_header\n"
+        )
+    };
+    let edges = "element edge 1\nproperty int vertex1\nproperty int vertex2\n";
+    let text = header("ascii", edges) + "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 1\n";
+    let mesh = open_mesh_bytes(text.into(), "m.ply").unwrap();
+    assert_eq!((mesh.width, &mesh.simplices[..]), (2, &[3, 1][..]));
+    let tetra = "element tetra 1\nproperty list uchar short vertex_indices\n";
+    let mut bytes = header("binary_big_endian", tetra).into_bytes();
+    bytes.extend([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 4, 0, 3, 0, 1, 0, 2, 0, 0]);
+    let mesh = open_mesh_bytes(bytes, "m.ply").unwrap();
+    assert_eq!((mesh.width, &mesh.simplices[..]), (4, &[3, 1, 2, 0][..]));
 }
 
 #[test]
@@ -191,7 +237,7 @@ fn other_elements_and_properties_of_ply_are_passed_over() {
     [0u32, 1, 1].iter().for_each(|id| bytes.extend(id.to_le_bytes()));
     let mesh = open_mesh_bytes(bytes.clone(), "m.ply").unwrap();
     assert_eq!(mesh.simplices, [0, 1, 1]);
-    assert_eq!(mesh.vertices.unwrap(), [[1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]);
+    assert_eq!(mesh.vertices, [[1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]);
     bytes.push(0);
     let refused = open_mesh_bytes(bytes, "m.ply").unwrap_err().to_string();
     assert!(refused.contains("goes on after its last element"), "{refused}");

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use taut_io::{Error, Polyline, PolylineFormat, ReadOptions, open, write_polylines};
+use taut_io::{Content, Error, Format, Polyline, ReadOptions, open, write_polylines};
 
 const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]];
 const HOLE: [[f64; 2]; 3] = [[1.0, 1.0], [3.0, 1.5], [2.0, 0.1 + 0.2]];
@@ -79,13 +79,16 @@ fn svg_is_one_path_in_coordinates_of_the_input() {
 
 #[test]
 fn names_tell_formats() {
-    for format in PolylineFormat::ALL {
+    for format in Format::of(Content::Curves) {
         let path = format!("a.{format}");
-        assert_eq!(PolylineFormat::of_path(Path::new(&path)).0, Some(format));
+        assert_eq!(Format::of_path(Path::new(&path)).0, Some(format));
     }
-    let unknown = write_polylines(&curves(), Path::new("curves.dxf"), None).unwrap_err();
-    assert!(matches!(unknown, Error::UnknownPolylines { .. }));
-    assert!(unknown.to_string().contains("name it .csv, .geojson or .svg"), "{unknown}");
+    let unknown = write_polylines(&curves(), Path::new("curves.shp"), None).unwrap_err();
+    assert!(matches!(unknown, Error::UnknownOutput { content: Content::Curves, .. }));
+    assert!(unknown.to_string().contains("name it .csv, .geojson, .svg"), "{unknown}");
+    let other = write_polylines(&curves(), Path::new("curves.dxf"), None).unwrap_err();
+    let said = "curves.dxf: dxf files are not written as curves; write one of csv, geojson, svg";
+    assert_eq!(other.to_string(), said);
     let lost = write_polylines(&curves(), Path::new("no/such/curves.csv"), None).unwrap_err();
     assert!(matches!(lost, Error::NotFound { .. }), "{lost}");
 }

@@ -159,7 +159,7 @@ fn a_format_that_is_named_beats_the_extension() {
     assert_eq!("CSV".parse::<Format>().unwrap(), Format::Csv);
     assert_eq!("pq".parse::<Format>().unwrap(), Format::Parquet);
     assert!("yaml".parse::<Format>().unwrap_err().to_string().contains("the formats are csv, tsv"));
-    for format in Format::ALL {
+    for format in Format::all() {
         assert_eq!(format.to_string().parse::<Format>().unwrap(), format);
         for extension in format.extensions() {
             assert_eq!(extension.parse::<Format>().unwrap(), format);

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use taut::{Monitor, Plane, PointSource, Space};
-use taut_io::mesh_file;
+use taut_io::{MeshOptions, MeshView, mesh_file};
 
 use super::built::Built;
 use crate::output::numbers::{count, exact};
@@ -109,7 +109,8 @@ impl Complex {
         ];
         for (path, simplices, width) in files {
             if let Some(path) = path {
-                outputs.hold(mesh_file(points, simplices, width, path, None, monitor)?);
+                let mesh = MeshView::on_points(points, simplices, width);
+                outputs.hold(mesh_file(&mesh, path, &MeshOptions::default(), monitor)?);
             }
         }
         Ok(())

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use proptest::prelude::*;
-use taut_io::{Encoding, ShapeFormat, open_shape_bytes};
+use taut_io::{Content, Encoding, Format, open_mesh_bytes};
 
 use super::{ENCODINGS, bytes_of, message, read, single, with};
 
@@ -74,7 +74,7 @@ proptest! {
                     bytes[at] = *byte;
                 }
                 if let Ok(shape) = read(name, bytes) {
-                    prop_assert!(shape.view().is_ok());
+                    prop_assert!(shape.mesh().view().is_ok());
                 }
             }
         }
@@ -86,9 +86,10 @@ proptest! {
         which in 0_usize..5,
         content in "((v|vn|f|OFF|COFF|solid|facet|outer|vertex|endloop|endfacet|endsolid|[0-9]|-1|0\\.5|1e9|nan|1//1|#|//)[ \n]){0,60}",
     ) {
-        let readable: Vec<_> = ShapeFormat::ALL.into_iter().filter(|format| format.can_read()).collect();
-        if let Ok(shape) = open_shape_bytes(content.into_bytes(), "any", Some(readable[which])) {
-            prop_assert!(shape.view().is_ok());
+        let readable: Vec<_> = Format::all().filter(|format| format.reads(Content::Surface)).collect();
+        let format = Some(readable[which]);
+        if let Ok(mesh) = open_mesh_bytes(content.into_bytes(), "any", Content::Surface, format) {
+            prop_assert!(mesh.view().is_ok());
         }
     }
 }

@@ -1,12 +1,12 @@
 //! Small files, written down: what others write is read, and what we write is what it was.
 
-use taut_io::{Encoding, Shape};
+use taut_io::Encoding;
 
-use super::{bytes_of, read, single, text_of};
+use super::{Surface, bytes_of, read, single, text_of};
 
-/// A square of two triangles, with normals and colours.
-fn square() -> Shape {
-    Shape {
+/// A square of two triangles, with normals and colors.
+fn square() -> Surface {
+    Surface {
         vertices: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.5]],
         triangles: vec![[0, 1, 2], [0, 2, 3]],
         normals: Some(vec![[0.0, 0.0, 1.0]; 4]),
@@ -14,8 +14,8 @@ fn square() -> Shape {
     }
 }
 
-fn bare() -> Shape {
-    Shape { normals: None, colors: None, ..square() }
+fn bare() -> Surface {
+    Surface { normals: None, colors: None, ..square() }
 }
 
 #[test]
@@ -40,7 +40,7 @@ const STRANGE: &str = "ply\nformat FORMAT 1.0\ncomment by hand\nobj_info none\ne
 
 #[test]
 fn ply_of_others_in_text_and_in_either_byte_order() {
-    let wanted = Shape {
+    let wanted = Surface {
         vertices: vec![[0.0, 0.0, 0.5], [1.0, 0.0, 0.5], [1.0, -2.0, 0.5], [0.0, 1.0, -4.0]],
         triangles: vec![[3, 0, 1], [3, 1, 2]],
         normals: None,
@@ -95,7 +95,7 @@ fn obj_of_others() {
     assert_eq!(shape.vertices.len(), 5);
     let wanted = [[0, 1, 2], [0, 2, 3], [0, 1, 2], [0, 2, 3], [0, 3, 4]];
     assert_eq!(shape.triangles, wanted);
-    // Two vertices have no normal, none has a colour.
+    // Two vertices have no normal, none has a color.
     assert_eq!((shape.normals, shape.colors), (None, None));
 }
 
@@ -130,9 +130,9 @@ fn off() {
 
 #[test]
 fn off_of_others() {
-    // Comments everywhere, counts on the first line, a polygon with a colour of its own, colours as fractions.
+    // Comments everywhere, counts on the first line, a polygon with a color of its own, colors as fractions.
     let text = "# by hand\nCOFF 4 1 5 # counts\n\n0 0 0 1.0 0 0 1\n # one\n1 0 0 0 1.0 0 1\n1 1 0 0 0 1 1\n0 1 0.5 0.2 0.4 0.8 1\n4 0 1 2 3 0.5 0.5 0.5";
-    let wanted = Shape { normals: None, ..square() };
+    let wanted = Surface { normals: None, ..square() };
     assert_eq!(read("s.off", text).unwrap(), wanted);
     let unsaid = text.replace("COFF", "OFF");
     assert_eq!(read("s.off", unsaid).unwrap(), wanted);
@@ -149,7 +149,7 @@ const FACET: &str =
 
 #[test]
 fn stl_in_text() {
-    let triangle = Shape {
+    let triangle = Surface {
         vertices: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]],
         triangles: vec![[0, 1, 2]],
         ..Default::default()
@@ -161,9 +161,9 @@ fn stl_in_text() {
         FACET.replace('\n', "\r\n\t").to_uppercase()
     );
     let found = read("s.stl", text).unwrap();
-    assert_eq!(found, Shape { triangles: vec![[0, 1, 2]; 2], ..triangle });
+    assert_eq!(found, Surface { triangles: vec![[0, 1, 2]; 2], ..triangle });
     // A triangle without area has no normal.
-    let flat = Shape { triangles: vec![[0, 1, 1]], ..single() };
+    let flat = Surface { triangles: vec![[0, 1, 1]], ..single() };
     assert!(text_of(&flat, "s.stl").contains("facet normal 0 0 0\n"));
 }
 
@@ -190,7 +190,7 @@ fn xyz_in_every_order_of_columns() {
     let places = vec![[0.0, 1.0, 2.0], [0.5, -1.0, 1e3]];
     let normals = Some(vec![[0.0, 0.6, 0.8], [0.0, 0.0, -1.0]]);
     let colors = Some(vec![[255, 0, 1], [0, 2, 51]]);
-    let shape = |normals: &Option<_>, colors: &Option<_>| Shape {
+    let shape = |normals: &Option<_>, colors: &Option<_>| Surface {
         vertices: places.clone(),
         triangles: Vec::new(),
         normals: Option::clone(normals),
@@ -238,7 +238,7 @@ fn packed(text: &str) -> Vec<u8> {
 
 #[test]
 fn dxf() {
-    let triangle = Shape {
+    let triangle = Surface {
         vertices: vec![[0.0, 0.5, -1.0], [1e-9, 2.0, 3.0], [4.0, 5.0, 6.0]],
         triangles: vec![[0, 1, 2]],
         ..Default::default()
@@ -267,7 +267,7 @@ fn vrml() {
 fn pov() {
     // The last two triangles have no area, and POV-Ray would refuse them.
     let triangles = vec![[0, 1, 2], [0, 2, 3], [1, 1, 2], [0, 1, 4]];
-    let mut shape = Shape { triangles, ..square() };
+    let mut shape = Surface { triangles, ..square() };
     shape.vertices.push([2.0, 0.0, 0.0]);
     shape.normals.as_mut().unwrap().push([0.0, 0.0, 1.0]);
     shape.colors.as_mut().unwrap().push([0; 3]);

@@ -4,9 +4,9 @@ use std::io::Cursor;
 
 use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{DefaultElement, Property};
-use taut_io::{Encoding, Shape};
+use taut_io::Encoding;
 
-use super::{ENCODINGS, bytes_of, read, single, with};
+use super::{ENCODINGS, Surface, bytes_of, read, single, with};
 
 #[test]
 fn ply_is_read_by_others() {
@@ -121,7 +121,7 @@ fn stl_is_read_by_others() {
 fn obj_is_read_by_others() {
     let shape = with(true, true);
     // This judge leaves out vertices that no triangle uses.
-    let shape = Shape { triangles: vec![[0, 1, 2], [3, 4, 5]], ..shape };
+    let shape = Surface { triangles: vec![[0, 1, 2], [3, 4, 5]], ..shape };
     let bytes = bytes_of(&shape, "s.obj", Encoding::Text);
     let options = tobj::LoadOptions { single_index: true, ..Default::default() };
     let (models, _) =
@@ -136,7 +136,7 @@ fn obj_is_read_by_others() {
 }
 
 /// JSON and buffer of either form, checked by the rules of the judge.
-fn gltf_of(shape: &Shape, name: &str) -> (gltf::Document, Vec<u8>) {
+fn gltf_of(shape: &Surface, name: &str) -> (gltf::Document, Vec<u8>) {
     let bytes = bytes_of(shape, name, Encoding::Binary);
     let found = gltf::Gltf::from_slice(&bytes).unwrap();
     let buffer = found.document.buffers().next().unwrap();
@@ -157,12 +157,12 @@ fn gltf_of(shape: &Shape, name: &str) -> (gltf::Document, Vec<u8>) {
 fn gltf_is_read_by_others() {
     let plain = single();
     let n = plain.vertices.len();
-    let full = Shape {
+    let full = Surface {
         normals: Some(vec![[0.0, 3.0, 4.0]; n]),
         colors: Some((0..n).map(|i| [i as u8, 200, 7]).collect()),
         ..plain.clone()
     };
-    let points = Shape { triangles: Vec::new(), ..full.clone() };
+    let points = Surface { triangles: Vec::new(), ..full.clone() };
     for name in ["s.glb", "s.gltf"] {
         for shape in [&plain, &full, &points] {
             let (document, values) = gltf_of(shape, name);
@@ -194,7 +194,7 @@ fn gltf_is_read_by_others() {
 
 #[test]
 fn a_normal_of_gltf_has_a_length() {
-    let shape = Shape { normals: Some(vec![[0.0; 3]; 4]), ..single() };
+    let shape = Surface { normals: Some(vec![[0.0; 3]; 4]), ..single() };
     let (document, _) = gltf_of(&shape, "s.glb");
     let primitive = document.meshes().next().unwrap().primitives().next().unwrap();
     assert_eq!(primitive.attributes().count(), 1);
@@ -203,7 +203,7 @@ fn a_normal_of_gltf_has_a_length() {
 /// The bounds are those of the rounded coordinates, not of the exact ones.
 #[test]
 fn bounds_of_gltf_are_rounded_as_its_coordinates() {
-    let shape = Shape { vertices: vec![[0.1, 1.0 / 3.0, -0.7]], ..Default::default() };
+    let shape = Surface { vertices: vec![[0.1, 1.0 / 3.0, -0.7]], ..Default::default() };
     for name in ["s.glb", "s.gltf"] {
         let (document, values) = gltf_of(&shape, name);
         let accessor = document.accessors().next().unwrap();

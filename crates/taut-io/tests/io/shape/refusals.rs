@@ -1,8 +1,11 @@
 //! Bad input is refused by name: which file, which line or element, which value.
 
-use taut_io::{Encoding, Error, Shape, ShapeFormat, ShapeOptions, ShapeView, write_shape};
+use taut_io::{Encoding, Error, Format, MeshOptions};
 
-use super::{ENCODINGS, message, read, sample, single, with, write_with, written};
+use super::{
+    ENCODINGS, Surface, message, open_surface, read, sample, single, with, write_to, write_with,
+    written,
+};
 
 const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
     element face 1\nproperty list uchar int vertex_indices\nend_header\n";
@@ -21,7 +24,7 @@ fn text_is_refused_with_its_line() {
         ("s.ply", "ply\nformat ascii 1.0\nend_header\n".into(), "it does not declare elements `vertex` once"),
         ("s.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\nproperty int z\nend_header\n0 0\n".into(), "its vertices have no property `y`"),
         ("s.ply", "ply\nformat ascii 1.0\nelement vertex 1\nend_header\n".into(), "elements `vertex` have no properties"),
-        ("s.ply", format!("ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int int vertex_indices\nelement vertex 0\n{one}"), "there are elements `tristrips`, which is not read: write the shape with elements `vertex` and `face`"),
+        ("s.ply", format!("ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int int vertex_indices\nelement vertex 0\n{one}"), "there are elements `tristrips`, which is not read: write the mesh with elements `vertex` and `face`"),
         ("s.ply", format!("ply\nformat ascii 1.0\nelement vertex 0\n{one}"), "s.ply holds no vertex"),
         ("s.ply", ply("0 0 0\n1 0 0\n"), "it ends before vertex 2"),
         ("s.ply", ply("0 0 0\n1 0 0\n0 1 0\n"), "it ends before face 0"),
@@ -39,7 +42,7 @@ fn text_is_refused_with_its_line() {
         ("s.obj", "v 0 0\n".into(), "line 1: a vertex has 2 values, which is none of obj"),
         ("s.obj", "v 0 0 x\n".into(), "s.obj is damaged or no obj file: line 1: `x` is no number"),
         ("s.obj", "v 0 -inf 0\n".into(), "line 1: coordinate y is -inf, and must be finite"),
-        ("s.obj", "v 0 0 0 1 300 0\n".into(), "line 1: a colour is 300"),
+        ("s.obj", "v 0 0 0 1 300 0\n".into(), "line 1: a color is 300"),
         ("s.obj", "v 0 0 0\nvn 0 0\n".into(), "line 2: a normal has 2 values, not 3"),
         ("s.obj", "v 0 0 0\nvn 0 0 nan\n".into(), "line 2: normal z is NaN"),
         ("s.obj", "v 0 0 0\nf 1 1 2\n".into(), "line 2: it names vertex 2, but there are 1"),
@@ -55,11 +58,11 @@ fn text_is_refused_with_its_line() {
         ("s.obj", "\u{1b}[31m\n".into(), "line 1: `\\u{1b}[31m` is no keyword"),
         ("s.obj", "# nothing\n".into(), "s.obj holds no vertex"),
         ("s.obj", "# 2 vertices, 0 simplices\nv 0 0 0\n".into(), "it promises 2 vertices, but has 1"),
-        ("s.obj", "# 1 vertices, 2 simplices\nv 0 0 0\nf 1 1 1\n".into(), "it promises 2 faces, but has 1"),
+        ("s.obj", "# 1 vertices, 2 simplices\nv 0 0 0\nf 1 1 1\n".into(), "it promises 2 simplices, but has 1"),
         ("s.obj", "# 1 vertices, 0 simplices\nv 0 0 0".into(), "its last line has no end"),
         ("s.off", "OF\n".into(), "line 1: the first word is `OF`, not `OFF`"),
-        ("s.off", "4OFF\n".into(), "line 1: it begins with `4OFF`, which is not read: write the shape as text, of polygons in space"),
-        ("s.off", "OFF BINARY\n".into(), "line 1: it is binary, which is not read: write the shape as text"),
+        ("s.off", "4OFF\n".into(), "line 1: it begins with `4OFF`, which is not read: write the mesh as text, of polygons in space"),
+        ("s.off", "OFF BINARY\n".into(), "line 1: it is binary, which is not read: write the mesh as text"),
         ("s.off", "OFF\n-1 0 0\n".into(), "line 2: it does not count"),
         ("s.off", "OFF\n".into(), "it ends before its counts"),
         ("s.off", "OFF\n2 0 0\n0 0 0\n".into(), "it ends before vertex 1 of 2"),
@@ -83,18 +86,18 @@ fn text_is_refused_with_its_line() {
         ("s.stl", "solid a\nendsolid\nfacet\n".into(), "line 3: it begins with `facet`, not `solid`"),
         ("s.stl", "nothing".into(), "the file ends here, too early"),
         ("s.xyz", "0 0 0\n0 0\n".into(), "line 2: 2 columns, where the first row has 3"),
-        ("s.xyz", "0 0\n".into(), "line 1: it has rows of 2 columns, which is not read: write the shape as x y z"),
+        ("s.xyz", "0 0\n".into(), "line 1: it has rows of 2 columns, which is not read: write the mesh as x y z"),
         ("s.xyz", "0 0 a\n".into(), "line 1: `a` is no number"),
         ("s.xyz", "0 0 nan\n".into(), "line 1: coordinate z is NaN"),
         ("s.xyz", "0 0 0 0 inf 0\n".into(), "line 1: what stands after the coordinates, y is inf"),
-        ("s.xyz", "0 0 0 3 4 -5\n".into(), "three columns are neither normals nor colours"),
-        ("s.xyz", "0 0 0 0 0 1 0 1 0\n".into(), "six columns are two normals or two colours"),
-        ("s.xyz", "0 0 0 2 2 2 3 3 3\n".into(), "six columns are two normals or two colours"),
+        ("s.xyz", "0 0 0 3 4 -5\n".into(), "three columns are neither normals nor colors"),
+        ("s.xyz", "0 0 0 0 0 1 0 1 0\n".into(), "six columns are two normals or two colors"),
+        ("s.xyz", "0 0 0 2 2 2 3 3 3\n".into(), "six columns are two normals or two colors"),
         ("s.xyz", "# no row\n".into(), "s.xyz holds no vertex"),
         ("s.pts", "3\n0 0 0\n".into(), "it promises 3 points, but has 1"),
         ("s.pts", "-3\n0 0 0\n".into(), "it promises -3 points"),
         ("s.dxf", "0\n".into(), "s.dxf: dxf files are written, not read; read one of ply, obj, off, stl, xyz"),
-        ("s.3ds", "0\n".into(), "s.3ds: the format of the shape cannot be told from the name; name it (one of ply, obj"),
+        ("s.3ds", "0\n".into(), "s.3ds: the format of the mesh cannot be told from the name; name it .ply, .obj"),
         ("s.ply", String::new(), "s.ply is empty"),
     ] {
         let refused = message(read(name, text.clone()));
@@ -152,11 +155,14 @@ fn binary_is_refused_with_its_element() {
 fn what_a_format_cannot_hold_is_refused_before_anything_is_written() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
-    let said = |shape: &Shape, name: &str| {
+    let said = |shape: &Surface, name: &str| {
         let refused = write_with(shape, &path(name), Encoding::Binary).unwrap_err();
         refused.to_string()
     };
-    assert!(said(&sample(), "s.xyz").contains("xyz files are read, not written, as shapes"));
+    assert!(
+        said(&sample(), "s.xyz")
+            .contains("xyz files are not written as surfaces; write one of ply, obj, off, stl")
+    );
     assert!(said(&sample(), "s.step").contains("cannot be told from the name"));
     for name in ["s.stl", "s.glb", "s.gltf"] {
         let refused = said(&sample(), name);
@@ -165,16 +171,16 @@ fn what_a_format_cannot_hold_is_refused_before_anything_is_written() {
             "{refused}"
         );
     }
-    let points = Shape { triangles: Vec::new(), ..single() };
+    let points = Surface { triangles: Vec::new(), ..single() };
     for format in written() {
         let name = format!("s.{}", format.extensions()[0]);
         let refused = write_with(&points, &path(&name), Encoding::Text);
-        assert_eq!(refused.is_ok(), format.holds_points(), "{name}");
-        let refused = said(&Shape::default(), &name);
+        assert_eq!(refused.is_ok(), format.holds_bare_vertices(), "{name}");
+        let refused = said(&Surface::default(), &name);
         assert!(refused.contains("there is no triangle to write; vertices alone are written as ply, obj, off, glb, gltf"), "{refused}");
         for shape in [
-            Shape { normals: Some(vec![[0.0; 3]; 3]), ..single() },
-            Shape { colors: Some(vec![[0; 3]; 5]), ..single() },
+            Surface { normals: Some(vec![[0.0; 3]; 3]), ..single() },
+            Surface { colors: Some(vec![[0; 3]; 5]), ..single() },
         ] {
             let refused = said(&shape, &name);
             assert!(refused.contains("were given for 4 vertices: give one for each"), "{refused}");
@@ -188,22 +194,20 @@ fn what_a_format_cannot_hold_is_refused_before_anything_is_written() {
         );
     }
     let left = std::fs::read_dir(folder.path()).unwrap().count();
-    assert_eq!(left, written().filter(|format| format.holds_points()).count());
+    assert_eq!(left, written().filter(|format| format.holds_bare_vertices()).count());
 }
 
 #[test]
 fn folders_and_missing_files_are_named() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("none.ply");
-    assert!(matches!(taut_io::open_shape(&path, None), Err(Error::NotFound { .. })));
-    let refused = message(taut_io::open_shape(std::path::Path::new("-"), None));
-    assert!(refused.starts_with("standard input: the format of the shape cannot"), "{refused}");
-    let format = Some(ShapeFormat::Ply);
-    assert!(matches!(taut_io::open_shape(folder.path(), format), Err(Error::Directory { .. })));
-    let mesh = single();
-    let view: ShapeView<'_> = mesh.view().unwrap();
+    assert!(matches!(open_surface(&path, None), Err(Error::NotFound { .. })));
+    let refused = message(open_surface(std::path::Path::new("-"), None));
+    assert!(refused.starts_with("standard input: the format of the mesh cannot"), "{refused}");
+    let format = Some(Format::Ply);
+    assert!(matches!(open_surface(folder.path(), format), Err(Error::Directory { .. })));
     let missing = folder.path().join("no/s.ply");
-    let refused = write_shape(&view, &missing, &ShapeOptions::default()).unwrap_err();
+    let refused = write_to(&single(), &missing, &MeshOptions::default()).unwrap_err();
     assert!(matches!(refused, Error::NotFound { .. }));
 }
 
@@ -218,8 +222,8 @@ fn a_full_device_is_said() {
     let shape = single();
     for format in written() {
         for encoding in ENCODINGS {
-            let options = ShapeOptions { format: Some(format), encoding };
-            let refused = write_shape(&shape.view().unwrap(), full, &options).unwrap_err();
+            let options = MeshOptions { format: Some(format), encoding };
+            let refused = write_to(&shape, full, &options).unwrap_err();
             assert!(refused.to_string().contains("/dev/full: writing failed"), "{refused}");
         }
     }

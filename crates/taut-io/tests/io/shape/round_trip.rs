@@ -3,9 +3,11 @@
 use proptest::collection::vec;
 use proptest::option;
 use proptest::prelude::*;
-use taut_io::{Encoding, Shape, ShapeFormat, open_shape};
+use taut_io::{Content, Encoding, Format, open_mesh_bytes};
 
-use super::{ENCODINGS, bits, bytes_of, read, samples, single, with, write_with};
+use super::{
+    ENCODINGS, Surface, bits, bytes_of, open_surface, read, samples, single, with, write_with,
+};
 
 #[test]
 fn ply_obj_and_off_keep_every_bit_packed_or_not() {
@@ -15,7 +17,7 @@ fn ply_obj_and_off_keep_every_bit_packed_or_not() {
             for encoding in ENCODINGS {
                 let path = folder.path().join(name);
                 write_with(&shape, &path, encoding).unwrap();
-                let found = open_shape(&path, None).unwrap();
+                let found = open_surface(&path, None).unwrap();
                 assert_eq!(bits(&found), bits(&shape), "{name} {encoding:?}");
             }
         }
@@ -24,7 +26,7 @@ fn ply_obj_and_off_keep_every_bit_packed_or_not() {
 
 #[test]
 fn vertices_alone_come_back() {
-    for shape in samples().map(|shape| Shape { triangles: Vec::new(), ..shape }) {
+    for shape in samples().map(|shape| Surface { triangles: Vec::new(), ..shape }) {
         for name in ["s.ply", "s.obj", "s.off"] {
             for encoding in ENCODINGS {
                 let found = read(name, bytes_of(&shape, name, encoding)).unwrap();
@@ -52,7 +54,7 @@ fn stl_keeps_what_it_can_hold() {
 #[test]
 fn equal_corners_of_stl_are_one_vertex_and_no_others() {
     let near = f64::from(f32::from_bits(1.0f32.to_bits() + 1));
-    let shape = Shape {
+    let shape = Surface {
         vertices: vec![[0.0, 1.0, 2.0], [-0.0, 1.0, 2.0], [0.0, near, 2.0]],
         triangles: vec![[0, 1, 2], [2, 1, 0]],
         ..Default::default()
@@ -67,17 +69,17 @@ fn equal_corners_of_stl_are_one_vertex_and_no_others() {
 #[test]
 fn the_given_format_beats_the_extension() {
     let bytes = bytes_of(&single(), "s.off", Encoding::Text);
-    let format = Some(ShapeFormat::Off);
-    let found = taut_io::open_shape_bytes(bytes.clone(), "s.ply", format).unwrap();
-    assert_eq!(bits(&found), bits(&single()));
-    assert!(taut_io::open_shape_bytes(bytes, "s.ply", None).is_err());
-    assert_eq!("WRL".parse::<ShapeFormat>().unwrap(), ShapeFormat::Vrml);
-    let refused = "step".parse::<ShapeFormat>().unwrap_err().to_string();
-    assert!(refused.starts_with("`step` is no format of shapes; these are ply, obj"), "{refused}");
-    for format in ShapeFormat::ALL {
-        assert_eq!(format.name().parse::<ShapeFormat>().unwrap(), format);
+    let format = Some(Format::Off);
+    let found = open_mesh_bytes(bytes.clone(), "s.ply", Content::Surface, format).unwrap();
+    assert_eq!(bits(&found.into()), bits(&single()));
+    assert!(open_mesh_bytes(bytes, "s.ply", Content::Surface, None).is_err());
+    assert_eq!("WRL".parse::<Format>().unwrap(), Format::Vrml);
+    let refused = "step".parse::<Format>().unwrap_err().to_string();
+    assert!(refused.starts_with("`step` is no format; the formats are csv, tsv"), "{refused}");
+    for format in Format::all() {
+        assert_eq!(format.name().parse::<Format>().unwrap(), format);
         for extension in format.extensions() {
-            assert_eq!(extension.parse::<ShapeFormat>().unwrap(), format);
+            assert_eq!(extension.parse::<Format>().unwrap(), format);
         }
     }
 }
@@ -92,9 +94,9 @@ prop_compose! {
         picks in vec(any::<[prop::sample::Index; 3]>(), 0..40),
         normals in option::of(vec([finite(), finite(), finite()], 20)),
         colors in option::of(vec(any::<[u8; 3]>(), 20)),
-    ) -> Shape {
+    ) -> Surface {
         let n = vertices.len();
-        Shape {
+        Surface {
             triangles: picks.iter().map(|pick| pick.map(|id| id.index(n) as u32)).collect(),
             normals: normals.map(|normals| normals[..n].to_vec()),
             colors: colors.map(|colors| colors[..n].to_vec()),
@@ -122,7 +124,7 @@ proptest! {
         let n = corners.len() as u32 / 3;
         let vertices = corners.iter().map(|at| at.map(f64::from)).collect();
         let triangles = (0..n).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-        let shape = Shape { vertices, triangles, ..Default::default() };
+        let shape = Surface { vertices, triangles, ..Default::default() };
         for encoding in ENCODINGS {
             let found = read("s.stl", bytes_of(&shape, "s.stl", encoding)).unwrap();
             let soup: Vec<[f64; 3]> = found.triangles.iter().flatten().map(|&id| found.vertices[id as usize]).collect();

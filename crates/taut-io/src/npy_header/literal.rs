@@ -2,7 +2,7 @@
 
 /// A literal.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Literal {
+pub(super) enum Literal {
     Text(String),
     Bool(bool),
     /// A tuple of counts.

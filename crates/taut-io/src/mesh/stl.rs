@@ -12,13 +12,11 @@
 use std::collections::HashMap;
 use std::io::{BufRead, Read};
 
-use super::building::Building;
 use super::normal::unit_normal;
-use super::{Encoding, ShapeView};
+use super::writing::{Encoding, Job};
+use super::{Building, printable};
 use crate::cursor::Cursor;
-use crate::error::Refuse;
-use crate::ply::printable;
-use crate::words::{Lines, place, put_place, words};
+use crate::words::{put_place, words};
 use crate::write::Out;
 use crate::{Error, MeshPlace};
 
@@ -38,7 +36,7 @@ impl Weld {
     /// The number of the vertex at this place, a new one if there is none.
     fn id(
         &mut self,
-        shape: &mut Building<'_>,
+        mesh: &mut Building<'_>,
         place: MeshPlace,
         at: [f64; 3],
     ) -> Result<i64, Error> {
@@ -47,15 +45,15 @@ impl Weld {
         if let Some(&id) = self.ids.get(&bits) {
             return Ok(id.into());
         }
-        let id = shape.vertices.len();
-        shape.vertex(place, at)?;
+        let id = mesh.vertices.len();
+        mesh.vertex(place, at)?;
         self.ids.insert(bits, id as u32);
         Ok(id as i64)
     }
 }
 
 pub(super) fn read(
-    shape: &mut Building<'_>,
+    mesh: &mut Building<'_>,
     mut stream: Box<dyn BufRead>,
     path: &str,
 ) -> Result<(), Error> {
@@ -67,8 +65,8 @@ pub(super) fn read(
     let text = is_text(&head);
     let whole = Box::new(std::io::Cursor::new(head).chain(stream));
     match text {
-        true => read_text(shape, whole),
-        false => read_binary(shape, Cursor::new(whole, path)),
+        true => read_text(mesh, whole),
+        false => read_binary(mesh, Cursor::new(whole, path)),
     }
 }
 
@@ -79,64 +77,64 @@ fn is_text(head: &[u8]) -> bool {
     first.eq_ignore_ascii_case(b"solid") && head.iter().all(printed)
 }
 
-fn read_binary(shape: &mut Building<'_>, mut cursor: Cursor<'_>) -> Result<(), Error> {
-    cursor.skip(HEAD, shape, MeshPlace::File)?;
+fn read_binary(mesh: &mut Building<'_>, mut cursor: Cursor<'_>) -> Result<(), Error> {
+    cursor.skip(HEAD, mesh, MeshPlace::File)?;
     let mut count = [0; 4];
-    cursor.fill(&mut count, shape, MeshPlace::File)?;
+    cursor.fill(&mut count, mesh, MeshPlace::File)?;
     let mut weld = Weld::default();
     let mut record = [0; 50];
     for facet in 0..u64::from(u32::from_le_bytes(count)) {
         let place = MeshPlace::Element("facet", facet);
-        cursor.fill(&mut record, shape, place)?;
+        cursor.fill(&mut record, mesh, place)?;
         let mut corners = [0; 3];
         for (corner, bytes) in corners.iter_mut().zip(record[12..48].chunks_exact(12)) {
             let real = |k: usize| {
                 let bytes = [bytes[4 * k], bytes[4 * k + 1], bytes[4 * k + 2], bytes[4 * k + 3]];
                 f64::from(f32::from_le_bytes(bytes))
             };
-            *corner = weld.id(shape, place, [real(0), real(1), real(2)])?;
+            *corner = weld.id(mesh, place, [real(0), real(1), real(2)])?;
         }
-        let known = shape.vertices.len() as u64;
-        shape.polygon(place, &corners, known)?;
+        let known = mesh.vertices.len() as u64;
+        mesh.polygon(place, &corners, known)?;
     }
     match cursor.rest(1)?.is_empty() {
         true => Ok(()),
         false => {
-            let problem = format!("it promises {} facets, but goes on after them", shape.len());
-            Err(shape.damaged(MeshPlace::File, problem))
+            let problem = format!("it promises {} facets, but goes on after them", mesh.len());
+            Err(mesh.damaged(MeshPlace::File, problem))
         }
     }
 }
 
-fn read_text(shape: &mut Building<'_>, stream: Box<dyn BufRead>) -> Result<(), Error> {
-    let mut lines = Lines::open_ended(stream, 0);
+fn read_text(mesh: &mut Building<'_>, stream: Box<dyn BufRead>) -> Result<(), Error> {
+    let mut lines = mesh.lines(stream, 0);
     let mut weld = Weld::default();
     let mut corners: Vec<i64> = Vec::new();
     // What the next line may begin with; of a loop, the corners are counted.
     let mut expected: &[&str] = &["solid"];
-    while lines.advance(shape)? {
+    while lines.advance(mesh)? {
         let at = lines.place();
         let mut rest = words(lines.bytes());
         let keyword = rest.next().unwrap_or_default();
         let Some(&keyword) =
             expected.iter().find(|known| keyword.eq_ignore_ascii_case(known.as_bytes()))
         else {
-            let keyword = printable(&String::from_utf8_lossy(keyword));
+            let keyword = printable(keyword);
             let wanted = expected.join("` or `");
-            return Err(shape.damaged(at, format!("it begins with `{keyword}`, not `{wanted}`")));
+            return Err(mesh.damaged(at, format!("it begins with `{keyword}`, not `{wanted}`")));
         };
         expected = match keyword {
             "solid" | "endfacet" => &["facet", "endsolid"],
             "facet" => &["outer"],
             "outer" => &["vertex"],
             "vertex" => {
-                let found = place(shape, at, rest)?;
-                corners.push(weld.id(shape, at, found)?);
+                let found = read_vertex(mesh, at, rest)?;
+                corners.push(weld.id(mesh, at, found)?);
                 if corners.len() < 3 { &["vertex"] } else { &["endloop"] }
             }
             "endloop" => {
-                let known = shape.vertices.len() as u64;
-                shape.polygon(at, &corners, known)?;
+                let known = mesh.vertices.len() as u64;
+                mesh.polygon(at, &corners, known)?;
                 corners.clear();
                 &["endfacet"]
             }
@@ -148,19 +146,35 @@ fn read_text(shape: &mut Building<'_>, stream: Box<dyn BufRead>) -> Result<(), E
         ["solid"] => Ok(()),
         _ => {
             let problem = format!("it ends where `{}` was expected", expected.join("` or `"));
-            Err(shape.damaged(MeshPlace::File, problem))
+            Err(mesh.damaged(MeshPlace::File, problem))
         }
     }
 }
 
-pub(super) fn write(
-    shape: &ShapeView<'_>,
-    encoding: Encoding,
-    out: &mut Out<'_>,
-) -> Result<(), Error> {
-    let (vertices, triangles) = (shape.mesh.vertices(), shape.mesh.triangles());
+/// Three coordinates; further numbers are passed over.
+fn read_vertex<'a>(
+    mesh: &Building<'_>,
+    at: MeshPlace,
+    words: impl Iterator<Item = &'a [u8]>,
+) -> Result<[f64; 3], Error> {
+    let (mut found, mut count) = ([0.0; 3], 0);
+    for word in words {
+        let value = mesh.number(at, word)?;
+        if let Some(slot) = found.get_mut(count) {
+            *slot = value;
+        }
+        count += 1;
+    }
+    match count {
+        3.. => Ok(found),
+        _ => Err(mesh.damaged(at, "a vertex needs three numbers")),
+    }
+}
+
+pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+    let (vertices, triangles) = (job.mesh.places(), job.mesh.triangles());
     let corners = |ids: &[u32; 3]| ids.map(|id| vertices[id as usize]);
-    if encoding == Encoding::Text {
+    if job.encoding == Encoding::Text {
         // Without a name, some programs do not take it for text.
         out.put(b"solid shape\n")?;
         out.each(triangles, |ids, bytes| {

@@ -1,16 +1,16 @@
 //! glTF 2.0: JSON that describes a buffer, and the buffer, in one binary file or within the JSON.
 //!
-//! The buffer holds positions, normals and colours of vertices, then the corners of triangles; without triangles the
+//! The buffer holds positions, normals and colors of vertices, then the corners of triangles; without triangles the
 //! vertices are points. Normals are scaled to length 1, and left out where one is 0, as the format wants them so.
 //!
 //! *Trap.* The bounds of positions must be those of the rounded coordinates: they are written with all digits of these.
-//! *Trap.* The format takes y for up and colours for linear; coordinates and colours are written as they are.
+//! *Trap.* The format takes y for up and colors for linear; coordinates and colors are written as they are.
 //! *Reference.* The Khronos Group, glTF 2.0 specification, 2021.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-use super::ShapeView;
+use super::MeshView;
 use super::normal::unit;
 use crate::Error;
 use crate::words::put_number;
@@ -27,7 +27,7 @@ const CHUNK_HEADER: u64 = 8;
 
 /// What the buffer holds, in order.
 struct Buffer<'a> {
-    shape: &'a ShapeView<'a>,
+    mesh: &'a MeshView<'a>,
     /// Normals of length 1.
     normals: Option<Vec<[f64; 3]>>,
 }
@@ -46,14 +46,14 @@ struct Run {
 }
 
 impl<'a> Buffer<'a> {
-    fn new(shape: &'a ShapeView<'a>) -> Self {
+    fn new(mesh: &'a MeshView<'a>) -> Self {
         let units = |normals: &[[f64; 3]]| normals.iter().map(|&normal| unit(normal)).collect();
-        Buffer { shape, normals: shape.normals.and_then(units) }
+        Buffer { mesh, normals: mesh.normals.and_then(units) }
     }
 
     /// The runs of values, without empty ones, which the format forbids.
     fn runs(&self) -> Vec<Run> {
-        let n = self.shape.mesh.vertices().len();
+        let n = self.mesh.places().len();
         let run = |attribute, kind, component, size, count, more| Run {
             attribute: Some(attribute),
             kind,
@@ -66,12 +66,12 @@ impl<'a> Buffer<'a> {
         if self.normals.is_some() {
             runs.push(run("NORMAL", "VEC3", 5126, 12, n, String::new()));
         }
-        if self.shape.colors.is_some() {
-            // With opacity, so that each colour begins at a multiple of four bytes.
+        if self.mesh.colors.is_some() {
+            // With opacity, so that each color begins at a multiple of four bytes.
             let normalized = ",\"normalized\":true".to_owned();
             runs.push(run("COLOR_0", "VEC4", 5121, 4, n, normalized));
         }
-        let corners = 3 * self.shape.mesh.triangles().len();
+        let corners = 3 * self.mesh.triangles().len();
         if corners > 0 {
             let scalar = run("", "SCALAR", 5125, 4, corners, String::new());
             runs.push(Run { attribute: None, ..scalar });
@@ -82,7 +82,7 @@ impl<'a> Buffer<'a> {
     /// The least and the greatest of each coordinate, rounded as in the buffer.
     fn bounds(&self) -> String {
         let (mut least, mut greatest) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-        for at in self.shape.mesh.vertices() {
+        for at in self.mesh.places() {
             for k in 0..3 {
                 least[k] = least[k].min(at[k] as f32);
                 greatest[k] = greatest[k].max(at[k] as f32);
@@ -138,12 +138,12 @@ impl<'a> Buffer<'a> {
             let [x, y, z] = at.map(|value| (value as f32).to_le_bytes());
             encode([x, y, z].as_flattened(), bytes);
         };
-        out.each(self.shape.mesh.vertices(), &mut place)?;
+        out.each(self.mesh.places(), &mut place)?;
         out.each(self.normals.iter().flatten(), &mut place)?;
-        out.each(self.shape.colors.unwrap_or_default(), |&[r, g, b], bytes| {
+        out.each(self.mesh.colors.unwrap_or_default(), |&[r, g, b], bytes| {
             encode(&[r, g, b, u8::MAX], bytes);
         })?;
-        out.each(self.shape.mesh.triangles(), |ids, bytes| {
+        out.each(self.mesh.triangles(), |ids, bytes| {
             encode(ids.map(u32::to_le_bytes).as_flattened(), bytes);
         })
     }
@@ -166,10 +166,10 @@ fn binary_len(json: &str, buffer: u64) -> u64 {
     FILE_HEADER + CHUNK_HEADER + (json.len() as u64).next_multiple_of(4) + CHUNK_HEADER + buffer
 }
 
-pub(super) fn write_binary(shape: &ShapeView<'_>, out: &mut Out<'_>) -> Result<(), Error> {
-    let buffer = Buffer::new(shape);
+pub(super) fn write_binary(mesh: &MeshView<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+    let buffer = Buffer::new(mesh);
     let mut json = buffer.json("");
-    let too_large = || Error::ShapeTooLarge { path: out.path.to_owned() };
+    let too_large = || Error::MeshTooLarge { path: out.path.to_owned() };
     let size = |bytes: u64| u32::try_from(bytes).map(u32::to_le_bytes).map_err(|_| too_large());
     let whole = size(binary_len(&json, buffer.len()))?;
     json.push_str(&"   "[..json.len().next_multiple_of(4) - json.len()]);
@@ -180,8 +180,8 @@ pub(super) fn write_binary(shape: &ShapeView<'_>, out: &mut Out<'_>) -> Result<(
     buffer.write(out, |values, bytes| bytes.extend_from_slice(values))
 }
 
-pub(super) fn write_json(shape: &ShapeView<'_>, out: &mut Out<'_>) -> Result<(), Error> {
-    let buffer = Buffer::new(shape);
+pub(super) fn write_json(mesh: &MeshView<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+    let buffer = Buffer::new(mesh);
     // The place of the bytes is marked, and they are written there.
     const MARK: &str = "\u{1}";
     let uri = format!(",\"uri\":\"data:application/octet-stream;base64,{MARK}\"");

@@ -1,13 +1,10 @@
 //! The values of elements, in binary or, an element to a line, as words.
 
+use super::header::{self, Encoding, Header, Property};
 use crate::cursor::{Cursor, Kind};
-use crate::error::Refuse;
-use crate::number::{self, Misread};
-use crate::ply::{self, Encoding, Header, Property};
-use crate::words::{Lines, underflow, whole};
+use crate::mesh::{Building, printable};
+use crate::words::{Lines, whole};
 use crate::{Error, MeshPlace};
-
-use super::super::building::Building;
 
 pub(super) enum Values<'a> {
     Binary(Cursor<'a>),
@@ -17,11 +14,9 @@ pub(super) enum Values<'a> {
 
 impl<'a> Values<'a> {
     /// The values that follow the header.
-    pub(super) fn new(mut cursor: Cursor<'a>, header: &Header) -> Self {
+    pub(super) fn new(mesh: &Building<'_>, mut cursor: Cursor<'a>, header: &Header) -> Self {
         match header.encoding {
-            Encoding::Ascii => {
-                Values::Text(Lines::open_ended(cursor.into_stream(), header.lines), 0)
-            }
+            Encoding::Ascii => Values::Text(mesh.lines(cursor.into_stream(), header.lines), 0),
             encoding => {
                 cursor.big_endian = encoding == Encoding::BigEndian;
                 Values::Binary(cursor)
@@ -32,7 +27,7 @@ impl<'a> Values<'a> {
     /// Goes to the next element, and says where it is.
     pub(super) fn begin(
         &mut self,
-        shape: &Building<'_>,
+        mesh: &Building<'_>,
         name: &'static str,
         number: u64,
     ) -> Result<MeshPlace, Error> {
@@ -40,32 +35,29 @@ impl<'a> Values<'a> {
             Values::Binary(_) => Ok(MeshPlace::Element(name, number)),
             Values::Text(lines, at) => {
                 *at = 0;
-                match lines.advance(shape)? {
+                match lines.advance(mesh)? {
                     true => Ok(lines.place()),
                     false => {
                         let problem = format!("it ends before {name} {number}");
-                        Err(shape.damaged(MeshPlace::File, problem))
+                        Err(mesh.damaged(MeshPlace::File, problem))
                     }
                 }
             }
         }
     }
 
-    /// A coordinate or a colour.
+    /// A coordinate or a color.
     pub(super) fn real(
         &mut self,
-        shape: &Building<'_>,
+        mesh: &Building<'_>,
         kind: Kind,
         place: MeshPlace,
     ) -> Result<f64, Error> {
         match self {
-            Values::Binary(cursor) => cursor.real(kind, shape, place),
+            Values::Binary(cursor) => cursor.real(kind, mesh, place),
             Values::Text(lines, at) => {
-                let word = next_word(lines.bytes(), at).ok_or_else(|| too_few(shape, place))?;
-                number::parse(word).map_err(|misread| match misread {
-                    Misread::Underflow => underflow(shape, place, word),
-                    Misread::NotANumber => no_number(shape, place, word),
-                })
+                let word = next_word(lines.bytes(), at).ok_or_else(|| too_few(mesh, place))?;
+                mesh.number(place, word)
             }
         }
     }
@@ -73,15 +65,15 @@ impl<'a> Values<'a> {
     /// An id.
     pub(super) fn whole(
         &mut self,
-        shape: &Building<'_>,
+        mesh: &Building<'_>,
         kind: Kind,
         place: MeshPlace,
     ) -> Result<i64, Error> {
         match self {
-            Values::Binary(cursor) => cursor.whole(kind, shape, place),
+            Values::Binary(cursor) => cursor.whole(kind, mesh, place),
             Values::Text(lines, at) => {
-                let word = next_word(lines.bytes(), at).ok_or_else(|| too_few(shape, place))?;
-                whole(word).ok_or_else(|| no_number(shape, place, word))
+                let word = next_word(lines.bytes(), at).ok_or_else(|| too_few(mesh, place))?;
+                whole(word).ok_or_else(|| no_number(mesh, place, word))
             }
         }
     }
@@ -89,51 +81,51 @@ impl<'a> Values<'a> {
     /// The length of a list.
     pub(super) fn count(
         &mut self,
-        shape: &Building<'_>,
+        mesh: &Building<'_>,
         kind: Kind,
         place: MeshPlace,
     ) -> Result<u64, Error> {
-        let count = self.whole(shape, kind, place)?;
+        let count = self.whole(mesh, kind, place)?;
         u64::try_from(count)
-            .map_err(|_| shape.damaged(place, format!("a list has the length {count}")))
+            .map_err(|_| mesh.damaged(place, format!("a list has the length {count}")))
     }
 
     /// Steps over a value, or over a list of them.
     pub(super) fn skip(
         &mut self,
-        shape: &Building<'_>,
+        mesh: &Building<'_>,
         property: &Property,
         place: MeshPlace,
     ) -> Result<(), Error> {
         if let Values::Binary(cursor) = self {
-            return ply::skip(shape, cursor, property, place);
+            return header::skip(mesh, cursor, property, place);
         }
         let count = match property.length {
             None => 1,
-            Some(length) => self.count(shape, length, place)?,
+            Some(length) => self.count(mesh, length, place)?,
         };
-        (0..count).try_for_each(|_| self.real(shape, property.kind, place).map(drop))
+        (0..count).try_for_each(|_| self.real(mesh, property.kind, place).map(drop))
     }
 
     /// Refuses an element that is longer than declared.
-    pub(super) fn end(&self, shape: &Building<'_>, place: MeshPlace) -> Result<(), Error> {
+    pub(super) fn end(&self, mesh: &Building<'_>, place: MeshPlace) -> Result<(), Error> {
         match self {
             Values::Text(lines, at) if !lines.bytes()[*at..].trim_ascii().is_empty() => {
-                Err(shape.damaged(place, "it has more values than the header declares"))
+                Err(mesh.damaged(place, "it has more values than the header declares"))
             }
             _ => Ok(()),
         }
     }
 
     /// Refuses a file that goes on.
-    pub(super) fn finish(self, shape: &Building<'_>) -> Result<(), Error> {
+    pub(super) fn finish(self, mesh: &Building<'_>) -> Result<(), Error> {
         let (more, place) = match self {
             Values::Binary(mut cursor) => (!cursor.rest(1)?.is_empty(), MeshPlace::File),
-            Values::Text(mut lines, _) => (lines.advance(shape)?, lines.place()),
+            Values::Text(mut lines, _) => (lines.advance(mesh)?, lines.place()),
         };
         match more {
             false => Ok(()),
-            true => Err(shape.damaged(place, "it goes on after its last element")),
+            true => Err(mesh.damaged(place, "it goes on after its last element")),
         }
     }
 }
@@ -146,11 +138,10 @@ fn next_word<'a>(line: &'a [u8], at: &mut usize) -> Option<&'a [u8]> {
     Some(&line[start..*at])
 }
 
-fn too_few(shape: &Building<'_>, place: MeshPlace) -> Error {
-    shape.damaged(place, "it has fewer values than the header declares")
+fn too_few(mesh: &Building<'_>, place: MeshPlace) -> Error {
+    mesh.damaged(place, "it has fewer values than the header declares")
 }
 
-fn no_number(shape: &Building<'_>, place: MeshPlace, word: &[u8]) -> Error {
-    let word = ply::printable(&String::from_utf8_lossy(word));
-    shape.damaged(place, format!("`{word}` is no number of the declared type"))
+fn no_number(mesh: &Building<'_>, place: MeshPlace, word: &[u8]) -> Error {
+    mesh.damaged(place, format!("`{}` is no number of the declared type", printable(word)))
 }

@@ -1,14 +1,16 @@
-//! Shapes as points: their vertices, in the order of the file, used by a triangle or not.
+//! Meshes as points: their vertices, in the order of the file, used by a triangle or not.
 
 use super::Decoded;
 use crate::input::{Job, Medium};
-use crate::shape::read_stream;
+use crate::mesh::read_stream;
 use crate::sink::Sink;
-use crate::{Error, ShapeFormat};
+use crate::{Content, Error};
 
-pub(super) fn read(job: &Job<'_>, medium: Medium, format: ShapeFormat) -> Result<Decoded, Error> {
+pub(super) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
     let memory = job.options.memory;
-    let shape = read_stream(medium.stream(), format, job.path.as_ref(), job.path, memory)?;
+    let content = Content::Surface;
+    let mesh =
+        read_stream(medium.stream(), job.format, content, job.path.as_ref(), job.path, memory)?;
     let names = ["x", "y", "z"].map(str::to_owned);
     let numbers = match &job.options.columns {
         Some(columns) => columns.resolve(job.path, &names, 3)?,
@@ -16,7 +18,7 @@ pub(super) fn read(job: &Job<'_>, medium: Medium, format: ShapeFormat) -> Result
     };
     let mut sink = Sink::new(job, numbers.len());
     let mut row = Vec::with_capacity(numbers.len());
-    for vertex in &shape.vertices {
+    for vertex in &mesh.vertices {
         row.clear();
         row.extend(numbers.iter().map(|&number| vertex[number]));
         sink.push(&row)?;

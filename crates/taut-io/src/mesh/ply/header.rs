@@ -5,12 +5,12 @@
 //! *Reference.* G. Turk, The PLY polygon file format, 1994.
 
 use crate::cursor::{Cursor, Kind};
-use crate::error::Refuse;
+use crate::mesh::{Building, printable};
 use crate::{Error, MeshPlace};
 
 /// How the values of elements are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Encoding {
+pub(super) enum Encoding {
     Ascii,
     LittleEndian,
     BigEndian,
@@ -20,7 +20,7 @@ impl Encoding {
     const ALL: [Encoding; 3] = [Encoding::Ascii, Encoding::LittleEndian, Encoding::BigEndian];
 
     /// The word of the header.
-    pub(crate) fn word(self) -> &'static str {
+    pub(super) fn word(self) -> &'static str {
         match self {
             Encoding::Ascii => "ascii",
             Encoding::LittleEndian => "binary_little_endian",
@@ -30,32 +30,30 @@ impl Encoding {
 }
 
 /// What a header says.
-pub(crate) struct Header {
-    pub(crate) encoding: Encoding,
-    /// Where it says how values are written.
-    pub(crate) at: MeshPlace,
-    pub(crate) elements: Vec<Element>,
+pub(super) struct Header {
+    pub(super) encoding: Encoding,
+    pub(super) elements: Vec<Element>,
     /// Lines of the header.
-    pub(crate) lines: u64,
+    pub(super) lines: u64,
 }
 
 /// A property as the header declares it.
-pub(crate) struct Property {
-    pub(crate) name: String,
-    pub(crate) kind: Kind,
+pub(super) struct Property {
+    pub(super) name: String,
+    pub(super) kind: Kind,
     /// How the length is stored, where it is a list.
-    pub(crate) length: Option<Kind>,
+    pub(super) length: Option<Kind>,
 }
 
 /// An element as the header declares it.
-pub(crate) struct Element {
-    pub(crate) name: String,
-    pub(crate) count: u64,
-    pub(crate) properties: Vec<Property>,
+pub(super) struct Element {
+    pub(super) name: String,
+    pub(super) count: u64,
+    pub(super) properties: Vec<Property>,
 }
 
 /// Reads the header, up to the first byte of the first element.
-pub(crate) fn header(mesh: &impl Refuse, cursor: &mut Cursor<'_>) -> Result<Header, Error> {
+pub(super) fn read(mesh: &Building<'_>, cursor: &mut Cursor<'_>) -> Result<Header, Error> {
     let mut elements: Vec<Element> = Vec::new();
     let mut encoding = None;
     let mut number = 0;
@@ -70,13 +68,13 @@ pub(crate) fn header(mesh: &impl Refuse, cursor: &mut Cursor<'_>) -> Result<Head
             ["format", word, "1.0"] => {
                 let known = Encoding::ALL.into_iter().find(|known| known.word() == word);
                 let known = known.ok_or_else(|| {
-                    let word = printable(word);
+                    let word = printable(word.as_bytes());
                     mesh.damaged(at, format!("the format is `{word}`, which is none of ply"))
                 })?;
-                encoding = Some((known, at));
+                encoding = Some(known);
             }
             ["format", _, version] => {
-                let version = printable(version);
+                let version = printable(version.as_bytes());
                 return Err(mesh.damaged(at, format!("the version is `{version}`, not `1.0`")));
             }
             ["comment" | "obj_info", ..] | [] => {}
@@ -109,21 +107,22 @@ pub(crate) fn header(mesh: &impl Refuse, cursor: &mut Cursor<'_>) -> Result<Head
             _ => return Err(mesh.damaged(at, "it is no line of a header")),
         }
     }
-    let Some((encoding, at)) = encoding else {
+    let Some(encoding) = encoding else {
         return Err(mesh.damaged(MeshPlace::File, "the header names no format"));
     };
     match elements.iter().find(|element| element.count > 0 && element.properties.is_empty()) {
         Some(element) => {
-            let problem = format!("elements `{}` have no properties", printable(&element.name));
+            let problem =
+                format!("elements `{}` have no properties", printable(element.name.as_bytes()));
             Err(mesh.damaged(MeshPlace::File, problem))
         }
-        None => Ok(Header { encoding, at, elements, lines: number }),
+        None => Ok(Header { encoding, elements, lines: number }),
     }
 }
 
 /// Steps over a value in binary, or over a list of them.
-pub(crate) fn skip(
-    mesh: &impl Refuse,
+pub(super) fn skip(
+    mesh: &Building<'_>,
     cursor: &mut Cursor<'_>,
     property: &Property,
     place: MeshPlace,
@@ -149,9 +148,4 @@ fn kind(name: &str) -> Option<Kind> {
         "double" | "float64" => Kind::F64,
         _ => return None,
     })
-}
-
-/// A word of the file as messages show it.
-pub(crate) fn printable(word: &str) -> String {
-    word.chars().take(40).flat_map(char::escape_default).collect()
 }

@@ -1,7 +1,7 @@
 //! Colours as files write them: up to 255, or up to 1.
 //!
 //! *Idea.* Few formats say which of the two they mean, so the whole file tells: a value above 1 means that 255 is full, and
-//! so do colours without any fraction. Where the format always means fractions, its reader says so of every colour.
+//! so do colors without any fraction. Where the format always means fractions, its reader says so of every color.
 
 /// Colours as far as they were read.
 #[derive(Default)]
@@ -12,7 +12,7 @@ pub(super) struct Colors {
 }
 
 impl Colors {
-    /// Adds a colour; `fraction` says that it is written as fractions of 1. A value that is none is given back.
+    /// Adds a color; `fraction` says that it is written as fractions of 1. A value that is none is given back.
     pub(super) fn push(&mut self, color: [f64; 3], fraction: bool) -> Result<(), f64> {
         if let Some(&value) = color.iter().find(|value| !(0.0..=255.0).contains(*value)) {
             return Err(value);
@@ -23,12 +23,12 @@ impl Colors {
         Ok(())
     }
 
-    /// Number of colours.
+    /// Number of colors.
     pub(super) fn len(&self) -> usize {
         self.values.len()
     }
 
-    /// The colours, full at 255.
+    /// The colors, full at 255.
     pub(super) fn finish(self) -> Vec<[u8; 3]> {
         let scale = if self.above_one || !self.fraction { 1.0 } else { 255.0 };
         let byte = |value: f32| (value * scale).round() as u8;
@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn values_that_are_no_colour_are_given_back() {
+    fn values_that_are_no_color_are_given_back() {
         for bad in [-1.0, 255.5, f64::NAN, f64::INFINITY] {
             let refused = Colors::default().push([0.0, bad, 1.0], true).unwrap_err();
             assert_eq!(refused.to_bits(), bad.to_bits());

@@ -5,7 +5,7 @@
 //!
 //! *Reference.* Autodesk, DXF group codes of AutoCAD release 12, 1992.
 
-use super::ShapeView;
+use super::MeshView;
 use crate::Error;
 use crate::words::put_number;
 use crate::write::Out;
@@ -13,10 +13,10 @@ use crate::write::Out;
 const HEAD: &[u8] =
     b"0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n";
 
-pub(super) fn write(shape: &ShapeView<'_>, out: &mut Out<'_>) -> Result<(), Error> {
-    let vertices = shape.mesh.vertices();
+pub(super) fn write(mesh: &MeshView<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+    let vertices = mesh.places();
     out.put(HEAD)?;
-    out.each(shape.mesh.triangles(), |&[a, b, c], bytes| {
+    out.each(mesh.triangles(), |&[a, b, c], bytes| {
         bytes.extend_from_slice(b"0\n3DFACE\n8\n0\n");
         for (corner, id) in [a, b, c, c].into_iter().enumerate() {
             for (axis, value) in vertices[id as usize].into_iter().enumerate() {

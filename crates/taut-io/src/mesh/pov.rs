@@ -5,14 +5,14 @@
 //!
 //! *Reference.* POV-Ray 3.7 documentation, section Mesh2.
 
-use super::ShapeView;
+use super::MeshView;
 use super::normal::unit_normal;
 use crate::Error;
 use crate::words::{put_numbers, put_whole};
 use crate::write::Out;
 
-pub(super) fn write(shape: &ShapeView<'_>, out: &mut Out<'_>) -> Result<(), Error> {
-    let (vertices, triangles) = (shape.mesh.vertices(), shape.mesh.triangles());
+pub(super) fn write(mesh: &MeshView<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+    let (vertices, triangles) = (mesh.places(), mesh.triangles());
     let has_area = |ids: &&[u32; 3]| unit_normal(ids.map(|id| vertices[id as usize])).is_some();
     let vectors = |name: &str, vectors: &[[f64; 3]], out: &mut Out<'_>| {
         out.put(format!("{name} {{ {}", vectors.len()).as_bytes())?;
@@ -25,7 +25,7 @@ pub(super) fn write(shape: &ShapeView<'_>, out: &mut Out<'_>) -> Result<(), Erro
     };
     out.put(b"#declare Shape = mesh2 {\n")?;
     vectors("vertex_vectors", vertices, out)?;
-    if let Some(normals) = shape.normals {
+    if let Some(normals) = mesh.normals {
         vectors("normal_vectors", normals, out)?;
     }
     let count = triangles.iter().filter(has_area).count();

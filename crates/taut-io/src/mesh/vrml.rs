@@ -2,13 +2,13 @@
 //!
 //! *Reference.* ISO/IEC 14772-1:1997.
 
-use super::ShapeView;
+use super::MeshView;
 use super::colors::fraction;
 use crate::Error;
 use crate::words::{put_numbers, put_whole};
 use crate::write::Out;
 
-pub(super) fn write(shape: &ShapeView<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write(mesh: &MeshView<'_>, out: &mut Out<'_>) -> Result<(), Error> {
     let vectors = |vectors: &[[f64; 3]], out: &mut Out<'_>| {
         out.each(vectors, |&vector, bytes| {
             put_numbers(vector, b" ", bytes);
@@ -17,14 +17,14 @@ pub(super) fn write(shape: &ShapeView<'_>, out: &mut Out<'_>) -> Result<(), Erro
     };
     out.put(b"#VRML V2.0 utf8\nShape {\nappearance Appearance { material Material { } }\n")?;
     out.put(b"geometry IndexedFaceSet {\nsolid FALSE\ncoord Coordinate { point [\n")?;
-    vectors(shape.mesh.vertices(), out)?;
+    vectors(mesh.places(), out)?;
     out.put(b"] }\n")?;
-    if let Some(normals) = shape.normals {
+    if let Some(normals) = mesh.normals {
         out.put(b"normal Normal { vector [\n")?;
         vectors(normals, out)?;
         out.put(b"] }\n")?;
     }
-    if let Some(colors) = shape.colors {
+    if let Some(colors) = mesh.colors {
         out.put(b"color Color { color [\n")?;
         out.each(colors, |&color, bytes| {
             put_numbers(color.map(fraction), b" ", bytes);
@@ -33,7 +33,7 @@ pub(super) fn write(shape: &ShapeView<'_>, out: &mut Out<'_>) -> Result<(), Erro
         out.put(b"] }\n")?;
     }
     out.put(b"coordIndex [\n")?;
-    out.each(shape.mesh.triangles(), |&ids, bytes| {
+    out.each(mesh.triangles(), |&ids, bytes| {
         for id in ids {
             put_whole(id.into(), bytes);
             bytes.push(b',');
