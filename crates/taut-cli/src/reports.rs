@@ -13,7 +13,7 @@ pub(crate) mod triangulation;
 use anyhow::bail;
 use taut::certify::Stop;
 use taut::{Answer, Items, PointSource, Solution};
-use taut_draw::{DrawOptions, Error as DrawError, Figure};
+use taut_draw::Figures;
 
 use crate::exit::Outcome;
 use crate::input::reading::Opened;
@@ -28,7 +28,7 @@ pub(crate) struct Report<'a, A: Answer> {
 }
 
 /// What there is to say and to show of one kind of answer.
-pub(crate) trait Summary: Answer + Sized {
+pub(crate) trait Summary: Answer + Figures {
     /// What messages call an answer that no file holds yet.
     const FOUND: &'static str;
 
@@ -45,9 +45,6 @@ pub(crate) trait Summary: Answer + Sized {
     fn no_picture(_found: &Solution<Self>) -> Option<&'static str> {
         None
     }
-
-    /// The pictures.
-    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError>;
 
     /// What the checker found to be so.
     fn claims(found: &Solution<Self>, verdict: &Self::Verdict, source: &dyn PointSource) -> Claims;
@@ -68,8 +65,8 @@ impl<A: Summary> Report<'_, A> {
             bail!(why)
         }
         let options = style.options(self.points.names(A::dim(self)));
-        let figures =
-            A::figures(self, &options).map_err(|error| picture::refused(error, self.points))?;
+        let figures = A::figures(self.found, self.points.source(), &options)
+            .map_err(|error| picture::refused(error, self.points))?;
         Ok(Drawing {
             title: self.title(),
             heading: self.points.name().to_owned(),

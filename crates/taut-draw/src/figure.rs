@@ -1,6 +1,70 @@
-//! The kinds of picture, so that renderers are written once.
+//! The kinds of picture, so that renderers are written once, and the answers that have some.
 
-use crate::{Plot, Scene2, Scene3, Views};
+use taut_certify::{
+    Answer, Ball, Centers, Curve, Ellipsoid, InscribedEllipsoid, Order, RobustEllipsoid, Solution,
+    Surface, Triangulation,
+};
+use taut_points::PointSource;
+
+use crate::{DrawOptions, Error, Plot, Scene2, Scene3, Views};
+
+/// An answer that can be drawn. Code that is generic over answers calls this; the functions of this crate do the same by name.
+pub trait Figures: Answer + Sized {
+    /// Returns the pictures of an answer and its points, the most telling first; none for kinds that have no picture.
+    ///
+    /// # Errors
+    /// [`Error`], as the function for this kind says.
+    fn figures(
+        found: &Solution<Self>,
+        source: &dyn PointSource,
+        options: &DrawOptions,
+    ) -> Result<Vec<Figure>, Error>;
+
+    /// Returns how many simplices a picture holds: unlike points they are never thinned.
+    fn simplices(&self) -> usize {
+        0
+    }
+}
+
+/// Implements [`Figures`] by the function for a kind, and by the number of its simplices where it has some.
+macro_rules! drawn_by {
+    ($($answer:ty: $figures:path $(, $simplices:expr)?;)*) => {
+        $(impl Figures for $answer {
+            fn figures(
+                found: &Solution<Self>,
+                source: &dyn PointSource,
+                options: &DrawOptions,
+            ) -> Result<Vec<Figure>, Error> {
+                $figures(found, source, options)
+            }
+
+            $(fn simplices(&self) -> usize {
+                $simplices(self)
+            })?
+        })*
+    };
+}
+
+drawn_by! {
+    Ball: crate::ball_figures;
+    Ellipsoid: crate::ellipsoid_figures;
+    InscribedEllipsoid: crate::inscribed_figures;
+    RobustEllipsoid: crate::robust_figures;
+    Centers: crate::centers_figures;
+    Curve: crate::curve_figures;
+    Surface: crate::surface_figures, |surface: &Surface| surface.triangles.len();
+    Triangulation: crate::delaunay_figures, Triangulation::len;
+    Order: no_figures;
+}
+
+/// An order of points has no picture.
+fn no_figures(
+    _: &Solution<Order>,
+    _: &dyn PointSource,
+    _: &DrawOptions,
+) -> Result<Vec<Figure>, Error> {
+    Ok(Vec::new())
+}
 
 /// A picture as data; [`to_svg`](crate::to_svg) and its siblings draw it.
 #[derive(Clone, Debug, PartialEq)]

@@ -11,6 +11,7 @@
 //! | a triangulation and its points | [`delaunay_figures`] | scenes of the plane or of space, and the Voronoi diagram |
 //! | curves and their points | [`curve_figures`] | scenes of the plane, with the band of noise, outliers and ends |
 //! | a surface and its points, or bare triangles | [`surface_figures`], [`surface_scene`] | a scene to turn, with fronts, backs, boundary and unused points, and fixed views |
+//! | an answer of any kind and its points | [`Figures`] | the same, for code that is generic over answers |
 //! | a [`Figure`] | [`to_svg`] | SVG text, with a title and a description for screen readers |
 //! | a [`Figure`] | `to_png` (feature `png`) | PNG bytes, the same on every machine: the font is bundled |
 //! | a [`Page`] of figures | [`to_html`] | one file: no network, no library; light, dark and print |
@@ -36,6 +37,7 @@
 mod axes;
 mod ball;
 mod base64;
+mod body;
 mod centers;
 mod curve;
 mod delaunay;
@@ -53,6 +55,7 @@ mod plot;
 mod png;
 mod project;
 mod raster;
+mod scene;
 mod scene2;
 mod scene3;
 mod style;
@@ -67,7 +70,7 @@ pub use curve::curve_figures;
 pub use delaunay::delaunay_figures;
 pub use ellipsoid::{ellipsoid_figures, robust_figures};
 pub use error::Error;
-pub use figure::Figure;
+pub use figure::{Figure, Figures};
 pub use html::{Field, Page, Section, to_html};
 pub use inscribed::inscribed_figures;
 pub use options::DrawOptions;

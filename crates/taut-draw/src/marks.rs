@@ -4,7 +4,8 @@
 use taut_certify::Items;
 
 use crate::Error;
-use crate::number::{count, counted};
+use crate::number::{count, counted, short};
+use crate::scene::Mark;
 use crate::survey::noun;
 
 /// An error unless both numbers are the same.
@@ -50,6 +51,22 @@ pub(crate) fn dot_size(drawn: usize) -> f64 {
 /// Radius of the disc of a support mark, pixels: its area grows with the multiplier, beside the largest of them.
 pub(crate) fn support_size(multiplier: f64, largest: f64) -> f64 {
     if largest > 0.0 { 4.0 + 4.5 * (multiplier.max(0.0) / largest).sqrt() } else { 4.0 }
+}
+
+/// The marks of a support; `place` says where the item at a place in it, and of a row, decides the answer.
+pub(crate) fn support_marks(
+    support: &[u64],
+    multipliers: &[f64],
+    place: impl Fn(usize, u64) -> Result<Vec<f64>, Error>,
+) -> Result<Vec<Mark>, Error> {
+    let largest = multipliers.iter().fold(0.0_f64, |a, &m| a.max(m));
+    let pairs = support.iter().zip(multipliers).enumerate();
+    pairs
+        .map(|(k, (&id, &multiplier))| {
+            let label = format!("support, multiplier {}", short(multiplier, 4));
+            Ok(Mark { id, at: place(k, id)?, size: support_size(multiplier, largest), label })
+        })
+        .collect()
 }
 
 /// The items that are not of the support, in a legend.

@@ -65,18 +65,11 @@ pub(crate) fn passes(history: &[PassBounds], words: &Words, options: &DrawOption
         String::new()
     };
     let look = if long { SeriesLook::Line } else { SeriesLook::LineAndDots };
-    let plot = |title: &str, caption: String, y: Axis, y_scale, series| Plot {
-        title: title.to_owned(),
-        caption,
-        x: Axis::named(axis),
-        y,
+    let plot = |title: String, caption: String, y: Axis, y_scale, series| Plot {
         x_scale: if long { Scale::Log } else { Scale::Linear },
         y_scale,
         series,
-        bars: Vec::new(),
-        levels: Vec::new(),
-        width: options.width,
-        height: (options.height * 0.62).max(180.0),
+        ..Plot::empty(title, caption, [Axis::named(axis), y], options)
     };
     let drawn_as = |tone: Tone| match tone {
         Tone::Bound if long => SeriesLook::Dashed,
@@ -109,7 +102,7 @@ pub(crate) fn passes(history: &[PassBounds], words: &Words, options: &DrawOption
     }
     vec![
         plot(
-            &format!("Bounds on the {} by {step}", words.quantity),
+            format!("Bounds on the {} by {step}", words.quantity),
             format!("After each {step} {} lies between the two curves.{shown}", words.answer),
             Axis::named(words.quantity),
             Scale::Linear,
@@ -123,7 +116,7 @@ pub(crate) fn passes(history: &[PassBounds], words: &Words, options: &DrawOption
             ],
         ),
         plot(
-            &format!("Gap by {step}"),
+            format!("Gap by {step}"),
             gap_words,
             Axis::named(gap_name),
             Scale::Log,

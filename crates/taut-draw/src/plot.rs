@@ -1,6 +1,6 @@
 //! Line charts and histograms, with linear or logarithmic axes.
 
-use crate::{Axis, Tone};
+use crate::{Axis, DrawOptions, Tone};
 
 /// A chart: series, bars and levels over two axes.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +29,33 @@ pub struct Plot {
     pub height: f64,
 }
 
+/// The height of a plot, as a part of that of a scene.
+const PLOT_HEIGHT: f64 = 0.62;
+
+impl Plot {
+    /// Axes with nothing between them yet, both linear.
+    pub(crate) fn empty(
+        title: String,
+        caption: String,
+        [x, y]: [Axis; 2],
+        options: &DrawOptions,
+    ) -> Self {
+        Plot {
+            title,
+            caption,
+            x,
+            y,
+            x_scale: Scale::Linear,
+            y_scale: Scale::Linear,
+            series: Vec::new(),
+            bars: Vec::new(),
+            levels: Vec::new(),
+            width: options.width,
+            height: (options.height * PLOT_HEIGHT).max(180.0),
+        }
+    }
+}
+
 /// How numbers become places on an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Scale {
@@ -50,6 +77,12 @@ pub struct Series {
     pub look: SeriesLook,
     /// (x, y) in data units.
     pub points: Vec<[f64; 2]>,
+}
+
+impl Series {
+    pub(crate) fn dots(name: String, tone: Tone, points: Vec<[f64; 2]>) -> Self {
+        Series { name, tone, look: SeriesLook::Dots, points }
+    }
 }
 
 /// How a series is drawn.

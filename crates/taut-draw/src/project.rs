@@ -45,6 +45,14 @@ pub(crate) fn plane(vectors: &[f64], weights: &[f64], dim: usize) -> [Vec<f64>; 
     [u, v]
 }
 
+/// Scales vectors together so that their largest entry is 1, whatever their unit was.
+pub(crate) fn to_unit_reach(vectors: &mut [f64]) {
+    let reach = vectors.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
+    if reach > 0.0 {
+        vectors.iter_mut().for_each(|v| *v /= reach);
+    }
+}
+
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }

@@ -1,6 +1,6 @@
 //! Pictures of the plane: layers of marks in data coordinates.
 
-use crate::{Look, Tone};
+use crate::{DrawOptions, Look, Tone};
 
 /// A picture in the plane, in data coordinates: axes and layers of marks, the first layer lowest.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +21,32 @@ pub struct Scene2 {
     pub width: f64,
     /// Height of the picture without caption, pixels.
     pub height: f64,
+}
+
+impl Scene2 {
+    /// Layers in the coordinates of the plane, both axes in one scale.
+    pub(crate) fn plane(
+        title: String,
+        caption: String,
+        layers: Vec<Layer2>,
+        options: &DrawOptions,
+    ) -> Self {
+        let [x, y] = [0, 1].map(|k| options.axis(k, 2));
+        let DrawOptions { width, height, .. } = *options;
+        Scene2 { title, caption, x, y, aspect: Aspect::Equal, layers, width, height }
+    }
+
+    /// Layers without axes in a square picture.
+    pub(crate) fn square(
+        title: String,
+        caption: String,
+        layers: Vec<Layer2>,
+        options: &DrawOptions,
+    ) -> Self {
+        let side = options.width.max(options.height);
+        let [x, y] = [Axis::default(), Axis::default()];
+        Scene2 { title, caption, x, y, aspect: Aspect::Equal, layers, width: side, height: side }
+    }
 }
 
 /// What an axis measures.

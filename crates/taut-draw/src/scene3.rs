@@ -1,6 +1,6 @@
 //! Pictures of space: layers of marks in data coordinates, and the view of them.
 
-use crate::{Axis, Look, Tone};
+use crate::{Axis, DrawOptions, Look, Tone};
 
 /// A picture in space, in data coordinates: layers of marks and a view.
 ///
@@ -25,6 +25,28 @@ pub struct Scene3 {
     pub width: f64,
     /// Height of the picture without caption, pixels.
     pub height: f64,
+}
+
+impl Scene3 {
+    /// Layers seen in perspective from a little above.
+    pub(crate) fn space(
+        title: String,
+        caption: String,
+        layers: Vec<Layer3>,
+        options: &DrawOptions,
+    ) -> Self {
+        Scene3 {
+            title,
+            caption,
+            axes: [0, 1, 2].map(|k| options.axis(k, 3)),
+            layers,
+            projection: Projection::Perspective,
+            azimuth: 35.0,
+            elevation: 22.0,
+            width: options.width,
+            height: options.height,
+        }
+    }
 }
 
 /// How space is shown on the plane.

@@ -2,7 +2,6 @@
 
 use taut::points::PointSource;
 use taut::{Ball, Items, Solution};
-use taut_draw::{DrawOptions, Error as DrawError, Figure, ball_figures};
 
 use crate::output::numbers::{count, counted, exact, gap};
 use crate::reports::{
@@ -50,10 +49,6 @@ impl Summary for Ball {
     fn no_picture(found: &Solution<Self>) -> Option<&'static str> {
         let is_around_ellipsoids = found.certificate.items == Items::Ellipsoids;
         is_around_ellipsoids.then_some("there are no pictures of balls around ellipsoids")
-    }
-
-    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
-        ball_figures(report.found, report.points.source(), options)
     }
 
     fn claims(found: &Solution<Self>, verdict: &Self::Verdict, source: &dyn PointSource) -> Claims {

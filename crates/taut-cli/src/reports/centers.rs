@@ -3,7 +3,6 @@
 use taut::certify::{CentersCertificate, LowerBound, Placement};
 use taut::points::PointSource;
 use taut::{Centers, Items, Solution};
-use taut_draw::{DrawOptions, Error as DrawError, Figure, centers_figures};
 
 use crate::output::numbers::{abridged, coordinates, count, counted, exact, gap};
 use crate::reports::{Claims, Field, Report, Summary, noun, rows_of, share, stopped};
@@ -70,10 +69,6 @@ impl Summary for Centers {
 
     fn dim(report: &Report<'_, Self>) -> usize {
         dim_of(&report.found.certificate, report.points.source().dim())
-    }
-
-    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
-        centers_figures(report.found, report.points.source(), options)
     }
 
     fn claims(found: &Solution<Self>, proved: &Self::Verdict, source: &dyn PointSource) -> Claims {

@@ -2,7 +2,6 @@
 
 use taut::certify::CurveVerdict;
 use taut::{Curve, PointSource, Solution};
-use taut_draw::{DrawOptions, Error as DrawError, Figure, curve_figures};
 
 use crate::output::numbers::{count, counted, exact, gap, short};
 use crate::reports::{
@@ -74,10 +73,6 @@ impl Summary for Curve {
 
     fn dim(report: &Report<'_, Self>) -> usize {
         report.points.source().dim()
-    }
-
-    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
-        curve_figures(report.found, report.points.source(), options)
     }
 
     fn claims(

@@ -3,7 +3,6 @@
 use taut::certify::Stop;
 use taut::points::PointSource;
 use taut::{Ellipsoid, EllipsoidMethod, Solution};
-use taut_draw::{DrawOptions, Error as DrawError, Figure, ellipsoid_figures};
 
 use crate::output::numbers::{count, counted, exact, gap};
 use crate::reports::{
@@ -64,10 +63,6 @@ impl Summary for Ellipsoid {
 
     fn dim(report: &Report<'_, Self>) -> usize {
         report.found.answer.dim()
-    }
-
-    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
-        ellipsoid_figures(report.found, report.points.source(), options)
     }
 
     fn claims(found: &Solution<Self>, verdict: &Self::Verdict, source: &dyn PointSource) -> Claims {

@@ -3,7 +3,6 @@
 use taut::certify::Stop;
 use taut::points::PointSource;
 use taut::{InscribedEllipsoid, Solution};
-use taut_draw::{DrawOptions, Error as DrawError, Figure, inscribed_figures};
 
 use crate::output::numbers::{count, counted, exact, gap};
 use crate::reports::{Claims, Field, Report, Summary, centre, gap_and_verified, stopped};
@@ -46,10 +45,6 @@ impl Summary for InscribedEllipsoid {
 
     fn dim(report: &Report<'_, Self>) -> usize {
         report.found.answer.center.len()
-    }
-
-    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
-        inscribed_figures(report.found, report.points.source(), options)
     }
 
     fn claims(found: &Solution<Self>, verdict: &Self::Verdict, source: &dyn PointSource) -> Claims {

@@ -2,7 +2,6 @@
 
 use taut::certify::OrderVerdict;
 use taut::{Order, OrderCurve, PointSource, Solution};
-use taut_draw::{DrawOptions, Error as DrawError, Figure};
 
 use crate::output::numbers::{count, counted};
 use crate::reports::{Claims, Field, Report, Summary};
@@ -28,10 +27,6 @@ impl Summary for Order {
 
     fn no_picture(_: &Solution<Self>) -> Option<&'static str> {
         Some("an order of points has no picture")
-    }
-
-    fn figures(_: &Report<'_, Self>, _: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
-        Ok(Vec::new())
     }
 
     fn claims(found: &Solution<Self>, verdict: &OrderVerdict, source: &dyn PointSource) -> Claims {

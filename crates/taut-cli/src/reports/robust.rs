@@ -2,7 +2,6 @@
 
 use taut::points::PointSource;
 use taut::{RobustEllipsoid, RobustMethod, Solution};
-use taut_draw::{DrawOptions, Error as DrawError, Figure, robust_figures};
 
 use crate::output::numbers::{count, counted, exact, gap};
 use crate::reports::{Claims, Field, Report, Summary, centre, rows_of};
@@ -68,10 +67,6 @@ impl Summary for RobustEllipsoid {
 
     fn dim(report: &Report<'_, Self>) -> usize {
         report.found.answer.center.len()
-    }
-
-    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
-        robust_figures(report.found, report.points.source(), options)
     }
 
     fn claims(found: &Solution<Self>, verdict: &Self::Verdict, source: &dyn PointSource) -> Claims {

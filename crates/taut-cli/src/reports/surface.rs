@@ -2,7 +2,6 @@
 
 use taut::certify::{SurfaceVerdict, Unused};
 use taut::{PointSource, Solution, Surface, looks_one_sided};
-use taut_draw::{DrawOptions, Error as DrawError, Figure, surface_figures};
 
 use crate::output::numbers::{count, counted, exact, short};
 use crate::reports::{
@@ -81,10 +80,6 @@ impl Summary for Surface {
 
     fn dim(report: &Report<'_, Self>) -> usize {
         report.points.source().dim()
-    }
-
-    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
-        surface_figures(report.found, report.points.source(), options)
     }
 
     fn claims(

@@ -2,7 +2,6 @@
 
 use taut::certify::TriangulationVerdict;
 use taut::{PointSource, Solution, Triangulation};
-use taut_draw::{DrawOptions, Error as DrawError, Figure, delaunay_figures};
 
 use crate::output::numbers::{count, counted};
 use crate::reports::{Claims, Field, Report, Summary};
@@ -65,10 +64,6 @@ impl Summary for Triangulation {
 
     fn dim(report: &Report<'_, Self>) -> usize {
         report.points.source().dim()
-    }
-
-    fn figures(report: &Report<'_, Self>, options: &DrawOptions) -> Result<Vec<Figure>, DrawError> {
-        delaunay_figures(report.found, report.points.source(), options)
     }
 
     fn claims(

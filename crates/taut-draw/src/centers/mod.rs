@@ -9,25 +9,24 @@
 
 mod elbow;
 mod nearest;
-mod plane;
-mod shadow;
-mod space;
 
-use taut_certify::{Centers, CentersCertificate, Items, Solution};
-use taut_points::{PointSource, gather};
+use taut_certify::{Centers, CentersCertificate, Solution};
+use taut_points::PointSource;
 
 use self::nearest::Nearest;
-use crate::marks::{
-    agree, all_finite, all_there, dot_size, drawn_of, misfit, others_name, support_size,
-};
+use crate::marks::{agree, all_finite, all_there, support_size};
 use crate::number::{count, counted, short};
 use crate::passes::{Words, passes};
-use crate::survey::{Question, Survey, noun, survey};
+use crate::project::{plane, to_unit_reach};
+use crate::scene::{Histogram, Input, Layer, Marks, Projected, Scene, histogram};
+use crate::survey::{Measure, Question};
 use crate::{DrawOptions, Error, Figure, Tone};
 pub use elbow::{ElbowStep, elbow_figure};
 
-/// The marks of items that are left out are this many times as large as those of the others.
-const LEFT_OUT_SCALE: f64 = 1.6;
+/// The weight of an item in the choice of the directions of a projection, beside centres of weight 1.
+const PROJECTION_ITEM_WEIGHT: f64 = 1e-4;
+/// About this many items of each group are looked at for that; more would take long in high dimensions and change little.
+const PROJECTION_ITEM_COUNT: usize = 64;
 
 /// What there is between two pairs of bounds.
 const STEP_WORDS: Words =
@@ -55,15 +54,15 @@ pub fn centers_figures(
         left_out: &answer.outliers,
         most: options.max_points,
     };
-    let survey = survey(&nearest, &question, source)?;
-    let picture = Picture { answer, certificate, source, options, dim, nearest, survey };
+    let input = Input::read(&nearest, &question, source, options)?;
+    let picture = Picture { answer, certificate, nearest, input };
+    let layers = picture.layers()?;
     let mut figures = match dim {
-        1 => vec![Figure::Plane(picture.line()?)],
-        2 => vec![Figure::Plane(picture.plane()?)],
-        3 => vec![Figure::Space(picture.space()?)],
+        1..=3 => vec![picture.scene(layers).figure()],
         _ => {
-            let mut figures = vec![Figure::Plane(picture.projection()?)];
-            figures.extend(picture.distances()?.map(Figure::Plot));
+            let projected = picture.projected(&layers);
+            let mut figures = vec![picture.scene(layers).projection(projected)];
+            figures.extend(picture.distances());
             figures
         }
     };
@@ -104,41 +103,11 @@ fn check(
 struct Picture<'a> {
     answer: &'a Centers,
     certificate: &'a CentersCertificate,
-    source: &'a dyn PointSource,
-    options: &'a DrawOptions,
-    dim: usize,
     nearest: Nearest,
-    survey: Survey,
+    input: Input<'a>,
 }
 
-/// Rows that are drawn alike.
-struct Group {
-    name: String,
-    tone: Tone,
-    /// Of their discs, pixels.
-    size: f64,
-    /// What else to say of each on hovering.
-    label: &'static str,
-    ids: Vec<u64>,
-    /// n × columns.
-    rows: Vec<f64>,
-}
-
-impl Picture<'_> {
-    /// "point" or "ball".
-    fn thing(&self) -> &'static str {
-        noun(self.certificate.items)
-    }
-
-    fn title(&self) -> String {
-        format!(
-            "Centres of {}, k = {}, d = {}",
-            counted(self.source.len(), self.thing()),
-            count(self.certificate.k),
-            self.dim
-        )
-    }
-
+impl<'a> Picture<'a> {
     /// Whether balls are drawn, and those of the lower bound.
     fn has_balls(&self) -> bool {
         !self.certificate.weights
@@ -156,7 +125,7 @@ impl Picture<'_> {
             _ if radius > 0.0 && lower_bound <= 0.0 => "no gap is certified".to_owned(),
             gap => format!("certified relative gap {}", short(gap, 3)),
         };
-        let shape = match self.dim {
+        let shape = match self.input.dim {
             1 => "interval",
             3 => "sphere",
             _ => "circle",
@@ -184,75 +153,114 @@ impl Picture<'_> {
 
     /// What is drawn of how many, and what proves the bound.
     fn counts(&self) -> String {
-        let (n, drawn) = (self.source.len(), self.survey.ids.len() as u64);
-        let thing = self.thing();
-        let mut words = match self.certificate.core_set.len() as u64 {
+        let thing = self.input.thing();
+        let core_set = match self.certificate.core_set.len() as u64 {
             0 => String::new(),
             1 => format!(" The one {thing} of the core-set proves the lower bound."),
             m => format!(" The {} {thing}s of the core-set prove the lower bound.", count(m)),
         };
-        words += &match self.answer.outliers.len() as u64 {
+        let left_out = match self.answer.outliers.len() as u64 {
             0 => String::new(),
             1 => format!(" One {thing} is left out."),
             z => format!(" {} {thing}s are left out.", count(z)),
         };
-        let which = format!(
-            "the core-set, what is left out, {} more that reach far, and an even sample of the others",
-            count(self.survey.far)
-        );
-        words += &drawn_of(drawn, n, thing, &which);
-        words += &misfit(self.survey.outside, thing, "balls");
-        words
+        let drawn = self.input.drawn("the core-set, what is left out, ");
+        core_set + &left_out + &drawn + &self.input.misfit("balls")
     }
 
-    /// The rows to draw: those of no part, those of the core-set, those that are left out.
-    fn groups(&self) -> Result<[Group; 3], Error> {
-        let outliers = &self.answer.outliers;
+    /// "the 5 balls", by what they are in this dimension.
+    fn balls_name(&self) -> String {
+        let shape = match self.input.dim {
+            1 => "interval",
+            2 => "circle",
+            3 => "sphere",
+            _ => return "shadows of the balls".into(),
+        };
+        match self.answer.centers.len() as u64 {
+            1 => format!("the {shape}"),
+            k => format!("the {} {shape}s", count(k)),
+        }
+    }
+
+    /// Balls, rows of no part, the lower bound, the core-set, rows left out, and centres.
+    fn layers(&self) -> Result<Vec<Layer<'a>>, Error> {
+        let Centers { centers, outliers, radius, lower_bound, .. } = self.answer;
         let mut core: Vec<u64> = self.certificate.core_set.clone();
         core.sort_unstable();
         core.dedup();
         core.retain(|id| outliers.binary_search(id).is_err());
         let is_other =
             |id: &u64| core.binary_search(id).is_err() && outliers.binary_search(id).is_err();
-        let others: Vec<u64> = self.survey.ids.iter().copied().filter(is_other).collect();
-        let dot = dot_size(self.survey.ids.len());
-        let named =
-            |word: &str, ids: usize| format!("{word} ({})", counted(ids as u64, self.thing()));
-        let core_name = named("core-set", core.len());
-        let out_name = named("left out", outliers.len());
-        Ok([
-            self.group(others_name(self.certificate.items), Tone::Point, dot, "", others)?,
-            self.group(core_name, Tone::Support, support_size(0.0, 0.0), "of the core-set", core)?,
-            self.group(out_name, Tone::Third, LEFT_OUT_SCALE * dot, "left out", outliers.clone())?,
-        ])
+        let others = self.input.survey.ids.iter().copied().filter(is_other).collect();
+        let balls = |radius: &f64| Marks::Balls { centers, radius: *radius };
+        let mut layers = Vec::new();
+        if self.has_balls() {
+            layers.push(Layer::answer(self.balls_name(), balls(radius)));
+        }
+        layers.push(self.input.others(others)?);
+        if self.lower_is_visible() {
+            layers.push(Layer::lower_bound(balls(lower_bound)));
+        }
+        let name = self.input.named("core-set", core.len());
+        let mut core = self.input.group(name, Tone::Support, "of the core-set", core)?;
+        if let Marks::Items(group) = &mut core.marks {
+            group.size = support_size(0.0, 0.0);
+        }
+        layers.push(core);
+        let name = self.input.named("left out", outliers.len());
+        layers.push(self.input.left_out(name, "left out", outliers.clone())?);
+        layers.push(Layer::centers(centers));
+        Ok(layers)
     }
 
-    fn group(
-        &self,
-        name: String,
-        tone: Tone,
-        size: f64,
-        label: &'static str,
-        ids: Vec<u64>,
-    ) -> Result<Group, Error> {
-        let rows = gather(self.source, &ids)?;
-        Ok(Group { name, tone, size, label, ids, rows })
+    fn scene(&self, layers: Vec<Layer<'a>>) -> Scene<'a> {
+        let Input { source, options, dim, .. } = self.input;
+        let things = counted(source.len(), self.input.thing());
+        let title = format!("Centres of {things}, k = {}, d = {dim}", count(self.certificate.k));
+        Scene { title, caption: [self.facts(), self.counts()], dim, options, layers, facing: None }
     }
 
-    /// "the 5 balls", by what they are in this dimension.
-    fn balls_name(&self, one: &str, many: &str) -> String {
-        match self.answer.centers.len() as u64 {
-            1 => format!("the {one}"),
-            k => format!("the {} {many}", count(k)),
+    /// d > 3: the directions of the centres, and of a few items where the centres do not span a plane.
+    fn projected(&self, layers: &[Layer<'_>]) -> Projected<'_> {
+        let mut vectors: Vec<f64> = self.nearest.offsets().flatten().collect();
+        let mut weights = vec![1.0; self.answer.centers.len()];
+        for tone in [Tone::Support, Tone::Point] {
+            for layer in layers.iter().filter(|layer| layer.tone == tone) {
+                let Marks::Items(group) = &layer.marks else { continue };
+                let step = (group.ids.len() / PROJECTION_ITEM_COUNT).max(1);
+                for row in group.rows.chunks_exact(group.columns).step_by(step) {
+                    vectors.extend(self.nearest.offset(&row[..self.input.dim]));
+                    weights.push(PROJECTION_ITEM_WEIGHT);
+                }
+            }
+        }
+        to_unit_reach(&mut vectors);
+        let words = "A shadow on the two directions in which the centres spread most, from the middle of them. Shadows of \
+                     balls may lie over one another where the balls are far apart, and an item that touches a ball \
+                     usually falls well inside.";
+        Projected {
+            measure: &self.nearest,
+            unit: self.nearest.unit,
+            directions: plane(&vectors, &weights, self.input.dim),
+            words: words.to_owned(),
+            axes: ["first direction of the centres", "second direction"],
         }
     }
 
-    fn centers_name(&self) -> String {
-        if self.answer.centers.len() == 1 { "centre".into() } else { "centres".into() }
-    }
-
-    /// The radius of a row that is a ball.
-    fn own_radius(&self, row: &[f64]) -> f64 {
-        if self.certificate.items == Items::Balls { row[self.dim] } else { 0.0 }
+    /// d > 3: how far every item reaches from the centre next to it.
+    fn distances(&self) -> Option<Figure> {
+        let radius = self.answer.radius;
+        let words = Histogram {
+            title: format!(
+                "How far the {}s reach from the centre next to them",
+                self.input.thing()
+            ),
+            axis: "distance from the nearest centre",
+            border: ("radius", format!("radius {}", short(radius, 6))),
+            reach: radius,
+            left_out: self.answer.outliers.len(),
+            support: None,
+        };
+        (radius > 0.0).then(|| histogram(&self.input, words))
     }
 }

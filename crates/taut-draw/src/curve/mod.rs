@@ -17,7 +17,7 @@ use self::window::Window;
 use crate::marks::{agree, all_finite, all_there, dot_size, drawn_of};
 use crate::number::{count, counted, short};
 use crate::survey::spread;
-use crate::{Aspect, DrawOptions, Error, Figure, Layer2, Look, Point2, Scene2, Shape2, Tone};
+use crate::{DrawOptions, Error, Figure, Layer2, Look, Point2, Scene2, Shape2, Tone};
 
 /// The marks of outliers are this many times as large as those of the other points.
 const OUTLIER_SCALE: f64 = 1.6;
@@ -239,16 +239,7 @@ impl Picture<'_> {
             Look::Solid,
             discs(outliers, OUTLIER_SCALE * dot, "outlier"),
         );
-        Scene2 {
-            title,
-            caption,
-            x: self.options.axis(0, 2),
-            y: self.options.axis(1, 2),
-            aspect: Aspect::Equal,
-            layers,
-            width: self.options.width,
-            height: self.options.height,
-        }
+        Scene2::plane(title, caption, layers, self.options)
     }
 
     /// The longer side of the box of all curves.

@@ -3,7 +3,7 @@
 use super::clip::Frame;
 use super::{Picture, dot_size};
 use crate::number::{count, counted};
-use crate::{Aspect, Layer2, Look, Point2, Scene2, Shape2, Tone};
+use crate::{Layer2, Look, Point2, Scene2, Shape2, Tone};
 
 /// Up to this many, edges of the Voronoi diagram are drawn bold.
 const BOLD_EDGES_MAX: usize = 600;
@@ -25,16 +25,7 @@ impl Picture<'_> {
     }
 
     fn scene(&self, title: String, caption: String, layers: Vec<Layer2>) -> Scene2 {
-        Scene2 {
-            title,
-            caption,
-            x: self.options.axis(0, 2),
-            y: self.options.axis(1, 2),
-            aspect: Aspect::Equal,
-            layers,
-            width: self.options.width,
-            height: self.options.height,
-        }
+        Scene2::plane(title, caption, layers, self.options)
     }
 
     fn at(&self, id: u32) -> [f64; 2] {

@@ -2,7 +2,7 @@
 
 use super::{Picture, dot_size};
 use crate::number::count;
-use crate::{Layer3, Look, Mesh3, Point3, Projection, Scene3, Shape3, Tone};
+use crate::{Layer3, Look, Mesh3, Point3, Scene3, Shape3, Tone};
 
 /// Up to this many edges can be looked through.
 const SEEN_THROUGH_EDGES_MAX: usize = 4000;
@@ -72,17 +72,7 @@ impl Picture<'_> {
                 shape: Shape3::Points(ids.iter().map(point).collect()),
             });
         }
-        Scene3 {
-            title: self.title(),
-            caption,
-            axes: [0, 1, 2].map(|k| self.options.axis(k, 3)),
-            layers,
-            projection: Projection::Perspective,
-            azimuth: 35.0,
-            elevation: 22.0,
-            width: self.options.width,
-            height: self.options.height,
-        }
+        Scene3::space(self.title(), caption, layers, self.options)
     }
 
     /// Triangles with their own vertices alone.

@@ -6,24 +6,19 @@
 //! *Guarantee.* The items are read twice at most (once for all, once more for those drawn); what is left out is counted
 //! in the caption.
 
-pub(crate) mod body;
-pub(crate) mod pairs;
-pub(crate) mod plane;
-mod reach;
 mod robust;
-pub(crate) mod space;
 
-use taut_certify::{Ellipsoid, EllipsoidCertificate, RobustEllipsoid, Solution};
+use taut_certify::{Ellipsoid, EllipsoidCertificate, Items, RobustEllipsoid, Solution};
 use taut_points::{PointSource, gather};
 
-use self::body::Body;
 use self::robust::Robust;
-use crate::marks::{
-    agree, all_finite, all_there, dot_size, drawn_of, misfit, others_name, support_size,
-};
+use crate::body::{Body, touching};
+use crate::marks::{agree, all_finite, all_there, support_marks};
 use crate::number::{count, counted, short};
 use crate::passes::{Gap, Words, passes};
-use crate::survey::{Measure, Question, Survey, noun, survey};
+use crate::scene::pairs::most;
+use crate::scene::{Histogram, Input, Layer, Marks, Pairs, Scene, histogram};
+use crate::survey::{Measure, Question};
 use crate::{DrawOptions, Error, Figure};
 
 /// Pictures of an ellipsoid and its points: the plane for d ≤ 2, space for d = 3, shadows on pairs of coordinates and how
@@ -39,9 +34,9 @@ pub fn ellipsoid_figures(
 ) -> Result<Vec<Figure>, Error> {
     options.check()?;
     let picture = Picture::of(&solution.answer, &solution.certificate, None, source, options)?;
-    let mut figures = vec![picture.scene()?];
+    let mut figures = vec![picture.figure()?];
     if picture.dim() > 3 {
-        figures.push(Figure::Plot(picture.reach()?));
+        figures.push(picture.reach()?);
     }
     let words = Words {
         quantity: "log-volume",
@@ -69,12 +64,12 @@ pub fn robust_figures(
     let (ellipsoid, certificate) = robust::as_left_out(solution);
     let robust = Robust::of(solution, source)?;
     let picture = Picture::of(&ellipsoid, &certificate, Some(robust), source, options)?;
-    let mut figures = vec![picture.scene()?];
+    let mut figures = vec![picture.figure()?];
     let distances = picture.distances()?;
     if let Some(picture) = picture.closer()? {
-        figures.push(picture.scene()?);
+        figures.push(picture.figure()?);
     }
-    figures.extend(distances.map(Figure::Plot));
+    figures.extend(distances);
     Ok(figures)
 }
 
@@ -117,19 +112,8 @@ struct Picture<'a> {
     certificate: &'a EllipsoidCertificate,
     /// What there is to say where the ellipsoid is no smallest one.
     robust: Option<Robust<'a>>,
-    source: &'a dyn PointSource,
-    options: &'a DrawOptions,
     body: Body,
-    survey: Survey,
-}
-
-/// One mark of the support.
-struct Mark {
-    id: u64,
-    /// Where the item touches.
-    at: Vec<f64>,
-    size: f64,
-    label: String,
+    input: Input<'a>,
 }
 
 impl<'a> Picture<'a> {
@@ -149,24 +133,73 @@ impl<'a> Picture<'a> {
             support: &certificate.support,
             left_out: &certificate.left_out,
             // Where there are many panels, each mark is drawn once in each.
-            most: if dim > 3 { pairs::most(options.max_points, dim) } else { options.max_points },
+            most: if dim > 3 { most(options.max_points, dim) } else { options.max_points },
         };
-        let survey = survey(&body, &question, source)?;
-        Ok(Picture { ellipsoid, certificate, robust, source, options, body, survey })
+        let input = Input::read(&body, &question, source, options)?;
+        Ok(Picture { ellipsoid, certificate, robust, body, input })
     }
 
     /// The ellipsoid and its items, in the picture that their dimension asks for.
-    fn scene(&self) -> Result<Figure, Error> {
-        Ok(match self.dim() {
-            1 => Figure::Plane(self.line()?),
-            2 => Figure::Plane(self.plane()?),
-            3 => Figure::Space(self.space()?),
-            _ => Figure::Plane(self.pairs()?),
+    fn figure(&self) -> Result<Figure, Error> {
+        let Input { source, options, dim, .. } = self.input;
+        let EllipsoidCertificate { support, multipliers, directions, .. } = self.certificate;
+        let (inside, out) = self.others();
+        let left_out = gather(source, &out)?;
+        let scaled = |body, part| Marks::Ellipsoid { body, part };
+        let mut layers = vec![Layer::answer(self.name(), scaled(&self.body, 1.0))];
+        layers.extend(self.robust.as_ref().and_then(Robust::kept_layer));
+        layers.push(self.input.others(inside)?);
+        layers.push(self.input.left_out(self.left_out_name(), "", out)?);
+        if self.lower_is_visible() {
+            layers.push(Layer::lower_bound(scaled(&self.body, self.lower())));
+        }
+        let marks = support_marks(support, multipliers, |k, id| {
+            let row = self.input.row(id)?;
+            Ok(match directions.get(k) {
+                None => row[..dim].to_vec(),
+                Some(direction) => touching(self.input.items, dim, &row, direction),
+            })
+        })?;
+        layers.push(Layer::support(self.support_name(), marks));
+        layers.push(Layer::centers(std::slice::from_ref(&self.body.center)));
+        let facing = if dim == 3 { self.facing(&left_out) } else { None };
+        let caption = [self.facts(), self.counts()];
+        let scene = Scene { title: self.title(), caption, dim, options, layers, facing };
+        Ok(match dim {
+            1..=3 => scene.figure(),
+            _ => scene.pairs(&Pairs::new(&self.body, &left_out, source.dim())),
         })
     }
 
-    fn certificate(&self) -> &'a EllipsoidCertificate {
-        self.certificate
+    /// In space, the longest axis; the mean of the outliers from the centre, where a robust ellipsoid has some.
+    fn facing(&self, left_out: &[f64]) -> Option<Vec<f64>> {
+        if self.robust.is_none() || left_out.is_empty() {
+            return self.body.principal().into_iter().next();
+        }
+        let mean = |k: usize| {
+            let offsets = left_out[k..].iter().step_by(3).map(|x| x - self.body.center[k]);
+            offsets.sum::<f64>() / (left_out.len() / 3) as f64
+        };
+        Some([0, 1, 2].map(mean).to_vec())
+    }
+
+    /// d > 3: |F(x − c)| of every item, which shadows cannot tell.
+    fn reach(&self) -> Result<Figure, Error> {
+        let EllipsoidCertificate { items, support, left_out, .. } = self.certificate;
+        let part = |&id: &u64| Ok(self.body.part(&self.input.row(id)?, *items));
+        let reaches: Result<Vec<f64>, Error> = support.iter().map(part).collect();
+        let words = Histogram {
+            title: format!("How far the {}s reach", self.input.thing()),
+            axis: match items {
+                Items::Points => "|F(x − c)|: 0 at the centre, 1 on the border",
+                Items::Balls | Items::Ellipsoids => "largest |F(x − c)|: 1 on the border",
+            },
+            border: ("border", "border".into()),
+            reach: 1.0,
+            left_out: left_out.len(),
+            support: Some((self.support_name(), reaches?)),
+        };
+        Ok(histogram(&self.input, words))
     }
 
     fn dim(&self) -> usize {
@@ -177,30 +210,25 @@ impl<'a> Picture<'a> {
         self.body.rank()
     }
 
-    /// "point", "ball" or "ellipsoid".
-    fn thing(&self) -> &'static str {
-        noun(self.certificate().items)
-    }
-
     fn title(&self) -> String {
         if let Some(robust) = &self.robust {
-            return robust.title(self.source.len(), self.dim());
+            return robust.title(self.input.source.len(), self.dim());
         }
-        let inside = self.source.len().saturating_sub(self.certificate().left_out.len() as u64);
-        let of = match self.certificate().left_out.len() {
+        let inside = self.input.source.len().saturating_sub(self.certificate.left_out.len() as u64);
+        let of = match self.certificate.left_out.len() {
             0 => String::new(),
-            _ => format!(" of {}", count(self.source.len())),
+            _ => format!(" of {}", count(self.input.source.len())),
         };
         format!(
             "Smallest ellipsoid around {}{of}, d = {}",
-            counted(inside, self.thing()),
+            counted(inside, self.input.thing()),
             self.dim()
         )
     }
 
     /// By which factor the axes of the ellipsoid shrink to give it the volume of the lower bound.
     fn lower(&self) -> f64 {
-        let gap = self.certificate().gap;
+        let gap = self.certificate.gap;
         if gap.is_finite() && gap >= 0.0 { (-gap / self.rank().max(1) as f64).exp() } else { 0.0 }
     }
 
@@ -214,7 +242,7 @@ impl<'a> Picture<'a> {
         if let Some(robust) = &self.robust {
             return robust.facts();
         }
-        let gap = match self.certificate().gap {
+        let gap = match self.certificate.gap {
             gap if !gap.is_finite() => "no gap is certified".to_owned(),
             gap => format!("certified gap {} in log-volume", short(gap, 3)),
         };
@@ -236,104 +264,56 @@ impl<'a> Picture<'a> {
 
     /// What is drawn of how many, and what the support is.
     fn counts(&self) -> String {
-        let (n, drawn) = (self.source.len(), self.survey.ids.len() as u64);
-        let thing = self.thing();
-        let mut words = match self.certificate().support.len() as u64 {
+        let EllipsoidCertificate { support, directions, left_out, .. } = self.certificate;
+        let thing = self.input.thing();
+        let mut words = match support.len() as u64 {
             0 => String::new(),
             1 => format!(" One support {thing} decides the ellipsoid."),
             k => format!(
                 " {} support {} decide the ellipsoid: the larger the mark, the larger the multiplier.",
                 count(k),
-                match self.certificate().directions.is_empty() {
+                match directions.is_empty() {
                     true => format!("{thing}s"),
                     false => format!("marks, where {thing}s touch it,"),
                 }
             ),
         };
-        match self.certificate().left_out.len() as u64 {
+        match left_out.len() as u64 {
             _ if self.robust.is_some() => {}
             0 => {}
             1 => words += &format!(" One {thing} is left out."),
             k => words += &format!(" {} {thing}s are left out.", count(k)),
         }
-        if let Some(beyond @ 1..) = self.robust.as_ref().map(|robust| robust.beyond) {
-            let lie = if beyond == 1 { "outlier lies" } else { "outliers lie" };
-            words += &format!(" {} {lie} beyond the picture.", count(beyond));
-        } else {
-            let far = match self.survey.far {
-                0 => String::new(),
-                far => format!("{} more that reach far, ", count(far)),
-            };
-            let support = if self.certificate().support.is_empty() { "" } else { "the support, " };
-            let which = format!("{support}{far}and an even sample of the others");
-            words += &drawn_of(drawn, n, thing, &which);
-        }
-        words += &misfit(self.survey.outside, thing, "ellipsoid");
-        words
-    }
-
-    /// Radius of the disc of a point that is not of the support, pixels.
-    fn dot_size(&self) -> f64 {
-        dot_size(self.survey.ids.len())
+        words += &match self.robust.as_ref().map(|robust| robust.beyond) {
+            Some(1) => " 1 outlier lies beyond the picture.".to_owned(),
+            Some(beyond @ 2..) => format!(" {} outliers lie beyond the picture.", count(beyond)),
+            _ => self.input.drawn(if support.is_empty() { "" } else { "the support, " }),
+        };
+        words + &self.input.misfit("ellipsoid")
     }
 
     /// The items to draw: those enclosed that are not of the support, and those left out.
     fn others(&self) -> (Vec<u64>, Vec<u64>) {
-        let EllipsoidCertificate { support, left_out, .. } = self.certificate();
+        let EllipsoidCertificate { support, left_out, directions, .. } = self.certificate;
         let is_in = |list: &[u64], id: &u64| list.binary_search(id).is_ok();
         let (out, inside): (Vec<u64>, Vec<u64>) =
-            self.survey.ids.iter().partition(|id| is_in(left_out, id));
-        let points = self.certificate().directions.is_empty();
+            self.input.survey.ids.iter().partition(|id| is_in(left_out, id));
         // Marks stand where items touch; the items themselves are still to be drawn.
-        let inside = inside.into_iter().filter(|id| !points || !is_in(support, id)).collect();
-        (inside, out)
-    }
-
-    /// The marks of the support.
-    fn support(&self) -> Result<Vec<Mark>, Error> {
-        let certificate = self.certificate();
-        let largest = certificate.multipliers.iter().fold(0.0_f64, |a, &m| a.max(m));
-        let pairs = certificate.support.iter().zip(&certificate.multipliers).enumerate();
-        pairs
-            .map(|(k, (&id, &multiplier))| {
-                let row = self.row(id)?;
-                let at = match certificate.directions.get(k) {
-                    None => row[..self.dim()].to_vec(),
-                    Some(direction) => {
-                        body::touching(certificate.items, self.dim(), &row, direction)
-                    }
-                };
-                let label = format!("support, multiplier {}", short(multiplier, 4));
-                Ok(Mark { id, at, size: support_size(multiplier, largest), label })
-            })
-            .collect()
-    }
-
-    fn others_name(&self) -> String {
-        others_name(self.certificate().items)
+        let is_drawn = |id: &u64| !directions.is_empty() || !is_in(support, id);
+        (inside.into_iter().filter(is_drawn).collect(), out)
     }
 
     fn support_name(&self) -> String {
-        format!("support ({})", counted(self.certificate().support.len() as u64, self.thing()))
+        self.input.named("support", self.certificate.support.len())
     }
 
     fn left_out_name(&self) -> String {
-        let name = if self.robust.is_some() { "outliers" } else { "left out" };
-        format!("{name} ({})", counted(self.certificate().left_out.len() as u64, self.thing()))
+        let word = if self.robust.is_some() { "outliers" } else { "left out" };
+        self.input.named(word, self.certificate.left_out.len())
     }
 
     /// The name of the ellipsoid in legends.
     fn name(&self) -> String {
         self.robust.as_ref().map_or_else(|| "smallest ellipsoid".into(), Robust::name)
-    }
-
-    /// A second ellipsoid to compare with.
-    fn second(&self) -> Option<&Body> {
-        self.robust.as_ref()?.kept.as_ref()
-    }
-
-    /// The row of an item.
-    fn row(&self, id: u64) -> Result<Vec<f64>, Error> {
-        Ok(gather(self.source, &[id])?)
     }
 }

@@ -6,13 +6,15 @@ use taut_certify::{
 };
 use taut_points::PointSource;
 
-use super::{Picture, body::Body, check};
+use super::{Picture, check};
+use crate::body::Body;
 use crate::number::{count, counted, short};
+use crate::scene::{Layer, Marks};
 use crate::survey::Measure;
-use crate::{Axis, Error, Level, Plot, Scale, Series, SeriesLook, Tone};
+use crate::{Axis, Error, Figure, Level, Look, Plot, Scale, Series, Tone};
 
 /// The name of the ellipsoid around the points kept, where it is not the answer.
-pub(super) const KEPT_LABEL: &str = "smallest around the points kept";
+const KEPT_LABEL: &str = "smallest around the points kept";
 
 /// An outlier this far out makes a close-up worth while, in half-widths of the ellipsoid.
 const OUTLIER_REACH_MIN: f64 = 4.0;
@@ -48,7 +50,7 @@ pub(super) struct Robust<'a> {
     answer: &'a RobustEllipsoid,
     certificate: &'a RobustCertificate,
     /// By `mve`, the smallest ellipsoid around the points kept.
-    pub(super) kept: Option<Body>,
+    kept: Option<Body>,
     /// Outliers that a close-up does not show.
     pub(super) beyond: u64,
 }
@@ -69,6 +71,12 @@ impl<'a> Robust<'a> {
             }
         };
         Ok(Robust { answer, certificate, kept, beyond: 0 })
+    }
+
+    /// The ellipsoid around the points kept, to compare with.
+    pub(super) fn kept_layer(&self) -> Option<Layer<'_>> {
+        let marks = Marks::Ellipsoid { body: self.kept.as_ref()?, part: 1.0 };
+        Some(Layer::new(KEPT_LABEL, Tone::Second, Look::Dashed, marks))
     }
 
     pub(super) fn title(&self, points: u64, dim: usize) -> String {
@@ -120,9 +128,9 @@ impl<'a> Picture<'a> {
         };
         let out = &self.certificate.left_out;
         let (mut ids, mut is_far) = (Vec::new(), false);
-        for &id in &self.survey.ids {
+        for &id in &self.input.survey.ids {
             if out.binary_search(&id).is_ok() {
-                let row = self.row(id)?;
+                let row = self.input.row(id)?;
                 is_far |= !lies_within(&row, OUTLIER_REACH_MIN);
                 if !lies_within(&row, CLOSE_UP_REACH) {
                     continue;
@@ -135,7 +143,7 @@ impl<'a> Picture<'a> {
         }
         let drawn = ids.iter().filter(|id| out.binary_search(id).is_ok()).count();
         let mut closer = self;
-        closer.survey.ids = ids;
+        closer.input.survey.ids = ids;
         if let Some(robust) = &mut closer.robust {
             robust.beyond = out.len().saturating_sub(drawn) as u64;
         }
@@ -143,23 +151,19 @@ impl<'a> Picture<'a> {
     }
 
     /// |F(x − c)| of the points that are drawn, by row; nothing for a single place, which has no metric.
-    pub(super) fn distances(&self) -> Result<Option<Plot>, Error> {
+    pub(super) fn distances(&self) -> Result<Option<Figure>, Error> {
         if self.rank() == 0 {
             return Ok(None);
         }
         let out = &self.certificate.left_out;
         let (mut inside, mut outside) = (Vec::new(), Vec::new());
-        for &id in &self.survey.ids {
-            let part = self.body.part(&self.row(id)?, Items::Points);
+        for &id in &self.input.survey.ids {
+            let part = self.body.part(&self.input.row(id)?, Items::Points);
             let is_out = out.binary_search(&id).is_ok();
             let list = if is_out { &mut outside } else { &mut inside };
             list.push([(id + 1) as f64, part]);
         }
-        let (n, drawn) = (self.source.len(), self.survey.ids.len() as u64);
-        let series = |name: String, tone, points| {
-            let look = SeriesLook::Dots;
-            Series { name, tone, look, points }
-        };
+        let (n, drawn) = (self.input.source.len(), self.input.survey.ids.len() as u64);
         let flat = match self.ellipsoid.hull {
             Some(_) => " Points off the flat are outliers at any distance within it.",
             None => "",
@@ -168,21 +172,17 @@ impl<'a> Picture<'a> {
             true => String::new(),
             false => format!(" {} of {} are drawn.", count(drawn), counted(n, "point")),
         };
-        Ok(Some(Plot {
-            title: "Distances in the metric of the ellipsoid".into(),
-            caption: format!("Outliers lie beyond the border, at 1.{flat}{shown}"),
-            x: Axis::named("row"),
-            y: Axis::named("|F(x − c)|"),
-            x_scale: Scale::Linear,
+        let title = "Distances in the metric of the ellipsoid".into();
+        let caption = format!("Outliers lie beyond the border, at 1.{flat}{shown}");
+        let axes = ["row", "|F(x − c)|"].map(Axis::named);
+        Ok(Some(Figure::Plot(Plot {
             y_scale: Scale::Log,
             series: vec![
-                series("points".into(), Tone::Point, inside),
-                series(self.left_out_name(), Tone::Third, outside),
+                Series::dots("points".into(), Tone::Point, inside),
+                Series::dots(self.left_out_name(), Tone::Third, outside),
             ],
-            bars: Vec::new(),
             levels: vec![Level::AtY { y: 1.0, tone: Tone::Answer, label: "border".into() }],
-            width: self.options.width,
-            height: (self.options.height * 0.62).max(180.0),
-        }))
+            ..Plot::empty(title, caption, axes, self.input.options)
+        })))
     }
 }

@@ -1,14 +1,12 @@
 //! What half-planes leave of a square, by cutting off one after the other (Sutherland and Hodgman, Communications of the
 //! ACM 17(1), 1974).
 
-use crate::ellipsoid::plane::Place;
-
 /// nᵀy ≤ h.
-pub(super) type HalfPlane = (Place, f64);
+pub(super) type HalfPlane = ([f64; 2], f64);
 
 /// A convex polygon, and whether it ends by itself.
 pub(super) struct Polygon {
-    pub(super) corners: Vec<Place>,
+    pub(super) corners: Vec<[f64; 2]>,
     /// Whether the half-planes bound it, and not the square that was begun with.
     pub(super) is_whole: bool,
 }
@@ -33,7 +31,7 @@ pub(super) fn polygon(half_planes: &[HalfPlane], reach: f64) -> Polygon {
 }
 
 /// The same within a square of this half side.
-fn within(half_planes: &[HalfPlane], size: f64) -> Vec<Place> {
+fn within(half_planes: &[HalfPlane], size: f64) -> Vec<[f64; 2]> {
     let mut corners = vec![[-size, -size], [size, -size], [size, size], [-size, size]];
     for &(normal, offset) in half_planes {
         corners = cut(&corners, normal, offset);
@@ -42,7 +40,7 @@ fn within(half_planes: &[HalfPlane], size: f64) -> Vec<Place> {
 }
 
 /// What a half-plane leaves of a convex polygon.
-fn cut(corners: &[Place], [a, b]: Place, offset: f64) -> Vec<Place> {
+fn cut(corners: &[[f64; 2]], [a, b]: [f64; 2], offset: f64) -> Vec<[f64; 2]> {
     let above: Vec<f64> = corners.iter().map(|[x, y]| a * x + b * y - offset).collect();
     if above.iter().all(|&v| v <= 0.0) {
         return corners.to_vec();

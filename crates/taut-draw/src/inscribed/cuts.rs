@@ -2,12 +2,10 @@
 
 use super::clip::{Polygon, polygon};
 use super::{ELLIPSOID, Picture};
-use crate::ellipsoid::body::Shadow;
-use crate::ellipsoid::pairs::{PANEL_HALF_WIDTH, coordinates, diagonal, panels, square};
-use crate::ellipsoid::plane::LARGE_CORNERS;
-use crate::{
-    Aspect, Axis, Layer2, Level, Look, Plot, Scale, Scene2, Series, SeriesLook, Shape2, Tone,
-};
+use crate::body::Shadow;
+use crate::scene::LARGE_CORNERS;
+use crate::scene::pairs::{PANEL_HALF_WIDTH, choice, coordinates, framed, panels};
+use crate::{Axis, Layer2, Level, Look, Plot, Scale, Scene2, Series, Shape2, Tone};
 
 /// This part of a panel is filled.
 const FILLED_PART: f64 = 0.94;
@@ -46,42 +44,20 @@ impl Picture<'_> {
             let cut = Shadow([[wide * x, 0.0], [slope * y, tall * y]]);
             ellipses.push(cut.chain(panel.middle, 1.0, LARGE_CORNERS));
         }
-        let frames = panels.iter().map(|panel| square(panel.middle)).collect();
-        let layer = |name: &str, tone, look, shape| Layer2 { name: name.into(), tone, look, shape };
-        let layers = vec![
-            layer("", Tone::Muted, Look::Thin, Shape2::Polygons(frames)),
-            layer("polytope", Tone::Point, Look::Filled, Shape2::Polygons(polytopes)),
-            layer(ELLIPSOID, Tone::Answer, Look::Filled, Shape2::Polygons(ellipses)),
-            layer(
-                "",
-                Tone::Ink,
-                Look::Solid,
-                Shape2::Texts(diagonal(&self.body, &chosen, self.options)),
-            ),
+        let layer =
+            |name: &str, tone, shape| Layer2 { name: name.into(), tone, look: Look::Filled, shape };
+        let layers = [
+            layer("polytope", Tone::Point, Shape2::Polygons(polytopes)),
+            layer(ELLIPSOID, Tone::Answer, Shape2::Polygons(ellipses)),
         ];
-        let side = self.options.width.max(self.options.height);
-        let choice = match chosen.len() == self.dim() {
-            true => String::new(),
-            false => format!(
-                " {} of {} coordinates are drawn, those in which the ellipsoid is tilted most.",
-                chosen.len(),
-                self.dim()
-            ),
-        };
-        Scene2 {
-            title: self.title(),
-            caption: format!(
-                "{} Cuts through the centre along pairs of coordinates, each scaled to fill its panel; on the diagonal, \
-                 the range of the coordinate over the ellipsoid.{choice}",
-                self.caption(is_whole)
-            ),
-            x: Axis::default(),
-            y: Axis::default(),
-            aspect: Aspect::Equal,
-            layers,
-            width: side,
-            height: side,
-        }
+        let caption = format!(
+            "{} Cuts through the centre along pairs of coordinates, each scaled to fill its panel; on the diagonal, \
+             the range of the coordinate over the ellipsoid.{}",
+            self.caption(is_whole),
+            choice(&chosen, self.dim(), "in which the ellipsoid is tilted most"),
+        );
+        let layers = framed(&self.body, &chosen, self.options, layers);
+        Scene2::square(self.title(), caption, layers, self.options)
     }
 
     /// d > 3: h of each half-space, the nearest first.
@@ -91,28 +67,19 @@ impl Picture<'_> {
             let list = if side.weight > 0.0 { &mut touching } else { &mut others };
             list.push([(place + 1) as f64, side.distance]);
         }
-        let series = |name: String, tone, points| {
-            let look = SeriesLook::Dots;
-            Series { name, tone, look, points }
-        };
+        let caption = format!(
+            "{} The distance of a half-space from the centre is counted in the metric of the ellipsoid.",
+            self.nearness()
+        );
+        let axes = ["half-spaces, the nearest first", "distance: 1 touches"].map(Axis::named);
         Plot {
-            title: "How near the half-spaces come".into(),
-            caption: format!(
-                "{} The distance of a half-space from the centre is counted in the metric of the ellipsoid.",
-                self.nearness()
-            ),
-            x: Axis::named("half-spaces, the nearest first"),
-            y: Axis::named("distance: 1 touches"),
-            x_scale: Scale::Linear,
             y_scale: Scale::Log,
             series: vec![
-                series("others".into(), Tone::Point, others),
-                series(self.touching_name(), Tone::Support, touching),
+                Series::dots("others".into(), Tone::Point, others),
+                Series::dots(self.touching_name(), Tone::Support, touching),
             ],
-            bars: Vec::new(),
             levels: vec![Level::AtY { y: 1.0, tone: Tone::Answer, label: "border".into() }],
-            width: self.options.width,
-            height: (self.options.height * 0.62).max(180.0),
+            ..Plot::empty("How near the half-spaces come".into(), caption, axes, self.options)
         }
     }
 }

@@ -7,19 +7,19 @@
 
 mod clip;
 mod cuts;
-mod plane;
+mod polytope;
 mod sides;
-mod space;
 
 use taut_certify::{InscribedCertificate, InscribedEllipsoid, Solution};
 use taut_points::PointSource;
 
 use self::sides::{Side, Sides, TOUCH_TOLERANCE};
-use crate::ellipsoid::body::Body;
+use crate::body::Body;
 use crate::marks::{agree, all_finite, all_there, support_size};
 use crate::number::{count, counted, short};
 use crate::passes::{Gap, Words, passes};
-use crate::{DrawOptions, Error, Figure, Tone};
+use crate::scene::{Layer, Mark, Marks, Scene};
+use crate::{DrawOptions, Error, Figure, Look, Tone};
 
 /// Pictures of an ellipsoid in a polytope, whose half-spaces are the rows of `source`: the plane for d ≤ 2, space for
 /// d = 3, cuts through the centre and the distances of the half-spaces beyond; then bounds and gap by stage, where the
@@ -38,16 +38,14 @@ pub fn inscribed_figures(
     let InscribedEllipsoid { center, axes, .. } = &solution.answer;
     let dim = center.len();
     let most = match dim {
-        3 => options.max_points.min(space::HALF_SPACES_MAX),
+        3 => options.max_points.min(polytope::HALF_SPACES_MAX),
         _ => options.max_points,
     };
     let sides = Sides::read(&solution.answer, &solution.certificate, source, most)?;
     let body = Body::of_axes(center, axes);
     let picture = Picture { solution, source, options, body, sides };
     let mut figures = match dim {
-        1 => vec![Figure::Plane(picture.line())],
-        2 => vec![Figure::Plane(picture.plane())],
-        3 => vec![Figure::Space(picture.space())],
+        1..=3 => vec![picture.scene().figure()],
         _ => vec![Figure::Plane(picture.cuts()), Figure::Plot(picture.distances())],
     };
     let words = Words {
@@ -118,17 +116,33 @@ impl Picture<'_> {
         center.iter().zip(axes).map(|(c, row)| c + along(row)).collect()
     }
 
-    /// Where a half-space touches.
-    fn touching(&self, side: &Side) -> Vec<f64> {
-        self.place(&side.seen)
-    }
-
-    fn size(&self, side: &Side) -> f64 {
-        support_size(side.weight, self.sides.largest)
-    }
-
-    fn label(side: &Side) -> String {
-        format!("touching half-space, weight {}", short(side.weight, 4))
+    /// Polytope, ellipsoid, where half-spaces touch it, and its centre.
+    fn scene(&self) -> Scene<'_> {
+        let (dim, options) = (self.dim(), self.options);
+        let (polytope, is_whole) = self.polytope();
+        let look = if dim == 3 { Look::Solid } else { Look::Filled };
+        let polytope = Layer::new("polytope", Tone::Point, look, polytope);
+        let body = Marks::Ellipsoid { body: &self.body, part: 1.0 };
+        let mark = |side: &Side| Mark {
+            id: side.id,
+            at: self.place(&side.seen),
+            size: support_size(side.weight, self.sides.largest),
+            label: format!("touching half-space, weight {}", short(side.weight, 4)),
+        };
+        let marks = self.sides.support().map(mark).collect();
+        let mut layers = vec![
+            polytope,
+            Layer::answer(ELLIPSOID, body),
+            Layer::support(self.touching_name(), marks),
+            Layer::centers(std::slice::from_ref(&self.body.center)),
+        ];
+        if dim == 3 {
+            // In space the ellipsoid is seen through the edges around it.
+            layers.swap(0, 1);
+        }
+        let facing = if dim == 3 { self.body.principal().into_iter().next() } else { None };
+        let caption = [self.caption(is_whole), String::new()];
+        Scene { title: self.title(), caption, dim, options, layers, facing }
     }
 
     fn touching_name(&self) -> String {

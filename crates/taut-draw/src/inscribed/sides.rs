@@ -10,7 +10,7 @@ use taut_certify::{InscribedCertificate, InscribedEllipsoid};
 use taut_points::{Blocks, PointSource, Scratch};
 
 use crate::Error;
-use crate::ellipsoid::body::length;
+use crate::body::length;
 
 /// One half-space.
 pub(super) struct Side {

@@ -204,16 +204,12 @@ impl Picture<'_> {
         if !remarks.is_empty() {
             caption += &format!(" {remarks}");
         }
+        let title = format!("Surface through {}", counted(self.places.len() as u64, "point"));
         Scene3 {
-            title: format!("Surface through {}", counted(self.places.len() as u64, "point")),
-            caption,
-            axes: [0, 1, 2].map(|k| self.options.axis(k, 3)),
-            layers,
             projection: Projection::Orthographic,
             azimuth: AZIMUTH,
             elevation: ELEVATION,
-            width: self.options.width,
-            height: self.options.height,
+            ..Scene3::space(title, caption, layers, self.options)
         }
     }
 

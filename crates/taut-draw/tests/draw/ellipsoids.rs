@@ -266,9 +266,18 @@ fn items_have_their_extent() {
         found.certificate.directions = vec![vec![2.0, 0.0], vec![-1.0, 0.0]];
         let all = figures(&values, columns, &found);
         let scene = plane(&all[0]);
-        let Shape2::Polygons(chains) = &layer(scene, Tone::Point).shape else { panic!() };
-        assert_eq!(chains.len(), 2);
-        assert!(chains[0].iter().all(|p| ((p[0] - 1.0).hypot(p[1]) - 0.5).abs() < 1e-12));
+        match &layer(scene, Tone::Point).shape {
+            Shape2::Circles(circles) => {
+                let drawn: Vec<_> = circles.iter().map(|c| (c.id, c.center, c.radius)).collect();
+                assert_eq!(drawn, [(Some(0), [1.0, 0.0], 0.5), (Some(1), [-1.0, 0.0], 0.5)]);
+                assert_eq!(items, Items::Balls);
+            }
+            Shape2::Polygons(chains) => {
+                assert_eq!((chains.len(), items), (2, Items::Ellipsoids));
+                assert!(chains[0].iter().all(|p| ((p[0] - 1.0).hypot(p[1]) - 0.5).abs() < 1e-12));
+            }
+            other => panic!("{other:?}"),
+        }
         let Shape2::Points(marks) = &layer(scene, Tone::Support).shape else { panic!() };
         assert_eq!([marks[0].at, marks[1].at], [[1.5, 0.0], [-1.5, 0.0]]);
         assert!(!all[0].caption().contains("outside"), "{}", all[0].caption());

@@ -4,7 +4,8 @@ use proptest::prelude::*;
 use roxmltree::{Document, Node};
 use taut_certify::{Ball, BallCertificate, Items, PassBounds, Solution, Trace};
 use taut_draw::{
-    DrawOptions, Error, Field, Figure, Page, Section, Style, Theme, ball_figures, to_html, to_svg,
+    DrawOptions, Error, Field, Figure, Page, Section, Shape2, Style, Theme, ball_figures, to_html,
+    to_svg,
 };
 use taut_points::{Distribution, Monitor, Points, generate, hash_points};
 
@@ -415,5 +416,38 @@ proptest! {
             let page = Page { sections: vec![Section { figures: vec![figure], ..Default::default() }], ..Default::default() };
             prop_assert!(!to_html(&page).contains("NaN"));
         }
+    }
+}
+
+/// Ellipsoids that are round, with radius ½: their shadows on any two directions are circles of that radius.
+#[test]
+fn a_ball_is_drawn_with_the_extent_of_its_ellipsoids() {
+    for dim in [2, 4, 7] {
+        let mut values = Vec::new();
+        for x in [0.5, -0.5, 0.1] {
+            values.extend((0..dim).map(|j| if j == 0 { x } else { 0.0 }));
+            values.extend(
+                (0..dim).flat_map(|j| (0..=j).map(move |k| if j == k { 0.25 } else { 0.0 })),
+            );
+        }
+        let rows = Points::new(&values, dim + dim * (dim + 1) / 2).unwrap();
+        let support = [(0, 0.5), (1, 0.5)];
+        let found = solution(&rows, ball(&vec![0.0; dim], 1.0), &support, Items::Ellipsoids);
+        let figures = ball_figures(&found, &rows, &DrawOptions::default()).unwrap();
+        let Figure::Plane(scene) = &figures[0] else { panic!("d = {dim}") };
+        let mut chains = 0;
+        for layer in &scene.layers {
+            let Shape2::Polygons(ellipses) = &layer.shape else { continue };
+            for ellipse in ellipses {
+                chains += 1;
+                let count = ellipse.len() as f64;
+                let middle = [0, 1].map(|k| ellipse.iter().map(|p| p[k]).sum::<f64>() / count);
+                // A few roundings of numbers of order 1.
+                let is_near =
+                    |p: &[f64; 2]| ((p[0] - middle[0]).hypot(p[1] - middle[1]) - 0.5).abs() < 1e-12;
+                assert!(ellipse.iter().all(is_near), "d = {dim}, {}", layer.name);
+            }
+        }
+        assert_eq!(chains, 3, "d = {dim}: two of the support, and another");
     }
 }

@@ -21,7 +21,7 @@ pub(crate) struct Body {
 }
 
 impl Body {
-    pub(super) fn of(ellipsoid: &Ellipsoid) -> Self {
+    pub(crate) fn of(ellipsoid: &Ellipsoid) -> Self {
         let largest = ellipsoid.factor.iter().flatten().fold(0.0f64, |m, v| m.max(v.abs()));
         let scale = if largest > 0.0 { largest } else { 1.0 };
         let factor: Vec<Vec<f64>> =
@@ -53,32 +53,41 @@ impl Body {
         Body { center: center.to_vec(), tail: vec![], factor: inverse(&axes), axes, scale }
     }
 
-    pub(super) fn rank(&self) -> usize {
+    pub(crate) fn rank(&self) -> usize {
         self.factor.len()
-    }
-
-    /// The row of X.
-    fn row(&self, j: usize) -> Vec<f64> {
-        self.axes[j].iter().map(|v| v / self.scale).collect()
     }
 
     /// How far the ellipsoid reaches from its centre along a coordinate.
     pub(crate) fn half_width(&self, j: usize) -> f64 {
-        length(&self.row(j))
+        let row: Vec<f64> = self.axes[j].iter().map(|v| v / self.scale).collect();
+        length(&row)
     }
 
-    /// The cosine of the angle between two rows of X: the correlation of two coordinates; 0 where one is constant.
+    /// The correlation of two coordinates: the cosine of the angle between their rows of X, 0 where one is constant.
     pub(crate) fn correlation(&self, j: usize, k: usize) -> f64 {
-        let (a, b) = (&self.axes[j], &self.axes[k]);
-        let product = length(a) * length(b);
-        if product > 0.0 { dot(a, b) / product } else { 0.0 }
+        cosine(&self.axes[j], &self.axes[k])
     }
 
     /// The shadow on two coordinates.
     pub(crate) fn shadow(&self, j: usize, k: usize) -> Shadow {
-        let (a, b) = (self.row(j), self.row(k));
+        self.shadow_of_rows(&self.axes[j], &self.axes[k])
+    }
+
+    /// The shadow on two directions.
+    pub(crate) fn shadow_along(&self, directions: &[Vec<f64>; 2]) -> Shadow {
+        let [a, b] = directions.each_ref().map(|direction| -> Vec<f64> {
+            let along =
+                |k: usize| direction.iter().zip(&self.axes).map(|(u, row)| u * row[k]).sum();
+            (0..self.rank()).map(along).collect()
+        });
+        self.shadow_of_rows(&a, &b)
+    }
+
+    fn shadow_of_rows(&self, a: &[f64], b: &[f64]) -> Shadow {
+        let correlation = cosine(a, b);
+        let [a, b] = [a, b].map(|row| row.iter().map(|v| v / self.scale).collect::<Vec<f64>>());
         let wide = length(&a);
-        let slope = if wide > 0.0 { self.correlation(j, k) * length(&b) } else { 0.0 };
+        let slope = if wide > 0.0 { correlation * length(&b) } else { 0.0 };
         let rest: Vec<f64> = b
             .iter()
             .zip(&a)
@@ -172,7 +181,7 @@ impl Measure for Body {
 const CLIMB_STEPS: usize = 12;
 
 /// The point of an item that lies farthest in a direction.
-pub(super) fn touching(items: Items, dim: usize, row: &[f64], direction: &[f64]) -> Vec<f64> {
+pub(crate) fn touching(items: Items, dim: usize, row: &[f64], direction: &[f64]) -> Vec<f64> {
     let center = &row[..dim];
     let long = length(direction);
     let unit: Vec<f64> =
@@ -181,9 +190,8 @@ pub(super) fn touching(items: Items, dim: usize, row: &[f64], direction: &[f64])
         Items::Points => vec![0.0; dim],
         Items::Balls => unit.iter().map(|v| v * row[dim]).collect(),
         Items::Ellipsoids => {
-            let entry = |j: usize, k: usize| row[dim + j.max(k) * (j.max(k) + 1) / 2 + j.min(k)];
             let along: Vec<f64> =
-                (0..dim).map(|j| (0..dim).map(|k| entry(j, k) * unit[k]).sum()).collect();
+                (0..dim).map(|j| (0..dim).map(|k| entry(dim, row, j, k) * unit[k]).sum()).collect();
             let square = dot(&along, &unit);
             let root = square.max(0.0).sqrt();
             along.iter().map(|v| if root > 0.0 { v / root } else { 0.0 }).collect()
@@ -192,13 +200,29 @@ pub(super) fn touching(items: Items, dim: usize, row: &[f64], direction: &[f64])
     center.iter().zip(step).map(|(c, s)| c + s).collect()
 }
 
+/// An entry of the shape matrix of an ellipsoid given by its row.
+fn entry(dim: usize, row: &[f64], j: usize, k: usize) -> f64 {
+    row[dim + j.max(k) * (j.max(k) + 1) / 2 + j.min(k)]
+}
+
 /// An ellipse {L·(cos t, sin t)} about some place, L lower triangular.
 #[derive(Clone, Copy)]
 pub(crate) struct Shadow(pub(crate) [[f64; 2]; 2]);
 
 impl Shadow {
+    /// The shadow on two directions of an ellipsoid given by its row.
+    pub(crate) fn of_row(row: &[f64], directions: &[Vec<f64>; 2]) -> Self {
+        let dim = directions[0].len();
+        let square = |u: &[f64], v: &[f64]| -> f64 {
+            let along = |j: usize| (0..dim).map(|k| entry(dim, row, j, k) * v[k]).sum::<f64>();
+            (0..dim).map(|j| u[j] * along(j)).sum()
+        };
+        let [u, v] = directions;
+        Shadow::of_squares([square(u, u), square(u, v), square(v, v)])
+    }
+
     /// The shadow of an item on two coordinates; `None` for points.
-    pub(super) fn of_item(
+    pub(crate) fn of_item(
         items: Items,
         dim: usize,
         row: &[f64],
@@ -209,14 +233,18 @@ impl Shadow {
             Items::Points => None,
             Items::Balls => Some(Shadow([[row[dim], 0.0], [0.0, row[dim]]])),
             Items::Ellipsoids => {
-                let entry =
-                    |j: usize, k: usize| row[dim + j.max(k) * (j.max(k) + 1) / 2 + j.min(k)];
-                let wide = entry(j, j).max(0.0).sqrt();
-                let slope = if wide > 0.0 { entry(j, k) / wide } else { 0.0 };
-                let rest = (entry(k, k) - slope * slope).max(0.0).sqrt();
-                Some(Shadow([[wide, 0.0], [slope, rest]]))
+                let squares = [(j, j), (j, k), (k, k)].map(|(j, k)| entry(dim, row, j, k));
+                Some(Shadow::of_squares(squares))
             }
         }
+    }
+
+    /// L of LLᵀ, a 2 × 2 matrix given by its entries.
+    fn of_squares([first, mixed, second]: [f64; 3]) -> Self {
+        let wide = first.max(0.0).sqrt();
+        let slope = if wide > 0.0 { mixed / wide } else { 0.0 };
+        let rest = (second - slope * slope).max(0.0).sqrt();
+        Shadow([[wide, 0.0], [slope, rest]])
     }
 
     /// The ellipse as a chain of `steps` corners about a centre, each axis in its own scale.
@@ -228,6 +256,12 @@ impl Shadow {
         };
         (0..steps).map(corner).collect()
     }
+}
+
+/// The cosine of the angle between two vectors, 0 where one vanishes.
+fn cosine(a: &[f64], b: &[f64]) -> f64 {
+    let product = length(a) * length(b);
+    if product > 0.0 { dot(a, b) / product } else { 0.0 }
 }
 
 /// The length of a vector, whatever its size.
