@@ -25,14 +25,8 @@ const ROUNDING: f64 = 1e-12;
 const PAIR_ROUNDING: f64 = 2e-14;
 /// Open children stay below the refuted ones by this, so that others, who round otherwise, refute the same.
 const REFUTED_MARGIN: f64 = 4e-12;
-/// Trees of up to so many nodes, and up to so many centres, are left to a checker to find; larger ones are written down.
-const SEARCH_NODES: u64 = 2000;
-const SEARCH_CENTERS: usize = 8;
-/// Core-sets of more items are not given to a search, and of still more to no checker at all.
-const SEARCH_ITEMS: usize = 1000;
-/// Nor are those with more coordinates: the work for one node grows with d and with the square of the items of a ball.
-const SEARCH_COORDINATES: usize = 4000;
-const BRANCH_ITEMS: usize = 16_000;
+/// No checker takes larger core-sets.
+const CORE_SET_MAX: usize = 16_000;
 /// At most this many trees are made over what the one before has branched on, or with open children farther from the
 /// bound.
 const ROUNDS_MAX: usize = 5;
@@ -104,18 +98,12 @@ impl Proof {
         }
         // Only logs that are not clear have led here without one.
         let Some((core_set, log)) = best else { return Ok(Err(Stop::Rounding)) };
-        if core_set.len() > BRANCH_ITEMS {
+        if core_set.len() > CORE_SET_MAX {
             return Ok(Err(Stop::ProofBudget));
         }
         let nodes = log.items.len() as u64;
-        let is_small = nodes <= SEARCH_NODES
-            && core_set.len() <= SEARCH_ITEMS
-            && core_set.len() * cloud.items.dim() <= SEARCH_COORDINATES;
         let lower = log.lower * (1.0 - ROUNDING);
-        let kind = match is_small && k <= SEARCH_CENTERS {
-            true => LowerBound::Search,
-            false => LowerBound::Branches { items: log.items },
-        };
+        let kind = LowerBound::Branches { items: log.items };
         Ok(Ok(Proof { lower, core_set, kind, nodes }))
     }
 }

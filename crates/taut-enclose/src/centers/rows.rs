@@ -274,7 +274,7 @@ impl<'a> Bracket<'a> {
             // All tries together cost no more than two of the first.
             max_nodes /= 2;
         }
-        Ok((0.0, Proof { members: vec![], by: LowerBound::Search, nodes: 0 }, why))
+        Ok((0.0, Proof { members: vec![], by: LowerBound::Apart, nodes: 0 }, why))
     }
 }
 

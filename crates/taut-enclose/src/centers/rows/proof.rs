@@ -12,8 +12,6 @@ use super::sites::Sites;
 use super::state::{Child, Look, State, Undo};
 use crate::Error;
 
-/// Proofs of at most this many nodes are left to the checker to find again.
-const UNPROVED_NODES_MAX: usize = 64;
 /// More items no checker takes.
 const ITEMS: usize = 16_000;
 /// Items that no node branches on are dropped in at most this many rounds.
@@ -74,11 +72,7 @@ pub(super) fn prove(
         return Ok(Err(Stop::ProofBudget));
     }
     let nodes = log.len() as u64;
-    let by = match log.len() <= UNPROVED_NODES_MAX {
-        true => LowerBound::Search,
-        false => LowerBound::Branches { items: log },
-    };
-    Ok(Ok(Proof { members: core.members, by, nodes }))
+    Ok(Ok(Proof { members: core.members, by: LowerBound::Branches { items: log }, nodes }))
 }
 
 /// A node above the present one, with the items to branch on below it.
