@@ -9,11 +9,13 @@
 //! *Trap.* A plain tree may be larger than the search that found it. It is given up after a number of nodes, and the bound of a
 //! step before is tried.
 
+use std::sync::Arc;
+
 use taut_certify::{LowerBound, Stop};
 use taut_points::Monitor;
 
 use super::cloud::Cloud;
-use super::clusters::large_clique;
+use super::clusters::{Clusters, large_clique};
 use super::items::Position;
 use super::plain_tree::{Log, PlainTree};
 use super::start::least_pair_radius;
@@ -77,8 +79,9 @@ impl Proof {
         let (mut budget, mut threshold) = (budget, threshold);
         for _ in 0..ROUNDS_MAX {
             let core_set = best.as_ref().map_or(core_set, |(core_set, _)| core_set);
-            let tree = PlainTree::new(cloud, core_set, threshold, k, z, budget, monitor);
-            let log = match tree.log()? {
+            let items = Arc::new(cloud.items.some(core_set));
+            let root = Clusters::new(items, k, z as u64, threshold);
+            let log = match PlainTree::new(root, budget, monitor).log()? {
                 Ok(log) => log,
                 Err(why) if best.is_none() => return Ok(Err(why)),
                 Err(_) => break,
