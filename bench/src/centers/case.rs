@@ -78,7 +78,7 @@ const GAP_EXACT: f64 = 1e-6;
 const SECONDS_GOAL: Goal = Goal::Seconds(0.3);
 const QUICK_AIM: &[Goal] = &[Goal::Seconds(0.05)];
 const CORE_SET_GOAL: Goal = Goal::CoreSet(200);
-const CHECK_TWICE_GOAL: Goal = Goal::Check { seconds: 1.0, twice: true };
+const CHECK_GOAL: Goal = Goal::Check(1.0);
 
 /// All cases, in the order in which they run; the longest is the last.
 pub(super) const CASES: &[Case] = &[
@@ -90,35 +90,35 @@ pub(super) const CASES: &[Case] = &[
                 GERMANY,
                 2,
                 GAP_EXACT,
-                &[Goal::Radius(9342.60196519), SECONDS_GOAL, CORE_SET_GOAL, CHECK_TWICE_GOAL],
+                &[Goal::Radius(9342.60196519), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
                 QUICK_AIM,
             ),
             task(
                 GERMANY,
                 3,
                 GAP_EXACT,
-                &[Goal::Radius(8139.66296907), SECONDS_GOAL, CORE_SET_GOAL, CHECK_TWICE_GOAL],
+                &[Goal::Radius(8139.66296907), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
                 QUICK_AIM,
             ),
             task(
                 GERMANY,
                 4,
                 GAP_EXACT,
-                &[Goal::Radius(6573.74826488), SECONDS_GOAL, CORE_SET_GOAL, CHECK_TWICE_GOAL],
+                &[Goal::Radius(6573.74826488), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
                 QUICK_AIM,
             ),
             task(
                 GERMANY,
                 5,
                 GAP_EXACT,
-                &[Goal::Radius(5818.46791619), SECONDS_GOAL, CORE_SET_GOAL, CHECK_TWICE_GOAL],
+                &[Goal::Radius(5818.46791619), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
                 QUICK_AIM,
             ),
             task(
                 GERMANY,
                 8,
                 GAP_EXACT,
-                &[Goal::Radius(4306.44830458), Goal::Seconds(2.0), CORE_SET_GOAL, CHECK_TWICE_GOAL],
+                &[Goal::Radius(4306.44830458), Goal::Seconds(2.0), CORE_SET_GOAL, CHECK_GOAL],
                 &[Goal::Seconds(0.1)],
             ),
             task(
@@ -133,12 +133,7 @@ pub(super) const CASES: &[Case] = &[
                 USA,
                 5,
                 GAP_EXACT,
-                &[
-                    Goal::Radius(99986.80259875),
-                    Goal::Seconds(0.2),
-                    CORE_SET_GOAL,
-                    CHECK_TWICE_GOAL,
-                ],
+                &[Goal::Radius(99986.80259875), Goal::Seconds(0.2), CORE_SET_GOAL, CHECK_GOAL],
                 &[],
             ),
             task(USA, 10, GAP_EXACT, &[Goal::Radius(65210.68259879), Goal::Seconds(4.0)], &[]),

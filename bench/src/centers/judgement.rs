@@ -10,8 +10,7 @@ use super::goals::Measured;
 use crate::stats::{Summary, seconds};
 
 /// Columns of a judgement.
-pub(super) const COLUMNS: [&str; 6] =
-    ["radius", "verdict", "core-set", "by", "checker's nodes", "check"];
+pub(super) const COLUMNS: [&str; 6] = ["radius", "verdict", "core-set", "by", "branches", "check"];
 
 /// A judgement of one answer.
 #[derive(Clone, Debug)]
@@ -38,7 +37,6 @@ pub(super) fn judge(found: &Solution<Centers>, source: &dyn PointSource) -> Judg
         core_set: found.certificate.core_set.len(),
         proof: match found.certificate.proof {
             LowerBound::Apart => "apart",
-            LowerBound::Search => "search",
             LowerBound::Branches { .. } => "branches",
         },
         seconds: start.elapsed().as_secs_f64(),
@@ -54,10 +52,7 @@ impl Judgement {
     /// Cells under [`COLUMNS`].
     pub(super) fn cells(&self) -> Vec<String> {
         let (said, nodes) = match &self.verdict {
-            Ok(verdict) => {
-                let second = verdict.cover_nodes.map_or("–".into(), |nodes| nodes.to_string());
-                (format!("proved, gap {:.1e}", verdict.gap), format!("{}, {second}", verdict.nodes))
-            }
+            Ok(verdict) => (format!("proved, gap {:.1e}", verdict.gap), verdict.nodes.to_string()),
             Err(why) => (format!("REJECTED: {why}"), String::new()),
         };
         let radius = format!("{:.8}", self.radius);
@@ -76,7 +71,6 @@ impl Judgement {
             "core_set": self.core_set,
             "proof": self.proof,
             "nodes": verdict.ok().map(|verdict| verdict.nodes),
-            "cover_nodes": verdict.ok().and_then(|verdict| verdict.cover_nodes),
             "check_seconds": self.seconds,
         })
     }
@@ -88,15 +82,12 @@ pub(super) fn measured(all: &[Judgement]) -> Measured {
     let least = all.iter().map(|of| of.radius).reduce(f64::min);
     let most = all.iter().map(|of| of.radius).reduce(f64::max);
     let times: Vec<f64> = all.iter().map(|of| of.seconds).collect();
-    let is_twice =
-        |of: &Judgement| of.verdict.as_ref().is_ok_and(|verdict| verdict.cover_nodes.is_some());
     Measured {
         rejected: all.iter().find_map(|of| of.verdict.as_ref().err().cloned()),
         gap: gaps.and_then(|gaps| gaps.into_iter().reduce(f64::max)),
         radii: least.zip(most).map(|(least, most)| [least, most]),
         core_set: all.iter().map(|of| of.core_set).max(),
         check: Summary::of(&times),
-        is_twice: !all.is_empty() && all.iter().all(is_twice),
         ..Measured::default()
     }
 }

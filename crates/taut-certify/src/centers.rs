@@ -56,14 +56,12 @@ pub struct Centers {
 /// rounds, some 1e-14·d/8 of ρ: claim the radius at which all cases are refuted, less 1e-12 of it. For centres among the
 /// rows, and for two items apart, it decides exactly.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", tag = "by", from = "Written")]
+#[serde(rename_all = "kebab-case", tag = "by", try_from = "Written")]
 pub enum LowerBound {
     /// No two items of the core-set fit in one ball, and there are more than k and the outliers together. O(|X|²d).
     Apart,
-    /// By a search of the checker's own, over at most 1024 items, of at most 65536 nodes and 3·2³⁰ steps, each about a
-    /// coordinate that is looked at: some seconds. What takes more is to be proved by its branches.
-    Search,
-    /// By the branches of a search, in the order in which they were taken (preorder), over at most 16384 items.
+    /// By the branches of a search, in the order in which they were taken (preorder), over at most 16384 items. The checker
+    /// compares all pairs of items, and then replays the branches in time linear in their number.
     Branches {
         /// At each node that is not refuted at once, which item of the core-set is given to the balls in turn: to each that has
         /// items already, in the order in which they got their first, then to the next empty one, if there is one, and
@@ -73,7 +71,8 @@ pub enum LowerBound {
     },
 }
 
-/// A [`LowerBound`] as it is read: of a variant without braces, serde would not refuse unknown fields.
+/// A [`LowerBound`] as it is read: of a variant without braces, serde would not refuse unknown fields. Files of earlier
+/// versions may also say `search`.
 #[derive(Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "by", deny_unknown_fields)]
 enum Written {
@@ -82,12 +81,17 @@ enum Written {
     Branches { items: Vec<u32> },
 }
 
-impl From<Written> for LowerBound {
-    fn from(written: Written) -> Self {
+impl TryFrom<Written> for LowerBound {
+    type Error = &'static str;
+
+    fn try_from(written: Written) -> Result<Self, Self::Error> {
         match written {
-            Written::Apart {} => LowerBound::Apart,
-            Written::Search {} => LowerBound::Search,
-            Written::Branches { items } => LowerBound::Branches { items },
+            Written::Apart {} => Ok(LowerBound::Apart),
+            Written::Branches { items } => Ok(LowerBound::Branches { items }),
+            Written::Search {} => Err(
+                "the proof of these centers is \"search\", which an earlier version of taut wrote and \
+                 which is no longer verified: solve again to get a proof that lists its branches",
+            ),
         }
     }
 }
@@ -132,14 +136,8 @@ pub struct CentersVerdict {
     pub upper: f64,
     /// `upper / lower − 1`, rounded up; 0 where both are equal, infinite where `lower` alone is 0.
     pub gap: f64,
-    /// Nodes of the search, or branches of the log, by which the lower bound was confirmed; 0 where none was needed.
+    /// Branches that were replayed to prove the lower bound; 0 where it needs none.
     pub nodes: u64,
-    /// Nodes of a second search, over all sets that one ball can hold, where it confirmed the bound, less 4e-9 of it, too.
-    ///
-    /// It is made for core-sets of at most 200 items: of points without weights, in the plane for k ≤ 10 and in space for
-    /// k ≤ 6, and for k ≤ 10 where centres are rows. `None` where it was not made, or has nothing to say after 32768 nodes or
-    /// 2³³ steps, each about a word of a set of items that is looked at.
-    pub cover_nodes: Option<u64>,
 }
 
 impl Answer for Centers {

@@ -8,7 +8,9 @@ mod answer;
 mod cloud;
 mod clusters;
 mod conflict;
+mod depth_first;
 mod few;
+mod item_rows;
 mod items;
 mod nearest;
 mod options;
@@ -30,7 +32,8 @@ use taut_certify::{
 use taut_points::{InputError, Monitor, PointSource, Points, Scalar, on_threads};
 
 use self::cloud::Cloud;
-pub(crate) use self::few::Few;
+use self::few::Few;
+use self::item_rows::ItemRows;
 use self::items::Position;
 use self::proof::Proof;
 use self::read::Table;
@@ -126,10 +129,7 @@ pub fn centers_of_source(
         if options.method == CentersMethod::Stream {
             return of_stream(source, items, k, options.placement, monitor);
         }
-        match options.placement {
-            Placement::Free => solve(source, items, k, options, monitor),
-            Placement::Rows => rows::solve(source, items, k, options, monitor),
-        }
+        solve(source, items, k, options, monitor)
     })
 }
 
@@ -174,21 +174,29 @@ fn solve(
     options: &CentersOptions,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Centers>, Error> {
-    let table = Table::read(source, items, options.weights, monitor)?;
-    if options.outliers >= table.len() as u64 {
+    let rows = ItemRows::read(source, items, options.weights, monitor)?;
+    if options.outliers >= rows.len() as u64 {
         return Err(Error::Input(InputError::Option {
             name: "outliers",
             value: options.outliers.to_string(),
             expected: "less than the number of items",
         }));
     }
-    let z = options.outliers as usize;
-    if table.are_points()
-        && let Some(few) = Few::of(table.len(), |row| table.place(row), k, z)
-    {
-        return Ok(few.solution(k, Placement::Free, options, items, table.hash));
+    let few = |rows: &ItemRows| {
+        let few = Few::of(rows, k, options.outliers as usize)?;
+        Some(few.solution(k, options.placement, options, items, rows.hash))
+    };
+    if options.placement == Placement::Rows {
+        return match few(&rows) {
+            Some(found) => Ok(found),
+            None => rows::solve(rows, items, k, options, monitor),
+        };
     }
-    match table.dim {
+    let table = Table::of(rows)?;
+    if let Some(found) = few(&table.rows) {
+        return Ok(found);
+    }
+    match table.rows.dim {
         1 => solve_in::<[f64; 1]>(&table, items, k, options, monitor),
         2 => solve_in::<[f64; 2]>(&table, items, k, options, monitor),
         3 => solve_in::<[f64; 3]>(&table, items, k, options, monitor),
@@ -347,7 +355,7 @@ fn finish<P: Position>(
         gap,
         core_set: core_set.into_iter().map(|item| cloud.rows[item as usize]).collect(),
         proof: proof.kind,
-        points_hash: table.hash,
+        points_hash: table.rows.hash,
     };
     Ok(Solution { answer, certificate, trace })
 }

@@ -55,8 +55,8 @@ class CentersCertificate(Record):
     core_set : ndarray of int64, shape (m,)
         Row numbers. Read-only.
     proof : str
-        ``"apart"`` (no two of the core-set fit in one ball), ``"search"`` (the checker searches) or ``"branches"``
-        (the checker goes through the branches of a search again).
+        ``"apart"`` (no two of the core-set fit in one ball) or ``"branches"`` (the checker replays the branches of a
+        search).
     points_hash : str
         Hash of the rows this was made for, 16 hexadecimal digits.
     """
@@ -85,16 +85,13 @@ class CentersVerdict(Record):
     gap : float
         ``upper / lower - 1``, rounded up; 0 where both are 0.
     nodes : int
-        Nodes of the search by which the lower bound was confirmed.
-    cover_nodes : int or None
-        Nodes of the second search, over candidate balls, where one was made.
+        Branches that were replayed to prove the lower bound; 0 where it needs none.
     """
 
     lower: float
     upper: float
     gap: float
     nodes: int
-    cover_nodes: int | None
 
 
 @record("order", "next")

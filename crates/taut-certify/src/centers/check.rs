@@ -4,11 +4,9 @@
 //! is the least radius of k equal balls, with their centres anywhere or at rows, that hold all rows but so many.
 //! *Upper bound.* Each row that counts is at most R from a centre, decided exactly: [`enclosure`].
 //! *Lower bound.* No k balls of a radius less than L hold all of X but so many of its rows. Balls that held all rows but z
-//! would; so R* ≥ L. Three proofs: rows that are apart two by two and more than k + z ([`apart`]); a search of the checker's
-//! own ([`search`]), for points in the plane and in space and for centres among the rows followed by a second one of
-//! another kind ([`cover`]), over all sets that one ball can hold; and the branches of the solver's search, gone through
-//! again ([`replay`]). What a ball can hold is decided with bounds on all that is rounded ([`free`]), or exactly, where
-//! centres are rows ([`rows`]).
+//! would; so R* ≥ L. There are two proofs: a separated set, more than k + z rows no two of which fit in one ball, and the
+//! log of a branch and bound search, which is replayed ([`replay`]). An [`oracle`] refutes balls: with bounds on all that is
+//! rounded where centres are free ([`free`]), exactly where they are rows ([`rows`]).
 //! *Order.* Structure and the gap between the bounds, one pass (finite rows, hash, balls, assignment), then the
 //! lower bound, from the rows of the core-set as that pass read them. Centres among the rows may take one pass more, which
 //! hashes all rows again.
@@ -16,29 +14,26 @@
 //! rounding. An assignment may name any of centres that are equally near but for rounding.
 
 mod core;
-mod cover;
 mod distance;
 mod enclosure;
 mod free;
 mod halves;
 mod item;
 mod meter;
+mod oracle;
 mod replay;
-mod room;
 mod rows;
-mod search;
 mod structure;
 
-use taut_points::{Monitor, PointSource};
+use taut_points::{Cancelled, Monitor, PointSource};
 
 use self::core::{Core, Pairs};
 use self::enclosure::Enclosure;
 use self::free::Free;
 use self::item::Kind;
-use self::meter::{Meter, Stop};
-use self::room::Room;
+use self::meter::Meter;
+use self::replay::Log;
 use self::rows::Places;
-use self::search::Outcome;
 use super::{Centers, CentersCertificate, CentersVerdict, CentersViolation, LowerBound, Placement};
 use crate::CheckError;
 use crate::hashed_pass::KeptRows;
@@ -54,12 +49,12 @@ pub(super) fn check(
     let kept = Enclosure::of(answer, kind).check(source, certificate, monitor)?;
     are_rows(answer, kind, &kept)?;
     let (lower, upper) = (answer.lower_bound, answer.radius);
-    let mut verdict = CentersVerdict { lower, upper, gap, nodes: 0, cover_nodes: None };
+    let mut verdict = CentersVerdict { lower, upper, gap, nodes: 0 };
     if lower > 0.0 {
         let rows: Vec<f64> =
             certificate.core_set.iter().flat_map(|&id| kept.row(id)).copied().collect();
         let core = Core::of(&rows, source.dim(), kind, lower);
-        (verdict.nodes, verdict.cover_nodes) = prove(&core, kind, certificate, source, monitor)?;
+        verdict.nodes = prove(&core, kind, certificate, source, monitor)?;
     }
     Ok(verdict)
 }
@@ -75,14 +70,14 @@ fn are_rows(answer: &Centers, kind: Kind, kept: &KeptRows) -> Result<(), CheckEr
     Ok(())
 }
 
-/// Proves the lower bound; the nodes of both searches.
+/// Proves the lower bound; returns the number of branches that were replayed.
 fn prove(
     core: &Core,
     kind: Kind,
     certificate: &CentersCertificate,
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
-) -> Result<(u64, Option<u64>), CheckError> {
+) -> Result<u64, CheckError> {
     let (rows, outliers) = (core.len(), certificate.outliers);
     // All rows left out, or a ball for each, prove nothing about balls of any radius above 0.
     if rows as u64 <= outliers {
@@ -92,94 +87,44 @@ fn prove(
         monitor.pass(2, source.len());
         Places::of(core, kind, certificate.points_hash, source, monitor)
     };
-    let limited = |most, proof| match rows > most {
-        true => refused(CentersViolation::CoreSetSize { rows, most, proof }),
+    let limited = |proof| match rows > replay::ITEMS {
+        true => refused(CentersViolation::CoreSetSize { rows, most: replay::ITEMS, proof }),
         false => Ok(()),
     };
-    match (&certificate.proof, certificate.placement) {
-        (LowerBound::Apart, placement) => {
+    let mut meter = Meter::of(monitor);
+    match &certificate.proof {
+        LowerBound::Apart => {
             if rows as u64 <= certificate.k.saturating_add(outliers) {
                 return refused(CentersViolation::TooFew { rows, outliers });
             }
-            let mut meter = Meter::endless(monitor);
-            let close = first_pair(rows, |i, j| core.are_apart(i, j, &mut meter))?;
-            let close = match (close, placement) {
-                (Some(_), Placement::Rows) => {
-                    limited(replay::ITEMS, "rows apart")?;
-                    let places = places()?;
-                    first_pair(rows, |i, j| places.are_apart(i, j, &mut meter))?
-                }
-                (close, _) => close,
-            };
+            let mut close = first_pair(rows, |i, j| core.are_apart(i, j, &mut meter))?;
+            if close.is_some() && certificate.placement == Placement::Rows {
+                limited("rows apart")?;
+                let places = places()?;
+                close = first_pair(rows, |i, j| places.are_apart(i, j, &mut meter))?;
+            }
             match close {
                 Some((i, j)) => {
                     let (first, second) = (certificate.core_set[i], certificate.core_set[j]);
                     refused(CentersViolation::NotApart { first, second })
                 }
-                None => Ok((0, None)),
+                None => Ok(0),
             }
         }
-        (LowerBound::Search, Placement::Free) => {
-            limited(search::ITEMS, "search")?;
-            let mut meter = Meter::of(monitor, search::STEPS_MAX);
-            let pairs = Pairs::of(core, &mut meter)?;
-            let nodes = searched(&mut Free::of(core, &pairs), certificate, &mut meter)?;
-            Ok((nodes, cover::of_balls(core, kind, &pairs, certificate, monitor)?))
+        LowerBound::Branches { items } => {
+            limited("branches")?;
+            // More balls than fit in memory are as good as any number.
+            let k = usize::try_from(certificate.k).unwrap_or(usize::MAX);
+            let log = Log { k, outliers, items, undo_bytes: replay::UNDO_BYTES_MAX };
+            match certificate.placement {
+                Placement::Free => {
+                    let pairs = Pairs::of(core, &mut meter)?;
+                    log.replay(&mut Free::of(core, &pairs), &mut meter)?;
+                }
+                Placement::Rows => log.replay(&mut &places()?, &mut meter)?,
+            }
+            Ok(items.len() as u64)
         }
-        (LowerBound::Search, Placement::Rows) => {
-            limited(search::ITEMS, "search")?;
-            let places = places()?;
-            let mut meter = Meter::of(monitor, search::STEPS_MAX);
-            let nodes = searched(&mut &places, certificate, &mut meter)?;
-            Ok((nodes, cover::of_places(&places, certificate, monitor)?))
-        }
-        (LowerBound::Branches { items }, Placement::Free) => {
-            limited(replay::ITEMS, "branches")?;
-            let mut meter = Meter::endless(monitor);
-            let pairs = Pairs::of(core, &mut meter)?;
-            let mut room = Free::of(core, &pairs);
-            replay::replay(
-                &mut room,
-                most(certificate),
-                outliers,
-                items,
-                replay::UNDO_BYTES_MAX,
-                &mut meter,
-            )?;
-            let cover = cover::of_balls(core, kind, &pairs, certificate, monitor)?;
-            Ok((items.len() as u64, cover))
-        }
-        (LowerBound::Branches { items }, Placement::Rows) => {
-            limited(replay::ITEMS, "branches")?;
-            let places = places()?;
-            let (mut room, mut meter) = (&places, Meter::endless(monitor));
-            replay::replay(
-                &mut room,
-                most(certificate),
-                outliers,
-                items,
-                replay::UNDO_BYTES_MAX,
-                &mut meter,
-            )?;
-            Ok((items.len() as u64, cover::of_places(&places, certificate, monitor)?))
-        }
-    }
-}
-
-/// k, as more balls than fit in memory are as good as any number.
-fn most(certificate: &CentersCertificate) -> usize {
-    usize::try_from(certificate.k).unwrap_or(usize::MAX)
-}
-
-fn searched<R: Room>(
-    room: &mut R,
-    certificate: &CentersCertificate,
-    meter: &mut Meter<'_>,
-) -> Result<u64, CheckError> {
-    match search::search(room, most(certificate), certificate.outliers, meter)? {
-        (Outcome::Refuted, nodes) => Ok(nodes),
-        (Outcome::Held, _) => Err(CentersViolation::NotProved.into()),
-        (Outcome::Undecided, nodes) => Err(CentersViolation::NotConfirmed { nodes }.into()),
     }
 }
 
@@ -190,8 +135,8 @@ fn refused<T>(violation: CentersViolation) -> Result<T, CheckError> {
 /// The first two rows that are not apart.
 fn first_pair(
     rows: usize,
-    mut are_apart: impl FnMut(usize, usize) -> Result<bool, Stop>,
-) -> Result<Option<(usize, usize)>, Stop> {
+    mut are_apart: impl FnMut(usize, usize) -> Result<bool, Cancelled>,
+) -> Result<Option<(usize, usize)>, Cancelled> {
     for i in 0..rows {
         for j in 0..i {
             if !are_apart(i, j)? {

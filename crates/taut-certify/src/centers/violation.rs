@@ -177,27 +177,6 @@ pub enum CentersViolation {
         /// Branches there are.
         branches: usize,
     },
-    /// The core-set does not prove the lower bound.
-    #[error(
-        "the lower bound does not hold, as far as rounding tells: so many balls of less than this radius hold the core-set"
-    )]
-    NotProved,
-    /// The checker's own search was cut short.
-    #[error(
-        "the lower bound is not confirmed: the search of the checker was cut short after {nodes} nodes"
-    )]
-    NotConfirmed {
-        /// Nodes it went through.
-        nodes: u64,
-    },
-    /// The checker's own search took too much work.
-    #[error(
-        "the lower bound is not confirmed: the search of the checker was cut short after {most} steps"
-    )]
-    Work {
-        /// Most steps, each about a coordinate that is looked at.
-        most: u64,
-    },
     /// To go back in the log of branches takes too much memory.
     #[error("to come back from {branches} branches of the log takes more than {most} bytes")]
     Kept {
@@ -206,11 +185,6 @@ pub enum CentersViolation {
         /// Bytes that are granted.
         most: u64,
     },
-    /// The second search contradicts the first.
-    #[error(
-        "the lower bound is not confirmed: a search over candidate balls finds balls that hold the core-set"
-    )]
-    Covered,
     /// The places that centres among the rows can take are too many to be held.
     #[error(
         "centres among the rows cannot be judged by so large a core-set: what each row is near to takes more than {most} bytes"

@@ -62,9 +62,11 @@ fn integer_corners_have_no_gap_at_all() {
     let found = by_hand(&points, &centers, (1.0, 1.0), &[0, 1, 2, 3], LowerBound::Apart);
     let verdict = found.check(&points).unwrap();
     assert_eq!((verdict.lower, verdict.upper, verdict.gap, verdict.nodes), (1.0, 1.0, 0.0, 0));
-    let searched = by_hand(&points, &centers, (1.0, 1.0), &[0, 1, 2, 3], LowerBound::Search);
-    assert_eq!(searched.check(&points).unwrap().gap, 0.0);
-    // A search has nothing to say of apart; an ulp more is not so.
+    let branches = LowerBound::Branches { items: vec![0, 1, 2, 3] };
+    let replayed = by_hand(&points, &centers, (1.0, 1.0), &[0, 1, 2, 3], branches);
+    let verdict = replayed.check(&points).unwrap();
+    assert_eq!((verdict.gap, verdict.nodes), (0.0, 4));
+    // An ulp more is not so.
     let mut more = found.clone();
     (more.answer.lower_bound, more.answer.radius) = (1f64.next_up(), 1f64.next_up());
     let close = CentersViolation::NotApart { first: 0, second: 1 };
@@ -86,10 +88,8 @@ fn one_centre_is_the_smallest_ball() {
     let center: [&[f64]; 1] = [&[0.5, radius / 2.0]];
     let bounds = (radius * (1.0 + 1e-15), radius * (1.0 - 1e-13));
     let branches = LowerBound::Branches { items: vec![0, 1, 2] };
-    for proof in [LowerBound::Search, branches] {
-        let found = by_hand(&points, &center, bounds, &[0, 1, 2], proof);
-        assert!(found.check(&points).unwrap().gap < 2e-13);
-    }
+    let found = by_hand(&points, &center, bounds, &[0, 1, 2], branches);
+    assert!(found.check(&points).unwrap().gap < 2e-13);
     let found = by_hand(&points, &center, bounds, &[0, 1], LowerBound::Apart);
     assert_eq!(refusal(&found, &points), CentersViolation::NotApart { first: 0, second: 1 });
 }
@@ -99,11 +99,11 @@ fn nothing_is_to_be_proved_of_zero() {
     let values = [1.0, 2.0, 1.0, 2.0, 3.0, 4.0];
     let points = Points::new(&values, 2).unwrap();
     let centers: [&[f64]; 2] = [&[1.0, 2.0], &[3.0, 4.0]];
-    let mut found = by_hand(&points, &centers, (0.0, 0.0), &[], LowerBound::Search);
+    let mut found = by_hand(&points, &centers, (0.0, 0.0), &[], LowerBound::Apart);
     found.certificate.gap = 0.0;
     assert_eq!(found.check(&points).unwrap().gap, 0.0);
     // Where the bound alone is 0, the gap is as large as a number can be.
-    let mut found = by_hand(&points, &centers, (1.0, 0.0), &[], LowerBound::Search);
+    let mut found = by_hand(&points, &centers, (1.0, 0.0), &[], LowerBound::Apart);
     assert_eq!(found.check(&points).unwrap().gap, f64::INFINITY);
     found.certificate.gap = 1e300;
     assert!(matches!(refusal(&found, &points), CentersViolation::Gap { .. }));
@@ -131,17 +131,16 @@ fn weights_far_apart_prove_nothing() {
     for weight in [1e100, 1e150, 1e155, 1e200, 1e300] {
         for rows in [[0.0, 0.0, 1.0, 0.0, 1.0, weight], [0.0, 1.0, weight, 0.0, 0.0, 1.0]] {
             let points = Points::new(&rows, 3).unwrap();
-            for proof in [LowerBound::Search, LowerBound::Branches { items: vec![0, 1] }] {
-                let centers: [&[f64]; 1] = [&[0.0, 1.0]];
-                let mut found = by_hand(&points, &centers, (1e6, 1e6), &[0, 1], proof);
-                found.certificate.weights = true;
-                let refused = found.check(&points);
-                assert!(matches!(refused, Err(CheckError::Rejected(_))), "{weight}: {refused:?}");
-                (found.answer.radius, found.answer.lower_bound) = (1.0, 0.999);
-                found.certificate.gap = 0.01;
-                if weight <= 1e100 {
-                    assert!(found.check(&points).is_ok(), "{weight}: {:?}", found.check(&points));
-                }
+            let proof = LowerBound::Branches { items: vec![0, 1] };
+            let centers: [&[f64]; 1] = [&[0.0, 1.0]];
+            let mut found = by_hand(&points, &centers, (1e6, 1e6), &[0, 1], proof);
+            found.certificate.weights = true;
+            let refused = found.check(&points);
+            assert!(matches!(refused, Err(CheckError::Rejected(_))), "{weight}: {refused:?}");
+            (found.answer.radius, found.answer.lower_bound) = (1.0, 0.999);
+            found.certificate.gap = 0.01;
+            if weight <= 1e100 {
+                assert!(found.check(&points).is_ok(), "{weight}: {:?}", found.check(&points));
             }
         }
     }
@@ -165,7 +164,7 @@ fn weights_far_apart_do_not_hide_what_is_apart() {
 fn rows_that_are_no_items_are_named() {
     let check = |values: &[f64], change: &dyn Fn(&mut Solution<Centers>)| {
         let points = Points::new(values, 2).unwrap();
-        let mut found = by_hand(&points, &[&[0.0]], (9.0, 0.0), &[], LowerBound::Search);
+        let mut found = by_hand(&points, &[&[0.0]], (9.0, 0.0), &[], LowerBound::Apart);
         change(&mut found);
         match found.check(&points) {
             Err(CheckError::Rejected(violation)) => violation,
@@ -204,42 +203,12 @@ fn equally_near_centres_are_all_right_and_others_are_not() {
 fn what_is_too_large_is_named() {
     let values = numbers(2 * 20_000, 1);
     let points = Points::new(&values, 2).unwrap();
-    for (proof, count, most) in [
-        (LowerBound::Search, 1025, 1024),
-        (LowerBound::Branches { items: vec![0] }, 16_385, 16_384),
-    ] {
-        let core: Vec<u64> = (0..count).collect();
-        let found = by_hand(&points, &[&[0.0, 0.0]], (2.0, 0.1), &core, proof);
-        let violation = refusal(&found, &points);
-        let named = matches!(violation, CentersViolation::CoreSetSize { most: m, .. } if m == most);
-        assert!(named, "{violation:?}");
-    }
-}
-
-/// Pentagons far from each other, each of which needs 3 balls, while no more than 2 of its corners are apart: with one ball
-/// less than all need, every way to give two balls to some pentagon has to be gone through.
-#[test]
-fn a_search_that_is_cut_short_confirms_nothing() {
-    let pentagons = |count: usize| -> Vec<f64> {
-        let corner = |i: usize| {
-            let angle = std::f64::consts::TAU * (i % 5) as f64 / 5.0;
-            [10.0 * (i / 5) as f64 + angle.cos(), angle.sin()]
-        };
-        (0..5 * count).flat_map(corner).collect()
-    };
-    for (count, is_confirmed) in [(3, true), (12, false)] {
-        let values = pentagons(count);
-        let points = Points::new(&values, 2).unwrap();
-        let centers: Vec<&[f64]> = values.chunks(2).take(3 * count - 1).collect();
-        let core: Vec<u64> = (0..5 * count as u64).collect();
-        let found = by_hand(&points, &centers, (200.0, 0.6), &core, LowerBound::Search);
-        if is_confirmed {
-            assert!(found.check(&points).unwrap().nodes > 10);
-            continue;
-        }
-        let violation = refusal(&found, &points);
-        assert_eq!(violation, CentersViolation::NotConfirmed { nodes: 65_536 });
-    }
+    let core: Vec<u64> = (0..16_385).collect();
+    let proof = LowerBound::Branches { items: vec![0] };
+    let found = by_hand(&points, &[&[0.0, 0.0]], (2.0, 0.1), &core, proof);
+    let violation = refusal(&found, &points);
+    let is_named = matches!(violation, CentersViolation::CoreSetSize { most: 16_384, .. });
+    assert!(is_named, "{violation:?}");
 }
 
 /// However small it is, the proof of the bound asks whether to go on after the pass over the rows.
@@ -250,7 +219,7 @@ fn a_proof_that_is_stopped_ends() {
     let radius = 1.0 / 3f64.sqrt();
     let branches = LowerBound::Branches { items: vec![0, 1] };
     for (placement, radius) in [(Placement::Free, radius * (1.0 + 1e-15)), (Placement::Rows, 1.0)] {
-        for proof in [LowerBound::Apart, LowerBound::Search, branches.clone()] {
+        for proof in [LowerBound::Apart, branches.clone()] {
             let center: &[f64] = match placement {
                 Placement::Free => &[0.5, radius / 2.0],
                 Placement::Rows => &[0.0, 0.0],
@@ -272,19 +241,20 @@ fn a_proof_that_is_stopped_ends() {
     }
 }
 
-/// Each item gets a ball of its own, one below the other: as deep as a search of the largest core-set can be.
+/// Each item gets a ball of its own, one below the other: the replay is as deep as the core-set is large.
 #[test]
-fn a_search_as_deep_as_can_be_ends() {
+fn a_deep_log_takes_no_stack() {
     let values: Vec<f64> = (0..1024).flat_map(|i| [f64::from(i % 32), f64::from(i / 32)]).collect();
     let points = Points::new(&values, 2).unwrap();
     let core: Vec<u64> = (0..1024).collect();
-    let mut found = by_hand(&points, &[&[16.0, 16.0]], (30.0, 0.4), &core, LowerBound::Search);
+    let proof = LowerBound::Branches { items: (0..1024).collect() };
+    let mut found = by_hand(&points, &[&[16.0, 16.0]], (30.0, 0.4), &core, proof);
     found.certificate.k = 1024;
     let judged = || refusal(&found, &points);
-    let small = std::thread::Builder::new().stack_size(2 << 20);
+    let small = std::thread::Builder::new().stack_size(256 << 10);
     let violation =
         std::thread::scope(|scope| small.spawn_scoped(scope, judged).unwrap().join().unwrap());
-    assert_eq!(violation, CentersViolation::NotProved);
+    assert_eq!(violation, CentersViolation::LogEnds { branches: 1024 });
 }
 
 /// 5000 rows and 200 centres, of which each row finds one by way of lists.
@@ -302,7 +272,7 @@ fn many_centres_hold_many_rows() {
     let (row, radius) =
         nearest.iter().map(|n| n.1).enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
     let make = |radius: f64| {
-        let mut found = by_hand(&points, &centers, (radius, 0.0), &[], LowerBound::Search);
+        let mut found = by_hand(&points, &centers, (radius, 0.0), &[], LowerBound::Apart);
         found.answer.assignment = nearest.iter().map(|n| n.0 as u32).collect();
         found
     };
@@ -331,7 +301,7 @@ fn any_solution() -> impl Strategy<Value = Solution<Centers>> {
         prop::collection::vec(any::<u32>(), 0..6),
         prop::collection::vec(0u64..4, 0..4),
     );
-    let kinds = (0..2usize, 0..3usize, any::<bool>(), 0u64..4, 0u64..3, any::<u64>());
+    let kinds = (0..2usize, 0..2usize, any::<bool>(), 0u64..4, 0u64..3, any::<u64>());
     (places, numbers, lists, kinds).prop_map(|(centers, numbers, lists, kinds)| {
         let (radius, lower_bound, gap) = numbers;
         let (rows, outliers, items_of_log, core_set) = lists;
@@ -355,7 +325,6 @@ fn any_solution() -> impl Strategy<Value = Solution<Centers>> {
                 core_set,
                 proof: match proof {
                     0 => LowerBound::Apart,
-                    1 => LowerBound::Search,
                     _ => LowerBound::Branches { items: items_of_log },
                 },
                 points_hash: PointsHash(hash),
@@ -417,6 +386,7 @@ fn a_document_is_judged_as_what_it_is() {
     }
     for (from, to) in [
         ("\"by\": \"branches\"", "\"by\": \"guess\""),
+        ("\"by\": \"branches\"", "\"by\": \"apart\""),
         ("\"placement\": \"free\"", "\"placement\": \"anywhere\""),
         ("\"radius\"", "\"radii\""),
         ("\"k\": 2", "\"k\": -2"),
@@ -430,11 +400,9 @@ fn a_document_is_judged_as_what_it_is() {
 fn fields_that_no_proof_has_are_named() {
     let values = [0.0, 0.0, 4.0, 0.0];
     let points = Points::new(&values, 2).unwrap();
-    for (proof, by) in [
-        (LowerBound::Apart, "apart"),
-        (LowerBound::Search, "search"),
-        (LowerBound::Branches { items: vec![0] }, "branches"),
-    ] {
+    for (proof, by) in
+        [(LowerBound::Apart, "apart"), (LowerBound::Branches { items: vec![0] }, "branches")]
+    {
         let found = by_hand(&points, &[&[2.0, 0.0]], (2.0, 2.0), &[0, 1], proof);
         let text = found.to_json();
         let field = format!("\"by\": \"{by}\"");
@@ -443,4 +411,15 @@ fn fields_that_no_proof_has_are_named() {
         let error = AnySolution::from_json(&more).unwrap_err().to_string();
         assert!(error.contains("unknown field `more`"), "{error}");
     }
+}
+
+/// Earlier versions wrote proofs that the checker had to find by itself.
+#[test]
+fn a_proof_that_is_left_to_the_checker_is_refused_by_name() {
+    let values = [0.0, 0.0, 4.0, 0.0];
+    let points = Points::new(&values, 2).unwrap();
+    let found = by_hand(&points, &[&[2.0, 0.0]], (2.0, 2.0), &[0, 1], LowerBound::Apart);
+    let text = found.to_json().replacen("\"by\": \"apart\"", "\"by\": \"search\"", 1);
+    let error = AnySolution::from_json(&text).unwrap_err().to_string();
+    assert!(error.contains("solve again to get a proof that lists its branches"), "{error}");
 }

@@ -50,7 +50,6 @@ impl Summary for Centers {
         fields.push(Field::new("method", &*trace.method).remark(stopped(trace.stop)));
         let proof = match certificate.proof {
             LowerBound::Apart => "no two of which fit in one ball".to_owned(),
-            LowerBound::Search => "which the checker searches".to_owned(),
             LowerBound::Branches { ref items } => {
                 format!("with {} of a search", counted_branches(items.len() as u64))
             }
@@ -90,7 +89,7 @@ impl Summary for Centers {
         };
         let bracket = format!("{} ≤ least radius ≤ {}", exact(proved.lower), exact(proved.upper));
         let (k, radius) = (count(certificate.k), exact(found.answer.radius));
-        let mut fields = vec![
+        let fields = vec![
             Field::proved(
                 "centres",
                 format!("{}, {placement}", count(found.answer.centers.len() as u64)),
@@ -99,14 +98,8 @@ impl Summary for Centers {
             left_out,
             Field::proved("bracket", bracket),
             Field::proved("gap", gap(proved.gap)).remark("relative, from the points alone"),
-            Field::new("nodes", count(proved.nodes)).remark("of the search for the lower bound"),
+            Field::new("branches", count(proved.nodes)).remark("replayed for the lower bound"),
         ];
-        if let Some(nodes) = proved.cover_nodes {
-            fields.push(
-                Field::new("again", format!("{} nodes", count(nodes)))
-                    .remark("of a second search, over candidate balls, which agrees"),
-            );
-        }
         Claims {
             what: format!(
                 "centres, k = {k}, {placement}, of radius {radius}, around {items}{rests_on}"

@@ -75,7 +75,7 @@ fn answers_are_verified_and_lies_rejected() {
         "\n  centres   2, anywhere; proved: of at most 2\n",
         "\n  left out  none; proved\n",
         " ≤ least radius ≤ ",
-        "\n  nodes ",
+        "\n  branches ",
     ]);
     desk.taut("verify centers.json towns.csv --epsilon 1e-30").ends(1).says(&["Rejected"]);
     let sound: serde_json::Value = serde_json::from_str(&desk.text("centers.json")).unwrap();

@@ -44,7 +44,7 @@ pub(super) fn answer<P: Position>(
     let inside: Vec<P> = outside
         .iter()
         .map(|center| {
-            let mut inside = P::zeros(table.dim);
+            let mut inside = P::zeros(table.rows.dim);
             table.bring_in(center, inside.as_mut());
             inside
         })
@@ -54,7 +54,7 @@ pub(super) fn answer<P: Position>(
     let far = cloud.farthest(&inside, z.saturating_add(MEASURED_ITEMS_MAX));
     let (left_out, kept) = far.split_at(z.min(far.len()));
     let farthest = kept.first().map_or(0.0, |far| far.reach);
-    let doubt = 4.0 * relative_error(table.dim);
+    let doubt = 4.0 * relative_error(table.rows.dim);
     let mut radius = 0.0f64;
     if farthest < SQUARE_MIN {
         // Distances of different sizes than all others: each is measured, by whatever is left of it.
@@ -102,9 +102,9 @@ fn reach<P: Position>(
             reach(a).total_cmp(&reach(b))
         })
         .expect("there is a centre");
-    let row = table.row(cloud.rows[item as usize] as usize);
-    let (place, extra) = row.split_at(table.dim);
-    let (weight, radius) = match table.shape {
+    let row = table.rows.row(cloud.rows[item as usize] as usize);
+    let (place, extra) = row.split_at(table.rows.dim);
+    let (weight, radius) = match table.rows.shape {
         Shape::Points => (1.0, 0.0),
         Shape::Weighted => (extra[0], 0.0),
         Shape::Balls => (1.0, extra[0]),

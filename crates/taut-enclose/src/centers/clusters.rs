@@ -11,7 +11,9 @@
 use std::sync::Arc;
 
 use super::conflict::Levels;
+use super::depth_first::{Place, State};
 use super::items::{ItemSet, Position, Shape, distance};
+use super::plain_tree::{Log, Proving};
 use super::small_ball::{Ball, Workspace};
 
 /// Cliques are sought from every item that fits nowhere if there are at most so many, else from the first so many.
@@ -53,15 +55,6 @@ pub(super) enum Undo<P> {
     Into { cluster: usize, ball: Ball<P>, guests: Vec<Guest>, asked: usize },
     Open,
     LeaveOut { item: u32 },
-}
-
-/// Where an item may go.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Place {
-    Into(usize),
-    /// The first empty cluster.
-    Open,
-    LeaveOut,
 }
 
 /// What is to be done with a state.
@@ -142,7 +135,7 @@ impl<P: Position> Clusters<P> {
     }
 
     /// Puts an item where it may go, as the decision of this level.
-    pub(super) fn put(&mut self, item: u32, place: Place, level: u32) -> Undo<P> {
+    pub(super) fn put_at(&mut self, item: u32, place: Place, level: u32) -> Undo<P> {
         self.levels[item as usize] = level;
         match place {
             Place::Open => {
@@ -176,27 +169,6 @@ impl<P: Position> Clusters<P> {
                 }
                 cluster.guests = guests;
                 Undo::Into { cluster: at, ball, guests: old, asked: cluster.asked }
-            }
-        }
-    }
-
-    /// Takes a step back.
-    pub(super) fn undo(&mut self, undo: Undo<P>) {
-        match undo {
-            Undo::Open => {
-                let cluster = self.clusters.pop().expect("it was opened");
-                self.lists.push(cluster.guests);
-            }
-            Undo::LeaveOut { item } => {
-                self.left_out[item as usize] = false;
-                self.spare += 1;
-            }
-            Undo::Into { cluster, ball, guests, asked } => {
-                let cluster = &mut self.clusters[cluster];
-                cluster.members.pop();
-                cluster.ball = ball;
-                cluster.asked = asked;
-                self.lists.push(std::mem::replace(&mut cluster.guests, guests));
             }
         }
     }
@@ -403,6 +375,68 @@ impl<P: Position> Clusters<P> {
         }
         if self.spare > 0 {
             places.push((0.0, Place::LeaveOut));
+        }
+        places
+    }
+}
+
+impl<P: Position> State for Clusters<P> {
+    type Undo = Undo<P>;
+
+    fn put(&mut self, item: u32, place: Place) -> Undo<P> {
+        self.put_at(item, place, 0)
+    }
+
+    fn undo(&mut self, undo: Undo<P>) {
+        match undo {
+            Undo::Open => {
+                let cluster = self.clusters.pop().expect("it was opened");
+                self.lists.push(cluster.guests);
+            }
+            Undo::LeaveOut { item } => {
+                self.left_out[item as usize] = false;
+                self.spare += 1;
+            }
+            Undo::Into { cluster, ball, guests, asked } => {
+                let cluster = &mut self.clusters[cluster];
+                cluster.members.pop();
+                cluster.ball = ball;
+                cluster.asked = asked;
+                self.lists.push(std::mem::replace(&mut cluster.guests, guests));
+            }
+        }
+    }
+}
+
+impl<P: Position> Proving for Clusters<P> {
+    fn chain(&mut self) -> Vec<u32> {
+        match self.survey(true) {
+            Survey::Branch(item) => vec![item],
+            Survey::Covered | Survey::Stuck => vec![],
+        }
+    }
+
+    fn open_places(&mut self, item: u32, bounds: &mut Log) -> Vec<Place> {
+        let mut places = vec![];
+        let mut child = |radius: f64, refuted_by: &dyn Fn() -> f64, place| {
+            if radius >= self.threshold {
+                bounds.lower = bounds.lower.min(refuted_by());
+            } else {
+                bounds.open = bounds.open.max(radius);
+                places.push(place);
+            }
+        };
+        for (at, cluster) in self.clusters.iter().enumerate() {
+            let mut ball = cluster.ball.clone();
+            ball.grow(&self.items, &cluster.members, item, f64::INFINITY, &mut self.work);
+            child(ball.radius, &|| ball.lower_bound(&self.items), Place::Into(at));
+        }
+        if self.clusters.len() < self.k {
+            let alone = self.items.radius(item as usize);
+            child(alone, &|| alone, Place::Open);
+        }
+        if self.spare > 0 {
+            places.push(Place::LeaveOut);
         }
         places
     }

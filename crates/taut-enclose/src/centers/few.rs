@@ -10,10 +10,11 @@ use taut_certify::{
 use taut_points::PointsHash;
 
 use super::CentersOptions;
+use super::item_rows::ItemRows;
 use super::nearest::nearest;
 
 /// A centre for each place, but for places that are left out with all their rows.
-pub(crate) struct Few {
+pub(super) struct Few {
     centers: Vec<Vec<f64>>,
     /// The first row at each.
     rows: Vec<u64>,
@@ -22,13 +23,12 @@ pub(crate) struct Few {
 }
 
 impl Few {
-    /// Of n points; none where k centres leave more than z of them out.
-    pub(crate) fn of<'p>(
-        n: usize,
-        position: impl Fn(usize) -> &'p [f64],
-        k: usize,
-        z: usize,
-    ) -> Option<Self> {
+    /// Of points; none where k centres leave more than z of them out.
+    pub(super) fn of(points: &ItemRows, k: usize, z: usize) -> Option<Self> {
+        if !points.are_points() {
+            return None;
+        }
+        let (n, position) = (points.len(), |row| points.place(row));
         let mut numbers: HashMap<Vec<u64>, usize> = HashMap::new();
         // The first row of each place, and how many there are.
         let mut places: Vec<(usize, usize)> = vec![];
@@ -73,7 +73,7 @@ impl Few {
     }
 
     /// The answer, in which there is nothing to prove.
-    pub(crate) fn solution(
+    pub(super) fn solution(
         self,
         k: usize,
         placement: Placement,

@@ -1,4 +1,4 @@
-//! The plain tree over a core-set that proves a radius too small, written down node by node.
+//! The proof log: the tree over a core-set that proves a radius too small, written down node by node.
 //!
 //! *Idea.* The radius and the items stay as they are: each item is given to each cluster in turn, to a new one, and to those left
 //! out, and each of these children has a tree of its own or is refuted at once by a ball that is too large.
@@ -7,16 +7,13 @@
 //! *Guarantee.* One set of options has one log, or one reason to have none: it is longer than the budget, else it does not end in
 //! dead ends alone. So a part that does not, stops no other.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 use taut_certify::Stop;
 use taut_points::{Monitor, ReadError};
 
-use super::cloud::Cloud;
-use super::clusters::{Clusters, Place, Survey, Undo};
-use super::items::{ItemSet, Position};
+use super::depth_first::{Path, Place, State};
 use crate::Error;
 
 /// A tree with more nodes is made in parts.
@@ -28,6 +25,16 @@ const UNKNOWN_PARTS_MAX: usize = 256;
 const OPENED_NODES_MAX: usize = 4 * UNKNOWN_PARTS_MAX;
 /// Nodes are counted, and it is asked whether to go on, each time this many have gone by.
 const NODES_BETWEEN_ASKS: u64 = 64;
+
+/// A state whose tree can be written down.
+pub(super) trait Proving: State + Clone + Send + Sync {
+    /// Items to branch on, one below the other until each child is refuted; none where balls below the threshold hold the
+    /// core-set.
+    fn chain(&mut self) -> Vec<u32>;
+
+    /// The places of an item that are not refuted at once, in the order of the log; `bounds` takes what refutes the others.
+    fn open_places(&mut self, item: u32, bounds: &mut Log) -> Vec<Place>;
+}
 
 /// A tree written down.
 #[derive(Debug, PartialEq)]
@@ -49,25 +56,21 @@ impl Log {
 /// A part of a log.
 struct Piece {
     log: Log,
-    /// Whether it goes on to the end of the last dead end.
-    is_whole: bool,
-    /// Whether balls below the threshold hold the core-set.
-    holds: bool,
+    /// Why it does not go on to the end of the last dead end.
+    end: Result<(), Stop>,
 }
 
 impl Piece {
     fn node(item: u32) -> Self {
         let log = Log { items: vec![item], ..Log::empty() };
-        Piece { log, is_whole: true, holds: false }
+        Piece { log, end: Ok(()) }
     }
 }
 
 /// The tree that is asked for.
-pub(super) struct PlainTree<'a, P> {
-    items: Arc<ItemSet<P>>,
-    threshold: f64,
-    k: usize,
-    z: usize,
+pub(super) struct PlainTree<'a, S> {
+    /// The state before any decision.
+    root: S,
     /// Most nodes.
     budget: u64,
     monitor: &'a Monitor<'a>,
@@ -76,46 +79,27 @@ pub(super) struct PlainTree<'a, P> {
 }
 
 /// A piece of a log that is not complete.
-enum Part<P> {
+enum Part<S> {
     Node(u32),
-    /// All from the node on to which so many decisions led.
+    /// All from the node on to which so many decisions led, and the chain it is in.
     Below {
-        state: Box<Clusters<P>>,
+        state: Box<S>,
         depth: usize,
+        chain: Vec<u32>,
     },
 }
 
-/// A node under way: the children that are not refuted at once.
-struct Frame<P> {
-    item: u32,
-    places: Vec<Place>,
-    next: usize,
-    undo: Option<Undo<P>>,
-}
-
-impl<'a, P: Position> PlainTree<'a, P> {
-    pub(super) fn new(
-        cloud: &Cloud<P>,
-        core_set: &[u32],
-        threshold: f64,
-        k: usize,
-        z: usize,
-        budget: u64,
-        monitor: &'a Monitor<'a>,
-    ) -> Self {
-        let items = Arc::new(cloud.items.some(core_set));
-        PlainTree { items, threshold, k, z, budget, monitor, nodes: AtomicU64::new(0) }
+impl<'a, S: Proving> PlainTree<'a, S> {
+    pub(super) fn new(root: S, budget: u64, monitor: &'a Monitor<'a>) -> Self {
+        PlainTree { root, budget, monitor, nodes: AtomicU64::new(0) }
     }
 
     /// The whole tree, or why there is none: [`Stop::ProofBudget`], or [`Stop::Rounding`] where balls below the threshold hold the
     /// core-set.
     pub(super) fn log(&self) -> Result<Result<Log, Stop>, Error> {
-        let small = self.below(self.root(), WHOLE_TREE_NODES_MAX.min(self.budget))?;
-        if !small.holds && (small.is_whole || self.budget <= WHOLE_TREE_NODES_MAX) {
-            return Ok(if small.is_whole { Ok(small.log) } else { Err(Stop::ProofBudget) });
-        }
-        if small.holds {
-            return Ok(Err(Stop::Rounding));
+        let small = self.below(self.root.clone(), vec![], WHOLE_TREE_NODES_MAX.min(self.budget))?;
+        if small.end != Err(Stop::ProofBudget) || self.budget <= WHOLE_TREE_NODES_MAX {
+            return Ok(small.end.map(|()| small.log));
         }
         self.nodes.store(0, Ordering::Relaxed);
         let mut log = Log::empty();
@@ -124,15 +108,15 @@ impl<'a, P: Position> PlainTree<'a, P> {
             .into_par_iter()
             .map(|part| match part {
                 Part::Node(item) => Ok(Piece::node(item)),
-                Part::Below { state, .. } => self.below(*state, self.budget),
+                Part::Below { state, chain, .. } => self.below(*state, chain, self.budget),
             })
             .collect::<Result<_, Error>>()?;
         let nodes: u64 = pieces.iter().map(|piece| piece.log.items.len() as u64).sum();
-        let is_cut_short = |piece: &Piece| !piece.is_whole && !piece.holds;
-        if nodes > self.budget || pieces.iter().any(is_cut_short) {
+        let ends_by = |why| pieces.iter().any(|piece| piece.end == Err(why));
+        if nodes > self.budget || ends_by(Stop::ProofBudget) {
             return Ok(Err(Stop::ProofBudget));
         }
-        if pieces.iter().any(|piece| piece.holds) {
+        if ends_by(Stop::Rounding) {
             return Ok(Err(Stop::Rounding));
         }
         for Piece { log: piece, .. } in pieces {
@@ -144,41 +128,37 @@ impl<'a, P: Position> PlainTree<'a, P> {
     }
 
     /// The tree opened from its root on, nodes nearest to it first; `bounds` takes what its children are refuted by.
-    fn open(&self, bounds: &mut Log) -> Result<Option<Vec<Part<P>>>, Error> {
-        let mut parts = vec![Part::Below { state: Box::new(self.root()), depth: 0 }];
+    fn open(&self, bounds: &mut Log) -> Result<Option<Vec<Part<S>>>, Error> {
+        let mut parts =
+            vec![Part::Below { state: Box::new(self.root.clone()), depth: 0, chain: vec![] }];
         let mut unknown = 1;
         while (1..UNKNOWN_PARTS_MAX).contains(&unknown) && parts.len() < OPENED_NODES_MAX {
             self.monitor.check().map_err(ReadError::from)?;
             let unknowns = parts.iter_mut().enumerate().filter_map(|(at, part)| match part {
                 Part::Node(_) => None,
-                Part::Below { state, depth } => Some((*depth, at, state)),
+                Part::Below { state, depth, chain } => Some((*depth, at, state, chain)),
             });
-            let first = unknowns.min_by_key(|&(depth, at, _)| (depth, at));
-            let (depth, at, state) = first.expect("some are unknown");
-            let Survey::Branch(item) = state.survey(true) else { return Ok(None) };
-            let places = open_places(state, item, bounds);
+            let first = unknowns.min_by_key(|&(depth, at, ..)| (depth, at));
+            let (depth, at, state, chain) = first.expect("some are unknown");
+            let Some((item, rest)) = next(&mut **state, chain) else { return Ok(None) };
+            let places = state.open_places(item, bounds);
             unknown = unknown - 1 + places.len();
             let child = |place| {
                 let mut state = state.clone();
-                state.put(item, place, 0);
-                Part::Below { state, depth: depth + 1 }
+                state.put(item, place);
+                Part::Below { state, depth: depth + 1, chain: rest.clone() }
             };
-            let children: Vec<Part<P>> = places.into_iter().map(child).collect();
+            let children: Vec<Part<S>> = places.into_iter().map(child).collect();
             parts.splice(at..=at, std::iter::once(Part::Node(item)).chain(children));
         }
         Ok(Some(parts))
     }
 
-    /// The state before any decision.
-    fn root(&self) -> Clusters<P> {
-        Clusters::new(self.items.clone(), self.k, self.z as u64, self.threshold)
-    }
-
     /// All from the node in this state on, but no more than `most` nodes, and no more once all parts together exceed the budget.
-    fn below(&self, mut state: Clusters<P>, most: u64) -> Result<Piece, Error> {
-        let mut piece = Piece { log: Log::empty(), is_whole: false, holds: false };
+    fn below(&self, mut state: S, chain: Vec<u32>, most: u64) -> Result<Piece, Error> {
+        let mut piece = Piece { log: Log::empty(), end: Err(Stop::ProofBudget) };
         let log = &mut piece.log;
-        let mut frames: Vec<Frame<P>> = vec![];
+        let mut path = Path::new();
         loop {
             if (log.items.len() as u64).is_multiple_of(NODES_BETWEEN_ASKS) {
                 self.monitor.check().map_err(ReadError::from)?;
@@ -191,58 +171,23 @@ impl<'a, P: Position> PlainTree<'a, P> {
             if log.items.len() as u64 >= most {
                 return Ok(piece);
             }
-            let Survey::Branch(item) = state.survey(true) else {
-                piece.holds = true;
+            let Some((item, rest)) = next(&mut state, path.chain().unwrap_or(&chain)) else {
+                piece.end = Err(Stop::Rounding);
                 return Ok(piece);
             };
             log.items.push(item);
-            let places = open_places(&mut state, item, log);
-            frames.push(Frame { item, places, next: 0, undo: None });
-            loop {
-                let Some(frame) = frames.last_mut() else {
-                    piece.is_whole = true;
-                    return Ok(piece);
-                };
-                if let Some(undo) = frame.undo.take() {
-                    state.undo(undo);
-                }
-                let Some(&place) = frame.places.get(frame.next) else {
-                    frames.pop();
-                    continue;
-                };
-                frame.next += 1;
-                frame.undo = Some(state.put(frame.item, place, 0));
-                break;
+            let places = state.open_places(item, log);
+            path.branch(item, places, rest);
+            if !path.advance(&mut state) {
+                piece.end = Ok(());
+                return Ok(piece);
             }
         }
     }
 }
 
-/// The places of an item whose ball stays below the threshold, in the order of the log; `bounds` takes what refutes the others.
-fn open_places<P: Position>(state: &mut Clusters<P>, item: u32, bounds: &mut Log) -> Vec<Place> {
-    let mut places = vec![];
-    let Clusters { items, clusters, threshold, work, .. } = state;
-    for (at, cluster) in clusters.iter().enumerate() {
-        let mut ball = cluster.ball.clone();
-        ball.grow(items, &cluster.members, item, f64::INFINITY, work);
-        if ball.radius >= *threshold {
-            bounds.lower = bounds.lower.min(ball.lower_bound(items));
-        } else {
-            bounds.open = bounds.open.max(ball.radius);
-            places.push(Place::Into(at));
-        }
-    }
-    if state.empty() > 0 {
-        let alone = state.items.radius(item as usize);
-        if alone >= state.threshold {
-            bounds.lower = bounds.lower.min(alone);
-        } else {
-            bounds.open = bounds.open.max(alone);
-            places.push(Place::Open);
-        }
-    }
-    if state.spare() > 0 {
-        places.push(Place::LeaveOut);
-    }
-    places
+/// The item to branch on and the rest of its chain, a new one where the chain has ended.
+fn next<S: Proving>(state: &mut S, chain: &[u32]) -> Option<(u32, Vec<u32>)> {
+    let mut chain = if chain.is_empty() { state.chain() } else { chain.to_vec() };
+    (!chain.is_empty()).then(|| (chain.remove(0), chain))
 }

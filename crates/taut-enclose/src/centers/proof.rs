@@ -9,11 +9,13 @@
 //! *Trap.* A plain tree may be larger than the search that found it. It is given up after a number of nodes, and the bound of a
 //! step before is tried.
 
+use std::sync::Arc;
+
 use taut_certify::{LowerBound, Stop};
 use taut_points::Monitor;
 
 use super::cloud::Cloud;
-use super::clusters::large_clique;
+use super::clusters::{Clusters, large_clique};
 use super::items::Position;
 use super::plain_tree::{Log, PlainTree};
 use super::start::least_pair_radius;
@@ -25,14 +27,8 @@ const ROUNDING: f64 = 1e-12;
 const PAIR_ROUNDING: f64 = 2e-14;
 /// Open children stay below the refuted ones by this, so that others, who round otherwise, refute the same.
 const REFUTED_MARGIN: f64 = 4e-12;
-/// Trees of up to so many nodes, and up to so many centres, are left to a checker to find; larger ones are written down.
-const SEARCH_NODES: u64 = 2000;
-const SEARCH_CENTERS: usize = 8;
-/// Core-sets of more items are not given to a search, and of still more to no checker at all.
-const SEARCH_ITEMS: usize = 1000;
-/// Nor are those with more coordinates: the work for one node grows with d and with the square of the items of a ball.
-const SEARCH_COORDINATES: usize = 4000;
-const BRANCH_ITEMS: usize = 16_000;
+/// No checker takes larger core-sets.
+const CORE_SET_MAX: usize = 16_000;
 /// At most this many trees are made over what the one before has branched on, or with open children farther from the
 /// bound.
 const ROUNDS_MAX: usize = 5;
@@ -83,8 +79,9 @@ impl Proof {
         let (mut budget, mut threshold) = (budget, threshold);
         for _ in 0..ROUNDS_MAX {
             let core_set = best.as_ref().map_or(core_set, |(core_set, _)| core_set);
-            let tree = PlainTree::new(cloud, core_set, threshold, k, z, budget, monitor);
-            let log = match tree.log()? {
+            let items = Arc::new(cloud.items.some(core_set));
+            let root = Clusters::new(items, k, z as u64, threshold);
+            let log = match PlainTree::new(root, budget, monitor).log()? {
                 Ok(log) => log,
                 Err(why) if best.is_none() => return Ok(Err(why)),
                 Err(_) => break,
@@ -104,18 +101,12 @@ impl Proof {
         }
         // Only logs that are not clear have led here without one.
         let Some((core_set, log)) = best else { return Ok(Err(Stop::Rounding)) };
-        if core_set.len() > BRANCH_ITEMS {
+        if core_set.len() > CORE_SET_MAX {
             return Ok(Err(Stop::ProofBudget));
         }
         let nodes = log.items.len() as u64;
-        let is_small = nodes <= SEARCH_NODES
-            && core_set.len() <= SEARCH_ITEMS
-            && core_set.len() * cloud.items.dim() <= SEARCH_COORDINATES;
         let lower = log.lower * (1.0 - ROUNDING);
-        let kind = match is_small && k <= SEARCH_CENTERS {
-            true => LowerBound::Search,
-            false => LowerBound::Branches { items: log.items },
-        };
+        let kind = LowerBound::Branches { items: log.items };
         Ok(Ok(Proof { lower, core_set, kind, nodes }))
     }
 }

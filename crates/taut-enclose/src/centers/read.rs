@@ -1,12 +1,10 @@
-//! The rows of a source as items in memory, about an origin near them and in units in which squares neither overflow nor vanish.
+//! Rows as items, about an origin near them and in units in which squares neither overflow nor vanish.
 //!
 //! *Idea.* A centre has no more digits than its coordinates, which are few where all rows are far from the origin. A column whose
 //! values differ by little is therefore moved by the least of them, which is exact: both are within a factor of 2 (Sterbenz).
 //! *Guarantee.* Moved and scaled rows are the rows, without rounding; what cannot be is refused.
 
-use taut_certify::Items;
-use taut_points::{InputError, Monitor, PointSource, PointsHash, Rows, hash_block, map_blocks};
-
+use super::item_rows::ItemRows;
 use super::items::{ItemSet, Position, Shape};
 use crate::Error;
 use crate::frame::exponent;
@@ -19,13 +17,9 @@ const EXPONENT_MAX: i32 = 500;
 /// A column whose values differ by at most this part of the least is moved.
 const COLUMN_SPREAD_MAX: f64 = 1.0 / 16.0;
 
-/// All rows, as they are.
+/// All rows, as they are, and the units of the search.
 pub(super) struct Table {
-    pub(super) shape: Shape,
-    pub(super) dim: usize,
-    columns: usize,
-    values: Vec<f64>,
-    pub(super) hash: PointsHash,
+    pub(super) rows: ItemRows,
     /// What is taken away from each coordinate, without rounding.
     shift: Vec<f64>,
     /// What coordinates and radii are then multiplied with, a power of two.
@@ -34,78 +28,30 @@ pub(super) struct Table {
     pub(super) weight_scale: f64,
 }
 
-/// What one block has to say.
-struct Block {
-    hash: taut_points::BlockHash,
-    values: Vec<f64>,
-}
-
 impl Table {
-    /// Reads all rows once, and refuses what is no point, weight or ball.
-    pub(super) fn read(
-        source: &dyn PointSource,
-        items: Items,
-        weights: bool,
-        monitor: &Monitor<'_>,
-    ) -> Result<Self, Error> {
-        let columns = source.dim();
-        let shape = match (items, weights) {
-            (Items::Points, false) => Shape::Points,
-            (Items::Points, true) => Shape::Weighted,
-            (Items::Balls, false) => Shape::Balls,
-            (Items::Balls, true) => {
-                let (name, value) = ("weights", "true".into());
-                return Err(Error::Input(InputError::Option {
-                    name,
-                    value,
-                    expected: "false for balls",
-                }));
-            }
-            (Items::Ellipsoids, _) => {
-                let (name, value) = ("items", "ellipsoids".into());
-                return Err(Error::Input(InputError::Option {
-                    name,
-                    value,
-                    expected: "points or balls",
-                }));
-            }
-        };
-        match shape {
-            Shape::Balls if columns < 2 => return Err(Error::NoRadius { columns }),
-            Shape::Weighted if columns < 2 => return Err(Error::NoWeight { columns }),
-            _ => {}
-        }
-        if source.is_empty() {
-            return Err(Error::Empty);
-        }
-        if source.len() > u64::from(u32::MAX) {
-            let (rows, dim) = (source.len(), columns);
-            return Err(taut_points::ReadError::TooLarge { rows, dim }.into());
-        }
-        monitor.pass(1, source.len());
-        let blocks = map_blocks(source, monitor, |first, rows| Block::read(shape, first, &rows))?;
-        let hash = PointsHash::of_blocks(source.len(), columns, blocks.iter().map(|b| b.hash));
-        let values: Vec<f64> = blocks.into_iter().flat_map(|block| block.values).collect();
-        let dim = if shape == Shape::Points { columns } else { columns - 1 };
-        let shift = (0..dim).map(|column| shift_of(&values[column..], columns)).collect();
-        let mut table =
-            Table { shape, dim, columns, values, hash, shift, scale: 1.0, weight_scale: 1.0 };
+    /// Finds units in which no row loses digits.
+    pub(super) fn of(rows: ItemRows) -> Result<Self, Error> {
+        let shift = |column: usize| shift_of(&rows.values[column..], rows.columns);
+        let shift = (0..rows.dim).map(shift).collect();
+        let mut table = Table { rows, shift, scale: 1.0, weight_scale: 1.0 };
         table.set_scales();
         if table.loses_digits() { Err(Error::Overflow) } else { Ok(table) }
     }
 
     /// Coordinates and radii in the units of the rows, but about the origin of the search.
     fn lengths(&self) -> impl Iterator<Item = f64> {
-        let is_length = self.shape == Shape::Balls;
-        self.values.chunks_exact(self.columns).flat_map(move |row| {
+        let is_length = self.rows.shape == Shape::Balls;
+        self.rows.values.chunks_exact(self.rows.columns).flat_map(move |row| {
             let moved = row.iter().zip(&self.shift).map(|(x, shift)| x - shift);
-            moved.chain(row[self.dim..].iter().copied().filter(move |_| is_length))
+            moved.chain(row[self.rows.dim..].iter().copied().filter(move |_| is_length))
         })
     }
 
     fn set_scales(&mut self) {
-        let weights = self.values.chunks_exact(self.columns).flat_map(|row| &row[self.dim..]);
-        let weights = Exponents::of(weights.copied().filter(|_| self.shape == Shape::Weighted));
+        let weights =
+            self.rows.values.chunks_exact(self.rows.columns).flat_map(|row| &row[self.rows.dim..]);
+        let weights =
+            Exponents::of(weights.copied().filter(|_| self.rows.shape == Shape::Weighted));
         let lengths = Exponents::of(self.lengths());
         if lengths.are_safe() && weights.are_safe() {
             return;
@@ -117,39 +63,22 @@ impl Table {
     /// Whether numbers so small beside the largest are there that they cannot be scaled with it.
     fn loses_digits(&self) -> bool {
         let is_lost = |value: f64, scale: f64| value * scale / scale != value;
-        let weights = self.values.chunks_exact(self.columns).flat_map(|row| &row[self.dim..]);
+        let weights =
+            self.rows.values.chunks_exact(self.rows.columns).flat_map(|row| &row[self.rows.dim..]);
         self.lengths().any(|x| is_lost(x, self.scale))
-            || self.shape == Shape::Weighted
+            || self.rows.shape == Shape::Weighted
                 && weights.copied().any(|w| is_lost(w, self.weight_scale))
-    }
-
-    pub(super) fn len(&self) -> usize {
-        self.values.len() / self.columns
-    }
-
-    /// A row as it was given.
-    pub(super) fn row(&self, row: usize) -> &[f64] {
-        &self.values[row * self.columns..][..self.columns]
-    }
-
-    /// The coordinates of a row.
-    pub(super) fn place(&self, row: usize) -> &[f64] {
-        &self.row(row)[..self.dim]
-    }
-
-    /// Whether no item is a ball of a radius above 0.
-    pub(super) fn are_points(&self) -> bool {
-        self.shape != Shape::Balls || (0..self.len()).all(|row| self.row(row)[self.dim] == 0.0)
     }
 
     /// The items in the units of the search.
     pub(super) fn items<P: Position>(&self) -> ItemSet<P> {
-        let mut items = ItemSet::new(self.shape, self.dim);
-        let mut position = vec![0.0; self.dim];
-        for row in self.values.chunks_exact(self.columns) {
+        let mut items = ItemSet::new(self.rows.shape, self.rows.dim);
+        let mut position = vec![0.0; self.rows.dim];
+        for row in self.rows.values.chunks_exact(self.rows.columns) {
             self.bring_in(row, &mut position);
-            let extra = row.get(self.dim).copied().unwrap_or(0.0);
-            let unit = if self.shape == Shape::Weighted { self.weight_scale } else { self.scale };
+            let extra = row.get(self.rows.dim).copied().unwrap_or(0.0);
+            let unit =
+                if self.rows.shape == Shape::Weighted { self.weight_scale } else { self.scale };
             items.push(&position, extra * unit);
         }
         items
@@ -165,35 +94,6 @@ impl Table {
     /// A position of the search in the units of the rows, rounded.
     pub(super) fn bring_out(&self, position: &[f64]) -> Vec<f64> {
         position.iter().zip(&self.shift).map(|(p, shift)| p / self.scale + shift).collect()
-    }
-}
-
-impl Block {
-    fn read(shape: Shape, first: u64, rows: &Rows<'_>) -> Result<Self, Error> {
-        if let Some((row, column, value)) = rows.first_non_finite() {
-            return Err(Error::Input(InputError::NonFinite {
-                row: first + row as u64,
-                column,
-                value,
-            }));
-        }
-        let (values, columns): (Vec<f64>, usize) = match rows {
-            Rows::F32(points) => {
-                (points.values().iter().map(|&v| v.into()).collect(), points.dim())
-            }
-            Rows::F64(points) => (points.values().to_vec(), points.dim()),
-        };
-        for (row, values) in (first..).zip(values.chunks_exact(columns)) {
-            let value = values[columns - 1];
-            match shape {
-                Shape::Weighted if value <= 0.0 => {
-                    return Err(Error::NonPositiveWeight { row, value });
-                }
-                Shape::Balls if value < 0.0 => return Err(Error::NegativeRadius { row, value }),
-                _ => {}
-            }
-        }
-        Ok(Block { hash: hash_block(rows), values })
     }
 }
 

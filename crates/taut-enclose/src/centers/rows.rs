@@ -22,20 +22,23 @@ mod state;
 mod tests;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use taut_certify::{
     Centers, CentersCertificate, Items, LowerBound, PassBounds, Placement, Solution, Stop, Trace,
 };
-use taut_points::{InputError, Monitor, PointSource};
+use taut_points::Monitor;
 
 use self::core_set::CoreSet;
 use self::proof::{Proof, prove};
 use self::search::{End, Search};
 use self::sites::Sites;
 use self::start::{Incumbent, start};
+use self::state::State;
 use crate::Error;
 use crate::apart::claimed;
-use crate::centers::{CentersMethod, CentersOptions, Few};
+use crate::centers::item_rows::ItemRows;
+use crate::centers::{CentersMethod, CentersOptions};
 
 /// Once the gap is at most this beyond the one wanted, the radius wanted is tried at once.
 const NEAR_GAP: f64 = 0.02;
@@ -56,29 +59,15 @@ fn proved(radius: f64, sites: &Sites) -> f64 {
 }
 
 /// At most k rows as centres of all items but `options.outliers` of them.
-pub(crate) fn solve(
-    source: &dyn PointSource,
+pub(super) fn solve(
+    rows: ItemRows,
     items: Items,
     k: usize,
     options: &CentersOptions,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Centers>, Error> {
-    if !source.is_empty() && options.outliers >= source.len() {
-        return Err(Error::Input(InputError::Option {
-            name: "outliers",
-            value: options.outliers.to_string(),
-            expected: "less than the number of items",
-        }));
-    }
-    let sites = Sites::read(source, items, options.weights, monitor)?;
+    let sites = Sites::of(rows);
     let outliers = options.outliers as usize;
-    if sites.are_points() {
-        let by_row = sites.by_row();
-        let position = |row: usize| sites.position(by_row[row]);
-        if let Some(few) = Few::of(sites.len(), position, k, outliers) {
-            return Ok(few.solution(k, Placement::Rows, options, items, sites.hash()));
-        }
-    }
     // More centres than rows are of no use.
     let mut bracket = Bracket::new(&sites, k.min(sites.len()), outliers, options, monitor)?;
     if !bracket.incumbent.radius.is_finite() {
@@ -207,25 +196,27 @@ impl<'a> Bracket<'a> {
     fn close(&mut self) -> Result<(), Error> {
         while !self.is_closed() {
             let radius = self.next_radius();
-            let mut core = CoreSet::new(self.sites, radius, &self.members, self.monitor)?;
+            let core = CoreSet::new(self.sites, radius, &self.members, self.monitor)?;
+            let mut core = Arc::new(core);
             let mut patience = FIRST_TRY_NODES;
             let end = loop {
+                let mut state = State::new(core, self.k, self.outliers);
                 let mut search = Search {
-                    core: &mut core,
-                    k: self.k,
-                    outliers: self.outliers,
+                    state: &mut state,
                     incumbent: &mut self.incumbent,
                     nodes: &mut self.nodes,
                     scans: &mut self.scans,
                     max_nodes: self.options.max_nodes,
                     monitor: self.monitor,
                 };
-                match search.run(patience)? {
+                let end = search.run(patience)?;
+                core = state.core;
+                match end {
                     End::Grown => patience = patience.saturating_mul(2),
                     end => break end,
                 }
             };
-            self.members = core.members;
+            self.members.clone_from(&core.members);
             match end {
                 End::Spent => {
                     self.is_spent = true;
@@ -274,7 +265,7 @@ impl<'a> Bracket<'a> {
             // All tries together cost no more than two of the first.
             max_nodes /= 2;
         }
-        Ok((0.0, Proof { members: vec![], by: LowerBound::Search, nodes: 0 }, why))
+        Ok((0.0, Proof { members: vec![], by: LowerBound::Apart, nodes: 0 }, why))
     }
 }
 

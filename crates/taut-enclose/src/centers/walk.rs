@@ -14,8 +14,9 @@ use std::sync::Arc;
 use taut_points::{Monitor, ReadError};
 
 use super::cloud::Cloud;
-use super::clusters::{Clusters, Place, Survey, Undo, large_clique};
+use super::clusters::{Clusters, Survey, Undo, large_clique};
 use super::conflict::Levels;
+use super::depth_first::{Place, State};
 use super::items::Position;
 use super::start::{Incumbent, improve};
 use crate::Error;
@@ -101,7 +102,7 @@ impl<'c, P: Position> Walk<'c, P> {
         // Where items may be left out, these may be so.
         for item in clique.into_iter().filter(|_| task.z == 0) {
             task.monitor.check().map_err(ReadError::from)?;
-            state.put(item, Place::Open, 0);
+            state.put(item, Place::Open);
         }
         Ok(Some(Walk {
             task,
@@ -191,7 +192,7 @@ impl<'c, P: Position> Walk<'c, P> {
                 if let Place::Into(cluster) = place {
                     frame.tried.push(cluster);
                 }
-                frame.undo = Some(self.state.put(frame.item, place, level));
+                frame.undo = Some(self.state.put_at(frame.item, place, level));
                 return None;
             }
         }

@@ -233,7 +233,7 @@ fn a_budget_of_nodes_leaves_a_proof() {
     assert!(gaps.is_sorted_by(|a, b| a >= b) && gaps[3] <= 1e-6, "{gaps:?}");
 }
 
-/// Beyond eight centres the tree is written down; the judge follows it to its end, and so does the checker.
+/// The tree is written down; the judge follows it to its end, and so does the checker.
 #[test]
 fn logs_are_followed() {
     for (n, z) in [(30, 0), (60, 0), (60, 1)] {

@@ -8,9 +8,11 @@
 
 use std::cmp::Ordering;
 
+use taut_points::Cancelled;
+
 use super::distance::{Scale, compare, compare_weighted, kappa, square};
 use super::item::Kind;
-use super::meter::{Meter, Stop};
+use super::meter::Meter;
 
 /// The core-set, for one bound ρ > 0.
 pub(super) struct Core {
@@ -80,7 +82,7 @@ impl Core {
         i: usize,
         j: usize,
         meter: &mut Meter<'_>,
-    ) -> Result<bool, Stop> {
+    ) -> Result<bool, Cancelled> {
         meter.spend(self.dim + 4)?;
         if !self.is_free(i) || !self.is_free(j) {
             return Ok(true);
@@ -115,7 +117,7 @@ impl Core {
         item: usize,
         center: &[f64],
         meter: &mut Meter<'_>,
-    ) -> Result<bool, Stop> {
+    ) -> Result<bool, Cancelled> {
         let extra = self.extras.get(item).copied();
         let (weight, radius) = match (self.kind, extra) {
             (Kind::Weighted, Some(weight)) => (weight, 0.0),
@@ -163,7 +165,7 @@ pub(super) struct Pairs {
 
 impl Pairs {
     /// All n(n − 1)/2 pairs.
-    pub(super) fn of(core: &Core, meter: &mut Meter<'_>) -> Result<Self, Stop> {
+    pub(super) fn of(core: &Core, meter: &mut Meter<'_>) -> Result<Self, Cancelled> {
         let n = core.len();
         let mut rows = vec![vec![0; n.div_ceil(64)]; n];
         for i in 0..n {

@@ -11,7 +11,9 @@
 
 use std::cmp::Ordering;
 
-use super::meter::{Meter, Stop};
+use taut_points::Cancelled;
+
+use super::meter::Meter;
 use crate::arithmetic::{Integer, Ring, U, parts};
 
 const LANES: usize = 8;
@@ -95,7 +97,7 @@ pub(super) fn compare<A, B>(
     rho: &[f64],
     scale: Scale,
     meter: &mut Meter<'_>,
-) -> Result<Ordering, Stop>
+) -> Result<Ordering, Cancelled>
 where
     A: Copy + Into<f64>,
     B: Copy + Into<f64>,
@@ -163,7 +165,7 @@ pub(super) fn compare_weighted(
     [w, v]: [f64; 2],
     rho: f64,
     meter: &mut Meter<'_>,
-) -> Result<Ordering, Stop> {
+) -> Result<Ordering, Cancelled> {
     let sum = rho / w + rho / v;
     if (1e-290..=f64::MAX).contains(&sum) {
         let scale = Scale::of(sum);
@@ -250,7 +252,7 @@ pub(super) mod tests {
 
     fn compared(p: &[f64], c: &[f64], weight: f64, rho: &[f64]) -> Ordering {
         let scale = Scale::of(rho[0]);
-        let mut meter = Meter::endless(&Monitor::silent());
+        let mut meter = Meter::of(&Monitor::silent());
         let found = compare(p, c, weight, rho, scale, &mut meter).unwrap();
         assert_eq!(found, exactly(p, c, weight, rho), "{p:?} {c:?} {weight} {rho:?}");
         found
@@ -281,7 +283,7 @@ pub(super) mod tests {
     #[test]
     fn weighted_points_are_told_apart_at_every_scale() {
         let apart = |distance: f64, weights: [f64; 2], rho: f64| {
-            let mut meter = Meter::endless(&Monitor::silent());
+            let mut meter = Meter::of(&Monitor::silent());
             let [first, other] = [[1.0, distance], [1.0, 0.0]];
             compare_weighted(&first, &other, weights, rho, &mut meter).unwrap()
         };

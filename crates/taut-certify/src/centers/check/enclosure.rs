@@ -11,13 +11,13 @@
 
 use std::cmp::Ordering;
 
-use taut_points::{Monitor, PointSource, Points, Rows, Scalar};
+use taut_points::{Cancelled, Monitor, PointSource, Points, Rows, Scalar};
 
 use super::super::{Centers, CentersCertificate, CentersViolation};
 use super::distance::{Scale, compare, factors, is_same_place, kappa, square, thresholds};
 use super::halves::Halves;
 use super::item::{Item, Kind};
-use super::meter::{Meter, Stop};
+use super::meter::Meter;
 use crate::CheckError;
 use crate::arithmetic::U;
 use crate::hashed_pass::{KeptRows, WantedRows, hashed_pass};
@@ -49,7 +49,7 @@ impl<'a> Enclosure<'a> {
         let wanted = WantedRows::of(certificate.core_set.iter().chain(&self.answer.rows));
         let claimed = certificate.points_hash;
         let (blocks, kept) = hashed_pass(source, claimed, wanted, monitor, |first, rows| {
-            let mut meter = Meter::endless(monitor);
+            let mut meter = Meter::of(monitor);
             match rows {
                 Rows::F32(points) => self.rows(first, points, &mut meter),
                 Rows::F64(points) => self.rows(first, points, &mut meter),
@@ -94,7 +94,7 @@ impl<'a> Enclosure<'a> {
         counts: bool,
         held_by: &mut usize,
         meter: &mut Meter<'_>,
-    ) -> Result<Result<(), CentersViolation>, Stop> {
+    ) -> Result<Result<(), CentersViolation>, Cancelled> {
         match self.assigned(number, item, meter)? {
             Err(violation) => return Ok(Err(violation)),
             Ok(Some(assigned)) => *held_by = assigned,
@@ -113,7 +113,7 @@ impl<'a> Enclosure<'a> {
         item: &Item<'_, T>,
         held_by: &mut usize,
         meter: &mut Meter<'_>,
-    ) -> Result<bool, Stop> {
+    ) -> Result<bool, Cancelled> {
         let centers = &self.answer.centers;
         let rho = self.answer.radius - item.radius;
         if rho < 0.0 {
@@ -156,7 +156,7 @@ impl<'a> Enclosure<'a> {
         mut test: impl FnMut(usize) -> bool,
         held_by: &mut usize,
         meter: &mut Meter<'_>,
-    ) -> Result<bool, Stop> {
+    ) -> Result<bool, Cancelled> {
         let mut asked = 1;
         let found = match test(*held_by) {
             true => Some(*held_by),
@@ -178,7 +178,7 @@ impl<'a> Enclosure<'a> {
         row: u64,
         item: &Item<'_, T>,
         meter: &mut Meter<'_>,
-    ) -> Result<Result<Option<usize>, CentersViolation>, Stop> {
+    ) -> Result<Result<Option<usize>, CentersViolation>, Cancelled> {
         let Some(&center) = self.answer.assignment.get(row as usize) else { return Ok(Ok(None)) };
         let named = center as usize;
         if named >= self.answer.centers.len() {

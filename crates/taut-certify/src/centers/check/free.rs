@@ -15,15 +15,17 @@
 //! plain arithmetic, with a bound on all that was rounded: [`Free::is_refuted`].
 //! *Reference.* Goldfarb, Idnani, Math. Programming 27, 1983, of which this is a special case.
 
+use taut_points::Cancelled;
+
 use super::core::{Core, Pairs};
-use super::meter::{Meter, Stop};
-use super::room::Room;
+use super::meter::Meter;
+use super::oracle::Oracle;
 use crate::arithmetic::U;
 
 /// Items in one ball with its centre anywhere.
 ///
 /// Places are measured from the first member, yᵢ = (pᵢ − p₀)·scale, rounded once; they are formed again wherever they are
-/// needed, as a search keeps many groups.
+/// needed, as there may be many groups.
 #[derive(Debug, Default)]
 pub(super) struct Group {
     members: Vec<usize>,
@@ -76,7 +78,12 @@ impl<'a> Free<'a> {
         Free { core, pairs, scratch: Group::default(), hull: Hull::default() }
     }
 
-    fn tried(&mut self, group: &Group, item: usize, meter: &mut Meter<'_>) -> Result<Tried, Stop> {
+    fn tried(
+        &mut self,
+        group: &Group,
+        item: usize,
+        meter: &mut Meter<'_>,
+    ) -> Result<Tried, Cancelled> {
         meter.spend(group.members.len() + self.core.dim)?;
         if !self.core.is_free(item) || group.members.iter().any(|&m| self.pairs.are_apart(item, m))
         {
@@ -97,18 +104,13 @@ impl<'a> Free<'a> {
     }
 }
 
-impl Room for Free<'_> {
+impl Oracle for Free<'_> {
     type Group = Group;
     /// The fit before, where it changed.
     type Undo = Option<Fit>;
 
     fn len(&self) -> usize {
         self.core.len()
-    }
-
-    fn are_apart(&self, i: usize, j: usize, meter: &mut Meter<'_>) -> Result<bool, Stop> {
-        meter.spend(1)?;
-        Ok(self.pairs.are_apart(i, j))
     }
 
     fn open(&mut self, item: usize) -> Option<Group> {
@@ -125,7 +127,7 @@ impl Room for Free<'_> {
         group: &mut Group,
         item: usize,
         meter: &mut Meter<'_>,
-    ) -> Result<Option<Option<Fit>>, Stop> {
+    ) -> Result<Option<Option<Fit>>, Cancelled> {
         let before = match self.tried(group, item, meter)? {
             Tried::Refuted => return Ok(None),
             Tried::Unchanged => None,
@@ -145,25 +147,6 @@ impl Room for Free<'_> {
     fn kept(before: &Option<Fit>) -> usize {
         let bytes = |fit: &Fit| size_of_val(&fit.center[..]) + size_of_val(&fit.support[..]);
         before.as_ref().map_or(0, bytes)
-    }
-
-    fn strain(&mut self, group: &Group, item: usize, meter: &mut Meter<'_>) -> Result<f64, Stop> {
-        Ok(match self.tried(group, item, meter)? {
-            Tried::Refuted => f64::INFINITY,
-            Tried::Unchanged => 0.0,
-            // A strain that is no number, as of weights that are too far apart, must not pass for an item that does not fit.
-            Tried::Changed => match self.scratch.fit.value - group.fit.value {
-                strain if strain.is_finite() => strain,
-                _ => f64::MAX,
-            },
-        })
-    }
-
-    fn covers(&self, group: &Group, item: usize, meter: &mut Meter<'_>) -> Result<bool, Stop> {
-        meter.spend(self.core.dim)?;
-        let (places, center) = (relative(self.core, group.members[0], item), &group.fit.center);
-        let distance: f64 = places.zip(center).map(|(y, c)| square(y - c)).sum();
-        Ok(distance < square(self.core.reach(item)))
     }
 }
 
@@ -194,7 +177,12 @@ fn excess(core: &Core, group: &Group, item: usize) -> f64 {
 }
 
 /// Brings the fit of a group to its optimum, when all but the last member are at theirs, and that one is farther.
-fn fit(core: &Core, group: &mut Group, hull: &mut Hull, meter: &mut Meter<'_>) -> Result<(), Stop> {
+fn fit(
+    core: &Core,
+    group: &mut Group,
+    hull: &mut Hull,
+    meter: &mut Meter<'_>,
+) -> Result<(), Cancelled> {
     // The depth counts in units of ρ², which is 1 or more.
     const DEPTH_TOLERANCE: f64 = 1e-15;
     let mut member = group.members.len() - 1;
@@ -226,7 +214,7 @@ fn admit(
     member: usize,
     hull: &mut Hull,
     meter: &mut Meter<'_>,
-) -> Result<(), Stop> {
+) -> Result<(), Cancelled> {
     let item = group.members[member];
     let mut weight = 0.0;
     while !group.fit.support.is_empty() {
@@ -294,7 +282,7 @@ impl Hull {
         group: &Group,
         member: usize,
         meter: &mut Meter<'_>,
-    ) -> Result<(), Stop> {
+    ) -> Result<(), Cancelled> {
         let (support, dim) = (&group.fit.support, core.dim);
         let (origin, edges) = (support[0].0, support.len() - 1);
         meter.spend(2 * dim * (edges + 1) * (edges + 2))?;
@@ -407,9 +395,11 @@ mod tests {
     /// Whether a ball of radius less than `bound` is proved not to hold these rows.
     fn refuted(rows: &[f64], columns: usize, kind: Kind, bound: f64) -> bool {
         let core = Core::of(rows, columns, kind, bound);
-        let mut meter = Meter::endless(&Monitor::silent());
+        let mut meter = Meter::of(&Monitor::silent());
         let pairs = Pairs::of(&core, &mut meter).unwrap();
-        !Free::of(&core, &pairs).fit(0..core.len(), &mut meter).unwrap()
+        let mut free = Free::of(&core, &pairs);
+        let Some(mut group) = free.open(0) else { return true };
+        (1..core.len()).any(|item| free.grow(&mut group, item, &mut meter).unwrap().is_none())
     }
 
     fn is_radius(rows: &[f64], columns: usize, kind: Kind, radius: f64) {

@@ -1,12 +1,10 @@
-//! How much of a search there may be, and who may end any work.
+//! Asks the monitor whether to go on, however much work one step of a proof is.
 //!
-//! *Idea.* Steps are counted where they are taken, each about a coordinate of an item, or a word of a set of items, that is
-//! looked at: a nanosecond or so. So a limit of work holds for few large nodes as for many small ones, and is the same on
-//! every machine.
+//! *Idea.* Steps are counted where they are taken, each about a coordinate of an item, or a word of a set of items: a
+//! nanosecond or so.
 
 use taut_points::{Cancelled, Monitor, ReadError};
 
-use super::super::CentersViolation;
 use crate::CheckError;
 
 /// The monitor is asked again after this many steps: some milliseconds.
@@ -15,98 +13,59 @@ const STEPS_BETWEEN_ASKS: u64 = 1 << 21;
 /// Counts steps.
 pub(super) struct Meter<'a> {
     monitor: Monitor<'a>,
-    most: u64,
-    spent: u64,
-    /// When the monitor is asked next.
-    ask: u64,
-}
-
-/// Why work ends before it is done.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Stop {
-    Cancelled(Cancelled),
-    /// So many steps are spent, which is the most there may be.
-    Spent(u64),
+    /// Steps until the monitor is asked next.
+    left: u64,
 }
 
 impl<'a> Meter<'a> {
-    /// At most so many steps.
-    pub(super) fn of(monitor: &Monitor<'a>, most: u64) -> Self {
-        Meter { monitor: *monitor, most, spent: 0, ask: 0 }
-    }
-
-    /// As many steps as it takes; only the monitor ends it.
-    pub(super) fn endless(monitor: &Monitor<'a>) -> Self {
-        Self::of(monitor, u64::MAX)
+    /// A meter that asks at the first step.
+    pub(super) fn of(monitor: &Monitor<'a>) -> Self {
+        Meter { monitor: *monitor, left: 0 }
     }
 
     /// Counts steps that are about to be taken.
     #[inline]
-    pub(super) fn spend(&mut self, steps: usize) -> Result<(), Stop> {
-        self.spent = self.spent.saturating_add(steps as u64);
-        if self.spent < self.ask { Ok(()) } else { self.look_up() }
+    pub(super) fn spend(&mut self, steps: usize) -> Result<(), Cancelled> {
+        match self.left.checked_sub(steps as u64) {
+            Some(left) => {
+                self.left = left;
+                Ok(())
+            }
+            None => self.ask(),
+        }
     }
 
-    /// Whether to go on.
     #[cold]
-    fn look_up(&mut self) -> Result<(), Stop> {
-        self.monitor.check().map_err(Stop::Cancelled)?;
-        if self.spent > self.most {
-            return Err(Stop::Spent(self.most));
-        }
-        self.ask = self.spent.saturating_add(STEPS_BETWEEN_ASKS).min(self.most.saturating_add(1));
-        Ok(())
+    fn ask(&mut self) -> Result<(), Cancelled> {
+        self.left = STEPS_BETWEEN_ASKS;
+        self.monitor.check()
     }
 }
 
-impl From<Stop> for CheckError {
-    fn from(stop: Stop) -> Self {
-        match stop {
-            Stop::Cancelled(cancelled) => CheckError::Read(ReadError::from(cancelled)),
-            Stop::Spent(most) => CentersViolation::Work { most }.into(),
-        }
+impl From<Cancelled> for CheckError {
+    fn from(cancelled: Cancelled) -> Self {
+        CheckError::Read(ReadError::from(cancelled))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use std::sync::atomic::AtomicBool;
+    use std::sync::atomic::{AtomicBool, Ordering};
 
     use super::*;
-
-    #[test]
-    fn the_last_step_that_may_be_is_taken_and_no_other() {
-        let mut meter = Meter::of(&Monitor::silent(), 10_000_000);
-        for _ in 0..10 {
-            assert_eq!(meter.spend(1_000_000), Ok(()));
-        }
-        assert_eq!(meter.spend(1), Err(Stop::Spent(10_000_000)));
-        assert_eq!(meter.spend(0), Err(Stop::Spent(10_000_000)));
-        assert_eq!(Meter::endless(&Monitor::silent()).spend(usize::MAX), Ok(()));
-    }
-
-    #[test]
-    fn work_that_is_spent_is_a_refusal() {
-        match CheckError::from(Stop::Spent(7)) {
-            CheckError::Rejected(violation) => {
-                assert_eq!(violation, CentersViolation::Work { most: 7 }.into());
-            }
-            other => panic!("{other:?}"),
-        }
-    }
 
     #[test]
     fn the_monitor_is_heard_within_few_steps() {
         let cancel = AtomicBool::new(false);
         let monitor = Monitor { cancel: Some(&cancel), ..Monitor::silent() };
-        let mut meter = Meter::endless(&monitor);
+        let mut meter = Meter::of(&monitor);
         meter.spend(1).unwrap();
-        cancel.store(true, std::sync::atomic::Ordering::Relaxed);
+        cancel.store(true, Ordering::Relaxed);
         let mut steps = 0;
         while meter.spend(1000).is_ok() {
             steps += 1000;
         }
         assert!(steps <= STEPS_BETWEEN_ASKS, "{steps}");
-        assert_eq!(meter.spend(1), Err(Stop::Cancelled(Cancelled)));
+        assert_eq!(Meter::of(&monitor).spend(1), Err(Cancelled));
     }
 }

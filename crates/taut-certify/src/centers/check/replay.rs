@@ -1,4 +1,4 @@
-//! The branches of a search, gone through again.
+//! The replay of the log of a branch and bound search.
 //!
 //! *Idea.* Each branch gives an item to each group in turn, to a new one if there may be more, and to those left out. A
 //! case whose group no ball holds is refuted there and then; of every other the log says how it goes on.
@@ -10,7 +10,7 @@
 use super::super::CentersViolation;
 use super::core::{clear, is_set, set};
 use super::meter::Meter;
-use super::room::Room;
+use super::oracle::Oracle;
 use crate::{CheckError, Violation};
 
 /// Most items of a core-set whose branches are followed: their pairs take 32 MiB.
@@ -36,65 +36,77 @@ enum Undo<U> {
     LeftOut,
 }
 
-/// Goes through all cases, and keeps at most so many bytes to undo them.
-pub(super) fn replay<R: Room>(
-    room: &mut R,
-    k: usize,
-    outliers: u64,
-    log: &[u32],
-    most: u64,
-    meter: &mut Meter<'_>,
-) -> Result<(), CheckError> {
-    let mut groups: Vec<R::Group> = vec![];
-    let mut given = vec![0; room.len().div_ceil(64)];
-    let mut left = outliers;
-    let mut entries = log.iter().copied().enumerate();
-    let mut open = vec![taken(&mut entries, &mut given, room.len(), log)?];
-    let mut kept = 0;
-    while let Some(branch) = open.last_mut() {
-        meter.spend(16)?;
-        match std::mem::replace(&mut branch.undo, Undo::Nothing) {
-            Undo::Nothing => {}
-            Undo::Grown(number, undo) => {
-                kept -= R::kept(&undo) as u64;
-                room.shrink(&mut groups[number], undo);
+/// The log of a search for k balls that may leave some items out.
+pub(super) struct Log<'a> {
+    pub(super) k: usize,
+    pub(super) outliers: u64,
+    /// The item of each branch, in preorder.
+    pub(super) items: &'a [u32],
+    /// At most this many bytes are kept to undo cases.
+    pub(super) undo_bytes: u64,
+}
+
+impl Log<'_> {
+    /// Goes through all cases.
+    pub(super) fn replay<R: Oracle>(
+        &self,
+        oracle: &mut R,
+        meter: &mut Meter<'_>,
+    ) -> Result<(), CheckError> {
+        let Log { k, outliers, items: log, undo_bytes: most } = *self;
+        let mut groups: Vec<R::Group> = vec![];
+        let mut given = vec![0; oracle.len().div_ceil(64)];
+        let mut left = outliers;
+        let mut entries = log.iter().copied().enumerate();
+        let mut open = vec![taken(&mut entries, &mut given, oracle.len(), log)?];
+        let mut kept = 0;
+        while let Some(branch) = open.last_mut() {
+            meter.spend(16)?;
+            match std::mem::replace(&mut branch.undo, Undo::Nothing) {
+                Undo::Nothing => {}
+                Undo::Grown(number, undo) => {
+                    kept -= R::kept(&undo) as u64;
+                    oracle.shrink(&mut groups[number], undo);
+                }
+                Undo::Opened => drop(groups.pop()),
+                Undo::LeftOut => left += 1,
             }
-            Undo::Opened => drop(groups.pop()),
-            Undo::LeftOut => left += 1,
-        }
-        let (case, item) = (branch.next, branch.item);
-        branch.next += 1;
-        let goes_on = if case < groups.len() {
-            room.grow(&mut groups[case], item, meter)?.map(|undo| {
-                kept += R::kept(&undo) as u64;
-                Undo::Grown(case, undo)
-            })
-        } else if case == groups.len() && groups.len() < k {
-            room.open(item).map(|group| {
-                groups.push(group);
-                Undo::Opened
-            })
-        } else if case <= groups.len() + 1 && left > 0 {
-            branch.next = groups.len() + 2;
-            left -= 1;
-            Some(Undo::LeftOut)
-        } else {
-            clear(&mut given, item);
-            open.pop();
-            continue;
-        };
-        if let Some(undo) = goes_on {
-            branch.undo = undo;
-            if kept > most {
-                return Err(CentersViolation::Kept { branches: open.len(), most }.into());
+            let (case, item) = (branch.next, branch.item);
+            branch.next += 1;
+            let goes_on = if case < groups.len() {
+                oracle.grow(&mut groups[case], item, meter)?.map(|undo| {
+                    kept += R::kept(&undo) as u64;
+                    Undo::Grown(case, undo)
+                })
+            } else if case == groups.len() && groups.len() < k {
+                oracle.open(item).map(|group| {
+                    groups.push(group);
+                    Undo::Opened
+                })
+            } else if case <= groups.len() + 1 && left > 0 {
+                branch.next = groups.len() + 2;
+                left -= 1;
+                Some(Undo::LeftOut)
+            } else {
+                clear(&mut given, item);
+                open.pop();
+                continue;
+            };
+            if let Some(undo) = goes_on {
+                branch.undo = undo;
+                if kept > most {
+                    return Err(CentersViolation::Kept { branches: open.len(), most }.into());
+                }
+                let entry = taken(&mut entries, &mut given, oracle.len(), log)?;
+                open.push(entry);
             }
-            let entry = taken(&mut entries, &mut given, room.len(), log)?;
-            open.push(entry);
         }
-    }
-    match entries.next() {
-        Some((used, _)) => Err(CentersViolation::LogGoesOn { used, branches: log.len() }.into()),
-        None => Ok(()),
+        match entries.next() {
+            Some((used, _)) => {
+                Err(CentersViolation::LogGoesOn { used, branches: log.len() }.into())
+            }
+            None => Ok(()),
+        }
     }
 }
 
@@ -146,11 +158,12 @@ mod tests {
                 place.into_iter().map(move |x| x / length * radius)
             })
             .collect();
-        let mut meter = Meter::endless(&Monitor::silent());
+        let mut meter = Meter::of(&Monitor::silent());
         let core = Core::of(&values, dim, Kind::Points, 1e3);
         let pairs = Pairs::of(&core, &mut meter).unwrap();
         let log: Vec<u32> = (0..rows as u32).collect();
-        match replay(&mut Free::of(&core, &pairs), 2, 0, &log, most, &mut meter) {
+        let log = Log { k: 2, outliers: 0, items: &log, undo_bytes: most };
+        match log.replay(&mut Free::of(&core, &pairs), &mut meter) {
             Err(CheckError::Rejected(Violation::Centers(violation))) => violation,
             other => panic!("{other:?}"),
         }

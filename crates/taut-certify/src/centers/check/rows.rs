@@ -10,13 +10,13 @@
 use std::collections::HashSet;
 use std::sync::{Mutex, PoisonError};
 
-use taut_points::{Monitor, PointSource, PointsHash};
+use taut_points::{Cancelled, Monitor, PointSource, PointsHash};
 
 use super::super::CentersViolation;
-use super::core::{Bits, Core, is_set, items, set};
+use super::core::{Bits, Core, items, set};
 use super::item::Kind;
-use super::meter::{Meter, Stop};
-use super::room::Room;
+use super::meter::Meter;
+use super::oracle::Oracle;
 use crate::CheckError;
 use crate::hashed_pass::{WantedRows, hashed_pass};
 
@@ -32,8 +32,6 @@ const PLACE_BYTES: u64 = 64;
 
 /// Places at rows, for one core-set.
 pub(super) struct Places {
-    /// For each place, the items near to it; no two alike, in a fixed order.
-    pub(super) sets: Vec<Bits>,
     /// For each item, the places near to it.
     near: Vec<Bits>,
 }
@@ -51,7 +49,7 @@ impl Places {
         let sets: Mutex<HashSet<Bits>> = Mutex::default();
         hashed_pass(source, claimed, WantedRows::none(), monitor, |_, rows| {
             let mut found = HashSet::new();
-            let (mut row, mut meter) = (vec![0.0; source.dim()], Meter::endless(monitor));
+            let (mut row, mut meter) = (vec![0.0; source.dim()], Meter::of(monitor));
             for number in 0..rows.len() {
                 rows.copy_row(number, &mut row);
                 let center = kind.item(&row).position;
@@ -65,7 +63,7 @@ impl Places {
                     found.insert(near);
                 }
             }
-            // Sets are put together in any order and sorted in the end.
+            // The order of the sets means nothing.
             let mut sets = sets.lock().unwrap_or_else(PoisonError::into_inner);
             sets.extend(found);
             match (SETS_PER_PLACE * 8 * words as u64 + PLACE_BYTES) * sets.len() as u64
@@ -76,13 +74,11 @@ impl Places {
             }
         })?;
         let sets = sets.into_inner().unwrap_or_else(PoisonError::into_inner);
-        let mut sets: Vec<Bits> = sets.into_iter().collect();
-        sets.sort_unstable();
         let mut near = vec![vec![0; sets.len().div_ceil(64)]; core.len()];
         for (place, of_place) in sets.iter().enumerate() {
             items(of_place).for_each(|item| set(&mut near[item], place));
         }
-        Ok(Places { sets, near })
+        Ok(Places { near })
     }
 
     /// Whether no place is near to both.
@@ -91,23 +87,19 @@ impl Places {
         i: usize,
         j: usize,
         meter: &mut Meter<'_>,
-    ) -> Result<bool, Stop> {
+    ) -> Result<bool, Cancelled> {
         meter.spend(self.near[i].len())?;
         Ok(self.near[i].iter().zip(&self.near[j]).all(|(a, b)| a & b == 0))
     }
 }
 
 /// The places that are near to all items of a group.
-impl Room for &Places {
+impl Oracle for &Places {
     type Group = Bits;
     type Undo = Bits;
 
     fn len(&self) -> usize {
         self.near.len()
-    }
-
-    fn are_apart(&self, i: usize, j: usize, meter: &mut Meter<'_>) -> Result<bool, Stop> {
-        Places::are_apart(self, i, j, meter)
     }
 
     fn open(&mut self, item: usize) -> Option<Bits> {
@@ -119,7 +111,7 @@ impl Room for &Places {
         group: &mut Bits,
         item: usize,
         meter: &mut Meter<'_>,
-    ) -> Result<Option<Bits>, Stop> {
+    ) -> Result<Option<Bits>, Cancelled> {
         meter.spend(2 * group.len())?;
         let both: Bits = group.iter().zip(&self.near[item]).map(|(a, b)| a & b).collect();
         let is_held = both.iter().any(|&word| word != 0);
@@ -132,21 +124,5 @@ impl Room for &Places {
 
     fn kept(before: &Bits) -> usize {
         size_of_val(&before[..])
-    }
-
-    fn strain(&mut self, group: &Bits, item: usize, meter: &mut Meter<'_>) -> Result<f64, Stop> {
-        meter.spend(2 * group.len())?;
-        let mut counts = [0, 0];
-        for (group, near) in group.iter().zip(&self.near[item]) {
-            counts[0] += (group & near).count_ones();
-            counts[1] += (group & !near).count_ones();
-        }
-        Ok(if counts[0] == 0 { f64::INFINITY } else { counts[1].into() })
-    }
-
-    fn covers(&self, group: &Bits, item: usize, meter: &mut Meter<'_>) -> Result<bool, Stop> {
-        let first = group.iter().position(|&word| word != 0);
-        meter.spend(first.unwrap_or(group.len()) + 1)?;
-        Ok(items(group).next().is_some_and(|place| is_set(&self.near[item], place)))
     }
 }

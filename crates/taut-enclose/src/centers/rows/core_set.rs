@@ -14,6 +14,7 @@ pub(super) fn size(words: &[(u32, u64)]) -> u32 {
 }
 
 /// The items X, at one radius.
+#[derive(Clone)]
 pub(super) struct CoreSet<'s> {
     pub(super) sites: &'s Sites,
     /// Balls hold what lies within less than this.

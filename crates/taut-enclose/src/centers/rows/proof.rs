@@ -4,16 +4,17 @@
 //! where a node has no way on for a reason (items apart), the items are branched on one after the other until every
 //! child is refuted at once. Items on which no node branches are dropped, and the rest is proved again.
 
+use std::sync::Arc;
+
 use taut_certify::{LowerBound, Stop};
-use taut_points::{Monitor, ReadError};
+use taut_points::Monitor;
 
 use super::core_set::CoreSet;
 use super::sites::Sites;
-use super::state::{Child, Look, State, Undo};
+use super::state::{Look, State};
 use crate::Error;
+use crate::centers::plain_tree::PlainTree;
 
-/// Proofs of at most this many nodes are left to the checker to find again.
-const UNPROVED_NODES_MAX: usize = 64;
 /// More items no checker takes.
 const ITEMS: usize = 16_000;
 /// Items that no node branches on are dropped in at most this many rounds.
@@ -37,96 +38,46 @@ pub(super) fn prove(
     max_nodes: u64,
     monitor: &Monitor<'_>,
 ) -> Result<Result<Proof, Stop>, Error> {
-    let mut core = CoreSet::new(sites, radius, members, monitor)?;
-    if let Look::Dead(mut items) = State::new(k, outliers).look(&core) {
+    let root = |members: &[usize]| {
+        let core = Arc::new(CoreSet::new(sites, radius, members, monitor)?);
+        Ok::<_, Error>(State::new(core, k, outliers))
+    };
+    let state = root(members)?;
+    if let Look::Dead(mut items) = state.clone().look() {
         // One item alone that has no ball is not dead with others apart from it.
         let count = k.checked_add(outliers).filter(|&count| items.len() > count && count < ITEMS);
         if let Some(count) = count {
             items.truncate(count + 1);
-            let members = items.into_iter().map(|item| core.members[item]).collect();
+            let members = items.into_iter().map(|item| members[item]).collect();
             return Ok(Ok(Proof { members, by: LowerBound::Apart, nodes: 1 }));
         }
     }
-    let mut log = match branches(&core, k, outliers, max_nodes, monitor)? {
-        Ok(log) => log,
+    let mut log = match PlainTree::new(state, max_nodes, monitor).log()? {
+        Ok(log) => log.items,
         Err(why) => return Ok(Err(why)),
     };
+    let mut members = members.to_vec();
     for _ in 0..DROPPING_ROUNDS_MAX {
         let mut used: Vec<u32> = log.clone();
         used.sort_unstable();
         used.dedup();
-        if used.len() == core.len() {
+        if used.len() == members.len() {
             break;
         }
-        let members: Vec<usize> = used.iter().map(|&item| core.members[item as usize]).collect();
-        let less = CoreSet::new(sites, radius, &members, monitor)?;
-        match branches(&less, k, outliers, 2 * log.len() as u64, monitor)? {
-            Ok(shorter) => (core, log) = (less, shorter),
+        members = used.iter().map(|&item| members[item as usize]).collect();
+        match PlainTree::new(root(&members)?, 2 * log.len() as u64, monitor).log()? {
+            Ok(shorter) => log = shorter.items,
             Err(_) => {
                 // The log stands as it is, over the items it uses.
                 let place = |item: u32| used.partition_point(|&other| other < item) as u32;
-                (core, log) = (less, log.into_iter().map(place).collect());
+                log = log.into_iter().map(place).collect();
                 break;
             }
         }
     }
-    if core.len() > ITEMS {
+    if members.len() > ITEMS {
         return Ok(Err(Stop::ProofBudget));
     }
     let nodes = log.len() as u64;
-    let by = match log.len() <= UNPROVED_NODES_MAX {
-        true => LowerBound::Search,
-        false => LowerBound::Branches { items: log },
-    };
-    Ok(Ok(Proof { members: core.members, by, nodes }))
-}
-
-/// A node above the present one, with the items to branch on below it.
-struct Frame {
-    item: usize,
-    plan: Vec<usize>,
-    children: std::vec::IntoIter<Child>,
-    entered: Option<(Child, Undo)>,
-}
-
-/// The items on which the nodes branch, in preorder; or why there are none: nodes are used up, or X is held after all.
-fn branches(
-    core: &CoreSet<'_>,
-    k: usize,
-    outliers: usize,
-    max_nodes: u64,
-    monitor: &Monitor<'_>,
-) -> Result<Result<Vec<u32>, Stop>, Error> {
-    let mut log = vec![];
-    let mut state = State::new(k, outliers);
-    let mut path: Vec<Frame> = vec![];
-    loop {
-        monitor.check().map_err(ReadError::from)?;
-        if log.len() as u64 >= max_nodes {
-            return Ok(Err(Stop::ProofBudget));
-        }
-        let mut plan = path.last().map_or(vec![], |frame| frame.plan.clone());
-        if plan.is_empty() {
-            plan = match state.look(core) {
-                Look::Covered => return Ok(Err(Stop::Rounding)),
-                Look::Branch(item) => vec![item],
-                Look::Dead(items) => items,
-            };
-        }
-        let item = plan.remove(0);
-        log.push(item as u32);
-        let children = state.children(core, item).into_iter();
-        path.push(Frame { item, plan, children, entered: None });
-        loop {
-            let Some(frame) = path.last_mut() else { return Ok(Ok(log)) };
-            if let Some((child, undo)) = frame.entered.take() {
-                state.leave(frame.item, child, undo);
-            }
-            if let Some(child) = frame.children.next() {
-                frame.entered = Some((child, state.enter(core, frame.item, child)));
-                break;
-            }
-            path.pop();
-        }
-    }
+    Ok(Ok(Proof { members, by: LowerBound::Branches { items: log }, nodes }))
 }

@@ -6,10 +6,10 @@
 
 use taut_points::{Monitor, ReadError};
 
-use super::core_set::CoreSet;
 use super::start::{Incumbent, radius};
-use super::state::{Child, Look, State, Undo};
+use super::state::{Look, State};
 use crate::Error;
+use crate::centers::depth_first::Path;
 
 /// How a search ended.
 #[derive(Debug, PartialEq)]
@@ -26,9 +26,8 @@ pub(super) enum End {
 
 /// A search at work.
 pub(super) struct Search<'a, 's> {
-    pub(super) core: &'a mut CoreSet<'s>,
-    pub(super) k: usize,
-    pub(super) outliers: usize,
+    /// The root.
+    pub(super) state: &'a mut State<'s>,
     pub(super) incumbent: &'a mut Incumbent,
     pub(super) nodes: &'a mut u64,
     pub(super) scans: &'a mut u64,
@@ -36,65 +35,48 @@ pub(super) struct Search<'a, 's> {
     pub(super) monitor: &'a Monitor<'a>,
 }
 
-/// A node above the present one.
-struct Frame {
-    item: usize,
-    children: std::vec::IntoIter<Child>,
-    entered: Option<(Child, Undo)>,
-}
-
 impl Search<'_, '_> {
     /// Searches from the root; starts anew rather than go on after `patience` nodes when X has grown.
     pub(super) fn run(&mut self, patience: u64) -> Result<End, Error> {
-        let (members, restart) = (self.core.len(), self.nodes.saturating_add(patience));
-        let mut state = State::new(self.k, self.outliers);
-        let mut path: Vec<Frame> = vec![];
+        let (members, restart) = (self.state.core.len(), self.nodes.saturating_add(patience));
+        let mut path = Path::new();
         loop {
             self.monitor.check().map_err(ReadError::from)?;
             if *self.nodes >= self.max_nodes {
                 return Ok(End::Spent);
             }
-            if *self.nodes >= restart && self.core.len() > members {
+            if *self.nodes >= restart && self.state.core.len() > members {
                 return Ok(End::Grown);
             }
             *self.nodes += 1;
             let item = loop {
-                match state.look(self.core) {
+                match self.state.look() {
                     Look::Dead(_) => break None,
                     Look::Branch(item) => break Some(item),
                     Look::Covered => {
-                        let Some(farthest) = self.measure(&state) else {
+                        let Some(farthest) = self.measure() else {
                             return Ok(End::Covered);
                         };
-                        self.core.add(farthest);
+                        self.state.add(farthest);
                     }
                 }
             };
             if let Some(item) = item {
-                let children = state.promising(self.core, item).into_iter();
-                path.push(Frame { item, children, entered: None });
+                path.branch(item as u32, self.state.promising(item), vec![]);
             }
-            loop {
-                let Some(frame) = path.last_mut() else { return Ok(End::Refuted) };
-                if let Some((child, undo)) = frame.entered.take() {
-                    state.leave(frame.item, child, undo);
-                }
-                if let Some(child) = frame.children.next() {
-                    frame.entered = Some((child, state.enter(self.core, frame.item, child)));
-                    break;
-                }
-                path.pop();
+            if !path.advance(self.state) {
+                return Ok(End::Refuted);
             }
         }
     }
 
     /// Measures all items from a centre for each cluster. The farthest that is not left out, unless the radius is enough.
-    fn measure(&mut self, state: &State) -> Option<usize> {
-        let core = &*self.core;
+    fn measure(&mut self) -> Option<usize> {
+        let (state, core) = (&*self.state, &*self.state.core);
         let mut counts = vec![true; core.sites.len()];
         state.left_out.iter().for_each(|&item| counts[core.members[item]] = false);
         let mut centers: Vec<usize> = vec![];
-        for (cluster, held) in state.clusters.iter().zip(state.held(core)) {
+        for (cluster, held) in state.clusters.iter().zip(state.held()) {
             let items: Vec<usize> = held.into_iter().map(|item| core.members[item]).collect();
             centers.extend(core.sites.middle(&cluster.words, &items));
         }
@@ -105,13 +87,13 @@ impl Search<'_, '_> {
             // The first of the farthest.
             let farthest = far.reduce(|a, b| if reaches[b] > reaches[a] { b } else { a });
             let spare = farthest
-                .filter(|&far| centers.len() < self.k && reaches[far] > core.sites.own_reach(far));
+                .filter(|&far| centers.len() < state.k && reaches[far] > core.sites.own_reach(far));
             if let Some(center) = spare {
                 centers.push(center);
                 core.sites.lower(&mut reaches, center);
                 continue;
             }
-            let radius = radius(&reaches, self.outliers);
+            let radius = radius(&reaches, state.outliers);
             if radius < self.incumbent.radius {
                 *self.incumbent = Incumbent { centers, radius };
             }

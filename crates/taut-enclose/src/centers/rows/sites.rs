@@ -6,12 +6,10 @@
 //! overflow or vanish they are taken again in other units, so that only a distance that is no `f64` itself is lost.
 
 use rayon::prelude::*;
-use taut_certify::Items;
-use taut_points::{
-    InputError, Monitor, PointSource, PointsHash, ReadError, Rows, hash_block, map_blocks,
-};
+use taut_points::PointsHash;
 
-use crate::Error;
+use crate::centers::item_rows::ItemRows;
+use crate::centers::items::Shape;
 use crate::centers::{EXACT_DISTANCES, reach_of};
 use crate::kernel::{Center, Difference, relative_error, squared_distances};
 
@@ -39,73 +37,23 @@ pub(super) struct Sites {
 }
 
 impl Sites {
-    /// Reads all rows, and refuses those that are no items.
-    pub(super) fn read(
-        source: &dyn PointSource,
-        items: Items,
-        weights: bool,
-        monitor: &Monitor<'_>,
-    ) -> Result<Self, Error> {
-        let columns = source.dim();
-        let extra = weights || items == Items::Balls;
-        match items {
-            Items::Balls if columns < 2 => return Err(Error::NoRadius { columns }),
-            Items::Points if weights && columns < 2 => return Err(Error::NoWeight { columns }),
-            Items::Points | Items::Balls => {}
-            Items::Ellipsoids => {
-                let (name, value) = ("items", "ellipsoids".into());
-                return Err(Error::Input(InputError::Option {
-                    name,
-                    value,
-                    expected: "points or balls",
-                }));
-            }
-        }
-        if weights && items == Items::Balls {
-            let (name, value) = ("weights", "true".into());
-            return Err(Error::Input(InputError::Option {
-                name,
-                value,
-                expected: "false for balls",
-            }));
-        }
-        if source.is_empty() {
-            return Err(Error::Empty);
-        }
-        if u32::try_from(source.len()).is_err() {
-            return Err(ReadError::TooLarge { rows: source.len(), dim: columns }.into());
-        }
-        monitor.pass(1, source.len());
-        let blocks = map_blocks(source, monitor, |first, rows| {
-            let values = finite_values(first, &rows)?;
-            for (row, values) in (first..).zip(values.chunks_exact(columns)) {
-                let value = values[columns - 1];
-                if weights && value <= 0.0 {
-                    return Err(Error::NonPositiveWeight { row, value });
-                }
-                if items == Items::Balls && value < 0.0 {
-                    return Err(Error::NegativeRadius { row, value });
-                }
-            }
-            Ok((hash_block(&rows), values))
-        })?;
-        let hash =
-            PointsHash::of_blocks(source.len(), columns, blocks.iter().map(|(hash, _)| *hash));
-        let values: Vec<f64> = blocks.into_iter().flat_map(|(_, values)| values).collect();
-
-        let dim = columns - usize::from(extra);
-        let mut order: Vec<u32> = (0..source.len() as u32).collect();
-        halve(&mut order, &|row, j| values[row as usize * columns + j], dim);
-        let row = |&id: &u32| &values[id as usize * columns..(id as usize + 1) * columns];
-        let last = || order.iter().map(|id| row(id)[dim]).collect();
-        Ok(Sites {
+    /// Puts rows in order.
+    pub(super) fn of(rows: ItemRows) -> Self {
+        let ItemRows { shape, dim, .. } = rows;
+        let mut order: Vec<u32> = (0..rows.len() as u32).collect();
+        halve(&mut order, &|row, j| rows.row(row as usize)[j], dim);
+        let last = |wanted| match shape == wanted {
+            true => order.iter().map(|&id| rows.row(id as usize)[dim]).collect(),
+            false => vec![],
+        };
+        Sites {
             dim,
-            positions: order.iter().flat_map(|id| row(id)[..dim].iter().copied()).collect(),
-            weights: if weights { last() } else { vec![] },
-            radii: if items == Items::Balls { last() } else { vec![] },
+            positions: order.iter().flat_map(|&id| rows.place(id as usize)).copied().collect(),
+            weights: last(Shape::Weighted),
+            radii: last(Shape::Balls),
             rows: order.iter().map(|&id| id.into()).collect(),
-            hash,
-        })
+            hash: rows.hash,
+        }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -128,18 +76,6 @@ impl Sites {
     /// Its coordinates.
     pub(super) fn position(&self, site: usize) -> &[f64] {
         &self.positions[site * self.dim..(site + 1) * self.dim]
-    }
-
-    /// The site of each row.
-    pub(super) fn by_row(&self) -> Vec<usize> {
-        let mut sites = vec![0; self.len()];
-        (0..).zip(&self.rows).for_each(|(site, &row)| sites[row as usize] = site);
-        sites
-    }
-
-    /// Whether no item is a ball of a radius above 0.
-    pub(super) fn are_points(&self) -> bool {
-        self.radii.iter().all(|&radius| radius == 0.0)
     }
 
     /// Whether all items count alike.
@@ -341,17 +277,6 @@ impl Sites {
     }
 }
 
-/// The values of a block, unless one of them is not finite.
-fn finite_values(first: u64, rows: &Rows<'_>) -> Result<Vec<f64>, Error> {
-    if let Some((row, column, value)) = rows.first_non_finite() {
-        return Err(Error::Input(InputError::NonFinite { row: first + row as u64, column, value }));
-    }
-    Ok(match rows {
-        Rows::F32(points) => points.values().iter().map(|&v| v.into()).collect(),
-        Rows::F64(points) => points.values().to_vec(),
-    })
-}
-
 /// Orders ids so that each run of 64 is one leaf of a tree of halves along the widest coordinate.
 fn halve(ids: &mut [u32], value: &impl Fn(u32, usize) -> f64, dim: usize) {
     if ids.len() <= WORD {
@@ -391,13 +316,15 @@ fn careful_distance(x: &[f64], center: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use taut_points::{Distribution, Points, generate};
+    use taut_certify::Items;
+    use taut_points::{Distribution, Monitor, Points, generate};
 
     use super::*;
 
     fn sites(values: &[f64], dim: usize) -> Sites {
         let points = Points::new(values, dim).unwrap();
-        Sites::read(&points, Items::Points, false, &Monitor::silent()).unwrap()
+        let rows = ItemRows::read(&points, Items::Points, false, &Monitor::silent());
+        Sites::of(rows.unwrap())
     }
 
     #[test]

@@ -6,12 +6,17 @@
 //! *Branching.* The item with the fewest places to go (Brélaz 1979, DSATUR), among equals the one that would leave
 //! its clusters the fewest rows.
 
+use std::sync::Arc;
+
 use super::core_set::{CoreSet, Words, size};
+use crate::centers::depth_first::{self, Place};
+use crate::centers::plain_tree::{Log, Proving};
 
 /// At the root, sets of items apart are sought from this many starts, divided by |X|: from every item while X is small.
 const ROOT_TESTS: usize = 1 << 16;
 
 /// Items that some row has within the radius.
+#[derive(Clone)]
 pub(super) struct Cluster {
     /// The rows that have them all.
     pub(super) words: Words,
@@ -22,26 +27,18 @@ pub(super) struct Cluster {
 }
 
 /// A node.
-pub(super) struct State {
-    k: usize,
-    outliers: usize,
+#[derive(Clone)]
+pub(super) struct State<'s> {
+    /// X, which states share until one of them adds to it.
+    pub(super) core: Arc<CoreSet<'s>>,
+    pub(super) k: usize,
+    pub(super) outliers: usize,
     pub(super) clusters: Vec<Cluster>,
     /// For each item, whether it was given to a cluster or left out; may be shorter than X.
     given: Vec<bool>,
     pub(super) left_out: Vec<usize>,
     /// Items to branch on first, of which no two fit in one ball.
     lead: Vec<usize>,
-}
-
-/// Where an item of a node may go.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Child {
-    /// To a cluster that has items.
-    Join(usize),
-    /// To an empty one.
-    Open,
-    /// Nowhere.
-    LeaveOut,
 }
 
 /// What a look at a node shows.
@@ -54,12 +51,23 @@ pub(super) enum Look {
     Dead(Vec<usize>),
 }
 
-/// What [`State::enter`] changed.
-pub(super) struct Undo(Option<Cluster>);
+/// What has to be known to take a step back.
+pub(super) struct Undo {
+    item: usize,
+    place: Place,
+    /// The cluster as it was, if the item joined one.
+    before: Option<Cluster>,
+}
 
-impl State {
-    pub(super) fn new(k: usize, outliers: usize) -> Self {
-        State { k, outliers, clusters: vec![], given: vec![], left_out: vec![], lead: vec![] }
+impl<'s> State<'s> {
+    pub(super) fn new(core: Arc<CoreSet<'s>>, k: usize, outliers: usize) -> Self {
+        let (clusters, given, left_out, lead) = (vec![], vec![], vec![], vec![]);
+        State { core, k, outliers, clusters, given, left_out, lead }
+    }
+
+    /// Adds an item to X.
+    pub(super) fn add(&mut self, site: usize) {
+        Arc::make_mut(&mut self.core).add(site);
     }
 
     /// Whether an item was given to a cluster or left out.
@@ -68,7 +76,8 @@ impl State {
     }
 
     /// Looks at the node; brings columns up to date with X.
-    pub(super) fn look(&mut self, core: &CoreSet<'_>) -> Look {
+    pub(super) fn look(&mut self) -> Look {
+        let core = &*Arc::clone(&self.core);
         for cluster in &mut self.clusters {
             for item in cluster.column.len()..core.len() {
                 cluster.column.push(core.count(&cluster.words, item));
@@ -120,20 +129,15 @@ impl State {
             self.lead = apart;
             return Look::Branch(self.lead.first().copied().unwrap_or(item));
         }
-        match self.refute(core, stray, empty, spare) {
+        match self.refute(stray, empty, spare) {
             Some(items) => Look::Dead(items),
             None => Look::Branch(item),
         }
     }
 
     /// Items that fit in no cluster that has items, and that so many empty clusters and outliers do not hold either.
-    fn refute(
-        &self,
-        core: &CoreSet<'_>,
-        stray: Vec<usize>,
-        empty: usize,
-        spare: usize,
-    ) -> Option<Vec<usize>> {
+    fn refute(&self, stray: Vec<usize>, empty: usize, spare: usize) -> Option<Vec<usize>> {
+        let core = &*self.core;
         if empty == 0 {
             return (stray.len() > spare).then_some(stray);
         }
@@ -153,63 +157,34 @@ impl State {
     }
 
     /// Where an item may go, in the order in which a proof takes them.
-    pub(super) fn children(&self, core: &CoreSet<'_>, item: usize) -> Vec<Child> {
+    fn places(&self, item: usize) -> Vec<Place> {
         let joins = (0..self.clusters.len())
             .filter(|&j| self.clusters[j].column[item] > 0)
-            .map(Child::Join);
-        let opens = self.clusters.len() < self.k && core.size(item) > 0;
-        let opens = opens.then_some(Child::Open);
-        let leaves = (self.left_out.len() < self.outliers).then_some(Child::LeaveOut);
+            .map(Place::Into);
+        let opens = self.clusters.len() < self.k && self.core.size(item) > 0;
+        let opens = opens.then_some(Place::Open);
+        let leaves = (self.left_out.len() < self.outliers).then_some(Place::LeaveOut);
         joins.chain(opens).chain(leaves).collect()
     }
 
     /// The same, the most promising first: where most rows of the cluster remain.
-    pub(super) fn promising(&self, core: &CoreSet<'_>, item: usize) -> Vec<Child> {
-        let mut children = self.children(core, item);
-        let rest = |child: &Child| match child {
-            Child::Join(j) => {
+    pub(super) fn promising(&self, item: usize) -> Vec<Place> {
+        let mut places = self.places(item);
+        let rest = |place: &Place| match place {
+            Place::Into(j) => {
                 let cluster = &self.clusters[*j];
                 f64::from(cluster.column[item]) / f64::from(cluster.size)
             }
-            Child::Open => 0.0,
-            Child::LeaveOut => -1.0,
+            Place::Open => 0.0,
+            Place::LeaveOut => -1.0,
         };
-        children.sort_by(|a, b| rest(b).total_cmp(&rest(a)));
-        children
-    }
-
-    /// Goes to a child.
-    pub(super) fn enter(&mut self, core: &CoreSet<'_>, item: usize, child: Child) -> Undo {
-        self.given.resize(core.len(), false);
-        self.given[item] = true;
-        let mut old = None;
-        match child {
-            Child::Join(j) => {
-                let words = core.common(&self.clusters[j].words, item);
-                let cluster = self.cluster(core, words, Some(&self.clusters[j].column));
-                old = Some(std::mem::replace(&mut self.clusters[j], cluster));
-            }
-            Child::Open => {
-                let cluster = self.cluster(core, core.words(item).clone(), None);
-                self.clusters.push(cluster);
-            }
-            Child::LeaveOut => self.left_out.push(item),
-        }
-        Undo(old)
-    }
-
-    /// Comes back from a child.
-    pub(super) fn leave(&mut self, item: usize, child: Child, undo: Undo) {
-        self.given[item] = false;
-        match (child, undo.0) {
-            (Child::Join(j), Some(old)) => self.clusters[j] = old,
-            (Child::Open, _) => drop(self.clusters.pop()),
-            _ => drop(self.left_out.pop()),
-        }
+        places.sort_by(|a, b| rest(b).total_cmp(&rest(a)));
+        places
     }
 
     /// The cluster of these rows; an item that does not fit in a larger set of rows does not fit here.
-    fn cluster(&self, core: &CoreSet<'_>, words: Words, before: Option<&Vec<u32>>) -> Cluster {
+    fn cluster(&self, words: Words, before: Option<&Vec<u32>>) -> Cluster {
+        let core = &*self.core;
         let fits = |item: usize| before.is_none_or(|column| column.get(item) != Some(&0));
         let count = |item| match !self.is_given(item) && fits(item) {
             true => core.count(&words, item),
@@ -220,7 +195,8 @@ impl State {
     }
 
     /// The items that the rows of each cluster have for good; each item is with the first.
-    pub(super) fn held(&self, core: &CoreSet<'_>) -> Vec<Vec<usize>> {
+    pub(super) fn held(&self) -> Vec<Vec<usize>> {
+        let core = &*self.core;
         let mut held = vec![vec![]; self.clusters.len()];
         for item in 0..core.len() {
             let holds =
@@ -230,5 +206,52 @@ impl State {
             }
         }
         held
+    }
+}
+
+impl depth_first::State for State<'_> {
+    type Undo = Undo;
+
+    fn put(&mut self, item: u32, place: Place) -> Undo {
+        let item = item as usize;
+        self.given.resize(self.core.len(), false);
+        self.given[item] = true;
+        let mut before = None;
+        match place {
+            Place::Into(j) => {
+                let words = self.core.common(&self.clusters[j].words, item);
+                let cluster = self.cluster(words, Some(&self.clusters[j].column));
+                before = Some(std::mem::replace(&mut self.clusters[j], cluster));
+            }
+            Place::Open => {
+                let cluster = self.cluster(self.core.words(item).clone(), None);
+                self.clusters.push(cluster);
+            }
+            Place::LeaveOut => self.left_out.push(item),
+        }
+        Undo { item, place, before }
+    }
+
+    fn undo(&mut self, Undo { item, place, before }: Undo) {
+        self.given[item] = false;
+        match (place, before) {
+            (Place::Into(j), Some(before)) => self.clusters[j] = before,
+            (Place::Open, _) => drop(self.clusters.pop()),
+            _ => drop(self.left_out.pop()),
+        }
+    }
+}
+
+impl Proving for State<'_> {
+    fn chain(&mut self) -> Vec<u32> {
+        match self.look() {
+            Look::Covered => vec![],
+            Look::Branch(item) => vec![item as u32],
+            Look::Dead(items) => items.into_iter().map(|item| item as u32).collect(),
+        }
+    }
+
+    fn open_places(&mut self, item: u32, _: &mut Log) -> Vec<Place> {
+        self.places(item as usize)
     }
 }

@@ -7,9 +7,8 @@ use taut_certify::{Centers, Items, LowerBound, Placement, Solution, Stop};
 use taut_points::{Distribution, InputError, Monitor, Points, generate};
 
 use self::judge::{Problem, judge};
-use super::solve;
 use crate::Error;
-use crate::centers::{CentersMethod, CentersOptions};
+use crate::centers::{CentersMethod, CentersOptions, solve};
 
 fn ask(problem: &Problem<'_>, options: &CentersOptions) -> Result<Solution<Centers>, Error> {
     let points = Points::new(problem.values, problem.columns).unwrap();
@@ -309,6 +308,7 @@ fn cancelling_stops_the_search() {
     let points = Points::new(&values, 2).unwrap();
     let cancel = std::sync::atomic::AtomicBool::new(true);
     let monitor = Monitor { cancel: Some(&cancel), ..Monitor::silent() };
-    let refused = solve(&points, Items::Points, 3, &CentersOptions::default(), &monitor);
+    let options = CentersOptions { placement: Placement::Rows, ..CentersOptions::default() };
+    let refused = solve(&points, Items::Points, 3, &options, &monitor);
     assert!(matches!(refused, Err(Error::Input(InputError::Read(_)))));
 }

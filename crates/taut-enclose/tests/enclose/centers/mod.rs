@@ -194,7 +194,6 @@ pub fn judge(
                 }
             }
         }
-        LowerBound::Search => replay.search()?,
         LowerBound::Branches { items } => {
             let mut log = items.iter();
             replay.follow(&mut log)?;
@@ -224,59 +223,32 @@ impl Replay<'_> {
         smallest(&rows, self.dim, self.items, self.weights) >= self.bound
     }
 
-    /// The log: the items of the nodes in preorder.
+    /// Follows the log: the items of the nodes in preorder, each given to all places that do not refute it.
     fn follow<'l>(&mut self, log: &mut impl Iterator<Item = &'l u32>) -> Result<(), String> {
         let item = *log.next().ok_or("the log ends early")? as usize;
-        self.children(item, &mut |replay| replay.follow(log))
-    }
-
-    /// All children of a node that are not refuted at once.
-    fn children(
-        &mut self,
-        item: usize,
-        go_on: &mut dyn FnMut(&mut Self) -> Result<(), String>,
-    ) -> Result<(), String> {
         if std::mem::replace(&mut self.given[item], true) {
             return Err(format!("{item} is given already"));
         }
         for at in 0..self.clusters.len() {
             self.clusters[at].push(item);
             if !self.is_refuted(&self.clusters[at]) {
-                go_on(self)?;
+                self.follow(log)?;
             }
             self.clusters[at].pop();
         }
         if self.clusters.len() < self.k {
             self.clusters.push(vec![item]);
             if !self.is_refuted(&[item]) {
-                go_on(self)?;
+                self.follow(log)?;
             }
             self.clusters.pop();
         }
         if self.left > 0 {
             self.left -= 1;
-            go_on(self)?;
+            self.follow(log)?;
             self.left += 1;
         }
         self.given[item] = false;
         Ok(())
-    }
-
-    /// A search of its own: the first item with the fewest places.
-    fn search(&mut self) -> Result<(), String> {
-        let places = |replay: &Self, item: usize| {
-            let fits = |cluster: &Vec<usize>| {
-                let mut all = cluster.clone();
-                all.push(item);
-                !replay.is_refuted(&all)
-            };
-            replay.clusters.iter().filter(|cluster| fits(cluster)).count()
-        };
-        let open: Vec<usize> = (0..self.set.len()).filter(|&i| !self.given[i]).collect();
-        let item = open
-            .into_iter()
-            .min_by_key(|&item| places(self, item))
-            .ok_or("the core-set fits in the balls")?;
-        self.children(item, &mut |replay| replay.search())
     }
 }

@@ -108,8 +108,7 @@ fn form(
     };
     let nodes = match (&certificate.proof, answer.lower_bound > 0.0) {
         (LowerBound::Branches { items }, true) => verdict.nodes == items.len() as u64,
-        (LowerBound::Search, true) => true,
-        _ => verdict.nodes == 0 && verdict.cover_nodes.is_none(),
+        _ => verdict.nodes == 0,
     };
     let form = [
         (is_number(answer.radius), "the radius is no number of at least 0"),

@@ -125,70 +125,44 @@ impl<'a> Replay<'a> {
 
     #[track_caller]
     fn follow(&mut self) {
-        let LowerBound::Branches { items } = self.proof else {
-            match self.proof {
-                LowerBound::Apart => {
-                    assert!(self.near.len() > self.k + self.outliers);
-                    for a in 0..self.near.len() {
-                        assert!((0..a).all(|b| !self.is_feasible(&[a, b])));
-                    }
+        match self.proof {
+            LowerBound::Apart => {
+                assert!(self.near.len() > self.k + self.outliers);
+                for a in 0..self.near.len() {
+                    assert!((0..a).all(|b| !self.is_feasible(&[a, b])));
                 }
-                _ => self.node(&mut vec![], &mut vec![]),
             }
-            return;
-        };
-        let items = items.len();
-        self.node(&mut vec![], &mut vec![]);
-        assert_eq!(self.read, items, "branches left over");
+            LowerBound::Branches { items } => {
+                self.node(items, &mut vec![], &mut vec![]);
+                assert_eq!(self.read, items.len(), "branches left over");
+            }
+        }
     }
 
     fn is_feasible(&self, items: &[usize]) -> bool {
         (0..self.near[0].len()).any(|row| items.iter().all(|&item| self.near[item][row]))
     }
 
-    fn children(&self, clusters: &[Vec<usize>], left_out: &[usize], item: usize) -> usize {
-        let joins = clusters.iter().filter(|cluster| {
-            let all: Vec<usize> = cluster.iter().copied().chain([item]).collect();
-            self.is_feasible(&all)
-        });
-        let opens = clusters.len() < self.k && self.is_feasible(&[item]);
-        joins.count() + usize::from(opens) + usize::from(left_out.len() < self.outliers)
-    }
-
-    /// The item to branch on: the next of the log, or the one with the fewest children.
-    fn item(&mut self, clusters: &[Vec<usize>], left_out: &[usize]) -> usize {
-        let is_given = |item: usize| clusters.iter().flatten().chain(left_out).any(|&i| i == item);
-        let item = match self.proof {
-            LowerBound::Branches { items } => {
-                self.read += 1;
-                *items.get(self.read - 1).expect("the log ends too soon") as usize
-            }
-            _ => (0..self.near.len())
-                .filter(|&item| !is_given(item))
-                .min_by_key(|&item| self.children(clusters, left_out, item))
-                .expect("the core-set is held"),
-        };
-        assert!(!is_given(item), "item {item} is given twice");
-        item
-    }
-
-    fn node(&mut self, clusters: &mut Vec<Vec<usize>>, left_out: &mut Vec<usize>) {
-        let item = self.item(clusters, left_out);
+    fn node(&mut self, log: &[u32], clusters: &mut Vec<Vec<usize>>, left_out: &mut Vec<usize>) {
+        let item = *log.get(self.read).expect("the log ends too soon") as usize;
+        self.read += 1;
+        let mut given = clusters.iter().flatten().chain(&*left_out);
+        assert!(given.all(|&i| i != item), "item {item} is given twice");
         for j in 0..clusters.len() {
             clusters[j].push(item);
             if self.is_feasible(&clusters[j]) {
-                self.node(clusters, left_out);
+                self.node(log, clusters, left_out);
             }
             clusters[j].pop();
         }
         if clusters.len() < self.k && self.is_feasible(&[item]) {
             clusters.push(vec![item]);
-            self.node(clusters, left_out);
+            self.node(log, clusters, left_out);
             clusters.pop();
         }
         if left_out.len() < self.outliers {
             left_out.push(item);
-            self.node(clusters, left_out);
+            self.node(log, clusters, left_out);
             left_out.pop();
         }
     }

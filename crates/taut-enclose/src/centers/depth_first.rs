@@ -1,0 +1,74 @@
+//! Depth-first search: items are put into clusters one after the other, and taken back.
+//!
+//! *Idea.* A [`State`] is an oracle that knows what fits where: for free balls ([`super::clusters`]) or for balls with their
+//! centers at rows ([`super::rows`]). A [`Path`] holds the nodes above the present one. [`super::walk`] has a path of its own,
+//! because it jumps back over decisions and can be cut into several walks.
+
+/// Where an item may go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Place {
+    /// Into a cluster that has items.
+    Into(usize),
+    /// Into the first empty cluster.
+    Open,
+    /// Into none.
+    LeaveOut,
+}
+
+/// Items in clusters, or left out.
+pub(super) trait State {
+    /// What has to be known to take a step back.
+    type Undo;
+
+    /// Puts an item where it may go.
+    fn put(&mut self, item: u32, place: Place) -> Self::Undo;
+
+    /// Takes the last step back.
+    fn undo(&mut self, undo: Self::Undo);
+}
+
+/// A node under way.
+struct Frame<U> {
+    item: u32,
+    /// Items to branch on below it, before the state is asked for one.
+    chain: Vec<u32>,
+    places: std::vec::IntoIter<Place>,
+    undo: Option<U>,
+}
+
+/// The nodes above the present one.
+pub(super) struct Path<S: State> {
+    frames: Vec<Frame<S::Undo>>,
+}
+
+impl<S: State> Path<S> {
+    /// A path at the root.
+    pub(super) fn new() -> Self {
+        Path { frames: vec![] }
+    }
+
+    /// Branches on an item, and below it on those of a chain.
+    pub(super) fn branch(&mut self, item: u32, places: Vec<Place>, chain: Vec<u32>) {
+        self.frames.push(Frame { item, chain, places: places.into_iter(), undo: None });
+    }
+
+    /// Items to branch on at the present node and below; none where the state is to be asked.
+    pub(super) fn chain(&self) -> Option<&[u32]> {
+        self.frames.last().map(|frame| &frame.chain[..])
+    }
+
+    /// Goes on to the next child of the deepest node that has one; returns false where none has.
+    pub(super) fn advance(&mut self, state: &mut S) -> bool {
+        while let Some(frame) = self.frames.last_mut() {
+            if let Some(undo) = frame.undo.take() {
+                state.undo(undo);
+            }
+            if let Some(place) = frame.places.next() {
+                frame.undo = Some(state.put(frame.item, place));
+                return true;
+            }
+            self.frames.pop();
+        }
+        false
+    }
+}

@@ -1,0 +1,96 @@
+//! The rows of a source in memory, as they are.
+
+use taut_certify::Items;
+use taut_points::{
+    InputError, Monitor, PointSource, PointsHash, ReadError, Rows, hash_block, map_blocks,
+};
+
+use super::items::Shape;
+use crate::Error;
+
+/// All rows.
+pub(super) struct ItemRows {
+    pub(super) shape: Shape,
+    pub(super) dim: usize,
+    pub(super) columns: usize,
+    pub(super) values: Vec<f64>,
+    pub(super) hash: PointsHash,
+}
+
+impl ItemRows {
+    /// Reads all rows once, and refuses what is no point, weight or ball.
+    pub(super) fn read(
+        source: &dyn PointSource,
+        items: Items,
+        weights: bool,
+        monitor: &Monitor<'_>,
+    ) -> Result<Self, Error> {
+        let columns = source.dim();
+        let refused = |name, value: &str, expected| {
+            Err(Error::Input(InputError::Option { name, value: value.into(), expected }))
+        };
+        let shape = match (items, weights) {
+            (Items::Points, true) if columns < 2 => return Err(Error::NoWeight { columns }),
+            (Items::Balls, false) if columns < 2 => return Err(Error::NoRadius { columns }),
+            (Items::Points, false) => Shape::Points,
+            (Items::Points, true) => Shape::Weighted,
+            (Items::Balls, false) => Shape::Balls,
+            (Items::Balls, true) => return refused("weights", "true", "false for balls"),
+            (Items::Ellipsoids, _) => return refused("items", "ellipsoids", "points or balls"),
+        };
+        if source.is_empty() {
+            return Err(Error::Empty);
+        }
+        if u32::try_from(source.len()).is_err() {
+            return Err(ReadError::TooLarge { rows: source.len(), dim: columns }.into());
+        }
+        monitor.pass(1, source.len());
+        let blocks = map_blocks(source, monitor, |first, rows| {
+            Ok::<_, Error>((hash_block(&rows), values_of(shape, first, &rows)?))
+        })?;
+        let hashes = blocks.iter().map(|(hash, _)| *hash);
+        let hash = PointsHash::of_blocks(source.len(), columns, hashes);
+        let values = blocks.into_iter().flat_map(|(_, values)| values).collect();
+        let dim = if shape == Shape::Points { columns } else { columns - 1 };
+        Ok(ItemRows { shape, dim, columns, values, hash })
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.values.len() / self.columns
+    }
+
+    /// A row as it was given.
+    pub(super) fn row(&self, row: usize) -> &[f64] {
+        &self.values[row * self.columns..][..self.columns]
+    }
+
+    /// The coordinates of a row.
+    pub(super) fn place(&self, row: usize) -> &[f64] {
+        &self.row(row)[..self.dim]
+    }
+
+    /// Whether no item is a ball of a radius above 0.
+    pub(super) fn are_points(&self) -> bool {
+        self.shape != Shape::Balls || (0..self.len()).all(|row| self.row(row)[self.dim] == 0.0)
+    }
+}
+
+/// The values of a block of items.
+fn values_of(shape: Shape, first: u64, rows: &Rows<'_>) -> Result<Vec<f64>, Error> {
+    if let Some((row, column, value)) = rows.first_non_finite() {
+        return Err(Error::Input(InputError::NonFinite { row: first + row as u64, column, value }));
+    }
+    let (values, columns): (Vec<f64>, usize) = match rows {
+        Rows::F32(points) => (points.values().iter().map(|&v| v.into()).collect(), points.dim()),
+        Rows::F64(points) => (points.values().to_vec(), points.dim()),
+    };
+    for (row, values) in (first..).zip(values.chunks_exact(columns)) {
+        let value = values[columns - 1];
+        match shape {
+            Shape::Weighted if value <= 0.0 => return Err(Error::NonPositiveWeight { row, value }),
+            Shape::Balls if value < 0.0 => return Err(Error::NegativeRadius { row, value }),
+            _ => {}
+        }
+    }
+    Ok(values)
+}
