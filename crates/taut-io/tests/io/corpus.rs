@@ -23,16 +23,16 @@ fn every_kept_input_is_read_or_refused() {
     }
 }
 
-/// A list of lists of booleans, which take no bytes: the decoder by itself goes through 2³¹ · 2³¹ of them.
+/// Lists of lists of booleans, and a list of doubles at the end of the file, take no bytes: the decoder by itself goes through
+/// 2³¹ · 2³¹ of them.
 #[test]
-fn a_page_header_that_never_ends_is_refused() {
-    let seed = "../../fuzz/seeds/mesh_parquet/booleans-of-no-bytes";
-    let Ok(bytes) = std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(seed)) else {
-        return println!("skipped a_page_header_that_never_ends_is_refused: no seeds");
-    };
-    let refused =
-        taut_io::open_mesh_bytes(bytes, "found.parquet", taut_io::Content::Triangulation, None)
-            .unwrap_err()
-            .to_string();
-    assert!(refused.contains("no reader can pass over"), "{refused}");
+fn page_headers_that_never_end_are_refused() {
+    let seeds = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/mesh_parquet");
+    for name in ["booleans-of-no-bytes", "doubles-of-no-bytes"] {
+        let Ok(bytes) = std::fs::read(seeds.join(name)) else {
+            return println!("skipped page_headers_that_never_end_are_refused: no seeds");
+        };
+        let refused = taut_io::open_mesh_bytes(bytes, "found.parquet", Content::Triangulation, None).unwrap_err().to_string();
+        assert!(refused.contains("no reader can pass over"), "{name}: {refused}");
+    }
 }
