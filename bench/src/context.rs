@@ -7,6 +7,7 @@ use anyhow::{Result, ensure};
 use serde_json::json;
 use tempfile::TempDir;
 
+use crate::cases::Named;
 use crate::report::Report;
 
 /// How often, with how many threads, for how long, and where things go.
@@ -59,15 +60,14 @@ impl Context {
     }
 
     /// Runs cases in order; what was measured is written after each.
-    pub(crate) fn run_all<'a, C>(
+    pub(crate) fn run_all<'a, C: Named>(
         &mut self,
         cases: Vec<&'a C>,
         json: Option<&PathBuf>,
-        head: impl Fn(&'a C) -> [&'a str; 2],
         run: impl Fn(&mut Self, &'a C) -> Result<()>,
     ) -> Result<()> {
         for case in cases {
-            let [name, about] = head(case);
+            let [name, about] = case.head();
             println!("## {name}\n{about}\n");
             run(self, case)?;
             println!();

@@ -17,9 +17,9 @@ use serde_json::{Value, json};
 use taut_points::generate;
 use tempfile::TempDir;
 
+use crate::cases::Choice;
 use crate::input::SEED;
 use crate::report::Report;
-use crate::select::select;
 use crate::stats::times;
 use crate::table::Table;
 use case::{CASES, Case};
@@ -32,17 +32,11 @@ const CGAL: Program = Program::Peer(Peer::Cgal);
 /// Cases and how often.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Cases to run, by whole name, else by the beginning of it; none means all. `--list` shows them.
-    cases: Vec<String>,
-    /// Show the cases and do nothing.
-    #[arg(long)]
-    list: bool,
+    #[command(flatten)]
+    choice: Choice,
     /// Rounds; of the processor times of a program the least counts.
     #[arg(long, default_value_t = 5)]
     runs: usize,
-    /// Inputs of a tenth of their size and at most two rounds: to try the bench, not to quote.
-    #[arg(long)]
-    quick: bool,
     /// Numbers of threads taut is run with [default: those of the case].
     #[arg(long, value_delimiter = ',')]
     threads: Vec<usize>,
@@ -67,9 +61,6 @@ pub(crate) struct Arguments {
     /// Measure nothing: compare the simplices of taut with those of CGAL, one by one, on the inputs of the cases.
     #[arg(long, conflicts_with_all = ["file", "json", "peers"])]
     sets: bool,
-    /// Write everything that was measured to this file.
-    #[arg(long)]
-    json: Option<PathBuf>,
 }
 
 /// What all cases share.
@@ -82,13 +73,7 @@ struct Context<'a> {
 
 /// Runs the cases that were asked for.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    if arguments.list {
-        for case in CASES {
-            println!("{:<16} {}", case.name, case.about);
-        }
-        return Ok(());
-    }
-    let cases = select(CASES, |case| case.name, &arguments.cases, "delaunay")?;
+    let Some(cases) = arguments.choice.of(CASES, "delaunay")? else { return Ok(()) };
     ensure!(
         arguments.runs > 0 && !arguments.threads.contains(&0),
         "at least one round and one thread"
@@ -98,7 +83,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         ensure!(known || wanted == "none", "no peer's name begins with `{wanted}`");
     }
     let effort = Effort {
-        runs: if arguments.quick { arguments.runs.min(2) } else { arguments.runs },
+        runs: if arguments.choice.quick { arguments.runs.min(2) } else { arguments.runs },
         limit: Duration::from_secs(arguments.limit),
         peer_budget: Duration::from_secs(arguments.peer_budget),
     };
@@ -106,11 +91,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     if let (Some(file), Some(dim)) = (&arguments.file, arguments.dim) {
         return context.file(file, dim as usize);
     }
-    if arguments.quick {
+    if arguments.choice.quick {
         println!("Quick: inputs are smaller than the cases say. Not to be quoted.\n");
     }
     if arguments.sets {
-        return sets::run(&cases, arguments.quick);
+        return sets::run(&cases, arguments.choice.quick);
     }
     for case in cases {
         println!("## {}\n{}\n", case.name, case.about);
@@ -129,7 +114,7 @@ impl Context<'_> {
         let mut cliffs = Cliffs::new(&programs);
         let mut inputs = Vec::new();
         for input in case.inputs {
-            let n = if self.arguments.quick { input.n / 10 } else { input.n };
+            let n = if self.arguments.choice.quick { input.n / 10 } else { input.n };
             let distribution = input.distribution(n, case.dim)?;
             let what = format!("{distribution} -n {n} -d {} --seed {SEED}", case.dim);
             let file = self.temp.path().join("points.f64");
@@ -137,7 +122,7 @@ impl Context<'_> {
             write(&file, &values)?;
             // The children are measured alone.
             drop(values);
-            let known = (!self.arguments.quick).then_some(input.simplices);
+            let known = (!self.arguments.choice.quick).then_some(input.simplices);
             let found = rounds::run(&file, n as u64, case.dim, &programs, known, self.effort)?;
             let base = uniform.iter().find(|(size, _)| *size == n).map(|(_, cost)| cost.clone());
             let found = found.beside(base);
@@ -146,7 +131,7 @@ impl Context<'_> {
             }
             cliffs.push(&what, &found);
             println!("{what}\n\n{}", found.table());
-            let goals = goals::print(input.must, input.aim, &found);
+            let goals = crate::goals::print(&[input.must], &[input.aim], &found);
             println!();
             inputs.push(json!({ "input": what, "measured": found.json(), "goals": goals }));
         }
@@ -197,7 +182,7 @@ impl Context<'_> {
     }
 
     fn write(&self) -> Result<()> {
-        match &self.arguments.json {
+        match &self.arguments.choice.json {
             Some(path) => self.report.write(path),
             None => Ok(()),
         }

@@ -19,24 +19,18 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, ensure};
 
+use crate::cases::Choice;
 use crate::context::Context;
-use crate::select::select;
-use case::{CASES, Case, Kind};
+use case::{CASES, Kind};
 
 /// Cases and how often.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Cases to run, by whole name, else by the beginning of it; none means all. `--list` shows them.
-    cases: Vec<String>,
-    /// Show the cases and do nothing.
-    #[arg(long)]
-    list: bool,
+    #[command(flatten)]
+    choice: Choice,
     /// Rounds; of the times of a program the least counts.
     #[arg(long, default_value_t = 5)]
     runs: usize,
-    /// Inputs of a tenth of their size and at most two rounds: to try the bench, not to quote.
-    #[arg(long)]
-    quick: bool,
     /// Numbers of threads taut is run with: goals are about the clock with the last of them.
     #[arg(long, value_delimiter = ',', default_values_t = [1, 2])]
     threads: Vec<usize>,
@@ -49,26 +43,17 @@ pub(crate) struct Arguments {
     /// Folder for the 1.2 GB file of the case `file`, which is kept there.
     #[arg(long)]
     scratch: Option<PathBuf>,
-    /// Write everything that was measured to this file.
-    #[arg(long)]
-    json: Option<PathBuf>,
 }
 
 /// Runs the cases that were asked for.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    if arguments.list {
-        for case in CASES {
-            println!("{:<16} {}", case.name, case.about);
-        }
-        return Ok(());
-    }
-    let cases = select(CASES, |case| case.name, &arguments.cases, "ellipsoid")?;
-    let runs = if arguments.quick { arguments.runs.min(2) } else { arguments.runs };
+    let Some(cases) = arguments.choice.of(CASES, "ellipsoid")? else { return Ok(()) };
+    let runs = if arguments.choice.quick { arguments.runs.min(2) } else { arguments.runs };
     let seconds = [arguments.limit, arguments.peer_budget];
     let scratch = arguments.scratch.as_ref();
-    let mut context = Context::begin(runs, arguments.quick, &arguments.threads, seconds, scratch)?;
-    let head = |case: &'static Case| [case.name, case.about];
-    context.run_all(cases, arguments.json.as_ref(), head, |context, case| match &case.kind {
+    let mut context =
+        Context::begin(runs, arguments.choice.quick, &arguments.threads, seconds, scratch)?;
+    context.run_all(cases, arguments.choice.json.as_ref(), |context, case| match &case.kind {
         Kind::Points(inputs) => points::run(context, case, inputs),
         Kind::Plane(laws) => plane::run(context, case, laws),
         Kind::Real => real::run(context, case),

@@ -8,6 +8,7 @@
 #![forbid(unsafe_code)]
 
 mod ball;
+mod cases;
 mod centers;
 mod context;
 mod curve;

@@ -5,8 +5,9 @@ use serde_json::{Value, json};
 use taut_enclose::BallOptions;
 
 use super::case::{BallsCase, Case};
-use super::goals::{self, Measured};
+use super::goals::Measured;
 use super::{Context, paired};
+use crate::goals;
 use crate::input::{Input, Radii};
 
 /// Runs the case under all six laws.
@@ -20,13 +21,12 @@ pub(super) fn run(context: &mut Context, case: &Case, balls: &BallsCase) -> Resu
         println!("{}\n\n{}", input.what, paired.table());
         let measured = Measured {
             verdict: paired.verdict.clone().ok(),
-            dim: balls.d,
             passes: paired.found.trace.passes,
             stop: paired.found.trace.stop,
             paired: Some(&paired),
             ..Measured::default()
         };
-        let goals = goals::print(case.must, case.aim, &measured);
+        let goals = goals::print(&[case.must], &[case.aim], &measured);
         println!();
         laws.push(json!({ "input": input.what, "measured": paired.json(), "goals": goals }));
     }

@@ -2,7 +2,9 @@
 
 use taut_points::Distribution;
 
-use super::goals::Goal;
+use super::goals::{CONVERGED, faster, judged, reads, share, share_of_cat};
+use crate::cases::Named;
+use crate::goals::Goal;
 
 /// A case by name.
 pub(super) struct Case {
@@ -16,6 +18,12 @@ pub(super) struct Case {
     pub(super) must: &'static [Goal],
     /// What is hoped for.
     pub(super) aim: &'static [Goal],
+}
+
+impl Named for Case {
+    fn head(&self) -> [&'static str; 2] {
+        [self.name, self.about]
+    }
 }
 
 /// What is done in a case.
@@ -73,7 +81,12 @@ const fn balls(n: usize, d: usize, peers: &'static [&'static str]) -> Kind {
     Kind::Balls(BallsCase { n, d, peers })
 }
 
-const GAP_GOAL: Goal = Goal::Gap(1e-12);
+const GAP_GOAL: Goal = Goal::gap(1e-12);
+/// Half the diagonals of cubes, √d / 2, by dimension, to 1e-12.
+const fn half_diagonal(radius: f64) -> Goal {
+    Goal::radius(radius, 1e-12)
+}
+
 const NOISE: Distribution = Distribution::Shell { thickness: 1e-8 };
 
 /// All cases, in the order in which they run.
@@ -102,71 +115,71 @@ pub(super) const CASES: &[Case] = &[
         name: "usps",
         about: "USPS train, 7291 × 256, exact.",
         kind: Kind::Usps,
-        must: &[Goal::Radius { value: 13.479343686, tolerance: 1e-8 }, GAP_GOAL],
+        must: &[Goal::radius(13.479343686, 7e-10), GAP_GOAL],
         aim: &[],
     },
     Case {
         name: "normal-300",
         about: "Normal, 10⁴ × 300, exact, beside the Fischer–Gärtner–Kutz code.",
         kind: points(Distribution::Normal, 10_000, 300, FGK),
-        must: &[GAP_GOAL, Goal::FasterThan { peers: FGK, times: 50.0 }],
-        aim: &[Goal::FasterThan { peers: FGK, times: 200.0 }],
+        must: &[GAP_GOAL, faster(FGK, 50.0)],
+        aim: &[faster(FGK, 200.0)],
     },
     Case {
         name: "normal-500",
         about: "Normal, 10⁴ × 500, exact, beside the Fischer–Gärtner–Kutz code.",
         kind: points(Distribution::Normal, 10_000, 500, FGK),
-        must: &[GAP_GOAL, Goal::FasterThan { peers: FGK, times: 50.0 }],
-        aim: &[Goal::FasterThan { peers: FGK, times: 270.0 }],
+        must: &[GAP_GOAL, faster(FGK, 50.0)],
+        aim: &[faster(FGK, 270.0)],
     },
     Case {
         name: "normal-1000",
         about: "Normal, 10⁴ × 1000, exact, beside the Fischer–Gärtner–Kutz code.",
         kind: points(Distribution::Normal, 10_000, 1000, FGK),
-        must: &[GAP_GOAL, Goal::FasterThan { peers: FGK, times: 50.0 }],
-        aim: &[Goal::FasterThan { peers: FGK, times: 400.0 }],
+        must: &[GAP_GOAL, faster(FGK, 50.0)],
+        aim: &[faster(FGK, 400.0)],
     },
     Case {
         name: "cube-100",
         about: "Vertices of the cube, 10⁴ × 100: cospherical, with r = √100 / 2.",
         kind: points(Distribution::CubeVertices, 10_000, 100, FGK),
-        must: &[Goal::HalfDiagonal, GAP_GOAL, Goal::Converged, Goal::Seconds(0.3)],
-        aim: &[Goal::Seconds(0.06)],
+        must: &[half_diagonal(5.0), GAP_GOAL, CONVERGED, Goal::seconds(0.3)],
+        aim: &[Goal::seconds(0.06)],
     },
     Case {
         name: "cube-300",
         about: "Vertices of the cube, 10⁴ × 300: r = √300 / 2.",
         kind: points(Distribution::CubeVertices, 10_000, 300, FGK),
-        must: &[Goal::HalfDiagonal, GAP_GOAL, Goal::Converged, Goal::Seconds(0.3)],
-        aim: &[Goal::Seconds(0.06)],
+        must: &[half_diagonal(8.660254037844387), GAP_GOAL, CONVERGED, Goal::seconds(0.3)],
+        aim: &[Goal::seconds(0.06)],
     },
     Case {
         name: "cube-500",
         about: "Vertices of the cube, 5000 × 500: r = √500 / 2.",
         kind: points(Distribution::CubeVertices, 5_000, 500, FGK),
-        must: &[Goal::HalfDiagonal, GAP_GOAL, Goal::Converged, Goal::Seconds(0.3)],
-        aim: &[Goal::Seconds(0.06)],
+        must: &[half_diagonal(11.180339887498949), GAP_GOAL, CONVERGED, Goal::seconds(0.3)],
+        aim: &[Goal::seconds(0.06)],
     },
     Case {
         name: "cube-1500",
         about: "Vertices of the cube, 2·10⁴ × 1500: r = √1500 / 2.",
         kind: points(Distribution::CubeVertices, 20_000, 1500, &[]),
-        must: &[Goal::HalfDiagonal, GAP_GOAL, Goal::Converged, Goal::Seconds(5.0)],
+        must: &[half_diagonal(19.364916731037084), GAP_GOAL, CONVERGED, Goal::seconds(5.0)],
         aim: &[],
     },
     Case {
         name: "shell-300",
         about: "A sphere with noise of 1e-8, 10⁴ × 300: the hardest family.",
         kind: points(NOISE, 10_000, 300, FGK),
-        must: &[GAP_GOAL, Goal::Converged, Goal::Seconds(10.0)],
-        aim: &[Goal::Seconds(1.0)],
+        must: &[GAP_GOAL, CONVERGED, Goal::seconds(10.0)],
+        aim: &[Goal::seconds(1.0)],
     },
     Case {
         name: "shell-500",
         about: "A sphere with noise of 1e-8, 10⁴ × 500.",
         kind: points(NOISE, 10_000, 500, &[]),
-        must: &[GAP_GOAL, Goal::Converged, Goal::Seconds(10.0)],
-        aim: &[Goal::Seconds(1.0)],
+        must: &[GAP_GOAL, CONVERGED, Goal::seconds(10.0)],
+        aim: &[Goal::seconds(1.0)],
     },
     Case {
         name: "large",
@@ -178,8 +191,8 @@ pub(super) const CASES: &[Case] = &[
             single: true,
             peers: &[],
         }),
-        must: &[GAP_GOAL, Goal::Passes(5), Goal::Reads(10.0)],
-        aim: &[Goal::Reads(5.0)],
+        must: &[GAP_GOAL, Goal::passes(5), reads(10.0)],
+        aim: &[reads(5.0)],
     },
     Case {
         name: "plane",
@@ -191,10 +204,7 @@ pub(super) const CASES: &[Case] = &[
             &["cgal-spheres-2-native", "cgal-min-sphere-2-native", "miniball-crate"],
         ),
         must: &[GAP_GOAL, PLANE_THIRD],
-        aim: &[Goal::ShareOf {
-            peers: &["cgal-spheres-2-native", "cgal-min-sphere-2-native"],
-            share: 0.1,
-        }],
+        aim: &[share(&["cgal-spheres-2-native", "cgal-min-sphere-2-native"], 0.1)],
     },
     Case {
         name: "space",
@@ -206,37 +216,34 @@ pub(super) const CASES: &[Case] = &[
             &["cgal-spheres-3-native", "cgal-min-sphere-3-native", "miniball-crate"],
         ),
         must: &[GAP_GOAL, SPACE_THIRD],
-        aim: &[Goal::ShareOf {
-            peers: &["cgal-spheres-3-native", "cgal-min-sphere-3-native"],
-            share: 0.1,
-        }],
+        aim: &[share(&["cgal-spheres-3-native", "cgal-min-sphere-3-native"], 0.1)],
     },
     Case {
         name: "ten",
         about: "Normal, 10⁶ × 10, exact, beside CGAL.",
         kind: points(Distribution::Normal, 1_000_000, 10, &["cgal-spheres-10-native"]),
-        must: &[GAP_GOAL, Goal::ShareOf { peers: &["cgal-spheres-10-native"], share: 1.0 / 3.0 }],
-        aim: &[Goal::ShareOf { peers: &["cgal-spheres-10-native"], share: 0.1 }],
+        must: &[GAP_GOAL, share(&["cgal-spheres-10-native"], 1.0 / 3.0)],
+        aim: &[share(&["cgal-spheres-10-native"], 0.1)],
     },
     Case {
         name: "file",
         about: "Normal, 10⁶ × 2500 in single precision, in a file of 10 GB, beside `cat FILE > /dev/null`.",
         kind: Kind::File,
-        must: &[GAP_GOAL, Goal::Passes(8), Goal::PeakMemory(1 << 30), Goal::ShareOfCat(0.8)],
+        must: &[GAP_GOAL, Goal::passes(8), Goal::memory(1 << 30), share_of_cat(0.8)],
         aim: &[],
     },
     Case {
         name: "balls-3",
         about: "10⁴ balls in ℝ³ under six radius laws, beside CGAL.",
         kind: balls(10_000, 3, &["cgal-balls-3-native"]),
-        must: &[GAP_GOAL, Goal::Judged { peers: &["cgal-balls-3-native"] }],
+        must: &[GAP_GOAL, judged(&["cgal-balls-3-native"])],
         aim: &[],
     },
     Case {
         name: "balls-10",
         about: "10⁴ balls in ℝ¹⁰ under six radius laws, beside CGAL.",
         kind: balls(10_000, 10, &["cgal-balls-10-native"]),
-        must: &[GAP_GOAL, Goal::Judged { peers: &["cgal-balls-10-native"] }],
+        must: &[GAP_GOAL, judged(&["cgal-balls-10-native"])],
         aim: &[],
     },
     Case {
@@ -257,7 +264,7 @@ pub(super) const CASES: &[Case] = &[
         name: "balls-1000",
         about: "10⁵ balls in ℝ¹⁰⁰⁰ under six radius laws, beside plain reads.",
         kind: balls(100_000, 1000, &[]),
-        must: &[GAP_GOAL, Goal::Reads(20.0)],
+        must: &[GAP_GOAL, reads(20.0)],
         aim: &[],
     },
     Case {
@@ -276,14 +283,8 @@ pub(super) const CASES: &[Case] = &[
     },
 ];
 
-const PLANE_THIRD: Goal = Goal::ShareOf {
-    peers: &["cgal-spheres-2-native", "cgal-min-sphere-2-native"],
-    share: 1.0 / 3.0,
-};
-const SPACE_THIRD: Goal = Goal::ShareOf {
-    peers: &["cgal-spheres-3-native", "cgal-min-sphere-3-native"],
-    share: 1.0 / 3.0,
-};
+const PLANE_THIRD: Goal = share(&["cgal-spheres-2-native", "cgal-min-sphere-2-native"], 1.0 / 3.0);
+const SPACE_THIRD: Goal = share(&["cgal-spheres-3-native", "cgal-min-sphere-3-native"], 1.0 / 3.0);
 
 #[cfg(test)]
 mod tests {
@@ -295,9 +296,7 @@ mod tests {
             assert!(CASES[..at].iter().all(|other| other.name != case.name), "{}", case.name);
             let Kind::Points(points) = &case.kind else { continue };
             for goal in case.must.iter().chain(case.aim) {
-                if let Goal::FasterThan { peers, .. } | Goal::ShareOf { peers, .. } = goal {
-                    assert!(peers.iter().all(|peer| points.peers.contains(peer)), "{}", case.name);
-                }
+                assert!(goal.peers.iter().all(|peer| points.peers.contains(peer)), "{}", case.name);
             }
         }
     }

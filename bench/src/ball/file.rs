@@ -14,7 +14,8 @@ use taut_points::{FileSource, Monitor, ScalarKind};
 
 use super::Context;
 use super::case::Case;
-use super::goals::{self, Measured};
+use super::goals::Measured;
+use crate::goals;
 use crate::input::SEED;
 use crate::meter;
 use crate::raw;
@@ -161,14 +162,13 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
     );
     let measured = Measured {
         verdict,
-        dim,
         passes: solved.passes.len() as u64,
         stop: solved.stop,
         peak: solved.peak,
         of_cat: Summary::of(&of_cat),
         ..Measured::default()
     };
-    let goals = goals::print(case.must, case.aim, &measured);
+    let goals = goals::print(&[case.must], &[case.aim], &measured);
     context.report.add(json!({ "name": case.name, "runs": all, "goals": goals }));
     Ok(())
 }

@@ -1,56 +1,44 @@
-//! What a case has to reach, and whether it did.
+//! What goals of the minimum enclosing ball ask for.
 
-use serde_json::{Value, json};
 use taut_certify::{Stop, Verdict};
 
 use super::paired::Paired;
+use crate::goals::{self, GAP, Goal, MEMORY, PASSES, RADIUS, SECONDS, Unit, range};
 use crate::stats::{Summary, seconds, times};
 
-/// One thing to reach.
-#[derive(Clone, Copy)]
-pub(super) enum Goal {
-    /// The verified gap is at most this.
-    Gap(f64),
-    /// The radius is this.
-    Radius {
-        /// What it is.
-        value: f64,
-        /// How far off it may be.
-        tolerance: f64,
-    },
-    /// The radius is √d / 2 to 1e-12, relative.
-    HalfDiagonal,
-    /// The solver says that it converged: no budget was used up.
-    Converged,
-    /// The median time is at most this, in seconds.
-    Seconds(f64),
-    /// So many reads of all points at most.
-    Passes(u64),
-    /// The median time is at most so many plain reads of the same memory.
-    Reads(f64),
-    /// At least so many times faster than the fastest of these peers.
-    FasterThan {
-        /// Builds of one peer.
-        peers: &'static [&'static str],
-        /// How many times.
-        times: f64,
-    },
-    /// At most this share of the time of each of these peers.
-    ShareOf {
-        /// The peers.
-        peers: &'static [&'static str],
-        /// The share.
-        share: f64,
-    },
-    /// Each of these peers gave the ball we proved, or what is wrong with its own is shown.
-    Judged {
-        /// The peers.
-        peers: &'static [&'static str],
-    },
-    /// Peak memory of the solving process is at most this, in bytes.
-    PeakMemory(u64),
-    /// Each pass runs at least at this share of the speed of `cat`.
-    ShareOfCat(f64),
+const BUDGET_STOPS: &str = "runs that a budget stopped";
+const READS: &str = "plain reads of the same memory in the time taken";
+const FASTER: &str = "time of the fastest peer over ours";
+const SHARE: &str = "our time over that of each peer";
+const UNEXPLAINED: &str = "answers outside our certified bracket and not shown to be wrong";
+const OF_CAT: &str = "speed of each pass over that of cat";
+
+/// No budget was used up.
+pub(super) const CONVERGED: Goal = Goal::at_most(BUDGET_STOPS, 0.0, Unit::Plain);
+
+/// The median time is at most so many plain reads of the same memory.
+pub(super) const fn reads(bound: f64) -> Goal {
+    Goal::at_most(READS, bound, Unit::Times)
+}
+
+/// At least so many times faster than the fastest of these peers.
+pub(super) const fn faster(peers: &'static [&'static str], bound: f64) -> Goal {
+    Goal { peers, ..Goal::at_least(FASTER, bound, Unit::Times) }
+}
+
+/// At most this share of the time of each of these peers.
+pub(super) const fn share(peers: &'static [&'static str], bound: f64) -> Goal {
+    Goal { peers, ..Goal::at_most(SHARE, bound, Unit::Times) }
+}
+
+/// Each of these peers gave the ball we proved, or what is wrong with its own is shown.
+pub(super) const fn judged(peers: &'static [&'static str]) -> Goal {
+    Goal { peers, ..Goal::at_most(UNEXPLAINED, 0.0, Unit::Plain) }
+}
+
+/// Each pass runs at least at this share of the speed of `cat`.
+pub(super) const fn share_of_cat(bound: f64) -> Goal {
+    Goal::at_least(OF_CAT, bound, Unit::Times)
 }
 
 /// What was measured of one input, as far as goals ask for it.
@@ -58,8 +46,6 @@ pub(super) enum Goal {
 pub(super) struct Measured<'a> {
     /// Verified by the checker; `None` when it rejected the answer.
     pub(super) verdict: Option<Verdict>,
-    /// Dimension of the space.
-    pub(super) dim: usize,
     /// Reads of all points.
     pub(super) passes: u64,
     /// Why the solver stopped.
@@ -72,156 +58,43 @@ pub(super) struct Measured<'a> {
     pub(super) of_cat: Option<Summary>,
 }
 
-impl Goal {
-    /// The goal in words, what was measured, and whether the goal is met (`None`: not measured).
-    fn judge(self, found: &Measured<'_>) -> (String, String, Option<bool>) {
-        let spread = |s: Summary| {
-            format!(
-                "{} (range {}–{}, {} runs)",
-                times(s.median),
-                times(s.min),
-                times(s.max),
-                s.count
-            )
-        };
-        let radius = found.verdict.map(|verdict| verdict.upper);
-        match self {
-            Goal::Gap(bound) => (
-                format!("gap ≤ {bound:e}"),
-                found.verdict.map_or("rejected by the checker".into(), |v| {
-                    format!("{:.1e}, verified", v.gap)
-                }),
-                Some(found.verdict.is_some_and(|v| v.gap <= bound)),
-            ),
-            Goal::Radius { value, tolerance } => (
-                format!("radius {value} ± {tolerance:e}"),
-                radius.map_or("none".into(), |r| format!("{r:.12}")),
-                Some(radius.is_some_and(|r| (r - value).abs() <= tolerance)),
-            ),
-            Goal::HalfDiagonal => {
-                let value = 0.5 * (found.dim as f64).sqrt();
-                (
-                    format!("radius √{} / 2 = {value:.13} to 1e-12", found.dim),
-                    radius.map_or("none".into(), |r| {
-                        format!("{r:.13}, {:+.1e} off", r / value - 1.0)
-                    }),
-                    Some(radius.is_some_and(|r| (r / value - 1.0).abs() <= 1e-12)),
-                )
+impl goals::Measured for Measured<'_> {
+    fn rejected(&self) -> Option<&str> {
+        self.verdict.is_none().then_some("see the table")
+    }
+
+    fn read(&self, goal: &Goal) -> Option<(f64, String)> {
+        let beside = |summary: Summary, said: String| (summary.median, said);
+        match goal.what {
+            GAP => self.verdict.map(|v| (v.gap, format!("{:.1e}", v.gap))),
+            RADIUS => self.verdict.map(|v| (v.upper, format!("{:.13}", v.upper))),
+            BUDGET_STOPS => {
+                let stops = f64::from(u8::from(self.stop != Stop::Converged));
+                Some((stops, format!("{:?}", self.stop).to_lowercase()))
             }
-            Goal::Converged => (
-                "no cap reached".into(),
-                format!("{:?}", found.stop).to_lowercase(),
-                Some(found.stop == Stop::Converged),
-            ),
-            Goal::Seconds(bound) => {
-                let time = found.paired.and_then(Paired::taut_time);
-                (
-                    format!("at most {}", seconds(bound)),
-                    time.map_or("none".into(), |s| {
-                        format!(
-                            "{} (range {}–{}, {} runs)",
-                            seconds(s.median),
-                            seconds(s.min),
-                            seconds(s.max),
-                            s.count
-                        )
-                    }),
-                    time.map(|s| s.median <= bound),
-                )
+            PASSES => Some((self.passes as f64, self.passes.to_string())),
+            SECONDS => self.paired?.taut_time().map(|s| beside(s, range(s, seconds))),
+            READS => self.paired?.reads().map(|s| beside(s, range(s, times))),
+            FASTER => {
+                let (name, summary, note) = self.paired?.fastest(goal.peers)?;
+                let said = format!("{} against {name}{note}", range(summary, times));
+                Some(beside(summary, said))
             }
-            Goal::Passes(bound) => (
-                format!("at most {bound} passes"),
-                found.passes.to_string(),
-                Some(found.passes <= bound),
-            ),
-            Goal::Reads(bound) => {
-                let reads = found.paired.and_then(Paired::reads);
-                (
-                    format!("at most {bound} plain reads"),
-                    reads.map_or("none".into(), spread),
-                    reads.map(|s| s.median <= bound),
-                )
+            SHARE => {
+                let one = |peer: &&'static str| {
+                    let (name, s, note) = self.paired?.fastest(&[peer])?;
+                    let said = format!("1 / {} of {name}{note}", range(s, times));
+                    Some((1.0 / s.median, said))
+                };
+                goals::worst_of(goal.peers.iter().filter_map(one))
             }
-            Goal::FasterThan { peers, times: bound } => {
-                let best = found.paired.and_then(|paired| paired.fastest(peers));
-                (
-                    format!("{bound}× faster than {}", peers.join(" and ")),
-                    best.as_ref().map_or("no peer answered".into(), |(name, s, note)| {
-                        format!(
-                            "{}× (range {}–{}, {} runs) against {name}{note}",
-                            times(s.median),
-                            times(s.min),
-                            times(s.max),
-                            s.count
-                        )
-                    }),
-                    best.map(|(_, s, _)| s.median >= bound),
-                )
+            UNEXPLAINED => {
+                let all = self.paired?.judgements(goal.peers);
+                goals::worst_of(all.iter().map(|(name, judged)| (0.0, format!("{name} {judged}"))))
             }
-            Goal::ShareOf { peers, share } => {
-                let all: Vec<(String, Summary, String)> = peers
-                    .iter()
-                    .filter_map(|peer| found.paired.and_then(|paired| paired.fastest(&[peer])))
-                    .collect();
-                let said = all.iter().map(|(name, s, note)| {
-                    format!(
-                        "1/{} (range 1/{}–1/{}, {} runs) of {name}{note}",
-                        times(s.median),
-                        times(s.max),
-                        times(s.min),
-                        s.count
-                    )
-                });
-                let said = said.collect::<Vec<_>>().join("; ");
-                (
-                    format!("at most {:.2} of the time of {}", share, peers.join(" and ")),
-                    if said.is_empty() { "no peer answered".into() } else { said },
-                    (!all.is_empty()).then(|| all.iter().all(|(_, s, _)| 1.0 / s.median <= share)),
-                )
-            }
-            Goal::Judged { peers } => {
-                let all = found.paired.map_or(Vec::new(), |paired| paired.judgements(peers));
-                let said = all.iter().map(|(name, judgement)| format!("{name} {judgement}"));
-                let said = said.collect::<Vec<_>>().join("; ");
-                (
-                    format!(
-                        "{} inside our certified bracket, or shown to be wrong",
-                        peers.join(" and ")
-                    ),
-                    if said.is_empty() { "no peer answered".into() } else { said },
-                    (!all.is_empty()).then_some(true),
-                )
-            }
-            Goal::PeakMemory(bound) => (
-                format!("peak memory at most {} MiB", bound >> 20),
-                found.peak.map_or("not measured".into(), |peak| {
-                    format!("{:.0} MiB", peak as f64 / f64::from(1 << 20))
-                }),
-                found.peak.map(|peak| peak <= bound),
-            ),
-            Goal::ShareOfCat(share) => (
-                format!("each pass at ≥ {:.0} % of the speed of cat", 100.0 * share),
-                found.of_cat.map_or("not measured".into(), |s| {
-                    format!("slowest pass {:.0} %, median {:.0} %", 100.0 * s.min, 100.0 * s.median)
-                }),
-                found.of_cat.map(|s| s.min >= share),
-            ),
+            MEMORY => self.peak.map(|peak| (peak as f64, format!("{} MiB", peak >> 20))),
+            OF_CAT => self.of_cat.map(|s| (s.min, format!("slowest: {}", range(s, times)))),
+            _ => None,
         }
     }
-}
-
-/// Prints each goal with what was measured, and returns the same for the report.
-pub(super) fn print(must: &[Goal], aim: &[Goal], found: &Measured<'_>) -> Value {
-    let all = must.iter().map(|goal| ("must", goal)).chain(aim.iter().map(|goal| ("aim", goal)));
-    let lines = all.map(|(kind, goal)| {
-        let (goal, measured, met) = goal.judge(found);
-        let word = match met {
-            Some(true) => "met",
-            Some(false) => "NOT MET",
-            None => "not measured",
-        };
-        println!("- {kind}: {goal}: {measured}: {word}");
-        json!({ "kind": kind, "goal": goal, "measured": measured, "met": met })
-    });
-    lines.collect()
 }

@@ -5,8 +5,9 @@ use serde_json::json;
 use taut_enclose::BallOptions;
 
 use super::case::{Case, PointsCase};
-use super::goals::{self, Measured};
+use super::goals::Measured;
 use super::{Context, paired};
+use crate::goals;
 use crate::input::Input;
 
 /// Runs a case of generated points.
@@ -38,13 +39,12 @@ fn run_input(context: &mut Context, case: &Case, input: &Input, peers: &[&str]) 
     println!("{}\n\n{}", input.what, paired.table());
     let measured = Measured {
         verdict: paired.verdict.clone().ok(),
-        dim: input.columns,
         passes: paired.found.trace.passes,
         stop: paired.found.trace.stop,
         paired: Some(&paired),
         ..Measured::default()
     };
-    let goals = goals::print(case.must, case.aim, &measured);
+    let goals = goals::print(&[case.must], &[case.aim], &measured);
     context.report.add(json!({
         "name": case.name,
         "input": input.what,

@@ -1,6 +1,8 @@
 //! The list of cases: which inputs, and what has to be reached.
 
-use super::goals::Goal;
+use super::goals::{FACTOR_GOAL, bandwidth, check, core_set, equal, radius};
+use crate::cases::Named;
+use crate::goals::Goal;
 
 /// A case by name.
 pub(super) struct Case {
@@ -12,6 +14,12 @@ pub(super) struct Case {
     pub(super) kind: Kind,
     /// What has to be reached by all of its inputs.
     pub(super) must: &'static [Goal],
+}
+
+impl Named for Case {
+    fn head(&self) -> [&'static str; 2] {
+        [self.name, self.about]
+    }
 }
 
 /// What is done in a case.
@@ -75,10 +83,10 @@ impl Task {
 }
 
 const GAP_EXACT: f64 = 1e-6;
-const SECONDS_GOAL: Goal = Goal::Seconds(0.3);
-const QUICK_AIM: &[Goal] = &[Goal::Seconds(0.05)];
-const CORE_SET_GOAL: Goal = Goal::CoreSet(200);
-const CHECK_GOAL: Goal = Goal::Check(1.0);
+const SECONDS_GOAL: Goal = Goal::seconds(0.3);
+const QUICK_AIM: &[Goal] = &[Goal::seconds(0.05)];
+const CORE_SET_GOAL: Goal = core_set(200);
+const CHECK_GOAL: Goal = check(1.0);
 
 /// All cases, in the order in which they run; the longest is the last.
 pub(super) const CASES: &[Case] = &[
@@ -90,53 +98,53 @@ pub(super) const CASES: &[Case] = &[
                 GERMANY,
                 2,
                 GAP_EXACT,
-                &[Goal::Radius(9342.60196519), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
+                &[radius(9342.60196519), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
                 QUICK_AIM,
             ),
             task(
                 GERMANY,
                 3,
                 GAP_EXACT,
-                &[Goal::Radius(8139.66296907), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
+                &[radius(8139.66296907), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
                 QUICK_AIM,
             ),
             task(
                 GERMANY,
                 4,
                 GAP_EXACT,
-                &[Goal::Radius(6573.74826488), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
+                &[radius(6573.74826488), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
                 QUICK_AIM,
             ),
             task(
                 GERMANY,
                 5,
                 GAP_EXACT,
-                &[Goal::Radius(5818.46791619), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
+                &[radius(5818.46791619), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
                 QUICK_AIM,
             ),
             task(
                 GERMANY,
                 8,
                 GAP_EXACT,
-                &[Goal::Radius(4306.44830458), Goal::Seconds(2.0), CORE_SET_GOAL, CHECK_GOAL],
-                &[Goal::Seconds(0.1)],
+                &[radius(4306.44830458), Goal::seconds(2.0), CORE_SET_GOAL, CHECK_GOAL],
+                &[Goal::seconds(0.1)],
             ),
             task(
                 GERMANY,
                 10,
                 GAP_EXACT,
-                &[Goal::Radius(3725.69052411), Goal::Seconds(10.0)],
-                &[Goal::Seconds(1.0)],
+                &[radius(3725.69052411), Goal::seconds(10.0)],
+                &[Goal::seconds(1.0)],
             ),
-            task(GERMANY, 12, GAP_EXACT, &[Goal::Seconds(60.0)], &[Goal::Seconds(5.0)]),
+            task(GERMANY, 12, GAP_EXACT, &[Goal::seconds(60.0)], &[Goal::seconds(5.0)]),
             task(
                 USA,
                 5,
                 GAP_EXACT,
-                &[Goal::Radius(99986.80259875), Goal::Seconds(0.2), CORE_SET_GOAL, CHECK_GOAL],
+                &[radius(99986.80259875), Goal::seconds(0.2), CORE_SET_GOAL, CHECK_GOAL],
                 &[],
             ),
-            task(USA, 10, GAP_EXACT, &[Goal::Radius(65210.68259879), Goal::Seconds(4.0)], &[]),
+            task(USA, 10, GAP_EXACT, &[radius(65210.68259879), Goal::seconds(4.0)], &[]),
         ]),
         must: &[],
     },
@@ -144,8 +152,8 @@ pub(super) const CASES: &[Case] = &[
         name: "cities-15",
         about: "The same for k = 15, at 1 %.",
         kind: Kind::Free(&[
-            task(GERMANY, 15, 0.01, &[Goal::Seconds(300.0)], &[Goal::Seconds(10.0)]),
-            task(USA, 15, 0.01, &[Goal::Seconds(100.0)], &[Goal::Seconds(4.0)]),
+            task(GERMANY, 15, 0.01, &[Goal::seconds(300.0)], &[Goal::seconds(10.0)]),
+            task(USA, 15, 0.01, &[Goal::seconds(100.0)], &[Goal::seconds(4.0)]),
         ]),
         must: &[],
     },
@@ -153,10 +161,10 @@ pub(super) const CASES: &[Case] = &[
         name: "space",
         about: "Normal, 10⁴ × 3, free centres at 1 %: the thesis needed almost a week for four.",
         kind: Kind::Free(&[
-            task(SPACE, 4, 0.01, &[Goal::Seconds(0.1), CORE_SET_GOAL], &[Goal::Seconds(0.01)]),
-            task(SPACE, 6, 0.01, &[Goal::Seconds(0.3), CORE_SET_GOAL], &[Goal::Seconds(0.03)]),
-            task(SPACE, 8, 0.01, &[Goal::Seconds(3.0), CORE_SET_GOAL], &[Goal::Seconds(0.2)]),
-            task(SPACE, 10, 0.01, &[Goal::Seconds(40.0)], &[Goal::Seconds(2.0)]),
+            task(SPACE, 4, 0.01, &[Goal::seconds(0.1), CORE_SET_GOAL], &[Goal::seconds(0.01)]),
+            task(SPACE, 6, 0.01, &[Goal::seconds(0.3), CORE_SET_GOAL], &[Goal::seconds(0.03)]),
+            task(SPACE, 8, 0.01, &[Goal::seconds(3.0), CORE_SET_GOAL], &[Goal::seconds(0.2)]),
+            task(SPACE, 10, 0.01, &[Goal::seconds(40.0)], &[Goal::seconds(2.0)]),
         ]),
         must: &[],
     },
@@ -164,32 +172,32 @@ pub(super) const CASES: &[Case] = &[
         name: "discrete",
         about: "Centres among the points, exact: 200 small sets beside set-cover programs under HiGHS, and the cities of Germany.",
         kind: Kind::Discrete,
-        must: &[Goal::Gap(1e-11), Goal::Equal(1e-12)],
+        must: &[Goal::gap(1e-11), equal(1e-12)],
     },
     Case {
         name: "farthest-first",
         about: "1000 points in farthest-first order, of 10⁷ × 3 in double and 10⁶ × 128 in single precision, beside NumPy.",
         kind: Kind::Traversal,
-        must: &[Goal::Bandwidth(0.8), Goal::Equal(1e-5)],
+        must: &[bandwidth(0.8), equal(1e-5)],
     },
     Case {
         name: "outliers",
         about: "Uniform, 2000 × 2, without up to five points, at ε = 1e-6.",
         kind: Kind::Outliers,
-        must: &[Goal::Gap(GAP_EXACT)],
+        must: &[Goal::gap(GAP_EXACT)],
     },
     Case {
         name: "streams",
         about: "Normal, 10⁶ × 3, one after another: the factor measured beside the one stated, on two orders.",
         kind: Kind::Streams,
-        must: &[Goal::Factor],
+        must: &[FACTOR_GOAL],
     },
     Case {
         name: "cities-20",
         about: "The cities of Germany for k = 20, at 5 % and at 1 %: minutes, one permutation.",
         kind: Kind::Free(&[
-            task(GERMANY, 20, 0.05, &[Goal::Seconds(300.0)], &[]).once(),
-            task(GERMANY, 20, 0.01, &[], &[Goal::Gap(0.01), Goal::Seconds(600.0)]).once(),
+            task(GERMANY, 20, 0.05, &[Goal::seconds(300.0)], &[]).once(),
+            task(GERMANY, 20, 0.01, &[], &[Goal::gap(0.01), Goal::seconds(600.0)]).once(),
         ]),
         must: &[],
     },
@@ -198,6 +206,7 @@ pub(super) const CASES: &[Case] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::goals::Direction;
 
     #[test]
     fn names_are_unique_and_every_case_has_a_goal() {
@@ -215,8 +224,8 @@ mod tests {
 
     #[test]
     fn more_centres_of_a_set_are_known_to_reach_less_far() {
-        let radius = |goal: &Goal| match goal {
-            Goal::Radius(radius) => Some(*radius),
+        let radius = |goal: &Goal| match goal.direction {
+            Direction::Near(radius) => Some(radius),
             _ => None,
         };
         for case in CASES {

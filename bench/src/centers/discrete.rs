@@ -9,9 +9,9 @@ use taut_enclose::{CentersOptions, centers};
 use taut_points::{Distribution, Points, generate};
 
 use super::case::{Case, GERMANY};
-use super::goals;
 use super::judgement::{self, COLUMNS, judge};
 use super::{Context, cities};
+use crate::goals;
 use crate::input::{SEED, write_rows};
 use crate::peer::{Answer, Peer, Silence};
 use crate::stats::{Summary, seconds, times};

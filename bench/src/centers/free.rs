@@ -6,9 +6,9 @@ use taut_enclose::{CentersOptions, centers};
 use taut_points::{Distribution, Points, generate};
 
 use super::case::{Case, Set, Task};
-use super::goals::{self, Goal};
 use super::judgement::{self, COLUMNS, judge};
 use super::{Context, cities};
+use crate::goals::{self, Goal};
 use crate::input::SEED;
 use crate::meter::Meter;
 use crate::stats::{Summary, seconds};
@@ -117,10 +117,10 @@ fn run_task(
     println!("{}, {n} × {dim}, k = {}, ε = {:e}\n\n{table}", task.set.name(), task.k, task.epsilon);
     let mut measured = judgement::measured(&judgements);
     measured.clock = Summary::of(&clocks);
-    let gap = [Goal::Gap(task.epsilon)];
+    let gap = [Goal::gap(task.epsilon)];
     // What is only hoped for is no must by its gap.
     let gap: &[Goal] = if task.aim.contains(&gap[0]) { &[] } else { &gap };
-    let goals = goals::print(&[gap, case.must, task.must], task.aim, &measured);
+    let goals = goals::print(&[gap, case.must, task.must], &[task.aim], &measured);
     println!();
     Ok(json!({
         "set": task.set.name(), "k": task.k, "epsilon": task.epsilon, "permutations": report, "goals": goals,

@@ -1,29 +1,46 @@
-//! What a case has to reach, and whether it did.
+//! What goals of k centres ask for.
 
-use serde_json::{Value, json};
-
+use crate::goals::{self, GAP, Goal, RADIUS, SECONDS, Unit, range};
 use crate::stats::{Summary, seconds, times};
 
-/// One thing for taut to reach.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Goal {
-    /// The gap that the checker proved is at most this.
-    Gap(f64),
-    /// The radius is this to 1e-6, relatively.
-    Radius(f64),
-    /// The median time by the clock, with the last number of threads, is at most this, in seconds.
-    Seconds(f64),
-    /// The core-set of the certificate has at most so many rows.
-    CoreSet(usize),
-    /// The checker takes at most so long.
-    Check(f64),
-    /// Radii are those of the peer, relatively to this.
-    Equal(f64),
-    /// Whole passes, one for each centre, would take at least this share of the time when nothing but memory bound them.
-    Bandwidth(f64),
-    /// The radius is at most the stated factor of the lower bound.
-    Factor,
+/// The radii that cases name are known to so many digits.
+const KNOWN_RADIUS_TOLERANCE: f64 = 1e-6;
+/// Rounding in a factor, which a maximum may meet exactly.
+const FACTOR_ROUNDING: f64 = 1e-9;
+
+const CORE_SET: &str = "rows in the certificate";
+const CHECK: &str = "time of the check";
+const DIFFERS: &str = "relative difference of radii to the peer's";
+const BANDWIDTH: &str = "share of the bandwidth bound, a plain read for each centre";
+const FACTOR: &str = "radius over lower bound, over the factor stated";
+
+/// The radius is this.
+pub(super) const fn radius(value: f64) -> Goal {
+    Goal::radius(value, KNOWN_RADIUS_TOLERANCE)
 }
+
+/// The core-set of the certificate has at most so many rows.
+pub(super) const fn core_set(bound: u32) -> Goal {
+    Goal::at_most(CORE_SET, bound as f64, Unit::Plain)
+}
+
+/// The checker takes at most so long.
+pub(super) const fn check(bound: f64) -> Goal {
+    Goal::at_most(CHECK, bound, Unit::Seconds)
+}
+
+/// Radii are those of the peer, relatively to this.
+pub(super) const fn equal(bound: f64) -> Goal {
+    Goal::at_most(DIFFERS, bound, Unit::Power)
+}
+
+/// Whole passes, one for each centre, would take at least this share of the time when nothing but memory bound them.
+pub(super) const fn bandwidth(bound: f64) -> Goal {
+    Goal::at_least(BANDWIDTH, bound, Unit::Times)
+}
+
+/// The radius is at most the stated factor of the lower bound.
+pub(super) const FACTOR_GOAL: Goal = Goal::at_most(FACTOR, 1.0 + FACTOR_ROUNDING, Unit::Times);
 
 /// What was measured, as far as goals ask for it: of several inputs the worst.
 #[derive(Clone, Debug, Default)]
@@ -48,79 +65,31 @@ pub(super) struct Measured {
     pub(super) factor: Option<f64>,
 }
 
-fn range(summary: Summary) -> String {
-    let [median, min, max] = [summary.median, summary.min, summary.max].map(seconds);
-    format!("{median} (range {min}–{max}, {} runs)", summary.count)
-}
+impl goals::Measured for Measured {
+    fn rejected(&self) -> Option<&str> {
+        self.rejected.as_deref()
+    }
 
-impl Goal {
-    /// The goal in words, what was measured, and whether the goal is met (`None`: not measured).
-    fn judge(self, found: &Measured) -> (String, String, Option<bool>) {
-        let (goal, measured) = match self {
-            Goal::Gap(bound) => (
-                format!("gap ≤ {bound:e}"),
-                found.gap.map(|gap| (format!("{gap:.1e}, verified"), gap <= bound)),
-            ),
-            Goal::Radius(value) => (
-                format!("radius {value} to 1e-6"),
-                found.radii.map(|radii| {
-                    let off = radii.map(|radius| (radius / value - 1.0).abs());
-                    // NaN is within nothing.
-                    let met = off.iter().all(|off| *off <= 1e-6);
-                    (format!("{:.8}, {:.1e} off", radii[1], off[0].max(off[1])), met)
-                }),
-            ),
-            Goal::Seconds(bound) => (
-                format!("at most {} by the clock", seconds(bound)),
-                found.clock.map(|time| (range(time), time.median <= bound)),
-            ),
-            Goal::CoreSet(bound) => (
-                format!("at most {bound} rows in the certificate"),
-                found.core_set.map(|rows| (rows.to_string(), rows <= bound)),
-            ),
-            Goal::Check(bound) => (
-                format!("checked in at most {}", seconds(bound)),
-                found.check.map(|time| (range(time), time.median <= bound)),
-            ),
-            Goal::Equal(bound) => (
-                format!("radii are the peer's to {bound:e}"),
-                found.differs.map(|off| (format!("{off:.1e} off"), off <= bound)),
-            ),
-            Goal::Bandwidth(share) => (
-                format!("at least {share} of the bandwidth bound, a plain read for each centre"),
-                found.bandwidth.map(|ratio| (times(ratio), ratio >= share)),
-            ),
-            Goal::Factor => (
-                "radius over lower bound at most the factor stated".to_owned(),
-                found
-                    .factor
-                    .map(|ratio| (format!("{} of it at most", times(ratio)), ratio <= 1.0 + 1e-9)),
-            ),
-        };
-        match (&found.rejected, measured) {
-            // Nothing is believed of an answer that is wrong.
-            (Some(why), _) => (goal, format!("REJECTED by the checker: {why}"), Some(false)),
-            (None, Some((said, met))) => (goal, said, Some(met)),
-            (None, None) => (goal, "no answer".to_owned(), None),
+    fn read(&self, goal: &Goal) -> Option<(f64, String)> {
+        let power = |value: f64| (value, format!("{value:.1e}"));
+        let ratio = |value: f64| (value, times(value));
+        match goal.what {
+            GAP => self.gap.map(power),
+            // The one that is farther off, where one is: NaN is.
+            RADIUS => self.radii.map(|[least, most]| {
+                let is_near = |radius| goal.is_met_by(radius);
+                let radius = if is_near(most) { least } else { most };
+                (radius, format!("{radius:.8}"))
+            }),
+            SECONDS => self.clock.map(|time| (time.median, range(time, seconds))),
+            CORE_SET => self.core_set.map(|rows| (rows as f64, rows.to_string())),
+            CHECK => self.check.map(|time| (time.median, range(time, seconds))),
+            DIFFERS => self.differs.map(power),
+            BANDWIDTH => self.bandwidth.map(ratio),
+            FACTOR => self.factor.map(ratio),
+            _ => None,
         }
     }
-}
-
-/// Prints each goal with what was measured, and returns the same for the report.
-pub(super) fn print(must: &[&[Goal]], aim: &[Goal], found: &Measured) -> Value {
-    let all = must.iter().copied().flatten().map(|goal| ("must", goal));
-    let all = all.chain(aim.iter().map(|goal| ("aim", goal)));
-    let lines = all.map(|(kind, goal)| {
-        let (goal, measured, met) = goal.judge(found);
-        let word = match met {
-            Some(true) => "met",
-            Some(false) => "NOT MET",
-            None => "not measured",
-        };
-        println!("- {kind}: {goal}: {measured}: {word}");
-        json!({ "kind": kind, "goal": goal, "measured": measured, "met": met })
-    });
-    lines.collect()
 }
 
 #[cfg(test)]
@@ -142,23 +111,23 @@ mod tests {
         };
         let met = |goal: Goal| goal.judge(&found).2;
         for (goal, other) in [
-            (Goal::Gap(1e-6), Goal::Gap(1e-7)),
-            (Goal::Radius(10.0), Goal::Radius(10.0001)),
-            (Goal::Seconds(2.0), Goal::Seconds(1.9)),
-            (Goal::CoreSet(200), Goal::CoreSet(199)),
-            (Goal::Check(0.5), Goal::Check(0.4)),
-            (Goal::Bandwidth(0.7), Goal::Bandwidth(0.8)),
-            (Goal::Factor, Goal::Equal(1.0)),
+            (Goal::gap(1e-6), Goal::gap(1e-7)),
+            (radius(10.0), radius(10.0001)),
+            (Goal::seconds(2.0), Goal::seconds(1.9)),
+            (core_set(200), core_set(199)),
+            (check(0.5), check(0.4)),
+            (bandwidth(0.7), bandwidth(0.8)),
+            (FACTOR_GOAL, equal(1.0)),
         ] {
             assert_eq!((met(goal), met(other)), (Some(true), Some(false)), "{goal:?}");
         }
-        assert_eq!(Goal::Gap(1.0).judge(&Measured::default()).2, None);
+        assert_eq!(Goal::gap(1.0).judge(&Measured::default()).2, None);
     }
 
     #[test]
     fn a_rejected_answer_meets_nothing() {
         let rejected = Some("outside".to_owned());
         let found = Measured { rejected, clock: Summary::of(&[1e-6]), ..Measured::default() };
-        assert_eq!(Goal::Seconds(1.0).judge(&found).2, Some(false));
+        assert_eq!(Goal::seconds(1.0).judge(&found).2, Some(false));
     }
 }

@@ -7,8 +7,8 @@ use taut_points::{Distribution, Points, generate};
 
 use super::Context;
 use super::case::Case;
-use super::goals;
 use super::judgement::{self, COLUMNS, judge};
+use crate::goals;
 use crate::input::SEED;
 use crate::meter::Meter;
 use crate::stats::{Summary, seconds};

@@ -8,8 +8,8 @@ use taut_points::{Distribution, Monitor, Points, generate};
 
 use super::Context;
 use super::case::Case;
-use super::goals;
 use super::judgement::{self, judge};
+use crate::goals;
 use crate::input::SEED;
 use crate::meter::Meter;
 use crate::stats::{Summary, seconds};

@@ -8,8 +8,9 @@ use taut_points::{Distribution, Points, Scalar, generate};
 
 use super::Context;
 use super::case::Case;
-use super::goals::{self, Measured};
+use super::goals::Measured;
 use super::judgement::{self, COLUMNS, judge};
+use crate::goals;
 use crate::input::{SEED, write_rows};
 use crate::meter::Meter;
 use crate::peer::Peer;

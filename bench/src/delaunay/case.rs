@@ -2,8 +2,10 @@
 
 use taut_points::{Distribution, Error, generate::Parameters};
 
-use super::goals::Goal;
+use super::goals::{bytes, check, exact_rate, of_cgal, of_uniform, speedup};
 use super::program::Peer;
+use crate::cases::Named;
+use crate::goals::Goal;
 
 /// A case by name.
 pub(super) struct Case {
@@ -19,6 +21,12 @@ pub(super) struct Case {
     pub(super) peers: &'static [Peer],
     /// Numbers of threads taut is run with.
     pub(super) threads: &'static [usize],
+}
+
+impl Named for Case {
+    fn head(&self) -> [&'static str; 2] {
+        [self.name, self.about]
+    }
 }
 
 /// One set of points.
@@ -63,11 +71,11 @@ pub(super) const PLANE_PEERS: &[Peer] =
 /// All peers in space.
 pub(super) const SPACE_PEERS: &[Peer] = &[Peer::Cgal, Peer::Qhull];
 
-const PLANE_MUST: &[Goal] = &[Goal::OfCgal(0.55), Goal::Check(0.5)];
-const PLANE_AIM: &[Goal] = &[Goal::OfCgal(0.38)];
-const SPACE_MUST: &[Goal] = &[Goal::OfCgal(0.6), Goal::Check(0.5)];
-const SPACE_AIM: &[Goal] = &[Goal::OfCgal(0.37)];
-const CLIFF_GOALS: &[Goal] = &[Goal::OfUniform(2.0), Goal::Check(0.5)];
+const PLANE_MUST: &[Goal] = &[of_cgal(0.55), check(0.5)];
+const PLANE_AIM: &[Goal] = &[of_cgal(0.38)];
+const SPACE_MUST: &[Goal] = &[of_cgal(0.6), check(0.5)];
+const SPACE_AIM: &[Goal] = &[of_cgal(0.37)];
+const CLIFF_GOALS: &[Goal] = &[of_uniform(2.0), check(0.5)];
 
 /// All cases, in the order in which they run.
 pub(super) const CASES: &[Case] = &[
@@ -77,11 +85,10 @@ pub(super) const CASES: &[Case] = &[
         dim: 2,
         inputs: &[
             input("uniform", 1_000_000, 1_999_968)
-                .goals(&[Goal::OfCgal(0.55), Goal::ExactRate(1e-4), Goal::Check(0.5)], PLANE_AIM),
+                .goals(&[of_cgal(0.55), exact_rate(1e-4), check(0.5)], PLANE_AIM),
             input("normal", 1_000_000, 1_999_983).goals(PLANE_MUST, PLANE_AIM),
             input("clouds", 1_000_000, 1_999_973).goals(PLANE_MUST, PLANE_AIM),
-            input("kuzmin", 1_000_000, 1_999_991)
-                .goals(&[Goal::OfCgal(0.65), Goal::Check(0.5)], PLANE_AIM),
+            input("kuzmin", 1_000_000, 1_999_991).goals(&[of_cgal(0.65), check(0.5)], PLANE_AIM),
             input("roads", 1_000_000, 1_999_980).goals(PLANE_MUST, PLANE_AIM),
         ],
         peers: PLANE_PEERS,
@@ -91,8 +98,9 @@ pub(super) const CASES: &[Case] = &[
         name: "plane-large",
         about: "Ten million points of the plane, one thread.",
         dim: 2,
-        inputs: &[input("uniform", 10_000_000, 19_999_955)
-            .goals(&[Goal::OfCgal(0.5), Goal::Check(0.5)], PLANE_AIM)],
+        inputs: &[
+            input("uniform", 10_000_000, 19_999_955).goals(&[of_cgal(0.5), check(0.5)], PLANE_AIM)
+        ],
         peers: &[Peer::Cgal, Peer::Spade, Peer::Delaunator],
         threads: &[1],
     },
@@ -121,7 +129,7 @@ pub(super) const CASES: &[Case] = &[
         dim: 3,
         inputs: &[
             input("uniform", 1_000_000, 6_749_316)
-                .goals(&[Goal::OfCgal(0.6), Goal::ExactRate(1e-4), Goal::Check(0.5)], SPACE_AIM),
+                .goals(&[of_cgal(0.6), exact_rate(1e-4), check(0.5)], SPACE_AIM),
             input("normal", 1_000_000, 6_765_494).goals(SPACE_MUST, SPACE_AIM),
             input("clouds", 1_000_000, 6_688_990).goals(SPACE_MUST, SPACE_AIM),
         ],
@@ -132,7 +140,7 @@ pub(super) const CASES: &[Case] = &[
         name: "space-grid",
         about: "The integer grid 100³: all ties; its tetrahedra are 6·99³.",
         dim: 3,
-        inputs: &[input("grid", 1_000_000, 5_821_794).goals(SPACE_MUST, &[Goal::OfCgal(0.4)])],
+        inputs: &[input("grid", 1_000_000, 5_821_794).goals(SPACE_MUST, &[of_cgal(0.4)])],
         peers: &[Peer::Cgal],
         threads: &[1],
     },
@@ -141,9 +149,8 @@ pub(super) const CASES: &[Case] = &[
         about: "Points on surfaces and lines in space: cospherical, nearly cospherical, and as many tetrahedra as can be.",
         dim: 3,
         inputs: &[
-            input("torus", 1_000_000, 6_117_584).goals(SPACE_MUST, &[Goal::OfCgal(0.4)]),
-            input("sphere", 100_000, 302_075)
-                .goals(&[Goal::OfCgal(0.5), Goal::Check(0.5)], &[Goal::OfCgal(0.27)]),
+            input("torus", 1_000_000, 6_117_584).goals(SPACE_MUST, &[of_cgal(0.4)]),
+            input("sphere", 100_000, 302_075).goals(&[of_cgal(0.5), check(0.5)], &[of_cgal(0.27)]),
             input("skew", 4_000, 1_999 * 1_999),
         ],
         peers: &[Peer::Cgal],
@@ -153,8 +160,7 @@ pub(super) const CASES: &[Case] = &[
         name: "threads-plane",
         about: "Ten million points of the plane, one thread and two.",
         dim: 2,
-        inputs: &[input("uniform", 10_000_000, 19_999_955)
-            .goals(&[Goal::Speedup(1.5)], &[Goal::Speedup(1.75)])],
+        inputs: &[input("uniform", 10_000_000, 19_999_955).goals(&[speedup(1.5)], &[speedup(1.75)])],
         peers: &[],
         threads: &[1, 2],
     },
@@ -162,8 +168,7 @@ pub(super) const CASES: &[Case] = &[
         name: "threads-space",
         about: "A million points of space, one thread and two.",
         dim: 3,
-        inputs: &[input("uniform", 1_000_000, 6_749_316)
-            .goals(&[Goal::Speedup(1.5)], &[Goal::Speedup(1.75)])],
+        inputs: &[input("uniform", 1_000_000, 6_749_316).goals(&[speedup(1.5)], &[speedup(1.75)])],
         peers: &[],
         threads: &[1, 2],
     },
@@ -172,10 +177,8 @@ pub(super) const CASES: &[Case] = &[
         about: "Peak memory above the input in the plane.",
         dim: 2,
         inputs: &[
-            input("uniform", 1_000_000, 1_999_968)
-                .goals(&[Goal::Bytes(85.0)], &[Goal::Bytes(72.0)]),
-            input("uniform", 10_000_000, 19_999_955)
-                .goals(&[Goal::Bytes(85.0)], &[Goal::Bytes(72.0)]),
+            input("uniform", 1_000_000, 1_999_968).goals(&[bytes(85.0)], &[bytes(72.0)]),
+            input("uniform", 10_000_000, 19_999_955).goals(&[bytes(85.0)], &[bytes(72.0)]),
         ],
         peers: &[Peer::Cgal, Peer::Spade, Peer::Delaunator],
         threads: &[1, 2],
@@ -185,10 +188,8 @@ pub(super) const CASES: &[Case] = &[
         about: "Peak memory above the input in space.",
         dim: 3,
         inputs: &[
-            input("uniform", 1_000_000, 6_749_316)
-                .goals(&[Goal::Bytes(275.0)], &[Goal::Bytes(250.0)]),
-            input("torus", 1_000_000, 6_117_584)
-                .goals(&[Goal::Bytes(275.0)], &[Goal::Bytes(250.0)]),
+            input("uniform", 1_000_000, 6_749_316).goals(&[bytes(275.0)], &[bytes(250.0)]),
+            input("torus", 1_000_000, 6_117_584).goals(&[bytes(275.0)], &[bytes(250.0)]),
         ],
         peers: &[Peer::Cgal],
         threads: &[1, 2],

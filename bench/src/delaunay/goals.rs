@@ -1,98 +1,71 @@
-//! What a case has to reach, and whether it did.
-
-use serde_json::{Value, json};
+//! What goals of Delaunay triangulations ask for.
 
 use super::program::Program;
 use super::rounds::Rounds;
+use crate::goals::{Goal, Measured, Unit, range};
 use crate::stats::times;
 
-/// One thing for taut to reach.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Goal {
-    /// Processor time of one thread is at most this share of CGAL's.
-    OfCgal(f64),
-    /// Processor time per point of one thread is at most so many times that for a uniform set of the same size.
-    OfUniform(f64),
-    /// The peak above the input is at most so many bytes per point, with any number of threads.
-    Bytes(f64),
-    /// At most this share of predicates gets to an exact stage.
-    ExactRate(f64),
-    /// The check of the answer takes at most this share of the processor time of the build, with one thread.
-    Check(f64),
-    /// Two threads are at least so many times faster than one, by the clock, in the median of all rounds.
-    Speedup(f64),
+const OF_CGAL: &str = "processor time of one thread over CGAL's";
+const OF_UNIFORM: &str = "processor time per point over that of a uniform set of this size";
+const BYTES: &str = "bytes per point above the input";
+const EXACT_RATE: &str = "share of predicates decided exactly";
+const CHECK: &str = "processor time of the check over that of the build";
+const SPEEDUP: &str = "time of one thread over that of two";
+
+/// Processor time of one thread is at most this share of CGAL's.
+pub(super) const fn of_cgal(bound: f64) -> Goal {
+    Goal::at_most(OF_CGAL, bound, Unit::Times)
 }
 
-impl Goal {
-    /// The goal in words, what was measured, and whether the goal is met (`None`: not measured).
-    fn judge(self, found: &Rounds) -> (String, String, Option<bool>) {
-        let one = Program::Taut(1);
-        let (goal, measured) = match self {
-            Goal::OfCgal(share) => (
-                format!("at most {share} of the processor time of CGAL"),
-                found.of_cgal(one).map(|(least, range)| {
-                    let said = format!(
-                        "{} (range {}–{}, {} rounds)",
-                        times(least),
-                        times(range.min),
-                        times(range.max),
-                        range.count
-                    );
-                    (said, least <= share)
-                }),
-            ),
-            Goal::OfUniform(factor) => (
-                format!("at most {factor} times a uniform set of this size, per point"),
-                found.of_uniform(one).map(|ratio| (times(ratio), ratio <= factor)),
-            ),
-            Goal::Bytes(bound) => {
-                let all = found.threads().into_iter().map(|t| found.bytes(Program::Taut(t)));
-                let all: Option<Vec<f64>> = all.collect();
-                let most = all.and_then(|all| all.into_iter().max_by(f64::total_cmp));
-                (
-                    format!("at most {bound} B per point above the input"),
-                    most.map(|most| (format!("{most:.1} B"), most <= bound)),
-                )
-            }
-            Goal::ExactRate(bound) => (
-                format!("at most {bound:e} of all predicates decided exactly"),
-                found.exact(one).map(|share| (format!("{share:.1e}"), share <= bound)),
-            ),
-            Goal::Check(share) => (
-                format!("the check takes at most {share} of the processor time of the build"),
-                found.check(one).map(|ratio| (times(ratio), ratio <= share)),
-            ),
-            Goal::Speedup(factor) => (
-                format!("two threads at least {factor} times faster"),
-                found.speedup().map(|s| {
-                    let said = format!(
-                        "{} (range {}–{}, {} rounds)",
-                        times(s.median),
-                        times(s.min),
-                        times(s.max),
-                        s.count
-                    );
-                    (said, s.median >= factor)
-                }),
-            ),
-        };
-        let (said, met) = measured.map_or((None, None), |(said, met)| (Some(said), Some(met)));
-        (goal, said.unwrap_or("no answer".to_owned()), met)
+/// Processor time per point of one thread is at most so many times that for a uniform set of the same size.
+pub(super) const fn of_uniform(bound: f64) -> Goal {
+    Goal::at_most(OF_UNIFORM, bound, Unit::Times)
+}
+
+/// The peak above the input is at most so many bytes per point, with any number of threads.
+pub(super) const fn bytes(bound: f64) -> Goal {
+    Goal::at_most(BYTES, bound, Unit::Plain)
+}
+
+/// At most this share of predicates gets to an exact stage.
+pub(super) const fn exact_rate(bound: f64) -> Goal {
+    Goal::at_most(EXACT_RATE, bound, Unit::Power)
+}
+
+/// The check of the answer takes at most this share of the processor time of the build, with one thread.
+pub(super) const fn check(bound: f64) -> Goal {
+    Goal::at_most(CHECK, bound, Unit::Times)
+}
+
+/// Two threads are at least so many times faster than one, by the clock, in the median of all rounds.
+pub(super) const fn speedup(bound: f64) -> Goal {
+    Goal::at_least(SPEEDUP, bound, Unit::Times)
+}
+
+impl Measured for Rounds {
+    /// The rounds themselves leave out builds that are not right.
+    fn rejected(&self) -> Option<&str> {
+        None
     }
-}
 
-/// Prints each goal with what was measured, and returns the same for the report.
-pub(super) fn print(must: &[Goal], aim: &[Goal], found: &Rounds) -> Value {
-    let all = must.iter().map(|goal| ("must", goal)).chain(aim.iter().map(|goal| ("aim", goal)));
-    let lines = all.map(|(kind, goal)| {
-        let (goal, measured, met) = goal.judge(found);
-        let word = match met {
-            Some(true) => "met",
-            Some(false) => "NOT MET",
-            None => "not measured",
-        };
-        println!("- {kind}: {goal}: {measured}: {word}");
-        json!({ "kind": kind, "goal": goal, "measured": measured, "met": met })
-    });
-    lines.collect()
+    fn read(&self, goal: &Goal) -> Option<(f64, String)> {
+        let one = Program::Taut(1);
+        let ratio = |value: f64| (value, times(value));
+        match goal.what {
+            OF_CGAL => self.of_cgal(one).map(|(least, rounds)| {
+                (least, format!("{}; by rounds {}", times(least), range(rounds, times)))
+            }),
+            OF_UNIFORM => self.of_uniform(one).map(ratio),
+            BYTES => {
+                let all = self.threads().into_iter().map(|t| self.bytes(Program::Taut(t)));
+                let all: Option<Vec<f64>> = all.collect();
+                let most = all?.into_iter().max_by(f64::total_cmp)?;
+                Some((most, format!("{most:.1} B")))
+            }
+            EXACT_RATE => self.exact(one).map(|share| (share, format!("{share:.1e}"))),
+            CHECK => self.check(one).map(ratio),
+            SPEEDUP => self.speedup().map(|s| (s.median, range(s, times))),
+            _ => None,
+        }
+    }
 }

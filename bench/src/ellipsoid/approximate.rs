@@ -5,10 +5,10 @@ use serde_json::json;
 
 use super::Context;
 use super::case::Case;
-use super::goals;
 use super::judgement::Judgement;
 use super::laws::Law;
 use super::points::solve;
+use crate::goals;
 use crate::input::{SEED, write_rows};
 use crate::stats::{seconds, times};
 use crate::table::Table;

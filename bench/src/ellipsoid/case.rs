@@ -1,8 +1,10 @@
 //! The list of cases: which inputs, and what has to be reached.
 
-use super::goals::Goal;
+use super::goals::{FLAGS_GOAL, OBJECTIVE_GOAL, PEER_FLAGS_GOAL, agreement, bracket, faster};
 use super::laws::Law;
 use super::robust::Cloud;
+use crate::cases::Named;
+use crate::goals::Goal;
 
 /// A case by name.
 pub(super) struct Case {
@@ -16,6 +18,12 @@ pub(super) struct Case {
     pub(super) must: &'static [Goal],
     /// What is hoped for.
     pub(super) aim: &'static [Goal],
+}
+
+impl Named for Case {
+    fn head(&self) -> [&'static str; 2] {
+        [self.name, self.about]
+    }
 }
 
 /// What is done in a case.
@@ -71,11 +79,11 @@ impl Input {
 }
 
 const SHELLS: [Law; 3] = [Law::Shell(1e-2), Law::Shell(1e-4), Law::Shell(1e-8)];
-const SHELL_5_10: &[Goal] = &[Goal::Seconds(0.09)];
-const SHELL_5_10_AIM: &[Goal] = &[Goal::Seconds(0.03)];
-const SHELL_6_10: &[Goal] = &[Goal::Seconds(0.5)];
-const SHELL_4_30: &[Goal] = &[Goal::Seconds(1.5)];
-const SHELL_4_30_AIM: &[Goal] = &[Goal::Seconds(0.4)];
+const SHELL_5_10: &[Goal] = &[Goal::seconds(0.09)];
+const SHELL_5_10_AIM: &[Goal] = &[Goal::seconds(0.03)];
+const SHELL_6_10: &[Goal] = &[Goal::seconds(0.5)];
+const SHELL_4_30: &[Goal] = &[Goal::seconds(1.5)];
+const SHELL_4_30_AIM: &[Goal] = &[Goal::seconds(0.4)];
 
 /// All cases, in the order in which they run.
 pub(super) const CASES: &[Case] = &[
@@ -83,21 +91,21 @@ pub(super) const CASES: &[Case] = &[
         name: "real",
         about: "Thirty sets of real data at ε = 1e-12, beside the brackets in which their optima lie.",
         kind: Kind::Real,
-        must: &[Goal::Gap(1e-12), Goal::Bracket(1e-11), Goal::Seconds(1.5e-3)],
-        aim: &[Goal::Bracket(1e-12), Goal::Seconds(0.6e-3)],
+        must: &[Goal::gap(1e-12), bracket(1e-11), Goal::seconds(1.5e-3)],
+        aim: &[bracket(1e-12), Goal::seconds(0.6e-3)],
     },
     Case {
         name: "normal",
         about: "Normal points at ε = 1e-12.",
         kind: Kind::Points(&[
-            input(Law::Normal, 100_000, 10).goals(&[Goal::Seconds(0.01)], &[Goal::Seconds(0.003)]),
+            input(Law::Normal, 100_000, 10).goals(&[Goal::seconds(0.01)], &[Goal::seconds(0.003)]),
             input(Law::Normal, 1_000_000, 10)
-                .goals(&[Goal::Seconds(0.05)], &[Goal::Seconds(0.015)]),
-            input(Law::Normal, 100_000, 30).goals(&[Goal::Seconds(0.09)], &[Goal::Seconds(0.025)]),
-            input(Law::Normal, 100_000, 50).goals(&[Goal::Seconds(0.5)], &[Goal::Seconds(0.12)]),
-            input(Law::Normal, 10_000, 100).goals(&[Goal::Seconds(1.5)], &[Goal::Seconds(0.3)]),
+                .goals(&[Goal::seconds(0.05)], &[Goal::seconds(0.015)]),
+            input(Law::Normal, 100_000, 30).goals(&[Goal::seconds(0.09)], &[Goal::seconds(0.025)]),
+            input(Law::Normal, 100_000, 50).goals(&[Goal::seconds(0.5)], &[Goal::seconds(0.12)]),
+            input(Law::Normal, 10_000, 100).goals(&[Goal::seconds(1.5)], &[Goal::seconds(0.3)]),
         ]),
-        must: &[Goal::Gap(1e-12)],
+        must: &[Goal::gap(1e-12)],
         aim: &[],
     },
     Case {
@@ -114,75 +122,75 @@ pub(super) const CASES: &[Case] = &[
             input(SHELLS[1], 10_000, 30).seeds(5).goals(SHELL_4_30, SHELL_4_30_AIM),
             input(SHELLS[2], 10_000, 30).seeds(5).goals(SHELL_4_30, SHELL_4_30_AIM),
         ]),
-        must: &[Goal::Gap(1e-12)],
+        must: &[Goal::gap(1e-12)],
         aim: &[],
     },
     Case {
         name: "tails",
         about: "Cauchy points, and shells of space, at ε = 1e-12, five seeds each.",
         kind: Kind::Points(&[
-            input(Law::Cauchy, 100_000, 10).seeds(5).goals(&[Goal::Seconds(0.01)], &[]),
-            input(SHELLS[0], 1_000_000, 3).seeds(5).goals(&[Goal::Seconds(0.06)], &[]),
-            input(SHELLS[1], 1_000_000, 3).seeds(5).goals(&[Goal::Seconds(0.06)], &[]),
-            input(SHELLS[2], 1_000_000, 3).seeds(5).goals(&[Goal::Seconds(0.06)], &[]),
+            input(Law::Cauchy, 100_000, 10).seeds(5).goals(&[Goal::seconds(0.01)], &[]),
+            input(SHELLS[0], 1_000_000, 3).seeds(5).goals(&[Goal::seconds(0.06)], &[]),
+            input(SHELLS[1], 1_000_000, 3).seeds(5).goals(&[Goal::seconds(0.06)], &[]),
+            input(SHELLS[2], 1_000_000, 3).seeds(5).goals(&[Goal::seconds(0.06)], &[]),
         ]),
-        must: &[Goal::Gap(1e-12)],
+        must: &[Goal::gap(1e-12)],
         aim: &[],
     },
     Case {
         name: "plane",
         about: "A million points of the plane at ε = 1e-12, beside CGAL's Min_ellipse_2.",
         kind: Kind::Plane(&[Law::Normal, Law::Uniform, Law::Shell(1e-2), Law::Mix]),
-        must: &[Goal::Gap(1e-12), Goal::Faster(8.0)],
-        aim: &[Goal::Faster(20.0)],
+        must: &[Goal::gap(1e-12), faster(8.0)],
+        aim: &[faster(20.0)],
     },
     Case {
         name: "ellipsoids",
         about: "A thousand ellipsoids in ten dimensions at ε = 1e-6: the smallest ellipsoid, the smallest ball.",
         kind: Kind::Shapes,
-        must: &[Goal::Gap(1e-6), Goal::Seconds(0.5)],
-        aim: &[Goal::Seconds(0.1)],
+        must: &[Goal::gap(1e-6), Goal::seconds(0.5)],
+        aim: &[Goal::seconds(0.1)],
     },
     Case {
         name: "conic",
         about: "Small sets of points, and twenty ellipsoids, at ε = 1e-10, beside the conic solver Clarabel under cvxpy.",
         kind: Kind::Conic,
-        must: &[Goal::Gap(1e-9), Goal::Agreement(1e-6)],
+        must: &[Goal::gap(1e-9), agreement(1e-6)],
         aim: &[],
     },
     Case {
         name: "approximate",
         about: "Normal points at ε = 1e-12, beside CGAL's Approximate_min_ellipsoid_d and dynesty's bounding ellipsoid.",
         kind: Kind::Approximate,
-        must: &[Goal::Gap(1e-12)],
+        must: &[Goal::gap(1e-12)],
         aim: &[],
     },
     Case {
         name: "mcd",
         about: "10⁵ points in ten dimensions, 30 % of them in one cloud far off: MCD beside scikit-learn, five seeds.",
         kind: Kind::Contaminated(Cloud::Wide),
-        must: &[Goal::Objective, Goal::Faster(5.0)],
+        must: &[OBJECTIVE_GOAL, faster(5.0)],
         aim: &[],
     },
     Case {
         name: "mcd-tight",
         about: "The same with a cloud a tenth as wide, which h points of the least determinant take in.",
         kind: Kind::Contaminated(Cloud::Tight),
-        must: &[Goal::Objective, Goal::Faster(5.0)],
+        must: &[OBJECTIVE_GOAL, faster(5.0)],
         aim: &[],
     },
     Case {
         name: "flags",
         about: "The outliers of hbk, stackloss and starsCYG, beside those published with robustbase, and scikit-learn's.",
         kind: Kind::Flags,
-        must: &[Goal::Flags, Goal::PeerFlags],
+        must: &[FLAGS_GOAL, PEER_FLAGS_GOAL],
         aim: &[],
     },
     Case {
         name: "file",
         about: "A file of 1.2 GB, 10⁸ normal points of space in single precision.",
         kind: Kind::File,
-        must: &[Goal::Gap(1e-9), Goal::Passes(3), Goal::Memory(256 << 20)],
+        must: &[Goal::gap(1e-9), Goal::passes(3), Goal::memory(256 << 20)],
         aim: &[],
     },
 ];

@@ -9,9 +9,10 @@ use taut_enclose::{
 use taut_points::Points;
 
 use super::case::Case;
-use super::goals::{self, Measured};
+use super::goals::Measured;
 use super::laws::Law;
 use super::{Context, rounds, shapes};
+use crate::goals;
 use crate::input::{SEED, write_rows};
 use crate::stats::{seconds, times};
 use crate::table::Table;

@@ -11,7 +11,8 @@ use taut_points::{FileSource, Monitor, ScalarKind};
 
 use super::Context;
 use super::case::Case;
-use super::goals::{self, Measured};
+use super::goals::Measured;
+use crate::goals;
 use crate::input::SEED;
 use crate::meter;
 use crate::raw;

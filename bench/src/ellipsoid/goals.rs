@@ -1,33 +1,39 @@
-//! What a case has to reach, and whether it did.
+//! What goals of ellipsoids ask for.
 
-use serde_json::{Value, json};
-
+use crate::goals::{self, GAP, Goal, MEMORY, PASSES, SECONDS, Unit};
 use crate::stats::{seconds, times};
 
-/// One thing for taut to reach.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Goal {
-    /// The gap that the checker proved is at most this.
-    Gap(f64),
-    /// The log-volume lies at most so far outside the bracket that is known.
-    Bracket(f64),
-    /// The least time by the clock, with the last number of threads, is at most this, in seconds.
-    Seconds(f64),
-    /// At least so many times faster than the peer by the clock, least over least.
-    Faster(f64),
-    /// What is minimised is at most that of the peer, to rounding.
-    Objective,
-    /// The rows flagged are those of the literature.
-    Flags,
-    /// The rows weighed out are those that the peer weighs out.
-    PeerFlags,
-    /// Radius or volume is that of the peer, relatively to this.
-    Agreement(f64),
-    /// So many reads of all points at most.
-    Passes(u64),
-    /// Peak memory of the process is at most this, in bytes.
-    Memory(u64),
+const OUTSIDE: &str = "log-volume outside the known bracket";
+const FASTER: &str = "time of the peer over ours";
+const OBJECTIVE: &str = "what is minimised, less what the peer reached";
+const OTHER_FLAGS: &str = "sets with other flagged rows than published";
+const OTHER_THAN_PEER: &str = "sets with other rows weighed out than the peer's, for the same h";
+const DIFFERS: &str = "relative difference to the peer";
+
+/// Rounding in what is minimised, below which two answers are equally good.
+const OBJECTIVE_ROUNDING: f64 = 1e-11;
+
+/// The log-volume lies at most so far outside the bracket that is known.
+pub(super) const fn bracket(bound: f64) -> Goal {
+    Goal::at_most(OUTSIDE, bound, Unit::Power)
 }
+
+/// At least so many times faster than the peer by the clock, least over least.
+pub(super) const fn faster(bound: f64) -> Goal {
+    Goal::at_least(FASTER, bound, Unit::Times)
+}
+
+/// Radius or volume is that of the peer, relatively to this.
+pub(super) const fn agreement(bound: f64) -> Goal {
+    Goal::at_most(DIFFERS, bound, Unit::Power)
+}
+
+/// What is minimised is at most that of the peer, to rounding.
+pub(super) const OBJECTIVE_GOAL: Goal = Goal::at_most(OBJECTIVE, OBJECTIVE_ROUNDING, Unit::Power);
+/// The rows flagged are those of the literature.
+pub(super) const FLAGS_GOAL: Goal = Goal::at_most(OTHER_FLAGS, 0.0, Unit::Plain);
+/// The rows weighed out are those that the peer weighs out.
+pub(super) const PEER_FLAGS_GOAL: Goal = Goal::at_most(OTHER_THAN_PEER, 0.0, Unit::Plain);
 
 /// What was measured, as far as goals ask for it: of several sets or seeds the worst.
 #[derive(Clone, Debug, Default)]
@@ -87,92 +93,44 @@ impl Measured {
     }
 }
 
-impl Goal {
-    /// The goal in words, what was measured, and whether the goal is met (`None`: not measured).
-    fn judge(self, found: &Measured) -> (String, String, Option<bool>) {
-        let (goal, measured) = match self {
-            Goal::Gap(bound) => (
-                format!("gap ≤ {bound:e}"),
-                found.gap.map(|gap| (format!("{gap:.1e}, verified"), gap <= bound)),
-            ),
-            Goal::Bracket(bound) => (
-                format!("log-volume in the known bracket to {bound:e}"),
-                found.outside.map(|off| (format!("{off:.1e} outside"), off <= bound)),
-            ),
-            Goal::Seconds(bound) => (
-                format!("at most {} by the clock", seconds(bound)),
-                found.clock.map(|least| {
-                    let shown = |time: Option<f64>| time.map_or("not measured".into(), seconds);
-                    let said = format!(
-                        "{} (processors: {} of all threads, {} with one thread)",
-                        seconds(least),
-                        shown(found.processors),
-                        shown(found.one_thread),
-                    );
-                    (said, least <= bound)
-                }),
-            ),
-            Goal::Faster(factor) => (
-                format!("at least {factor} times faster than the peer"),
-                found.faster.map(|ratio| (times(ratio), ratio >= factor)),
-            ),
-            Goal::Objective => (
-                "what is minimised is no more than the peer's".to_owned(),
-                found.objective.map(|more| (format!("{more:+.1e}"), more <= 1e-11)),
-            ),
-            Goal::Flags => (
-                "the rows flagged are those published".to_owned(),
-                found.other_flags.as_deref().map(without_others),
-            ),
-            Goal::PeerFlags => (
-                "the rows weighed out are the peer's, for the same h".to_owned(),
-                found.other_than_peer.as_deref().map(without_others),
-            ),
-            Goal::Agreement(bound) => (
-                format!("agrees with the peer to {bound:e}"),
-                found.differs.map(|off| (format!("{off:.1e}"), off <= bound)),
-            ),
-            Goal::Passes(bound) => (
-                format!("at most {bound} passes"),
-                found.passes.map(|passes| (passes.to_string(), passes <= bound)),
-            ),
-            Goal::Memory(bound) => (
-                format!("at most {} MiB of memory", bound >> 20),
-                found.peak.map(|peak| (format!("{} MiB", peak >> 20), peak <= bound)),
-            ),
+impl goals::Measured for Measured {
+    fn rejected(&self) -> Option<&str> {
+        self.rejected.as_deref()
+    }
+
+    fn read(&self, goal: &Goal) -> Option<(f64, String)> {
+        let said = |value: Option<f64>, show: &dyn Fn(f64) -> String| {
+            value.map(|value| (value, show(value)))
         };
-        match (&found.rejected, measured) {
-            // Nothing is believed of an answer that is wrong.
-            (Some(why), _) => (goal, format!("REJECTED by the checker: {why}"), Some(false)),
-            (None, Some((said, met))) => (goal, said, Some(met)),
-            (None, None) => (goal, "no answer".to_owned(), None),
+        let power = |value: f64| format!("{value:.1e}");
+        match goal.what {
+            GAP => said(self.gap, &power),
+            OUTSIDE => said(self.outside, &power),
+            SECONDS => said(self.clock, &|least| {
+                let shown = |time: Option<f64>| time.map_or("not measured".into(), seconds);
+                format!(
+                    "{} (processors: {} of all threads, {} with one thread)",
+                    seconds(least),
+                    shown(self.processors),
+                    shown(self.one_thread),
+                )
+            }),
+            FASTER => said(self.faster, &times),
+            OBJECTIVE => said(self.objective, &power),
+            OTHER_FLAGS => self.other_flags.as_deref().map(counted),
+            OTHER_THAN_PEER => self.other_than_peer.as_deref().map(counted),
+            DIFFERS => said(self.differs, &power),
+            PASSES => said(self.passes.map(|passes| passes as f64), &|passes| passes.to_string()),
+            MEMORY => self.peak.map(|peak| (peak as f64, format!("{} MiB", peak >> 20))),
+            _ => None,
         }
     }
 }
 
-/// Whether there are sets with other rows, in words.
-fn without_others(sets: &[String]) -> (String, bool) {
-    match sets {
-        [] => ("all".to_owned(), true),
-        sets => (format!("others for {}", sets.join(", ")), false),
-    }
-}
-
-/// Prints each goal with what was measured, and returns the same for the report.
-pub(super) fn print(must: &[&[Goal]], aim: &[&[Goal]], found: &Measured) -> Value {
-    let all = must.iter().copied().flatten().map(|goal| ("must", goal));
-    let all = all.chain(aim.iter().copied().flatten().map(|goal| ("aim", goal)));
-    let lines = all.map(|(kind, goal)| {
-        let (goal, measured, met) = goal.judge(found);
-        let word = match met {
-            Some(true) => "met",
-            Some(false) => "NOT MET",
-            None => "not measured",
-        };
-        println!("- {kind}: {goal}: {measured}: {word}");
-        json!({ "kind": kind, "goal": goal, "measured": measured, "met": met })
-    });
-    lines.collect()
+/// How many sets there are, and which.
+fn counted(sets: &[String]) -> (f64, String) {
+    let said = if sets.is_empty() { "none".to_owned() } else { sets.join(", ") };
+    (sets.len() as f64, said)
 }
 
 #[cfg(test)]
@@ -185,15 +143,15 @@ mod tests {
         let worst = Measured::worst([of(Some(1e-13), Some(2.0)), of(Some(1e-11), Some(1.0))]);
         let worst = worst.unwrap();
         assert_eq!((worst.gap, worst.clock, worst.faster), (Some(1e-11), Some(2.0), Some(1.0)));
-        assert_eq!(Goal::Gap(1e-12).judge(&worst).2, Some(false));
-        assert_eq!(Goal::Seconds(2.0).judge(&worst).2, Some(true));
-        assert_eq!(Goal::Faster(2.0).judge(&worst).2, Some(false));
-        assert_eq!(Goal::Passes(3).judge(&worst).2, None);
+        assert_eq!(Goal::gap(1e-12).judge(&worst).2, Some(false));
+        assert_eq!(Goal::seconds(2.0).judge(&worst).2, Some(true));
+        assert_eq!(faster(2.0).judge(&worst).2, Some(false));
+        assert_eq!(Goal::passes(3).judge(&worst).2, None);
         let unknown = Measured::worst([of(None, Some(1.0)), of(Some(1e-13), None)]).unwrap();
         assert_eq!((unknown.gap, unknown.clock), (None, None));
         for pair in [[Some(f64::NAN), Some(1.0)], [Some(1.0), Some(f64::NAN)]] {
             let odd = Measured::worst(pair.map(|gap| of(gap, None))).unwrap();
-            assert_eq!(Goal::Gap(1.0).judge(&odd).2, Some(false));
+            assert_eq!(Goal::gap(1.0).judge(&odd).2, Some(false));
         }
     }
 
@@ -201,6 +159,6 @@ mod tests {
     fn a_rejected_answer_meets_nothing() {
         let rejected = Some("outside".to_owned());
         let found = Measured { rejected, clock: Some(1e-6), ..Measured::default() };
-        assert_eq!(Goal::Seconds(1.0).judge(&found).2, Some(false));
+        assert_eq!(Goal::seconds(1.0).judge(&found).2, Some(false));
     }
 }

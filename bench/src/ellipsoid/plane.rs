@@ -7,10 +7,10 @@ use taut_points::{Monitor, Points};
 
 use super::Context;
 use super::case::Case;
-use super::goals;
 use super::judgement::Judgement;
 use super::laws::Law;
 use super::points::{COLUMNS, solve};
+use crate::goals;
 use crate::input::{SEED, write_rows};
 use crate::stats::{seconds, times};
 use crate::table::Table;

@@ -7,9 +7,10 @@ use taut_enclose::{EllipsoidOptions, ellipsoid};
 use taut_points::Points;
 
 use super::case::{Case, Input};
-use super::goals::{self, Measured};
+use super::goals::Measured;
 use super::rounds::TIME_COLUMNS;
 use super::{Context, rounds};
+use crate::goals;
 use crate::input::SEED;
 use crate::table::Table;
 

@@ -7,9 +7,10 @@ use serde::Deserialize;
 use serde_json::json;
 
 use super::case::Case;
-use super::goals::{self, Measured};
+use super::goals::Measured;
 use super::points::{COLUMNS, solve};
 use super::{Context, data, read};
+use crate::goals;
 use crate::table::Table;
 
 /// Up to this dimension the time counts.

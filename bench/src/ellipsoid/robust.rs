@@ -7,8 +7,9 @@ use taut_enclose::{RobustOptions, robust_ellipsoid};
 use taut_points::{Distribution, Points, generate};
 
 use super::case::Case;
-use super::goals::{self, Measured};
+use super::goals::Measured;
 use super::{Context, data, linear, read, rounds};
+use crate::goals;
 use crate::input::{SEED, write_rows};
 use crate::peer::{Answer, Peer};
 use crate::stats::seconds;

@@ -6,8 +6,9 @@ use taut_enclose::{BallOptions, EllipsoidOptions, ball_of_ellipsoids, ellipsoid_
 use taut_points::{Distribution, Points, generate};
 
 use super::case::Case;
-use super::goals::{self, Measured};
+use super::goals::Measured;
 use super::{Context, rounds};
+use crate::goals;
 use crate::input::SEED;
 use crate::table::Table;
 

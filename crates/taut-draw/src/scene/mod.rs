@@ -10,6 +10,8 @@ pub(crate) mod pairs;
 mod plane;
 mod space;
 
+use taut_certify::Items;
+
 pub(crate) use self::histogram::{Histogram, histogram};
 pub(crate) use self::input::Input;
 pub(crate) use self::pairs::Pairs;
@@ -17,11 +19,9 @@ use self::plane::View;
 pub(crate) use self::plane::{LARGE_CORNERS, Projected};
 pub(crate) use self::space::at;
 use crate::body::Body;
-use crate::survey::Measure;
 use crate::{
     Aspect, Axis, DrawOptions, Figure, Layer3, Look, Scene2, Scene3, Shape2, Shape3, Tone,
 };
-use taut_certify::Items;
 
 /// Marks of items left out are this many times as large: their tone is not all that tells them.
 pub(crate) const LEFT_OUT_SCALE: f64 = 1.6;
@@ -191,6 +191,3 @@ impl Scene<'_> {
         }
     }
 }
-
-/// Where a shape's centre is in a projection.
-pub(crate) type Origin<'a> = (&'a dyn Measure, f64);

@@ -2,7 +2,7 @@
 
 use taut_certify::Items;
 
-use super::{Group, INNER_BAND_HEIGHT, Layer, Marks, Origin};
+use super::{Group, INNER_BAND_HEIGHT, Layer, Marks};
 use crate::body::{Body, Shadow};
 use crate::project::dot;
 use crate::survey::Measure;
@@ -32,8 +32,8 @@ pub(crate) struct Projected<'a> {
 /// How points of d coordinates are placed in the plane.
 pub(super) struct View<'a> {
     pub(super) directions: [Vec<f64>; 2],
-    /// What places are measured from; coordinates are drawn as they are without it.
-    pub(super) origin: Option<Origin<'a>>,
+    /// What offsets are measured by, and its unit; coordinates are drawn as they are without it.
+    pub(super) origin: Option<(&'a dyn Measure, f64)>,
     /// On a line, half the height of the band of the answer.
     pub(super) height: Option<f64>,
 }
@@ -98,13 +98,13 @@ impl View<'_> {
     /// An ellipsoid: an ellipse, a segment, or nothing where it is one point.
     fn outline(&self, body: &Body, part: f64, tone: Tone) -> Shape2 {
         let center = self.place(&body.center);
-        let Shadow([[wide, _], _]) = body.shadow_along(&self.directions);
+        let shadow = body.shadow_along(&self.directions);
+        let Shadow([[wide, _], _]) = shadow;
         let interval = Circle2 { id: None, center, radius: part * wide };
         if let Some(bands) = self.bands(&[interval], tone) {
             return bands;
         }
         if body.rank() >= 2 {
-            let shadow = body.shadow_along(&self.directions);
             return Shape2::Polygons(vec![shadow.chain(center, part, LARGE_CORNERS)]);
         }
         let segment = |axis: Vec<f64>| {

@@ -32,7 +32,10 @@ fn page_headers_that_never_end_are_refused() {
         let Ok(bytes) = std::fs::read(seeds.join(name)) else {
             return println!("skipped page_headers_that_never_end_are_refused: no seeds");
         };
-        let refused = taut_io::open_mesh_bytes(bytes, "found.parquet", Content::Triangulation, None).unwrap_err().to_string();
+        let refused =
+            taut_io::open_mesh_bytes(bytes, "found.parquet", Content::Triangulation, None)
+                .unwrap_err()
+                .to_string();
         assert!(refused.contains("no reader can pass over"), "{name}: {refused}");
     }
 }
