@@ -229,7 +229,7 @@ fn solve_in<P: Position>(
         // Streams are not held in memory, and so do not come here.
         CentersMethod::FarthestFirst | CentersMethod::Stream => of_traversal(start),
     };
-    let (proof, given_up, why) = prove(&cloud, &found, apart, k, z, monitor)?;
+    let (proof, given_up, why) = prove(table, &cloud, &found, apart, k, z, monitor)?;
     let answered = answer::answer(table, &cloud, &found.incumbent.centers, z, options.assignment)?;
     finish(table, &cloud, items, asked, options, found, proof, (given_up, why), answered)
 }
@@ -252,6 +252,7 @@ fn of_traversal<P: Position>(start: Start<P>) -> Found<P> {
 
 /// The largest of the radii shown that can be proved again; how many could not, and why not the largest of all.
 fn prove<P: Position>(
+    table: &Table,
     cloud: &Cloud<P>,
     found: &Found<P>,
     apart: Vec<u32>,
@@ -263,6 +264,8 @@ fn prove<P: Position>(
         true => Proof::none(),
         false => Proof::apart(cloud, apart, monitor)?,
     };
+    let unit = table.scale * table.weight_scale;
+    let claim = |lower, core_set: &[u32]| lower_bound(lower, core_set, table, cloud) * unit;
     let mut budget = found.nodes.saturating_mul(PROOF_FACTOR).saturating_add(PROOF_NODES);
     let (mut given_up, mut why) = (0, None);
     for &Shown { threshold, items } in found.shown.iter().rev() {
@@ -270,7 +273,7 @@ fn prove<P: Position>(
             break;
         }
         let core_set = &found.core_set[..items];
-        match Proof::by_tree(cloud, core_set, threshold, k, z, budget, monitor)? {
+        match Proof::by_tree(cloud, core_set, threshold, k, z, budget, &claim, monitor)? {
             Ok(proof) if proof.lower >= plain.lower => return Ok((proof, given_up, why)),
             tried => why = why.or(Some(tried.err().unwrap_or(Stop::Rounding))),
         }
@@ -297,7 +300,7 @@ fn finish<P: Position>(
         return Err(Error::Overflow);
     }
     let radius = answered.radius;
-    let lower = lower_bound(&proof, table, cloud).min(radius);
+    let lower = lower_bound(proof.lower, &proof.core_set, table, cloud).min(radius);
     let gap = match radius {
         0.0 => 0.0,
         // JSON knows no infinity.
@@ -361,16 +364,16 @@ fn finish<P: Position>(
 }
 
 /// What a proof shows, in the units of the rows and less by what rounding there may have added; 0 where it may have added anything.
-fn lower_bound<P: Position>(proof: &Proof, table: &Table, cloud: &Cloud<P>) -> f64 {
-    let weights = proof.core_set.iter().map(|&item| cloud.items.weight(item as usize));
+fn lower_bound<P: Position>(shown: f64, core_set: &[u32], table: &Table, cloud: &Cloud<P>) -> f64 {
+    let weights = core_set.iter().map(|&item| cloud.items.weight(item as usize));
     let weight = weights.fold(0.0, f64::max);
-    if proof.lower < LEAST_PROVED * weight {
+    if shown < LEAST_PROVED * weight {
         return 0.0;
     }
     let unit = table.scale * table.weight_scale;
-    let lower = proof.lower / unit;
+    let lower = shown / unit;
     claimed(
-        if lower * unit > proof.lower { lower.next_down() } else { lower },
+        if lower * unit > shown { lower.next_down() } else { lower },
         weight / table.weight_scale,
     )
 }

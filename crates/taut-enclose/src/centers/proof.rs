@@ -60,7 +60,8 @@ impl Proof {
     }
 
     /// That no k balls of a radius less than `threshold` hold all of the core-set but z; or why not: it takes more than `budget`
-    /// nodes or more items than a checker takes, or is not so, which can only be by rounding.
+    /// nodes or more items than a checker takes, or is not so, which can only be by rounding. `claim` tells what is left of a bound
+    /// of some items in the units of the rows, in those of the search: much less only where that is a subnormal number.
     pub(super) fn by_tree<P: Position>(
         cloud: &Cloud<P>,
         core_set: &[u32],
@@ -68,6 +69,7 @@ impl Proof {
         k: usize,
         z: usize,
         budget: u64,
+        claim: &dyn Fn(f64, &[u32]) -> f64,
         monitor: &Monitor<'_>,
     ) -> Result<Result<Self, Stop>, Error> {
         let room = k.saturating_add(z);
@@ -89,6 +91,12 @@ impl Proof {
             if log.open > log.lower * (1.0 - REFUTED_MARGIN) {
                 // A child that is open here may be refuted there: both have to be on the same side of the bound.
                 threshold = log.open * (1.0 - REFUTED_MARGIN);
+                continue;
+            }
+            let claimed = claim(log.lower * (1.0 - ROUNDING), core_set);
+            if claimed > 0.0 && log.open > claimed * (1.0 - ROUNDING) {
+                // The checker refutes what reaches the bound that is claimed, and the log has to do the same.
+                threshold = claimed * (1.0 + 2.0 * ROUNDING);
                 continue;
             }
             budget = (log.items.len() as u64).saturating_sub(1);
