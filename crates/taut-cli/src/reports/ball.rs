@@ -1,7 +1,8 @@
 //! What is said about a ball.
 
+use taut::certify::Ball;
 use taut::points::PointSource;
-use taut::{Ball, Items, Solution};
+use taut::{Items, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, ball_figures};
 
 use crate::output::numbers::{count, counted, exact, gap};

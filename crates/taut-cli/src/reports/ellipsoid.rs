@@ -1,8 +1,9 @@
 //! What is said about an ellipsoid.
 
+use taut::certify::Ellipsoid;
 use taut::certify::Stop;
 use taut::points::PointSource;
-use taut::{Ellipsoid, EllipsoidMethod, Solution};
+use taut::{EllipsoidMethod, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, ellipsoid_figures};
 
 use crate::output::numbers::{count, counted, exact, gap};

@@ -1,8 +1,9 @@
 //! What is said about an ellipsoid inside a polytope.
 
+use taut::Solution;
+use taut::certify::InscribedEllipsoid;
 use taut::certify::Stop;
 use taut::points::PointSource;
-use taut::{InscribedEllipsoid, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, inscribed_figures};
 
 use crate::output::numbers::{count, counted, exact, gap};

@@ -1,7 +1,8 @@
 //! What is said about a triangulation.
 
+use taut::certify::Triangulation;
 use taut::certify::TriangulationVerdict;
-use taut::{PointSource, Solution, Triangulation};
+use taut::{PointSource, Solution};
 use taut_draw::{DrawOptions, Error as DrawError, Figure, delaunay_figures};
 
 use crate::output::numbers::{count, counted};

@@ -60,7 +60,7 @@ pub(crate) fn solve(
     source: &dyn PointSource,
     items: Items,
     k: usize,
-    options: &CentersOptions,
+    options: &CentersOptions<'_>,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Centers>, Error> {
     if !source.is_empty() && options.outliers >= source.len() {
@@ -137,7 +137,7 @@ struct Bracket<'a> {
     sites: &'a Sites,
     k: usize,
     outliers: usize,
-    options: &'a CentersOptions,
+    options: &'a CentersOptions<'a>,
     monitor: &'a Monitor<'a>,
     incumbent: Incumbent,
     /// Sites of the items of X, in the order in which they were added.
@@ -156,7 +156,7 @@ impl<'a> Bracket<'a> {
         sites: &'a Sites,
         k: usize,
         outliers: usize,
-        options: &'a CentersOptions,
+        options: &'a CentersOptions<'a>,
         monitor: &'a Monitor<'a>,
     ) -> Result<Self, Error> {
         let start = start(sites, k, outliers, monitor)?;
@@ -284,7 +284,7 @@ fn answer(
     incumbent: &Incumbent,
     outliers: usize,
     lower_bound: f64,
-    options: &CentersOptions,
+    options: &CentersOptions<'_>,
 ) -> Result<Centers, Error> {
     let mut centers = incumbent.centers.clone();
     centers.sort_unstable_by_key(|&site| sites.row(site));

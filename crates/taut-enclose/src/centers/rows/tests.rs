@@ -11,13 +11,13 @@ use super::solve;
 use crate::Error;
 use crate::centers::{CentersMethod, CentersOptions};
 
-fn ask(problem: &Problem<'_>, options: &CentersOptions) -> Result<Solution<Centers>, Error> {
+fn ask(problem: &Problem<'_>, options: &CentersOptions<'_>) -> Result<Solution<Centers>, Error> {
     let points = Points::new(problem.values, problem.columns).unwrap();
     options.check(problem.k)?;
     solve(&points, problem.items, problem.k, options, &Monitor::silent())
 }
 
-fn exact(problem: &Problem<'_>) -> CentersOptions {
+fn exact(problem: &Problem<'_>) -> CentersOptions<'static> {
     CentersOptions {
         epsilon: 0.0,
         weights: problem.weights,
