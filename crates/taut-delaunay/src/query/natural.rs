@@ -119,7 +119,7 @@ interpolation!(3, 4, Polyhedron);
 mod tests {
     use crate::numbers::numbers;
     use crate::{DelaunayOptions, Plane, Space};
-    use taut_points::{Monitor, Points};
+    use taut_points::Points;
 
     #[test]
     fn linear_functions_are_reproduced() {

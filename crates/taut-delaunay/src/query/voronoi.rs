@@ -63,7 +63,7 @@ mod tests {
     use super::Polygon;
     use crate::numbers::numbers;
     use crate::{DelaunayOptions, Plane, Space};
-    use taut_points::{Monitor, Points};
+    use taut_points::Points;
 
     /// Cells have the same shape at any scale.
     #[test]
