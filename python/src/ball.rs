@@ -1,9 +1,7 @@
 //! `taut.ball` and `taut.ball_of_balls`, behind their Python signatures.
 
-use std::str::FromStr;
-
 use pyo3::prelude::*;
-use taut::{BallMethod, BallOptions, ball_of_source};
+use taut::{BallMethod, BallOptions};
 
 use crate::found::{Found, solve};
 use crate::items::{items_of_name, raise};
@@ -23,20 +21,22 @@ pub(crate) fn ball(
     seed: &Bound<'_, PyAny>,
 ) -> PyResult<Found> {
     let items = items_of_name(items)?;
-    let method = BallMethod::from_str(method).map_err(|error| raise(error, items, 0))?;
+    let method = method.parse::<BallMethod>().map_err(|error| raise(error, items, 0))?;
     let passes = "at least 3, and 4 for the methods of the thesis";
     let options = BallOptions {
+        inputs: items,
         epsilon,
         method,
         batch: whole("batch", batch, "at least 1, or None")?,
         max_passes: whole("max_passes", max_passes, passes)?,
         threads: whole("threads", threads, "1 to 1024, or None")?,
         seed: whole("seed", seed, "0 to 2**64 - 1")?,
+        ..BallOptions::default()
     };
     solve(
         py,
         rows,
-        |source, monitor| ball_of_source(source, items, &options, monitor),
+        |source, monitor| taut::ball(source, &BallOptions { monitor: *monitor, ..options }),
         |error, columns| raise(error, items, columns),
     )
 }

@@ -1,13 +1,11 @@
 //! `taut.centers`, behind its Python signature.
 
-use std::str::FromStr;
-
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use taut::certify::Placement;
 use taut::enclose::Error;
 use taut::points::InputError;
-use taut::{CentersMethod, CentersOptions, centers_of_source};
+use taut::{CentersMethod, CentersOptions};
 
 use crate::found::{Found, solve};
 use crate::items::{items_of_name, raise, weight};
@@ -30,9 +28,10 @@ pub(crate) fn centers(
     threads: &Bound<'_, PyAny>,
 ) -> PyResult<Found> {
     let items = items_of_name(items)?;
-    let method = CentersMethod::from_str(method).map_err(|error| raise(error, items, 0))?;
+    let method = method.parse::<CentersMethod>().map_err(|error| raise(error, items, 0))?;
     let k: usize = whole("k", k, "at least 1")?;
     let options = CentersOptions {
+        inputs: items,
         epsilon,
         method,
         placement: if discrete { Placement::Rows } else { Placement::Free },
@@ -41,11 +40,14 @@ pub(crate) fn centers(
         max_nodes: whole("max_nodes", max_nodes, "0 to 2**64 - 1")?,
         assignment,
         threads: whole("threads", threads, "1 to 1024, or None")?,
+        ..CentersOptions::default()
     };
     solve(
         py,
         rows,
-        |source, monitor| centers_of_source(source, items, k, &options, monitor),
+        |source, monitor| {
+            taut::centers(source, k, &CentersOptions { monitor: *monitor, ..options })
+        },
         |error, columns| match error {
             Error::Input(InputError::NonFinite { row, column, value })
                 if weights && column + 1 == columns =>

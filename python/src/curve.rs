@@ -1,7 +1,8 @@
 //! `taut.curve`, behind its Python signature.
 
 use pyo3::prelude::*;
-use taut::{CurveMethod, CurveOptions, Ends, Items, curve_of_source};
+use taut::reconstruct::{CurveThesisOptions, Ends};
+use taut::{CurveMethod, CurveOptions, Items};
 
 use crate::choice::choice;
 use crate::found::{Found, solve};
@@ -21,19 +22,23 @@ pub(crate) fn curve(
     places: bool,
     threads: &Bound<'_, PyAny>,
 ) -> PyResult<Found> {
+    let thesis = CurveThesisOptions { rho, omega, feature };
+    thesis.check().map_err(|error| raise(error, Items::Points, 0))?;
     let options = CurveOptions {
-        method: choice("method", method, CurveMethod::NAMES)?,
+        method: match choice("method", method)? {
+            CurveMethod::Thesis(_) => CurveMethod::Thesis(thesis),
+            CurveMethod::ThesisCrude(_) => CurveMethod::ThesisCrude(thesis),
+            other => other,
+        },
         ends: if open { Ends::Open } else { Ends::Auto },
-        rho,
-        omega,
-        feature,
         places,
         threads: whole("threads", threads, "1 to 1024, or None")?,
+        ..CurveOptions::default()
     };
     solve(
         py,
         rows,
-        |source, monitor| curve_of_source(source, &options, monitor),
+        |source, monitor| taut::curve(source, &CurveOptions { monitor: *monitor, ..options }),
         |error, columns| raise(error, Items::Points, columns),
     )
 }

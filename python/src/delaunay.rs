@@ -1,8 +1,7 @@
 //! `taut.delaunay` and `taut.spatial_order`, behind their Python signatures.
 
 use pyo3::prelude::*;
-use taut::certify::OrderCurve;
-use taut::{DelaunayOptions, InsertionOrder, Items, delaunay_of_source, spatial_order as ordered};
+use taut::{DelaunayOptions, Items, OrderOptions};
 
 use crate::choice::choice;
 use crate::found::{Found, solve};
@@ -19,7 +18,7 @@ pub(crate) fn delaunay(
     seed: &Bound<'_, PyAny>,
 ) -> PyResult<Found> {
     let options = DelaunayOptions {
-        order: choice("order", order, InsertionOrder::NAMES)?,
+        order: choice("order", order)?,
         threads: whole("threads", threads, "1 to 1024, or None")?,
         seed: whole("seed", seed, "0 to 2**64 - 1")?,
         ..DelaunayOptions::default()
@@ -27,7 +26,7 @@ pub(crate) fn delaunay(
     solve(
         py,
         rows,
-        |source, monitor| delaunay_of_source(source, &options, monitor),
+        |source, monitor| taut::delaunay(source, &DelaunayOptions { monitor: *monitor, ..options }),
         |error, columns| raise(error, Items::Points, columns),
     )
 }
@@ -39,11 +38,14 @@ pub(crate) fn spatial_order(
     rows: &Bound<'_, PyAny>,
     curve: &str,
 ) -> PyResult<Found> {
-    let curve = choice("curve", curve, OrderCurve::NAMES)?;
+    let curve = choice("curve", curve)?;
+    let options = OrderOptions { curve, ..OrderOptions::default() };
     solve(
         py,
         rows,
-        |source, monitor| ordered(source, curve, monitor),
+        |source, monitor| {
+            taut::spatial_order(source, &OrderOptions { monitor: *monitor, ..options })
+        },
         |error, columns| raise(error, Items::Points, columns),
     )
 }

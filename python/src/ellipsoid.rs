@@ -1,15 +1,11 @@
 //! `taut.ellipsoid` and `taut.ellipsoids`, behind their Python signatures, and what is inside of an ellipsoid.
 
-use std::str::FromStr;
-
 use numpy::PyArray1;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
+use taut::certify::Ellipsoid;
 use taut::points::{Blocks, ReadError, Scratch};
-use taut::{
-    Ellipsoid, EllipsoidMethod, EllipsoidOptions, Items, PointSource, ellipsoid_of_items,
-    ellipsoids_of_sources,
-};
+use taut::{EllipsoidMethod, EllipsoidOptions, Items, PointSource};
 
 use crate::found::{Found, solve};
 use crate::items::{items_of_name, raise};
@@ -34,7 +30,12 @@ pub(crate) fn ellipsoid(
     solve(
         py,
         rows,
-        |source, monitor| ellipsoid_of_items(source, items, &options, monitor),
+        |source, monitor| {
+            taut::ellipsoid(
+                source,
+                &EllipsoidOptions { inputs: items, monitor: *monitor, ..options },
+            )
+        },
         |error, columns| raise(error, items, columns),
     )
 }
@@ -54,8 +55,10 @@ pub(crate) fn ellipsoids(
     let sets: Vec<Rows<'_>> = sets.iter().map(Rows::borrow).collect::<PyResult<_>>()?;
     let sources = sets.iter().map(Rows::source).collect::<PyResult<Vec<_>>>()?;
     let sources: Vec<&dyn PointSource> = sources.iter().map(AsRef::as_ref).collect();
-    let found = interruptible(py, |monitor| ellipsoids_of_sources(&sources, &options, monitor))?
-        .map_err(|error| raise(error, Items::Points, 0))?;
+    let found = interruptible(py, |monitor| {
+        taut::ellipsoids(&sources, &EllipsoidOptions { monitor: *monitor, ..options })
+    })?
+    .map_err(|error| raise(error, Items::Points, 0))?;
     Ok(found.into_iter().map(Found::from).collect())
 }
 
@@ -65,15 +68,16 @@ fn options(
     max_passes: &Bound<'_, PyAny>,
     threads: &Bound<'_, PyAny>,
     seed: &Bound<'_, PyAny>,
-) -> PyResult<EllipsoidOptions> {
+) -> PyResult<EllipsoidOptions<'static>> {
     let method =
-        EllipsoidMethod::from_str(method).map_err(|error| raise(error, Items::Points, 0))?;
+        method.parse::<EllipsoidMethod>().map_err(|error| raise(error, Items::Points, 0))?;
     Ok(EllipsoidOptions {
         epsilon,
         method,
         max_passes: whole("max_passes", max_passes, "at least 2")?,
         threads: whole("threads", threads, "1 to 1024, or None")?,
         seed: whole("seed", seed, "0 to 2**64 - 1")?,
+        ..EllipsoidOptions::default()
     })
 }
 

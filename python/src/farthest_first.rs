@@ -1,7 +1,7 @@
 //! `taut.farthest_first`, behind its Python signature.
 
 use pyo3::prelude::*;
-use taut::{FarthestFirstOptions, Items, farthest_first_of_source};
+use taut::{FarthestFirstOptions, Items};
 
 use crate::items::raise;
 use crate::numbers::whole;
@@ -22,11 +22,16 @@ pub(crate) fn farthest_first<'py>(
     let options = FarthestFirstOptions {
         start: whole("start", start, "the number of a row, from 0")?,
         threads: whole("threads", threads, "1 to 1024, or None")?,
+        ..FarthestFirstOptions::default()
     };
     let rows = Rows::borrow(rows)?;
     let source = rows.source()?;
     let found = interruptible(py, |monitor| {
-        farthest_first_of_source(source.as_ref(), count, &options, monitor)
+        taut::farthest_first(
+            source.as_ref(),
+            count,
+            &FarthestFirstOptions { monitor: *monitor, ..options },
+        )
     })?
     .map_err(|error| raise(error, Items::Points, source.dim()))?;
     Ok((plain(py, &found.order)?, plain(py, &found.radii)?, found.next))

@@ -13,7 +13,7 @@ use taut::oblivious::{
     Error, TransposeFileOptions, sample as draw, transpose_file_pending as transpose,
 };
 
-use crate::choice::choice;
+use crate::choice::one_of;
 use crate::found::Violation;
 use crate::numbers::whole;
 use crate::object::plain;
@@ -35,7 +35,7 @@ pub(crate) fn sort_file(
     scratch: Option<PathBuf>,
     resume: Option<PathBuf>,
 ) -> PyResult<FoundFile> {
-    let kind = choice("kind", kind, KeyKind::NAMES)?;
+    let kind = one_of("kind", kind, KeyKind::NAMES)?;
     let key = whole::<usize>("key", &key.0, SIZE)?..whole::<usize>("key", &key.1, SIZE)?;
     let layout = RecordLayout { width: whole("width", width, "1 to 16777216 bytes")?, key, kind };
     let options = FileSortOptions { memory: whole("memory", memory, SIZE)?, scratch, resume };

@@ -3,7 +3,7 @@
 use numpy::{Element, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use taut::Distribution;
+use taut::points::Distribution;
 use taut::points::generate::Parameters;
 use taut::points::{Error, Scalar, generate_into};
 

@@ -4,7 +4,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use taut::enclose::Error;
 use taut::points::InputError;
-use taut::{InscribedOptions, Items, inscribed_ellipsoid_of_source};
+use taut::{InscribedOptions, Items};
 
 use crate::found::{Found, solve};
 use crate::items::raise;
@@ -18,12 +18,17 @@ pub(crate) fn inscribed_ellipsoid(
     epsilon: f64,
     max_steps: &Bound<'_, PyAny>,
 ) -> PyResult<Found> {
-    let options =
-        InscribedOptions { epsilon, max_steps: whole("max_steps", max_steps, "at least 1")? };
+    let options = InscribedOptions {
+        epsilon,
+        max_steps: whole("max_steps", max_steps, "at least 1")?,
+        ..InscribedOptions::default()
+    };
     solve(
         py,
         rows,
-        |source, monitor| inscribed_ellipsoid_of_source(source, &options, monitor),
+        |source, monitor| {
+            taut::inscribed_ellipsoid(source, &InscribedOptions { monitor: *monitor, ..options })
+        },
         refused,
     )
 }

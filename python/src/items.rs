@@ -12,7 +12,7 @@ use crate::choice::choice;
 
 /// What the rows are, by its name in JSON.
 pub(crate) fn items_of_name(name: &str) -> PyResult<Items> {
-    choice("items", name, Items::NAMES)
+    choice("items", name)
 }
 
 /// What a solver refused: what is wrong with the input is a `ValueError`. `columns` is the length of a row.

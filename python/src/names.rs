@@ -3,32 +3,33 @@
 use std::collections::BTreeMap;
 
 use pyo3::prelude::*;
-use taut::certify::OrderCurve;
+use taut::certify::{OrderCurve, SurfaceMethod};
+use taut::delaunay::InsertionOrder;
 use taut::oblivious::external::KeyKind;
-use taut::points::generate::Distribution;
+use taut::points::{Choice, Distribution};
 use taut::reconstruct::thesis::Priority;
-use taut::{
-    BallMethod, CentersMethod, CurveMethod, EllipsoidMethod, InsertionOrder, RobustMethod,
-    SurfaceMethod,
-};
+use taut::{BallMethod, CentersMethod, CurveMethod, EllipsoidMethod, RobustMethod};
 
 /// For each function and option that is a word, the words.
 #[pyfunction]
 pub(crate) fn names() -> BTreeMap<&'static str, Vec<&'static str>> {
-    fn of<T>(names: impl IntoIterator<Item = (&'static str, T)>) -> Vec<&'static str> {
+    fn of<T: Choice>() -> Vec<&'static str> {
+        T::CHOICES.iter().map(|(name, ..)| *name).collect()
+    }
+    fn listed<T>(names: impl IntoIterator<Item = (&'static str, T)>) -> Vec<&'static str> {
         names.into_iter().map(|(name, _)| name).collect()
     }
     BTreeMap::from([
-        ("ball.method", BallMethod::ALL.map(BallMethod::name).into()),
-        ("centers.method", CentersMethod::ALL.map(CentersMethod::name).into()),
-        ("curve.method", of(CurveMethod::NAMES)),
-        ("delaunay.order", of(InsertionOrder::NAMES)),
-        ("ellipsoid.method", EllipsoidMethod::ALL.map(EllipsoidMethod::name).into()),
-        ("generate.distribution", of(Distribution::NAMES)),
-        ("robust_ellipsoid.method", RobustMethod::ALL.map(RobustMethod::name).into()),
-        ("sort_file.kind", of(KeyKind::NAMES)),
-        ("spatial_order.curve", of(OrderCurve::NAMES)),
-        ("surface.method", SurfaceMethod::ALL.map(SurfaceMethod::name).into()),
-        ("surface.priority", of(Priority::NAMES)),
+        ("ball.method", of::<BallMethod>()),
+        ("centers.method", of::<CentersMethod>()),
+        ("curve.method", of::<CurveMethod>()),
+        ("delaunay.order", of::<InsertionOrder>()),
+        ("ellipsoid.method", of::<EllipsoidMethod>()),
+        ("generate.distribution", listed(Distribution::NAMES)),
+        ("robust_ellipsoid.method", of::<RobustMethod>()),
+        ("sort_file.kind", listed(KeyKind::NAMES)),
+        ("spatial_order.curve", of::<OrderCurve>()),
+        ("surface.method", of::<SurfaceMethod>()),
+        ("surface.priority", of::<Priority>()),
     ])
 }

@@ -1,10 +1,7 @@
 //! `taut.robust_ellipsoid`, behind its Python signature.
 
-use std::str::FromStr;
-
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use taut::{Items, RobustMethod, RobustOptions, robust_ellipsoid_of_source};
+use taut::{Items, RobustMethod, RobustOptions};
 
 use crate::found::{Found, solve};
 use crate::items::raise;
@@ -21,18 +18,20 @@ pub(crate) fn robust_ellipsoid(
     epsilon: f64,
     threads: &Bound<'_, PyAny>,
 ) -> PyResult<Found> {
-    let method = RobustMethod::from_str(method);
     let options = RobustOptions {
-        method: method.map_err(|error| PyValueError::new_err(error.to_string()))?,
+        method: method.parse::<RobustMethod>().map_err(|error| raise(error, Items::Points, 0))?,
         coverage,
         level,
         epsilon,
         threads: whole("threads", threads, "1 to 1024, or None")?,
+        ..RobustOptions::default()
     };
     solve(
         py,
         rows,
-        |source, monitor| robust_ellipsoid_of_source(source, &options, monitor),
+        |source, monitor| {
+            taut::robust_ellipsoid(source, &RobustOptions { monitor: *monitor, ..options })
+        },
         |error, columns| raise(error, Items::Points, columns),
     )
 }

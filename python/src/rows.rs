@@ -37,9 +37,7 @@ impl<'py> Rows<'py> {
 }
 
 /// An array as points.
-pub(crate) fn points<'a, T: Scalar + Element>(
-    array: &'a PyReadonlyArray2<'_, T>,
-) -> PyResult<Points<'a, T>> {
+fn points<'a, T: Scalar + Element>(array: &'a PyReadonlyArray2<'_, T>) -> PyResult<Points<'a, T>> {
     if !array.is_c_contiguous() {
         return Err(PyValueError::new_err("expected an array in C order"));
     }

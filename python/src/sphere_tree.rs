@@ -1,13 +1,12 @@
 //! `taut.sphere_tree`, behind its Python signature, and its nodes as arrays.
 
 use pyo3::prelude::*;
-use taut::enclose::Error;
-use taut::{Items, SphereTreeOptions, sphere_tree_of_source};
+use taut::{Items, SphereTreeOptions};
 
 use crate::items::raise;
 use crate::numbers::whole;
 use crate::object::plain;
-use crate::rows::{Rows, points};
+use crate::rows::Rows;
 use crate::work::interruptible;
 
 /// What `taut.SphereTree` is made of.
@@ -26,24 +25,19 @@ pub(crate) fn sphere_tree<'py>(
         leaf_size: whole("leaf_size", leaf_size, "at least 1")?,
         epsilon,
         threads: whole("threads", threads, "1 to 1024, or None")?,
+        ..SphereTreeOptions::default()
     };
     let rows = Rows::borrow(rows)?;
-    let refused = |error: Error| raise(error, Items::Points, 0);
-    let tree = match &rows {
-        Rows::F32(array) => {
-            let points = points(array)?;
-            interruptible(py, |monitor| sphere_tree_of_source(&points, &options, monitor))?
-        }
-        Rows::F64(array) => {
-            let points = points(array)?;
-            interruptible(py, |monitor| sphere_tree_of_source(&points, &options, monitor))?
-        }
-    };
-    arrays(py, &tree.map_err(refused)?)
+    let source = rows.source()?;
+    let tree = interruptible(py, |monitor| {
+        let options = SphereTreeOptions { monitor: *monitor, ..options };
+        taut::sphere_tree(source.as_ref(), &options)
+    })?;
+    arrays(py, &tree.map_err(|error| raise(error, Items::Points, 0))?)
 }
 
 /// Centers, radii, ranges and children of the nodes, and the order of the rows.
-fn arrays<'py>(py: Python<'py>, tree: &taut::SphereTree) -> PyResult<Arrays<'py>> {
+fn arrays<'py>(py: Python<'py>, tree: &taut::enclose::SphereTree) -> PyResult<Arrays<'py>> {
     let centers: Vec<&[f64]> = tree.nodes.iter().map(|node| &node.ball.center[..]).collect();
     let radii: Vec<f64> = tree.nodes.iter().map(|node| radius(&node.ball)).collect();
     let ranges: Vec<_> = tree.nodes.iter().map(|node| (node.range.start, node.range.end)).collect();
@@ -62,7 +56,7 @@ fn arrays<'py>(py: Python<'py>, tree: &taut::SphereTree) -> PyResult<Arrays<'py>
 }
 
 /// The radius from the center as one `f64` a coordinate: where there is a tail, it is that much farther to the points.
-fn radius(ball: &taut::Ball) -> f64 {
+fn radius(ball: &taut::certify::Ball) -> f64 {
     let tail: f64 = ball.center_tail.iter().map(|tail| tail.abs()).sum();
     if tail > 0.0 { (ball.radius + tail).next_up() } else { ball.radius }
 }

@@ -2,10 +2,10 @@
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use taut::certify::SurfaceMethod as Kind;
 use taut::reconstruct::thesis::{AlphaFilter, Extent, Priority, ThesisOptions};
-use taut::{
-    Denoise, Items, Positions, SurfaceMethod, SurfaceMode, SurfaceOptions, surface_of_source,
-};
+use taut::reconstruct::{Denoise, HullOptions, Positions, SurfaceMode};
+use taut::{Items, SurfaceMethod, SurfaceOptions};
 
 use crate::choice::choice;
 use crate::found::{Found, solve};
@@ -31,20 +31,9 @@ pub(crate) fn surface(
     restarts: bool,
     threads: &Bound<'_, PyAny>,
 ) -> PyResult<Found> {
-    let methods = SurfaceMethod::ALL.map(|method| (method.name(), method));
-    let method = choice("method", method, methods)?;
-    let priority = choice("priority", priority, Priority::NAMES)?;
+    let method: Kind = choice("method", method)?;
+    let priority: Priority = choice("priority", priority)?;
     let usual = ThesisOptions::default();
-    let is_filtered = matches!(method, SurfaceMethod::Thesis | SurfaceMethod::Hull);
-    let thesis = ThesisOptions {
-        epsilon,
-        alpha: alpha.filter(|_| is_filtered).map_or(AlphaFilter::None, AlphaFilter::Circumradius),
-        sliver_angle: sliver_angle.unwrap_or(usual.sliver_angle),
-        forbidden_angle: forbidden_angle.unwrap_or(usual.forbidden_angle),
-        priority,
-        extent: if restarts { Extent::Restarts } else { Extent::Front },
-        ..usual
-    };
     let noise = Denoise {
         neighbors: whole("neighbors", neighbors, "from 4 to 1000")?,
         iterations: whole("iterations", iterations, "from 0 to 100")?,
@@ -76,18 +65,36 @@ pub(crate) fn surface(
             return Err(PyValueError::new_err(message));
         }
     }
+    let filter = alpha.map_or(AlphaFilter::None, AlphaFilter::Circumradius);
+    let method = match method {
+        Kind::Tree if open => SurfaceMethod::Tree(SurfaceMode::Open),
+        Kind::Tree => SurfaceMethod::Tree(SurfaceMode::Closed),
+        Kind::Alpha => SurfaceMethod::Alpha(alpha),
+        Kind::Hull => {
+            SurfaceMethod::Hull(HullOptions { epsilon, alpha: filter, ..HullOptions::default() })
+        }
+        Kind::Thesis => SurfaceMethod::Thesis(ThesisOptions {
+            epsilon,
+            alpha: filter,
+            sliver_angle: sliver_angle.unwrap_or(usual.sliver_angle),
+            forbidden_angle: forbidden_angle.unwrap_or(usual.forbidden_angle),
+            priority,
+            extent: if restarts { Extent::Restarts } else { Extent::Front },
+            ..usual
+        }),
+    };
     let options = SurfaceOptions {
         method,
-        mode: if open { SurfaceMode::Open } else { SurfaceMode::Closed },
-        alpha: alpha.filter(|_| method == SurfaceMethod::Alpha),
-        thesis,
         denoise: denoise.then_some(noise),
         threads: whole("threads", threads, "1 to 1024, or None")?,
+        ..SurfaceOptions::default()
     };
     solve(
         py,
         rows,
-        |source, monitor| surface_of_source(source, &options, monitor),
+        |source, monitor| {
+            taut::surface(source, &SurfaceOptions { monitor: *monitor, ..options.clone() })
+        },
         |error, columns| raise(error, Items::Points, columns),
     )
 }

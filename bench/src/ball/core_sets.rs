@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::Result;
 use serde_json::{Value, json};
-use taut_enclose::{BallMethod, BallOptions, ball_of_source};
+use taut_enclose::{BallMethod, BallOptions, ball};
 use taut_points::{Distribution, Monitor};
 
 use super::Context;
@@ -75,7 +75,7 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
             let options = BallOptions { epsilon: 1e-3, method, batch, ..BallOptions::default() };
             let start = Instant::now();
             let Some(found) = within(context.limit, |monitor| {
-                ball_of_source(&*source, input.items, &options, monitor)
+                ball(&*source, &BallOptions { inputs: input.items, monitor: *monitor, ..options })
             })?
             else {
                 let silence = format!("none in {} s", context.limit.as_secs());

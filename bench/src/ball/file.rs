@@ -8,8 +8,8 @@ use std::time::Instant;
 use anyhow::{Context as _, Result, ensure};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
-use taut_certify::{Items, Stop, Verdict};
-use taut_enclose::{BallOptions, ball_of_source};
+use taut_certify::{Stop, Verdict};
+use taut_enclose::{BallOptions, ball};
 use taut_points::{FileSource, Monitor, ScalarKind};
 
 use super::Context;
@@ -74,7 +74,7 @@ pub(crate) fn solve(arguments: &SolveArguments) -> Result<()> {
     let options =
         BallOptions { epsilon: 0.0, threads: Some(arguments.threads), ..BallOptions::default() };
     let start = Instant::now();
-    let found = ball_of_source(&source, Items::Points, &options, &monitor)?;
+    let found = ball(&source, &BallOptions { monitor, ..options })?;
     let total = start.elapsed().as_secs_f64();
     let peak = meter::peak();
     let verdict = found.check(&source);

@@ -6,8 +6,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context as _, Result, ensure};
 use serde_json::{Value, json};
 use taut_certify::{Ball, Solution, Verdict};
-use taut_enclose::{BallOptions, ball_of_source};
-use taut_points::Monitor;
+use taut_enclose::{BallOptions, ball};
 
 use super::Context;
 use crate::input::Input;
@@ -41,7 +40,7 @@ struct PeerRuns {
 pub(super) fn run(
     context: &Context,
     input: &Input,
-    options: &BallOptions,
+    options: &BallOptions<'_>,
     peers: &[&str],
 ) -> Result<Paired> {
     let source = input.source()?;
@@ -53,7 +52,7 @@ pub(super) fn run(
     let solve = |pool: &rayon::ThreadPool| -> Result<(f64, Solution<Ball>)> {
         pool.install(|| {
             let start = Instant::now();
-            let found = ball_of_source(&*source, input.items, options, &Monitor::silent())?;
+            let found = ball(&*source, &BallOptions { inputs: input.items, ..*options })?;
             Ok((start.elapsed().as_secs_f64(), found))
         })
     };

@@ -3,8 +3,8 @@
 use anyhow::{Result, ensure};
 use serde_json::json;
 use taut_certify::Items;
-use taut_enclose::{BallMethod, BallOptions, ball_of_source};
-use taut_points::{Distribution, Monitor};
+use taut_enclose::{BallMethod, BallOptions, ball};
+use taut_points::Distribution;
 
 use super::Context;
 use super::case::Case;
@@ -50,7 +50,7 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
                     ..BallOptions::default()
                 };
                 let source = input.source()?;
-                Ok(ball_of_source(&*source, input.items, &options, &Monitor::silent())?.to_json())
+                Ok(ball(&*source, &BallOptions { inputs: input.items, ..options })?.to_json())
             };
             let one = match solve(1) {
                 Ok(one) => one,

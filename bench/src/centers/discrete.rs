@@ -4,9 +4,9 @@ use std::time::Instant;
 
 use anyhow::Result;
 use serde_json::{Value, json};
-use taut_certify::Placement;
+use taut_certify::{Items, Placement};
 use taut_enclose::{CentersOptions, centers};
-use taut_points::{Distribution, Points, generate};
+use taut_points::{Distribution, Monitor, Points, generate};
 
 use super::case::{Case, GERMANY};
 use super::judgement::{self, COLUMNS, judge};
@@ -19,7 +19,8 @@ use crate::table::Table;
 
 const RANDOM_SETS: u64 = 200;
 const DIM: usize = 2;
-const OPTIONS: CentersOptions = CentersOptions {
+const OPTIONS: CentersOptions<'static> = CentersOptions {
+    inputs: Items::Points,
     epsilon: 0.0,
     method: taut_enclose::CentersMethod::Tree,
     placement: Placement::Rows,
@@ -28,6 +29,7 @@ const OPTIONS: CentersOptions = CentersOptions {
     max_nodes: 10_000_000,
     assignment: false,
     threads: None,
+    monitor: Monitor::silent(),
 };
 
 /// A small set and the number of its centres.

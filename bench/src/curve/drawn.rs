@@ -55,7 +55,7 @@ pub(super) fn found_edges(found: &Curve) -> Vec<[u64; 2]> {
 }
 
 /// Solves, and takes the time of it by the clock.
-pub(super) fn solve(values: &[f64], options: &CurveOptions) -> Result<(Solution<Curve>, f64)> {
+pub(super) fn solve(values: &[f64], options: &CurveOptions<'_>) -> Result<(Solution<Curve>, f64)> {
     let points = Points::new(values, 2)?;
     let start = Instant::now();
     let found = curve(&points, options)?;
@@ -83,7 +83,7 @@ impl Trials {
         truth: &TruthCurves,
         n: usize,
         noise: &CurveNoise,
-        options: &CurveOptions,
+        options: &CurveOptions<'_>,
         seeds: Range<u64>,
     ) -> Result<Self> {
         let trial = Self::trial(truth, n, noise, options);
@@ -98,7 +98,7 @@ impl Trials {
         truth: &TruthCurves,
         n: usize,
         noise: &CurveNoise,
-        options: &CurveOptions,
+        options: &CurveOptions<'_>,
         seeds: Range<u64>,
     ) -> Result<Self> {
         let trial = Self::trial(truth, n, noise, options);
@@ -110,7 +110,7 @@ impl Trials {
         truth: &'a TruthCurves,
         n: usize,
         noise: &'a CurveNoise,
-        options: &'a CurveOptions,
+        options: &'a CurveOptions<'a>,
     ) -> impl Fn(u64) -> Result<Trial> + Sync + 'a {
         let lines = true_lines(truth);
         move |seed| {

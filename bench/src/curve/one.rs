@@ -35,9 +35,7 @@ pub(crate) fn run(arguments: &OneArguments) -> Result<()> {
     let mut values = vec![0.0f64; file.metadata()?.len() as usize / 8];
     file.read_exact(bytemuck::cast_slice_mut(&mut values))?;
     let points = Points::new(&values, 2)?;
-    let known = CurveMethod::NAMES.iter().find(|(name, _)| *name == arguments.method);
-    let &(_, method) =
-        known.with_context(|| format!("no method is called {}", arguments.method))?;
+    let method: CurveMethod = arguments.method.parse()?;
     let options =
         CurveOptions { method, threads: Some(arguments.threads), ..CurveOptions::default() };
     let meter = Meter::start();

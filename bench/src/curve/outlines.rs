@@ -76,7 +76,7 @@ impl Shuffled {
     }
 
     /// The edges found by a method beside the true ones, pairs of edges that cross, and the time it took.
-    fn judge(&self, options: &CurveOptions) -> Result<(EdgeScore, usize, f64)> {
+    fn judge(&self, options: &CurveOptions<'_>) -> Result<(EdgeScore, usize, f64)> {
         let (found, seconds) = solve(&self.points, options)?;
         let edges: Vec<[u64; 2]> = found_edges(&found.answer)
             .into_iter()

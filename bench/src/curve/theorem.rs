@@ -6,7 +6,7 @@ use anyhow::Result;
 use serde_json::{Value, json};
 use taut_mesh::{Polyline, compare};
 use taut_points::generate::curves::{CurveNoise, TestCurve, TruthCurves, sample_curve};
-use taut_reconstruct::{CurveMethod, CurveOptions};
+use taut_reconstruct::{CurveMethod, CurveOptions, CurveThesisOptions};
 
 use super::drawn::{CURVES, Trials, error, pool, true_lines, truth};
 use crate::context::Context;
@@ -55,7 +55,8 @@ fn plain(
 /// Connectivity over many draws, then errors beside those that are known.
 pub(super) fn run(context: &Context, seeds: Range<u64>) -> Result<Value> {
     let pool = pool(context.threads[context.threads.len() - 1])?;
-    let options = CurveOptions { method: CurveMethod::Thesis, rho: 4.0, ..CurveOptions::default() };
+    let thesis = CurveThesisOptions { rho: 4.0, ..CurveThesisOptions::DEFAULT };
+    let options = CurveOptions { method: CurveMethod::Thesis(thesis), ..CurveOptions::default() };
     let noise = CurveNoise { delta: DELTA, ..CurveNoise::default() };
     let (mut goals, mut report) = (Goals::default(), vec![]);
     let mut table = Table::new(&[
@@ -92,7 +93,8 @@ pub(super) fn run(context: &Context, seeds: Range<u64>) -> Result<Value> {
         goals.must(format!("{name}: right in 95 of 100"), format!("{right} of {all}"), met);
     }
     println!();
-    let told = CurveOptions { feature: Some(1.0), ..options };
+    let told = CurveThesisOptions { feature: Some(1.0), ..thesis };
+    let told = CurveOptions { method: CurveMethod::Thesis(told), ..options };
     let few = seeds.start..seeds.end.min(seeds.start + DRAWS_PER_CASE);
     for (name, sizes) in COMPARED_CURVES {
         let truth = truth(name, TestCurve::VERTICES)?;

@@ -37,17 +37,16 @@ pub(crate) fn run(arguments: &OneArguments) -> Result<()> {
     let points = Points::new(&values, arguments.dim)?;
     let options =
         DelaunayOptions { threads: Some(arguments.threads), ..DelaunayOptions::default() };
-    let silent = Monitor::silent();
     let n = points.len() as u64;
     let meter = Meter::start();
     let build = match arguments.dim {
         2 => {
-            let built = Plane::build(&points, &options, &silent)?;
+            let built = Plane::build(&points, &options)?;
             let build = line(n, meter.stop(), &built);
             Build { judged: arguments.judge(&built, &points)?, ..build }
         }
         3 => {
-            let built = Space::build(&points, &options, &silent)?;
+            let built = Space::build(&points, &options)?;
             let build = line(n, meter.stop(), &built);
             Build { judged: arguments.judge(&built, &points)?, ..build }
         }

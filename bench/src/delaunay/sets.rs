@@ -11,7 +11,7 @@ use std::process::{Command, Stdio};
 
 use anyhow::{Context as _, Result, ensure};
 use taut_delaunay::{DelaunayOptions, Plane, Space, Triangulation};
-use taut_points::{Monitor, Points, generate};
+use taut_points::{Points, generate};
 
 use super::case::Case;
 use crate::input::SEED;
@@ -23,7 +23,7 @@ pub(super) fn run(cases: &[&Case], quick: bool) -> Result<()> {
     let mut table = Table::new(&["input", "taut", "CGAL", "in both", "equal"]);
     let mut done = Vec::new();
     let temp = tempfile::tempdir()?;
-    let (options, silent) = (DelaunayOptions::default(), Monitor::silent());
+    let options = DelaunayOptions::default();
     let file = temp.path().join("points.f64");
     for case in cases {
         for input in case.inputs {
@@ -39,8 +39,8 @@ pub(super) fn run(cases: &[&Case], quick: bool) -> Result<()> {
             out.into_inner()?;
             let points = Points::new(&values, case.dim)?;
             let (ours, theirs, common) = match case.dim {
-                2 => compare(ours(&Plane::build(&points, &options, &silent)?), &file)?,
-                _ => compare(ours(&Space::build(&points, &options, &silent)?), &file)?,
+                2 => compare(ours(&Plane::build(&points, &options)?), &file)?,
+                _ => compare(ours(&Space::build(&points, &options)?), &file)?,
             };
             let equal = if common == ours && ours == theirs { "yes" } else { "no" };
             let cells = [ours, theirs, common].map(|count| count.to_string());
@@ -85,7 +85,7 @@ mod tests {
     fn simplices_are_told_apart_by_their_rows_alone() {
         let values = [0.0, 0.0, 4.0, 0.0, 4.0, 3.0, 0.0, 1.0];
         let points = Points::new(&values, 2).unwrap();
-        let built = Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent()).unwrap();
+        let built = Plane::build(&points, &DelaunayOptions::default()).unwrap();
         assert_eq!(ours(&built), sorted(vec![[3, 1, 0], [2, 3, 1]]));
     }
 }

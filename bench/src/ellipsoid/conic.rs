@@ -2,10 +2,8 @@
 
 use anyhow::Result;
 use serde_json::json;
-use taut_certify::{Ball, Ellipsoid, Solution};
-use taut_enclose::{
-    BallOptions, EllipsoidOptions, ball_of_ellipsoids, ellipsoid, ellipsoid_of_ellipsoids,
-};
+use taut_certify::{Ball, Ellipsoid, Items, Solution};
+use taut_enclose::{BallOptions, EllipsoidOptions, ball, ellipsoid};
 use taut_points::Points;
 
 use super::case::Case;
@@ -58,10 +56,13 @@ impl Found {
         let options = EllipsoidOptions { epsilon: EPSILON, ..EllipsoidOptions::default() };
         Ok(match problem {
             Problem::Points => Found::Ellipsoid(ellipsoid(rows, &options)?),
-            Problem::Ellipsoid => Found::Ellipsoid(ellipsoid_of_ellipsoids(rows, &options)?),
+            Problem::Ellipsoid => Found::Ellipsoid(ellipsoid(
+                rows,
+                &EllipsoidOptions { inputs: Items::Ellipsoids, ..options },
+            )?),
             Problem::Ball => {
                 let options = BallOptions { epsilon: EPSILON, ..BallOptions::default() };
-                Found::Ball(ball_of_ellipsoids(rows, &options)?)
+                Found::Ball(ball(rows, &BallOptions { inputs: Items::Ellipsoids, ..options })?)
             }
         })
     }

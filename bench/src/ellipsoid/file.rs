@@ -6,8 +6,8 @@ use std::time::Instant;
 use anyhow::Result;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
-use taut_enclose::{EllipsoidOptions, ellipsoid_of_source};
-use taut_points::{FileSource, Monitor, ScalarKind};
+use taut_enclose::{EllipsoidOptions, ellipsoid};
+use taut_points::{FileSource, ScalarKind};
 
 use super::Context;
 use super::case::Case;
@@ -51,7 +51,7 @@ pub(crate) fn solve(arguments: &SolveArguments) -> Result<()> {
     let options =
         EllipsoidOptions { threads: Some(arguments.threads), ..EllipsoidOptions::default() };
     let start = Instant::now();
-    let found = ellipsoid_of_source(&source, &options, &Monitor::silent())?;
+    let found = ellipsoid(&source, &options)?;
     let seconds = start.elapsed().as_secs_f64();
     let peak = meter::peak();
     let verdict = found.check(&source);

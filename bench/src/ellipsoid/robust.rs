@@ -78,7 +78,7 @@ fn log_det(values: &[f64], d: usize, kept: &[u64]) -> Option<f64> {
 }
 
 /// Options under which taut keeps h of n points.
-fn keeping(h: usize, n: usize, d: usize) -> RobustOptions {
+fn keeping(h: usize, n: usize, d: usize) -> RobustOptions<'static> {
     let half = (n + d).div_ceil(2) as f64;
     let (h, n) = (h as f64, n as f64);
     // The α of which so many are kept, in the middle of its range.

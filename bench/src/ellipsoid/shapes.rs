@@ -2,7 +2,8 @@
 
 use anyhow::Result;
 use serde_json::json;
-use taut_enclose::{BallOptions, EllipsoidOptions, ball_of_ellipsoids, ellipsoid_of_ellipsoids};
+use taut_certify::Items;
+use taut_enclose::{BallOptions, EllipsoidOptions, ball, ellipsoid};
 use taut_points::{Distribution, Points, generate};
 
 use super::case::Case;
@@ -45,7 +46,7 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
 
     let options = EllipsoidOptions { epsilon: EPSILON, ..EllipsoidOptions::default() };
     let rounds = rounds::run(context, &context.threads, None, || {
-        Ok(ellipsoid_of_ellipsoids(&items, &options)?)
+        Ok(ellipsoid(&items, &EllipsoidOptions { inputs: Items::Ellipsoids, ..options })?)
     })?;
     let gap = rounds.found.check(&items).map(|verdict| verdict.gap).map_err(|e| e.to_string());
     all.push((
@@ -57,8 +58,9 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
     ));
 
     let options = BallOptions { epsilon: EPSILON, ..BallOptions::default() };
-    let rounds =
-        rounds::run(context, &context.threads, None, || Ok(ball_of_ellipsoids(&items, &options)?))?;
+    let rounds = rounds::run(context, &context.threads, None, || {
+        Ok(ball(&items, &BallOptions { inputs: Items::Ellipsoids, ..options })?)
+    })?;
     let gap = rounds.found.check(&items).map(|verdict| verdict.gap).map_err(|e| e.to_string());
     all.push((
         "smallest ball",

@@ -13,7 +13,10 @@ use crate::input::write_rows;
 use crate::peer::{Peer, Silence};
 
 /// A surface of taut, and the seconds that it took.
-pub(super) fn ours(points: &[Point], options: &SurfaceOptions) -> Result<(Solution<Surface>, f64)> {
+pub(super) fn ours(
+    points: &[Point],
+    options: &SurfaceOptions<'_>,
+) -> Result<(Solution<Surface>, f64)> {
     let view = Points::new(points.as_flattened(), 3)?;
     let clock = Instant::now();
     let found = surface(&view, options)?;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use anyhow::Result;
 use serde_json::{Value, json};
 use taut_certify::{Solution, Surface};
-use taut_reconstruct::{SurfaceMode, SurfaceOptions, looks_one_sided};
+use taut_reconstruct::{SurfaceMethod, SurfaceMode, SurfaceOptions, looks_one_sided};
 
 use super::distances::Distances;
 use super::found::{Way, ours, theirs};
@@ -52,8 +52,11 @@ impl Rows<'_> {
     /// What taut finds; CGAL's surface stands beside it.
     fn add(&mut self, input: &str, points: &[Point]) -> Result<(Solution<Surface>, Judged)> {
         let threads = Some(self.context.threads[0]);
-        let options =
-            SurfaceOptions { mode: SurfaceMode::Open, threads, ..SurfaceOptions::default() };
+        let options = SurfaceOptions {
+            method: SurfaceMethod::Tree(SurfaceMode::Open),
+            threads,
+            ..SurfaceOptions::default()
+        };
         let (found, _) = ours(points, &options)?;
         let judged = Judged::of(points, &found.answer.triangles)?;
         self.push(input, "taut", judged, Some(looks_one_sided(&found)));

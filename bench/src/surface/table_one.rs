@@ -53,7 +53,8 @@ pub(super) fn input(
 
 /// The answer of a method, judged, and its least time in all rounds.
 fn tried(context: &Context, method: SurfaceMethod, points: &[Point]) -> Result<(Judged, f64)> {
-    let options = SurfaceOptions { method, threads: Some(1), ..SurfaceOptions::default() };
+    let options =
+        SurfaceOptions { method: method.into(), threads: Some(1), ..SurfaceOptions::default() };
     let (mut judged, mut least) = (None, f64::INFINITY);
     for _ in 0..context.runs {
         let (found, seconds) = ours(points, &options)?;

@@ -13,7 +13,7 @@ use taut_points::{
     Distribution, Points, generate,
     generate::curves::{CurveNoise, TestCurve, sample_curve},
 };
-use taut_reconstruct::{CurveMethod, CurveOptions, curve};
+use taut_reconstruct::{CurveMethod, CurveOptions, CurveThesisOptions, curve};
 
 use crate::input::SEED;
 
@@ -57,7 +57,8 @@ fn pictures() -> Result<Vec<Picture>> {
         points: points.to_vec(),
         method,
     };
-    let (crude, default) = (CurveMethod::ThesisCrude, CurveMethod::Auto);
+    let (crude, default) =
+        (CurveMethod::ThesisCrude(CurveThesisOptions::DEFAULT), CurveMethod::Auto);
     Ok(vec![
         picture("02", "curve reconstruction with noise", &noisy("multi4", 4000, 0.1)?, default),
         picture("21a", "the crude method: a jagged curve", &flower, crude),

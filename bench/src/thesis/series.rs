@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use anyhow::Result;
 use taut_draw::Scale;
-use taut_enclose::{BallMethod, BallOptions, ball_of_source};
-use taut_points::{Distribution, Monitor};
+use taut_enclose::{BallMethod, BallOptions, ball};
+use taut_points::Distribution;
 
 use super::Plan;
 use super::figure::{Curve, Figure};
@@ -31,7 +31,7 @@ pub(super) const FIGURES: &[(&[u32], Draw)] = &[
 #[derive(Clone)]
 struct Way {
     name: String,
-    options: BallOptions,
+    options: BallOptions<'static>,
 }
 
 impl Way {
@@ -101,7 +101,7 @@ fn measure(
     let mut last = None;
     for _ in 0..plan.runs {
         let start = Instant::now();
-        let found = ball_of_source(&*source, input.items, &way.options, &Monitor::silent())?;
+        let found = ball(&*source, &BallOptions { inputs: input.items, ..way.options })?;
         let seconds = start.elapsed().as_secs_f64();
         best = best.min(seconds);
         *used += seconds;
@@ -401,8 +401,7 @@ fn ask(
     input.write(&path)?;
     let source = input.source()?;
     let exact = BallOptions { epsilon: 0.0, ..BallOptions::default() };
-    let bracket =
-        ball_of_source(&*source, input.items, &exact, &Monitor::silent())?.check(&*source)?;
+    let bracket = ball(&*source, &BallOptions { inputs: input.items, ..exact })?.check(&*source)?;
     let mut peer = match Peer::start(program, &path, plan.temp.path())? {
         Ok(peer) => peer,
         Err(silence) => return Ok(Err(silence)),

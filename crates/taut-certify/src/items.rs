@@ -1,6 +1,7 @@
 //! What the rows of a source stand for.
 
 use serde::{Deserialize, Serialize};
+use taut_points::choice;
 
 /// What the rows of a source stand for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -24,11 +25,13 @@ pub enum Items {
     Ellipsoids,
 }
 
-impl Items {
-    /// All of them with their names in JSON.
-    pub const NAMES: [(&'static str, Self); 3] =
-        [("points", Self::Points), ("balls", Self::Balls), ("ellipsoids", Self::Ellipsoids)];
+choice! { "items", Items {
+    Points = "points", "each row is a point";
+    Balls = "balls", "each row is a centre, then a radius";
+    Ellipsoids = "ellipsoids", "each row is a centre, then the lower triangle of a shape matrix";
+}}
 
+impl Items {
     /// The dimension of the space in which rows of `columns` numbers lie; for ellipsoids, 0 when no dimension has rows
     /// of that many numbers.
     pub fn dim(self, columns: usize) -> usize {

@@ -87,8 +87,7 @@ pub use json::{JsonError, SCHEMA};
 pub use order::{Order, OrderCertificate, OrderCurve, OrderVerdict, OrderViolation};
 pub use registry::{AnyDocument, AnyFileSolution, AnySolution, AnyVerdict};
 pub use robust::{
-    Enclosure, RobustCertificate, RobustEllipsoid, RobustMethod, RobustMethodError, RobustVerdict,
-    Unweighted,
+    Enclosure, RobustCertificate, RobustEllipsoid, RobustMethod, RobustVerdict, Unweighted,
 };
 pub use solution::{Answer, PassBounds, Solution, Stop, Trace};
 pub use surface::{

@@ -4,26 +4,26 @@ mod cell;
 mod check;
 
 use serde::{Deserialize, Serialize};
-use taut_points::{Monitor, PointSource, PointsHash};
+use taut_points::{Monitor, PointSource, PointsHash, choice};
 
 use crate::json::{hash_from_hex, hash_to_hex};
 use crate::{Answer, CheckError};
 
 /// A curve that visits the cells of a grid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum OrderCurve {
     /// Cells that follow each other share a side.
+    #[default]
     Hilbert,
     /// Z-order: the bits of the coordinates, interleaved.
     Morton,
 }
 
-impl OrderCurve {
-    /// All curves with their names in JSON.
-    pub const NAMES: [(&'static str, Self); 2] =
-        [("hilbert", Self::Hilbert), ("morton", Self::Morton)];
-}
+choice! { "curve", OrderCurve {
+    Hilbert = "hilbert", "steps are short: cells that follow each other share a side";
+    Morton = "morton", "Z-order, the bits of coordinates interleaved: cells of a grid of any size are runs";
+}}
 
 /// The rows of a point set of the plane or of space in the order of a curve through them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

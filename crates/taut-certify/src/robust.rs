@@ -2,11 +2,8 @@
 
 mod check;
 
-use std::fmt;
-use std::str::FromStr;
-
 use serde::{Deserialize, Serialize};
-use taut_points::{Monitor, PointSource, PointsHash};
+use taut_points::{Monitor, PointSource, PointsHash, choice};
 
 use crate::json::{hash_from_hex, hash_to_hex};
 use crate::{Answer, CheckError, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull};
@@ -24,38 +21,11 @@ pub enum RobustMethod {
     Trim,
 }
 
-impl RobustMethod {
-    /// All methods, the default first.
-    pub const ALL: [RobustMethod; 3] = [RobustMethod::Mcd, RobustMethod::Mve, RobustMethod::Trim];
-
-    /// The name on the command line, in Python and in JSON.
-    pub const fn name(self) -> &'static str {
-        match self {
-            RobustMethod::Mcd => "mcd",
-            RobustMethod::Mve => "mve",
-            RobustMethod::Trim => "trim",
-        }
-    }
-}
-
-impl fmt::Display for RobustMethod {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-/// A word that names no method of robust estimation.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("robust method {0:?} is not known: expected mcd, mve or trim")]
-pub struct RobustMethodError(String);
-
-impl FromStr for RobustMethod {
-    type Err = RobustMethodError;
-    fn from_str(name: &str) -> Result<Self, RobustMethodError> {
-        let found = RobustMethod::ALL.into_iter().find(|method| method.name() == name);
-        found.ok_or_else(|| RobustMethodError(name.to_owned()))
-    }
-}
+choice! { "method", RobustMethod {
+    Mcd = "mcd", "the points whose covariance has the least determinant";
+    Mve = "mve", "the points that fit the smallest ellipsoid";
+    Trim = "trim", "the same, and its ellipsoid as it stands";
+}}
 
 /// Centre and scatter of most of the points, the ellipsoid they mean, and the points that lie outside it.
 ///

@@ -7,7 +7,7 @@ mod topology;
 mod violation;
 
 use serde::{Deserialize, Serialize};
-use taut_points::{Monitor, PointSource, PointsHash};
+use taut_points::{Monitor, PointSource, PointsHash, choice};
 
 use crate::json::{hash_from_hex, hash_to_hex};
 use crate::{Answer, CheckError};
@@ -69,20 +69,12 @@ pub enum SurfaceMethod {
     Hull,
 }
 
-impl SurfaceMethod {
-    /// All methods.
-    pub const ALL: [Self; 4] = [Self::Tree, Self::Thesis, Self::Alpha, Self::Hull];
-
-    /// Its name in JSON and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Tree => "tree",
-            Self::Thesis => "thesis",
-            Self::Alpha => "alpha",
-            Self::Hull => "hull",
-        }
-    }
-}
+choice! { "method", SurfaceMethod {
+    Tree = "tree", "all space is inside or outside, by the strongest of what neighbouring cells say";
+    Thesis = "thesis", "a front that grows over facets with empty equatorial spheres";
+    Alpha = "alpha", "the alpha shape";
+    Hull = "hull", "all facets with empty equatorial spheres, without choosing";
+}}
 
 /// What a surface promises to be. In JSON `"closed"`, `"open"` or `{"alpha": {"radius": 0.1}}`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -1,5 +1,6 @@
 //! What a subcommand reads: points, answers, amounts of memory.
 
 pub(crate) mod answer_file;
+pub(crate) mod choice;
 pub(crate) mod reading;
 pub(crate) mod size;

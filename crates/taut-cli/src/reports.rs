@@ -11,8 +11,9 @@ pub(crate) mod surface;
 pub(crate) mod triangulation;
 
 use anyhow::bail;
+use taut::certify::Answer;
 use taut::certify::Stop;
-use taut::{Answer, Items, PointSource, Solution};
+use taut::{Items, PointSource, Solution};
 use taut_draw::Figures;
 
 use crate::exit::Outcome;

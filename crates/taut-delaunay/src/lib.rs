@@ -11,7 +11,7 @@
 //!
 //! ```
 //! use taut_delaunay::{DelaunayOptions, Location, Plane, delaunay};
-//! use taut_points::{Monitor, Points};
+//! use taut_points::Points;
 //!
 //! let square = [0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0];
 //! let points = Points::new(&square, 2)?;                               // n × d, row-major
@@ -19,7 +19,7 @@
 //! assert_eq!(found.answer.len(), 2);                                   // rows of the input, two triangles
 //! assert_eq!(found.check(&points)?.ties, 1);                           // a second opinion: four points on a circle
 //!
-//! let plane = Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent())?;
+//! let plane = Plane::build(&points, &DelaunayOptions::default())?;
 //! let locator = plane.locator();
 //! let corner = locator.nearest([0.9, 0.2]).expect("there are sites");
 //! assert_eq!(plane.row(corner), 1);                                    // a site is not a row: `row` translates
@@ -57,9 +57,9 @@ mod vector;
 pub use error::Error;
 pub use kernel::Counters;
 pub use options::{DelaunayOptions, InsertionOrder};
-pub use order::spatial_order;
+pub use order::{OrderOptions, spatial_order};
 pub use plane::constrained::{Constrained, ConstraintError, Piece, Segment, Split};
 pub use query::{AlphaComplex, Location, Locator, Polygon, Polyhedron};
 pub use simplex::{GHOST, Simplex, Slots, decode};
-pub use solution::{delaunay, delaunay_of_source};
+pub use solution::delaunay;
 pub use triangulation::{Complex, Plane, Space, Triangulation};

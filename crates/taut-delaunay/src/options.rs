@@ -1,8 +1,10 @@
 //! How a triangulation is built. Nothing here changes which simplices it has.
 
+use taut_points::{Monitor, choice};
+
 /// How to build a triangulation; [`Default`] is what most people want.
 #[derive(Clone, Debug, PartialEq)]
-pub struct DelaunayOptions {
+pub struct DelaunayOptions<'a> {
     /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
     /// In which order one thread inserts its sites. The answer does not depend on it.
@@ -14,11 +16,20 @@ pub struct DelaunayOptions {
     pub cells: Option<usize>,
     /// Whether vector instructions are used where the machine has them. The answer does not depend on it.
     pub vectors: bool,
+    /// Watches the work and can stop it. Default [`Monitor::silent`].
+    pub monitor: Monitor<'a>,
 }
 
-impl Default for DelaunayOptions {
+impl Default for DelaunayOptions<'_> {
     fn default() -> Self {
-        Self { threads: None, order: InsertionOrder::Strided, seed: 0, cells: None, vectors: true }
+        Self {
+            threads: None,
+            order: InsertionOrder::Strided,
+            seed: 0,
+            cells: None,
+            vectors: true,
+            monitor: Monitor::silent(),
+        }
     }
 }
 
@@ -39,17 +50,9 @@ pub enum InsertionOrder {
     Hilbert,
 }
 
-impl InsertionOrder {
-    /// All orders with their names on the command line.
-    pub const NAMES: [(&'static str, Self); 4] = [
-        ("strided", Self::Strided),
-        ("random", Self::Random),
-        ("local-ric", Self::LocalRic),
-        ("hilbert", Self::Hilbert),
-    ];
-
-    /// Its name on the command line.
-    pub(crate) fn name(self) -> &'static str {
-        Self::NAMES.iter().find(|(_, order)| *order == self).map_or("", |(name, _)| name)
-    }
-}
+choice! { "order", InsertionOrder {
+    Strided = "strided", "rounds of every 8ᵏ-th point along the Hilbert curve: the best";
+    Random = "random", "rounds of random points, each eight times the last (BRIO)";
+    LocalRic = "local-ric", "random within blocks of growing size, simplex by simplex";
+    Hilbert = "hilbert", "along the Hilbert curve, in one round";
+}}

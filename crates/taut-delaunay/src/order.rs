@@ -3,31 +3,50 @@
 
 use taut_certify::{Order, OrderCertificate, OrderCurve, Solution, Trace};
 use taut_oblivious::{hilbert_order, morton_order};
-use taut_points::{InputError, Monitor, PointSource, Points, Rows, Scalar, Scratch, hash_points};
+use taut_points::{
+    InputError, Monitor, PointSource, Points, Rows, Scalar, Scratch, hash_points, on_threads,
+};
 
 use crate::Error;
 
+/// How to order points; [`Default`] is what most people want.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct OrderOptions<'a> {
+    /// Along which curve. Default [`OrderCurve::Hilbert`].
+    pub curve: OrderCurve,
+    /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
+    pub threads: Option<usize>,
+    /// Watches the work and can stop it before it begins. Default [`Monitor::silent`].
+    pub monitor: Monitor<'a>,
+}
+
 /// The rows of points of the plane or of space in the order of a Hilbert curve through them, or in Z-order.
 ///
-/// The order depends on the set of points alone; equal points are side by side, the first row first. Runs on the current
-/// rayon pool, and gives the same order on any number of threads. O(n log n); 12 bytes a point while it runs.
+/// The order depends on the set of points alone; equal points are side by side, the first row first. O(n log n);
+/// 12 bytes a point while it runs, beside the points themselves.
 ///
 /// # Errors
-/// [`Error::Input`] for other dimensions than two and three, [`Error::Input`] for 2³²
-/// or more, [`Error::Input`] before it begins.
+/// [`Error::Input`] for other dimensions than two and three, for 2³² points or more, for points that are not finite, when
+/// the source fails and when the monitor stops the work.
 ///
 /// ```
-/// use taut_certify::OrderCurve;
-/// use taut_delaunay::spatial_order;
-/// use taut_points::{Monitor, Points};
+/// use taut_delaunay::{OrderOptions, spatial_order};
+/// use taut_points::Points;
 ///
 /// let square = Points::new(&[0.0, 0.0, 1.0, 1.0, 0.0, 1.0, 1.0, 0.0], 2)?;
-/// let found = spatial_order(&square, OrderCurve::Hilbert, &Monitor::silent())?;
+/// let found = spatial_order(&square, &OrderOptions::default())?;
 /// assert_eq!(found.answer.rows, [0, 2, 1, 3]);                 // along the sides, never across
 /// assert!(found.check(&square).is_ok());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn spatial_order(
+    source: &dyn PointSource,
+    options: &OrderOptions<'_>,
+) -> Result<Solution<Order>, Error> {
+    on_threads(options.threads, || solve(source, options.curve, &options.monitor))
+}
+
+fn solve(
     source: &dyn PointSource,
     curve: OrderCurve,
     monitor: &Monitor<'_>,

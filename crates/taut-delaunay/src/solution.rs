@@ -19,34 +19,23 @@ const TASK: usize = 1 << 12;
 
 /// The Delaunay triangulation of points of the plane or of space, with the certificate that `taut verify` re-checks.
 ///
-/// The answer is the same for any number of threads and any order of insertion, byte for byte.
+/// The answer is the same for any number of threads and any order of insertion, byte for byte. The points of a source are
+/// held in memory.
 ///
 /// # Errors
-/// [`Error::Input`] for other dimensions than 2 and 3; else what [`Plane::build`] and [`Space::build`] refuse.
-pub fn delaunay<T: Scalar>(
-    points: &Points<'_, T>,
-    options: &DelaunayOptions,
-) -> Result<Solution<Answer>, Error> {
-    delaunay_of_source(points, options, &Monitor::silent())
-}
-
-/// The same for points of any source, with a monitor. They are held in memory while it works.
-///
-/// # Errors
-/// As [`delaunay`], [`Error::Input`] when the points cannot be read, and [`Error::Input`].
-pub fn delaunay_of_source(
+/// [`Error::Input`] for other dimensions than 2 and 3, when the points cannot be read or the monitor stops the work; else
+/// what [`Plane::build`] and [`Space::build`] refuse.
+pub fn delaunay(
     source: &dyn PointSource,
-    options: &DelaunayOptions,
-    monitor: &Monitor<'_>,
+    options: &DelaunayOptions<'_>,
 ) -> Result<Solution<Answer>, Error> {
     fn solve<T: Scalar>(
         points: &Points<'_, T>,
-        options: &DelaunayOptions,
-        monitor: &Monitor<'_>,
+        options: &DelaunayOptions<'_>,
     ) -> Result<Solution<Answer>, Error> {
         match points.dim() {
-            2 => Plane::build(points, options, monitor)?.solution(points, monitor),
-            3 => Space::build(points, options, monitor)?.solution(points, monitor),
+            2 => Plane::build(points, options)?.solution(points, &options.monitor),
+            3 => Space::build(points, options)?.solution(points, &options.monitor),
             dim => Err(Error::Input(InputError::Dimension {
                 dim,
                 expected: "2, the plane, or 3, space",
@@ -55,8 +44,8 @@ pub fn delaunay_of_source(
     }
     let mut scratch = Scratch::new();
     match source.read(0..source.len(), &mut scratch)? {
-        Rows::F32(points) => solve(&points, options, monitor),
-        Rows::F64(points) => solve(&points, options, monitor),
+        Rows::F32(points) => solve(&points, options),
+        Rows::F64(points) => solve(&points, options),
     }
 }
 

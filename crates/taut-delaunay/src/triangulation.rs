@@ -1,6 +1,6 @@
 //! The finished triangulation in memory, for walking around in.
 
-use taut_points::{InputError, Monitor, Points, Scalar, on_threads};
+use taut_points::{InputError, Points, Scalar, on_threads};
 
 use crate::affine::{Span, apex, span_of_plane, span_of_space};
 use crate::cells::{self, Geometry, InPlane, InSpace};
@@ -62,15 +62,14 @@ impl Plane {
     /// [`Error::TooManySimplices`], [`Error::Input`] when the monitor says so.
     pub fn build<T: Scalar>(
         points: &Points<'_, T>,
-        options: &DelaunayOptions,
-        monitor: &Monitor<'_>,
+        options: &DelaunayOptions<'_>,
     ) -> Result<Self, Error> {
-        build(points, "2, the plane", options, monitor, |sites| {
+        build(points, "2, the plane", options, |sites| {
             Ok(match span_of_plane(&sites.coordinates) {
                 Span::Nothing => Complex::Nothing.into(),
                 Span::Point => Complex::Point.into(),
                 Span::Line | Span::Plane(_) => Complex::Line(along_line(sites)).into(),
-                Span::Full(start) => full::<2, 3, InPlane>(sites, start, options, monitor)?,
+                Span::Full(start) => full::<2, 3, InPlane>(sites, start, options)?,
             })
         })
     }
@@ -108,16 +107,15 @@ impl Space {
     /// [`Error::TooManySimplices`], [`Error::Input`] when the monitor says so.
     pub fn build<T: Scalar>(
         points: &Points<'_, T>,
-        options: &DelaunayOptions,
-        monitor: &Monitor<'_>,
+        options: &DelaunayOptions<'_>,
     ) -> Result<Self, Error> {
-        build(points, "3, space", options, monitor, |sites| {
+        build(points, "3, space", options, |sites| {
             Ok(match span_of_space(&sites.coordinates) {
                 Span::Nothing => Complex::Nothing.into(),
                 Span::Point => Complex::Point.into(),
                 Span::Line => Complex::Line(along_line(sites)).into(),
-                Span::Plane(on) => flat(sites, on, options, monitor)?,
-                Span::Full(start) => full::<3, 4, InSpace>(sites, start, options, monitor)?,
+                Span::Plane(on) => flat(sites, on, options)?,
+                Span::Full(start) => full::<3, 4, InSpace>(sites, start, options)?,
             })
         })
     }
@@ -141,16 +139,15 @@ impl<const V: usize> From<Complex> for Built<V> {
 fn build<T: Scalar, const D: usize, const V: usize>(
     points: &Points<'_, T>,
     expected: &'static str,
-    options: &DelaunayOptions,
-    monitor: &Monitor<'_>,
+    options: &DelaunayOptions<'_>,
     complex: impl FnOnce(&mut Sites<D>) -> Result<Built<V>, Error> + Send,
 ) -> Result<Triangulation<D, V>, Error> {
     if points.dim() != D {
         return Err(Error::Input(InputError::Dimension { dim: points.dim(), expected }));
     }
     let solve = || {
-        monitor.pass(1, points.len() as u64);
-        let mut sites = Sites::new(points, options.vectors, monitor)?;
+        options.monitor.pass(1, points.len() as u64);
+        let mut sites = Sites::new(points, options.vectors, &options.monitor)?;
         let Built { complex, slots, counters } = complex(&mut sites)?;
         if sites.coordinates.is_empty() {
             sites.gather(points);
@@ -173,7 +170,7 @@ fn cells_for(
     sites: usize,
     least: usize,
     settings: Settings,
-    options: &DelaunayOptions,
+    options: &DelaunayOptions<'_>,
 ) -> Result<usize, Error> {
     match options.cells {
         Some(0) => Err(Error::Input(InputError::Option {
@@ -191,15 +188,14 @@ fn cells_for(
 fn full<const D: usize, const V: usize, G: Geometry<D, V>>(
     sites: &mut Sites<D>,
     start: [u32; V],
-    options: &DelaunayOptions,
-    monitor: &Monitor<'_>,
+    options: &DelaunayOptions<'_>,
 ) -> Result<Built<V>, Error> {
     let order = (options.order, options.seed);
     let cells = cells_for(sites.len(), cells::cell_at_least(D), sites.settings, options)?;
     if cells > 1 {
         let whole = &sites.coordinates;
-        let joined =
-            cells::triangulate::<D, V, G>(whole, cells, start, sites.settings, order, monitor)?;
+        let (settings, monitor) = (sites.settings, &options.monitor);
+        let joined = cells::triangulate::<D, V, G>(whole, cells, start, settings, order, monitor)?;
         if let Some((slots, counters)) = joined {
             return Ok(Built { complex: Complex::Full, slots, counters });
         }
@@ -207,26 +203,21 @@ fn full<const D: usize, const V: usize, G: Geometry<D, V>>(
     // The kernel takes the coordinates, so that they are there once; what it does not give back is gathered again.
     let mut mesh = G::Mesh::new(std::mem::take(&mut sites.coordinates), sites.settings);
     mesh.start(start);
-    insert_all(&mut mesh, &start, order, monitor)?;
+    insert_all(&mut mesh, &start, order, &options.monitor)?;
     let (simplices, coordinates, counters) = mesh.finish();
     sites.coordinates = coordinates.unwrap_or_default();
     Ok(Built { complex: Complex::Full, slots: Slots::of(vec![simplices]), counters })
 }
 
 /// Points of space on a plane: with one more point off it, all of whose neighbours are in it.
-fn flat(
-    sites: &Sites<3>,
-    on: [u32; 3],
-    options: &DelaunayOptions,
-    monitor: &Monitor<'_>,
-) -> Result<Built<4>, Error> {
+fn flat(sites: &Sites<3>, on: [u32; 3], options: &DelaunayOptions<'_>) -> Result<Built<4>, Error> {
     let top = sites.len() as u32;
     let mut coordinates = sites.coordinates.clone();
     coordinates.push(apex(&sites.coordinates, on));
     let start = [on[0], on[1], on[2], top];
     let mut mesh = <InSpace as Geometry<3, 4>>::Mesh::new(coordinates, sites.settings);
     mesh.start(start);
-    insert_all(&mut mesh, &start, (options.order, options.seed), monitor)?;
+    insert_all(&mut mesh, &start, (options.order, options.seed), &options.monitor)?;
     let (simplices, _, counters) = mesh.finish();
     let triangles = Slots::of(vec![star_of_apex(&simplices, top)]);
     Ok(Built { complex: Complex::Flat(triangles), slots: Slots::default(), counters })

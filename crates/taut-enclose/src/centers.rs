@@ -29,7 +29,7 @@ use std::collections::BTreeMap;
 use taut_certify::{
     Centers, CentersCertificate, Items, PassBounds, Placement, Solution, Stop, Trace,
 };
-use taut_points::{InputError, Monitor, PointSource, Points, Scalar, on_threads};
+use taut_points::{InputError, Monitor, PointSource, on_threads};
 
 use self::cloud::Cloud;
 use self::few::Few;
@@ -40,7 +40,9 @@ use self::read::Table;
 use self::start::Start;
 use self::tree::{Found, Shown};
 use crate::apart::claimed;
-use crate::{CoverOptions, Error, FarthestFirstOptions, cover_of_source, farthest_first_of_source};
+use crate::cover::cover_of_source;
+use crate::farthest_first::farthest_first_in_blocks;
+use crate::{Error, FarthestFirstOptions};
 pub(crate) use answer::reach_of;
 pub(crate) use nearest::EXACT_DISTANCES;
 pub use options::{CentersMethod, CentersOptions};
@@ -83,40 +85,15 @@ const PROOF_NODES: u64 = 10_000;
 /// ```
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::Input`], [`Error::Overflow`], [`Error::Input`]; with weights also [`Error::NoWeight`] and
-/// [`Error::NonPositiveWeight`].
-pub fn centers<T: Scalar>(
-    points: &Points<'_, T>,
-    k: usize,
-    options: &CentersOptions,
-) -> Result<Solution<Centers>, Error> {
-    centers_of_source(points, Items::Points, k, options, &Monitor::silent())
-}
-
-/// The same for balls, given as rows of d coordinates of the centre and the radius, n × (d + 1): each ball is in one of the k.
-///
-/// # Errors
-/// As [`centers()`], and [`Error::NoRadius`], [`Error::NegativeRadius`].
-pub fn centers_of_balls<T: Scalar>(
-    balls: &Points<'_, T>,
-    k: usize,
-    options: &CentersOptions,
-) -> Result<Solution<Centers>, Error> {
-    centers_of_source(balls, Items::Balls, k, options, &Monitor::silent())
-}
-
-/// The same for the items of a source, which is read once, or twice by [`CentersMethod::Stream`].
-///
-/// # Errors
-/// As [`centers_of_balls()`], and [`Error::Input`] when the source fails or `monitor` stops the work.
-pub fn centers_of_source(
+/// [`Error::Empty`], [`Error::Overflow`]; [`Error::Input`], also when the source fails or the monitor stops the work; with
+/// weights [`Error::NoWeight`] and [`Error::NonPositiveWeight`]; of balls [`Error::NoRadius`] and [`Error::NegativeRadius`].
+pub fn centers(
     source: &dyn PointSource,
-    items: Items,
     k: usize,
-    options: &CentersOptions,
-    monitor: &Monitor<'_>,
+    options: &CentersOptions<'_>,
 ) -> Result<Solution<Centers>, Error> {
     options.check(k)?;
+    let (items, monitor) = (options.inputs, &options.monitor);
     on_threads(options.threads, || {
         let is_plain = items == Items::Points && !options.weights && options.outliers == 0;
         if options.method == CentersMethod::FarthestFirst && is_plain {
@@ -126,39 +103,22 @@ pub fn centers_of_source(
                 found => return found,
             }
         }
-        if options.method == CentersMethod::Stream {
-            return of_stream(source, items, k, options.placement, monitor);
+        if let CentersMethod::Stream(cover) = options.method {
+            return cover_of_source(source, k, options.placement, &cover, monitor);
         }
         solve(source, items, k, options, monitor)
     })
-}
-
-/// Centres of one pass, measured by another.
-fn of_stream(
-    source: &dyn PointSource,
-    items: Items,
-    k: usize,
-    placement: Placement,
-    monitor: &Monitor<'_>,
-) -> Result<Solution<Centers>, Error> {
-    if items != Items::Points {
-        return Err(Error::Input(InputError::Option {
-            name: "method",
-            value: CentersMethod::Stream.to_string(),
-            expected: "one of the others for balls",
-        }));
-    }
-    cover_of_source(source, k, placement, &CoverOptions::default(), monitor)
 }
 
 /// The first k points of a traversal.
 fn traversed(
     source: &dyn PointSource,
     k: u64,
-    options: &CentersOptions,
+    options: &CentersOptions<'_>,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Centers>, Error> {
-    let order = farthest_first_of_source(source, k, &FarthestFirstOptions::default(), monitor)?;
+    let traversal = FarthestFirstOptions { monitor: *monitor, ..FarthestFirstOptions::default() };
+    let order = farthest_first_in_blocks(source, k, &traversal)?;
     let mut found = order.solution(k, options.placement, source)?;
     if options.assignment {
         found.answer.assignment = nearest::assignment(source, &found.answer.centers, monitor)?;
@@ -171,7 +131,7 @@ fn solve(
     source: &dyn PointSource,
     items: Items,
     k: usize,
-    options: &CentersOptions,
+    options: &CentersOptions<'_>,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Centers>, Error> {
     let rows = ItemRows::read(source, items, options.weights, monitor)?;
@@ -208,7 +168,7 @@ fn solve_in<P: Position>(
     table: &Table,
     items: Items,
     k: usize,
-    options: &CentersOptions,
+    options: &CentersOptions<'_>,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Centers>, Error> {
     let cloud = Cloud::<P>::new(table.items());
@@ -227,7 +187,7 @@ fn solve_in<P: Position>(
             thesis::solve(&cloud, start.plain, k, target, options.max_nodes, monitor)?
         }
         // Streams are not held in memory, and so do not come here.
-        CentersMethod::FarthestFirst | CentersMethod::Stream => of_traversal(start),
+        CentersMethod::FarthestFirst | CentersMethod::Stream(_) => of_traversal(start),
     };
     let (proof, given_up, why) = prove(table, &cloud, &found, apart, k, z, monitor)?;
     let answered = answer::answer(table, &cloud, &found.incumbent.centers, z, options.assignment)?;
@@ -289,7 +249,7 @@ fn finish<P: Position>(
     cloud: &Cloud<P>,
     items: Items,
     k: usize,
-    options: &CentersOptions,
+    options: &CentersOptions<'_>,
     found: Found<P>,
     proof: Proof,
     (given_up, why): (u64, Option<Stop>),

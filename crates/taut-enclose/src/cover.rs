@@ -39,11 +39,14 @@ pub struct CoverOptions {
 
 impl Default for CoverOptions {
     fn default() -> Self {
-        CoverOptions { instances: 8 }
+        CoverOptions::DEFAULT
     }
 }
 
 impl CoverOptions {
+    /// What [`Default`] says.
+    pub const DEFAULT: Self = CoverOptions { instances: 8 };
+
     /// The factor that is proved beforehand, 2(m + 1)^(1 + 1/m)/m: the radius of a [`Cover`] is never more than this times its
     /// lower bound, to rounding.
     pub fn factor(&self) -> f64 {
@@ -265,7 +268,7 @@ impl Cover {
         let found = self.covered();
         let measured = measure(source, &found.centers, monitor)?;
         let trace = Trace {
-            method: CentersMethod::Stream.name().into(),
+            method: CentersMethod::Stream(self.options).name().into(),
             stop: Stop::Converged,
             passes: 1 + measured.passes,
             iterations: 0,
@@ -287,23 +290,7 @@ impl Cover {
 }
 
 /// k centres of a source in two passes: one for a [`Cover`], one to measure its radius.
-///
-/// ```
-/// use taut_certify::Placement;
-/// use taut_enclose::{CoverOptions, cover_of_source};
-/// use taut_points::{Distribution, GeneratedSource, Monitor, ScalarKind};
-///
-/// let points = GeneratedSource::new(Distribution::Uniform, 5000, 2, 1, ScalarKind::F64)?;
-/// let options = CoverOptions::default();
-/// let found = cover_of_source(&points, 10, Placement::Free, &options, &Monitor::silent())?;
-/// assert!(found.answer.radius < options.factor() * found.answer.lower_bound);
-/// assert_eq!(found.trace.passes, 2);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// # Errors
-/// As [`Cover::new`], [`Cover::add`] and [`Cover::solution`].
-pub fn cover_of_source(
+pub(crate) fn cover_of_source(
     source: &dyn PointSource,
     k: usize,
     placement: Placement,

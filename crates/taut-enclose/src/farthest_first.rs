@@ -18,7 +18,7 @@ mod prefix;
 mod rows;
 
 use taut_certify::Trace;
-use taut_points::{InputError, Monitor, PointSource, Points, PointsHash, Scalar, on_threads};
+use taut_points::{InputError, Monitor, PointSource, Points, PointsHash, Rows, Scalar, on_threads};
 
 use crate::Error;
 use crate::frame::survey;
@@ -29,11 +29,13 @@ const DIM_OF_BOXES_MAX: usize = 3;
 
 /// How to go through the points. Write `FarthestFirstOptions { start: 7, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct FarthestFirstOptions {
+pub struct FarthestFirstOptions<'a> {
     /// The row of the first point, below n. Default 0.
     pub start: u64,
     /// Threads, 1 to 1024; `None` for those of the surrounding pool. The order does not depend on it.
     pub threads: Option<usize>,
+    /// Watches the work and can stop it. Default [`Monitor::silent`].
+    pub monitor: Monitor<'a>,
 }
 
 /// Points in farthest-first order, and how far the others are from each beginning of it.
@@ -53,7 +55,7 @@ pub struct FarthestFirst {
     pub trace: Trace,
 }
 
-/// The first `count` of `points` in farthest-first order.
+/// The first `count` points of a source of any size in farthest-first order.
 ///
 /// It ends before `count` when all other points are copies of those it has, with a radius of 0; n may be less than `count`.
 ///
@@ -61,6 +63,8 @@ pub struct FarthestFirst {
 /// space 6 distances are evaluated for each point, for 1000 of a million normal points in 128 dimensions 11, as
 /// `bench centers` counts them. Memory beside the points: n numbers of 8 bytes, and 8 bytes more for each point in four
 /// dimensions or more; in up to three, n·d numbers and, to begin with, 16 bytes for each point.
+/// Points that are not in memory take 8 bytes each and a block for each thread; a block is read again only when the next
+/// point may be in it, so there are far fewer passes than points asked for. The order is the same, bit by bit.
 ///
 /// *Source.* Gonzalez 1985; skipped are distances that cannot matter, as in the accelerated greedy of Minoux (1978) and by
 /// the triangle inequality (Elkan 2003).
@@ -78,17 +82,29 @@ pub struct FarthestFirst {
 /// ```
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::Input`] when `count` is 0 or an option is out of range;
+/// [`Error::Empty`], [`Error::Input`] when `count` is 0, an option is out of range, the source fails or the monitor stops the work;
 /// [`Error::Overflow`] when a radius is beyond the largest `f64`, or the points that are left differ from those in the
 /// order by less than 2⁻²⁵⁰ of the extent of all.
-pub fn farthest_first<T: Scalar>(
+pub fn farthest_first(
+    source: &dyn PointSource,
+    count: u64,
+    options: &FarthestFirstOptions<'_>,
+) -> Result<FarthestFirst, Error> {
+    match source.in_memory() {
+        Some(Rows::F32(points)) => of_points(&points, count, options),
+        Some(Rows::F64(points)) => of_points(&points, count, options),
+        None => farthest_first_in_blocks(source, count, options),
+    }
+}
+
+/// The order of points in memory.
+fn of_points<T: Scalar>(
     points: &Points<'_, T>,
     count: u64,
-    options: &FarthestFirstOptions,
+    options: &FarthestFirstOptions<'_>,
 ) -> Result<FarthestFirst, Error> {
-    let monitor = &Monitor::silent();
     on_threads(options.threads, || {
-        let job = prepare(points, count, options, monitor)?;
+        let job = prepare(points, count, options)?;
         if points.dim() <= DIM_OF_BOXES_MAX && u32::try_from(points.len()).is_ok() {
             return job.run(boxes::leaves(points, &job.frame));
         }
@@ -101,21 +117,14 @@ pub fn farthest_first<T: Scalar>(
     })
 }
 
-/// The first `count` points of a source of any size in farthest-first order: the same as [`farthest_first()`], bit by bit.
-///
-/// Blocks are read again only when the next point may be in them, so there are far fewer passes than points asked for.
-/// Memory: 8 bytes for each point, and a block for each thread. `monitor` can stop the work between two blocks.
-///
-/// # Errors
-/// As [`farthest_first()`], and [`Error::Input`] when the source fails or `monitor` stops the work.
-pub fn farthest_first_of_source(
+/// The same order, with one block for each thread in memory, wherever the points are.
+pub(crate) fn farthest_first_in_blocks(
     source: &dyn PointSource,
     count: u64,
-    options: &FarthestFirstOptions,
-    monitor: &Monitor<'_>,
+    options: &FarthestFirstOptions<'_>,
 ) -> Result<FarthestFirst, Error> {
     on_threads(options.threads, || {
-        let job = prepare(source, count, options, monitor)?;
+        let job = prepare(source, count, options)?;
         job.run(blocks::leaves(source, &job.frame))
     })
 }
@@ -124,8 +133,7 @@ pub fn farthest_first_of_source(
 fn prepare<'a>(
     source: &'a dyn PointSource,
     count: u64,
-    options: &FarthestFirstOptions,
-    monitor: &'a Monitor<'a>,
+    options: &'a FarthestFirstOptions<'_>,
 ) -> Result<Job<'a>, Error> {
     if count == 0 {
         return Err(Error::Input(InputError::Option {
@@ -144,10 +152,10 @@ fn prepare<'a>(
             expected: "the number of a row, from 0 and below the number of rows",
         }));
     }
-    let survey = survey(source, monitor)?;
+    let survey = survey(source, &options.monitor)?;
     Ok(Job {
         source,
-        monitor,
+        monitor: &options.monitor,
         count,
         start: options.start,
         frame: survey.frame,

@@ -13,8 +13,7 @@ mod start;
 
 use taut_certify::{InscribedCertificate, InscribedEllipsoid, PassBounds, Solution, Stop, Trace};
 use taut_points::{
-    InputError, Monitor, PointSource, Points, PointsHash, Rows, Scalar, hash_block, map_blocks,
-    shown_number,
+    InputError, Monitor, PointSource, PointsHash, Rows, hash_block, map_blocks, shown_number,
 };
 
 use crate::Error;
@@ -32,16 +31,18 @@ const MULTIPLIER_RATIO_MIN: f64 = 1e-6;
 
 /// How to look for the inscribed ellipsoid. Write `InscribedOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct InscribedOptions {
+pub struct InscribedOptions<'a> {
     /// Wanted gap, optimum ≤ log-volume + ε. Range (0, 1), default 1e-9.
     pub epsilon: f64,
     /// Most Newton steps; then the ellipsoid so far is returned with its gap. At least 1, default 1000.
     pub max_steps: u64,
+    /// Watches the work and can stop it. Default [`Monitor::silent`].
+    pub monitor: Monitor<'a>,
 }
 
-impl Default for InscribedOptions {
+impl Default for InscribedOptions<'_> {
     fn default() -> Self {
-        InscribedOptions { epsilon: 1e-9, max_steps: 1000 }
+        InscribedOptions { epsilon: 1e-9, max_steps: 1000, monitor: Monitor::silent() }
     }
 }
 
@@ -65,7 +66,8 @@ impl HalfSpaces {
 /// larger by more than the gap. The gap is at most [`InscribedOptions::epsilon`] unless
 /// [`Trace::stop`](taut_certify::Trace::stop) says why not.
 ///
-/// *Cost.* Thirty to eighty Newton steps of O(nd⁴ + d⁶), after a linear programme; O(nd + d⁴) memory.
+/// *Cost.* Thirty to eighty Newton steps of O(nd⁴ + d⁶), after a linear programme; O(nd + d⁴) memory,
+/// for the half-spaces too, whatever they come from.
 ///
 /// ```
 /// use taut_enclose::{InscribedOptions, inscribed_ellipsoid};
@@ -83,21 +85,9 @@ impl HalfSpaces {
 /// [`Error::Empty`], [`Error::Input`], [`Error::Overflow`], [`Error::Input`]; [`Error::NoNormal`];
 /// [`Error::Unbounded`] with a direction in which the polytope does not end; [`Error::NoInterior`] with multipliers that
 /// show why; [`Error::Undecided`] where rounding leaves neither proved.
-pub fn inscribed_ellipsoid<T: Scalar>(
-    half_spaces: &Points<'_, T>,
-    options: &InscribedOptions,
-) -> Result<Solution<InscribedEllipsoid>, Error> {
-    inscribed_ellipsoid_of_source(half_spaces, options, &Monitor::silent())
-}
-
-/// The same for half-spaces from a source, which are held in memory; `monitor` can stop the work between two steps.
-///
-/// # Errors
-/// As [`inscribed_ellipsoid`], and [`Error::Input`].
-pub fn inscribed_ellipsoid_of_source(
-    source: &dyn PointSource,
-    options: &InscribedOptions,
-    monitor: &Monitor<'_>,
+pub fn inscribed_ellipsoid(
+    half_spaces: &dyn PointSource,
+    options: &InscribedOptions<'_>,
 ) -> Result<Solution<InscribedEllipsoid>, Error> {
     let wrong = |name, value: String, expected| {
         Err(Error::Input(InputError::Option { name, value, expected }))
@@ -108,9 +98,9 @@ pub fn inscribed_ellipsoid_of_source(
     if options.max_steps == 0 {
         return wrong("max_steps", "0".into(), "at least 1");
     }
-    let sides = read(source, monitor)?;
+    let sides = read(half_spaces, &options.monitor)?;
     let start = start::interior(&sides)?;
-    let found = path::follow(&sides, start, options, monitor)?;
+    let found = path::follow(&sides, start, options, &options.monitor)?;
     prove(&sides, found, options)
 }
 
@@ -209,7 +199,7 @@ fn seen(row: &[f64], center: &[f64], axes: &[f64]) -> View {
 fn prove(
     sides: &HalfSpaces,
     found: Found,
-    options: &InscribedOptions,
+    options: &InscribedOptions<'_>,
 ) -> Result<Solution<InscribedEllipsoid>, Error> {
     let dim = sides.dim;
     let Found { center, mut axes, lambda, steps, mut stop, history } = found;
@@ -249,7 +239,7 @@ fn prove(
         }
     }
     let log_det = path::log_determinant(&axes, dim);
-    let log_volume = log_det + crate::ellipsoid::log_unit_ball(dim);
+    let log_volume = log_det + crate::ellipsoid::outcome::log_unit_ball(dim);
     if !log_volume.is_finite() || center.iter().chain(&axes).any(|v| !v.is_finite()) {
         return Err(Error::Overflow);
     }

@@ -2,23 +2,22 @@
 //!
 //! | you want | call | promise | cost, n points in ℝᵈ |
 //! |---|---|---|---|
-//! | smallest ball around points | [`ball()`] | R ≤ (1 + ε)·R*, proved | few passes of O(nd) |
-//! | smallest ball around balls | [`ball_of_balls()`] | the same | the same |
-//! | smallest ball around ellipsoids | [`ball_of_ellipsoids()`] | the same | O(nd³), then a dozen passes of O(nd²) |
-//! | balls and ellipsoids, larger than memory | [`ball_of_source()`] | the same | the same, one block per thread in memory |
-//! | k smallest equal balls around points, with outliers, weights | [`centers()`] | radius ≤ (1 + ε) times the least, proved | exponential in k; about 0.1 s for k = 10 in the plane |
-//! | the same around balls; of a source | [`centers_of_balls()`], [`centers_of_source()`] | the same | the same |
+//! | smallest ball around points or balls | [`ball()`] | R ≤ (1 + ε)·R*, proved | few passes of O(nd) |
+//! | smallest ball around ellipsoids | [`ball()`] with [`BallOptions::inputs`] | the same | O(nd³), then a dozen passes of O(nd²) |
+//! | k smallest equal balls around points or balls, with outliers, weights | [`centers()`] | radius ≤ (1 + ε) times the least, proved | exponential in k; about 0.1 s for k = 10 in the plane |
 //! | ellipsoid of least volume around points | [`ellipsoid()`] | log-volume ≤ optimum + ε, proved | few passes of O(nd²) |
-//! | the same, larger than memory | [`ellipsoid_of_source()`] | the same | the same, one block per thread in memory |
+//! | ellipsoid of least volume around balls, ellipsoids | [`ellipsoid()`] with [`EllipsoidOptions::inputs`] | the same | a dozen passes of O(nd³) |
 //! | one for each of many point sets | [`ellipsoids()`] | the same | that of the sets, shared by all threads |
-//! | ellipsoid of least volume around balls, ellipsoids | [`ellipsoid_of_balls()`], [`ellipsoid_of_ellipsoids()`] | the same | a dozen passes of O(nd³) |
 //! | ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | some fifty steps of O(nd⁴ + d⁶) |
 //! | centre, scatter and outliers | [`robust_ellipsoid()`] | all proved but that no other points kept would do better | some ten to thirty passes of O(nd²) |
 //! | 2-approximate centres for every k at once | [`farthest_first()`] | radius ≤ 2·lower bound for each k | O(nkd) at worst, a small part of it as a rule |
-//! | the same, larger than memory | [`farthest_first_of_source()`] | the same | far fewer passes than centres |
-//! | k centres of a stream | [`Cover`] | radius ≤ 2.96·lower bound, or another factor | O(mkd) for each point, m = 8 guesses; one pass, and one to measure |
+//! | k centres of a stream | [`Cover`], or [`centers()`] with [`CentersMethod::Stream`] | radius ≤ 2.96·lower bound, or another factor | O(mkd) for each point, m = 8 guesses; one pass, and one to measure |
 //! | k centres of points in many places | [`Summary`] | radius ≤ 4 times the optimum, less with larger summaries | one pass in each place, and one to measure |
 //! | a tree of balls | [`sphere_tree()`] | each the smallest around its points | some thirty passes of O(nd) for each level |
+//!
+//! Each takes points in memory or any [`PointSource`](taut_points::PointSource), and one struct of options, where a
+//! [`Monitor`](taut_points::Monitor) can watch the work and stop it.
+//!
 //! ```
 //! let points = taut_points::Points::new(&[0.0, 0.0, 2.0, 0.0, 1.0, 1.0], 2)?;   // n × d, row-major
 //! let found = taut_enclose::ball(&points, &Default::default())?;
@@ -26,6 +25,9 @@
 //! assert!(found.check(&points)?.gap <= 1e-9);                                    // a second opinion, not the solver's
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//! The feature `conic`, on by default, brings the conic solver that [`inscribed_ellipsoid()`], [`BallMethod::ThesisPure`] and
+//! [`BallMethod::ThesisFast`] need.
+//!
 //! Not for: distances other than Euclidean.
 
 mod apart;
@@ -36,6 +38,7 @@ mod ellipsoid;
 mod error;
 mod farthest_first;
 mod frame;
+#[cfg(feature = "conic")]
 mod inscribed;
 mod kernel;
 mod robust;
@@ -44,19 +47,13 @@ mod shapes;
 mod sphere_tree;
 mod top;
 
-pub use ball::{BallMethod, BallOptions, ball, ball_of_balls, ball_of_ellipsoids, ball_of_source};
-pub use centers::{CentersMethod, CentersOptions, centers, centers_of_balls, centers_of_source};
-pub use cover::{Cover, CoverOptions, Covered, Summary, cover_of_source};
-pub use ellipsoid::{
-    EllipsoidMethod, EllipsoidOptions, ellipsoid, ellipsoid_of_balls, ellipsoid_of_ellipsoids,
-    ellipsoid_of_items, ellipsoid_of_source, ellipsoids, ellipsoids_of_sources,
-};
+pub use ball::{BallMethod, BallOptions, ball};
+pub use centers::{CentersMethod, CentersOptions, centers};
+pub use cover::{Cover, CoverOptions, Covered, Summary};
+pub use ellipsoid::{EllipsoidMethod, EllipsoidOptions, ellipsoid, ellipsoids};
 pub use error::Error;
-pub use farthest_first::{
-    FarthestFirst, FarthestFirstOptions, farthest_first, farthest_first_of_source,
-};
-pub use inscribed::{InscribedOptions, inscribed_ellipsoid, inscribed_ellipsoid_of_source};
-pub use robust::{RobustOptions, robust_ellipsoid, robust_ellipsoid_of_source};
-pub use sphere_tree::{
-    SphereNode, SphereTree, SphereTreeOptions, sphere_tree, sphere_tree_of_source,
-};
+pub use farthest_first::{FarthestFirst, FarthestFirstOptions, farthest_first};
+#[cfg(feature = "conic")]
+pub use inscribed::{InscribedOptions, inscribed_ellipsoid};
+pub use robust::{RobustOptions, robust_ellipsoid};
+pub use sphere_tree::{SphereNode, SphereTree, SphereTreeOptions, sphere_tree};

@@ -22,7 +22,7 @@ use taut_certify::{
     Ellipsoid, Enclosure, Hull, RobustCertificate, RobustEllipsoid, RobustMethod, Solution, Stop,
     Trace, Unweighted,
 };
-use taut_points::{Monitor, PointSource, Points, Scalar, on_threads};
+use taut_points::{Monitor, PointSource, on_threads};
 
 use self::fit::{Fit, Placed};
 use crate::Error;
@@ -31,7 +31,7 @@ use crate::ellipsoid::outcome::log_unit_ball;
 use crate::ellipsoid::survey::Survey;
 pub use options::RobustOptions;
 
-/// Centre and scatter of most of `points`, n × d, the tolerance ellipsoid, and the points outside of it.
+/// Centre and scatter of most of n points of dimension d, the tolerance ellipsoid, and the points outside of it.
 ///
 /// By default the h = ⌊(n + d + 1)/2⌋ points are sought whose covariance has the least determinant (MCD): wherever
 /// nearly half of the points are, the answer stays bounded, though a denser cluster may win. Points far out in the
@@ -55,7 +55,9 @@ pub use options::RobustOptions;
 /// *Cost.* By `mcd`, for up to 4000 points: rankings of O(nd² log n), a thousand C-steps on up to 600 points, and some
 /// hundred C-steps of O(nd²) on all. Beyond, starts see a sample of 2000, and all points are read some hundred to two
 /// hundred times: normal points, 9000 × 2 87 to 190 times, 9000 × 10 114 to 127 times, 10⁵ × 10 144 to 155 times. By
-/// `mve` and `trim`, a C-step solves a smallest ellipsoid of the points kept; 9000 × 10 are read some 40 times.
+/// `mve` and `trim`, a C-step solves a smallest ellipsoid of the points kept; 9000 × 10 are read some 40 times. In memory are one
+/// block for each thread and some 30 bytes a point; by `mve` and `trim`, and where many points lie in a subspace, the
+/// points kept as well.
 ///
 /// ```
 /// use taut_enclose::{RobustOptions, robust_ellipsoid};
@@ -72,32 +74,17 @@ pub use options::RobustOptions;
 ///
 /// # Errors
 /// [`Error::Empty`], [`Error::Input`], [`Error::Overflow`], [`Error::Input`].
-pub fn robust_ellipsoid<T: Scalar>(
-    points: &Points<'_, T>,
-    options: &RobustOptions,
-) -> Result<Solution<RobustEllipsoid>, Error> {
-    robust_ellipsoid_of_source(points, options, &Monitor::silent())
-}
-
-/// The same for points of a source, in memory or not.
-///
-/// Beside one block for each thread, some 30 bytes a point are held; by `mve` and `trim`, and where many points lie in a
-/// subspace, the points kept as well.
-///
-/// # Errors
-/// As [`robust_ellipsoid()`], and [`Error::Input`] when the source fails or `monitor` stops the work.
-pub fn robust_ellipsoid_of_source(
+pub fn robust_ellipsoid(
     source: &dyn PointSource,
-    options: &RobustOptions,
-    monitor: &Monitor<'_>,
+    options: &RobustOptions<'_>,
 ) -> Result<Solution<RobustEllipsoid>, Error> {
     options.check()?;
-    on_threads(options.threads, || solve(source, options, monitor))
+    on_threads(options.threads, || solve(source, options, &options.monitor))
 }
 
 fn solve(
     source: &dyn PointSource,
-    options: &RobustOptions,
+    options: &RobustOptions<'_>,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<RobustEllipsoid>, Error> {
     let mut data = Survey::new(source, monitor)?;
@@ -247,7 +234,7 @@ fn certificate(
     data: &Survey<'_>,
     placed: Placed,
     h: usize,
-    options: &RobustOptions,
+    options: &RobustOptions<'_>,
 ) -> RobustCertificate {
     let is_trimmed = options.method == RobustMethod::Trim;
     let weighed_out =

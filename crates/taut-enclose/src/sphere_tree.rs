@@ -15,7 +15,7 @@ mod split;
 use rayon::prelude::*;
 use taut_certify::Ball;
 use taut_points::{
-    InputError, Monitor, PointSource, Points, ReadError, Scalar, gather, on_threads,
+    InputError, Monitor, PointSource, Points, ReadError, Rows, Scalar, Scratch, on_threads,
 };
 
 use crate::frame::survey;
@@ -23,18 +23,20 @@ use crate::{BallOptions, Error, ball};
 
 /// How to build the tree. Write `SphereTreeOptions { leaf_size: 1, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SphereTreeOptions {
+pub struct SphereTreeOptions<'a> {
     /// Most points of a leaf, unless they are all equal. At least 1, default 8.
     pub leaf_size: usize,
     /// Wanted relative gap of the ball of each node, R ≤ (1 + ε)·R*. Range [0, 1), default 1e-9.
     pub epsilon: f64,
     /// Threads, 1 to 1024; `None` for those of the surrounding pool. The tree does not depend on it.
     pub threads: Option<usize>,
+    /// Watches the work and can stop it. Default [`Monitor::silent`].
+    pub monitor: Monitor<'a>,
 }
 
-impl Default for SphereTreeOptions {
+impl Default for SphereTreeOptions<'_> {
     fn default() -> Self {
-        SphereTreeOptions { leaf_size: 8, epsilon: 1e-9, threads: None }
+        SphereTreeOptions { leaf_size: 8, epsilon: 1e-9, threads: None, monitor: Monitor::silent() }
     }
 }
 
@@ -79,7 +81,7 @@ impl SphereTree {
     }
 }
 
-/// The tree of balls around `points`.
+/// The tree of balls around the points of a source, which are read into memory.
 ///
 /// Points that are all equal are one leaf, however many.
 ///
@@ -99,41 +101,29 @@ impl SphereTree {
 /// ```
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::Input`], [`Error::Overflow`], [`Error::Input`].
-pub fn sphere_tree<T: Scalar>(
-    points: &Points<'_, T>,
-    options: &SphereTreeOptions,
-) -> Result<SphereTree, Error> {
-    let silent = Monitor::silent();
-    options.check(points, &silent)?;
-    on_threads(options.threads, || build(points, options, &silent))
-}
-
-/// The same for the points of a source, which are read into memory.
-///
-/// # Errors
-/// As [`sphere_tree()`], and [`Error::Input`] when the source fails or `monitor` stops the work, which it is asked for each node.
-pub fn sphere_tree_of_source(
+/// [`Error::Empty`], [`Error::Overflow`]; [`Error::Input`], also when the source fails or the monitor, asked at each node,
+/// stops the work.
+pub fn sphere_tree(
     source: &dyn PointSource,
-    options: &SphereTreeOptions,
-    monitor: &Monitor<'_>,
+    options: &SphereTreeOptions<'_>,
 ) -> Result<SphereTree, Error> {
-    options.check(source, monitor)?;
-    let rows: Vec<u64> = (0..source.len()).collect();
-    let values = gather(source, &rows)?;
-    let points = Points::new(&values, source.dim()).expect("a source has whole rows");
-    on_threads(options.threads, || build(&points, options, monitor))
+    options.check(source)?;
+    let mut scratch = Scratch::new();
+    on_threads(options.threads, || match source.read(0..source.len(), &mut scratch)? {
+        Rows::F32(points) => build(&points, options),
+        Rows::F64(points) => build(&points, options),
+    })
 }
 
-impl SphereTreeOptions {
+impl SphereTreeOptions<'_> {
     /// Refuses wrong options, and points that are no numbers.
-    fn check(&self, source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<(), Error> {
+    fn check(&self, source: &dyn PointSource) -> Result<(), Error> {
         if self.leaf_size == 0 {
             let (name, value) = ("leaf_size", "0".into());
             return Err(Error::Input(InputError::Option { name, value, expected: "at least 1" }));
         }
         // What a row is called, whatever is wrong with it: the balls know rows by their place in a node.
-        survey(source, monitor).map(|_| ())
+        survey(source, &self.monitor).map(|_| ())
     }
 }
 
@@ -147,8 +137,7 @@ struct Open<'a, T> {
 
 fn build<T: Scalar>(
     points: &Points<'_, T>,
-    options: &SphereTreeOptions,
-    monitor: &Monitor<'_>,
+    options: &SphereTreeOptions<'_>,
 ) -> Result<SphereTree, Error> {
     let dim = points.dim();
     let mut values = points.values().to_vec();
@@ -159,7 +148,7 @@ fn build<T: Scalar>(
         let done = level
             .par_iter_mut()
             .map(|open| {
-                monitor.check().map_err(ReadError::from)?;
+                options.monitor.check().map_err(ReadError::from)?;
                 open.enclose_and_part(dim, options)
             })
             .collect::<Vec<_>>();
@@ -186,7 +175,7 @@ impl<T: Scalar> Open<'_, T> {
     fn enclose_and_part(
         &mut self,
         dim: usize,
-        options: &SphereTreeOptions,
+        options: &SphereTreeOptions<'_>,
     ) -> Result<(Ball, Option<usize>), Error> {
         let points = Points::new(self.values, dim).expect("a node has whole rows");
         let enclosing = BallOptions { epsilon: options.epsilon, ..BallOptions::default() };

@@ -22,6 +22,7 @@
 //! Not for: points of differing dimension, sparse points, or coordinates other than `f32` and `f64`.
 
 mod blocks;
+mod choice;
 mod error;
 pub mod generate;
 mod hash;
@@ -33,6 +34,7 @@ mod source;
 mod threads;
 
 pub use blocks::{Blocks, map_blocks};
+pub use choice::Choice;
 pub use error::{Error, InputError, ReadError};
 pub use generate::{Distribution, GeneratedSource, generate, generate_into};
 pub use hash::{BlockHash, HashFormError, PointsHash, hash_block, hash_points};

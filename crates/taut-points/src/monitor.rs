@@ -1,5 +1,7 @@
 //! How a caller watches long work and stops it.
 
+use std::fmt;
+use std::ptr;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The caller asked long work to stop.
@@ -20,10 +22,37 @@ pub struct Monitor<'a> {
     pub cancel: Option<&'a AtomicBool>,
 }
 
+impl fmt::Debug for Monitor<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Monitor")
+            .field("on_points", &self.on_points.is_some())
+            .field("on_pass", &self.on_pass.is_some())
+            .field("cancel", &self.cancel)
+            .finish()
+    }
+}
+
+/// Monitors are equal when they call the same functions and read the same flag.
+impl PartialEq for Monitor<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        fn same<T: ?Sized, U: ?Sized>(a: Option<&T>, b: Option<&U>) -> bool {
+            match (a, b) {
+                (Some(a), Some(b)) => ptr::addr_eq(a, b),
+                (a, b) => a.is_none() && b.is_none(),
+            }
+        }
+        same(self.on_points, other.on_points)
+            && same(self.on_pass, other.on_pass)
+            && same(self.cancel, other.cancel)
+    }
+}
+
+impl Eq for Monitor<'_> {}
+
 impl Monitor<'_> {
     /// A monitor that neither hears nor stops anything.
-    pub fn silent() -> Self {
-        Self::default()
+    pub const fn silent() -> Self {
+        Monitor { on_points: None, on_pass: None, cancel: None }
     }
 
     /// Tells that pass number `pass` over `points` points begins.

@@ -43,6 +43,11 @@ pub trait PointSource: Send + Sync {
         range: Range<u64>,
         scratch: &'a mut Scratch,
     ) -> Result<Rows<'a>, ReadError>;
+
+    /// All rows, where the program holds them in its own memory; `None` for files, mapped or not, and for generators.
+    fn in_memory(&self) -> Option<Rows<'_>> {
+        None
+    }
 }
 
 /// Memory that a source may read to; keep one per thread and pass it again.
@@ -101,6 +106,36 @@ impl<T: Scalar> PointSource for Points<'_, T> {
     fn read<'a>(&'a self, range: Range<u64>, _: &'a mut Scratch) -> Result<Rows<'a>, ReadError> {
         check_range(&range, Points::len(self) as u64)?;
         Ok(T::rows(self.slice(range.start as usize..range.end as usize)))
+    }
+
+    fn in_memory(&self) -> Option<Rows<'_>> {
+        Some(T::rows(*self))
+    }
+}
+
+impl<S: PointSource + ?Sized> PointSource for &S {
+    fn len(&self) -> u64 {
+        (**self).len()
+    }
+
+    fn dim(&self) -> usize {
+        (**self).dim()
+    }
+
+    fn scalar(&self) -> ScalarKind {
+        (**self).scalar()
+    }
+
+    fn read<'a>(
+        &'a self,
+        range: Range<u64>,
+        scratch: &'a mut Scratch,
+    ) -> Result<Rows<'a>, ReadError> {
+        (**self).read(range, scratch)
+    }
+
+    fn in_memory(&self) -> Option<Rows<'_>> {
+        (**self).in_memory()
     }
 }
 

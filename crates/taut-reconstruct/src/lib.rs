@@ -15,10 +15,9 @@ mod error;
 mod surface;
 mod tour;
 
-pub use curve::{CurveMethod, CurveOptions, Ends, curve, curve_of_source};
+pub use curve::{CurveMethod, CurveOptions, CurveThesisOptions, Ends, curve};
 pub use error::{Error, Span};
 pub use surface::{
-    Denoise, Positions, SurfaceMode, SurfaceOptions, alpha, looks_one_sided, surface,
-    surface_of_source, thesis,
+    Denoise, HullOptions, Positions, SurfaceMethod, SurfaceMode, SurfaceOptions, alpha,
+    looks_one_sided, surface, thesis,
 };
-pub use taut_certify::SurfaceMethod;

@@ -13,6 +13,7 @@ pub enum Error {
     /// A triangulation or an order was asked for.
     Delaunay(taut_delaunay::Error),
     /// Curves or a surface were asked for.
+    #[cfg(feature = "reconstruct")]
     Reconstruct(taut_reconstruct::Error),
 }
 
@@ -22,6 +23,7 @@ impl std::fmt::Display for Error {
             Error::Input(error) => error.fmt(f),
             Error::Enclose(error) => error.fmt(f),
             Error::Delaunay(error) => error.fmt(f),
+            #[cfg(feature = "reconstruct")]
             Error::Reconstruct(error) => error.fmt(f),
         }
     }
@@ -33,8 +35,15 @@ impl std::error::Error for Error {
             Error::Input(error) => error.source(),
             Error::Enclose(error) => error.source(),
             Error::Delaunay(error) => error.source(),
+            #[cfg(feature = "reconstruct")]
             Error::Reconstruct(error) => error.source(),
         }
+    }
+}
+
+impl From<InputError> for Error {
+    fn from(error: InputError) -> Self {
+        Error::Input(error)
     }
 }
 
@@ -56,6 +65,7 @@ impl From<taut_delaunay::Error> for Error {
     }
 }
 
+#[cfg(feature = "reconstruct")]
 impl From<taut_reconstruct::Error> for Error {
     fn from(error: taut_reconstruct::Error) -> Self {
         match error {

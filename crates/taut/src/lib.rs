@@ -2,30 +2,30 @@
 //!
 //! | you want | call | promise | more |
 //! |---|---|---|---|
-//! | the smallest ball around points | [`ball()`] | R ≤ (1 + ε)·R*, proved | [`enclose`] |
-//! | the smallest ball around balls | [`ball_of_balls()`] | the same | [`enclose`] |
-//! | the smallest ball around ellipsoids | [`ball_of_ellipsoids()`] | the same | [`enclose`] |
-//! | any of these balls, of more points than memory holds | [`ball_of_source()`] | the same | [`enclose`] |
-//! | k centres, the farthest point as near to one of them as can be | [`centers()`], [`centers_of_balls()`] | radius ≤ (1 + ε) times the least, proved; with outliers, weights, or among the points | [`enclose`] |
-//! | centres for every k at once, of any number of points | [`farthest_first()`], [`farthest_first_of_source()`] | at most twice the least radius, for each k | [`enclose`] |
-//! | k centres of a stream, or of points in many places | [`Cover`], [`Summary`] | a factor of the least radius, both bounds told | [`enclose`] |
+//! | the smallest ball around points, balls or ellipsoids | [`ball()`] | R ≤ (1 + ε)·R*, proved | [`enclose`] |
+//! | k centres of points or balls, the farthest as near to one of them as can be | [`centers()`] | radius ≤ (1 + ε) times the least, proved; with outliers, weights, or among the points | [`enclose`] |
+//! | centres for every k at once, of any number of points | [`farthest_first()`] | at most twice the least radius, for each k | [`enclose`] |
+//! | k centres of a stream, or of points in many places | [`enclose::Cover`], [`enclose::Summary`] | a factor of the least radius, both bounds told | [`enclose`] |
 //! | a tree of balls | [`sphere_tree()`] | each the smallest around its points | [`enclose`] |
-//! | the ellipsoid of least volume around points | [`ellipsoid()`] | log-volume ≤ least + ε, proved | [`enclose`] |
-//! | the same, of more points than memory holds | [`ellipsoid_of_source()`] | the same | [`enclose`] |
+//! | the ellipsoid of least volume around points, balls or ellipsoids | [`ellipsoid()`] | log-volume ≤ least + ε, proved | [`enclose`] |
 //! | one for each of many point sets | [`ellipsoids()`] | the same | [`enclose`] |
-//! | the ellipsoid of least volume around balls or ellipsoids | [`ellipsoid_of_balls()`], [`ellipsoid_of_ellipsoids()`] | log-volume ≤ optimum + ε, proved | [`enclose`] |
 //! | the ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | [`enclose`] |
 //! | centre and scatter of most points, and the outliers | [`robust_ellipsoid()`] | all but the choice of points proved; that choice a local optimum | [`enclose`] |
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
-//! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`Plane`], [`Space`] | the same | [mod@delaunay] |
-//! | edges that must be there | [`Plane::constrained`] | exact, Delaunay as far as they let it be | [mod@delaunay] |
+//! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`delaunay::Plane`], [`delaunay::Space`] | the same | [mod@delaunay] |
+//! | edges that must be there | [`delaunay::Plane::constrained`] | exact, Delaunay as far as they let it be | [mod@delaunay] |
 //! | rows in an order where neighbours are near each other | [`spatial_order()`] | a function of the point set alone, proved | [mod@delaunay] |
 //! | files sorted or transposed that memory does not hold, samples, orders, nearest points | [mod@oblivious] | each with its own | [mod@oblivious], [`files`] |
 //! | the curves that noisy points were sampled from | [`curve()`] | no crossings; each point within the band told or named as an outlier; whether sampling was dense enough | [mod@reconstruct] |
 //! | the curves through points without noise, a short tour through points | [`curve()`] with a [`CurveMethod`] | what each is known for, a bound beside the tour | [mod@reconstruct] |
+//! | the surface that points of space were sampled from | [`surface()`] | an oriented manifold of Delaunay triangles, or where it is none | [mod@reconstruct] |
 //! | a second opinion on any answer | [`Solution::check`] | a proved bracket, or the first violation | [`certify`] |
 //! | an answer of yesterday | [`AnySolution::from_json`] | the same bits | [`certify`] |
-//! | points to try with | [`generate()`] | point i depends on the seed and i alone | [`points`] |
+//! | points to try with | [`points::generate()`] | point i depends on the seed and i alone | [`points`] |
+//!
+//! Each function takes [`Points`] in memory or any other [`PointSource`], of any size where it does not say that points are
+//! held in memory, and one struct of options: what the rows are, the method, the threads, and a [`Monitor`] that watches
+//! the work and can stop it.
 //!
 //! ```
 //! let points = taut::Points::new(&[0.0, 0.0, 2.0, 0.0, 1.0, 1.0], 2)?;   // n × d, row-major
@@ -107,6 +107,9 @@
 //! door can be used on its own. Files are read and written by `taut-io`, pictures drawn by `taut-draw`, and the command `taut`
 //! is the crate `taut-cli`.
 //!
+//! Two cargo features, both on by default, switch areas off: `reconstruct` (curves and surfaces) and `conic` (inscribed
+//! ellipsoids and the methods of the thesis for balls, which need a conic solver).
+//!
 //! Not for: distances other than Euclidean, or weights other than those of centres.
 #![forbid(unsafe_code)]
 
@@ -114,43 +117,32 @@ mod error;
 pub mod files;
 
 pub use error::Error;
+
 pub use taut_certify as certify;
-pub use taut_certify::{
-    Answer, AnySolution, Ball, BallCertificate, Centers, CentersCertificate, CentersVerdict, Curve,
-    CurveCertificate, CurveComponent, CurveDoubt, CurveVerdict, EllipseSupport, Ellipsoid,
-    EllipsoidCertificate, EllipsoidVerdict, InscribedCertificate, InscribedEllipsoid,
-    InscribedVerdict, Items, LowerBound, Order, OrderCertificate, OrderCurve, OrderVerdict,
-    Placement, RobustCertificate, RobustEllipsoid, RobustMethod, RobustVerdict, Solution, Surface,
-    SurfaceCertificate, SurfaceComponent, SurfaceDoubt, SurfaceTopology, SurfaceVerdict, Trace,
-    Triangulation, TriangulationCertificate, Verdict, Violation, ellipse_support,
-};
 pub use taut_delaunay as delaunay;
-pub use taut_delaunay::{
-    DelaunayOptions, InsertionOrder, Plane, Space, delaunay, delaunay_of_source, spatial_order,
-};
 pub use taut_enclose as enclose;
-pub use taut_enclose::{
-    BallMethod, BallOptions, CentersMethod, CentersOptions, Cover, CoverOptions, Covered,
-    EllipsoidMethod, EllipsoidOptions, FarthestFirst, FarthestFirstOptions, InscribedOptions,
-    RobustOptions, SphereNode, SphereTree, SphereTreeOptions, Summary, ball, ball_of_balls,
-    ball_of_ellipsoids, ball_of_source, centers, centers_of_balls, centers_of_source,
-    cover_of_source, ellipsoid, ellipsoid_of_balls, ellipsoid_of_ellipsoids, ellipsoid_of_items,
-    ellipsoid_of_source, ellipsoids, ellipsoids_of_sources, farthest_first,
-    farthest_first_of_source, inscribed_ellipsoid, inscribed_ellipsoid_of_source, robust_ellipsoid,
-    robust_ellipsoid_of_source, sphere_tree, sphere_tree_of_source,
-};
 pub use taut_oblivious as oblivious;
 pub use taut_points as points;
-pub use taut_points::{Distribution, Monitor, PointSource, Points, generate};
-
+#[cfg(feature = "reconstruct")]
 pub use taut_reconstruct as reconstruct;
+
+pub use taut_certify::{AnySolution, Items, RobustMethod, Solution};
+pub use taut_delaunay::{DelaunayOptions, OrderOptions, delaunay, spatial_order};
+pub use taut_enclose::{
+    BallMethod, BallOptions, CentersMethod, CentersOptions, EllipsoidMethod, EllipsoidOptions,
+    FarthestFirstOptions, RobustOptions, SphereTreeOptions, ball, centers, ellipsoid, ellipsoids,
+    farthest_first, robust_ellipsoid, sphere_tree,
+};
+#[cfg(feature = "conic")]
+pub use taut_enclose::{InscribedOptions, inscribed_ellipsoid};
+pub use taut_points::{Monitor, PointSource, Points};
+#[cfg(feature = "reconstruct")]
 pub use taut_reconstruct::{
-    CurveMethod, CurveOptions, Denoise, Ends, Positions, SurfaceMethod, SurfaceMode,
-    SurfaceOptions, curve, curve_of_source, looks_one_sided, surface, surface_of_source,
+    CurveMethod, CurveOptions, SurfaceMethod, SurfaceOptions, curve, surface,
 };
 
 /// The Rust in the pages for people, compiled and run with the tests.
-#[cfg(doctest)]
+#[cfg(all(doctest, feature = "conic", feature = "reconstruct"))]
 mod pages {
     #[doc = include_str!("../../../README.md")]
     struct Readme;

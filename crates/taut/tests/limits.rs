@@ -2,9 +2,10 @@
 
 use std::fmt::Display;
 
+use taut::delaunay::Plane;
 use taut::{
     BallOptions, CentersOptions, CurveOptions, DelaunayOptions, EllipsoidOptions,
-    FarthestFirstOptions, Plane, Points, RobustOptions, SphereTreeOptions, SurfaceOptions,
+    FarthestFirstOptions, Points, RobustOptions, SphereTreeOptions, SurfaceOptions,
 };
 
 /// What a function says of an option that it refuses.
@@ -38,7 +39,7 @@ fn a_thousand_million_threads_are_refused_in_the_same_words_everywhere() {
         let tree = SphereTreeOptions { threads, ..Default::default() };
         assert_eq!(refused(taut::sphere_tree(&plane, &tree)), said);
         let delaunay = DelaunayOptions { threads, ..Default::default() };
-        assert_eq!(refused(Plane::build(&plane, &delaunay, &taut::Monitor::silent())), said);
+        assert_eq!(refused(Plane::build(&plane, &delaunay)), said);
         let curve = CurveOptions { threads, ..Default::default() };
         assert_eq!(refused(taut::curve(&plane, &curve)), said);
         let surface = SurfaceOptions { threads, ..Default::default() };

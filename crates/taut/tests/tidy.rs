@@ -59,6 +59,12 @@ const BARE_WORDS: [&str; 86] = [
     "USEFUL", "VAIN", "WIDE", "WIDER", "WIDEST", "WITHIN", "WORTH",
 ];
 
+/// Functions at the root of the façade, at most: one for each noun, and room for those to come.
+const FACADE_FUNCTIONS_MAX: usize = 14;
+
+/// Names at the root of the façade, at most; all others are in the modules.
+const FACADE_NAMES_MAX: usize = 45;
+
 /// Lines a source file may have before it must be two.
 const LINES_MAX: usize = 700;
 
@@ -247,6 +253,55 @@ fn constants_are_found() {
     }
     assert_eq!(constants_of("const fn few() -> usize {"), Vec::<&str>::new());
     assert_eq!(constants_of("const SMALL_GAP: f64 = 1e-6; // SMALL"), ["SMALL_GAP"]);
+}
+
+/// What a program sees at the root of `taut`: the functions, and all names.
+fn public_names(source: &str) -> (Vec<String>, Vec<String>) {
+    let (mut functions, mut names) = (vec![], vec![]);
+    let items = source.split(';').flat_map(|item| item.split_once("pub ").map(|(_, item)| item));
+    for item in items {
+        let words: Vec<&str> = item.split_whitespace().collect();
+        match &words[..] {
+            ["mod", name] => names.push((*name).to_owned()),
+            ["use", _, "as", name] => names.push((*name).to_owned()),
+            ["use", path @ ..] => {
+                let path = path.concat();
+                let (_, list) = path.split_once("::").expect("a path has two parts");
+                for name in list.trim_matches(['{', '}']).split(',').filter(|name| !name.is_empty())
+                {
+                    assert!(name != "*" && !name.contains("::"), "{name} hides what it names");
+                    if name.starts_with(char::is_lowercase) {
+                        functions.push(name.to_owned());
+                    }
+                    names.push(name.to_owned());
+                }
+            }
+            other => panic!("the façade only names what is elsewhere, but says pub {other:?}"),
+        }
+    }
+    (functions, names)
+}
+
+#[test]
+fn the_facade_is_small() {
+    let source = read(&root().join("crates/taut/src/lib.rs"));
+    let code: Vec<&str> = source.lines().filter(|line| !line.starts_with("//")).collect();
+    let (functions, names) = public_names(&code.join("\n"));
+    println!("{} functions and {} names: {names:?}", functions.len(), names.len());
+    assert!(functions.contains(&"ball".to_owned()) && names.contains(&"certify".to_owned()));
+    assert!(functions.len() <= FACADE_FUNCTIONS_MAX, "{} functions", functions.len());
+    assert!(names.len() <= FACADE_NAMES_MAX, "{} names", names.len());
+    let twice = functions.iter().find(|name| name.contains("_of_") || name.contains("_with_"));
+    assert_eq!(twice, None, "what rows are and who watches are options, not functions");
+}
+
+#[test]
+fn names_of_a_facade_are_counted() {
+    let source = "mod error;\npub mod files;\nuse a::Hidden;\npub use a::{\n    Ball, ball,\n    curve,\n};\n\
+                  pub use b::Error;\npub use c as d;\n";
+    let (functions, names) = public_names(source);
+    assert_eq!(functions, ["ball", "curve"]);
+    assert_eq!(names, ["files", "Ball", "ball", "curve", "Error", "d"]);
 }
 
 #[test]

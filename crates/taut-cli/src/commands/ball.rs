@@ -1,10 +1,11 @@
 //! `taut ball`: the smallest ball around points or balls.
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::{Ball, BallMethod, BallOptions, Items, Monitor, Solution, ball_of_source};
+use taut::certify::Ball;
+use taut::{BallMethod, BallOptions, Items, Monitor, Solution, ball};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
+use crate::input::choice::choice;
 use crate::input::reading::{Opened, Points, Reading};
 use crate::pipeline::{self, Find, Input, Output, OutputOptions};
 use crate::reports;
@@ -31,7 +32,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "REAL", default_value = "1e-9", allow_negative_numbers = true)]
     epsilon: f64,
     /// The way to find it; all end in the same certificate
-    #[arg(long, value_name = "NAME", default_value = BallMethod::default().name(), value_parser = methods())]
+    #[arg(long, value_name = "NAME", default_value = BallMethod::default().name(), value_parser = choice::<BallMethod>())]
     method: BallMethod,
     /// Far points taken to the core-set per pass, by core-set; at least 1 [default: by dimension]
     #[arg(long, value_name = "N")]
@@ -51,20 +52,6 @@ pub(crate) struct Args {
     effort: Effort,
 }
 
-fn methods() -> impl TypedValueParser<Value = BallMethod> {
-    let explained = BallMethod::ALL.map(|method| {
-        PossibleValue::new(method.name()).help(match method {
-            BallMethod::CoreSet => "batches of far points, exact on the core-set: the best",
-            BallMethod::ThesisPure => {
-                "Algorithm 1: one far point per pass, a conic solver on the core-set"
-            }
-            BallMethod::ThesisFast => "d/3 steps of Bădoiu and Clarkson, then Algorithm 1",
-            BallMethod::BadoiuClarkson => "Algorithm 10: steps to the farthest point; needs ε > 0",
-        })
-    });
-    PossibleValuesParser::new(explained).try_map(|name| name.parse::<BallMethod>())
-}
-
 impl Find for Args {
     type Answer = Ball;
     type Extra = ();
@@ -78,9 +65,8 @@ impl Find for Args {
     }
 
     fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Ball>, ())> {
-        let items = items(self.balls, self.ellipsoids);
         let solve = |monitor: &Monitor<'_>| {
-            ball_of_source(points.source(), items, &self.options(), monitor)
+            ball(points.source(), &BallOptions { monitor: *monitor, ..self.options() })
         };
         let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
         Ok((found, ()))
@@ -96,14 +82,16 @@ impl Args {
         pipeline::run(self)
     }
 
-    fn options(&self) -> BallOptions {
+    fn options(&self) -> BallOptions<'static> {
         BallOptions {
+            inputs: items(self.balls, self.ellipsoids),
             epsilon: self.epsilon,
             method: self.method,
             batch: self.batch,
             max_passes: self.max_passes,
             threads: None, // those of the pool, which reading and checking use as well
             seed: self.seed,
+            ..BallOptions::default()
         }
     }
 }

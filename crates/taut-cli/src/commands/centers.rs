@@ -1,13 +1,14 @@
 //! `taut centers`: k equal balls around all points but so many, as small as can be.
 
 use anyhow::bail;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use taut::certify::Centers;
 use taut::certify::Placement;
-use taut::{Centers, CentersMethod, CentersOptions, Items, Monitor, Solution, centers_of_source};
+use taut::{CentersMethod, CentersOptions, Items, Monitor, Solution, centers};
 
 use crate::commands::elbow::{self, Range};
 use crate::effort::Effort;
 use crate::exit::Outcome;
+use crate::input::choice::choice;
 use crate::input::reading::{Opened, Points, Reading};
 use crate::pipeline::{self, Find, Input, Output, OutputOptions};
 use crate::reports;
@@ -42,7 +43,7 @@ pub(crate) struct Args {
     epsilon: f64,
     /// The way to find them; all end in the same kind of certificate
     #[arg(
-        long, value_name = "NAME", default_value = CentersMethod::default().name(), value_parser = methods()
+        long, value_name = "NAME", default_value = CentersMethod::default().name(), value_parser = choice::<CentersMethod>()
     )]
     method: CentersMethod,
     /// Centres are points of the input, not anywhere in space
@@ -71,25 +72,6 @@ pub(crate) struct Args {
     effort: Effort,
 }
 
-fn methods() -> impl TypedValueParser<Value = CentersMethod> {
-    let explained = CentersMethod::ALL.map(|method| {
-        PossibleValue::new(method.name()).help(match method {
-            CentersMethod::Tree => "a tree over a small growing core-set: the best",
-            CentersMethod::Thesis => {
-                "Algorithm 2, with a bound that holds; free centres, no weights, no outliers"
-            }
-            CentersMethod::FarthestFirst => {
-                "at most twice the least radius, whatever --epsilon says; for any k, fast"
-            }
-            CentersMethod::Stream => {
-                "at most 2.96 times the least radius, whatever --epsilon says; two passes over files of any size, which are \
-                 not held in memory; no balls, weights, outliers or assignment"
-            }
-        })
-    });
-    PossibleValuesParser::new(explained).try_map(|name| name.parse::<CentersMethod>())
-}
-
 impl Find for Args {
     type Answer = Centers;
     type Extra = ();
@@ -110,7 +92,7 @@ impl Find for Args {
     fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Centers>, ())> {
         let k = self.k.expect("one of -k and --elbow is required");
         let solve = |monitor: &Monitor<'_>| {
-            centers_of_source(points.source(), self.items(), k, &self.options(), monitor)
+            centers(points.source(), k, &CentersOptions { monitor: *monitor, ..self.options() })
         };
         let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
         Ok((found, ()))
@@ -126,14 +108,15 @@ impl Args {
         match &self.elbow {
             Some(range) => {
                 self.check_options()?;
-                elbow::run(range, self.items(), &self.options(), self.input(), self.output())
+                elbow::run(range, &self.options(), self.input(), self.output())
             }
             None => pipeline::run(self),
         }
     }
 
-    fn options(&self) -> CentersOptions {
+    fn options(&self) -> CentersOptions<'static> {
         CentersOptions {
+            inputs: if self.balls { Items::Balls } else { Items::Points },
             epsilon: self.epsilon,
             method: self.method,
             placement: if self.discrete { Placement::Rows } else { Placement::Free },
@@ -141,12 +124,9 @@ impl Args {
             weights: self.weights,
             max_nodes: self.max_nodes,
             assignment: self.assignment,
-            threads: None, // those of the pool, which reading and checking use as well
+            // The threads are those of the pool, which reading and checking use as well.
+            ..CentersOptions::default()
         }
-    }
-
-    fn items(&self) -> Items {
-        if self.balls { Items::Balls } else { Items::Points }
     }
 
     /// What some methods do not do, in the words of the command line.
@@ -159,14 +139,14 @@ impl Args {
             ("--assignment", self.assignment),
         ];
         let (names, knows) = match self.method {
-            CentersMethod::Tree | CentersMethod::FarthestFirst => return Ok(()),
             CentersMethod::Thesis => {
                 (&["--discrete", "--weights", "--outliers"][..], "free centres of points and balls")
             }
-            CentersMethod::Stream => (
+            CentersMethod::Stream(_) => (
                 &["--balls", "--weights", "--outliers", "--assignment"][..],
                 "centres of points alone, which it does not look at again",
             ),
+            _ => return Ok(()),
         };
         match asked.into_iter().find(|(name, is_asked)| *is_asked && names.contains(name)) {
             Some((name, _)) => bail!(

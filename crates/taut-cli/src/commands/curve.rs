@@ -3,12 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::{Curve, CurveMethod, CurveOptions, Ends, Monitor, Solution, curve_of_source};
+use taut::certify::Curve;
+use taut::reconstruct::{CurveThesisOptions, Ends};
+use taut::{CurveMethod, CurveOptions, Monitor, Solution, curve};
 use taut_io::{Content, Format, Polyline, polylines_file};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
+use crate::input::choice::choice;
 use crate::input::reading::{Opened, Points, Reading};
 use crate::output::picture::Picture;
 use crate::output::writing::Outputs;
@@ -28,17 +30,17 @@ pub(crate) struct Args {
     points: Points,
     /// The way to find them
     #[arg(
-        long, value_name = "NAME", default_value = CurveMethod::default().name(), value_parser = methods()
+        long, value_name = "NAME", default_value = CurveMethod::default().name(), value_parser = choice::<CurveMethod>()
     )]
     method: CurveMethod,
     /// Leave ends as they are where samples end, and join none across a gap; of a tour make a path
     #[arg(long)]
     open: bool,
     /// Of thesis and thesis-crude, ρ: how much longer than wide the coarse disk of a point must be, at least 1
-    #[arg(long, value_name = "REAL", default_value_t = CurveOptions::default().rho, allow_negative_numbers = true)]
+    #[arg(long, value_name = "REAL", default_value_t = CurveThesisOptions::default().rho, allow_negative_numbers = true)]
     rho: f64,
     /// Of thesis and thesis-crude, ω: the first disk of a point holds (ln n)^(1 + ω) points; above 0
-    #[arg(long, value_name = "REAL", default_value_t = CurveOptions::default().omega, allow_negative_numbers = true)]
+    #[arg(long, value_name = "REAL", default_value_t = CurveThesisOptions::default().omega, allow_negative_numbers = true)]
     omega: f64,
     /// Of thesis and thesis-crude, the least distance of the curves from their medial axis, in the unit of the points; by default
     /// it is estimated
@@ -68,31 +70,6 @@ pub(crate) struct Args {
     reading: Reading,
     #[command(flatten)]
     effort: Effort,
-}
-
-fn methods() -> impl TypedValueParser<Value = CurveMethod> {
-    let explained = CurveMethod::NAMES.map(|(name, method)| {
-        PossibleValue::new(name).help(match method {
-            CurveMethod::Auto => "fit where the points are noisy, else nn-crust or fit where that is certified, else corners",
-            CurveMethod::Fit => "for noise: neighbours first, then a fit along the order they have",
-            CurveMethod::Thesis => "for noise: slabs and centre points, step by step",
-            CurveMethod::ThesisCrude => "for noise: centres along eigenvectors, and a tour",
-            CurveMethod::Crust => "no noise, samples at ε < 0.252: Amenta, Bern and Eppstein",
-            CurveMethod::OneStepCrust => "no noise, ε < 0.42: Gold and Snoeyink",
-            CurveMethod::NnCrust => "no noise, ε < 1/3: Dey and Kumar",
-            CurveMethod::ConservativeCrust => "no noise, curves with ends: Dey, Mehlhorn and Ramos",
-            CurveMethod::HnnCrust => "no noise, ε < 0.47: Ohrhallinger, Mitchell and Wimmer",
-            CurveMethod::Corners => "no noise, curves with corners",
-            CurveMethod::Tour => "a short tour through all points, with a bound",
-            _ => "another way",
-        })
-    });
-    PossibleValuesParser::new(explained).map(|name| {
-        CurveMethod::NAMES
-            .iter()
-            .find(|(known, _)| *known == name)
-            .map_or_else(CurveMethod::default, |(_, method)| *method)
-    })
 }
 
 impl Find for Args {
@@ -127,8 +104,10 @@ impl Find for Args {
     }
 
     fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Curve>, ())> {
-        let solve =
-            |monitor: &Monitor<'_>| curve_of_source(points.source(), &self.options(), monitor);
+        self.thesis().check().map_err(|error| points.explain(error))?;
+        let solve = |monitor: &Monitor<'_>| {
+            curve(points.source(), &CurveOptions { monitor: *monitor, ..self.options() })
+        };
         let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
         Ok((found, ()))
     }
@@ -183,16 +162,22 @@ impl Args {
         }
     }
 
-    fn options(&self) -> CurveOptions {
+    fn options(&self) -> CurveOptions<'static> {
         CurveOptions {
-            method: self.method,
+            method: match self.method {
+                CurveMethod::Thesis(_) => CurveMethod::Thesis(self.thesis()),
+                CurveMethod::ThesisCrude(_) => CurveMethod::ThesisCrude(self.thesis()),
+                other => other,
+            },
             ends: if self.open { Ends::Open } else { Ends::Auto },
-            rho: self.rho,
-            omega: self.omega,
-            feature: self.feature,
             places: self.places,
-            threads: None, // those of the pool, which reading and checking use as well
+            // The threads are those of the pool, which reading and checking use as well.
+            ..CurveOptions::default()
         }
+    }
+
+    fn thesis(&self) -> CurveThesisOptions {
+        CurveThesisOptions { rho: self.rho, omega: self.omega, feature: self.feature }
     }
 }
 

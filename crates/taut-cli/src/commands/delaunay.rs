@@ -7,14 +7,16 @@ mod voronoi;
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::{DelaunayOptions, InsertionOrder, Monitor, Solution, Triangulation};
+use taut::certify::Triangulation;
+use taut::delaunay::InsertionOrder;
+use taut::{DelaunayOptions, Monitor, Solution};
 use taut_io::{Content, Format, MeshOptions, MeshView, mesh_file};
 
 use self::alpha::Alpha;
 use self::built::Built;
 use crate::effort::Effort;
 use crate::exit::Outcome;
+use crate::input::choice::choice;
 use crate::input::reading::{Opened, Points, Reading};
 use crate::output::picture::Picture;
 use crate::output::writing::{self, Outputs};
@@ -33,7 +35,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     points: Points,
     /// In which order points are inserted; the answer does not depend on it
-    #[arg(long, value_name = "NAME", default_value = order_name(InsertionOrder::default()), value_parser = orders())]
+    #[arg(long, value_name = "NAME", default_value = InsertionOrder::default().name(), value_parser = choice::<InsertionOrder>())]
     order: InsertionOrder,
     /// Chooses the random orders; the answer does not depend on it
     #[arg(long, value_name = "N", default_value_t = DelaunayOptions::default().seed)]
@@ -69,29 +71,6 @@ pub(crate) struct Args {
     reading: Reading,
     #[command(flatten)]
     effort: Effort,
-}
-
-fn order_name(wanted: InsertionOrder) -> &'static str {
-    InsertionOrder::NAMES.iter().find(|(_, order)| *order == wanted).map_or("", |(name, _)| name)
-}
-
-fn orders() -> impl TypedValueParser<Value = InsertionOrder> {
-    let explained = InsertionOrder::NAMES.map(|(name, order)| {
-        PossibleValue::new(name).help(match order {
-            InsertionOrder::Strided => {
-                "rounds of every 8ᵏ-th point along the Hilbert curve: the best"
-            }
-            InsertionOrder::Random => "rounds of random points, each eight times the last (BRIO)",
-            InsertionOrder::LocalRic => "random within blocks of growing size, simplex by simplex",
-            _ => "along the Hilbert curve, in one round",
-        })
-    });
-    PossibleValuesParser::new(explained).map(|name| {
-        InsertionOrder::NAMES
-            .iter()
-            .find(|(known, _)| *known == name)
-            .map_or_else(InsertionOrder::default, |(_, order)| *order)
-    })
 }
 
 /// What side outputs of a triangulation are made from.
@@ -144,9 +123,11 @@ impl Find for Args {
         points: &Opened,
         watch: &Watch,
     ) -> anyhow::Result<(Solution<Triangulation>, Extra)> {
-        let (source, options) = (points.source(), self.options());
+        let source = points.source();
         let built = watch
-            .during("solving", |monitor| Built::new(source, &options, monitor))
+            .during("solving", |monitor| {
+                Built::new(source, &DelaunayOptions { monitor: *monitor, ..self.options() })
+            })
             .map_err(|error| points.explain(error))?;
         let found = watch
             .during("ordering", |monitor| built.solution(source, monitor))
@@ -226,7 +207,7 @@ impl Args {
         }
     }
 
-    fn options(&self) -> DelaunayOptions {
+    fn options(&self) -> DelaunayOptions<'static> {
         DelaunayOptions {
             threads: None, // those of the pool, which reading and checking use as well
             order: self.order,

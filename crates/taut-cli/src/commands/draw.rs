@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use anyhow::bail;
+use taut::Solution;
+use taut::certify::Violation;
 use taut::certify::with_solution;
-use taut::{Solution, Violation};
 
 use crate::commands::verify::{judge, read_answer, shown};
 use crate::effort::Effort;

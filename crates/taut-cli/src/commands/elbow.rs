@@ -4,8 +4,9 @@
 //! those beside them, so that neither the radius nor the bound ever rises with k. A radius of 0 ends the range.
 
 use anyhow::bail;
+use taut::certify::Centers;
 use taut::certify::Stop;
-use taut::{Centers, CentersOptions, Items, Solution, centers_of_source};
+use taut::{CentersOptions, Items, Solution, centers};
 use taut_draw::{ElbowStep, elbow_figure};
 
 use crate::clock::Clock;
@@ -94,8 +95,7 @@ fn carry_over(rows: &mut [Row]) {
 /// Opens, solves and checks for each k, writes and says.
 pub(crate) fn run(
     range: &Range,
-    items: Items,
-    options: &CentersOptions,
+    options: &CentersOptions<'_>,
     input: Input<'_>,
     output: Output<'_>,
 ) -> anyhow::Result<Outcome> {
@@ -116,7 +116,7 @@ pub(crate) fn run(
     for k in range.first..=range.last {
         let found = watch
             .during(&format!("solving k = {k}"), |monitor| {
-                centers_of_source(points.source(), items, k, options, monitor)
+                centers(points.source(), k, &CentersOptions { monitor: *monitor, ..*options })
             })
             .map_err(|error| points.explain(error))?;
         if check(&found, &points, &watch, output, &format!(" for k = {k}"))?.is_err() {
@@ -135,7 +135,7 @@ pub(crate) fn run(
     let checked = if output.no_verify { "solving" } else { "solving and checking" };
     clock.lap(checked);
 
-    let title = title(&points, items);
+    let title = title(&points, options.inputs);
     let verified = match output.no_verify {
         false => Field::new("verified", "yes").remark("both bounds, for each k"),
         true => Field::new("verified", "not checked"),

@@ -1,15 +1,16 @@
 //! `taut ellipsoid`: the ellipsoid of least volume around points, balls or ellipsoids, or around most points.
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use taut::certify::{Ellipsoid, RobustEllipsoid};
 use taut::{
-    Ellipsoid, EllipsoidMethod, EllipsoidOptions, Monitor, RobustEllipsoid, RobustOptions,
-    Solution, ellipsoid_of_items, robust_ellipsoid_of_source,
+    EllipsoidMethod, EllipsoidOptions, Monitor, RobustOptions, Solution, ellipsoid,
+    robust_ellipsoid,
 };
 
 use crate::commands::ball::items;
 use crate::commands::robust::Robust;
 use crate::effort::Effort;
 use crate::exit::Outcome;
+use crate::input::choice::choice;
 use crate::input::reading::{Opened, Points, Reading};
 use crate::pipeline::{self, Find, Input, Output, OutputOptions};
 use crate::reports;
@@ -40,7 +41,7 @@ pub(crate) struct Args {
     epsilon: f64,
     /// The way to find it; all end in the same certificate
     #[arg(
-        long, value_name = "NAME", default_value = EllipsoidMethod::default().name(), value_parser = methods()
+        long, value_name = "NAME", default_value = EllipsoidMethod::default().name(), value_parser = choice::<EllipsoidMethod>()
     )]
     method: EllipsoidMethod,
     /// Most reads of all points, then the best ellipsoid so far is given with its gap: at least 2; a read or two more
@@ -60,25 +61,6 @@ pub(crate) struct Args {
     effort: Effort,
 }
 
-fn methods() -> impl TypedValueParser<Value = EllipsoidMethod> {
-    let explained = EllipsoidMethod::ALL.map(|method| {
-        PossibleValue::new(method.name()).help(match method {
-            EllipsoidMethod::Newton => "pools of far points, Newton's method on each: the best",
-            EllipsoidMethod::ThesisInitial => {
-                "Algorithm 3: at most 2d points, no search; its gap may be large"
-            }
-            EllipsoidMethod::ThesisKhachiyan => {
-                "Algorithm 4: steps to the farthest point, from equal weights on all; needs ε > 0"
-            }
-            EllipsoidMethod::ThesisCoreSet => {
-                "Algorithm 5: the same steps from Algorithm 3, for a small core-set; needs ε > 0"
-            }
-            EllipsoidMethod::AwaySteps => "the same with steps away from near points; needs ε > 0",
-        })
-    });
-    PossibleValuesParser::new(explained).try_map(|name| name.parse::<EllipsoidMethod>())
-}
-
 /// The ellipsoid around all rows.
 struct Enclosing<'a>(&'a Args);
 
@@ -95,9 +77,10 @@ impl Find for Enclosing<'_> {
     }
 
     fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Ellipsoid>, ())> {
-        let (items, options) = (items(self.0.balls, self.0.ellipsoids), self.0.options());
-        let solve =
-            |monitor: &Monitor<'_>| ellipsoid_of_items(points.source(), items, &options, monitor);
+        let solve = |monitor: &Monitor<'_>| {
+            let options = EllipsoidOptions { monitor: *monitor, ..self.0.options() };
+            ellipsoid(points.source(), &options)
+        };
         let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
         Ok((found, ()))
     }
@@ -108,7 +91,7 @@ impl Find for Enclosing<'_> {
 }
 
 /// The ellipsoid of most of the points.
-struct OfMost<'a>(&'a Args, RobustOptions);
+struct OfMost<'a>(&'a Args, RobustOptions<'static>);
 
 impl Find for OfMost<'_> {
     type Answer = RobustEllipsoid;
@@ -127,8 +110,9 @@ impl Find for OfMost<'_> {
         points: &Opened,
         watch: &Watch,
     ) -> anyhow::Result<(Solution<RobustEllipsoid>, ())> {
-        let solve =
-            |monitor: &Monitor<'_>| robust_ellipsoid_of_source(points.source(), &self.1, monitor);
+        let solve = |monitor: &Monitor<'_>| {
+            robust_ellipsoid(points.source(), &RobustOptions { monitor: *monitor, ..self.1 })
+        };
         let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
         Ok((found, ()))
     }
@@ -153,17 +137,19 @@ impl Args {
         Input { path: &self.points.path, reading: &self.reading, effort: &self.effort }
     }
 
-    pub(crate) fn robust(&self) -> anyhow::Result<Option<RobustOptions>> {
+    pub(crate) fn robust(&self) -> anyhow::Result<Option<RobustOptions<'static>>> {
         self.robust.options(self.epsilon)
     }
 
-    fn options(&self) -> EllipsoidOptions {
+    fn options(&self) -> EllipsoidOptions<'static> {
         EllipsoidOptions {
+            inputs: items(self.balls, self.ellipsoids),
             epsilon: self.epsilon,
             method: self.method,
             max_passes: self.max_passes,
             threads: None, // those of the pool, which reading and checking use as well
             seed: self.seed,
+            ..EllipsoidOptions::default()
         }
     }
 }

@@ -5,10 +5,11 @@ use std::path::PathBuf;
 
 use anyhow::{anyhow, bail};
 use clap::builder::{PossibleValue, PossibleValuesParser};
+use taut::PointSource;
+use taut::points::Distribution;
 use taut::points::generate::curves::{CurveNoise, CurveSource, TestCurve};
 use taut::points::generate::{Parameters, RadiusLaw};
 use taut::points::{Error, GeneratedSource, ScalarKind};
-use taut::{Distribution, PointSource};
 use taut_io::{Format, write_points};
 
 use crate::commands::radii::Balls;

@@ -1,8 +1,7 @@
 //! `taut inscribe`: the largest shape inside another; so far the ellipsoid inside a polytope.
 
-use taut::{
-    InscribedEllipsoid, InscribedOptions, Monitor, Solution, inscribed_ellipsoid_of_source,
-};
+use taut::certify::InscribedEllipsoid;
+use taut::{InscribedOptions, Monitor, Solution, inscribed_ellipsoid};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
@@ -79,7 +78,10 @@ impl Find for Ellipsoid {
         watch: &Watch,
     ) -> anyhow::Result<(Solution<InscribedEllipsoid>, ())> {
         let solve = |monitor: &Monitor<'_>| {
-            inscribed_ellipsoid_of_source(sides.source(), &self.options(), monitor)
+            inscribed_ellipsoid(
+                sides.source(),
+                &InscribedOptions { monitor: *monitor, ..self.options() },
+            )
         };
         let found = watch.during("solving", solve).map_err(|error| sides.explain(error))?;
         Ok((found, ()))
@@ -91,8 +93,12 @@ impl Find for Ellipsoid {
 }
 
 impl Ellipsoid {
-    fn options(&self) -> InscribedOptions {
-        InscribedOptions { epsilon: self.epsilon, max_steps: self.max_steps }
+    fn options(&self) -> InscribedOptions<'static> {
+        InscribedOptions {
+            epsilon: self.epsilon,
+            max_steps: self.max_steps,
+            ..InscribedOptions::default()
+        }
     }
 }
 

@@ -5,9 +5,10 @@
 
 use std::ops::Range;
 
+use taut::PointSource;
+use taut::points::Distribution;
 use taut::points::generate::RadiusLaw;
 use taut::points::{Error, GeneratedSource, Points, ReadError, Rows, Scalar, ScalarKind, Scratch};
-use taut::{Distribution, PointSource};
 
 /// Generated centres with generated radii in a last column.
 pub(crate) struct Balls {

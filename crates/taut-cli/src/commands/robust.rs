@@ -1,8 +1,9 @@
 //! The options of `taut ellipsoid --robust`: centre, scatter and outliers of most of the points.
 
 use anyhow::bail;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use taut::{RobustMethod, RobustOptions};
+
+use crate::input::choice::choice;
 
 /// Options that only robust ellipsoids have.
 #[derive(Clone, Debug, clap::Args)]
@@ -10,7 +11,7 @@ use taut::{RobustMethod, RobustOptions};
 pub(crate) struct Robust {
     /// Let most of the points decide, whatever the others are, and name the outliers
     #[arg(
-        long, value_name = "NAME", value_parser = methods(),
+        long, value_name = "NAME", value_parser = choice::<RobustMethod>(),
         conflicts_with_all = ["balls", "ellipsoids", "method", "max_passes", "seed"]
     )]
     robust: Option<RobustMethod>,
@@ -23,20 +24,9 @@ pub(crate) struct Robust {
     level: Option<f64>,
 }
 
-fn methods() -> impl TypedValueParser<Value = RobustMethod> {
-    let explained = RobustMethod::ALL.map(|method| {
-        PossibleValue::new(method.name()).help(match method {
-            RobustMethod::Mcd => "the points whose covariance has the least determinant",
-            RobustMethod::Mve => "the points that fit the smallest ellipsoid",
-            RobustMethod::Trim => "the same, and its ellipsoid as it stands",
-        })
-    });
-    PossibleValuesParser::new(explained).try_map(|name| name.parse::<RobustMethod>())
-}
-
 impl Robust {
     /// The options of the library, where something robust is asked for.
-    pub(crate) fn options(&self, epsilon: f64) -> anyhow::Result<Option<RobustOptions>> {
+    pub(crate) fn options(&self, epsilon: f64) -> anyhow::Result<Option<RobustOptions<'static>>> {
         let Some(method) = self.robust else { return Ok(None) };
         if method == RobustMethod::Trim && self.level.is_some() {
             bail!("--level has no meaning with --robust trim, which knows no normal points");
@@ -47,7 +37,8 @@ impl Robust {
             coverage: self.coverage,
             level: self.level.unwrap_or(default.level),
             epsilon,
-            threads: None, // those of the pool, which reading and checking use as well
+            // The threads are those of the pool, which reading and checking use as well.
+            ..default
         }))
     }
 }

@@ -3,17 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use taut::certify::{Surface, SurfaceMethod as Kind};
 use taut::points::{PointSource, Scratch};
 use taut::reconstruct::thesis::{AlphaFilter, Extent, Priority, ThesisOptions};
-use taut::{
-    Denoise, Monitor, Positions, Solution, Surface, SurfaceMethod, SurfaceMode, SurfaceOptions,
-    surface_of_source,
-};
+use taut::reconstruct::{Denoise, HullOptions, Positions, SurfaceMode};
+use taut::{Monitor, Solution, SurfaceMethod, SurfaceOptions, surface};
 use taut_io::{Content, Format, Mesh, MeshOptions, mesh_file, open_mesh};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
+use crate::input::choice::choice;
 use crate::input::reading::{Opened, Points, Reading};
 use crate::output::picture::Picture;
 use crate::output::writing::{self, Outputs};
@@ -34,9 +33,9 @@ pub(crate) struct Args {
     points: Points,
     /// The way to find it
     #[arg(
-        long, value_name = "NAME", default_value = SurfaceMethod::default().name(), value_parser = methods()
+        long, value_name = "NAME", default_value = Kind::default().name(), value_parser = choice::<Kind>()
     )]
-    method: SurfaceMethod,
+    method: Kind,
     /// Of tree, leave gaps in the samples open: sheets end where their points end
     #[arg(long, conflicts_with = "closed")]
     open: bool,
@@ -69,7 +68,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
     forbidden_angle: Option<f64>,
     /// Of thesis, what the front prefers [default: circumcentre-distance]
-    #[arg(long, value_name = "NAME", value_parser = priorities())]
+    #[arg(long, value_name = "NAME", value_parser = choice::<Priority>())]
     priority: Option<Priority>,
     /// Of thesis, start another front where no triangle reaches
     #[arg(long)]
@@ -95,22 +94,6 @@ pub(crate) struct Args {
     effort: Effort,
 }
 
-fn methods() -> impl TypedValueParser<Value = SurfaceMethod> {
-    let explained = SurfaceMethod::ALL.map(|method| {
-        PossibleValue::new(method.name()).help(match method {
-            SurfaceMethod::Tree => {
-                "all space is inside or outside, by the strongest of what neighbouring cells say"
-            }
-            SurfaceMethod::Thesis => "a front that grows over facets with empty equatorial spheres",
-            SurfaceMethod::Alpha => "the alpha shape",
-            SurfaceMethod::Hull => "all facets with empty equatorial spheres, without choosing",
-        })
-    });
-    PossibleValuesParser::new(explained).map(|name| {
-        SurfaceMethod::ALL.into_iter().find(|method| method.name() == name).unwrap_or_default()
-    })
-}
-
 impl Find for Args {
     type Answer = Surface;
     type Extra = ();
@@ -134,8 +117,9 @@ impl Find for Args {
     }
 
     fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Surface>, ())> {
-        let solve =
-            |monitor: &Monitor<'_>| surface_of_source(points.source(), &self.options(), monitor);
+        let solve = |monitor: &Monitor<'_>| {
+            surface(points.source(), &SurfaceOptions { monitor: *monitor, ..self.options() })
+        };
         let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
         Ok((found, ()))
     }
@@ -245,50 +229,37 @@ impl Args {
         }
     }
 
-    fn thesis(&self) -> ThesisOptions {
+    fn method(&self) -> SurfaceMethod {
         let usual = ThesisOptions::default();
-        ThesisOptions {
-            epsilon: self.epsilon.unwrap_or(usual.epsilon),
-            alpha: match self.method {
-                SurfaceMethod::Thesis | SurfaceMethod::Hull => {
-                    self.alpha.map_or(AlphaFilter::None, AlphaFilter::Circumradius)
-                }
-                _ => AlphaFilter::None,
-            },
-            sliver_angle: self.sliver_angle.unwrap_or(usual.sliver_angle),
-            forbidden_angle: self.forbidden_angle.unwrap_or(usual.forbidden_angle),
-            priority: self.priority.unwrap_or(usual.priority),
-            extent: if self.restarts { Extent::Restarts } else { Extent::Front },
-            ..usual
+        let epsilon = self.epsilon.unwrap_or(usual.epsilon);
+        let alpha = self.alpha.map_or(AlphaFilter::None, AlphaFilter::Circumradius);
+        match self.method {
+            Kind::Tree if self.open => SurfaceMethod::Tree(SurfaceMode::Open),
+            Kind::Tree => SurfaceMethod::Tree(SurfaceMode::Closed),
+            Kind::Alpha => SurfaceMethod::Alpha(self.alpha),
+            Kind::Hull => {
+                SurfaceMethod::Hull(HullOptions { epsilon, alpha, ..HullOptions::default() })
+            }
+            Kind::Thesis => SurfaceMethod::Thesis(ThesisOptions {
+                epsilon,
+                alpha,
+                sliver_angle: self.sliver_angle.unwrap_or(usual.sliver_angle),
+                forbidden_angle: self.forbidden_angle.unwrap_or(usual.forbidden_angle),
+                priority: self.priority.unwrap_or(usual.priority),
+                extent: if self.restarts { Extent::Restarts } else { Extent::Front },
+                ..usual
+            }),
         }
     }
 
-    fn options(&self) -> SurfaceOptions {
+    fn options(&self) -> SurfaceOptions<'static> {
         SurfaceOptions {
-            method: self.method,
-            mode: if self.open { SurfaceMode::Open } else { SurfaceMode::Closed },
-            alpha: self.alpha.filter(|_| self.method == SurfaceMethod::Alpha),
-            thesis: self.thesis(),
+            method: self.method(),
             denoise: self.denoise.then(|| self.noise()),
-            threads: None, // those of the pool, which reading and checking use as well
+            // The threads are those of the pool, which reading and checking use as well.
+            ..SurfaceOptions::default()
         }
     }
-}
-
-fn priorities() -> impl TypedValueParser<Value = Priority> {
-    let explained = Priority::NAMES.map(|(name, priority)| {
-        PossibleValue::new(name).help(match priority {
-            Priority::CircumcentreDistance => "a circumcentre near that of the triangle before",
-            Priority::Circumradius => "a small circle",
-            Priority::EmptyBall => "a small empty ball",
-        })
-    });
-    PossibleValuesParser::new(explained).map(|name| {
-        Priority::NAMES
-            .iter()
-            .find(|(known, _)| *known == name)
-            .map_or_else(Priority::default, |(_, priority)| *priority)
-    })
 }
 
 /// The coordinates of all points.

@@ -10,11 +10,10 @@ use std::time::Instant;
 
 use anyhow::{anyhow, bail};
 use taut::certify::{CentersViolation, NO_NEIGHBOR};
+use taut::certify::{Ellipsoid, Triangulation, Violation};
 use taut::{
-    BallOptions, CentersOptions, CurveOptions, DelaunayOptions, Ellipsoid, EllipsoidOptions,
-    InscribedOptions, Items, RobustOptions, Solution, SurfaceOptions, Triangulation, Violation,
-    ball_of_source, centers_of_source, curve_of_source, delaunay_of_source, ellipsoid_of_source,
-    inscribed_ellipsoid_of_source, robust_ellipsoid_of_source, surface_of_source,
+    BallOptions, CentersOptions, CurveOptions, DelaunayOptions, EllipsoidOptions, InscribedOptions,
+    Items, RobustOptions, Solution, SurfaceOptions,
 };
 use taut_draw::{Field, Page, Section, to_html};
 
@@ -144,7 +143,12 @@ fn visit(station: &Station, watch: &Watch) -> anyhow::Result<Stop> {
 fn ball(station: &Station, items: Items, points: &Opened, watch: &Watch) -> anyhow::Result<Stop> {
     let options = BallOptions { epsilon: 0.0, ..BallOptions::default() };
     let found = watch
-        .during("solving", |monitor| ball_of_source(points.source(), items, &options, monitor))
+        .during("solving", |monitor| {
+            taut::ball(
+                points.source(),
+                &BallOptions { inputs: items, monitor: *monitor, ..options },
+            )
+        })
         .map_err(|error| points.explain(error))?;
     let doctor = || {
         let mut doctored = found.clone();
@@ -164,7 +168,9 @@ fn ball(station: &Station, items: Items, points: &Opened, watch: &Watch) -> anyh
 fn ellipsoid(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result<Stop> {
     let options = EllipsoidOptions { epsilon: 0.0, ..EllipsoidOptions::default() };
     let found = watch
-        .during("solving", |monitor| ellipsoid_of_source(points.source(), &options, monitor))
+        .during("solving", |monitor| {
+            taut::ellipsoid(points.source(), &EllipsoidOptions { monitor: *monitor, ..options })
+        })
         .map_err(|error| points.explain(error))?;
     let doctor = || a_millionth_flatter(&found);
     checked_and_drawn(station, &found, points, watch, ("a millionth flatter", &doctor), |verdict| {
@@ -176,7 +182,10 @@ fn inscribed(station: &Station, sides: &Opened, watch: &Watch) -> anyhow::Result
     let options = InscribedOptions::default();
     let found = watch
         .during("solving", |monitor| {
-            inscribed_ellipsoid_of_source(sides.source(), &options, monitor)
+            taut::inscribed_ellipsoid(
+                sides.source(),
+                &InscribedOptions { monitor: *monitor, ..options },
+            )
         })
         .map_err(|error| sides.explain(error))?;
     let doctor = || {
@@ -193,7 +202,9 @@ fn inscribed(station: &Station, sides: &Opened, watch: &Watch) -> anyhow::Result
 fn robust(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result<Stop> {
     let options = RobustOptions::default();
     let found = watch
-        .during("solving", |monitor| robust_ellipsoid_of_source(points.source(), &options, monitor))
+        .during("solving", |monitor| {
+            taut::robust_ellipsoid(points.source(), &RobustOptions { monitor: *monitor, ..options })
+        })
         .map_err(|error| points.explain(error))?;
     let doctor = || {
         let mut doctored = found.clone();
@@ -210,7 +221,7 @@ fn centers(station: &Station, k: usize, points: &Opened, watch: &Watch) -> anyho
     let options = CentersOptions { epsilon: 1e-6, ..CentersOptions::default() };
     let found = watch
         .during("solving", |monitor| {
-            centers_of_source(points.source(), Items::Points, k, &options, monitor)
+            taut::centers(points.source(), k, &CentersOptions { monitor: *monitor, ..options })
         })
         .map_err(|error| points.explain(error))?;
     let doctor = || {
@@ -256,7 +267,10 @@ fn a_millionth_flatter(found: &Solution<Ellipsoid>) -> Solution<Ellipsoid> {
 fn triangulation(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result<Stop> {
     let found = watch
         .during("solving", |monitor| {
-            delaunay_of_source(points.source(), &DelaunayOptions::default(), monitor)
+            taut::delaunay(
+                points.source(),
+                &DelaunayOptions { monitor: *monitor, ..Default::default() },
+            )
         })
         .map_err(|error| points.explain(error))?;
     let doctor = || with_an_edge_turned(&found);
@@ -269,7 +283,9 @@ fn triangulation(station: &Station, points: &Opened, watch: &Watch) -> anyhow::R
 fn curves(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result<Stop> {
     let options = CurveOptions::default();
     let found = watch
-        .during("solving", |monitor| curve_of_source(points.source(), &options, monitor))
+        .during("solving", |monitor| {
+            taut::curve(points.source(), &CurveOptions { monitor: *monitor, ..options })
+        })
         .map_err(|error| points.explain(error))?;
     let doctor = || {
         let mut doctored = found.clone();
@@ -291,7 +307,9 @@ fn curves(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result<S
 fn surfaces(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result<Stop> {
     let options = SurfaceOptions::default();
     let found = watch
-        .during("solving", |monitor| surface_of_source(points.source(), &options, monitor))
+        .during("solving", |monitor| {
+            taut::surface(points.source(), &SurfaceOptions { monitor: *monitor, ..options.clone() })
+        })
         .map_err(|error| points.explain(error))?;
     let doctor = || {
         let mut doctored = found.clone();

@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
+use taut::certify::{Answer, Violation};
 use taut::certify::{
     AnyDocument, AnyFileSolution, CentersViolation, CheckError, JsonError, check_simplices,
     with_file_solution, with_solution,
 };
 use taut::enclose::Error as SolveError;
 use taut::points::{Blocks, Scratch};
-use taut::{Answer, AnySolution, Solution, Violation};
+use taut::{AnySolution, Solution};
 use taut_io::{Content, Format, Mesh, open_mesh};
 
 use crate::effort::Effort;

@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use taut::PointSource;
 use taut::certify::Fault;
+use taut::certify::Violation;
 use taut::enclose::Error as SolveError;
 use taut::points::{InputError, ReadError, ScalarKind, shown_number};
-use taut::{PointSource, Violation};
 use taut_io::{Columns, Content, Format, Header, Input, RawLayout, ReadOptions};
 
 use crate::input::size;

@@ -8,7 +8,8 @@ use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
-use taut::{Answer, Solution};
+use taut::Solution;
+use taut::certify::Answer;
 use taut_io::{AtomicFile, Error};
 
 use crate::watch::interrupted;

@@ -1,7 +1,8 @@
 //! What is said about a ball.
 
+use taut::certify::Ball;
 use taut::points::PointSource;
-use taut::{Ball, Items, Solution};
+use taut::{Items, Solution};
 
 use crate::output::numbers::{count, counted, exact, gap};
 use crate::reports::{

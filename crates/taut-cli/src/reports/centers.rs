@@ -1,8 +1,9 @@
 //! What is said about centres.
 
+use taut::certify::Centers;
 use taut::certify::{CentersCertificate, LowerBound, Placement};
 use taut::points::PointSource;
-use taut::{Centers, Items, Solution};
+use taut::{Items, Solution};
 
 use crate::output::numbers::{abridged, coordinates, count, counted, exact, gap};
 use crate::reports::{Claims, Field, Report, Summary, noun, rows_of, share, stopped};

@@ -1,7 +1,8 @@
 //! What is said about curves.
 
+use taut::certify::Curve;
 use taut::certify::CurveVerdict;
-use taut::{Curve, PointSource, Solution};
+use taut::{PointSource, Solution};
 
 use crate::output::numbers::{count, counted, exact, gap, short};
 use crate::reports::{

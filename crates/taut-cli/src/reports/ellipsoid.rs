@@ -1,8 +1,9 @@
 //! What is said about an ellipsoid.
 
+use taut::certify::Ellipsoid;
 use taut::certify::Stop;
 use taut::points::PointSource;
-use taut::{Ellipsoid, EllipsoidMethod, Solution};
+use taut::{EllipsoidMethod, Solution};
 
 use crate::output::numbers::{count, counted, exact, gap};
 use crate::reports::{

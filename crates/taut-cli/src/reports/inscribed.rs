@@ -1,8 +1,9 @@
 //! What is said about an ellipsoid inside a polytope.
 
+use taut::Solution;
+use taut::certify::InscribedEllipsoid;
 use taut::certify::Stop;
 use taut::points::PointSource;
-use taut::{InscribedEllipsoid, Solution};
 
 use crate::output::numbers::{count, counted, exact, gap};
 use crate::reports::{Claims, Field, Report, Summary, centre, gap_and_verified, stopped};

@@ -1,7 +1,8 @@
 //! What is said about an order of points.
 
 use taut::certify::OrderVerdict;
-use taut::{Order, OrderCurve, PointSource, Solution};
+use taut::certify::{Order, OrderCurve};
+use taut::{PointSource, Solution};
 
 use crate::output::numbers::{count, counted};
 use crate::reports::{Claims, Field, Report, Summary};

@@ -1,7 +1,8 @@
 //! What is said about a robust ellipsoid.
 
+use taut::certify::RobustEllipsoid;
 use taut::points::PointSource;
-use taut::{RobustEllipsoid, RobustMethod, Solution};
+use taut::{RobustMethod, Solution};
 
 use crate::output::numbers::{count, counted, exact, gap};
 use crate::reports::{Claims, Field, Report, Summary, centre, rows_of};

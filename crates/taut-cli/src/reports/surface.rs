@@ -1,7 +1,9 @@
 //! What is said about a surface.
 
+use taut::certify::Surface;
 use taut::certify::{SurfaceVerdict, Unused};
-use taut::{PointSource, Solution, Surface, looks_one_sided};
+use taut::reconstruct::looks_one_sided;
+use taut::{PointSource, Solution};
 
 use crate::output::numbers::{count, counted, exact, short};
 use crate::reports::{

@@ -1,7 +1,8 @@
 //! What is said about a triangulation.
 
+use taut::certify::Triangulation;
 use taut::certify::TriangulationVerdict;
-use taut::{PointSource, Solution, Triangulation};
+use taut::{PointSource, Solution};
 
 use crate::output::numbers::{count, counted};
 use crate::reports::{Claims, Field, Report, Summary};

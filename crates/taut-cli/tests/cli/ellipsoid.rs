@@ -1,7 +1,8 @@
 //! `taut ellipsoid`, and answers about ellipsoids verified and drawn like all others.
 
 use taut::certify::Hull;
-use taut::{Ellipsoid, EllipsoidCertificate, Items, Monitor, Points, Solution, Trace};
+use taut::certify::{Ellipsoid, EllipsoidCertificate, Trace};
+use taut::{Items, Monitor, Points, Solution};
 
 use crate::desk::Desk;
 

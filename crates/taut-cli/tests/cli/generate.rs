@@ -10,7 +10,7 @@ fn rows(text: &str) -> Vec<Vec<f64>> {
 fn every_distribution_is_drawn() {
     let desk = Desk::new();
     let help = desk.taut("generate --help").ends(0).out;
-    for (name, _) in taut::Distribution::NAMES {
+    for (name, _) in taut::points::Distribution::NAMES {
         assert!(help.contains(&format!("- {name}:")), "{name} in {help}");
         let run = desk.taut(&format!("generate {name} -n 12 -d 3")).ends(0);
         let rows = rows(&run.out);

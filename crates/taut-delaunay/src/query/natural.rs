@@ -119,14 +119,13 @@ interpolation!(3, 4, Polyhedron);
 mod tests {
     use crate::numbers::numbers;
     use crate::{DelaunayOptions, Plane, Space};
-    use taut_points::{Monitor, Points};
+    use taut_points::Points;
 
     #[test]
     fn linear_functions_are_reproduced() {
         let values = numbers(1000, 23);
         let points = Points::new(&values, 2).expect("whole rows");
-        let plane =
-            Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent()).expect("finite");
+        let plane = Plane::build(&points, &DelaunayOptions::default()).expect("finite");
         let heights: Vec<f64> = values.chunks(2).map(|p| 3.0 * p[0] - 2.0 * p[1] + 0.5).collect();
         let locator = plane.locator();
         let mut inside = 0;
@@ -147,8 +146,7 @@ mod tests {
         let weights_at = |scale: f64| {
             let scaled: Vec<f64> = values.iter().map(|x| x * scale).collect();
             let points = Points::new(&scaled, 3).expect("whole rows");
-            let space = Space::build(&points, &DelaunayOptions::default(), &Monitor::silent())
-                .expect("finite");
+            let space = Space::build(&points, &DelaunayOptions::default()).expect("finite");
             space
                 .locator()
                 .natural_coordinates([0.5 * scale, 0.4 * scale, 0.6 * scale])
@@ -166,8 +164,7 @@ mod tests {
     fn linear_functions_are_reproduced_in_space() {
         let values = numbers(1500, 23);
         let points = Points::new(&values, 3).expect("whole rows");
-        let space =
-            Space::build(&points, &DelaunayOptions::default(), &Monitor::silent()).expect("finite");
+        let space = Space::build(&points, &DelaunayOptions::default()).expect("finite");
         let heights: Vec<f64> = values.chunks(3).map(|p| 3.0 * p[0] - 2.0 * p[1] + p[2]).collect();
         let locator = space.locator();
         let mut inside = 0;
@@ -188,8 +185,7 @@ mod tests {
     fn symmetric_neighbours_have_equal_weights() {
         let grid: Vec<f64> = (0..25).flat_map(|i| [f64::from(i % 5), f64::from(i / 5)]).collect();
         let points = Points::new(&grid, 2).expect("whole rows");
-        let plane =
-            Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent()).expect("finite");
+        let plane = Plane::build(&points, &DelaunayOptions::default()).expect("finite");
         let found = plane.locator().natural_coordinates([1.5, 2.5]).expect("inside");
         let heavy: Vec<f64> = found.iter().map(|&(_, w)| w).filter(|&w| w > 1e-12).collect();
         assert_eq!(heavy.len(), 4);

@@ -63,7 +63,7 @@ mod tests {
     use super::Polygon;
     use crate::numbers::numbers;
     use crate::{DelaunayOptions, Plane, Space};
-    use taut_points::{Monitor, Points};
+    use taut_points::Points;
 
     /// Cells have the same shape at any scale.
     #[test]
@@ -72,8 +72,7 @@ mod tests {
         let area_in = |scale: f64| {
             let scaled: Vec<f64> = values.iter().map(|x| x * scale).collect();
             let points = Points::new(&scaled, 2).expect("whole rows");
-            let plane = Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent())
-                .expect("finite");
+            let plane = Plane::build(&points, &DelaunayOptions::default()).expect("finite");
             let cell = plane.locator().voronoi_cell(7, [0.0; 2], [scale; 2]);
             assert!(cell.corners.len() > 2);
             Polygon { corners: cell.corners.iter().map(|p| p.map(|x| x / scale)).collect() }.area()
@@ -93,8 +92,7 @@ mod tests {
             numbers(80, 11).chunks(2).flat_map(|p| [p[0], p[1], p[0] + p[1]]).collect();
         for values in [numbers(600, 11), line, vec![0.3, 0.4]] {
             let points = Points::new(&values, 2).expect("whole rows");
-            let plane = Plane::build(&points, &DelaunayOptions::default(), &Monitor::silent())
-                .expect("finite");
+            let plane = Plane::build(&points, &DelaunayOptions::default()).expect("finite");
             let locator = plane.locator();
             let cells = (0..plane.site_count() as u32)
                 .map(|s| locator.voronoi_cell(s, [-1.0, -1.0], [2.0, 3.0]));
@@ -103,8 +101,7 @@ mod tests {
         }
         for values in [numbers(900, 11), flat] {
             let points = Points::new(&values, 3).expect("whole rows");
-            let space = Space::build(&points, &DelaunayOptions::default(), &Monitor::silent())
-                .expect("finite");
+            let space = Space::build(&points, &DelaunayOptions::default()).expect("finite");
             let locator = space.locator();
             let cells = (0..space.site_count() as u32)
                 .map(|s| locator.voronoi_cell(s, [-1.0; 3], [2.0; 3]));

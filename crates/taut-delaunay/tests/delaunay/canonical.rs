@@ -149,7 +149,7 @@ fn space_sets() -> Vec<(&'static str, Vec<[f64; 3]>)> {
 
 fn build<const D: usize>(
     points: &[[f64; D]],
-    options: &DelaunayOptions,
+    options: &DelaunayOptions<'_>,
 ) -> Solution<Triangulation> {
     let points = Points::new(points.as_flattened(), D).expect("whole rows");
     delaunay(&points, options).expect("finite points")
@@ -167,7 +167,8 @@ fn same_whatever_the_way<const D: usize>(name: &str, points: &[[f64; D]]) {
         );
         assert!(found == expected, "{name}: {cells} cells");
     }
-    for (method, order) in InsertionOrder::NAMES {
+    for order in InsertionOrder::ALL {
+        let method = order.name();
         let found = build(points, &DelaunayOptions { order, seed: 7, ..alone.clone() });
         assert!(
             found.answer == expected.answer && found.certificate == expected.certificate,

@@ -1,7 +1,7 @@
 //! Counts that are known beforehand.
 
 use taut_delaunay::{DelaunayOptions, Plane, Space, delaunay};
-use taut_points::{Distribution, Monitor, Points, generate};
+use taut_points::{Distribution, Points, generate};
 
 /// The perturbation that looks at coordinates alone cuts each cube of a grid into the same six tetrahedra.
 #[test]
@@ -61,10 +61,10 @@ fn uniform_points_hardly_need_exact_arithmetic() {
     for dim in [2, 3] {
         let values = generate::<f64>(Distribution::Uniform, 100_000, dim, 1).expect("a set");
         let points = Points::new(&values, dim).expect("whole rows");
-        let (options, monitor) = (DelaunayOptions::default(), Monitor::silent());
+        let options = DelaunayOptions::default();
         let counters = match dim {
-            2 => *Plane::build(&points, &options, &monitor).expect("finite").counters(),
-            _ => *Space::build(&points, &options, &monitor).expect("finite").counters(),
+            2 => *Plane::build(&points, &options).expect("finite").counters(),
+            _ => *Space::build(&points, &options).expect("finite").counters(),
         };
         let exact = counters.stages.calls() - counters.stages.filter;
         let tests = counters.orientations + counters.conflict_tests;

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use taut_delaunay::{DelaunayOptions, Location, Plane, Segment, Space};
-use taut_points::{Monitor, Points};
+use taut_points::Points;
 
 fn numbers(count: usize, seed: u64) -> Vec<f64> {
     let mut state = seed;
@@ -16,18 +16,18 @@ fn numbers(count: usize, seed: u64) -> Vec<f64> {
 }
 
 /// Built by three cells, so that there are slots without a simplex.
-fn by_cells() -> DelaunayOptions {
+fn by_cells() -> DelaunayOptions<'static> {
     DelaunayOptions { cells: Some(3), ..DelaunayOptions::default() }
 }
 
 fn plane(values: &[f64]) -> Plane {
     let points = Points::new(values, 2).expect("whole rows");
-    Plane::build(&points, &by_cells(), &Monitor::silent()).expect("finite")
+    Plane::build(&points, &by_cells()).expect("finite")
 }
 
 fn space(values: &[f64]) -> Space {
     let points = Points::new(values, 3).expect("whole rows");
-    Space::build(&points, &by_cells(), &Monitor::silent()).expect("finite")
+    Space::build(&points, &by_cells()).expect("finite")
 }
 
 fn square_distance<const D: usize>(p: [f64; D], q: [f64; D]) -> f64 {
@@ -270,7 +270,7 @@ fn constraints_hold_however_the_triangulation_was_built() {
     let mut areas = Vec::new();
     for cells in [1, 3] {
         let options = DelaunayOptions { cells: Some(cells), ..DelaunayOptions::default() };
-        let plane = Plane::build(&points, &options, &Monitor::silent()).expect("finite");
+        let plane = Plane::build(&points, &options).expect("finite");
         let site = plane.sites_of_rows();
         let rings = [[400, 401, 402, 403], [404, 405, 406, 407]];
         let sides = rings.iter().flat_map(|ring| (0..4).map(|i| [ring[i], ring[(i + 1) % 4]]));

@@ -19,7 +19,7 @@ fn the_first_wrong_id_is_named_wherever_it_is_met() {
     let values: Vec<f64> = generate(Distribution::Uniform, N, 2, 7).unwrap();
     let points = Points::new(&values, 2).unwrap();
     let options = DelaunayOptions::default();
-    let built = Plane::build(&points, &options, &Monitor::silent()).unwrap();
+    let built = Plane::build(&points, &options).unwrap();
     let right = built.solution(&points, &Monitor::silent()).unwrap();
     let neighbors = right.certificate.neighbors.as_chunks::<3>().0.to_vec();
     let simplices = neighbors.len();

@@ -64,7 +64,7 @@ impl Walk {
     }
 }
 
-pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcome, Error> {
+pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions<'_>) -> Result<Outcome, Error> {
     let mut run = Run::new(scan, options)?;
     let set = match diameter_pair(&mut run)? {
         Start::Pair(set) => set,

@@ -44,7 +44,7 @@ fn batch_for(dim: usize) -> usize {
     }
 }
 
-pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcome, Error> {
+pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions<'_>) -> Result<Outcome, Error> {
     let mut batch = options.batch.unwrap_or_else(|| batch_for(scan.dim()));
     let (middle, found) = scan.first(batch.saturating_add(64))?;
     if found.farthest.reach2 == 0.0 {

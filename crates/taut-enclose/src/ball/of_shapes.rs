@@ -66,7 +66,7 @@ struct Best {
 
 pub(super) fn solve(
     source: &dyn PointSource,
-    options: &BallOptions,
+    options: &BallOptions<'_>,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Ball>, Error> {
     if options.method != BallMethod::CoreSet {
@@ -261,7 +261,7 @@ fn prove(
     scale: f64,
     best: Best,
     mut trace: Trace,
-    options: &BallOptions,
+    options: &BallOptions<'_>,
 ) -> Result<Solution<Ball>, Error> {
     let dim = shapes.dim();
     let farthest_of = best.squares.iter().copied().fold(0.0, f64::max);

@@ -1,14 +1,13 @@
 //! How to look for the ball.
 
-use std::fmt;
-use std::str::FromStr;
-
-use taut_points::{InputError, check_threads, shown_number};
+use taut_certify::Items;
+use taut_points::{InputError, Monitor, check_threads, choice, shown_number};
 
 use crate::Error;
 
 /// The ways to find the ball; all of them end in the same certificate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum BallMethod {
     /// Batches of far points and an exact active set over their Gram matrix: the best, and the default.
     #[default]
@@ -21,48 +20,18 @@ pub enum BallMethod {
     BadoiuClarkson,
 }
 
-impl BallMethod {
-    /// All methods, the default first.
-    pub const ALL: [BallMethod; 4] = [
-        BallMethod::CoreSet,
-        BallMethod::ThesisPure,
-        BallMethod::ThesisFast,
-        BallMethod::BadoiuClarkson,
-    ];
-
-    /// The name on the command line, in Python and in the trace.
-    pub const fn name(self) -> &'static str {
-        match self {
-            BallMethod::CoreSet => "core-set",
-            BallMethod::ThesisPure => "thesis-pure",
-            BallMethod::ThesisFast => "thesis-fast",
-            BallMethod::BadoiuClarkson => "badoiu-clarkson",
-        }
-    }
-}
-
-impl fmt::Display for BallMethod {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-impl FromStr for BallMethod {
-    type Err = Error;
-    fn from_str(name: &str) -> Result<Self, Error> {
-        BallMethod::ALL.into_iter().find(|method| method.name() == name).ok_or_else(|| {
-            Error::Input(InputError::Option {
-                name: "method",
-                value: name.to_owned(),
-                expected: "core-set, thesis-pure, thesis-fast or badoiu-clarkson",
-            })
-        })
-    }
-}
+choice! { "method", BallMethod {
+    CoreSet = "core-set", "batches of far points, exact on the core-set: the best";
+    ThesisPure = "thesis-pure", "Algorithm 1: one far point per pass, a conic solver on the core-set";
+    ThesisFast = "thesis-fast", "d/3 steps of Bădoiu and Clarkson, then Algorithm 1";
+    BadoiuClarkson = "badoiu-clarkson", "Algorithm 10: steps to the farthest point; needs ε > 0";
+}}
 
 /// How to look for the ball. Write `BallOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BallOptions {
+pub struct BallOptions<'a> {
+    /// What the rows are: points, balls or ellipsoids. Default [`Items::Points`].
+    pub inputs: Items,
     /// Wanted relative gap, R ≤ (1 + ε)·R*; 0 asks for the exact ball, to rounding. Range [0, 1), default 1e-9.
     pub epsilon: f64,
     /// The way to find it. Default [`BallMethod::CoreSet`].
@@ -77,22 +46,26 @@ pub struct BallOptions {
     pub threads: Option<usize>,
     /// Chooses the point from which the thesis' methods start. Default 0.
     pub seed: u64,
+    /// Watches the work and can stop it. Default [`Monitor::silent`].
+    pub monitor: Monitor<'a>,
 }
 
-impl Default for BallOptions {
+impl Default for BallOptions<'_> {
     fn default() -> Self {
         BallOptions {
+            inputs: Items::Points,
             epsilon: 1e-9,
             method: BallMethod::default(),
             batch: None,
             max_passes: 1_000_000,
             threads: None,
             seed: 0,
+            monitor: Monitor::silent(),
         }
     }
 }
 
-impl BallOptions {
+impl BallOptions<'_> {
     pub(super) fn check(&self) -> Result<(), Error> {
         let wrong = |name, value: String, expected| {
             Err(Error::Input(InputError::Option { name, value, expected }))

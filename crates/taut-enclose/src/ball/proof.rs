@@ -20,7 +20,7 @@ use crate::scan::{Query, Scan};
 pub(super) fn prove(
     scan: &mut Scan<'_>,
     outcome: Outcome,
-    options: &BallOptions,
+    options: &BallOptions<'_>,
 ) -> Result<Solution<Ball>, Error> {
     let (mut best, outcome) = outcome.into_best();
     sort_by_id(&mut best);

@@ -16,7 +16,7 @@ use crate::scan::{Query, Scan};
 /// A method at work.
 pub(super) struct Run<'s, 'a> {
     pub(super) scan: &'s mut Scan<'a>,
-    pub(super) options: &'s BallOptions,
+    pub(super) options: &'s BallOptions<'s>,
     pub(super) outcome: Outcome,
     offered: bool,
 }
@@ -28,6 +28,7 @@ pub(super) struct Look {
     /// How far it reaches: the radius that encloses all items.
     pub(super) upper: f64,
     /// The radius that encloses X from this centre.
+    #[cfg(feature = "conic")]
     pub(super) held: f64,
     /// The lower bound on R* that λ proves.
     pub(super) lower: f64,
@@ -42,7 +43,7 @@ impl Look {
 
 impl<'s, 'a> Run<'s, 'a> {
     /// Makes the first pass, which settles scale and hash and finds fault with the input.
-    pub(super) fn new(scan: &'s mut Scan<'a>, options: &'s BallOptions) -> Result<Self, Error> {
+    pub(super) fn new(scan: &'s mut Scan<'a>, options: &'s BallOptions<'s>) -> Result<Self, Error> {
         scan.first(1)?;
         Ok(Run { scan, options, outcome: Outcome::new(), offered: false })
     }
@@ -95,7 +96,13 @@ impl<'s, 'a> Run<'s, 'a> {
         let query = Query { center: &center, above, keep, by_face_above: None };
         let found = self.scan.farthest(query)?;
         let upper = found.farthest.reach2.sqrt();
-        let look = Look { farthest: found.farthest.id, upper, held, lower };
+        let look = Look {
+            farthest: found.farthest.id,
+            upper,
+            #[cfg(feature = "conic")]
+            held,
+            lower,
+        };
         // A single point proves nothing yet, unless it is all there is.
         if lower > 0.0 || upper == 0.0 {
             self.outcome.bounds(PassBounds { lower, upper, working_set: set.len() as u64 });

@@ -34,7 +34,7 @@ use crate::scan::Scan;
 const ACCURACY_MIN: f64 = 1e-12;
 
 /// Algorithm 1 from the pair (q, q′).
-pub(super) fn pure(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcome, Error> {
+pub(super) fn pure(scan: &mut Scan<'_>, options: &BallOptions<'_>) -> Result<Outcome, Error> {
     let mut run = Run::new(scan, options)?;
     match diameter_pair(&mut run)? {
         Start::Pair(set) => algorithm_1(run, set),
@@ -43,7 +43,7 @@ pub(super) fn pure(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcome
 }
 
 /// Algorithm 1 from the far points that d/3 steps of Algorithm 10 meet.
-pub(super) fn fast(scan: &mut Scan<'_>, options: &BallOptions) -> Result<Outcome, Error> {
+pub(super) fn fast(scan: &mut Scan<'_>, options: &BallOptions<'_>) -> Result<Outcome, Error> {
     let mut run = Run::new(scan, options)?;
     let mut walk = match diameter_pair(&mut run)? {
         Start::Pair(set) => Walk::from_middle(set),

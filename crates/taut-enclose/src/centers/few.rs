@@ -77,7 +77,7 @@ impl Few {
         self,
         k: usize,
         placement: Placement,
-        options: &CentersOptions,
+        options: &CentersOptions<'_>,
         items: Items,
         points_hash: PointsHash,
     ) -> Solution<Centers> {

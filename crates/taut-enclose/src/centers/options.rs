@@ -1,15 +1,13 @@
 //! What can be asked of centres.
 
-use std::fmt;
-use std::str::FromStr;
+use taut_certify::{Items, Placement};
+use taut_points::{InputError, Monitor, check_threads, choice, shown_number};
 
-use taut_certify::Placement;
-use taut_points::{InputError, check_threads, shown_number};
-
-use crate::Error;
+use crate::{CoverOptions, Error};
 
 /// How to look for centres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum CentersMethod {
     /// A tree over a small growing core-set, to any proved gap; for centres among the points, covers by their balls.
     #[default]
@@ -21,53 +19,26 @@ pub enum CentersMethod {
     /// with weights and sets with outliers are held in memory and gone through 2k + z + d times; with weights or outliers
     /// the factor is not promised, the gap that is proved is in the certificate.
     FarthestFirst,
-    /// A [`Cover`](crate::Cover) with its default options: two passes over a source of any size, in memory for some 8k points, at
-    /// most 2.96 times the optimal radius. Points without weights and outliers, and without assignment.
-    Stream,
+    /// A [`Cover`](crate::Cover): two passes over a source of any size, by default in memory for some 8k points, at most 2.96
+    /// times the optimal radius. Points without weights and outliers, and without assignment.
+    Stream(CoverOptions),
 }
 
-impl CentersMethod {
-    /// All methods, the default first.
-    pub const ALL: [CentersMethod; 4] = [
-        CentersMethod::Tree,
-        CentersMethod::Thesis,
-        CentersMethod::FarthestFirst,
-        CentersMethod::Stream,
-    ];
-
-    /// The name on the command line, in Python and in the trace.
-    pub const fn name(self) -> &'static str {
-        match self {
-            CentersMethod::Tree => "tree",
-            CentersMethod::Thesis => "thesis",
-            CentersMethod::FarthestFirst => "farthest-first",
-            CentersMethod::Stream => "stream",
-        }
-    }
-}
-
-impl fmt::Display for CentersMethod {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-impl FromStr for CentersMethod {
-    type Err = Error;
-    fn from_str(name: &str) -> Result<Self, Error> {
-        CentersMethod::ALL.into_iter().find(|method| method.name() == name).ok_or_else(|| {
-            Error::Input(InputError::Option {
-                name: "method",
-                value: name.to_owned(),
-                expected: "tree, thesis, farthest-first or stream",
-            })
-        })
-    }
-}
+choice! { "method", CentersMethod {
+    Tree = "tree", "a tree over a small growing core-set: the best";
+    Thesis = "thesis", "Algorithm 2, with a bound that holds; free centres, no weights, no outliers";
+    FarthestFirst = "farthest-first",
+        "at most twice the least radius, whatever --epsilon says; for any k, fast";
+    Stream(CoverOptions::DEFAULT) = "stream",
+        "at most 2.96 times the least radius, whatever --epsilon says; two passes over files of any size, which are \
+         not held in memory; no balls, weights, outliers or assignment";
+}}
 
 /// How to look for centres. Write `CentersOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CentersOptions {
+pub struct CentersOptions<'a> {
+    /// What the rows are: points or balls. Default [`Items::Points`].
+    pub inputs: Items,
     /// Wanted relative gap, radius ≤ (1 + ε)·lower bound. Range [0, 1), default 0.01. Has no influence on
     /// [`CentersMethod::FarthestFirst`] and [`CentersMethod::Stream`].
     pub epsilon: f64,
@@ -88,11 +59,14 @@ pub struct CentersOptions {
     pub assignment: bool,
     /// Threads, 1 to 1024; `None` for those of the surrounding pool. The answer does not depend on it.
     pub threads: Option<usize>,
+    /// Watches the work and can stop it. Default [`Monitor::silent`].
+    pub monitor: Monitor<'a>,
 }
 
-impl Default for CentersOptions {
+impl Default for CentersOptions<'_> {
     fn default() -> Self {
         CentersOptions {
+            inputs: Items::Points,
             epsilon: 0.01,
             method: CentersMethod::Tree,
             placement: Placement::Free,
@@ -101,11 +75,12 @@ impl Default for CentersOptions {
             max_nodes: 10_000_000,
             assignment: false,
             threads: None,
+            monitor: Monitor::silent(),
         }
     }
 }
 
-impl CentersOptions {
+impl CentersOptions<'_> {
     pub(super) fn check(&self, k: usize) -> Result<(), Error> {
         let wrong = |name, value: String, expected| {
             Err(Error::Input(InputError::Option { name, value, expected }))
@@ -132,7 +107,10 @@ impl CentersOptions {
                 return wrong("weights", "true".into(), "false for the method thesis");
             }
         }
-        if self.method == CentersMethod::Stream {
+        if let CentersMethod::Stream(_) = self.method {
+            if self.inputs != Items::Points {
+                return wrong("method", self.method.to_string(), "one of the others for balls");
+            }
             if self.outliers > 0 {
                 return wrong("outliers", self.outliers.to_string(), "0 for the method stream");
             }

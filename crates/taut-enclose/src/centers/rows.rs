@@ -63,7 +63,7 @@ pub(super) fn solve(
     rows: ItemRows,
     items: Items,
     k: usize,
-    options: &CentersOptions,
+    options: &CentersOptions<'_>,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Centers>, Error> {
     let sites = Sites::of(rows);
@@ -126,7 +126,7 @@ struct Bracket<'a> {
     sites: &'a Sites,
     k: usize,
     outliers: usize,
-    options: &'a CentersOptions,
+    options: &'a CentersOptions<'a>,
     monitor: &'a Monitor<'a>,
     incumbent: Incumbent,
     /// Sites of the items of X, in the order in which they were added.
@@ -145,7 +145,7 @@ impl<'a> Bracket<'a> {
         sites: &'a Sites,
         k: usize,
         outliers: usize,
-        options: &'a CentersOptions,
+        options: &'a CentersOptions<'a>,
         monitor: &'a Monitor<'a>,
     ) -> Result<Self, Error> {
         let start = start(sites, k, outliers, monitor)?;
@@ -275,7 +275,7 @@ fn answer(
     incumbent: &Incumbent,
     outliers: usize,
     lower_bound: f64,
-    options: &CentersOptions,
+    options: &CentersOptions<'_>,
 ) -> Result<Centers, Error> {
     let mut centers = incumbent.centers.clone();
     centers.sort_unstable_by_key(|&site| sites.row(site));

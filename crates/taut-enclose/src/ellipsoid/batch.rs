@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use taut_certify::{Ellipsoid, Solution};
-use taut_points::{InputError, Monitor, PointSource, Points, ReadError, Scalar, on_threads};
+use taut_points::{InputError, Monitor, PointSource, ReadError, on_threads};
 
 use super::{EllipsoidOptions, solve};
 use crate::Error;
@@ -17,7 +17,7 @@ use crate::Error;
 /// The ellipsoid of least volume of each of `sets`, in their order; sets may differ in size and dimension.
 ///
 /// Each is the answer of [`ellipsoid()`](super::ellipsoid) for that set, with a certificate of its own. Cut a table of
-/// points into sets by views of its rows.
+/// points into sets by views of its rows. The monitor hears of one pass over all points.
 ///
 /// *Cost.* That of the sets, shared by all threads.
 ///
@@ -41,26 +41,15 @@ use crate::Error;
 /// ```
 ///
 /// # Errors
-/// [`Error::Set`] with the number of the first set that cannot be solved, and why; [`Error::Input`].
-pub fn ellipsoids<T: Scalar>(
-    sets: &[Points<'_, T>],
-    options: &EllipsoidOptions,
+/// [`Error::Set`] with the number of the first set that cannot be solved, and why; [`Error::Input`] when an option is
+/// out of range or the monitor stops the work.
+pub fn ellipsoids<S: PointSource>(
+    sets: &[S],
+    options: &EllipsoidOptions<'_>,
 ) -> Result<Vec<Solution<Ellipsoid>>, Error> {
-    let sources: Vec<&dyn PointSource> = sets.iter().map(|set| set as &dyn PointSource).collect();
-    ellipsoids_of_sources(&sources, options, &Monitor::silent())
-}
-
-/// The same for the points of sources; `monitor` hears of one pass over all points, and can stop the work at any time.
-///
-/// # Errors
-/// As [`ellipsoids()`], and [`Error::Input`] when `monitor` stops the work.
-pub fn ellipsoids_of_sources(
-    sources: &[&dyn PointSource],
-    options: &EllipsoidOptions,
-    monitor: &Monitor<'_>,
-) -> Result<Vec<Solution<Ellipsoid>>, Error> {
+    let monitor = &options.monitor;
     options.check()?;
-    monitor.pass(1, sources.iter().map(|source| source.len()).sum());
+    monitor.pass(1, sets.iter().map(PointSource::len).sum());
     let within = Monitor { cancel: monitor.cancel, ..Monitor::silent() };
     // Sets beyond one that failed are not begun; all before it are, so that the first is known.
     let failed = AtomicUsize::new(usize::MAX);
@@ -71,9 +60,9 @@ pub fn ellipsoids_of_sources(
         let found = monitor
             .check()
             .map_err(|cancelled| ReadError::from(cancelled).into())
-            .and_then(|()| solve(sources[set], options, &within));
+            .and_then(|()| solve(&sets[set], options, &within));
         match &found {
-            Ok(_) => monitor.points(sources[set].len()),
+            Ok(_) => monitor.points(sets[set].len()),
             Err(_) => {
                 failed.fetch_min(set, Ordering::Relaxed);
             }
@@ -82,10 +71,11 @@ pub fn ellipsoids_of_sources(
     };
     let found: Vec<Option<Result<Solution<Ellipsoid>, Error>>> =
         on_threads(options.threads, || {
-            Ok::<_, Error>((0..sources.len()).into_par_iter().map(one).collect())
+            Ok::<_, Error>((0..sets.len()).into_par_iter().map(one).collect())
         })?;
-    let sets = found.into_iter().enumerate();
-    sets.filter_map(|(set, found)| found.map(|found| found.map_err(|error| named(set, error))))
+    let found = found.into_iter().enumerate();
+    found
+        .filter_map(|(set, found)| found.map(|found| found.map_err(|error| named(set, error))))
         .collect()
 }
 

@@ -38,7 +38,7 @@ const LISTED_POINTS_MAX: usize = 1024;
 pub(super) fn solve(
     survey: &mut Survey<'_>,
     sample: &Sample,
-    options: &EllipsoidOptions,
+    options: &EllipsoidOptions<'_>,
 ) -> Result<Outcome, Error> {
     let dim = survey.dim();
     let mut pool = match options.method {
@@ -155,7 +155,7 @@ fn step_away(
 /// ln(1 + ε) − ε/(1 + ε). For ε ≥ 1 that is 0.278·ln(1 + ε) ≥ 0.278·δ/m, and at least 0.193: from δ₀ on no more than
 /// m/0.278·ln(δ₀/0.193) + 1 steps. For ε < 1 it is at least ε²/8, so halving ε costs at most 32m/ε steps, and reaching
 /// μ at most 64m/μ in all. δ₀ is m·ln n for equal weights; for Algorithm 3, twice 2d·ln d of its volume and m·ln 2d.
-fn bounds(counters: &mut Counters, options: &EllipsoidOptions, dim: usize, n: u64) {
+fn bounds(counters: &mut Counters, options: &EllipsoidOptions<'_>, dim: usize, n: u64) {
     let (d, m) = (dim as f64, dim as f64 + 1.0);
     let start = match options.method {
         EllipsoidMethod::ThesisKhachiyan => m * (n as f64).ln(),

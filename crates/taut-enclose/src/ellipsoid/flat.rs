@@ -161,7 +161,7 @@ pub(super) enum Look {
 }
 
 /// Takes a sample and decides the rank of the set; solves it if it is flat.
-pub(super) fn look(survey: &mut Survey<'_>, options: &EllipsoidOptions) -> Result<Look, Error> {
+pub(super) fn look(survey: &mut Survey<'_>, options: &EllipsoidOptions<'_>) -> Result<Look, Error> {
     let mut sample = Sample::new(survey)?;
     if !sample.is_finite() {
         // The first row that is not finite is to be named; if there is none, differences overflow.
@@ -262,7 +262,7 @@ impl PointSource for Projected<'_> {
 fn flat(
     survey: &mut Survey<'_>,
     span: &Span,
-    options: &EllipsoidOptions,
+    options: &EllipsoidOptions<'_>,
 ) -> Result<Solution<Ellipsoid>, Error> {
     let dim = survey.dim();
     let directions = span.directions();
@@ -366,7 +366,7 @@ fn extents(
 /// All points are one.
 fn point(
     survey: &mut Survey<'_>,
-    options: &EllipsoidOptions,
+    options: &EllipsoidOptions<'_>,
 ) -> Result<Solution<Ellipsoid>, Error> {
     let center = Center { high: survey.rows(&[0])?, low: vec![] };
     let best = Candidate {

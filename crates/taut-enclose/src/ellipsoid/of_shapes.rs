@@ -19,7 +19,7 @@ mod proof;
 mod rounds;
 mod touches;
 
-use taut_certify::{Ellipsoid, EllipsoidCertificate, Items, Solution, Trace};
+use taut_certify::{Ellipsoid, EllipsoidCertificate, Solution, Trace};
 use taut_points::{InputError, Monitor, OwnedPoints, PointSource};
 
 use self::base::Base;
@@ -35,11 +35,10 @@ use crate::kernel::vector::add_scaled;
 use crate::shapes::Shapes;
 use crate::shapes::frame::Map;
 
-/// Solves the items of a source.
+/// Solves the balls or ellipsoids of a source.
 pub(super) fn solve(
     source: &dyn PointSource,
-    items: Items,
-    options: &EllipsoidOptions,
+    options: &EllipsoidOptions<'_>,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Ellipsoid>, Error> {
     if options.method != EllipsoidMethod::Newton {
@@ -49,7 +48,7 @@ pub(super) fn solve(
             expected: "newton, the one method for balls and ellipsoids",
         }));
     }
-    let shapes = Shapes::read(source, items, monitor)?;
+    let shapes = Shapes::read(source, options.inputs, monitor)?;
     let generators = generators(&shapes)?;
     let silent = Monitor { cancel: monitor.cancel, ..Monitor::silent() };
     let mut survey = Survey::new(&generators, &silent)?;
@@ -95,7 +94,7 @@ fn in_flat(
     shapes: &Shapes,
     found: &Solution<Ellipsoid>,
     generators: &OwnedPoints<f64>,
-    options: &EllipsoidOptions,
+    options: &EllipsoidOptions<'_>,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Ellipsoid>, Error> {
     let answer = &found.answer;

@@ -1,14 +1,13 @@
 //! How to look for the ellipsoid.
 
-use std::fmt;
-use std::str::FromStr;
-
-use taut_points::{InputError, check_threads, shown_number};
+use taut_certify::Items;
+use taut_points::{InputError, Monitor, check_threads, choice, shown_number};
 
 use crate::Error;
 
 /// The ways to find the ellipsoid; all of them end in the same certificate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum EllipsoidMethod {
     /// Pools of far points, and Newton's method on the dual of each: the best, and the default.
     #[default]
@@ -26,50 +25,21 @@ pub enum EllipsoidMethod {
     AwaySteps,
 }
 
-impl EllipsoidMethod {
-    /// All methods, the default first.
-    pub const ALL: [EllipsoidMethod; 5] = [
-        EllipsoidMethod::Newton,
-        EllipsoidMethod::ThesisInitial,
-        EllipsoidMethod::ThesisKhachiyan,
-        EllipsoidMethod::ThesisCoreSet,
-        EllipsoidMethod::AwaySteps,
-    ];
-
-    /// The name on the command line, in Python and in the trace.
-    pub const fn name(self) -> &'static str {
-        match self {
-            EllipsoidMethod::Newton => "newton",
-            EllipsoidMethod::ThesisInitial => "thesis-initial",
-            EllipsoidMethod::ThesisKhachiyan => "thesis-khachiyan",
-            EllipsoidMethod::ThesisCoreSet => "thesis-core-set",
-            EllipsoidMethod::AwaySteps => "away-steps",
-        }
-    }
-}
-
-impl fmt::Display for EllipsoidMethod {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-impl FromStr for EllipsoidMethod {
-    type Err = Error;
-    fn from_str(name: &str) -> Result<Self, Error> {
-        EllipsoidMethod::ALL.into_iter().find(|method| method.name() == name).ok_or_else(|| {
-            Error::Input(InputError::Option {
-                name: "method",
-                value: name.to_owned(),
-                expected: "newton, thesis-initial, thesis-khachiyan, thesis-core-set or away-steps",
-            })
-        })
-    }
-}
+choice! { "method", EllipsoidMethod {
+    Newton = "newton", "pools of far points, Newton's method on each: the best";
+    ThesisInitial = "thesis-initial", "Algorithm 3: at most 2d points, no search; its gap may be large";
+    ThesisKhachiyan = "thesis-khachiyan",
+        "Algorithm 4: steps to the farthest point, from equal weights on all; needs ε > 0";
+    ThesisCoreSet = "thesis-core-set",
+        "Algorithm 5: the same steps from Algorithm 3, for a small core-set; needs ε > 0";
+    AwaySteps = "away-steps", "the same with steps away from near points; needs ε > 0";
+}}
 
 /// How to look for the ellipsoid. Write `EllipsoidOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct EllipsoidOptions {
+pub struct EllipsoidOptions<'a> {
+    /// What the rows are: points, balls or ellipsoids. Default [`Items::Points`].
+    pub inputs: Items,
     /// Wanted gap, log-volume ≤ optimum + ε; 0 asks for as little as rounding allows. Range [0, 1), default 1e-9.
     ///
     /// The volume is then at most e^ε times the smallest, each axis on average e^(ε/d) times. A bound η on the relative
@@ -84,21 +54,25 @@ pub struct EllipsoidOptions {
     pub threads: Option<usize>,
     /// Chooses the directions of Algorithm 3. Default 0.
     pub seed: u64,
+    /// Watches the work and can stop it. Default [`Monitor::silent`].
+    pub monitor: Monitor<'a>,
 }
 
-impl Default for EllipsoidOptions {
+impl Default for EllipsoidOptions<'_> {
     fn default() -> Self {
         EllipsoidOptions {
+            inputs: Items::Points,
             epsilon: 1e-9,
             method: EllipsoidMethod::default(),
             max_passes: 1_000_000,
             threads: None,
             seed: 0,
+            monitor: Monitor::silent(),
         }
     }
 }
 
-impl EllipsoidOptions {
+impl EllipsoidOptions<'_> {
     pub(super) fn check(&self) -> Result<(), Error> {
         let wrong = |name, value: String, expected| {
             Err(Error::Input(InputError::Option { name, value, expected }))

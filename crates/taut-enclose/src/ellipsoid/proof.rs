@@ -34,7 +34,7 @@ const MEASURED_POINTS_MAX: usize = 1 << 14;
 pub(super) fn prove(
     survey: &mut Survey<'_>,
     outcome: Outcome,
-    options: &EllipsoidOptions,
+    options: &EllipsoidOptions<'_>,
 ) -> Result<Solution<Ellipsoid>, Error> {
     let dim = survey.dim();
     let best = &outcome.best;
@@ -88,7 +88,7 @@ pub(super) fn solution(
     answer: Ellipsoid,
     outcome: Outcome,
     gap: f64,
-    options: &EllipsoidOptions,
+    options: &EllipsoidOptions<'_>,
 ) -> Solution<Ellipsoid> {
     let wanted =
         if options.epsilon > 0.0 { options.epsilon } else { 4.0 * ROUNDING * answer.rank() as f64 };

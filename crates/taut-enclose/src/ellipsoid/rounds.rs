@@ -65,7 +65,7 @@ pub(super) fn solve(
     survey: &mut Survey<'_>,
     sample: &Sample,
     mut whitener: Whitener,
-    options: &EllipsoidOptions,
+    options: &EllipsoidOptions<'_>,
 ) -> Result<Outcome, Error> {
     let dim = survey.dim();
     let wanted = options.epsilon.max(ROUNDING * dim as f64);

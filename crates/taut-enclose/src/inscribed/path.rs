@@ -14,7 +14,8 @@ use taut_points::{Monitor, ReadError};
 use super::start::Interior;
 use super::{Found, HalfSpaces, InscribedOptions, ROUNDING, View, seen};
 use crate::Error;
-use crate::ellipsoid::{cholesky, log_unit_ball};
+use crate::ellipsoid::dense::cholesky;
+use crate::ellipsoid::outcome::log_unit_ball;
 use crate::kernel::DoubleDouble;
 use crate::kernel::vector::{add_scaled, dot};
 
@@ -37,7 +38,7 @@ const LAST_STEPS_MAX: u32 = 20;
 pub(super) fn follow(
     sides: &HalfSpaces,
     start: Interior,
-    options: &InscribedOptions,
+    options: &InscribedOptions<'_>,
     monitor: &Monitor<'_>,
 ) -> Result<Found, Error> {
     let dim = sides.dim;

@@ -38,7 +38,7 @@ pub(super) enum Criterion {
 }
 
 impl Criterion {
-    pub(super) fn of(options: &RobustOptions) -> Self {
+    pub(super) fn of(options: &RobustOptions<'_>) -> Self {
         match options.method {
             RobustMethod::Mcd => Criterion::Determinant,
             RobustMethod::Mve | RobustMethod::Trim => Criterion::Volume(options.epsilon),

@@ -62,7 +62,7 @@ struct Descent {
 fn descend(
     data: &mut Survey<'_>,
     h: usize,
-    options: &RobustOptions,
+    options: &RobustOptions<'_>,
     steps: &mut u64,
 ) -> Result<Descent, Error> {
     let flat = match search::solve(Criterion::of(options), data, h, steps)? {
@@ -93,7 +93,7 @@ fn descend(
 pub(super) fn place(
     data: &mut Survey<'_>,
     h: usize,
-    options: &RobustOptions,
+    options: &RobustOptions<'_>,
     steps: &mut u64,
 ) -> Result<Placed, Error> {
     let Descent { part, raw } = descend(data, h, options, steps)?;
@@ -129,7 +129,7 @@ fn finish(
     raw: Option<Raw>,
     enclosure: Option<Enclosure>,
     h: usize,
-    options: &RobustOptions,
+    options: &RobustOptions<'_>,
 ) -> Result<Placed, Error> {
     let mut fit = match (&part, raw) {
         (None, Some(raw)) => reweighted(data, raw, h, options)?,
@@ -172,7 +172,7 @@ fn reweighted(
     data: &mut Survey<'_>,
     raw: Raw,
     h: usize,
-    options: &RobustOptions,
+    options: &RobustOptions<'_>,
 ) -> Result<Fit, Error> {
     let (n, dim) = (data.len() as usize, data.dim());
     let (objective, kept) = (raw.estimate.log_det(), raw.kept);

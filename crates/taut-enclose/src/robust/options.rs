@@ -1,13 +1,13 @@
 //! What to keep, and how sure to be.
 
 use taut_certify::RobustMethod;
-use taut_points::{InputError, check_threads, shown_number};
+use taut_points::{InputError, Monitor, check_threads, shown_number};
 
 use crate::Error;
 
 /// How to estimate. Write `RobustOptions { method: RobustMethod::Mve, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RobustOptions {
+pub struct RobustOptions<'a> {
     /// What is to be minimised. Default [`RobustMethod::Mcd`].
     pub method: RobustMethod,
     /// About which part α of the points is kept; the answer bears that the others are anything. `None`, the default, is
@@ -26,12 +26,14 @@ pub struct RobustOptions {
     pub epsilon: f64,
     /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
+    /// Watches the work and can stop it. Default [`Monitor::silent`].
+    pub monitor: Monitor<'a>,
 }
 
 /// Largest gap of the smallest ellipsoids for which a local optimum can be told; the checker refuses a larger one.
 const EPSILON_MAX: f64 = 0.01;
 
-impl Default for RobustOptions {
+impl Default for RobustOptions<'_> {
     fn default() -> Self {
         RobustOptions {
             method: RobustMethod::default(),
@@ -39,11 +41,12 @@ impl Default for RobustOptions {
             level: 0.975,
             epsilon: 1e-9,
             threads: None,
+            monitor: Monitor::silent(),
         }
     }
 }
 
-impl RobustOptions {
+impl RobustOptions<'_> {
     pub(super) fn check(&self) -> Result<(), Error> {
         let wrong = |name, value: String, expected| {
             Err(Error::Input(InputError::Option { name, value, expected }))

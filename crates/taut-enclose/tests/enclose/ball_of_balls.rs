@@ -2,7 +2,8 @@
 
 use common::families::Random;
 use common::{exact, exact_of_balls, judge};
-use taut_enclose::{BallOptions, ball_of_balls};
+use taut_certify::Items;
+use taut_enclose::{BallOptions, ball};
 use taut_points::{Distribution, Points, generate};
 
 use crate::common;
@@ -306,7 +307,10 @@ fn stress() {
         let name = format!(
             "seed {seed}: law {law}, n {n}, d {dim}, size {size:e}, offset {offset:e}, lattice {lattice}, noise {noise:e}"
         );
-        match ball_of_balls(&Points::new(&values, dim + 1).unwrap(), &options) {
+        match ball(
+            &Points::new(&values, dim + 1).unwrap(),
+            &BallOptions { inputs: Items::Balls, ..options.clone() },
+        ) {
             Err(error) => failures.push(format!("{name}: {error}")),
             Ok(found) => {
                 match judge(&values, dim + 1, &found) {

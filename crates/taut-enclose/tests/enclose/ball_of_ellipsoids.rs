@@ -1,8 +1,8 @@
 //! The ball of ellipsoids: closed forms, laws, degenerate items, refusals.
 
 use shapes::{Item, border, random_items, rows_of};
-use taut_certify::{Ball, Solution};
-use taut_enclose::{BallMethod, BallOptions, Error, ball, ball_of_balls, ball_of_ellipsoids};
+use taut_certify::{Ball, Items, Solution};
+use taut_enclose::{BallMethod, BallOptions, Error, ball};
 use taut_points::{InputError, Points};
 
 use crate::shapes;
@@ -11,7 +11,7 @@ fn solved(items: &[Item], epsilon: f64) -> Solution<Ball> {
     let (values, columns) = rows_of(items);
     let rows = Points::new(&values, columns).unwrap();
     let options = BallOptions { epsilon, ..Default::default() };
-    let found = ball_of_ellipsoids(&rows, &options).unwrap();
+    let found = ball(&rows, &BallOptions { inputs: Items::Ellipsoids, ..options.clone() }).unwrap();
     let verdict = found.check(&rows).unwrap();
     assert!(verdict.gap <= epsilon.max(1e-11), "{} of {epsilon}: {:?}", verdict.gap, found.trace);
     found
@@ -29,7 +29,8 @@ fn balls_as_ellipsoids_give_what_balls_give() {
     let items: Vec<Item> = balls.chunks(4).map(|b| round(&b[..3], b[3])).collect();
     let found = solved(&items, 1e-11);
     let rows = Points::new(&balls, 4).unwrap();
-    let wanted = ball_of_balls(&rows, &BallOptions::default()).unwrap().answer;
+    let wanted =
+        ball(&rows, &BallOptions { inputs: Items::Balls, ..Default::default() }).unwrap().answer;
     assert!((found.answer.radius / wanted.radius - 1.0).abs() < 1e-10);
     for (a, b) in found.answer.center.iter().zip(&wanted.center) {
         assert!((a - b).abs() < 1e-5);
@@ -100,15 +101,19 @@ fn the_bytes_do_not_depend_on_threads() {
     let rows = Points::new(&values, columns).unwrap();
     let with = |threads| {
         let options = BallOptions { threads: Some(threads), ..Default::default() };
-        ball_of_ellipsoids(&rows, &options).unwrap()
+        ball(&rows, &BallOptions { inputs: Items::Ellipsoids, ..options.clone() }).unwrap()
     };
     assert_eq!(with(1), with(3));
 }
 
 #[test]
 fn bad_rows_are_named() {
-    let error = |values: &[f64], columns: usize, options: &BallOptions| {
-        ball_of_ellipsoids(&Points::new(values, columns).unwrap(), options).unwrap_err()
+    let error = |values: &[f64], columns: usize, options: &BallOptions<'_>| {
+        ball(
+            &Points::new(values, columns).unwrap(),
+            &BallOptions { inputs: Items::Ellipsoids, ..options.clone() },
+        )
+        .unwrap_err()
     };
     let plain = BallOptions::default();
     let indefinite = [0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 2.0, 1.0];
@@ -143,7 +148,8 @@ fn twenty_ellipses_have_the_ball_of_points_on_their_borders() {
 fn doctored_answers_are_refused() {
     let (values, columns) = rows_of(&random_items(60, 4, 21, 0.6));
     let rows = Points::new(&values, columns).unwrap();
-    let found = ball_of_ellipsoids(&rows, &BallOptions::default()).unwrap();
+    let found =
+        ball(&rows, &BallOptions { inputs: Items::Ellipsoids, ..Default::default() }).unwrap();
     found.check(&rows).unwrap();
     let refused = |what: &str, doctor: &dyn Fn(&mut Solution<Ball>)| {
         let mut other = found.clone();

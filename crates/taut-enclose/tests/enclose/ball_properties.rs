@@ -4,7 +4,8 @@ use common::{brute_force, exact, judge};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
-use taut_enclose::{BallOptions, ball, ball_of_balls};
+use taut_certify::Items;
+use taut_enclose::{BallOptions, ball};
 use taut_points::{Distribution, Points, generate};
 
 use crate::common;
@@ -165,7 +166,7 @@ proptest! {
         let plain = exact("points", &values, dim, GAP);
         let balls: Vec<f64> = values.chunks_exact(dim).flat_map(|row| row.iter().copied().chain([radius]).collect::<Vec<_>>()).collect();
         let options = BallOptions { epsilon: 0.0, ..Default::default() };
-        let found = ball_of_balls(&Points::new(&balls, dim + 1).unwrap(), &options).unwrap();
+        let found = ball(&Points::new(&balls, dim + 1).unwrap(), &BallOptions { inputs: Items::Balls, ..options.clone() }).unwrap();
         let proof = judge(&balls, dim + 1, &found).map_err(TestCaseError::fail)?;
         prop_assert!(proof.gap <= GAP);
         prop_assert!(close(found.answer.radius, plain.answer.radius + radius, 2e-13));

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use common::families::Random;
 use common::judge;
 use taut_certify::{Items, Stop};
-use taut_enclose::{BallOptions, Error, ball, ball_of_balls, ball_of_source};
+use taut_enclose::{BallOptions, Error, ball};
 use taut_points::{
     Distribution, FileSource, GeneratedSource, InputError, MappedSource, Monitor, PointSource,
     Points, ReadError, Rows, ScalarKind, Scratch, generate,
@@ -16,7 +16,7 @@ use taut_points::{
 
 use crate::common;
 
-fn options(epsilon: f64) -> BallOptions {
+fn options(epsilon: f64) -> BallOptions<'static> {
     BallOptions { epsilon, ..Default::default() }
 }
 
@@ -25,10 +25,16 @@ fn nothing_is_refused() {
     let none: [f64; 0] = [];
     assert!(matches!(ball(&Points::new(&none, 2).unwrap(), &options(0.0)), Err(Error::Empty)));
     assert!(matches!(
-        ball_of_balls(&Points::new(&none, 2).unwrap(), &options(0.0)),
+        ball(
+            &Points::new(&none, 2).unwrap(),
+            &BallOptions { inputs: Items::Balls, ..options(0.0) }
+        ),
         Err(Error::Empty)
     ));
-    let one_column = ball_of_balls(&Points::new(&[1.0, 2.0], 1).unwrap(), &options(0.0));
+    let one_column = ball(
+        &Points::new(&[1.0, 2.0], 1).unwrap(),
+        &BallOptions { inputs: Items::Balls, ..options(0.0) },
+    );
     assert!(matches!(one_column, Err(Error::NoRadius { columns: 1 })));
 }
 
@@ -62,7 +68,10 @@ fn the_first_bad_coordinate_is_named() {
     huge[1501] = f64::NAN;
     let found = ball(&Points::new(&huge, 2).unwrap(), &options(0.0));
     assert!(matches!(found, Err(Error::Input(InputError::NonFinite { row: 750, column: 1, .. }))));
-    let found = ball_of_balls(&Points::new(&[0.0, 1.0, 1.0, f64::NAN], 2).unwrap(), &options(0.0));
+    let found = ball(
+        &Points::new(&[0.0, 1.0, 1.0, f64::NAN], 2).unwrap(),
+        &BallOptions { inputs: Items::Balls, ..options(0.0) },
+    );
     assert!(matches!(found, Err(Error::Input(InputError::NonFinite { row: 1, column: 1, .. }))));
 }
 
@@ -74,12 +83,19 @@ fn the_first_negative_radius_is_named() {
     values[90_001 * 3 + 2] = -1.0;
     for threads in [1, 8] {
         let options = BallOptions { threads: Some(threads), ..Default::default() };
-        match ball_of_balls(&Points::new(&values, 3).unwrap(), &options) {
+        match ball(
+            &Points::new(&values, 3).unwrap(),
+            &BallOptions { inputs: Items::Balls, ..options.clone() },
+        ) {
             Err(Error::NegativeRadius { row: 70_001, value }) => assert_eq!(value, -1e-300),
             other => panic!("{other:?}"),
         }
     }
-    let zero = ball_of_balls(&Points::new(&[1.0, -0.0], 2).unwrap(), &options(0.0)).unwrap();
+    let zero = ball(
+        &Points::new(&[1.0, -0.0], 2).unwrap(),
+        &BallOptions { inputs: Items::Balls, ..options(0.0) },
+    )
+    .unwrap();
     assert_eq!(zero.answer.radius, 0.0);
 }
 
@@ -162,7 +178,7 @@ fn a_monitor_hears_and_stops() {
     };
     let monitor =
         Monitor { on_points: Some(&on_points), on_pass: Some(&on_pass), cancel: Some(&cancel) };
-    let found = ball_of_source(&source, Items::Points, &options(0.0), &monitor);
+    let found = ball(&source, &BallOptions { monitor, ..options(0.0) });
     assert!(
         matches!(found, Err(Error::Input(InputError::Read(ReadError::Cancelled(_))))),
         "{found:?}"
@@ -214,7 +230,7 @@ fn a_failing_source_is_reported_wherever_it_fails() {
     let mut ended_well = false;
     for reads in (0..2000).step_by(37) {
         let source = Failing { points, reads_left: AtomicU64::new(reads) };
-        match ball_of_source(&source, Items::Points, &options(0.0), &Monitor::silent()) {
+        match ball(&source, &options(0.0)) {
             Ok(found) => {
                 judge(&values, 4, &found).unwrap();
                 ended_well = true;
@@ -244,7 +260,7 @@ fn a_file_that_shrinks_is_reported() {
     let file = file_of(&Random(5).normals(n as usize * dim), 0);
     let source = FileSource::open(file.path(), 0, n, dim, ScalarKind::F64).unwrap();
     file.as_file().set_len(n * dim as u64 * 8 - 1).unwrap();
-    let found = ball_of_source(&source, Items::Points, &options(0.0), &Monitor::silent());
+    let found = ball(&source, &options(0.0));
     assert!(
         matches!(found, Err(Error::Input(InputError::Read(ReadError::Io { .. })))),
         "{found:?}"
@@ -259,7 +275,7 @@ fn a_file_that_shrinks_is_reported() {
 fn json(source: &dyn PointSource, items: Items, epsilon: f64) -> String {
     let of = |threads| {
         let options = BallOptions { epsilon, threads: Some(threads), ..Default::default() };
-        ball_of_source(source, items, &options, &Monitor::silent()).unwrap().to_json()
+        ball(source, &BallOptions { inputs: items, ..options.clone() }).unwrap().to_json()
     };
     let one = of(1);
     for threads in [2, 8] {

@@ -1,8 +1,8 @@
 //! The methods of the thesis against the default one, and against what the thesis and its lemmas say.
 
 use taut_certify::{Ball, Items, Solution, Stop};
-use taut_enclose::{BallMethod, BallOptions, ball_of_source};
-use taut_points::{Distribution, Monitor, Points, generate};
+use taut_enclose::{BallMethod, BallOptions, ball};
+use taut_points::{Distribution, Points, generate};
 
 const THESIS: [BallMethod; 3] =
     [BallMethod::ThesisPure, BallMethod::ThesisFast, BallMethod::BadoiuClarkson];
@@ -14,13 +14,18 @@ const DISTRIBUTIONS: [Distribution; 4] = [
     Distribution::Poisson,
 ];
 
-fn options(method: BallMethod, epsilon: f64) -> BallOptions {
+fn options(method: BallMethod, epsilon: f64) -> BallOptions<'static> {
     BallOptions { method, epsilon, ..BallOptions::default() }
 }
 
-fn solve(values: &[f64], columns: usize, items: Items, options: &BallOptions) -> Solution<Ball> {
+fn solve(
+    values: &[f64],
+    columns: usize,
+    items: Items,
+    options: &BallOptions<'_>,
+) -> Solution<Ball> {
     let points = Points::new(values, columns).unwrap();
-    ball_of_source(&points, items, options, &Monitor::silent()).unwrap()
+    ball(&points, &BallOptions { inputs: items, ..options.clone() }).unwrap()
 }
 
 /// How far the item that reaches farthest reaches, by plain loops.
@@ -62,7 +67,7 @@ fn lower(values: &[f64], columns: usize, items: Items, found: &Solution<Ball>) -
 }
 
 /// Both bounds hold by plain loops, and the gap that was asked is proved.
-fn judge(name: &str, values: &[f64], columns: usize, items: Items, options: &BallOptions) {
+fn judge(name: &str, values: &[f64], columns: usize, items: Items, options: &BallOptions<'_>) {
     let found = solve(values, columns, items, options);
     let name =
         format!("{name}, {}, ε = {}, seed {}", options.method, options.epsilon, options.seed);

@@ -6,8 +6,8 @@
 use std::collections::BTreeMap;
 
 use taut_certify::{Centers, CheckError, Items, LowerBound, Placement, Solution};
-use taut_enclose::{CentersMethod, CentersOptions, centers_of_source};
-use taut_points::{Distribution, Monitor, Points, generate};
+use taut_enclose::{CentersMethod, CentersOptions};
+use taut_points::{Distribution, Points, generate};
 
 /// An answer, and what it was found for.
 #[derive(Clone)]
@@ -15,7 +15,7 @@ struct Sound {
     name: &'static str,
     values: Vec<f64>,
     columns: usize,
-    options: CentersOptions,
+    options: CentersOptions<'static>,
     found: Solution<Centers>,
 }
 
@@ -26,7 +26,7 @@ struct Task {
     dim: usize,
     items: Items,
     k: usize,
-    options: CentersOptions,
+    options: CentersOptions<'static>,
 }
 
 fn solve(
@@ -34,10 +34,10 @@ fn solve(
     columns: usize,
     items: Items,
     k: usize,
-    options: &CentersOptions,
+    options: &CentersOptions<'_>,
 ) -> Option<Solution<Centers>> {
     let points = Points::new(values, columns).ok()?;
-    centers_of_source(&points, items, k, options, &Monitor::silent()).ok()
+    taut_enclose::centers(&points, k, &CentersOptions { inputs: items, ..*options }).ok()
 }
 
 fn sound(seed: u64) -> Vec<Sound> {

@@ -5,8 +5,8 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use taut_certify::Items;
-use taut_enclose::{CentersMethod, CentersOptions, centers_of_source};
-use taut_points::{Monitor, Points};
+use taut_enclose::{CentersMethod, CentersOptions, centers};
+use taut_points::Points;
 
 use crate::centers;
 
@@ -27,9 +27,15 @@ fn few_points() -> impl Strategy<Value = (Vec<f64>, usize)> {
     })
 }
 
-fn solve(values: &[f64], columns: usize, items: Items, k: usize, options: &CentersOptions) -> f64 {
+fn solve(
+    values: &[f64],
+    columns: usize,
+    items: Items,
+    k: usize,
+    options: &CentersOptions<'_>,
+) -> f64 {
     let points = Points::new(values, columns).unwrap();
-    let found = centers_of_source(&points, items, k, options, &Monitor::silent()).unwrap();
+    let found = centers(&points, k, &CentersOptions { inputs: items, ..*options }).unwrap();
     if let Err(why) = judge(values, columns, k, options, &found) {
         panic!("{why}\nk = {k}, {options:?}\n{values:?}\n{found:?}");
     }

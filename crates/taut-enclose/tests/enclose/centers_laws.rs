@@ -4,11 +4,8 @@ use centers::judge;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use taut_certify::{Centers, Items, LowerBound, Placement, Solution, Stop};
-use taut_enclose::{
-    CentersMethod, CentersOptions, CoverOptions, Error, centers, centers_of_balls,
-    centers_of_source,
-};
-use taut_points::{Distribution, InputError, Monitor, Points, generate};
+use taut_enclose::{CentersMethod, CentersOptions, CoverOptions, Error, centers};
+use taut_points::{Distribution, InputError, Points, generate};
 
 use crate::centers;
 
@@ -17,7 +14,7 @@ fn seeded(cases: u32) -> Config {
 }
 
 /// An answer that both judges accept: the one of these tests, and the checker.
-fn found(values: &[f64], dim: usize, k: usize, options: &CentersOptions) -> Solution<Centers> {
+fn found(values: &[f64], dim: usize, k: usize, options: &CentersOptions<'_>) -> Solution<Centers> {
     let found = checked(values, dim, k, options);
     if let Err(why) = judge(values, dim, k, options, &found) {
         panic!("{why}: k = {k}, {options:?}");
@@ -26,7 +23,12 @@ fn found(values: &[f64], dim: usize, k: usize, options: &CentersOptions) -> Solu
 }
 
 /// An answer that the checker accepts.
-fn checked(values: &[f64], dim: usize, k: usize, options: &CentersOptions) -> Solution<Centers> {
+fn checked(
+    values: &[f64],
+    dim: usize,
+    k: usize,
+    options: &CentersOptions<'_>,
+) -> Solution<Centers> {
     let points = Points::new(values, dim).unwrap();
     let found = centers(&points, k, options).unwrap();
     is_confirmed(&found, &points);
@@ -40,7 +42,7 @@ fn is_confirmed(found: &Solution<Centers>, points: &Points<'_, f64>) {
     assert_eq!((verdict.upper, verdict.lower), (radius, lower_bound));
 }
 
-fn fine() -> CentersOptions {
+fn fine() -> CentersOptions<'static> {
     CentersOptions { epsilon: 1e-9, ..Default::default() }
 }
 
@@ -124,8 +126,8 @@ proptest! {
             prop_assert!(other.answer.radius >= best.lower_bound);
             let gap = match method {
                 CentersMethod::FarthestFirst => 1.0,
-                CentersMethod::Stream => CoverOptions::default().factor() - 1.0,
-                CentersMethod::Tree | CentersMethod::Thesis => 0.05,
+                CentersMethod::Stream(_) => CoverOptions::default().factor() - 1.0,
+                _ => 0.05,
             };
             prop_assert!(other.certificate.gap <= gap * (1.0 + 1e-9), "{method}: {}", other.certificate.gap);
         }
@@ -142,7 +144,7 @@ proptest! {
                 .collect();
             let options = CentersOptions { weights: items == Items::Points, ..fine() };
             let points = Points::new(&rows, dim + 1).unwrap();
-            let other = centers_of_source(&points, items, k, &options, &Monitor::silent()).unwrap();
+            let other = centers(&points, k, &CentersOptions { inputs: items, ..options }).unwrap();
             judge(&rows, dim + 1, k, &options, &other).unwrap();
             is_confirmed(&other, &points);
             let grown = if items == Items::Balls { extra } else { 0.0 };
@@ -263,7 +265,7 @@ fn a_weight_draws_the_centre() {
 #[test]
 fn wrong_input_is_named() {
     let points = Points::new(&[0.0, 1.0, 2.0, -3.0], 2).unwrap();
-    let option = |options: CentersOptions, k: usize| match centers(&points, k, &options) {
+    let option = |options: CentersOptions<'_>, k: usize| match centers(&points, k, &options) {
         Err(Error::Input(InputError::Option { name, .. })) => name,
         other => panic!("{other:?}"),
     };
@@ -279,11 +281,11 @@ fn wrong_input_is_named() {
     assert_eq!(option(CentersOptions { weights: true, ..thesis }, 1), "weights");
     assert_eq!(option(CentersOptions { placement: Placement::Rows, ..thesis }, 1), "placement");
 
-    let stream = CentersOptions { method: CentersMethod::Stream, ..plain };
+    let stream = CentersOptions { method: CentersMethod::Stream(CoverOptions::DEFAULT), ..plain };
     assert_eq!(option(CentersOptions { outliers: 1, ..stream }, 1), "outliers");
     assert_eq!(option(CentersOptions { weights: true, ..stream }, 1), "weights");
     assert_eq!(option(CentersOptions { assignment: true, ..stream }, 1), "assignment");
-    let of_balls = centers_of_balls(&points, 1, &stream);
+    let of_balls = centers(&points, 1, &CentersOptions { inputs: Items::Balls, ..stream });
     assert!(matches!(of_balls, Err(Error::Input(InputError::Option { name: "method", .. }))));
 
     let weights = CentersOptions { weights: true, ..plain };
@@ -292,12 +294,15 @@ fn wrong_input_is_named() {
         Err(Error::NonPositiveWeight { row: 1, value: -3.0 })
     ));
     assert!(matches!(
-        centers_of_balls(&points, 1, &plain),
+        centers(&points, 1, &CentersOptions { inputs: Items::Balls, ..plain }),
         Err(Error::NegativeRadius { row: 1, value: -3.0 })
     ));
     let narrow = Points::new(&[1.0, 2.0], 1).unwrap();
     assert!(matches!(centers(&narrow, 1, &weights), Err(Error::NoWeight { columns: 1 })));
-    assert!(matches!(centers_of_balls(&narrow, 1, &plain), Err(Error::NoRadius { columns: 1 })));
+    assert!(matches!(
+        centers(&narrow, 1, &CentersOptions { inputs: Items::Balls, ..plain }),
+        Err(Error::NoRadius { columns: 1 })
+    ));
     let none = Points::new(&[0.0; 0], 2).unwrap();
     assert!(matches!(centers(&none, 1, &plain), Err(Error::Empty)));
     let odd = [0.0, 1.0, f64::NAN, 1.0];

@@ -1,8 +1,8 @@
 //! Numbers of all sizes: whatever is answered is confirmed by the checker, and answers to one question agree.
 
 use taut_certify::{Centers, Items, Placement, Solution, Stop};
-use taut_enclose::{CentersMethod, CentersOptions, Error, centers, centers_of_source};
-use taut_points::{Distribution, Monitor, Points, generate};
+use taut_enclose::{CentersMethod, CentersOptions, CoverOptions, Error, centers};
+use taut_points::{Distribution, Points, generate};
 
 /// SplitMix64 (Steele, Lea, Flood, OOPSLA 2014).
 struct Random(u64);
@@ -67,7 +67,7 @@ struct Case {
     columns: usize,
     items: Items,
     k: usize,
-    options: CentersOptions,
+    options: CentersOptions<'static>,
 }
 
 fn case(seed: u64) -> Case {
@@ -119,7 +119,7 @@ impl Case {
     fn solve(&self, method: CentersMethod) -> Result<Solution<Centers>, Error> {
         let options = CentersOptions { method, ..self.options };
         let points = Points::new(&self.values, self.columns).unwrap();
-        centers_of_source(&points, self.items, self.k, &options, &Monitor::silent())
+        centers(&points, self.k, &CentersOptions { inputs: self.items, ..options })
     }
 
     fn methods(&self) -> Vec<CentersMethod> {
@@ -129,7 +129,7 @@ impl Case {
             methods.push(CentersMethod::Thesis);
         }
         if is_plain && self.items == Items::Points && !self.options.assignment {
-            methods.push(CentersMethod::Stream);
+            methods.push(CentersMethod::Stream(CoverOptions::DEFAULT));
         }
         methods
     }

@@ -2,10 +2,10 @@
 
 use taut_certify::{Items, LowerBound, Placement};
 use taut_enclose::{
-    CentersMethod, CentersOptions, CoverOptions, FarthestFirstOptions, SphereTreeOptions,
-    centers_of_source, cover_of_source, farthest_first, sphere_tree,
+    CentersMethod, CentersOptions, CoverOptions, FarthestFirstOptions, SphereTreeOptions, centers,
+    farthest_first, sphere_tree,
 };
-use taut_points::{Blocks, Distribution, Monitor, Points, generate};
+use taut_points::{Blocks, Distribution, Points, generate};
 
 const THREADS: [usize; 4] = [1, 2, 3, 8];
 
@@ -25,12 +25,12 @@ fn same_centers(
     columns: usize,
     items: Items,
     k: usize,
-    options: CentersOptions,
+    options: CentersOptions<'static>,
 ) -> taut_certify::Solution<taut_certify::Centers> {
     let points = Points::new(values, columns).unwrap();
     let solve = |threads| {
         let options = CentersOptions { threads: Some(threads), ..options };
-        centers_of_source(&points, items, k, &options, &Monitor::silent()).unwrap()
+        centers(&points, k, &CentersOptions { inputs: items, ..options }).unwrap()
     };
     same(name, |threads| solve(threads).to_json());
     solve(1)
@@ -96,8 +96,9 @@ fn traversals_streams_and_trees() {
     });
     same("stream", |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let (options, silent) = (CoverOptions::default(), Monitor::silent());
-        let cover = || cover_of_source(&points, 20, Placement::Free, &options, &silent).unwrap();
+        let method = CentersMethod::Stream(CoverOptions::default());
+        let cover =
+            || centers(&points, 20, &CentersOptions { method, ..Default::default() }).unwrap();
         pool.install(cover).to_json()
     });
     let few = Points::new(&values[..60_000], 3).unwrap();

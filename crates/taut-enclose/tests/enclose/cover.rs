@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use taut_certify::{Centers, Placement, Solution};
 use taut_enclose::{
-    CentersOptions, Cover, CoverOptions, Covered, Error, Summary, centers, cover_of_source,
+    CentersMethod, CentersOptions, Cover, CoverOptions, Covered, Error, Summary, centers,
 };
 use taut_points::{Distribution, InputError, Monitor, Points, generate, hash_points};
 
@@ -16,6 +16,11 @@ use crate::covering;
 
 fn seeded(cases: u32) -> Config {
     Config { cases, rng_seed: RngSeed::Fixed(8), failure_persistence: None, ..Config::default() }
+}
+
+/// Centres by one pass and a measuring one.
+fn streamed(options: CoverOptions) -> CentersOptions<'static> {
+    CentersOptions { method: CentersMethod::Stream(options), ..Default::default() }
 }
 
 /// What holds at every moment, whatever the optimum is.
@@ -145,12 +150,12 @@ fn blocks_media_and_threads_change_nothing() {
         assert_eq!(cover, wanted);
     }
     let silent = &Monitor::silent();
-    let found = cover_of_source(&points, 6, Placement::Free, &options, silent).unwrap();
+    let found = centers(&points, 6, &streamed(options)).unwrap();
     assert_eq!(found, wanted.solution(Placement::Free, &points, silent).unwrap());
     judge(&found, &values, 3);
     for threads in [1, 2, 3] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let again = pool.install(|| cover_of_source(&points, 6, Placement::Free, &options, silent));
+        let again = pool.install(|| centers(&points, 6, &streamed(options)));
         assert_eq!(again.unwrap(), found);
     }
 }
@@ -214,11 +219,11 @@ fn what_is_no_input_is_named() {
     let wrong = cover.solution(Placement::Free, &other, &Monitor::silent());
     assert!(matches!(wrong, Err(Error::Input(InputError::Option { name: "source", .. }))));
     let empty = Points::<f64>::new(&[], 2).unwrap();
-    let wrong = cover_of_source(&empty, 1, Placement::Free, &options, &Monitor::silent());
+    let wrong = centers(&empty, 1, &streamed(options));
     assert!(matches!(wrong, Err(Error::Empty)));
     for far in [[-f64::MAX, f64::MAX], [0.0, 5e-324]] {
         let far = Points::new(&far, 1).unwrap();
-        let wrong = cover_of_source(&far, 1, Placement::Free, &options, &Monitor::silent());
+        let wrong = centers(&far, 1, &streamed(options));
         assert!(matches!(wrong, Err(Error::Overflow)));
     }
 }

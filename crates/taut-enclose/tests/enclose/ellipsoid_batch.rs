@@ -3,7 +3,6 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use taut_enclose::{EllipsoidMethod, EllipsoidOptions, Error, ellipsoid, ellipsoids};
-use taut_enclose::{ellipsoid_of_source, ellipsoids_of_sources};
 use taut_points::{Distribution, InputError, Monitor, PointSource, Points, ReadError, generate};
 
 /// Sets of 1 to 3000 points in 1 to 6 dimensions: few points are flat sets, many are several blocks.
@@ -52,7 +51,7 @@ fn single_precision_and_no_set_at_all() {
     for (found, set) in found.iter().zip(&sets) {
         assert_eq!(found, &ellipsoid(set, &EllipsoidOptions::default()).unwrap());
     }
-    assert_eq!(ellipsoids::<f64>(&[], &EllipsoidOptions::default()).unwrap(), []);
+    assert_eq!(ellipsoids::<Points<'_, f64>>(&[], &EllipsoidOptions::default()).unwrap(), []);
 }
 
 #[test]
@@ -93,14 +92,14 @@ fn a_monitor_hears_of_all_points_and_stops_the_work() {
     let options = EllipsoidOptions::default();
     let monitor =
         Monitor { on_pass: Some(&on_pass), on_points: Some(&on_points), ..Monitor::silent() };
-    let found = ellipsoids_of_sources(&sources, &options, &monitor).unwrap();
+    let found = ellipsoids(&sources, &EllipsoidOptions { monitor, ..options.clone() }).unwrap();
     let all: u64 = sources.iter().map(|source| source.len()).sum();
     assert_eq!((announced.into_inner(), heard.into_inner()), (all, all));
-    let alone = ellipsoid_of_source(sources[7], &options, &Monitor::silent()).unwrap();
+    let alone = ellipsoid(sources[7], &options).unwrap();
     assert_eq!(found[7], alone);
 
     let cancel = AtomicBool::new(true);
     let monitor = Monitor { cancel: Some(&cancel), ..Monitor::silent() };
-    let error = ellipsoids_of_sources(&sources, &options, &monitor).unwrap_err();
+    let error = ellipsoids(&sources, &EllipsoidOptions { monitor, ..options.clone() }).unwrap_err();
     assert!(matches!(error, Error::Input(InputError::Read(ReadError::Cancelled(_)))), "{error}");
 }

@@ -212,7 +212,7 @@ fn sizes_beyond_double_precision_are_refused() {
 fn options_out_of_range_are_named() {
     let points = [0.0, 1.0];
     let points = Points::new(&points, 1).unwrap();
-    let refused = |options: EllipsoidOptions| match ellipsoid(&points, &options) {
+    let refused = |options: EllipsoidOptions<'_>| match ellipsoid(&points, &options) {
         Err(Error::Input(InputError::Option { name, .. })) => name,
         other => panic!("{other:?}"),
     };

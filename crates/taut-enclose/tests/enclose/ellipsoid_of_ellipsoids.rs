@@ -2,11 +2,8 @@
 
 use shapes::{Item, border, random_items, rows_of};
 use taut_certify::{Ellipsoid, Items, Solution};
-use taut_enclose::{
-    EllipsoidMethod, EllipsoidOptions, Error, ellipsoid, ellipsoid_of_balls,
-    ellipsoid_of_ellipsoids, ellipsoid_of_items,
-};
-use taut_points::{InputError, Monitor, Points};
+use taut_enclose::{EllipsoidMethod, EllipsoidOptions, Error, ellipsoid};
+use taut_points::{InputError, Points};
 
 use crate::shapes;
 
@@ -15,7 +12,9 @@ fn solved(items: &[Item], epsilon: f64) -> Solution<Ellipsoid> {
     let (values, columns) = rows_of(items);
     let rows = Points::new(&values, columns).unwrap();
     let options = EllipsoidOptions { epsilon, ..Default::default() };
-    let found = ellipsoid_of_ellipsoids(&rows, &options).unwrap();
+    let found =
+        ellipsoid(&rows, &EllipsoidOptions { inputs: Items::Ellipsoids, ..options.clone() })
+            .unwrap();
     let verdict = found.check(&rows).unwrap();
     assert!(verdict.gap <= epsilon, "{} of {epsilon}: {:?}", verdict.gap, found.trace);
     found
@@ -56,7 +55,7 @@ fn points_as_ellipsoids_give_what_points_give() {
         ellipsoid(&rows, &EllipsoidOptions { epsilon: 1e-11, ..Default::default() }).unwrap();
     assert!((found.answer.log_volume - of_points.answer.log_volume).abs() < 2e-11);
     let all = EllipsoidOptions::default();
-    let dispatched = ellipsoid_of_items(&rows, Items::Points, &all, &Monitor::silent()).unwrap();
+    let dispatched = ellipsoid(&rows, &all).unwrap();
     assert_eq!(dispatched, ellipsoid(&rows, &all).unwrap());
 }
 
@@ -204,7 +203,8 @@ fn balls_and_the_same_balls_as_ellipsoids_agree() {
     let balls = [0.0, 0.0, 1.0, 5.0, 1.0, 0.5, 2.0, 4.0, 0.0, 3.0, -1.0, 1.5];
     let rows = Points::new(&balls, 3).unwrap();
     let options = EllipsoidOptions { epsilon: 1e-10, ..Default::default() };
-    let of_balls = ellipsoid_of_balls(&rows, &options).unwrap();
+    let of_balls =
+        ellipsoid(&rows, &EllipsoidOptions { inputs: Items::Balls, ..options.clone() }).unwrap();
     assert!(of_balls.check(&rows).unwrap().gap <= 1e-10);
     let items: Vec<Item> = balls
         .chunks(3)
@@ -240,7 +240,8 @@ fn the_bytes_do_not_depend_on_threads() {
     let rows = Points::new(&values, columns).unwrap();
     let with = |threads| {
         let options = EllipsoidOptions { threads: Some(threads), ..Default::default() };
-        ellipsoid_of_ellipsoids(&rows, &options).unwrap()
+        ellipsoid(&rows, &EllipsoidOptions { inputs: Items::Ellipsoids, ..options.clone() })
+            .unwrap()
     };
     assert_eq!(with(1), with(3));
 }
@@ -249,7 +250,11 @@ fn the_bytes_do_not_depend_on_threads() {
 fn bad_rows_are_named() {
     let options = EllipsoidOptions::default();
     let error = |values: &[f64], columns: usize| {
-        ellipsoid_of_ellipsoids(&Points::new(values, columns).unwrap(), &options).unwrap_err()
+        ellipsoid(
+            &Points::new(values, columns).unwrap(),
+            &EllipsoidOptions { inputs: Items::Ellipsoids, ..options.clone() },
+        )
+        .unwrap_err()
     };
     let good = [0.0, 0.0, 1.0, 0.0, 1.0];
     let after_good = |row: [f64; 5]| [good, row].concat();
@@ -272,11 +277,12 @@ fn bad_rows_are_named() {
     let rows = Points::new(&good, 5).unwrap();
     let slow = EllipsoidOptions { method: EllipsoidMethod::AwaySteps, ..Default::default() };
     assert!(matches!(
-        ellipsoid_of_ellipsoids(&rows, &slow),
+        ellipsoid(&rows, &EllipsoidOptions { inputs: Items::Ellipsoids, ..slow.clone() }),
         Err(Error::Input(InputError::Option { name: "method", .. }))
     ));
     let balls = Points::new(&[0.0, 1.0, 0.0, -1.0], 2).unwrap();
-    let negative = ellipsoid_of_balls(&balls, &options).unwrap_err();
+    let negative = ellipsoid(&balls, &EllipsoidOptions { inputs: Items::Balls, ..options.clone() })
+        .unwrap_err();
     assert!(matches!(negative, Error::NegativeRadius { row: 1, .. }));
 }
 

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use ellipsoids::{by, judge, normal, shell, within};
 use taut_certify::Stop;
-use taut_enclose::{EllipsoidMethod, EllipsoidOptions, Error, ellipsoid, ellipsoid_of_source};
+use taut_enclose::{EllipsoidMethod, EllipsoidOptions, Error, ellipsoid};
 use taut_points::{
     Distribution, FileSource, GeneratedSource, InputError, MappedSource, Monitor, PointSource,
     Points, ReadError, ScalarKind, generate,
@@ -13,8 +13,8 @@ use taut_points::{
 
 use crate::ellipsoids;
 
-fn json(source: &dyn PointSource, options: &EllipsoidOptions) -> String {
-    ellipsoid_of_source(source, options, &Monitor::silent()).unwrap().to_json()
+fn json(source: &dyn PointSource, options: &EllipsoidOptions<'_>) -> String {
+    ellipsoid(source, options).unwrap().to_json()
 }
 
 #[test]
@@ -74,7 +74,7 @@ fn many_points_are_read_once_or_twice() {
         for dim in [2, 3] {
             let source =
                 GeneratedSource::new(distribution, 300_000, dim, 3, ScalarKind::F32).unwrap();
-            let found = ellipsoid_of_source(&source, &within(1e-9), &Monitor::silent()).unwrap();
+            let found = ellipsoid(&source, &within(1e-9)).unwrap();
             assert_eq!(found.trace.stop, Stop::Converged);
             assert!(found.trace.passes <= 2, "{distribution:?}, {dim}: {}", found.trace.passes);
         }
@@ -94,7 +94,7 @@ fn a_monitor_hears_of_passes_and_can_stop() {
         }
     };
     let monitor = Monitor { on_pass: Some(&hear), cancel: Some(&stop), ..Monitor::silent() };
-    let stopped = ellipsoid_of_source(&points, &within(1e-12), &monitor);
+    let stopped = ellipsoid(&points, &EllipsoidOptions { monitor, ..within(1e-12) });
     assert!(
         matches!(stopped, Err(Error::Input(InputError::Read(ReadError::Cancelled(_))))),
         "{stopped:?}"

@@ -1,9 +1,7 @@
 //! Ellipsoids of what is thin: segments, needles, shapes that rounding made indefinite, points near a line or far away.
 
-use taut_certify::{CheckError, Ellipsoid, Hull, Solution, Stop, Violation};
-use taut_enclose::{
-    BallOptions, EllipsoidOptions, ball_of_ellipsoids, ellipsoid, ellipsoid_of_ellipsoids,
-};
+use taut_certify::{CheckError, Ellipsoid, Hull, Items, Solution, Stop, Violation};
+use taut_enclose::{BallOptions, EllipsoidOptions, ball, ellipsoid};
 use taut_points::{Points, Scalar};
 
 /// Splitmix64.
@@ -52,7 +50,8 @@ fn item(center: &[f64], columns: &[Vec<f64>]) -> Vec<f64> {
 
 fn solved<T: Scalar>(what: &str, values: &[T], columns: usize) -> Solution<Ellipsoid> {
     let rows = Points::new(values, columns).unwrap();
-    let found = ellipsoid_of_ellipsoids(&rows, &EllipsoidOptions::default());
+    let found =
+        ellipsoid(&rows, &EllipsoidOptions { inputs: Items::Ellipsoids, ..Default::default() });
     let found = found.unwrap_or_else(|error| panic!("{what}: {error}"));
     found.check(&rows).unwrap_or_else(|error| panic!("{what}: {error}"));
     found
@@ -60,7 +59,7 @@ fn solved<T: Scalar>(what: &str, values: &[T], columns: usize) -> Solution<Ellip
 
 fn bounded(what: &str, values: &[f64], columns: usize) {
     let rows = Points::new(values, columns).unwrap();
-    let found = ball_of_ellipsoids(&rows, &BallOptions::default());
+    let found = ball(&rows, &BallOptions { inputs: Items::Ellipsoids, ..Default::default() });
     let found = found.unwrap_or_else(|error| panic!("{what}: {error}"));
     found.check(&rows).unwrap_or_else(|error| panic!("{what}: {error}"));
 }
@@ -151,7 +150,9 @@ fn a_gap_that_rounding_does_not_allow_is_not_called_converged() {
     let values = [0.0, 0.0, 1.0, 0.3, 4.0, 3.0, 1.0, 1.0, -0.2, 1.0];
     let rows = Points::new(&values, 5).unwrap();
     let options = EllipsoidOptions { epsilon: 1e-17, ..Default::default() };
-    let found = ellipsoid_of_ellipsoids(&rows, &options).unwrap();
+    let found =
+        ellipsoid(&rows, &EllipsoidOptions { inputs: Items::Ellipsoids, ..options.clone() })
+            .unwrap();
     assert!(found.certificate.gap > 1e-17 && found.trace.stop == Stop::Rounding);
 }
 
@@ -290,9 +291,12 @@ fn no_two_verdicts_on_one_file_exclude_each_other() {
         }
         let columns = dim + dim * (dim + 1) / 2;
         let rows = Points::new(&values, columns).unwrap();
-        let honest = ellipsoid_of_ellipsoids(&rows, &EllipsoidOptions::default()).unwrap();
+        let honest =
+            ellipsoid(&rows, &EllipsoidOptions { inputs: Items::Ellipsoids, ..Default::default() })
+                .unwrap();
         let lower = honest.check(&rows).unwrap().lower;
-        let ball = ball_of_ellipsoids(&rows, &BallOptions::default()).unwrap();
+        let ball =
+            ball(&rows, &BallOptions { inputs: Items::Ellipsoids, ..Default::default() }).unwrap();
         let radius = ball.check(&rows).unwrap().lower;
         for exponent in 4..40 {
             let shrink = 10f64.powf(-0.4 * f64::from(exponent));

@@ -1,21 +1,49 @@
 //! The farthest-first traversal against its definition, and the same bytes however it is called.
 
+use std::ops::Range;
+
 use common::families::Random;
 use covering::{judge, optima};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use taut_certify::Placement;
-use taut_enclose::{
-    Error, FarthestFirst, FarthestFirstOptions, farthest_first, farthest_first_of_source,
+use taut_enclose::{Error, FarthestFirst, FarthestFirstOptions, farthest_first};
+use taut_points::{
+    Distribution, InputError, PointSource, Points, ReadError, Rows, Scalar, ScalarKind, Scratch,
+    generate,
 };
-use taut_points::{Distribution, InputError, Monitor, PointSource, Points, Scalar, generate};
 
 use crate::common;
 use crate::covering;
 
 fn seeded(cases: u32) -> Config {
     Config { cases, rng_seed: RngSeed::Fixed(5), failure_persistence: None, ..Config::default() }
+}
+
+/// Points that are read block by block, as from a file.
+struct Stored<S>(S);
+
+impl<S: PointSource> PointSource for Stored<S> {
+    fn len(&self) -> u64 {
+        self.0.len()
+    }
+
+    fn dim(&self) -> usize {
+        self.0.dim()
+    }
+
+    fn scalar(&self) -> ScalarKind {
+        self.0.scalar()
+    }
+
+    fn read<'a>(
+        &'a self,
+        range: Range<u64>,
+        scratch: &'a mut Scratch,
+    ) -> Result<Rows<'a>, ReadError> {
+        self.0.read(range, scratch)
+    }
 }
 
 fn traverse<T: Scalar>(values: &[T], dim: usize, count: u64) -> FarthestFirst {
@@ -74,14 +102,14 @@ proptest! {
         let start = start % n;
         let wanted = by_definition(&values, dim, count, start);
         let reals: Vec<f64> = values.iter().map(|&v| v as f64).collect();
-        let options = FarthestFirstOptions { start: start as u64, threads: None };
+        let options = FarthestFirstOptions { start: start as u64, ..Default::default() };
         let points = Points::new(&reals, dim).unwrap();
         let found = farthest_first(&points, count as u64, &options).unwrap();
         prop_assert_eq!(&found.order, &wanted.0);
         let radii: Vec<f64> = wanted.1.iter().map(|&v| (v as f64).sqrt()).collect();
         prop_assert_eq!(&found.radii, &radii);
         prop_assert_eq!(found.next, wanted.2);
-        let stored = farthest_first_of_source(&points, count as u64, &options, &Monitor::silent());
+        let stored = farthest_first(&Stored(points), count as u64, &options);
         let stored = stored.unwrap();
         prop_assert_eq!((&stored.order, &stored.radii, stored.next), (&found.order, &found.radii, found.next));
     }
@@ -119,10 +147,10 @@ fn same_for_all_threads_and_media<T: Scalar>(values: &[T], dim: usize, count: u6
     let points = Points::new(values, dim).unwrap();
     let mut wanted: Option<(FarthestFirst, FarthestFirst)> = None;
     for threads in 1..=3 {
-        let options = FarthestFirstOptions { start: 1, threads: Some(threads) };
+        let options =
+            FarthestFirstOptions { start: 1, threads: Some(threads), ..Default::default() };
         let memory = farthest_first(&points, count, &options).unwrap();
-        let stored =
-            farthest_first_of_source(&points, count, &options, &Monitor::silent()).unwrap();
+        let stored = farthest_first(&Stored(points), count, &options).unwrap();
         assert_eq!(essence(&memory), essence(&stored), "dimension {dim}");
         assert_eq!(memory.points_hash, stored.points_hash);
         // Counters are part of it.
@@ -176,12 +204,7 @@ fn sizes_of_all_kinds() {
                 assert_eq!(*radius, scale(*plain), "2^{exponent}");
             }
             let points = Points::new(&scaled, dim).unwrap();
-            let stored = farthest_first_of_source(
-                &points,
-                30,
-                &FarthestFirstOptions::default(),
-                &Monitor::silent(),
-            );
+            let stored = farthest_first(&Stored(points), 30, &FarthestFirstOptions::default());
             assert_eq!(essence(&stored.unwrap()), essence(&found));
         }
     }
@@ -233,8 +256,7 @@ fn what_is_no_input_is_named() {
         let points = Points::new(&values, dim).unwrap();
         let options = FarthestFirstOptions::default();
         let memory = farthest_first(&points, 2, &options).unwrap_err();
-        let stored =
-            farthest_first_of_source(&points, 2, &options, &Monitor::silent()).unwrap_err();
+        let stored = farthest_first(&Stored(points), 2, &options).unwrap_err();
         for error in [memory, stored] {
             let (row, column) = (2 / dim as u64, 2 % dim);
             let Error::Input(InputError::NonFinite { row: r, column: c, value }) = error else {
@@ -245,7 +267,12 @@ fn what_is_no_input_is_named() {
     }
     let points = Points::new(&values[..2], 1).unwrap();
     let wrong = |count, start, threads| {
-        farthest_first(&points, count, &FarthestFirstOptions { start, threads }).unwrap_err()
+        farthest_first(
+            &points,
+            count,
+            &FarthestFirstOptions { start, threads, ..Default::default() },
+        )
+        .unwrap_err()
     };
     assert!(matches!(wrong(0, 0, None), Error::Input(InputError::Option { name: "count", .. })));
     assert!(matches!(wrong(1, 2, None), Error::Input(InputError::Option { name: "start", .. })));
@@ -270,11 +297,10 @@ fn differences_that_vanish_are_refused_and_only_they() {
     let values = [0.0, 1.0, 1e-300];
     let points = Points::new(&values, 1).unwrap();
     let options = FarthestFirstOptions::default();
-    let source: &dyn PointSource = &points;
     for count in 1..=3 {
         for found in [
             farthest_first(&points, count, &options),
-            farthest_first_of_source(source, count, &options, &Monitor::silent()),
+            farthest_first(&Stored(points), count, &options),
         ] {
             match count {
                 1 => assert_eq!(found.unwrap().radii, [1.0]),
@@ -294,7 +320,7 @@ fn few_distances_are_evaluated() {
     let many: Vec<f32> = generate(Distribution::Kuzmin, 400_000, 2, 1).unwrap();
     let many = Points::new(&many, 2).unwrap();
     let options = FarthestFirstOptions::default();
-    let found = farthest_first_of_source(&many, 300, &options, &Monitor::silent()).unwrap();
+    let found = farthest_first(&Stored(many), 300, &options).unwrap();
     assert!(found.trace.passes < 200, "{}", found.trace.passes);
     let n = 40_000;
     let share = |found: &FarthestFirst| found.trace.counters["distances"] as f64 / (n * 300) as f64;

@@ -7,7 +7,7 @@ use taut_points::{InputError, Points};
 
 use crate::robust;
 
-fn mcd() -> RobustOptions {
+fn mcd() -> RobustOptions<'static> {
     by(RobustMethod::Mcd)
 }
 

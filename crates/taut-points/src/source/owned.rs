@@ -50,4 +50,8 @@ impl<T: Scalar> PointSource for OwnedPoints<T> {
         super::check_range(&range, PointSource::len(self))?;
         Ok(T::rows(self.view().slice(range.start as usize..range.end as usize)))
     }
+
+    fn in_memory(&self) -> Option<Rows<'_>> {
+        Some(T::rows(self.view()))
+    }
 }

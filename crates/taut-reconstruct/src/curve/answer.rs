@@ -37,7 +37,7 @@ pub(super) struct Outcome {
 pub(super) fn finish(
     cloud: &Cloud,
     outcome: Outcome,
-    options: &CurveOptions,
+    options: &CurveOptions<'_>,
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Curve>, Error> {

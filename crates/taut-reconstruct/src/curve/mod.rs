@@ -13,46 +13,26 @@ mod thesis;
 mod tour;
 
 use taut_certify::{Curve, Solution};
-use taut_points::{InputError, Monitor, PointSource, Points, Scalar, on_threads, shown_number};
+use taut_points::{Monitor, PointSource, on_threads};
 
 use crate::Error;
 use answer::{Outcome, finish};
 use cloud::Cloud;
 
-pub use options::{CurveMethod, CurveOptions, Ends};
+pub use options::{CurveMethod, CurveOptions, CurveThesisOptions, Ends};
 
-/// The curves that points of the plane were sampled from, with what is known about them.
+/// The curves that points of the plane were sampled from, with what is known about them. They are held in memory.
 ///
 /// # Errors
-/// [`Error::Input`].
-pub fn curve<T: Scalar>(
-    points: &Points<'_, T>,
-    options: &CurveOptions,
-) -> Result<Solution<Curve>, Error> {
-    curve_of_source(points, options, &Monitor::silent())
-}
-
-/// The same for points of any source, with a monitor. They are held in memory while it works.
-///
-/// # Errors
-/// As [`curve`], [`Error::Input`] when the points cannot be read, and [`Error::Input`].
-pub fn curve_of_source(
+/// [`Error::Input`], also when the points cannot be read or the monitor stops the work.
+pub fn curve(
     source: &dyn PointSource,
-    options: &CurveOptions,
-    monitor: &Monitor<'_>,
+    options: &CurveOptions<'_>,
 ) -> Result<Solution<Curve>, Error> {
-    let wrong = |name, value: f64, expected| {
-        Error::Input(InputError::Option { name, value: shown_number(value), expected })
-    };
-    if !(options.rho >= 1.0 && options.rho.is_finite()) {
-        return Err(wrong("rho", options.rho, "a number of at least 1"));
+    if let CurveMethod::Thesis(thesis) | CurveMethod::ThesisCrude(thesis) = options.method {
+        thesis.check()?;
     }
-    if !(options.omega > 0.0 && options.omega.is_finite()) {
-        return Err(wrong("omega", options.omega, "a number above 0"));
-    }
-    if let Some(feature) = options.feature.filter(|&f| !(f > 0.0 && f.is_finite())) {
-        return Err(wrong("feature", feature, "a number above 0"));
-    }
+    let monitor = &options.monitor;
     on_threads(options.threads, || {
         let cloud = Cloud::read(source, monitor)?;
         let finish = |outcome| finish(&cloud, outcome, options, source, monitor);
@@ -64,7 +44,11 @@ pub fn curve_of_source(
 }
 
 /// The curves by the method chosen; without one, by that for corners.
-fn solve(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result<Outcome, Error> {
+fn solve(
+    cloud: &Cloud,
+    options: &CurveOptions<'_>,
+    monitor: &Monitor<'_>,
+) -> Result<Outcome, Error> {
     Ok(match options.method {
         CurveMethod::Crust
         | CurveMethod::OneStepCrust
@@ -74,8 +58,8 @@ fn solve(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result
         CurveMethod::Corners | CurveMethod::Auto => {
             clean::solve(cloud, CurveMethod::Corners, options.ends, monitor)?
         }
-        CurveMethod::Thesis => thesis::thesis(cloud, options, monitor)?,
-        CurveMethod::ThesisCrude => thesis::thesis_crude(cloud, options, monitor)?,
+        CurveMethod::Thesis(how) => thesis::thesis(cloud, &how, options, monitor)?,
+        CurveMethod::ThesisCrude(how) => thesis::thesis_crude(cloud, &how, options, monitor)?,
         CurveMethod::Tour => tour::tour(cloud, options, monitor)?,
         CurveMethod::Fit => fit::fit(cloud, options.ends, monitor)?,
     })
@@ -85,7 +69,7 @@ fn solve(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result
 /// it is however uneven they are; else a fit where that can be certified; else as corners ask for.
 fn auto(
     cloud: &Cloud,
-    options: &CurveOptions,
+    options: &CurveOptions<'_>,
     finish: impl Fn(Outcome) -> Result<Solution<Curve>, Error>,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Curve>, Error> {

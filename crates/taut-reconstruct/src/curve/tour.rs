@@ -12,7 +12,7 @@ use crate::tour;
 /// One curve, whose vertices are all sites, and the bound.
 pub(super) fn tour(
     cloud: &Cloud,
-    options: &CurveOptions,
+    options: &CurveOptions<'_>,
     monitor: &Monitor<'_>,
 ) -> Result<Outcome, Error> {
     let mut outcome = Outcome { method: CurveMethod::Tour.name(), ..Outcome::default() };

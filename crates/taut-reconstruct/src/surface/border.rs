@@ -245,7 +245,7 @@ pub(super) fn parts_of(triangles: impl Iterator<Item = [u32; 3]>, sites: usize) 
 #[cfg(test)]
 mod tests {
     use taut_delaunay::{DelaunayOptions, Space};
-    use taut_points::{Distribution, Monitor, Points, generate};
+    use taut_points::{Distribution, Points, generate};
 
     use super::*;
 
@@ -271,7 +271,7 @@ mod tests {
     fn faces_after_changes_are_those_of_the_labels() {
         let values: Vec<f64> = generate(Distribution::Uniform, 300, 3, 5).expect("valid");
         let points = Points::new(&values, 3).expect("whole rows");
-        let space = Space::build(&points, &DelaunayOptions::default(), &Monitor::silent());
+        let space = Space::build(&points, &DelaunayOptions::default());
         let cells = Cells::of(space.expect("finite").into_slots(), 300);
         // Ghosts change as well, as they do where surfaces are open.
         let labels = |seed: u32, rare: u32| -> Vec<bool> {

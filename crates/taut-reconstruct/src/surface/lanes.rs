@@ -153,7 +153,7 @@ impl WithSimd for Spheres<'_> {
 #[cfg(test)]
 mod tests {
     use taut_delaunay::{DelaunayOptions, Space};
-    use taut_points::{Distribution, Monitor, Points, generate};
+    use taut_points::{Distribution, Points, generate};
 
     use super::*;
 
@@ -164,7 +164,7 @@ mod tests {
         values
             .extend((0..125).flat_map(|k| [k % 5, k / 5 % 5, k / 25].map(|x| 0.2 * f64::from(x))));
         let points = Points::new(&values, 3).expect("whole rows");
-        let space = Space::build(&points, &DelaunayOptions::default(), &Monitor::silent());
+        let space = Space::build(&points, &DelaunayOptions::default());
         let space = space.expect("finite");
         let sites: Vec<Point> = (0..space.site_count() as u32).map(|s| space.site(s)).collect();
         let cells = Cells::of(space.into_slots(), sites.len());

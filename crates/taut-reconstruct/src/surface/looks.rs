@@ -162,13 +162,13 @@ fn margins<S: Simd>(
 #[cfg(test)]
 mod tests {
     use taut_delaunay::{DelaunayOptions, Space};
-    use taut_points::{Distribution, Monitor, Points, generate};
+    use taut_points::{Distribution, Points, generate};
 
     use super::*;
 
     fn triangulated(values: &[f64]) -> (Cells, Vec<Point>) {
         let points = Points::new(values, 3).expect("whole rows");
-        let space = Space::build(&points, &DelaunayOptions::default(), &Monitor::silent());
+        let space = Space::build(&points, &DelaunayOptions::default());
         let space = space.expect("finite");
         let sites: Vec<Point> = (0..space.site_count() as u32).map(|s| space.site(s)).collect();
         (Cells::of(space.into_slots(), sites.len()), sites)

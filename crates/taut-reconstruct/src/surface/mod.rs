@@ -45,11 +45,10 @@ mod tree;
 mod vector;
 mod witness;
 
-use taut_certify::{Solution, Surface, SurfaceMethod, SurfaceMode as Promise};
+use taut_certify::{Solution, Surface, SurfaceMode as Promise};
 use taut_delaunay::{Complex, DelaunayOptions, Space};
 use taut_points::{
-    InputError, Monitor, PointSource, Points, PointsHash, Rows, Scalar, Scratch, hash_points,
-    on_threads,
+    InputError, Monitor, PointSource, Points, PointsHash, Rows, Scratch, hash_points, on_threads,
 };
 
 use crate::{Error, Span};
@@ -63,7 +62,7 @@ use scaled::Scale;
 use thesis::{ThesisOptions, thesis_surface};
 
 pub use one_sided::looks_one_sided;
-pub use options::{Denoise, Positions, SurfaceMode, SurfaceOptions};
+pub use options::{Denoise, HullOptions, Positions, SurfaceMethod, SurfaceMode, SurfaceOptions};
 
 /// The surface that points of space were sampled from, with its certificate.
 ///
@@ -80,28 +79,17 @@ pub use options::{Denoise, Positions, SurfaceMode, SurfaceOptions};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// n points of three coordinates each; O(n log n) beside their triangulation. The method `tree` is that of this crate, `thesis` and `hull`
+/// n points of three coordinates each, held in memory; O(n log n) beside their triangulation. The method `tree` is that of this crate, `thesis` and `hull`
 /// those of sections 4.2 to 4.5 of the thesis, `alpha` that of Edelsbrunner and Mücke, ACM Transactions on Graphics 13(1), 1994.
 ///
 /// # Errors
-/// [`Error::Input`], [`Error::Flat`], and
+/// [`Error::Input`], also when the points cannot be read or the monitor stops the work; [`Error::Flat`]; and
 /// [`Error::Triangulation`] for more cells than can be numbered.
-pub fn surface<T: Scalar>(
-    points: &Points<'_, T>,
-    options: &SurfaceOptions,
-) -> Result<Solution<Surface>, Error> {
-    surface_of_source(points, options, &Monitor::silent())
-}
-
-/// The same for points of any source, with a monitor. They are held in memory while it works.
-///
-/// # Errors
-/// As [`surface`], and [`Error::Input`] when the points cannot be read or the monitor says so.
-pub fn surface_of_source(
+pub fn surface(
     source: &dyn PointSource,
-    options: &SurfaceOptions,
-    monitor: &Monitor<'_>,
+    options: &SurfaceOptions<'_>,
 ) -> Result<Solution<Surface>, Error> {
+    let monitor = &options.monitor;
     if source.dim() != 3 {
         return Err(Error::Input(InputError::Dimension {
             dim: source.dim(),
@@ -162,68 +150,65 @@ fn solve(
     points: &[[f64; 3]],
     rows: Option<&[u32]>,
     changes: Changes,
-    options: &SurfaceOptions,
+    options: &SurfaceOptions<'_>,
     points_hash: PointsHash,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Surface>, Error> {
     let view = Points::new(points.as_flattened(), 3);
     let Ok(view) = view else { return Err(Error::Flat { points: 0, span: Span::Nothing }) };
-    let space = Space::build(&view, &in_one_cell(), monitor)?;
+    let space = Space::build(&view, &in_one_cell(monitor))?;
     check_span(&space)?;
     let sites = Sites::of(&space, rows);
     let (mode, facets, cells) = match options.method {
-        SurfaceMethod::Tree => {
+        SurfaceMethod::Tree(mode) => {
             let cells = Cells::of(space.into_slots(), sites.points.len());
-            let facets = surface_of_labels(&cells, &sites.points, options.mode, monitor)?;
-            let mode = match options.mode {
+            let facets = surface_of_labels(&cells, &sites.points, mode, monitor)?;
+            let mode = match mode {
                 SurfaceMode::Closed => Promise::Closed,
                 SurfaceMode::Open => Promise::Open,
             };
             (mode, facets, cells)
         }
-        method => {
-            let (mode, facets) = of_filters(&space, method, options, monitor)?;
+        SurfaceMethod::Thesis(how) => {
+            let facets = of_front(&space, &how, monitor)?;
+            (Promise::Open, facets, Cells::of(space.into_slots(), sites.points.len()))
+        }
+        SurfaceMethod::Alpha(radius) => {
+            let (mode, facets) = of_alpha(&space, radius)?;
             (mode, facets, Cells::of(space.into_slots(), sites.points.len()))
+        }
+        SurfaceMethod::Hull(HullOptions { epsilon, emptiness, alpha }) => {
+            let found = filtered_hull(&space, epsilon, emptiness, alpha)?;
+            let facets = Facets { triangles: found.triangles, ..Facets::default() };
+            (Promise::Open, facets, Cells::of(space.into_slots(), sites.points.len()))
         }
     };
     monitor.check()?;
-    finish(options.method, mode, facets, (&cells, &sites), changes, points_hash)
+    finish(options.method.kind(), mode, facets, (&cells, &sites), changes, points_hash)
 }
 
-/// What the methods find that choose among facets one by one.
-fn of_filters(
-    space: &Space,
-    method: SurfaceMethod,
-    options: &SurfaceOptions,
-    monitor: &Monitor<'_>,
-) -> Result<(Promise, Facets), Error> {
-    let thesis = &options.thesis;
-    if method == SurfaceMethod::Thesis {
-        if let Some(seed) = thesis.joggle {
-            let (value, expected) =
-                (seed.to_string(), "none, as joggled points are not those given");
-            return Err(Error::Input(InputError::Option { name: "joggle", value, expected }));
-        }
-        let found =
-            thesis_surface(space, &ThesisOptions { threads: None, ..thesis.clone() }, monitor)?;
-        let counters = [
-            ("candidates", found.counters.candidates),
-            ("pinches", found.pinches.len() as u64),
-            ("seeds", found.counters.seeds),
-        ];
-        let facets = Facets {
-            triangles: found.on_sites(),
-            counters: counters.map(|(name, count)| (name.to_owned(), count)).into(),
-            ..Facets::default()
-        };
-        return Ok((Promise::Open, facets));
+/// What the front of the thesis finds.
+fn of_front(space: &Space, how: &ThesisOptions, monitor: &Monitor<'_>) -> Result<Facets, Error> {
+    if let Some(seed) = how.joggle {
+        let (value, expected) = (seed.to_string(), "none, as joggled points are not those given");
+        return Err(Error::Input(InputError::Option { name: "joggle", value, expected }));
     }
-    if method == SurfaceMethod::Hull {
-        let found = filtered_hull(space, thesis.epsilon, thesis.emptiness, thesis.alpha)?;
-        let facets = Facets { triangles: found.triangles, ..Facets::default() };
-        return Ok((Promise::Open, facets));
-    }
-    let radius = match options.alpha {
+    let found = thesis_surface(space, &ThesisOptions { threads: None, ..*how }, monitor)?;
+    let counters = [
+        ("candidates", found.counters.candidates),
+        ("pinches", found.pinches.len() as u64),
+        ("seeds", found.counters.seeds),
+    ];
+    Ok(Facets {
+        triangles: found.on_sites(),
+        counters: counters.map(|(name, count)| (name.to_owned(), count)).into(),
+        ..Facets::default()
+    })
+}
+
+/// The alpha shape of a radius, or of the least one that holds all points in one solid.
+fn of_alpha(space: &Space, radius: Option<f64>) -> Result<(Promise, Facets), Error> {
+    let radius = match radius {
         Some(radius) => radius,
         None => optimal_alpha(space, 1)?,
     };
@@ -242,6 +227,6 @@ fn of_filters(
 
 /// How samples of surfaces are triangulated. Their simplices reach from one side of a body to the other, and so through all cells that
 /// threads could share: 10⁶ points of dc take two threads with a cell each half as long again as one thread alone.
-fn in_one_cell() -> DelaunayOptions {
-    DelaunayOptions { cells: Some(1), ..DelaunayOptions::default() }
+fn in_one_cell<'a>(monitor: &Monitor<'a>) -> DelaunayOptions<'a> {
+    DelaunayOptions { cells: Some(1), monitor: *monitor, ..DelaunayOptions::default() }
 }

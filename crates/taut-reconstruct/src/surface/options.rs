@@ -1,42 +1,101 @@
 //! How a surface is sought.
 
-use taut_certify::SurfaceMethod;
-use taut_points::InputError;
+use taut_certify::SurfaceMethod as Kind;
+use taut_points::{InputError, Monitor, choice};
 
+use super::filter::{AlphaFilter, Emptiness};
 use super::thesis::ThesisOptions;
 use crate::Error;
 
 /// How to seek a surface; [`Default`] is what most people want.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct SurfaceOptions {
-    /// The way to find it; default [`SurfaceMethod::Tree`].
+pub struct SurfaceOptions<'a> {
+    /// The way to find it; default [`SurfaceMethod::Tree`] with everything closed.
     pub method: SurfaceMethod,
-    /// Whether the surface may have boundaries; default [`SurfaceMode::Closed`]. Of [`SurfaceMethod::Tree`] alone: the other
-    /// methods leave boundaries where they end.
-    pub mode: SurfaceMode,
-    /// Of [`SurfaceMethod::Alpha`], the radius in the unit of the coordinates, at least 0; `None` takes the least one at which all points
-    /// are on one solid or in it.
-    pub alpha: Option<f64>,
-    /// Of [`SurfaceMethod::Thesis`] all, and of [`SurfaceMethod::Hull`] what is said of candidates. Joggled points are others than those
-    /// given: for them there is [`thesis_surface_of_points`](crate::thesis::thesis_surface_of_points).
-    pub thesis: ThesisOptions,
     /// Whether noise is taken out of the points first, and how; default `None`, which leaves them as they are.
     pub denoise: Option<Denoise>,
     /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
+    /// Watches the work and can stop it. Default [`Monitor::silent`].
+    pub monitor: Monitor<'a>,
 }
 
-impl SurfaceOptions {
+/// The methods, each with its own options. [`SurfaceMethod::kind`] is what the certificate calls it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SurfaceMethod {
+    /// Cells labelled inside or outside by a signed spanning tree.
+    Tree(SurfaceMode),
+    /// The advancing front of the thesis. Joggled points are others than those given, and refused: for them there is
+    /// [`thesis_surface_of_points`](crate::thesis::thesis_surface_of_points).
+    Thesis(ThesisOptions),
+    /// The alpha shape of this radius, in the unit of the coordinates, at least 0; `None` takes the least one at which all
+    /// points are on one solid or in it.
+    Alpha(Option<f64>),
+    /// The filtered facets of the triangulation, as they are.
+    Hull(HullOptions),
+}
+
+impl Default for SurfaceMethod {
+    fn default() -> Self {
+        SurfaceMethod::Tree(SurfaceMode::Closed)
+    }
+}
+
+impl SurfaceMethod {
+    /// Which method it is, without its options.
+    pub const fn kind(self) -> Kind {
+        match self {
+            SurfaceMethod::Tree(_) => Kind::Tree,
+            SurfaceMethod::Thesis(_) => Kind::Thesis,
+            SurfaceMethod::Alpha(_) => Kind::Alpha,
+            SurfaceMethod::Hull(_) => Kind::Hull,
+        }
+    }
+}
+
+/// The method with its default options.
+impl From<Kind> for SurfaceMethod {
+    fn from(kind: Kind) -> Self {
+        match kind {
+            Kind::Tree => SurfaceMethod::Tree(SurfaceMode::default()),
+            Kind::Thesis => SurfaceMethod::Thesis(ThesisOptions::default()),
+            Kind::Alpha => SurfaceMethod::Alpha(None),
+            Kind::Hull => SurfaceMethod::Hull(HullOptions::default()),
+        }
+    }
+}
+
+/// Which facets [`SurfaceMethod::Hull`] keeps; as [`ThesisOptions`] says of candidates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HullOptions {
+    /// By how much the equatorial sphere of a facet is shrunk before it has to be empty, relative to its radius. Range
+    /// [0, 1), default 2e-5.
+    pub epsilon: f64,
+    /// Who has to be outside of it. Default [`Emptiness::Apexes`].
+    pub emptiness: Emptiness,
+    /// Which facets are small enough. Default all.
+    pub alpha: AlphaFilter,
+}
+
+impl Default for HullOptions {
+    fn default() -> Self {
+        let ThesisOptions { epsilon, emptiness, alpha, .. } = ThesisOptions::default();
+        Self { epsilon, emptiness, alpha }
+    }
+}
+
+impl SurfaceOptions<'_> {
     /// The methods that heed an option, by the name that it has on the command line (`sliver-angle`) or in Python (`sliver_angle`); all
     /// of them, where it is not of some alone.
-    pub fn methods_of(option: &str) -> &'static [SurfaceMethod] {
-        use SurfaceMethod::{Alpha, Hull, Thesis, Tree};
+    pub fn methods_of(option: &str) -> &'static [Kind] {
+        use Kind::{Alpha, Hull, Thesis, Tree};
         match option.replace('_', "-").as_str() {
             "open" | "closed" => &[Tree],
             "alpha" => &[Alpha, Thesis, Hull],
             "epsilon" => &[Thesis, Hull],
             "sliver-angle" | "forbidden-angle" | "priority" | "restarts" => &[Thesis],
-            _ => &SurfaceMethod::ALL,
+            _ => &Kind::ALL,
         }
     }
 }
@@ -51,15 +110,10 @@ pub enum SurfaceMode {
     Open,
 }
 
-impl SurfaceMode {
-    /// All modes with their names on the command line.
-    pub const NAMES: [(&'static str, Self); 2] = [("closed", Self::Closed), ("open", Self::Open)];
-
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        Self::NAMES.iter().find(|(_, mode)| *mode == self).map_or("", |(name, _)| name)
-    }
-}
+choice! { "mode", SurfaceMode {
+    Closed = "closed", "the boundary of bodies: everything is closed";
+    Open = "open", "sheets may end where their samples end";
+}}
 
 /// How noise is taken out of points before a surface is sought.
 #[derive(Clone, Debug, PartialEq)]

@@ -166,7 +166,7 @@ fn factors(k: i32) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use taut_delaunay::DelaunayOptions;
-    use taut_points::{Monitor, Points};
+    use taut_points::Points;
     use taut_predicates::space::orient;
 
     use super::*;
@@ -176,7 +176,7 @@ mod tests {
         let cube: Vec<f64> =
             (0..8).flat_map(|i| [i & 1, i >> 1 & 1, i >> 2]).map(|x| 1e-9 * f64::from(x)).collect();
         let points = Points::new(&cube, 3).expect("whole rows");
-        let space = Space::build(&points, &DelaunayOptions::default(), &Monitor::silent());
+        let space = Space::build(&points, &DelaunayOptions::default());
         let sides = Sides::of(&space.expect("finite"), &[]).expect("a cube spans space");
         assert!(sides.exponent < -20);
         let mut facets = 0;

@@ -136,7 +136,10 @@ pub(super) fn delaunay_edges(
     monitor: &Monitor<'_>,
 ) -> Result<Vec<[u32; 2]>, Error> {
     let Ok(points) = Points::new(sites.as_flattened(), 2) else { return Ok(Vec::new()) };
-    let plane = Plane::build(&points, &DelaunayOptions::default(), monitor)?;
+    let plane = Plane::build(
+        &points,
+        &DelaunayOptions { monitor: *monitor, ..DelaunayOptions::default() },
+    )?;
     let edge = |a: u32, b: u32| [plane.row(a), plane.row(b)];
     if let Complex::Line(along) = plane.complex() {
         return Ok(along.windows(2).flat_map(|w| [edge(w[0], w[1]), edge(w[1], w[0])]).collect());

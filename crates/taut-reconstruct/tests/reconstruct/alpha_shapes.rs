@@ -7,7 +7,7 @@ use num_traits::ToPrimitive;
 use samples::rational::{Fraction, Pencil, Vector, fraction, vector};
 use samples::{Point, Random, soup, sphere};
 use taut_delaunay::{Complex, DelaunayOptions, Space};
-use taut_points::{InputError, Monitor, Points};
+use taut_points::{InputError, Points};
 use taut_reconstruct::Error;
 use taut_reconstruct::alpha::{
     AlphaFilter, AlphaShape, Emptiness, FacetClass, alpha_shape, filtered_hull, optimal_alpha,
@@ -17,7 +17,7 @@ use crate::samples;
 
 fn space(points: &[Point]) -> Space {
     let points = Points::new(points.as_flattened(), 3).expect("whole rows");
-    Space::build(&points, &DelaunayOptions::default(), &Monitor::silent()).expect("finite points")
+    Space::build(&points, &DelaunayOptions::default()).expect("finite points")
 }
 
 fn sites(space: &Space) -> Vec<Point> {

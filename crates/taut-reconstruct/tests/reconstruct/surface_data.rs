@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use judge::{assert_exact, closed, found};
 use taut_mesh::{SurfaceOptions as Sampling, TriangleMesh, compare_surfaces};
-use taut_reconstruct::{SurfaceMode, SurfaceOptions};
+use taut_reconstruct::{SurfaceMethod, SurfaceMode, SurfaceOptions};
 
 use crate::surface_any::judge;
 
@@ -84,7 +84,10 @@ fn the_bunny_keeps_its_holes() {
     let Some((points, triangles)) = mesh("the_bunny_keeps_its_holes", "stanford_bunny") else {
         return;
     };
-    let found = found(&points, &SurfaceOptions { mode: SurfaceMode::Open, ..Default::default() });
+    let found = found(
+        &points,
+        &SurfaceOptions { method: SurfaceMethod::Tree(SurfaceMode::Open), ..Default::default() },
+    );
     let loops = found.topology.boundary_loops.len();
     assert!((2..=8).contains(&loops), "{loops} loops");
     let reference = TriangleMesh::new(&points, &triangles).expect("a mesh");

@@ -7,7 +7,7 @@ use points::{Point, chances, circle, cube, sphere, tube};
 use taut_certify::Apex;
 use taut_points::{InputError, Monitor, Points};
 use taut_reconstruct::{
-    Denoise, Error, Positions, Span, SurfaceMode, SurfaceOptions, surface, surface_of_source,
+    Denoise, Error, Positions, Span, SurfaceMethod, SurfaceMode, SurfaceOptions, surface,
 };
 
 use crate::surface_any::judge;
@@ -38,7 +38,14 @@ fn threads_do_not_matter() {
     let points = sample();
     for mode in [SurfaceMode::Closed, SurfaceMode::Open] {
         let by = |threads| {
-            found(&points, &SurfaceOptions { mode, threads: Some(threads), ..Default::default() })
+            found(
+                &points,
+                &SurfaceOptions {
+                    method: SurfaceMethod::Tree(mode),
+                    threads: Some(threads),
+                    ..Default::default()
+                },
+            )
         };
         let one = by(1);
         assert_eq!(one, by(2));
@@ -50,7 +57,7 @@ fn threads_do_not_matter() {
 fn the_order_of_the_input_does_not_matter() {
     let points = sample();
     for mode in [SurfaceMode::Closed, SurfaceMode::Open] {
-        let options = SurfaceOptions { mode, ..Default::default() };
+        let options = SurfaceOptions { method: SurfaceMethod::Tree(mode), ..Default::default() };
         let first = found(&points, &options);
         let mut chance = chances(9);
         for _ in 0..3 {
@@ -142,7 +149,7 @@ fn a_monitor_stops_it() {
     let view = Points::new(points.as_flattened(), 3).expect("whole rows");
     let stop = AtomicBool::new(true);
     let monitor = Monitor { cancel: Some(&stop), ..Monitor::silent() };
-    let stopped = surface_of_source(&view, &SurfaceOptions::default(), &monitor);
+    let stopped = surface(&view, &SurfaceOptions { monitor, ..Default::default() });
     assert!(matches!(stopped, Err(Error::Input(InputError::Cancelled(_)))));
 }
 

@@ -2,7 +2,7 @@
 
 use points::{Point, chances, circle, sphere, tube};
 use taut_certify::SurfaceMode::{Alpha, Open};
-use taut_certify::{Solution, Surface, SurfaceVerdict};
+use taut_certify::{Solution, Surface, SurfaceMethod as Kind, SurfaceVerdict};
 use taut_points::Points;
 use taut_predicates::space::equatorial_radius;
 use taut_reconstruct::{
@@ -34,16 +34,20 @@ fn samples() -> Vec<(String, Vec<Point>)> {
     all
 }
 
-fn in_place(method: SurfaceMethod, mode: SurfaceMode, iterations: u32) -> SurfaceOptions {
+fn in_place(kind: Kind, mode: SurfaceMode, iterations: u32) -> SurfaceOptions<'static> {
+    let method = match kind {
+        Kind::Tree => SurfaceMethod::Tree(mode),
+        other => other.into(),
+    };
     let denoise = Some(Denoise { neighbors: 8, iterations, positions: Positions::Original });
-    SurfaceOptions { method, mode, denoise, ..Default::default() }
+    SurfaceOptions { method, denoise, ..Default::default() }
 }
 
 /// The answer with what was proved of it; `None` where nothing spans space once points are moved.
 fn checked(
     name: &str,
     points: &[Point],
-    options: &SurfaceOptions,
+    options: &SurfaceOptions<'_>,
 ) -> Option<(Solution<Surface>, SurfaceVerdict)> {
     let view = Points::new(points.as_flattened(), 3).expect("whole rows");
     match surface(&view, options) {
@@ -60,7 +64,7 @@ fn checked(
 fn claims_hold_for_original_positions_not_for_moved_ones() {
     let (mut answers, mut closed) = (0, 0);
     for (name, points) in samples() {
-        for method in SurfaceMethod::ALL {
+        for method in Kind::ALL {
             for mode in [SurfaceMode::Closed, SurfaceMode::Open] {
                 for iterations in [1, 2, 5] {
                     let options = in_place(method, mode, iterations);
@@ -81,7 +85,7 @@ fn claims_hold_for_original_positions_not_for_moved_ones() {
 #[test]
 fn small_spheres_face_outwards_at_original_positions() {
     for count in [4, 6] {
-        for method in [SurfaceMethod::Tree, SurfaceMethod::Alpha] {
+        for method in [Kind::Tree, Kind::Alpha] {
             let options = in_place(method, SurfaceMode::Closed, 1);
             let found = checked("sphere", &fibonacci(count), &options);
             let (_, verdict) = found.expect("points that span space");
@@ -95,7 +99,7 @@ fn the_alpha_radius_is_the_least_that_holds_at_original_positions() {
     let mut grown = 0;
     for (name, points) in samples() {
         let of = |positions| {
-            let options = in_place(SurfaceMethod::Alpha, SurfaceMode::Closed, 1);
+            let options = in_place(Kind::Alpha, SurfaceMode::Closed, 1);
             let denoise = options.denoise.map(|how| Denoise { positions, ..how });
             checked(&name, &points, &SurfaceOptions { denoise, ..options })
         };
@@ -128,7 +132,7 @@ fn an_alpha_surface_with_a_flat_triangle_at_original_positions_claims_no_radius(
     // Three points on an edge of a cubic grid are on a line, and no longer once they are moved.
     let points = points::cube(2);
     let denoise = Some(Denoise { neighbors: 24, iterations: 5, positions: Positions::Original });
-    let method = SurfaceMethod::Alpha;
+    let method = SurfaceMethod::Alpha(None);
     let options = SurfaceOptions { method, denoise, ..Default::default() };
     let (found, verdict) = checked("grid", &points, &options).expect("points that span space");
     let is_flat = |triangle: &[u32; 3]| {

@@ -3,7 +3,7 @@
 use judge::{assert_exact, closed, found};
 use points::{Point, chances, circle, cube, sphere, tube};
 use taut_points::Points;
-use taut_reconstruct::{SurfaceMode, SurfaceOptions, looks_one_sided, surface};
+use taut_reconstruct::{SurfaceMethod, SurfaceMode, SurfaceOptions, looks_one_sided, surface};
 
 use std::f64::consts::{PI, TAU};
 
@@ -142,7 +142,10 @@ fn soup_meets_itself_nowhere() {
     let mut chance = chances(5);
     let soup: Vec<_> = (0..3_000).map(|_| [chance(), chance(), chance()]).collect();
     for mode in [SurfaceMode::Closed, SurfaceMode::Open] {
-        let found = found(&soup, &SurfaceOptions { mode, ..Default::default() });
+        let found = found(
+            &soup,
+            &SurfaceOptions { method: SurfaceMethod::Tree(mode), ..Default::default() },
+        );
         assert!(mode == SurfaceMode::Open || found.topology.is_closed());
     }
 }
@@ -151,7 +154,10 @@ fn soup_meets_itself_nowhere() {
 fn a_half_sphere_has_one_loop() {
     let mut half = sphere(8_000, [0.0; 3], 1.0, 7);
     half.retain(|p| p[2] > 0.0);
-    let found = found(&half, &SurfaceOptions { mode: SurfaceMode::Open, ..Default::default() });
+    let found = found(
+        &half,
+        &SurfaceOptions { method: SurfaceMethod::Tree(SurfaceMode::Open), ..Default::default() },
+    );
     let t = &found.topology;
     assert_eq!((t.components.len(), t.boundary_loops.len(), t.genus), (1, 1, Some(0)));
     assert!(found.is_through_all() && found.topology.is_manifold());
@@ -164,7 +170,10 @@ fn parallel_sheets_are_two() {
     let gap = 5.0 / f64::from(count).sqrt();
     let sheets: Vec<_> =
         (0..2 * count).map(|k| [chance(), chance(), if k < count { 0.0 } else { gap }]).collect();
-    let found = found(&sheets, &SurfaceOptions { mode: SurfaceMode::Open, ..Default::default() });
+    let found = found(
+        &sheets,
+        &SurfaceOptions { method: SurfaceMethod::Tree(SurfaceMode::Open), ..Default::default() },
+    );
     let t = &found.topology;
     assert_eq!((t.components.len(), t.boundary_loops.len(), t.genus), (2, 2, Some(0)));
 }
@@ -214,8 +223,8 @@ fn a_band_with_one_side_is_a_function_of_its_points() {
 }
 
 /// Where the surface may have boundaries.
-fn open() -> SurfaceOptions {
-    SurfaceOptions { mode: SurfaceMode::Open, ..Default::default() }
+fn open() -> SurfaceOptions<'static> {
+    SurfaceOptions { method: SurfaceMethod::Tree(SurfaceMode::Open), ..Default::default() }
 }
 
 /// Random points of a band around the unit circle, two thirds wide, with so many turns: half a turn makes a Möbius band.

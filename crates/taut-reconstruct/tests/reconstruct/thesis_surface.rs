@@ -263,7 +263,7 @@ fn alpha_leaves_the_size_of_triangles() {
         ..Default::default()
     };
     let (_, few) = grown(&points, &options).expect("spans space");
-    let all = ThesisOptions { alpha: AlphaFilter::None, ..options.clone() };
+    let all = ThesisOptions { alpha: AlphaFilter::None, ..options };
     let (space, all) = grown(&points, &all).expect("spans space");
     assert_eq!(all.counters.candidates as usize, all.triangles.len());
     assert!(few.triangles.len() < all.triangles.len() && few.counters.pops == 0);
@@ -376,7 +376,7 @@ fn options_out_of_range_are_named() {
 fn the_caller_can_stop_it() {
     let points = sphere(2000);
     let points = Points::new(points.as_flattened(), 3).expect("whole rows");
-    let space = Space::build(&points, &DelaunayOptions::default(), &Monitor::silent());
+    let space = Space::build(&points, &DelaunayOptions::default());
     let stop = std::sync::atomic::AtomicBool::new(true);
     let monitor = Monitor { cancel: Some(&stop), ..Monitor::silent() };
     let stopped = thesis_surface(&space.expect("finite"), &ThesisOptions::default(), &monitor);

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use taut::{Monitor, Plane, PointSource, Space};
+use taut::delaunay::{Plane, Space};
+use taut::{Monitor, PointSource};
 use taut_io::{MeshOptions, MeshView, mesh_file};
 
 use super::built::Built;

@@ -1,8 +1,10 @@
 //! A triangulation of the plane or of space, whichever the points ask for.
 
+use taut::certify::Triangulation;
 use taut::delaunay::{Counters, Error};
+use taut::delaunay::{Plane, Space};
 use taut::points::{InputError, Rows, Scalar, Scratch};
-use taut::{DelaunayOptions, Monitor, Plane, PointSource, Points, Solution, Space, Triangulation};
+use taut::{DelaunayOptions, Monitor, PointSource, Points, Solution};
 
 use crate::output::numbers::{count, counted};
 use crate::reports::Field;
@@ -15,17 +17,15 @@ pub(super) enum Built {
 impl Built {
     pub(super) fn new(
         source: &dyn PointSource,
-        options: &DelaunayOptions,
-        monitor: &Monitor<'_>,
+        options: &DelaunayOptions<'_>,
     ) -> Result<Self, Error> {
         fn build<T: Scalar>(
             points: &Points<'_, T>,
-            options: &DelaunayOptions,
-            monitor: &Monitor<'_>,
+            options: &DelaunayOptions<'_>,
         ) -> Result<Built, Error> {
             match points.dim() {
-                2 => Ok(Built::Plane(Plane::build(points, options, monitor)?)),
-                3 => Ok(Built::Space(Space::build(points, options, monitor)?)),
+                2 => Ok(Built::Plane(Plane::build(points, options)?)),
+                3 => Ok(Built::Space(Space::build(points, options)?)),
                 dim => {
                     let expected = "2, the plane, or 3, space";
                     Err(InputError::Dimension { dim, expected }.into())
@@ -34,8 +34,8 @@ impl Built {
         }
         let mut scratch = Scratch::new();
         match source.read(0..source.len(), &mut scratch)? {
-            Rows::F32(points) => build(&points, options, monitor),
-            Rows::F64(points) => build(&points, options, monitor),
+            Rows::F32(points) => build(&points, options),
+            Rows::F64(points) => build(&points, options),
         }
     }
 

@@ -7,8 +7,9 @@ use std::fmt::Write as _;
 
 use anyhow::anyhow;
 use rayon::prelude::*;
+use taut::PointSource;
+use taut::delaunay::{Plane, Space};
 use taut::points::{Blocks, Scratch};
-use taut::{Plane, PointSource, Space};
 
 use super::built::Built;
 

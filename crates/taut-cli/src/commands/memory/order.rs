@@ -3,12 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
+use taut::certify::{Order, OrderCurve};
 use taut::points::{OwnedPoints, ScalarKind, Scratch};
-use taut::{Monitor, Order, OrderCurve, PointSource, Solution, spatial_order};
+use taut::{Monitor, OrderOptions, PointSource, Solution, spatial_order};
 use taut_io::write_points;
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
+use crate::input::choice::choice;
 use crate::input::reading::{Opened, Points, Reading};
 use crate::output::writing::Outputs;
 use crate::pipeline::{self, Find, Input, Output};
@@ -24,8 +26,8 @@ pub(super) struct Args {
     #[command(flatten)]
     points: Points,
     /// Along which curve
-    #[arg(long, value_enum, default_value = "hilbert")]
-    curve: Curve,
+    #[arg(long, value_name = "CURVE", default_value = OrderCurve::default().name(), value_parser = choice::<OrderCurve>())]
+    curve: OrderCurve,
     /// Do without the independent check
     #[arg(long)]
     no_verify: bool,
@@ -39,15 +41,6 @@ pub(super) struct Args {
     reading: Reading,
     #[command(flatten)]
     effort: Effort,
-}
-
-/// Which curve.
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
-enum Curve {
-    /// steps are short: cells that follow each other share a side
-    Hilbert,
-    /// Z-order, the bits of coordinates interleaved: cells of a grid of any size are runs
-    Morton,
 }
 
 impl Find for Args {
@@ -71,11 +64,11 @@ impl Find for Args {
     }
 
     fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Order>, ())> {
-        let curve = match self.curve {
-            Curve::Hilbert => OrderCurve::Hilbert,
-            Curve::Morton => OrderCurve::Morton,
+        let solve = |monitor: &Monitor<'_>| {
+            let options =
+                OrderOptions { curve: self.curve, monitor: *monitor, ..OrderOptions::default() };
+            spatial_order(points.source(), &options)
         };
-        let solve = |monitor: &Monitor<'_>| spatial_order(points.source(), curve, monitor);
         let found = watch.during("ordering", solve).map_err(|error| points.explain(error))?;
         Ok((found, ()))
     }

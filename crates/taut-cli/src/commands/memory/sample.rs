@@ -3,7 +3,7 @@
 use std::io::Cursor;
 use std::path::PathBuf;
 
-use taut::Trace;
+use taut::certify::Trace;
 use taut::certify::{AnyFileSolution, DrawnSample, FileSolution, Files, SampleCertificate};
 use taut::oblivious::sample;
 

@@ -10,13 +10,13 @@ use self::judge::{Problem, judge};
 use crate::Error;
 use crate::centers::{CentersMethod, CentersOptions, solve};
 
-fn ask(problem: &Problem<'_>, options: &CentersOptions) -> Result<Solution<Centers>, Error> {
+fn ask(problem: &Problem<'_>, options: &CentersOptions<'_>) -> Result<Solution<Centers>, Error> {
     let points = Points::new(problem.values, problem.columns).unwrap();
     options.check(problem.k)?;
     solve(&points, problem.items, problem.k, options, &Monitor::silent())
 }
 
-fn exact(problem: &Problem<'_>) -> CentersOptions {
+fn exact(problem: &Problem<'_>) -> CentersOptions<'static> {
     CentersOptions {
         epsilon: 0.0,
         weights: problem.weights,

@@ -1,10 +1,11 @@
 //! Small balls prove themselves.
 
+use taut_certify::Items;
 use taut_points::{Distribution, Points, generate};
 
 use super::super::items::{ItemSet, Position, Shape, distance};
 use super::{Ball, Workspace};
-use crate::{BallOptions, ball, ball_of_balls};
+use crate::{BallOptions, ball};
 
 /// Optimal by its own proof: all items are inside, and no smaller ball holds the support.
 fn judge<P: Position>(items: &ItemSet<P>, tolerance: f64, what: &str) -> f64 {
@@ -47,7 +48,10 @@ fn all_shapes<P: Position>(values: &[f64], extras: &[f64], dim: usize, tolerance
                 let rows: Vec<f64> = (values.chunks_exact(dim).zip(extras))
                     .flat_map(|(row, &r)| row.iter().copied().chain([r]))
                     .collect();
-                ball_of_balls(&Points::new(&rows, dim + 1).unwrap(), &options)
+                ball(
+                    &Points::new(&rows, dim + 1).unwrap(),
+                    &BallOptions { inputs: Items::Balls, ..options.clone() },
+                )
             }
             Shape::Weighted => continue,
         };

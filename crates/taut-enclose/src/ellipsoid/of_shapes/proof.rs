@@ -25,7 +25,7 @@ impl Base {
         shapes: &Shapes,
         best: Best,
         mut trace: Trace,
-        options: &EllipsoidOptions,
+        options: &EllipsoidOptions<'_>,
     ) -> Result<Solution<Ellipsoid>, Error> {
         let rank = self.rank;
         let center = self.back(&best.center);

@@ -39,7 +39,7 @@ impl Base {
     pub(super) fn solve(
         &self,
         shapes: &Shapes,
-        options: &EllipsoidOptions,
+        options: &EllipsoidOptions<'_>,
         monitor: &Monitor<'_>,
     ) -> Result<Solution<Ellipsoid>, Error> {
         let framed = Framed::of(shapes, Map { matrix: &self.matrix, center: &self.center });

@@ -129,7 +129,7 @@ pub fn judge(
     values: &[f64],
     columns: usize,
     k: usize,
-    options: &CentersOptions,
+    options: &CentersOptions<'_>,
     found: &Solution<Centers>,
 ) -> Result<(), String> {
     let (answer, certificate) = (&found.answer, &found.certificate);

@@ -1,8 +1,8 @@
 //! Items and options made of any bytes: centres are found, and judged by the checker. Shared with the fuzz target.
 
 use taut_certify::{Items, Placement};
-use taut_enclose::{CentersMethod, CentersOptions, Error, centers_of_source};
-use taut_points::{InputError, Monitor, Points};
+use taut_enclose::{CentersMethod, CentersOptions, CoverOptions, Error, centers};
+use taut_points::{InputError, Points};
 
 /// A case has at most this many rows: more are solved as well, but each case should take a moment.
 const ROWS_MAX: usize = 24;
@@ -29,7 +29,7 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
         3 if !weights => (Placement::Free, 0, CentersMethod::Thesis),
         4 => (Placement::Free, 0, CentersMethod::FarthestFirst),
         5 if (items, weights) == (Items::Points, false) => {
-            (Placement::Free, 0, CentersMethod::Stream)
+            (Placement::Free, 0, CentersMethod::Stream(CoverOptions::DEFAULT))
         }
         _ => (Placement::Free, 0, CentersMethod::Tree),
     };
@@ -53,10 +53,11 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
         outliers,
         weights,
         max_nodes: if wish & 128 == 0 { 20_000 } else { 50 },
-        assignment: method != CentersMethod::Stream,
-        threads: None,
+        assignment: !matches!(method, CentersMethod::Stream(_)),
+        inputs: items,
+        ..CentersOptions::default()
     };
-    match centers_of_source(&points, items, k, &options, &Monitor::silent()) {
+    match centers(&points, k, &options) {
         Ok(found) => {
             found.check(&points).unwrap_or_else(|error| panic!("{error}\n{values:?}\n{found:?}"));
             assert!(

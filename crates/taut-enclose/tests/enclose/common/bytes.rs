@@ -1,8 +1,8 @@
 //! Points, balls and options made of any bytes: solved, and judged by the checker. Shared with the fuzz target.
 
 use taut_certify::Items;
-use taut_enclose::{BallOptions, Error, ball_of_source};
-use taut_points::{InputError, Monitor, Points};
+use taut_enclose::{BallOptions, Error, ball};
+use taut_points::{InputError, Points};
 
 /// The first byte chooses dimension, kind and batch; the rest are coordinates, as the bits of `f64` or as small
 /// integers, which bring ties and copies.
@@ -26,7 +26,7 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
     }
     let points = Points::new(&values, columns).expect("whole rows were kept");
     let options = BallOptions { epsilon: 0.0, batch, ..BallOptions::default() };
-    match ball_of_source(&points, items, &options, &Monitor::silent()) {
+    match ball(&points, &BallOptions { inputs: items, ..options.clone() }) {
         Ok(found) => {
             found.check(&points).unwrap_or_else(|error| panic!("{error}\n{values:?}\n{found:?}"));
         }

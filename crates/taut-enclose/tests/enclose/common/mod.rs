@@ -7,7 +7,7 @@
 pub mod families;
 
 use taut_certify::{AnySolution, Ball, Items, Solution};
-use taut_enclose::{BallOptions, ball, ball_of_balls};
+use taut_enclose::{BallOptions, ball};
 use taut_points::Points;
 
 /// A number as the unevaluated sum of two: about 106 bits.
@@ -221,7 +221,7 @@ pub fn exact_with(
     values: &[f64],
     dim: usize,
     gap: f64,
-    options: &BallOptions,
+    options: &BallOptions<'_>,
 ) -> Solution<Ball> {
     let found = ball(&Points::new(values, dim).unwrap(), options)
         .unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -239,8 +239,11 @@ pub fn exact_with(
 /// The exact ball of balls, judged.
 pub fn exact_of_balls(name: &str, values: &[f64], columns: usize, gap: f64) -> Solution<Ball> {
     let options = BallOptions { epsilon: 0.0, ..Default::default() };
-    let found = ball_of_balls(&Points::new(values, columns).unwrap(), &options)
-        .unwrap_or_else(|error| panic!("{name}: {error}"));
+    let found = ball(
+        &Points::new(values, columns).unwrap(),
+        &BallOptions { inputs: Items::Balls, ..options.clone() },
+    )
+    .unwrap_or_else(|error| panic!("{name}: {error}"));
     let proof = judge(values, columns, &found).unwrap_or_else(|error| panic!("{name}: {error}"));
     assert!(
         proof.gap <= gap && found.certificate.gap <= gap,

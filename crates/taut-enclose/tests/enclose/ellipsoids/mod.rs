@@ -6,12 +6,12 @@ use taut_enclose::{EllipsoidMethod, EllipsoidOptions, ellipsoid};
 use taut_points::{Distribution, Points, generate};
 
 /// Options for a gap.
-pub fn within(epsilon: f64) -> EllipsoidOptions {
+pub fn within(epsilon: f64) -> EllipsoidOptions<'static> {
     EllipsoidOptions { epsilon, ..Default::default() }
 }
 
 /// Options for a method and a gap.
-pub fn by(method: EllipsoidMethod, epsilon: f64) -> EllipsoidOptions {
+pub fn by(method: EllipsoidMethod, epsilon: f64) -> EllipsoidOptions<'static> {
     EllipsoidOptions { epsilon, method, ..Default::default() }
 }
 
@@ -20,7 +20,7 @@ pub fn solve(
     name: &str,
     values: &[f64],
     dim: usize,
-    options: &EllipsoidOptions,
+    options: &EllipsoidOptions<'_>,
 ) -> Solution<Ellipsoid> {
     let points = Points::new(values, dim).unwrap();
     let found = ellipsoid(&points, options).unwrap_or_else(|error| panic!("{name}: {error}"));

@@ -6,7 +6,7 @@ use taut_enclose::{RobustOptions, robust_ellipsoid};
 use taut_points::{Distribution, Monitor, Points, generate};
 
 /// Options for a method.
-pub fn by(method: RobustMethod) -> RobustOptions {
+pub fn by(method: RobustMethod) -> RobustOptions<'static> {
     RobustOptions { method, ..Default::default() }
 }
 
@@ -15,7 +15,7 @@ pub fn solve(
     name: &str,
     values: &[f64],
     dim: usize,
-    options: &RobustOptions,
+    options: &RobustOptions<'_>,
 ) -> Solution<RobustEllipsoid> {
     let points = Points::new(values, dim).unwrap();
     let found = robust_ellipsoid(&points, options).unwrap_or_else(|e| panic!("{name}: {e}"));

@@ -28,7 +28,7 @@ use taut_points::Monitor;
 
 use super::answer::Outcome;
 use super::cloud::Cloud;
-use super::{CurveMethod, CurveOptions, clean, tour};
+use super::{CurveMethod, CurveOptions, CurveThesisOptions, clean, tour};
 use crate::Error;
 use coarse::coarse;
 use crude::crude;
@@ -58,14 +58,14 @@ struct Start {
 }
 
 impl Start {
-    fn of(cloud: &Cloud, options: &CurveOptions, monitor: &Monitor<'_>) -> Result<Self, Error> {
+    fn of(cloud: &Cloud, how: &CurveThesisOptions, monitor: &Monitor<'_>) -> Result<Self, Error> {
         let scale = Scale::of(&cloud.sites);
         let samples: Vec<[f64; 2]> =
             cloud.sites.iter().map(|site| site.map(|x| scale.down(x))).collect();
         let disks = Disks::over(&samples);
-        let count = first_count(samples.len(), options.omega);
+        let count = first_count(samples.len(), how.omega);
         let radii = each(samples.len(), monitor, |s| disks.radius(s, count))?;
-        let unit = match options.feature {
+        let unit = match how.feature {
             Some(feature) => scale.down(feature),
             None => feature::least_feature(&disks, &radii, monitor)?,
         };
@@ -120,13 +120,14 @@ impl Start {
 /// The curve through pruned centres.
 pub(super) fn thesis(
     cloud: &Cloud,
-    options: &CurveOptions,
+    how: &CurveThesisOptions,
+    options: &CurveOptions<'_>,
     monitor: &Monitor<'_>,
 ) -> Result<Outcome, Error> {
-    let start = Start::of(cloud, options, monitor)?;
+    let start = Start::of(cloud, how, monitor)?;
     let unit = start.unit;
     let (estimates, outliers) = start.estimates(monitor, |disk, initial| {
-        let coarse = coarse(disk, initial, initial.max(unit), options.rho)?;
+        let coarse = coarse(disk, initial, initial.max(unit), how.rho)?;
         let width = (initial * unit).sqrt().min(coarse.radius / 3.0);
         let rectangle = refined(disk.within(coarse.radius), coarse.strip, width);
         Some(Estimate { center: rectangle.center, width, height: rectangle.height, way: 0.0 })
@@ -153,12 +154,13 @@ pub(super) fn thesis(
 /// The tour through all crude centres.
 pub(super) fn thesis_crude(
     cloud: &Cloud,
-    options: &CurveOptions,
+    how: &CurveThesisOptions,
+    options: &CurveOptions<'_>,
     monitor: &Monitor<'_>,
 ) -> Result<Outcome, Error> {
-    let start = Start::of(cloud, options, monitor)?;
+    let start = Start::of(cloud, how, monitor)?;
     let (estimates, outliers) = start.estimates(monitor, |disk, initial| {
-        let found = crude(disk, initial, initial.max(start.unit), options.rho)?;
+        let found = crude(disk, initial, initial.max(start.unit), how.rho)?;
         Some(Estimate { center: found.center, width: 0.0, height: found.height, way: 0.0 })
     })?;
     let mut outcome = tour::tour(&Cloud::of(&start.up(&estimates)), options, monitor)?;

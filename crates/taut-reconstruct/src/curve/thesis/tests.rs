@@ -21,19 +21,25 @@ impl Draw {
     }
 }
 
-const METHODS: [CurveMethod; 2] = [CurveMethod::Thesis, CurveMethod::ThesisCrude];
+const METHODS: [fn(CurveThesisOptions) -> CurveMethod; 2] =
+    [CurveMethod::Thesis, CurveMethod::ThesisCrude];
 
-fn found(points: &[[f64; 2]], options: &CurveOptions) -> taut_certify::Curve {
+fn found(points: &[[f64; 2]], options: &CurveOptions<'_>) -> taut_certify::Curve {
     let view = Points::new(points.as_flattened(), 2).expect("pairs");
     curve(&view, options).expect("finite points").answer
 }
 
-fn with(method: CurveMethod) -> CurveOptions {
+fn with(method: CurveMethod) -> CurveOptions<'static> {
     CurveOptions { method, ..CurveOptions::default() }
 }
 
+/// The options of the methods, with a local feature size that is known or not.
+fn of(feature: Option<f64>) -> CurveThesisOptions {
+    CurveThesisOptions { feature, ..CurveThesisOptions::default() }
+}
+
 /// Samples with δ = 1/144, and what is found of them.
-fn measured(name: &str, n: usize, seed: u64, options: &CurveOptions) -> Quality {
+fn measured(name: &str, n: usize, seed: u64, options: &CurveOptions<'_>) -> Quality {
     let truth = TestCurve::named(name).expect("a name").build();
     let noise = CurveNoise { delta: 1.0 / 144.0, ..CurveNoise::default() };
     let sample = sample_curve(&truth, n, &noise, seed);
@@ -59,8 +65,7 @@ fn curves_within_the_theorem_are_found() {
         [("circle", 5027, 2e-3), ("ellipse3", 8000, 3e-3), ("flower5", 15_000, 4e-3)]
     {
         for feature in [Some(1.0), None] {
-            let quality =
-                measured(name, n, 1, &CurveOptions { feature, ..with(CurveMethod::Thesis) });
+            let quality = measured(name, n, 1, &with(CurveMethod::Thesis(of(feature))));
             assert!(quality.topology_right(), "{name} {feature:?} {quality:?}");
             assert!(quality.vertex_rms < rms, "{name} {feature:?} {quality:?}");
         }
@@ -69,7 +74,7 @@ fn curves_within_the_theorem_are_found() {
 
 #[test]
 fn crude_centers_lie_near_the_curve() {
-    let quality = measured("circle", 1000, 1, &with(CurveMethod::ThesisCrude));
+    let quality = measured("circle", 1000, 1, &with(CurveMethod::ThesisCrude(of(None))));
     // Below the noise, whose root mean square is δ/√3 = 4.0e-3.
     assert!(quality.vertex_rms < 4.0e-3 && quality.loops_found == 1, "{quality:?}");
 }
@@ -90,7 +95,7 @@ fn degenerate_points() {
     for points in &sets {
         for method in METHODS {
             for feature in [None, Some(1.0), Some(1e-300), Some(1e300)] {
-                let answer = found(points, &CurveOptions { feature, ..with(method) });
+                let answer = found(points, &with(method(of(feature))));
                 let finite = |c: &taut_certify::CurveComponent| {
                     c.vertices.iter().flatten().all(|x| x.is_finite())
                 };
@@ -98,12 +103,12 @@ fn degenerate_points() {
             }
         }
     }
-    let line = found(&sets[5], &with(CurveMethod::Thesis));
+    let line = found(&sets[5], &with(CurveMethod::Thesis(of(None))));
     assert!(line.curves.len() == 1 && !line.curves[0].closed && line.noise < 1e-12, "{line:?}");
     // Noise alone has no flat disk.
     let mut draw = Draw(3);
     let blob: Vec<[f64; 2]> = (0..300).map(|_| [draw.next(), draw.next()]).collect();
-    let answer = found(&blob, &CurveOptions { feature: Some(0.2), ..with(CurveMethod::Thesis) });
+    let answer = found(&blob, &with(CurveMethod::Thesis(of(Some(0.2)))));
     assert!(answer.outliers.len() > 150);
 }
 
@@ -114,18 +119,18 @@ fn answers_follow_their_input() {
     let sample = sample_curve(&truth, 4000, &noise, 5);
     let points: Vec<[f64; 2]> = sample.points.chunks_exact(2).map(|p| [p[0], p[1]]).collect();
     for method in METHODS {
-        let plain = found(&points, &with(method));
+        let plain = found(&points, &with(method(of(None))));
         let same = |points: &[[f64; 2]], threads| {
-            found(points, &CurveOptions { threads, ..with(method) }) == plain
+            found(points, &CurveOptions { threads, ..with(method(of(None))) }) == plain
         };
         let backwards: Vec<[f64; 2]> = points.iter().rev().copied().collect();
         assert!(same(&points, Some(1)) && same(&points, Some(3)));
-        let back = found(&backwards, &with(method));
+        let back = found(&backwards, &with(method(of(None))));
         assert_eq!((&back.curves, back.noise), (&plain.curves, plain.noise));
         let twice: Vec<[f64; 2]> = points.iter().chain(&points).copied().collect();
-        assert_eq!(found(&twice, &with(method)).curves, plain.curves);
+        assert_eq!(found(&twice, &with(method(of(None)))).curves, plain.curves);
         let doubled: Vec<[f64; 2]> = points.iter().map(|p| p.map(|x| x * 1024.0)).collect();
-        let big = found(&doubled, &with(method));
+        let big = found(&doubled, &with(method(of(None))));
         assert_eq!(big.noise, plain.noise * 1024.0);
         for (a, b) in big.curves.iter().zip(&plain.curves) {
             assert_eq!(
@@ -140,10 +145,10 @@ fn answers_follow_their_input() {
         [&|p| p.map(|x| x * 1e-6), &|[x, y]| [cos * x - sin * y, sin * x + cos * y], &|[x, y]| {
             [x + 3e4, y - 1e4]
         }];
-    let plain = found(&points, &with(CurveMethod::Thesis));
+    let plain = found(&points, &with(CurveMethod::Thesis(of(None))));
     for (number, map) in moves.iter().enumerate() {
         let moved: Vec<[f64; 2]> = points.iter().map(|&p| map(p)).collect();
-        let answer = found(&moved, &with(CurveMethod::Thesis));
+        let answer = found(&moved, &with(CurveMethod::Thesis(of(None))));
         let size = |curves: &[taut_certify::CurveComponent]| -> Vec<(bool, usize)> {
             let mut sizes: Vec<(bool, usize)> =
                 curves.iter().map(|c| (c.closed, c.vertices.len())).collect();

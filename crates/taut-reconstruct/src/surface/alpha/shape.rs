@@ -61,7 +61,7 @@ pub struct AlphaShape {
 /// use taut_reconstruct::alpha::alpha_shape;
 /// let corners = [0., 0., 0., 2., 0., 0., 0., 2., 0., 0., 0., 2.];
 /// let points = Points::new(&corners, 3)?;
-/// let space = Space::build(&points, &DelaunayOptions::default(), &Monitor::silent())?;
+/// let space = Space::build(&points, &DelaunayOptions::default())?;
 /// let root = 3f64.sqrt();                                          // the circumradius, rounded down
 /// assert_eq!(alpha_shape(&space, root.next_up())?.regular.len(), 4);
 /// assert_eq!(alpha_shape(&space, root)?.singular.len(), 3);        // the largest facet comes with the cell

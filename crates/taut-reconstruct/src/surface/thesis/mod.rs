@@ -76,7 +76,11 @@ pub fn thesis_surface_of_points<T: Scalar>(
     monitor: &Monitor<'_>,
 ) -> Result<(Space, ThesisSurface), Error> {
     options.checked()?;
-    let how = DelaunayOptions { threads: options.threads, ..Default::default() };
+    let how = DelaunayOptions {
+        threads: options.threads,
+        monitor: *monitor,
+        ..DelaunayOptions::default()
+    };
     let space = match options.joggle {
         // Only points that a triangulation would accept are moved.
         Some(seed) if points.dim() == 3 && first_not_finite(points).is_none() => {
@@ -85,9 +89,9 @@ pub fn thesis_surface_of_points<T: Scalar>(
                 .collect();
             let moved = joggle::joggle(&given, seed);
             let moved = Points::new(moved.as_flattened(), 3).expect("three coordinates each");
-            Space::build(&moved, &how, monitor)?
+            Space::build(&moved, &how)?
         }
-        _ => Space::build(points, &how, monitor)?,
+        _ => Space::build(points, &how)?,
     };
     let surface = thesis_surface(&space, options, monitor)?;
     Ok((space, surface))

@@ -2,13 +2,13 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-use taut_points::{InputError, check_threads, shown_number};
+use taut_points::{InputError, check_threads, choice, shown_number};
 
 use crate::Error;
 use crate::surface::filter::{AlphaFilter, Emptiness, Filter};
 
 /// How to grow the surface; [`Default`] is the thesis' choice. Write `ThesisOptions { epsilon: 1e-3, ..Default::default() }`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThesisOptions {
     /// By how much the equatorial sphere of a facet is shrunk before it has to be empty, relative to its radius. Range [0, 1), default
     /// 2e-5.
@@ -53,6 +53,7 @@ impl Default for ThesisOptions {
 
 /// Which triangle the front adds first, and which of those at an edge it likes best: the one with the least.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Priority {
     /// Distance of its circumcentre from that of the triangle at the edge, as the thesis' program has it.
     #[default]
@@ -63,19 +64,12 @@ pub enum Priority {
     EmptyBall,
 }
 
-impl Priority {
-    /// All of them, with their names on the command line.
-    pub const NAMES: [(&'static str, Self); 3] = [
-        ("circumcentre-distance", Self::CircumcentreDistance),
-        ("circumradius", Self::Circumradius),
-        ("empty-ball", Self::EmptyBall),
-    ];
-
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        Self::NAMES.iter().find(|(_, priority)| *priority == self).map_or("", |(name, _)| name)
-    }
-}
+choice! { "priority", Priority {
+    CircumcentreDistance = "circumcentre-distance",
+        "a circumcentre near that of the triangle before";
+    Circumradius = "circumradius", "a small circle";
+    EmptyBall = "empty-ball", "a small empty ball";
+}}
 
 /// When to stop.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

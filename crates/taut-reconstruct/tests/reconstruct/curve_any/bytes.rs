@@ -2,7 +2,7 @@
 
 use taut_certify::{Curve, Solution};
 use taut_points::Points;
-use taut_reconstruct::{CurveMethod, CurveOptions, Ends, Error, curve};
+use taut_reconstruct::{CurveMethod, CurveOptions, CurveThesisOptions, Ends, Error, curve};
 
 /// Most points: small sets are the degenerate ones, and fast.
 const POINTS_MAX: usize = 64;
@@ -42,31 +42,37 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
         .enumerate()
         .map(|(place, &pair)| point(pair, *style, place))
         .collect();
+    let thesis = CurveThesisOptions {
+        rho: if wish & 4 == 0 { 4.0 } else { 1.0 },
+        omega: if wish & 8 == 0 { 0.1 } else { 1.0 },
+        feature: if wish & 16 == 0 { None } else { Some(0.25) },
+    };
+    let methods = CurveMethod::ALL.map(|method| match method {
+        CurveMethod::Thesis(_) => CurveMethod::Thesis(thesis),
+        CurveMethod::ThesisCrude(_) => CurveMethod::ThesisCrude(thesis),
+        other => other,
+    });
     let options = |method| CurveOptions {
         method,
         ends: if wish & 1 == 0 { Ends::Auto } else { Ends::Open },
         places: wish & 2 != 0,
-        rho: if wish & 4 == 0 { 4.0 } else { 1.0 },
-        omega: if wish & 8 == 0 { 0.1 } else { 1.0 },
-        feature: if wish & 16 == 0 { None } else { Some(0.25) },
-        threads: None,
+        ..CurveOptions::default()
     };
-    let forth: Vec<_> =
-        CurveMethod::NAMES.iter().map(|&(_, method)| solved(&points, &options(method))).collect();
+    let forth: Vec<_> = methods.iter().map(|&method| solved(&points, &options(method))).collect();
     points.reverse();
-    for (found, (name, method)) in forth.iter().zip(CurveMethod::NAMES) {
+    for (found, method) in forth.iter().zip(methods) {
         let Some(found) = found else { continue };
         let again = solved(&points, &options(method)).expect("it was solved the other way round");
         let shape = |found: &Solution<Curve>| {
             let curves = found.answer.curves.iter();
             curves.map(|curve| (curve.vertices.clone(), curve.closed)).collect::<Vec<_>>()
         };
-        assert_eq!(shape(found), shape(&again), "{name}: {points:?}");
+        assert_eq!(shape(found), shape(&again), "{method}: {points:?}");
     }
 }
 
 /// The answer, judged; `None` where coordinates are too large for a method.
-fn solved(points: &[[f64; 2]], options: &CurveOptions) -> Option<Solution<Curve>> {
+fn solved(points: &[[f64; 2]], options: &CurveOptions<'_>) -> Option<Solution<Curve>> {
     let view = Points::new(points.as_flattened(), 2).expect("whole rows");
     match curve(&view, options) {
         Ok(found) => {

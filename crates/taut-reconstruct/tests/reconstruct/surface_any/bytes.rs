@@ -3,7 +3,9 @@
 use taut_certify::{Solution, Surface};
 use taut_points::Points;
 use taut_reconstruct::thesis::{AlphaFilter, Extent, Pinches, Priority, ThesisOptions};
-use taut_reconstruct::{Denoise, Error, SurfaceMethod, SurfaceMode, SurfaceOptions, surface};
+use taut_reconstruct::{
+    Denoise, Error, HullOptions, SurfaceMethod, SurfaceMode, SurfaceOptions, surface,
+};
 
 /// Most points: small sets are the degenerate ones, and fast.
 const POINTS_MAX: usize = 40;
@@ -56,16 +58,19 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
         pinches: if chosen(8) { Pinches::Peel } else { Pinches::Keep },
         ..ThesisOptions::default()
     };
-    let options = |method, mode| SurfaceOptions {
+    let hull = HullOptions { alpha: thesis.alpha, ..HullOptions::default() };
+    let methods = [
+        SurfaceMethod::Tree(SurfaceMode::Open),
+        SurfaceMethod::Tree(SurfaceMode::Closed),
+        SurfaceMethod::Thesis(thesis),
+        SurfaceMethod::Alpha(chosen(16).then_some(1.0)),
+        SurfaceMethod::Hull(hull),
+    ];
+    let all = methods.map(|method| SurfaceOptions {
         method,
-        mode,
-        alpha: chosen(16).then_some(1.0),
-        thesis: thesis.clone(),
         denoise: chosen(32).then(|| Denoise { neighbors: 5, ..Denoise::default() }),
-        threads: None,
-    };
-    let mut all = vec![options(SurfaceMethod::Tree, SurfaceMode::Open)];
-    all.extend(SurfaceMethod::ALL.map(|method| options(method, SurfaceMode::Closed)));
+        ..SurfaceOptions::default()
+    });
     let forth: Vec<_> = all.iter().map(|options| solved(&points, options)).collect();
     points.reverse();
     let last = points.len().saturating_sub(1) as u32;
@@ -92,7 +97,7 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
 }
 
 /// The answer, judged; `None` where there is no space between the points, or too much.
-fn solved(points: &[[f64; 3]], options: &SurfaceOptions) -> Option<Solution<Surface>> {
+fn solved(points: &[[f64; 3]], options: &SurfaceOptions<'_>) -> Option<Solution<Surface>> {
     let view = Points::new(points.as_flattened(), 3).expect("whole rows");
     match surface(&view, options) {
         Ok(found) => {

@@ -35,7 +35,7 @@ pub(crate) fn closed(points: &[Point]) -> Found {
 }
 
 /// The surface through points, by these options, once it has passed what any must pass.
-pub(crate) fn found(points: &[Point], options: &SurfaceOptions) -> Found {
+pub(crate) fn found(points: &[Point], options: &SurfaceOptions<'_>) -> Found {
     let view = Points::new(points.as_flattened(), 3).expect("whole rows");
     let solution = surface(&view, options).expect("points that span space");
     let answer = &solution.answer;

@@ -1,7 +1,7 @@
 //! Balls around points, balls and ellipsoids.
 
 use taut::enclose::BallMethod;
-use taut::{BallOptions, Items, Monitor, ball_of_source};
+use taut::{BallOptions, Items, ball};
 
 use super::{Case, Input, Solved, cases, clouds, document};
 
@@ -117,8 +117,8 @@ fn solve(input: &Input, items: Items) -> Vec<Solved> {
     ];
     ways.into_iter()
         .map(|(way, options)| {
-            let found =
-                input.with(|source| ball_of_source(source, items, &options, &Monitor::silent()));
+            let found = input
+                .with(|source| ball(source, &BallOptions { inputs: items, ..options.clone() }));
             (way.to_owned(), found.ok().map(|found| document(&found)))
         })
         .collect()

@@ -1,8 +1,9 @@
 //! Few centers of few rows: anywhere or at rows, with outliers, weights and assignments.
 
 use serde_json::{Value, json};
-use taut::enclose::CentersMethod;
-use taut::{CentersOptions, Items, Monitor, Placement, centers_of_source};
+use taut::certify::Placement;
+use taut::enclose::CoverOptions;
+use taut::{CentersMethod, CentersOptions, Items, Monitor, centers};
 
 use super::{Case, Input, Solved, cases, clouds, document};
 
@@ -91,13 +92,18 @@ fn solve(input: &Input, items: Items, weights: bool) -> Vec<Solved> {
         ("two of the rows", 2, rows),
         ("one of the rows, without two", 1, CentersOptions { outliers: 2, ..rows }),
         ("two, one by one", 2, CentersOptions { method: CentersMethod::FarthestFirst, ..base }),
-        ("two of a stream", 2, CentersOptions { method: CentersMethod::Stream, ..base }),
+        (
+            "two of a stream",
+            2,
+            CentersOptions { method: CentersMethod::Stream(CoverOptions::DEFAULT), ..base },
+        ),
     ];
     ways.into_iter()
         .map(|(way, k, options)| {
             let monitor = Monitor::silent();
-            let found =
-                input.with(|source| centers_of_source(source, items, k, &options, &monitor));
+            let found = input.with(|source| {
+                centers(source, k, &CentersOptions { inputs: items, monitor, ..options })
+            });
             (format!("{way} centers"), found.ok().map(|found| document(&found)))
         })
         .collect()

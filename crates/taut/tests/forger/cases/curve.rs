@@ -1,6 +1,7 @@
 //! Curves and tours through few points of the plane.
 
-use taut::{CurveMethod, CurveOptions, Ends, Monitor, curve_of_source};
+use taut::reconstruct::Ends;
+use taut::{CurveMethod, CurveOptions, curve};
 
 use super::{Case, Input, Solved, cases, clouds, document};
 
@@ -59,7 +60,7 @@ fn solve(input: &Input) -> Vec<Solved> {
     ];
     ways.into_iter()
         .map(|(way, options)| {
-            let found = input.with(|source| curve_of_source(source, &options, &Monitor::silent()));
+            let found = input.with(|source| curve(source, &options));
             (way.to_owned(), found.ok().map(|found| document(&found)))
         })
         .collect()

@@ -1,7 +1,7 @@
 //! Ellipsoids around points, balls and ellipsoids.
 
 use taut::enclose::EllipsoidMethod;
-use taut::{EllipsoidOptions, Items, Monitor, ellipsoid_of_items};
+use taut::{EllipsoidOptions, Items, Monitor, ellipsoid};
 
 use super::{Case, Input, Solved, ball, cases, clouds, document, hand};
 
@@ -69,7 +69,9 @@ fn solve(input: &Input, items: Items) -> Vec<Solved> {
     ways.into_iter()
         .map(|(way, options)| {
             let monitor = Monitor::silent();
-            let found = input.with(|source| ellipsoid_of_items(source, items, &options, &monitor));
+            let found = input.with(|source| {
+                ellipsoid(source, &EllipsoidOptions { inputs: items, monitor, ..options.clone() })
+            });
             (way.to_owned(), found.ok().map(|found| document(&found)))
         })
         .collect()

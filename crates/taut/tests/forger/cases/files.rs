@@ -1,11 +1,12 @@
 //! Files sorted, transposed and drawn, as bytes in memory.
 
 use serde_json::Value;
+use taut::Monitor;
+use taut::certify::Trace;
 use taut::certify::{DrawnSample, FileSolution, Files, SampleCertificate};
 use taut::files::{StoredMatrix, sorted, transposed};
 use taut::oblivious::external::{FileSortOptions, KeyKind, RecordLayout, sort_file};
 use taut::oblivious::{TransposeFileOptions, sample, transpose_file};
-use taut::{Monitor, Trace};
 
 use crate::random::Random;
 

@@ -1,6 +1,6 @@
 //! Ellipsoids in polytopes.
 
-use taut::{InscribedOptions, Monitor, enclose::inscribed_ellipsoid_of_source};
+use taut::{InscribedOptions, Monitor, inscribed_ellipsoid};
 
 use super::{Case, Input, Solved, cases, document};
 
@@ -96,8 +96,9 @@ fn solve(input: &Input) -> Vec<Solved> {
     ways.into_iter()
         .map(|(way, options)| {
             let monitor = Monitor::silent();
-            let found =
-                input.with(|source| inscribed_ellipsoid_of_source(source, &options, &monitor));
+            let found = input.with(|source| {
+                inscribed_ellipsoid(source, &InscribedOptions { monitor, ..options.clone() })
+            });
             (way.to_owned(), found.ok().map(|found| document(&found)))
         })
         .collect()

@@ -14,9 +14,10 @@ pub mod surface;
 pub mod triangulation;
 
 use serde_json::Value;
+use taut::certify::Answer;
 use taut::certify::CheckError;
 use taut::points::hash_points;
-use taut::{Answer, AnySolution, Monitor, PointSource, Points, Solution, certify::AnyVerdict};
+use taut::{AnySolution, Monitor, PointSource, Points, Solution, certify::AnyVerdict};
 
 /// Rows of one input.
 #[derive(Clone, Debug)]

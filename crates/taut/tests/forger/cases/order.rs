@@ -1,6 +1,7 @@
 //! Points along curves.
 
-use taut::{Monitor, OrderCurve, spatial_order};
+use taut::certify::OrderCurve;
+use taut::{OrderOptions, spatial_order};
 
 use super::{Case, Input, cases, clouds, document};
 
@@ -15,8 +16,9 @@ pub fn all() -> Vec<Case> {
             [OrderCurve::Hilbert, OrderCurve::Morton]
                 .into_iter()
                 .map(|curve| {
-                    let found =
-                        input.with(|source| spatial_order(source, curve, &Monitor::silent()));
+                    let found = input.with(|source| {
+                        spatial_order(source, &OrderOptions { curve, ..Default::default() })
+                    });
                     (format!("{curve:?}"), found.ok().map(|found| document(&found)))
                 })
                 .collect()

@@ -1,6 +1,6 @@
 //! Robust ellipsoids of few points.
 
-use taut::{Monitor, RobustMethod, RobustOptions, enclose::robust_ellipsoid_of_source};
+use taut::{Monitor, RobustMethod, RobustOptions, robust_ellipsoid};
 
 use super::{Case, Input, Solved, cases, clouds, document};
 
@@ -44,8 +44,9 @@ fn solve(input: &Input) -> Vec<Solved> {
         for (coverage, epsilon) in [(None, 1e-9), (Some(0.75), 1e-9), (None, 0.5)] {
             let options = RobustOptions { method, coverage, epsilon, ..Default::default() };
             let monitor = Monitor::silent();
-            let solution =
-                input.with(|source| robust_ellipsoid_of_source(source, &options, &monitor));
+            let solution = input.with(|source| {
+                robust_ellipsoid(source, &RobustOptions { monitor, ..options.clone() })
+            });
             let way = format!("{method:?} of {coverage:?}, {epsilon}");
             found.push((way, solution.ok().map(|solution| document(&solution))));
         }

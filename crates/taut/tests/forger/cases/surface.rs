@@ -1,7 +1,9 @@
 //! Surfaces through few points of space.
 
 use serde_json::{Value, json};
-use taut::{Monitor, SurfaceMethod, SurfaceMode, SurfaceOptions, surface_of_source};
+use taut::reconstruct::thesis::ThesisOptions;
+use taut::reconstruct::{HullOptions, SurfaceMode};
+use taut::{SurfaceMethod, SurfaceOptions, surface};
 
 use super::{Case, Input, Solved, cases, clouds, document};
 
@@ -108,15 +110,14 @@ fn solve(input: &Input) -> Vec<Solved> {
     let with = |method| SurfaceOptions { method, ..base.clone() };
     let ways = [
         ("tree", base.clone()),
-        ("open", SurfaceOptions { mode: SurfaceMode::Open, ..base.clone() }),
-        ("thesis", with(SurfaceMethod::Thesis)),
-        ("alpha", with(SurfaceMethod::Alpha)),
-        ("hull", with(SurfaceMethod::Hull)),
+        ("open", with(SurfaceMethod::Tree(SurfaceMode::Open))),
+        ("thesis", with(SurfaceMethod::Thesis(ThesisOptions::default()))),
+        ("alpha", with(SurfaceMethod::Alpha(None))),
+        ("hull", with(SurfaceMethod::Hull(HullOptions::default()))),
     ];
     ways.into_iter()
         .map(|(way, options)| {
-            let found =
-                input.with(|source| surface_of_source(source, &options, &Monitor::silent()));
+            let found = input.with(|source| surface(source, &options));
             (way.to_owned(), found.ok().map(|found| document(&found)))
         })
         .collect()

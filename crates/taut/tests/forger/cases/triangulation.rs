@@ -1,6 +1,6 @@
 //! Delaunay triangulations in the plane and in space.
 
-use taut::{DelaunayOptions, Monitor, delaunay_of_source};
+use taut::{DelaunayOptions, delaunay};
 
 use super::{Case, cases, clouds, document};
 
@@ -10,8 +10,7 @@ pub fn all() -> Vec<Case> {
     for (dim, count) in [(2, 14), (3, 10)] {
         found.extend(cases(clouds::points(dim, count), |input| {
             let options = DelaunayOptions::default();
-            let found =
-                input.with(|source| delaunay_of_source(source, &options, &Monitor::silent()));
+            let found = input.with(|source| delaunay(source, &options));
             vec![("delaunay".to_owned(), found.ok().map(|found| document(&found)))]
         }));
     }

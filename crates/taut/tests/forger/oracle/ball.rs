@@ -4,7 +4,8 @@
 //! decided exactly. Of rows that are ellipsoids no bracket is
 //! known here: the largest lower bound that was verified and the smallest ball must agree.
 
-use taut::{Ball, Items, Solution, Verdict};
+use taut::certify::{Ball, Verdict};
+use taut::{Items, Solution};
 
 use super::Truth;
 use super::dyadic::{Dyadic, exact, sum};

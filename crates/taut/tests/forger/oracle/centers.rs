@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use taut::certify::{Centers, CentersVerdict, Placement};
 use taut::certify::{CentersCertificate, LowerBound};
-use taut::{Centers, CentersVerdict, Items, Placement, Solution};
+use taut::{Items, Solution};
 
 use super::Truth;
 use super::ball::is_gap_granted;

@@ -15,9 +15,10 @@ mod planar;
 mod tests;
 mod tour;
 
+use taut::Solution;
+use taut::certify::Curve;
 use taut::certify::{CurveDoubt, CurveVerdict};
 use taut::points::{Monitor, Points, PointsHash, hash_points};
-use taut::{Curve, Solution};
 
 use self::lists::{apart, foot};
 use self::planar::{Point, is_within, segments_meet};

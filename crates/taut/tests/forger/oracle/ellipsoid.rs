@@ -15,7 +15,8 @@ mod tests;
 use std::sync::{Mutex, OnceLock};
 
 use taut::certify::Hull;
-use taut::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Items, Solution};
+use taut::certify::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict};
+use taut::{Items, Solution};
 
 use super::Truth;
 use super::body::{Body, Framed};

@@ -4,7 +4,7 @@
 //! offsets of points, off the hull by ρ = 32(d + 4)√(r + 1)·u of their length, and widths of bodies by √ρ of them. A set is flat if the
 //! distance stated is at most 1e-10 of its extent (1e-6 for ellipsoids, 1e-3·√d in single precision) and what rounding its coordinates explains.
 
-use taut::Ellipsoid;
+use taut::certify::Ellipsoid;
 use taut::certify::Hull;
 
 use super::body::Body;

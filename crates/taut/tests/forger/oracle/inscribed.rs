@@ -10,7 +10,8 @@ mod tests;
 
 use std::sync::OnceLock;
 
-use taut::{InscribedEllipsoid, InscribedVerdict, Solution};
+use taut::Solution;
+use taut::certify::{InscribedEllipsoid, InscribedVerdict};
 
 use super::Truth;
 use super::claims::Claims;

@@ -2,7 +2,8 @@
 
 use std::cmp::Ordering;
 
-use taut::{Order, OrderCurve, OrderVerdict, Solution};
+use taut::Solution;
+use taut::certify::{Order, OrderCurve, OrderVerdict};
 
 use super::Truth;
 

@@ -18,10 +18,10 @@ mod tests;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
 
-use taut::{
-    Ellipsoid, EllipsoidVerdict, Items, RobustCertificate, RobustEllipsoid, RobustMethod,
-    RobustVerdict, Solution,
+use taut::certify::{
+    Ellipsoid, EllipsoidVerdict, RobustCertificate, RobustEllipsoid, RobustVerdict,
 };
+use taut::{Items, RobustMethod, Solution};
 
 use self::moments::Moments;
 use self::passes::{distances, flags, rows, slack};

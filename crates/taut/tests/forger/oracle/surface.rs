@@ -16,9 +16,10 @@ mod tests;
 
 use std::sync::OnceLock;
 
+use taut::Solution;
+use taut::certify::Surface;
 use taut::certify::SurfaceVerdict;
 use taut::points::{Monitor, Points, PointsHash, hash_points};
-use taut::{Solution, Surface};
 
 use self::scene::Scene;
 use super::Truth;

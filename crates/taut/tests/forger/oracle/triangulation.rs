@@ -13,9 +13,10 @@ mod tests;
 
 use std::collections::HashMap;
 
+use taut::Solution;
+use taut::certify::Triangulation;
 use taut::certify::{NO_NEIGHBOR, TriangulationCounts, TriangulationVerdict};
 use taut::points::{Monitor, Points, PointsHash, hash_points};
-use taut::{Solution, Triangulation};
 
 use self::build::Delaunay;
 use super::Truth;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_3;
 
-use taut::Curve;
+use taut::certify::Curve;
 use taut::certify::CurveDoubt;
 
 use super::features::Course;

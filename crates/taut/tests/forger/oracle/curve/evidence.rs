@@ -2,8 +2,9 @@
 
 use std::collections::HashSet;
 
+use taut::Solution;
+use taut::certify::Curve;
 use taut::certify::{CurveDoubt, CurveVerdict};
-use taut::{Curve, Solution};
 
 use super::doubts::{Gaps, Scene};
 use super::lists::{apart, foot, is_exact, key};

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use taut::{Curve, CurveCertificate};
+use taut::certify::{Curve, CurveCertificate};
 
 use super::planar::Point;
 use super::{Edge, Judged, ensure};

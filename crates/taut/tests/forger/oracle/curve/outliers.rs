@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::f64::consts::PI;
 
-use taut::Curve;
+use taut::certify::Curve;
 
 use super::lists::key;
 use super::planar::Point;

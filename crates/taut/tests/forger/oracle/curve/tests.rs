@@ -1,7 +1,9 @@
 //! Honest curves and tours are true, doctored ones are not.
 
+use taut::certify::Curve;
 use taut::certify::{CurveDoubt, CurveVerdict, Place};
-use taut::{Curve, CurveMethod, CurveOptions, Ends, Points, Solution, curve};
+use taut::reconstruct::Ends;
+use taut::{CurveMethod, CurveOptions, Points, Solution, curve};
 
 use super::super::Truth;
 use super::super::numbers::numbers;
@@ -65,7 +67,7 @@ fn inputs() -> Vec<Vec<f64>> {
 fn solved(values: &[f64]) -> Vec<Judged> {
     let points = Points::new(values, 2).expect("rows");
     let mut found = vec![];
-    for (_, method) in CurveMethod::NAMES {
+    for method in CurveMethod::ALL {
         for ends in [Ends::Auto, Ends::Open] {
             let options = CurveOptions { method, ends, places: true, ..Default::default() };
             if let Ok(solution) = curve(&points, &options) {
@@ -155,7 +157,7 @@ fn doctored_curves_are_false() {
             }
         }),
         ("a place moved", |found, _| {
-            let is_long = |one: &&taut::CurveComponent| one.vertices.len() > 8;
+            let is_long = |one: &&taut::certify::CurveComponent| one.vertices.len() > 8;
             let one = found.answer.curves.first().filter(is_long);
             if let (Some(one), Some(place)) = (one, found.answer.places.first_mut()) {
                 let half = (one.vertices.len() / 2) as f64;
@@ -196,8 +198,9 @@ fn doctored_curves_are_false() {
             }
         }),
         ("a bound above the tour", |found, _| {
-            let length =
-                |one: &taut::CurveComponent| taut::certify::tour_length(&one.vertices, !one.closed);
+            let length = |one: &taut::certify::CurveComponent| {
+                taut::certify::tour_length(&one.vertices, !one.closed)
+            };
             let length = found.answer.curves.first().map_or(0.0, length);
             if let Some(bound) = found.certificate.tour.as_mut()
                 && length > 0.0

@@ -6,8 +6,9 @@
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
+use taut::Solution;
+use taut::certify::Curve;
 use taut::certify::CurveVerdict;
-use taut::{Curve, Solution};
 
 use super::super::lattice::{Lattice, difference, dot, parts};
 use super::lists::key;

@@ -2,11 +2,10 @@
 
 use std::f64::consts::PI;
 
+use taut::certify::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Trace};
+use taut::points::{Distribution, generate};
 use taut::points::{Monitor, hash_points};
-use taut::{
-    Distribution, Ellipsoid, EllipsoidCertificate, EllipsoidOptions, EllipsoidVerdict, Items,
-    Points, Solution, Trace, ellipsoid_of_items, generate,
-};
+use taut::{EllipsoidOptions, Items, Points, Solution, ellipsoid};
 
 use super::super::Truth;
 use super::{EllipsoidOracle, U};
@@ -24,7 +23,8 @@ impl Case {
     fn solved(values: Vec<f64>, columns: usize, items: Items) -> Self {
         let points = Points::new(&values, columns).unwrap();
         let options = EllipsoidOptions::default();
-        let solution = ellipsoid_of_items(&points, items, &options, &Monitor::silent()).unwrap();
+        let solution =
+            ellipsoid(&points, &EllipsoidOptions { inputs: items, ..options.clone() }).unwrap();
         let verdict = solution.check(&points).unwrap();
         Case { values, columns, items, solution, verdict }
     }

@@ -2,11 +2,10 @@
 
 use std::f64::consts::PI;
 
+use taut::certify::{InscribedCertificate, InscribedEllipsoid, InscribedVerdict, Trace};
+use taut::points::{Distribution, generate};
 use taut::points::{Monitor, hash_points};
-use taut::{
-    Distribution, InscribedCertificate, InscribedEllipsoid, InscribedOptions, InscribedVerdict,
-    Points, Solution, Trace, generate, inscribed_ellipsoid,
-};
+use taut::{InscribedOptions, Points, Solution, inscribed_ellipsoid};
 
 use super::super::Truth;
 use super::InscribedOracle;

@@ -5,7 +5,8 @@
 //! Van Aelst and Willems (Metrika 55, 2002) for small samples; by `mve` and `trim` (1 + 15/(n − r))²/q(h/(n + 1)) (Rousseeuw
 //! and van Zomeren 1990). For the points not weighed out (m/n)/P′(q(m/n)), by `mcd` times its factor for small samples.
 
-use taut::{RobustCertificate, RobustMethod, RobustVerdict};
+use taut::RobustMethod;
+use taut::certify::{RobustCertificate, RobustVerdict};
 
 use super::super::claims::Claims;
 

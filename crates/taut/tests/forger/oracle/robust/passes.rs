@@ -1,6 +1,7 @@
 //! Claims about each row: where it is, whether it is flagged, and how far it is in the metric of the rows kept.
 
-use taut::{Ellipsoid, RobustCertificate, RobustEllipsoid, RobustMethod, RobustVerdict};
+use taut::RobustMethod;
+use taut::certify::{Ellipsoid, RobustCertificate, RobustEllipsoid, RobustVerdict};
 
 use super::super::body::Body;
 use super::super::claims::Claims;

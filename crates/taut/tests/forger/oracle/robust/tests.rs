@@ -2,13 +2,14 @@
 
 use std::f64::consts::PI;
 
-use taut::certify::{Enclosure, Unweighted};
-use taut::points::{Monitor, hash_points};
-use taut::{
-    Distribution, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Items, Points,
-    RobustCertificate, RobustEllipsoid, RobustMethod, RobustOptions, RobustVerdict, Solution,
-    Trace, generate, robust_ellipsoid,
+use taut::certify::{
+    Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, RobustCertificate, RobustEllipsoid,
+    RobustVerdict, Trace,
 };
+use taut::certify::{Enclosure, Unweighted};
+use taut::points::{Distribution, generate};
+use taut::points::{Monitor, hash_points};
+use taut::{Items, Points, RobustMethod, RobustOptions, Solution, robust_ellipsoid};
 
 use super::super::Truth;
 use super::RobustOracle;

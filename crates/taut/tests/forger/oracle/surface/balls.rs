@@ -2,8 +2,9 @@
 
 use num_bigint::{BigInt, Sign};
 use num_traits::Zero;
+use taut::Solution;
 use taut::certify::Apex;
-use taut::{Solution, Surface};
+use taut::certify::Surface;
 
 use super::super::lattice::{determinant, difference, dot};
 use super::convex::{Place, cross};

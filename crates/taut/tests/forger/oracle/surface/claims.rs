@@ -1,8 +1,9 @@
 //! The claims of a surface, its certificate and its verdict, one after the other.
 
 use num_bigint::Sign;
+use taut::Solution;
+use taut::certify::Surface;
 use taut::certify::{SurfaceDoubt, SurfaceMode, SurfaceVerdict};
-use taut::{Solution, Surface};
 
 use super::super::lattice::{Lattice, difference, dot};
 use super::convex::normal;

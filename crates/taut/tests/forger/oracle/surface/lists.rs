@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeSet, HashMap};
 
+use taut::Solution;
+use taut::certify::Surface;
 use taut::certify::SurfaceVerdict;
-use taut::{Solution, Surface};
 
 use super::super::lattice::{Lattice, difference, dot};
 use super::scene::Scene;

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use taut::SurfaceTopology;
 use taut::certify::SurfaceComponent;
+use taut::certify::SurfaceTopology;
 
 /// What the triangles are as a surface.
 pub(super) struct Shape {

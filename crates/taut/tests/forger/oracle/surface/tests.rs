@@ -1,9 +1,9 @@
 //! Honest surfaces are true, doctored ones are not.
 
+use taut::certify::Surface;
 use taut::certify::{Apex, SurfaceMethod, SurfaceMode, SurfaceVerdict};
-use taut::{
-    Denoise, Points, Positions, Solution, Surface, SurfaceMode as Mode, SurfaceOptions, surface,
-};
+use taut::reconstruct::{Denoise, Positions, SurfaceMode as Mode};
+use taut::{Points, Solution, SurfaceOptions, surface};
 
 use super::super::Truth;
 use super::super::numbers::numbers;
@@ -79,7 +79,11 @@ fn solved(values: &[f64]) -> Vec<Found> {
                 if mode == Mode::Open && method != SurfaceMethod::Tree {
                     continue;
                 }
-                let options = SurfaceOptions { method, mode, denoise, ..Default::default() };
+                let solver = match method {
+                    SurfaceMethod::Tree => taut::SurfaceMethod::Tree(mode),
+                    other => other.into(),
+                };
+                let options = SurfaceOptions { method: solver, denoise, ..Default::default() };
                 if let Ok(solution) = surface(&points, &options) {
                     // At the places given, what was found of moved points need not hold.
                     let may_fail = options.denoise == of(Positions::Original);

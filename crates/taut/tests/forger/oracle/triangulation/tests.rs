@@ -1,7 +1,8 @@
 //! Honest triangulations are true, doctored ones are not.
 
+use taut::certify::Triangulation;
 use taut::certify::{Fingerprint, NO_NEIGHBOR, TriangulationVerdict};
-use taut::{DelaunayOptions, Points, Solution, Triangulation, delaunay};
+use taut::{DelaunayOptions, Points, Solution, delaunay};
 
 use super::super::Truth;
 use super::super::numbers::numbers;
