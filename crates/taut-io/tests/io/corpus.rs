@@ -33,7 +33,7 @@ fn page_headers_that_never_end_are_refused() {
             return println!("skipped page_headers_that_never_end_are_refused: no seeds");
         };
         let refused =
-            taut_io::open_mesh_bytes(bytes, "found.parquet", Content::Triangulation, None)
+            taut_io::open_mesh_bytes(bytes, "found.parquet", taut_io::Content::Triangulation, None)
                 .unwrap_err()
                 .to_string();
         assert!(refused.contains("no reader can pass over"), "{name}: {refused}");
