@@ -186,7 +186,8 @@ fn sizes_at_the_ends_of_the_range_are_solved_or_refused() {
         assert_same(solved(&points(&scaled, 2, 3, 0)).answer.radius, first * scale);
     }
     let apart = [f64::MAX, -f64::MAX];
-    let refused = ask(&points(&apart, 1, 1, 0), &CentersOptions::default());
+    let problem = points(&apart, 1, 1, 0);
+    let refused = ask(&problem, &exact(&problem));
     assert!(matches!(refused, Err(Error::Overflow)));
 }
 
