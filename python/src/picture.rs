@@ -3,7 +3,7 @@
 use taut::PointSource;
 use taut::certify::AnySolution;
 use taut_draw::{
-    DrawOptions, Style, ball_figures, centers_figures, curve_figures, delaunay_figures,
+    DrawOptions, Style, ball_figures, centers_figures, circle_figures, curve_figures, delaunay_figures,
     ellipsoid_figures, inscribed_figures, robust_figures, surface_figures, to_svg,
 };
 
@@ -17,6 +17,7 @@ pub(crate) fn picture(found: &AnySolution, rows: &dyn PointSource) -> Option<Str
         AnySolution::Ball(found) => ball_figures(found, rows, &options),
         AnySolution::Ellipsoid(found) => ellipsoid_figures(found, rows, &options),
         AnySolution::Inscribed(found) => inscribed_figures(found, rows, &options),
+        AnySolution::Circle(found) => circle_figures(found, rows, &options),
         AnySolution::Robust(found) => robust_figures(found, rows, &options),
         AnySolution::Centers(found) => centers_figures(found, rows, &options),
         AnySolution::Curve(found) => curve_figures(found, rows, &options),

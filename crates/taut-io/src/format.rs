@@ -25,6 +25,8 @@ pub enum Format {
     Tsplib,
     /// Three coordinates per line, with or without element symbols and a count line.
     Xyz,
+    /// Positions of GeoJSON, or the outer ring of one polygon.
+    GeoJson,
     /// The vertices of a Stanford PLY file.
     Ply,
     /// The vertices of a Wavefront OBJ file.
@@ -39,7 +41,7 @@ pub enum Format {
 
 impl Format {
     /// Every format.
-    pub const ALL: [Format; 13] = [
+    pub const ALL: [Format; 14] = [
         Format::Csv,
         Format::Tsv,
         Format::Whitespace,
@@ -48,6 +50,7 @@ impl Format {
         Format::Arrow,
         Format::Tsplib,
         Format::Xyz,
+        Format::GeoJson,
         Format::Ply,
         Format::Obj,
         Format::Off,
@@ -66,6 +69,7 @@ impl Format {
             Format::Arrow => "arrow",
             Format::Tsplib => "tsplib",
             Format::Xyz => "xyz",
+            Format::GeoJson => "geojson",
             Format::Ply => "ply",
             Format::Obj => "obj",
             Format::Off => "off",
@@ -85,6 +89,7 @@ impl Format {
             Format::Arrow => &["arrow", "arrows", "feather", "ipc"],
             Format::Tsplib => &["tsp"],
             Format::Xyz => &["xyz", "pts"],
+            Format::GeoJson => &["geojson"],
             Format::Ply => &["ply"],
             Format::Obj => &["obj"],
             Format::Off => &["off"],
@@ -108,6 +113,7 @@ impl Format {
             Format::Xyz => {
                 "x y z per line, optional element symbol, optional count and comment lines"
             }
+            Format::GeoJson => "GeoJSON: positions, or the ring of one polygon without holes",
             Format::Ply => "Stanford PLY, text or binary: its vertices",
             Format::Obj => "Wavefront OBJ, text: its vertices",
             Format::Off => "Object File Format, text: its vertices",
@@ -124,7 +130,7 @@ impl Format {
     /// Whether [`write_points`](crate::write_points) writes it in this build.
     pub fn can_write(self) -> bool {
         let shape = self.shape().is_some();
-        !shape && self != Format::Tsplib && self.can_read()
+        !shape && !matches!(self, Format::Tsplib | Format::GeoJson) && self.can_read()
     }
 
     /// Of a format of shapes, which.

@@ -5,6 +5,7 @@ mod arrow;
 #[cfg(feature = "arrow")]
 mod columnar;
 mod delimited;
+mod geojson;
 mod lines;
 pub(crate) mod literal;
 pub(crate) mod npy;
@@ -66,6 +67,7 @@ pub(crate) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
         Format::Csv | Format::Tsv | Format::Whitespace => delimited::read(job, medium.stream()),
         Format::Tsplib => tsplib::read(job, medium.stream()),
         Format::Xyz => xyz::read(job, medium.stream()),
+        Format::GeoJson => geojson::read(job, medium.stream()),
         Format::Ply => shapes::read(job, medium, ShapeFormat::Ply),
         Format::Obj => shapes::read(job, medium, ShapeFormat::Obj),
         Format::Off => shapes::read(job, medium, ShapeFormat::Off),

@@ -15,6 +15,7 @@
 //! | one for each of many point sets | [`ellipsoids()`] | the same | [`enclose`] |
 //! | the ellipsoid of least volume around balls or ellipsoids | [`ellipsoid_of_balls()`], [`ellipsoid_of_ellipsoids()`] | log-volume ≤ optimum + ε, proved | [`enclose`] |
 //! | the ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | [`enclose`] |
+//! | the largest circle in a simple polygon | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | [`inscribe`] |
 //! | centre and scatter of most points, and the outliers | [`robust_ellipsoid()`] | all but the choice of points proved; that choice a local optimum | [`enclose`] |
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`Plane`], [`Space`] | the same | [mod@delaunay] |
@@ -124,6 +125,7 @@ pub use taut_certify::{
     SurfaceCertificate, SurfaceComponent, SurfaceDoubt, SurfaceTopology, SurfaceVerdict, Trace,
     Triangulation, TriangulationCertificate, Verdict, Violation, ellipse_support,
 };
+pub use taut_certify::{CircleCertificate, CircleVerdict, InscribedCircle};
 pub use taut_delaunay as delaunay;
 pub use taut_delaunay::{
     DelaunayOptions, InsertionOrder, Plane, Space, delaunay, delaunay_of_source, spatial_order,
@@ -139,6 +141,8 @@ pub use taut_enclose::{
     farthest_first_of_source, inscribed_ellipsoid, inscribed_ellipsoid_of_source, robust_ellipsoid,
     robust_ellipsoid_of_source, sphere_tree, sphere_tree_of_source,
 };
+pub use taut_inscribe as inscribe;
+pub use taut_inscribe::{CircleOptions, inscribed_circle};
 pub use taut_oblivious as oblivious;
 pub use taut_points as points;
 pub use taut_points::{Distribution, Monitor, PointSource, Points, generate};

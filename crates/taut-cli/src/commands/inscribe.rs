@@ -1,4 +1,6 @@
-//! `taut inscribe`: the largest shape inside another; so far the ellipsoid inside a polytope.
+//! `taut inscribe`: the largest shape inside another; here the ellipsoid inside a polytope.
+
+mod circle;
 
 use taut::{
     InscribedEllipsoid, InscribedOptions, Monitor, Solution, inscribed_ellipsoid_of_source,
@@ -14,8 +16,8 @@ use crate::watch::Watch;
 /// Find the largest shape inside another, with proof.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Example: taut inscribe ellipsoid sides.csv -o inside.json --draw inside.svg
-See: taut inscribe ellipsoid --help")]
+Example: taut inscribe circle ring.csv -o circle.json --draw circle.svg
+See: taut inscribe circle --help, taut inscribe ellipsoid --help")]
 pub(crate) struct Args {
     #[command(subcommand)]
     body: Body,
@@ -23,6 +25,7 @@ pub(crate) struct Args {
 
 #[derive(Debug, clap::Subcommand)]
 enum Body {
+    Circle(circle::Circle),
     Ellipsoid(Ellipsoid),
 }
 
@@ -56,6 +59,7 @@ struct Ellipsoid {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         match &self.body {
+            Body::Circle(args) => pipeline::run(args),
             Body::Ellipsoid(args) => pipeline::run(args),
         }
     }
