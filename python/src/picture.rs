@@ -3,8 +3,9 @@
 use taut::PointSource;
 use taut::certify::AnySolution;
 use taut_draw::{
-    DrawOptions, Style, ball_figures, centers_figures, circle_figures, curve_figures, delaunay_figures,
-    ellipsoid_figures, inscribed_figures, robust_figures, surface_figures, to_svg,
+    DrawOptions, Style, ball_figures, centers_figures, circle_figures, curve_figures,
+    delaunay_figures, ellipsoid_figures, inscribed_figures, robust_figures, surface_figures,
+    to_svg,
 };
 
 /// Most simplices of a picture: unlike points they are never thinned, and a notebook keeps all that it shows.

@@ -162,6 +162,8 @@ mod pages {
     struct Ball;
     #[doc = include_str!("../../../docs/centers.md")]
     struct Centers;
+    #[doc = include_str!("../../../docs/circle.md")]
+    struct Circle;
     #[doc = include_str!("../../../docs/curve.md")]
     struct Curve;
     #[doc = include_str!("../../../docs/delaunay.md")]

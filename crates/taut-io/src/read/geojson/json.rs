@@ -181,7 +181,7 @@ mod tests {
             ("[1,\n2,,3]", "line 2: this is no value"),
             ("{\"a\" 1}", "line 1: expected a colon"),
             ("[1 2]", "line 1: expected a comma or the end of a list"),
-            ("[1,]", "line 1: this is no value"),
+            ("[1,]", "line 1: expected a comma or the end of a list"),
             ("{} x", "line 1: text after the end of the document"),
             ("\"abc", "line 1: a text does not end"),
             ("[--1]", "line 1: this is no number"),
