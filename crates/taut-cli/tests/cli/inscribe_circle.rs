@@ -47,13 +47,13 @@ fn geojson_and_other_points_are_read_alike() {
     let polygon = format!("{{\"type\": \"Polygon\", \"coordinates\": [{ring}]}}");
     desk.put(
         "ring.geojson",
-        &format!("{{\"type\": \"Feature\", \"properties\": {{}}, \"geometry\": {polygon}}}"),
+        format!("{{\"type\": \"Feature\", \"properties\": {{}}, \"geometry\": {polygon}}}"),
     );
     desk.taut("inscribe circle ring.geojson -o circle.json").ends(0).says(&["1.17157287"]);
     desk.taut("verify circle.json ring.geojson").ends(0);
     // The closing vertex is a row of its own.
     desk.taut("verify circle.json ring.csv").ends(1).says(&["the data changed"]);
-    desk.put("holes.geojson", &polygon.replace("]]]", "]], [[1,1],[1.5,1],[1,1.5],[1,1]]]"));
+    desk.put("holes.geojson", polygon.replace("]]]", "]], [[1,1],[1.5,1],[1,1.5],[1,1]]]"));
     desk.taut("inscribe circle holes.geojson").ends(2).complains(&["holes.geojson", "has a hole"]);
     let all = desk.taut("inscribe circle ring.csv --json").ends(0).out;
     assert_eq!(desk.pipe(L, "inscribe circle - --json").ends(0).out, all);
@@ -67,10 +67,10 @@ fn a_changed_answer_is_rejected_with_its_row() {
     let text = desk.text("circle.json");
     let mut found: serde_json::Value = serde_json::from_str(&text).unwrap();
     found["answer"]["radius"] = 1.2.into();
-    desk.put("larger.json", &found.to_string());
+    desk.put("larger.json", found.to_string());
     desk.taut("verify larger.json ring.csv").ends(1).says(&["Rejected: ", "less than the radius"]);
     found["answer"]["radius"] = 1.0.into();
-    desk.put("smaller.json", &found.to_string());
+    desk.put("smaller.json", found.to_string());
     desk.taut("verify smaller.json ring.csv").ends(1).says(&["Rejected: smaller.json"]);
 }
 
