@@ -74,7 +74,7 @@ fn an_l_touches_its_reflex_corner() {
 fn a_star_has_the_circle_through_its_reflex_corners() {
     let corner = |i: usize| {
         let angle = std::f64::consts::PI * i as f64 / 5.0;
-        let radius = if i % 2 == 0 { 1.0 } else { 0.4 };
+        let radius = if i.is_multiple_of(2) { 1.0 } else { 0.4 };
         [radius * angle.sin(), radius * angle.cos()]
     };
     assert_radius(&(0..10).map(corner).collect::<Vec<_>>(), 0.4);
