@@ -10,6 +10,7 @@
 //! | the ellipsoid of least volume around points, balls or ellipsoids | [`ellipsoid()`] | log-volume ≤ least + ε, proved | [`enclose`] |
 //! | one for each of many point sets | [`ellipsoids()`] | the same | [`enclose`] |
 //! | the ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | [`enclose`] |
+//! | the largest circle in a simple polygon | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | [`inscribe`] |
 //! | centre and scatter of most points, and the outliers | [`robust_ellipsoid()`] | all but the choice of points proved; that choice a local optimum | [`enclose`] |
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`delaunay::Plane`], [`delaunay::Space`] | the same | [mod@delaunay] |
@@ -121,6 +122,7 @@ pub use error::Error;
 pub use taut_certify as certify;
 pub use taut_delaunay as delaunay;
 pub use taut_enclose as enclose;
+pub use taut_inscribe as inscribe;
 pub use taut_oblivious as oblivious;
 pub use taut_points as points;
 #[cfg(feature = "reconstruct")]
@@ -135,6 +137,7 @@ pub use taut_enclose::{
 };
 #[cfg(feature = "conic")]
 pub use taut_enclose::{InscribedOptions, inscribed_ellipsoid};
+pub use taut_inscribe::{CircleOptions, inscribed_circle};
 pub use taut_points::{Monitor, PointSource, Points};
 #[cfg(feature = "reconstruct")]
 pub use taut_reconstruct::{
@@ -150,6 +153,8 @@ mod pages {
     struct Ball;
     #[doc = include_str!("../../../docs/centers.md")]
     struct Centers;
+    #[doc = include_str!("../../../docs/circle.md")]
+    struct Circle;
     #[doc = include_str!("../../../docs/curve.md")]
     struct Curve;
     #[doc = include_str!("../../../docs/delaunay.md")]

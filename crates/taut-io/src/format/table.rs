@@ -185,11 +185,14 @@ pub(super) const TABLE: [Entry; 21] = [
         Format::GeoJson,
         "geojson",
         &["geojson"],
-        &[(
-            Curves,
-            Write,
-            "loops as polygons, those within as their holes; open curves as line strings",
-        )],
+        &[
+            (Points, Read, "positions, or the ring of one polygon without holes"),
+            (
+                Curves,
+                Write,
+                "loops as polygons, those within as their holes; open curves as line strings",
+            ),
+        ],
     ),
     entry(
         Format::Svg,
