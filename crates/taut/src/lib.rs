@@ -3,7 +3,7 @@
 //! | you want | call | promise | more |
 //! |---|---|---|---|
 //! | the smallest ball around points, balls or ellipsoids | [`ball()`] | R ≤ (1 + ε)·R*, proved | [`enclose`] |
-//! | k centres of points or balls, the farthest as near to one of them as can be | [`centers()`] | radius ≤ (1 + ε) times the least, proved; with outliers, weights, or among the points | [`enclose`] |
+//! | k-center: minimize the largest distance to the nearest center, for points or balls | [`centers()`] | radius ≤ (1 + ε) times the least, proved; with outliers, weights, or among the points | [`enclose`] |
 //! | centres for every k at once, of any number of points | [`farthest_first()`] | at most twice the least radius, for each k | [`enclose`] |
 //! | k centres of a stream, or of points in many places | [`enclose::Cover`], [`enclose::Summary`] | a factor of the least radius, both bounds told | [`enclose`] |
 //! | a tree of balls | [`sphere_tree()`] | each the smallest around its points | [`enclose`] |
@@ -14,7 +14,7 @@
 //! | centre and scatter of most points, and the outliers | [`robust_ellipsoid()`] | all but the choice of points proved; that choice a local optimum | [`enclose`] |
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`delaunay::Plane`], [`delaunay::Space`] | the same | [mod@delaunay] |
-//! | edges that must be there | [`delaunay::Plane::constrained`] | exact, Delaunay as far as they let it be | [mod@delaunay] |
+//! | constrained edges | [`delaunay::Plane::constrained`] | exact, Delaunay as far as they let it be | [mod@delaunay] |
 //! | rows in an order where neighbours are near each other | [`spatial_order()`] | a function of the point set alone, proved | [mod@delaunay] |
 //! | files sorted or transposed that memory does not hold, samples, orders, nearest points | [mod@oblivious] | each with its own | [mod@oblivious], [`files`] |
 //! | the curves that noisy points were sampled from | [`curve()`] | no crossings; each point within the band told or named as an outlier; whether sampling was dense enough | [mod@reconstruct] |
@@ -36,7 +36,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! An answer is data: it travels as JSON, and whoever has the points can judge it.
+//! An answer is data: it travels as JSON, and anyone with the points can verify it.
 //!
 //! ```
 //! # let points = taut::Points::new(&[0.0, 0.0, 2.0, 0.0, 1.0, 1.0], 2)?;

@@ -13,6 +13,9 @@ pub(super) enum Access {
 
 use Access::{Both, Read, Write};
 
+/// Extensions under which normals or colors follow the coordinates. Points are read from such files, never written to them.
+pub(super) const READ_ONLY_EXTENSIONS: [&str; 2] = ["xyzn", "xyzrgb"];
+
 /// A row of the table.
 pub(super) struct Entry {
     pub(super) format: Format,
