@@ -135,7 +135,7 @@ impl CircleOracle {
     }
 }
 
-/// Centers that may be good, found in plain arithmetic and proved by nobody.
+/// Centers that may be good: points of a grid inside, and points equally far from three edges; found in plain arithmetic and proved by nobody.
 fn candidates(ring: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let scale = ring.iter().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
     let ring: Vec<[f64; 2]> = ring.iter().map(|p| p.map(|x| x / scale)).collect();
@@ -155,8 +155,10 @@ fn candidates(ring: &[[f64; 2]]) -> Vec<[f64; 2]> {
                 low[k] + (high[k] - low[k]) * (step as f64 + 0.5) / GRID as f64
             };
             let q = [at(0, i), at(1, j)];
-            let clearance = features(q).iter().fold(f64::INFINITY, |least, f| least.min(f.1));
-            grid.push((clearance, q));
+            if is_inside(&ring, q) {
+                let clearance = features(q).iter().fold(f64::INFINITY, |least, f| least.min(f.1));
+                grid.push((clearance, q));
+            }
         }
     }
     grid.sort_by(|one, other| other.0.total_cmp(&one.0));
@@ -182,6 +184,16 @@ fn candidates(ring: &[[f64; 2]]) -> Vec<[f64; 2]> {
     }
     let unscaled = found.into_iter().map(|q| q.map(|x| x * scale));
     unscaled.filter(|q| q.iter().all(|x| x.is_finite())).collect()
+}
+
+/// The even-odd rule in plain arithmetic.
+fn is_inside(ring: &[[f64; 2]], p: [f64; 2]) -> bool {
+    let crosses = |row: &usize| {
+        let (a, b) = (ring[*row], ring[(row + 1) % ring.len()]);
+        (a[0] <= p[0]) != (b[0] <= p[0])
+            && a[1] + (p[0] - a[0]) * ((b[1] - a[1]) / (b[0] - a[0])) > p[1]
+    };
+    (0..ring.len()).filter(crosses).count() % 2 == 1
 }
 
 /// The unit vector from the nearest point of the segment ab to q, and the distance.
