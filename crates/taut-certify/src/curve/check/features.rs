@@ -94,12 +94,7 @@ fn found(
             let vertices = first..end.min(first + VERTICES_PER_RUN);
             let clear =
                 if by_runs { run::clear_way(&course, &most, vertices.clone()) } else { None };
-            let look = match (is_exact, clear) {
-                (false, _) => Look { way: 0.0, elsewhere: true },
-                (true, None) => Look { way: 2.0, elsewhere: true },
-                (true, Some(way)) => Look { way, elsewhere: false },
-            };
-            found.extend(vertices.map(|v| course.radius_and_turn(v, most[v], look)));
+            found.extend(vertices.map(|v| course.radius_and_turn(v, most[v], clear)));
         }
         Ok(found)
     };
@@ -153,15 +148,6 @@ fn first(range: std::ops::Range<usize>, holds: impl Fn(usize) -> bool) -> usize 
     least
 }
 
-/// Where edges are looked at for the radius at a vertex.
-#[derive(Clone, Copy)]
-struct Look {
-    /// Edges up to this way along the curve, over the radius, are looked at one by one.
-    way: f64,
-    /// Whether all other edges are searched.
-    elsewhere: bool,
-}
-
 /// A closed curve and the way along it.
 pub(super) struct Course<'a> {
     pub(super) edges: &'a Edges,
@@ -179,8 +165,9 @@ impl Course<'_> {
         self.along[k % count] + (k / count) as f64 * self.along[count]
     }
 
-    /// R, or `most` if that is less, and the turn at a vertex.
-    fn radius_and_turn(&self, vertex: usize, most: f64, place: Look) -> (f64, f64) {
+    /// R, or `most` if that is less, and the turn at a vertex. Only edges up to the way `clear` along the curve, over R, can meet circles if
+    /// that is told.
+    fn radius_and_turn(&self, vertex: usize, most: f64, clear: Option<f64>) -> (f64, f64) {
         let (count, base, span) = (self.points.len(), self.base, SPAN_RATIO * self.band);
         let here = count + vertex;
         let way = |k: usize| self.way(k);
@@ -227,17 +214,19 @@ impl Course<'_> {
                 false => radius.min(tangent.through_edge(segment)),
             }
         };
-        // What has been looked at, in steps back and on. What is as far along the curve as a circle is wide may be left to the search.
-        let mut seen = own;
-        while seen[0] + seen[1] < count && way(here + seen[1]) - way(here) < place.way * radius {
-            radius = look(seen[1], radius);
-            seen[1] += 1;
-        }
-        while seen[0] + seen[1] < count && way(here) - way(here - seen[0]) < place.way * radius {
-            radius = look(back(seen[0]), radius);
-            seen[0] += 1;
-        }
-        if !place.elsewhere {
+        if let Some(clear) = clear {
+            for on in own[1]..count {
+                if way(here + on) - way(here) >= clear * radius {
+                    break;
+                }
+                radius = look(on, radius);
+            }
+            for off in own[0]..count {
+                if way(here) - way(here - off) >= clear * radius {
+                    break;
+                }
+                radius = look(back(off), radius);
+            }
             return (radius, turn);
         }
         self.edges.tree.least(
@@ -250,7 +239,7 @@ impl Course<'_> {
                 let steps = |edge: usize| (edge - base + count - vertex) % count;
                 let (on, end) = (steps(start), steps(last));
                 let is_in = |part: [usize; 2]| on <= end && (end < part[1] || back(on) < part[0]);
-                match (is_in(seen), is_in(near)) {
+                match (is_in(own), is_in(near)) {
                     (true, _) => f64::INFINITY,
                     (_, true) => close.least(area),
                     _ => far.least(area),
@@ -262,7 +251,7 @@ impl Course<'_> {
                     return;
                 }
                 let on = (edge - base + count - vertex) % count;
-                if on >= seen[1] && back(on) >= seen[0] {
+                if on >= own[1] && back(on) >= own[0] {
                     *radius = look(on, *radius);
                 }
             },
