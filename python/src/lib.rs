@@ -8,6 +8,7 @@
 mod ball;
 mod centers;
 mod choice;
+mod circle;
 mod curve;
 mod delaunay;
 mod ellipsoid;
@@ -36,6 +37,8 @@ mod _native {
     use crate::ball::ball;
     #[pymodule_export]
     use crate::centers::centers;
+    #[pymodule_export]
+    use crate::circle::inscribed_circle;
     #[pymodule_export]
     use crate::curve::curve;
     #[pymodule_export]

@@ -13,6 +13,7 @@ The names, options and defaults are those of the Rust library and of the command
 
 from ._answers.ball import Ball, BallCertificate, Verdict
 from ._answers.centers import Centers, CentersCertificate, CentersVerdict, FarthestFirst, SphereTree
+from ._answers.circle import CircleCertificate, CircleVerdict, InscribedCircle
 from ._answers.curve import Curve, CurveCertificate, CurveComponent, CurveVerdict
 from ._answers.ellipsoid import Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull
 from ._answers.file import FileVerdict
@@ -24,6 +25,7 @@ from ._answers.trace import PassBounds, Trace
 from ._answers.triangulation import Triangulation, TriangulationCertificate, TriangulationVerdict
 from ._ball import ball, ball_of_balls
 from ._centers import centers, farthest_first, sphere_tree
+from ._circle import inscribed_circle
 from ._curve import curve
 from ._delaunay import delaunay
 from ._ellipsoid import ellipsoid, ellipsoids, inscribed_ellipsoid
@@ -42,6 +44,8 @@ __all__ = [
     "Centers",
     "CentersCertificate",
     "CentersVerdict",
+    "CircleCertificate",
+    "CircleVerdict",
     "Curve",
     "CurveCertificate",
     "CurveComponent",
@@ -54,6 +58,7 @@ __all__ = [
     "FileVerdict",
     "Hull",
     "InscribedCertificate",
+    "InscribedCircle",
     "InscribedEllipsoid",
     "InscribedVerdict",
     "Order",
@@ -85,6 +90,7 @@ __all__ = [
     "ellipsoids",
     "farthest_first",
     "generate",
+    "inscribed_circle",
     "inscribed_ellipsoid",
     "robust_ellipsoid",
     "sample",

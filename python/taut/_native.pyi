@@ -19,6 +19,7 @@ __all__ = [
     "ellipsoids",
     "farthest_first",
     "generate",
+    "inscribed_circle",
     "inscribed_ellipsoid",
     "names",
     "norms",
@@ -82,6 +83,7 @@ def generate(
     out: Rows, distribution: str, seed: int, thickness: float | None, count: int | None, spread: float | None,
     vertices: int | None, side: int | None, angle: float | None, turns: float | None, noise: float | None,
 ) -> None: ...
+def inscribed_circle(rows: Rows, epsilon: float, max_cells: int) -> Found: ...
 def inscribed_ellipsoid(rows: Rows, epsilon: float, max_steps: int) -> Found: ...
 def names() -> dict[str, list[str]]: ...
 def norms(

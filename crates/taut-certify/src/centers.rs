@@ -60,8 +60,8 @@ pub struct Centers {
 pub enum LowerBound {
     /// No two items of the core-set fit in one ball, and there are more than k and the outliers together. O(|X|²d).
     Apart,
-    /// By the branches of a search, in the order in which they were taken (preorder), over at most 16384 items. The checker
-    /// compares all pairs of items, and then replays the branches in time linear in their number.
+    /// By the branches of a search, in the order in which they were taken (preorder), over at most 16384 items. For
+    /// free centers the checker compares all pairs of items first. It replays the branches in time linear in their number.
     Branches {
         /// At each node that is not refuted at once, which item of the core-set is given to the balls in turn: to each that has
         /// items already, in the order in which they got their first, then to the next empty one, if there is one, and

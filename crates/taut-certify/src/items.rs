@@ -25,7 +25,7 @@ pub enum Items {
     Ellipsoids,
 }
 
-choice! { "items", Items {
+choice! { "inputs", Items {
     Points = "points", "each row is a point";
     Balls = "balls", "each row is a centre, then a radius";
     Ellipsoids = "ellipsoids", "each row is a centre, then the lower triangle of a shape matrix";

@@ -9,8 +9,8 @@ use taut_points::{Monitor, PointSource};
 use crate::json::{kind_of, parse_document, without_mark};
 use crate::{
     Answer, Ball, Centers, CheckError, Curve, DrawnSample, Ellipsoid, FileAnswer, FileCheckError,
-    FileSolution, FileVerdict, Files, InscribedEllipsoid, JsonError, Order, RobustEllipsoid,
-    Solution, SortedFile, Surface, TransposedFile, Triangulation,
+    FileSolution, FileVerdict, Files, InscribedCircle, InscribedEllipsoid, JsonError, Order,
+    RobustEllipsoid, Solution, SortedFile, Surface, TransposedFile, Triangulation,
 };
 
 /// Hands the answers about points to a macro, each with the name of its variant.
@@ -26,6 +26,8 @@ macro_rules! answers_about_points {
             Inscribed(InscribedEllipsoid),
             /// A robust ellipsoid.
             Robust(RobustEllipsoid),
+            /// A largest circle in a polygon.
+            Circle(InscribedCircle),
             /// k centers.
             Centers(Centers),
             /// Curves of the plane.

@@ -3,7 +3,10 @@
 use serde::Serialize;
 use taut_points::ReadError;
 
-use crate::{CentersViolation, CurveViolation, MeshViolation, OrderViolation, SurfaceViolation};
+use crate::{
+    CentersViolation, CircleViolation, CurveViolation, MeshViolation, OrderViolation,
+    SurfaceViolation,
+};
 
 /// What was proved of an enclosing shape.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -359,6 +362,9 @@ pub enum Violation {
     /// Something is wrong with centres.
     #[error(transparent)]
     Centers(#[from] CentersViolation),
+    /// Something is wrong with an inscribed circle.
+    #[error(transparent)]
+    Circle(#[from] CircleViolation),
     /// Something is wrong with a curve.
     #[error(transparent)]
     Curve(#[from] CurveViolation),
@@ -416,6 +422,7 @@ impl Violation {
                 }
                 _ => Fault::Answer,
             },
+            Violation::Circle(ref violation) => violation.fault(),
             Violation::Curve(ref violation) => match *violation {
                 CurveViolation::OutsideBand { row, .. }
                 | CurveViolation::NoVertex { row }
@@ -461,6 +468,12 @@ pub enum CheckError {
 
 impl From<CentersViolation> for CheckError {
     fn from(violation: CentersViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
+}
+
+impl From<CircleViolation> for CheckError {
+    fn from(violation: CircleViolation) -> Self {
         CheckError::Rejected(violation.into())
     }
 }

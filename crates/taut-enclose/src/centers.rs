@@ -40,7 +40,7 @@ use self::read::Table;
 use self::start::Start;
 use self::tree::{Found, Shown};
 use crate::apart::claimed;
-use crate::cover::cover_of_source;
+use crate::cover::cover_in_two_passes;
 use crate::farthest_first::farthest_first_in_blocks;
 use crate::{Error, FarthestFirstOptions};
 pub(crate) use answer::reach_of;
@@ -49,7 +49,7 @@ pub use options::{CentersMethod, CentersOptions};
 
 /// The least relative gap that is sought; proofs take 1e-12 of it.
 const GAP_MIN: f64 = 5e-12;
-/// What counts as no gap.
+/// Gaps up to this are rounding, if `epsilon` is 0.
 const ROUNDING: f64 = 2e-11;
 /// Bounds below this, in the units of the search, rest on squares that may have lost digits.
 const LEAST_PROVED: f64 = f64::from_bits((1023 - 480) << 52);
@@ -104,7 +104,7 @@ pub fn centers(
             }
         }
         if let CentersMethod::Stream(cover) = options.method {
-            return cover_of_source(source, k, options.placement, &cover, monitor);
+            return cover_in_two_passes(source, k, options.placement, &cover, monitor);
         }
         solve(source, items, k, options, monitor)
     })

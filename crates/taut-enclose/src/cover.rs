@@ -290,7 +290,7 @@ impl Cover {
 }
 
 /// k centres of a source in two passes: one for a [`Cover`], one to measure its radius.
-pub(crate) fn cover_of_source(
+pub(crate) fn cover_in_two_passes(
     source: &dyn PointSource,
     k: usize,
     placement: Placement,

@@ -8,7 +8,7 @@
 //! | ellipsoid of least volume around points | [`ellipsoid()`] | log-volume ≤ optimum + ε, proved | few passes of O(nd²) |
 //! | ellipsoid of least volume around balls, ellipsoids | [`ellipsoid()`] with [`EllipsoidOptions::inputs`] | the same | a dozen passes of O(nd³) |
 //! | one for each of many point sets | [`ellipsoids()`] | the same | that of the sets, shared by all threads |
-//! | ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | some fifty steps of O(nd⁴ + d⁶) |
+//! | ellipsoid of largest volume in a polytope | `inscribed_ellipsoid` (feature `conic`) | optimum ≤ log-volume + ε, proved | some fifty steps of O(nd⁴ + d⁶) |
 //! | centre, scatter and outliers | [`robust_ellipsoid()`] | all proved but that no other points kept would do better | some ten to thirty passes of O(nd²) |
 //! | 2-approximate centres for every k at once | [`farthest_first()`] | radius ≤ 2·lower bound for each k | O(nkd) at worst, a small part of it as a rule |
 //! | k centres of a stream | [`Cover`], or [`centers()`] with [`CentersMethod::Stream`] | radius ≤ 2.96·lower bound, or another factor | O(mkd) for each point, m = 8 guesses; one pass, and one to measure |
@@ -25,7 +25,7 @@
 //! assert!(found.check(&points)?.gap <= 1e-9);                                    // a second opinion, not the solver's
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
-//! The feature `conic`, on by default, brings the conic solver that [`inscribed_ellipsoid()`], [`BallMethod::ThesisPure`] and
+//! The feature `conic`, on by default, brings the conic solver that `inscribed_ellipsoid`, [`BallMethod::ThesisPure`] and
 //! [`BallMethod::ThesisFast`] need.
 //!
 //! Not for: distances other than Euclidean.

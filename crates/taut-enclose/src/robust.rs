@@ -73,7 +73,7 @@ pub use options::RobustOptions;
 /// ```
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::Input`], [`Error::Overflow`], [`Error::Input`].
+/// [`Error::Empty`], [`Error::Overflow`]; [`Error::Input`], also when the source fails or the monitor stops the work.
 pub fn robust_ellipsoid(
     source: &dyn PointSource,
     options: &RobustOptions<'_>,

@@ -73,7 +73,7 @@ impl<'a> Scan<'a> {
                 return Err(Error::NoRadius { columns: source.dim() });
             }
             Items::Ellipsoids => {
-                let (name, value) = ("items", "ellipsoids".into());
+                let (name, value) = ("inputs", "ellipsoids".into());
                 return Err(Error::Input(InputError::Option {
                     name,
                     value,

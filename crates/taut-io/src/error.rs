@@ -107,7 +107,7 @@ pub enum Error {
         path: String,
     },
     /// The name does not tell which format to write.
-    #[error("{path}: the {} cannot be told from the name; name it {}", format_of(*content), names_or_extensions(*content, |f| f.writes(*content)))]
+    #[error("{path}: the {} cannot be told from the name; {}", format_of(*content), names_or_extensions(*content, |f| f.writes(*content)))]
     UnknownOutput {
         /// The file.
         path: String,
@@ -115,7 +115,7 @@ pub enum Error {
         content: Content,
     },
     /// Neither name nor content tells the format.
-    #[error("{path}: the {} cannot be told from the name; name it {}", format_of(*content), names_or_extensions(*content, |f| f.reads(*content)))]
+    #[error("{path}: the {} cannot be told from the name; {}", format_of(*content), names_or_extensions(*content, |f| f.reads(*content)))]
     UnknownFormat {
         /// The file.
         path: String,
@@ -147,6 +147,26 @@ pub enum Error {
         format: Format,
         /// What was given.
         content: Content,
+    },
+    /// A mesh was asked for as content that is none.
+    #[error("{path}: {content} are no mesh; ask for a triangulation or a surface")]
+    NotMesh {
+        /// The file.
+        path: String,
+        /// What was asked for.
+        content: Content,
+    },
+    /// The extension promises normals or colors, which are read but not written.
+    #[error(
+        "{path}: files with the extension .{extension} hold normals or colors, which points do not have; use the extension .{}", format.extensions()[0]
+    )]
+    ReadOnlyExtension {
+        /// The file.
+        path: String,
+        /// Its extension, without that of the compression.
+        extension: String,
+        /// The format.
+        format: Format,
     },
     /// The format was left out of this build.
     #[error(
@@ -542,7 +562,7 @@ pub enum Error {
         value: f64,
     },
     /// The format has no place for vertices without triangles, or there are not even vertices.
-    #[error("{path}: there is no triangle to write; vertices alone are written as {}", names(|f| f.holds_bare_vertices() && f.writes(Content::Surface)))]
+    #[error("{path}: there is no triangle to write; vertices alone are written as {}", names(|f| f.holds_bare_vertices()))]
     NoTriangles {
         /// The file.
         path: String,

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::str::FromStr;
 
 use crate::Error;
-use table::{Access, Entry, TABLE};
+use table::{Access, Entry, READ_ONLY_EXTENSIONS, TABLE};
 
 /// What a file holds, or is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -136,7 +136,7 @@ impl Format {
         self.access(content).is_some()
     }
 
-    /// Whether this build has it.
+    /// Returns true if this build supports the format.
     pub fn is_built(self) -> bool {
         cfg!(feature = "arrow") || !matches!(self, Format::Parquet | Format::Arrow)
     }
@@ -174,8 +174,8 @@ impl Format {
 
     /// Whether it is written as a surface with vertices alone, without any triangle.
     pub fn holds_bare_vertices(self) -> bool {
-        use Format::{Glb, Gltf, Obj, Off, Ply, Xyz};
-        matches!(self, Ply | Obj | Off | Xyz | Glb | Gltf)
+        use Format::{Glb, Gltf, Obj, Off, Ply};
+        matches!(self, Ply | Obj | Off | Glb | Gltf)
     }
 
     /// The format and compression that the name of a file tells: `points.csv.gz` is CSV and gzip.
@@ -204,8 +204,15 @@ pub(crate) fn format_to_write(
     let usual = content == Content::Points && path.as_os_str() == "-";
     match given.or(named).or(usual.then_some(Format::Csv)) {
         None => Err(Error::UnknownOutput { path: shown.to_owned(), content }),
-        Some(format) if format.writes(content) => Ok((format, compression)),
-        Some(format) => Err(Error::not_writable(shown, format, content)),
+        Some(format) if !format.writes(content) => Err(Error::not_writable(shown, format, content)),
+        Some(format) => match Compression::split(path).0 {
+            Some(extension)
+                if named == Some(format) && READ_ONLY_EXTENSIONS.contains(&&*extension) =>
+            {
+                Err(Error::ReadOnlyExtension { path: shown.to_owned(), extension, format })
+            }
+            _ => Ok((format, compression)),
+        },
     }
 }
 

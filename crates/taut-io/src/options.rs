@@ -20,7 +20,7 @@ pub struct ReadOptions {
     /// Uncompressed npy and raw files that fit are mapped, not copied: they must not change meanwhile, see
     /// [`MappedSource`](taut_points::MappedSource). Besides its points, the reader of parquet holds one batch of rows
     /// with the pages it comes from, whatever their size. What must be held whole is refused where it is too large: a line of
-    /// text or a point of an array of more than an eighth of this memory, vertices and triangles of a shape of more than half,
+    /// text or a point of an array of more than an eighth of this memory, vertices and triangles of a mesh of more than half,
     /// a message of arrow or an array in Fortran order of more than all of it. All but the last may have 1 MiB in any case.
     pub memory: Option<u64>,
     /// Shape and type of raw values, which no raw file tells itself. Needed for [`Format::Raw`] only.

@@ -5,6 +5,7 @@ mod arrow;
 #[cfg(feature = "arrow")]
 mod columnar;
 mod delimited;
+mod geojson;
 mod lines;
 mod meshes;
 mod npy;
@@ -68,6 +69,7 @@ pub(crate) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
         Format::Tsplib => tsplib::read(job, medium.stream()),
         Format::Xyz => xyz::read(job, medium.stream()),
         Format::Ply | Format::Obj | Format::Off | Format::Stl => meshes::read(job, medium),
+        Format::GeoJson => geojson::read(job, medium.stream()),
         Format::Npy => read_npy(job, medium),
         Format::Raw => read_raw(job, medium),
         #[cfg(feature = "arrow")]

@@ -27,7 +27,8 @@ const PIECE: usize = 1 << 18;
 ///
 /// `columns` names the coordinates; empty means no names (parquet and arrow then call them `x0`, `x1`, …). A header
 /// that could be taken for numbers, or for numbers that went wrong, is left out. The extensions `.gz`, `.xz` and `.zst` compress. Points of more than 1000 coordinates
-/// without names are one column of lists in parquet, which would else hold a buffer for each column.
+/// without names are one column of lists in parquet, which would else hold a buffer for each column. The extensions `.xyzn` and
+/// `.xyzrgb` promise normals or colors and are refused.
 ///
 /// # Errors
 /// [`Error`]; an earlier file of that name is then as it was.

@@ -2,8 +2,6 @@
 
 /// A type whose values have names. [`choice!`](crate::choice!) implements it.
 pub trait Choice: Copy + Send + Sync + 'static {
-    /// The option that takes one of the names.
-    const OPTION: &'static str;
     /// Each name, its value and what it means in a few words, the default first.
     const CHOICES: &'static [(&'static str, Self, &'static str)];
 }
@@ -68,7 +66,6 @@ macro_rules! choice {
         }
 
         impl $crate::Choice for $type {
-            const OPTION: &'static str = $option;
             const CHOICES: &'static [(&'static str, Self, &'static str)] =
                 &[$(($name, Self::$variant $(($default))?, $help)),+];
         }

@@ -32,7 +32,8 @@ impl fmt::Debug for Monitor<'_> {
     }
 }
 
-/// Monitors are equal when they call the same functions and read the same flag.
+/// Two monitors are equal if the addresses of their functions and of their flag are equal. Different closures without
+/// captured values can have one address, so that equal monitors may call different functions.
 impl PartialEq for Monitor<'_> {
     fn eq(&self, other: &Self) -> bool {
         fn same<T: ?Sized, U: ?Sized>(a: Option<&T>, b: Option<&U>) -> bool {

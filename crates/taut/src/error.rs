@@ -12,6 +12,8 @@ pub enum Error {
     Enclose(taut_enclose::Error),
     /// A triangulation or an order was asked for.
     Delaunay(taut_delaunay::Error),
+    /// A circle in a polygon was asked for.
+    Inscribe(taut_inscribe::Error),
     /// Curves or a surface were asked for.
     #[cfg(feature = "reconstruct")]
     Reconstruct(taut_reconstruct::Error),
@@ -23,6 +25,7 @@ impl std::fmt::Display for Error {
             Error::Input(error) => error.fmt(f),
             Error::Enclose(error) => error.fmt(f),
             Error::Delaunay(error) => error.fmt(f),
+            Error::Inscribe(error) => error.fmt(f),
             #[cfg(feature = "reconstruct")]
             Error::Reconstruct(error) => error.fmt(f),
         }
@@ -35,6 +38,7 @@ impl std::error::Error for Error {
             Error::Input(error) => error.source(),
             Error::Enclose(error) => error.source(),
             Error::Delaunay(error) => error.source(),
+            Error::Inscribe(error) => error.source(),
             #[cfg(feature = "reconstruct")]
             Error::Reconstruct(error) => error.source(),
         }
@@ -61,6 +65,15 @@ impl From<taut_delaunay::Error> for Error {
         match error {
             taut_delaunay::Error::Input(error) => Error::Input(error),
             other => Error::Delaunay(other),
+        }
+    }
+}
+
+impl From<taut_inscribe::Error> for Error {
+    fn from(error: taut_inscribe::Error) -> Self {
+        match error {
+            taut_inscribe::Error::Input(error) => Error::Input(error),
+            other => Error::Inscribe(other),
         }
     }
 }

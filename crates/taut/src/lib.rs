@@ -3,17 +3,18 @@
 //! | you want | call | promise | more |
 //! |---|---|---|---|
 //! | the smallest ball around points, balls or ellipsoids | [`ball()`] | R ≤ (1 + ε)·R*, proved | [`enclose`] |
-//! | k centres of points or balls, the farthest as near to one of them as can be | [`centers()`] | radius ≤ (1 + ε) times the least, proved; with outliers, weights, or among the points | [`enclose`] |
+//! | k-center: minimize the largest distance to the nearest center, for points or balls | [`centers()`] | radius ≤ (1 + ε) times the least, proved; with outliers, weights, or among the points | [`enclose`] |
 //! | centres for every k at once, of any number of points | [`farthest_first()`] | at most twice the least radius, for each k | [`enclose`] |
 //! | k centres of a stream, or of points in many places | [`enclose::Cover`], [`enclose::Summary`] | a factor of the least radius, both bounds told | [`enclose`] |
 //! | a tree of balls | [`sphere_tree()`] | each the smallest around its points | [`enclose`] |
 //! | the ellipsoid of least volume around points, balls or ellipsoids | [`ellipsoid()`] | log-volume ≤ least + ε, proved | [`enclose`] |
 //! | one for each of many point sets | [`ellipsoids()`] | the same | [`enclose`] |
 //! | the ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | [`enclose`] |
+//! | the largest circle in a simple polygon | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | [`inscribe`] |
 //! | centre and scatter of most points, and the outliers | [`robust_ellipsoid()`] | all but the choice of points proved; that choice a local optimum | [`enclose`] |
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`delaunay::Plane`], [`delaunay::Space`] | the same | [mod@delaunay] |
-//! | edges that must be there | [`delaunay::Plane::constrained`] | exact, Delaunay as far as they let it be | [mod@delaunay] |
+//! | constrained edges | [`delaunay::Plane::constrained`] | exact, Delaunay as far as they let it be | [mod@delaunay] |
 //! | rows in an order where neighbours are near each other | [`spatial_order()`] | a function of the point set alone, proved | [mod@delaunay] |
 //! | files sorted or transposed that memory does not hold, samples, orders, nearest points | [mod@oblivious] | each with its own | [mod@oblivious], [`files`] |
 //! | the curves that noisy points were sampled from | [`curve()`] | no crossings; each point within the band told or named as an outlier; whether sampling was dense enough | [mod@reconstruct] |
@@ -35,7 +36,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! An answer is data: it travels as JSON, and whoever has the points can judge it.
+//! An answer is data: it travels as JSON, and anyone with the points can verify it.
 //!
 //! ```
 //! # let points = taut::Points::new(&[0.0, 0.0, 2.0, 0.0, 1.0, 1.0], 2)?;
@@ -121,6 +122,7 @@ pub use error::Error;
 pub use taut_certify as certify;
 pub use taut_delaunay as delaunay;
 pub use taut_enclose as enclose;
+pub use taut_inscribe as inscribe;
 pub use taut_oblivious as oblivious;
 pub use taut_points as points;
 #[cfg(feature = "reconstruct")]
@@ -135,6 +137,7 @@ pub use taut_enclose::{
 };
 #[cfg(feature = "conic")]
 pub use taut_enclose::{InscribedOptions, inscribed_ellipsoid};
+pub use taut_inscribe::{CircleOptions, inscribed_circle};
 pub use taut_points::{Monitor, PointSource, Points};
 #[cfg(feature = "reconstruct")]
 pub use taut_reconstruct::{
@@ -150,6 +153,8 @@ mod pages {
     struct Ball;
     #[doc = include_str!("../../../docs/centers.md")]
     struct Centers;
+    #[doc = include_str!("../../../docs/circle.md")]
+    struct Circle;
     #[doc = include_str!("../../../docs/curve.md")]
     struct Curve;
     #[doc = include_str!("../../../docs/delaunay.md")]

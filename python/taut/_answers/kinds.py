@@ -7,6 +7,7 @@ from typing import NamedTuple
 from .._record import Record
 from .ball import Ball, BallCertificate, Verdict
 from .centers import Centers, CentersCertificate, CentersVerdict
+from .circle import CircleCertificate, CircleVerdict, InscribedCircle
 from .curve import Curve, CurveCertificate, CurveVerdict
 from .ellipsoid import Ellipsoid, EllipsoidCertificate, EllipsoidVerdict
 from .inscribed import InscribedCertificate, InscribedEllipsoid, InscribedVerdict
@@ -19,6 +20,7 @@ AnyVerdict = (
     Verdict
     | EllipsoidVerdict
     | InscribedVerdict
+    | CircleVerdict
     | RobustVerdict
     | CentersVerdict
     | CurveVerdict
@@ -58,6 +60,13 @@ KINDS = {
         "lies in",
         ("answer.log_volume", "certificate.gap"),
         items="half-spaces",
+    ),
+    "inscribed-circle": Kind(
+        InscribedCircle,
+        CircleCertificate,
+        CircleVerdict,
+        "lies in",
+        ("answer.radius", "certificate.gap"),
     ),
     "robust-ellipsoid": Kind(
         RobustEllipsoid,

@@ -1,4 +1,6 @@
-//! `taut inscribe`: the largest shape inside another; so far the ellipsoid inside a polytope.
+//! `taut inscribe`: the largest shape inside another; here the ellipsoid inside a polytope.
+
+mod circle;
 
 use taut::certify::InscribedEllipsoid;
 use taut::{InscribedOptions, Monitor, Solution, inscribed_ellipsoid};
@@ -13,8 +15,8 @@ use crate::watch::Watch;
 /// Find the largest shape inside another, with proof.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Example: taut inscribe ellipsoid sides.csv -o inside.json --draw inside.svg
-See: taut inscribe ellipsoid --help")]
+Example: taut inscribe circle ring.csv -o circle.json --draw circle.svg
+See: taut inscribe circle --help, taut inscribe ellipsoid --help")]
 pub(crate) struct Args {
     #[command(subcommand)]
     body: Body,
@@ -22,6 +24,7 @@ pub(crate) struct Args {
 
 #[derive(Debug, clap::Subcommand)]
 enum Body {
+    Circle(circle::Circle),
     Ellipsoid(Ellipsoid),
 }
 
@@ -55,6 +58,7 @@ struct Ellipsoid {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         match &self.body {
+            Body::Circle(args) => pipeline::run(args),
             Body::Ellipsoid(args) => pipeline::run(args),
         }
     }

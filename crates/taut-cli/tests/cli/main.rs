@@ -9,6 +9,7 @@ mod desk;
 mod ellipsoid;
 mod generate;
 mod inscribe;
+mod inscribe_circle;
 #[cfg(unix)]
 mod interrupt;
 mod limits;

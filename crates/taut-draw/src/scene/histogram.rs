@@ -7,7 +7,7 @@ use crate::{Axis, Bar, Figure, Level, Plot, Scale, Series, Tone};
 
 /// About how many bars there are.
 const BAR_COUNT: usize = 48;
-/// From this height of the tallest bar on the axis is logarithmic: few items near the border are to be seen beside many.
+/// The axis is logarithmic if the tallest bar reaches this count.
 const LINEAR_HEIGHT_MAX: u64 = 200;
 
 /// What the histogram of an answer says beside its bars.

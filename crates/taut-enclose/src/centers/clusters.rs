@@ -4,7 +4,7 @@
 //! it, with the radius of the ball with each, which is below the threshold; which items are left out.
 //! *Guests, cheapest first.* An item inside leaves the radius as it is. One too far from the new item, or for which
 //! (D² + r²)/2D, a lower bound on the radius of a ball that holds the old one's points and one at distance D > r, is too large,
-//! is out of the question for good. For the others the ball is made.
+//! is pruned: it is no guest of the cluster nor of any larger one. For the others the ball is made.
 //! *Choice.* The item that fits in the fewest clusters; of equals, the one that makes them grow most. Items that fit in none
 //! need an empty cluster each, if no two of them fit in one: a clique.
 

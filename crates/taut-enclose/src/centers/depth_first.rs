@@ -52,7 +52,7 @@ impl<S: State> Path<S> {
         self.frames.push(Frame { item, chain, places: places.into_iter(), undo: None });
     }
 
-    /// Items to branch on at the present node and below; none where the state is to be asked.
+    /// Returns the rest of the chain; empty if the state must choose; `None` at the root.
     pub(super) fn chain(&self) -> Option<&[u32]> {
         self.frames.last().map(|frame| &frame.chain[..])
     }

@@ -36,7 +36,7 @@ impl ItemRows {
             (Items::Points, true) => Shape::Weighted,
             (Items::Balls, false) => Shape::Balls,
             (Items::Balls, true) => return refused("weights", "true", "false for balls"),
-            (Items::Ellipsoids, _) => return refused("items", "ellipsoids", "points or balls"),
+            (Items::Ellipsoids, _) => return refused("inputs", "ellipsoids", "points or balls"),
         };
         if source.is_empty() {
             return Err(Error::Empty);

@@ -85,6 +85,9 @@ impl CentersOptions<'_> {
         let wrong = |name, value: String, expected| {
             Err(Error::Input(InputError::Option { name, value, expected }))
         };
+        if self.inputs == Items::Ellipsoids {
+            return wrong("inputs", "ellipsoids".into(), "points or balls");
+        }
         if k == 0 {
             return wrong("k", "0".into(), "at least 1");
         }

@@ -5,7 +5,7 @@
 //! *Threads.* What is below a node depends on nothing beside it. A tree that is not small is opened from its root until there are
 //! [`UNKNOWN_PARTS_MAX`] nodes whose trees are unknown, or [`OPENED_NODES_MAX`] in all; these are made side by side, and their logs put where they belong.
 //! *Guarantee.* One set of options has one log, or one reason to have none: it is longer than the budget, else it does not end in
-//! dead ends alone. So a part that does not, stops no other.
+//! dead ends alone. A part that fails does not stop the others, so the reason does not depend on threads.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -23,8 +23,10 @@ const WHOLE_TREE_NODES_MAX: u64 = 1000;
 const UNKNOWN_PARTS_MAX: usize = 256;
 /// A tree that this many nodes have not made so wide is left as it is.
 const OPENED_NODES_MAX: usize = 4 * UNKNOWN_PARTS_MAX;
-/// Nodes are counted, and it is asked whether to go on, each time this many have gone by.
-const NODES_BETWEEN_ASKS: u64 = 64;
+/// Each part adds to the common count of nodes after this many of its own.
+const NODES_BETWEEN_COUNTS: u64 = 64;
+/// Most items of a core-set with a log: below the checker's limit of 16384.
+pub(super) const CORE_SET_MAX: usize = 16_000;
 
 /// A state whose tree can be written down.
 pub(super) trait Proving: State + Clone + Send + Sync {
@@ -56,7 +58,7 @@ impl Log {
 /// A part of a log.
 struct Piece {
     log: Log,
-    /// Why it does not go on to the end of the last dead end.
+    /// `Ok` if the part is complete; else why it stopped.
     end: Result<(), Stop>,
 }
 
@@ -160,9 +162,10 @@ impl<'a, S: Proving> PlainTree<'a, S> {
         let log = &mut piece.log;
         let mut path = Path::new();
         loop {
-            if (log.items.len() as u64).is_multiple_of(NODES_BETWEEN_ASKS) {
-                self.monitor.check().map_err(ReadError::from)?;
-                let counted = if log.items.is_empty() { 0 } else { NODES_BETWEEN_ASKS };
+            // One load of a flag, which any node outweighs; with centers at rows a node can take milliseconds.
+            self.monitor.check().map_err(ReadError::from)?;
+            if (log.items.len() as u64).is_multiple_of(NODES_BETWEEN_COUNTS) {
+                let counted = if log.items.is_empty() { 0 } else { NODES_BETWEEN_COUNTS };
                 let nodes = self.nodes.fetch_add(counted, Ordering::Relaxed) + counted;
                 if nodes > self.budget {
                     return Ok(piece);

@@ -17,7 +17,7 @@ use taut_points::Monitor;
 use super::cloud::Cloud;
 use super::clusters::{Clusters, large_clique};
 use super::items::Position;
-use super::plain_tree::{Log, PlainTree};
+use super::plain_tree::{CORE_SET_MAX, Log, PlainTree};
 use super::start::least_pair_radius;
 use crate::Error;
 
@@ -27,8 +27,6 @@ const ROUNDING: f64 = 1e-12;
 const PAIR_ROUNDING: f64 = 2e-14;
 /// Open children stay below the refuted ones by this, so that others, who round otherwise, refute the same.
 const REFUTED_MARGIN: f64 = 4e-12;
-/// No checker takes larger core-sets.
-const CORE_SET_MAX: usize = 16_000;
 /// At most this many trees are made over what the one before has branched on, or with open children farther from the
 /// bound.
 const ROUNDS_MAX: usize = 5;
@@ -60,8 +58,8 @@ impl Proof {
     }
 
     /// That no k balls of a radius less than `threshold` hold all of the core-set but z; or why not: it takes more than `budget`
-    /// nodes or more items than a checker takes, or is not so, which can only be by rounding. `claim` tells what is left of a bound
-    /// of some items in the units of the rows, in those of the search: much less only where that is a subnormal number.
+    /// nodes or more items than a checker takes, or is not so, which can only be by rounding. `claim(bound, items)`
+    /// rounds a bound to the units of the rows and returns it in search units. It is much smaller only for subnormal numbers.
     pub(super) fn by_tree<P: Position>(
         cloud: &Cloud<P>,
         core_set: &[u32],

@@ -38,15 +38,13 @@ use self::state::State;
 use crate::Error;
 use crate::apart::claimed;
 use crate::centers::item_rows::ItemRows;
-use crate::centers::{CentersMethod, CentersOptions};
+use crate::centers::{CentersMethod, CentersOptions, PROOF_FACTOR, PROOF_NODES};
 
 /// Once the gap is at most this beyond the one wanted, the radius wanted is tried at once.
 const NEAR_GAP: f64 = 0.02;
 /// The first try at a radius has this many nodes; each next one has twice as many, so that all cost about twice the
 /// last.
 const FIRST_TRY_NODES: u64 = 200;
-/// A proof may take so many times the nodes of the search, and so many more.
-const PROOF_NODES: (u64, u64) = (20, 10_000);
 
 /// By how much, relatively, bounds are lowered: many times what a reach can be off by.
 fn rounding(sites: &Sites) -> f64 {
@@ -246,8 +244,7 @@ impl<'a> Bracket<'a> {
 
     /// The best bound that can be written down, its proof, and why no better one.
     fn proof(&self) -> Result<(f64, Proof, Option<Stop>), Error> {
-        let (factor, more) = PROOF_NODES;
-        let mut max_nodes = self.nodes.saturating_mul(factor).saturating_add(more);
+        let mut max_nodes = self.nodes.saturating_mul(PROOF_FACTOR).saturating_add(PROOF_NODES);
         let mut why = None;
         for &(radius, count) in self.refuted.iter().rev() {
             let lower = proved(radius, self.sites);

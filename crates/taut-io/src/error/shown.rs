@@ -23,11 +23,11 @@ pub(super) fn format_of(content: Content) -> &'static str {
 /// How to say the format: of points by a name, as an option takes one; of all else by an extension.
 pub(super) fn names_or_extensions(content: Content, usable: impl Fn(Format) -> bool) -> String {
     if content == Content::Points {
-        return format!("(one of {})", names(usable));
+        return format!("name it (one of {})", names(usable));
     }
     let usable = Format::all().filter(|&format| usable(format));
     let extensions = usable.map(|format| format!(".{}", format.extensions()[0]));
-    extensions.collect::<Vec<_>>().join(", ")
+    format!("give it one of the extensions {}", extensions.collect::<Vec<_>>().join(", "))
 }
 
 /// A path as messages show it: control characters are escaped, so that no name of a file can speak to a terminal.

@@ -13,6 +13,9 @@ pub(super) enum Access {
 
 use Access::{Both, Read, Write};
 
+/// Extensions under which normals or colors follow the coordinates. Points are read from such files, never written to them.
+pub(super) const READ_ONLY_EXTENSIONS: [&str; 2] = ["xyzn", "xyzrgb"];
+
 /// A row of the table.
 pub(super) struct Entry {
     pub(super) format: Format,
@@ -185,11 +188,14 @@ pub(super) const TABLE: [Entry; 21] = [
         Format::GeoJson,
         "geojson",
         &["geojson"],
-        &[(
-            Curves,
-            Write,
-            "loops as polygons, those within as their holes; open curves as line strings",
-        )],
+        &[
+            (Points, Read, "positions, or the ring of one polygon without holes"),
+            (
+                Curves,
+                Write,
+                "loops as polygons, those within as their holes; open curves as line strings",
+            ),
+        ],
     ),
     entry(
         Format::Svg,

@@ -23,7 +23,8 @@ use crate::{Content, Error, Format};
 /// 255.
 ///
 /// # Errors
-/// [`Error::UnknownFormat`] and [`Error::NotReadable`] of the format; [`Error::Damaged`] and [`Error::Unsupported`], with
+/// [`Error::NotMesh`] of other content than these two; [`Error::UnknownFormat`] and [`Error::NotReadable`] of the format;
+/// [`Error::Damaged`] and [`Error::Unsupported`], with
 /// line or element, of what the file holds; [`Error::EmptyMesh`]; and those of opening a file.
 pub fn open_mesh(path: &Path, content: Content, format: Option<Format>) -> Result<Mesh, Error> {
     let (medium, shown) = Medium::open(path)?;
@@ -62,6 +63,9 @@ fn read(
 ) -> Result<Mesh, Error> {
     let (named, compression) = Format::of_path(name);
     let path = || shown.to_owned();
+    if !matches!(content, Content::Triangulation | Content::Surface) {
+        return Err(Error::NotMesh { path: path(), content });
+    }
     let format = format.or(named).ok_or_else(|| Error::UnknownFormat { path: path(), content })?;
     if !format.reads(content) {
         return Err(Error::not_readable(shown, format, content));

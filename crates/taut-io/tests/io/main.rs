@@ -8,6 +8,7 @@ mod corpus;
 mod create;
 mod damaged;
 mod data;
+mod geojson;
 mod mesh;
 mod parsers;
 mod polylines;

@@ -95,7 +95,14 @@ fn what_a_format_cannot_hold_is_refused_before_anything_is_written() {
     let said = "stl files are not written as triangulations; write one of ply, obj, off, vtu";
     assert!(refused.to_string().contains(said), "{refused}");
     let refused = write(&PLANE, 2, ROWS[2], 3, &folder.path().join("mesh.step")).unwrap_err();
-    assert!(refused.to_string().contains("name it .ply, .obj, .off, .vtu"), "{refused}");
+    assert!(
+        refused.to_string().contains("give it one of the extensions .ply, .obj, .off, .vtu"),
+        "{refused}"
+    );
+    for content in [Content::Points, Content::Curves] {
+        let refused = taut_io::open_mesh_bytes(b"0 0 0\n".to_vec(), "mesh.xyz", content, None);
+        assert!(matches!(refused, Err(Error::NotMesh { .. })), "{content}");
+    }
     let four = write(&[0.0; 4], 4, &[0], 1, &folder.path().join("mesh.ply")).unwrap_err();
     assert!(four.to_string().contains("points of dimension 1, 2 or 3, not 4"), "{four}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);

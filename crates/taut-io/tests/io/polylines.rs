@@ -85,7 +85,10 @@ fn names_tell_formats() {
     }
     let unknown = write_polylines(&curves(), Path::new("curves.shp"), None).unwrap_err();
     assert!(matches!(unknown, Error::UnknownOutput { content: Content::Curves, .. }));
-    assert!(unknown.to_string().contains("name it .csv, .geojson, .svg"), "{unknown}");
+    assert!(
+        unknown.to_string().contains("give it one of the extensions .csv, .geojson, .svg"),
+        "{unknown}"
+    );
     let other = write_polylines(&curves(), Path::new("curves.dxf"), None).unwrap_err();
     let said = "curves.dxf: dxf files are not written as curves; write one of csv, geojson, svg";
     assert_eq!(other.to_string(), said);

@@ -144,6 +144,10 @@ fn what_cannot_be_written_is_said_before_a_file_is_made() {
         refused.to_string()
     };
     assert!(refuse("p.xyz", &[]).contains("xyz files hold points of dimension 3, not 2"));
+    for (name, extension) in [("p.xyzn", "xyzn"), ("p.XYZRGB.gz", "xyzrgb")] {
+        let wanted = format!("files with the extension .{extension} hold normals or colors");
+        assert!(refuse(name, &[]).contains(&wanted), "{name}");
+    }
     assert!(refuse("p.tsp", &[]).contains("tsplib files are read, not written"));
     assert!(refuse("p.unknown", &[]).contains("name it (one of csv, tsv, whitespace, npy"));
     assert!(!refuse("p.unknown", &[]).contains("tsplib"));

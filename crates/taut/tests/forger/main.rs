@@ -25,6 +25,11 @@ fn no_false_centers_are_accepted() {
 }
 
 #[test]
+fn no_false_circle_is_accepted() {
+    attack("circle", &cases::circle::all()).report("circle");
+}
+
+#[test]
 fn no_false_order_is_accepted() {
     attack("order", &cases::order::all()).report("order");
 }

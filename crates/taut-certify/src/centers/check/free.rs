@@ -432,6 +432,60 @@ mod tests {
         is_radius(&[0.0, 2.0, 7.0, 3.0], 2, Kind::Weighted, 7.0 * 6.0 / 5.0);
     }
 
+    /// The radius of the smallest ball around a few points of the plane, by brute force: the smallest circle through two of
+    /// them, as a diameter, or through three that holds all.
+    fn brute_radius(points: &[[f64; 2]]) -> f64 {
+        let mut circles = vec![];
+        for (i, &[ax, ay]) in points.iter().enumerate() {
+            for (j, &[bx, by]) in points.iter().enumerate().skip(i + 1) {
+                circles.push(([(ax + bx) / 2.0, (ay + by) / 2.0], i));
+                for &[cx, cy] in &points[j + 1..] {
+                    let [ux, uy, vx, vy] = [bx - ax, by - ay, cx - ax, cy - ay];
+                    let area = 2.0 * (ux * vy - uy * vx);
+                    let (u, v) = (ux * ux + uy * uy, vx * vx + vy * vy);
+                    if area != 0.0 {
+                        let center = [ax + (vy * u - uy * v) / area, ay + (ux * v - vx * u) / area];
+                        circles.push((center, i));
+                    }
+                }
+            }
+        }
+        let distance = |[x, y]: [f64; 2], [a, b]: [f64; 2]| (x - a).hypot(y - b);
+        let radii = circles.into_iter().filter_map(|(center, on)| {
+            let radius = distance(center, points[on]);
+            // On this grid distances that differ do so by far more.
+            points.iter().all(|&p| distance(center, p) <= radius * (1.0 + 1e-9)).then_some(radius)
+        });
+        radii.fold(f64::INFINITY, f64::min)
+    }
+
+    #[test]
+    fn random_groups_agree_with_brute_force_over_subsets() {
+        let mut state = 7u64;
+        let mut draw = |count: u64| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            ((state >> 33) % count) as f64
+        };
+        for _ in 0..2000 {
+            let count = 2 + draw(6) as usize;
+            let points: Vec<[f64; 2]> = (0..count).map(|_| [draw(9), draw(9)]).collect();
+            let radius = brute_radius(&points);
+            if radius > 0.0 {
+                is_radius(points.as_flattened(), 2, Kind::Points, radius);
+            }
+            // On a line two items decide (Helly): the pair that asks for the largest ball.
+            let rows: Vec<[f64; 2]> = (0..count).map(|_| [draw(50), 1.0 + draw(9)]).collect();
+            let pairs = || rows.iter().flat_map(|&a| rows.iter().map(move |&b| (a, b)));
+            let balls = pairs().map(|([p, r], [q, s])| ((p + r) - (q - s)) / 2.0);
+            is_radius(rows.as_flattened(), 2, Kind::Balls, balls.fold(0.0, f64::max));
+            let weighted = pairs().map(|([p, w], [q, v])| (p - q).abs() * w * v / (w + v));
+            let weighted = weighted.fold(0.0, f64::max);
+            if weighted > 0.0 {
+                is_radius(rows.as_flattened(), 2, Kind::Weighted, weighted);
+            }
+        }
+    }
+
     #[test]
     fn scale_and_place_do_not_matter() {
         for (scale, shift) in [(1e-200, 0.0), (1e200, 0.0), (1.0, 1e8), (2f64.powi(-1000), 0.0)] {

@@ -1,4 +1,4 @@
-//! Asks the monitor whether to go on, however much work one step of a proof is.
+//! Polls the monitor for cancellation about every 2^21 steps.
 //!
 //! *Idea.* Steps are counted where they are taken, each about a coordinate of an item, or a word of a set of items: a
 //! nanosecond or so.

@@ -12,7 +12,7 @@ pub(super) trait Oracle {
     /// Items that are to be in one ball, and what is known of the ball.
     type Group;
 
-    /// What a group that grew has to be told to be what it was.
+    /// Data to undo the last `grow`.
     type Undo;
 
     /// The number of items.

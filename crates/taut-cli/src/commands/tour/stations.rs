@@ -131,8 +131,7 @@ pub(super) const STATIONS: &[Station] = &[
         text: "The larger cities of Europe (places of GeoNames, CC BY 4.0), here on a map in kilometres. Where \
                would eight helicopters stand, so that the farthest city is as near to one of them as can be? No eight \
                places do better than these by more than a millionth: the cities of the core-set alone prove it.\n\n\
-               The checker proves it twice, by a search of its own and by one over all discs that could be needed. \
-               Shown a radius that is a millionth smaller, it names a city that lies outside.",
+               The checker replays the log of the search, branch by branch. Shown a radius that is a millionth smaller, it names a city that lies outside.",
         file: "europe.csv",
         bytes: include_bytes!("../../../samples/europe.csv"),
         tool: Tool::Centers(8),

@@ -1,4 +1,4 @@
-//! The lower bound once more, in the words of the certificate: branches in preorder, over as few items as will do.
+//! Proves the lower bound and writes the proof log: branches in preorder, over as few items as possible.
 //!
 //! *Idea.* The same nodes as in the search, but X is fixed, children come in the order that the certificate prescribes, and
 //! where a node has no way on for a reason (items apart), the items are branched on one after the other until every
@@ -13,10 +13,8 @@ use super::core_set::CoreSet;
 use super::sites::Sites;
 use super::state::{Look, State};
 use crate::Error;
-use crate::centers::plain_tree::PlainTree;
+use crate::centers::plain_tree::{CORE_SET_MAX, PlainTree};
 
-/// More items no checker takes.
-const ITEMS: usize = 16_000;
 /// Items that no node branches on are dropped in at most this many rounds.
 const DROPPING_ROUNDS_MAX: usize = 4;
 
@@ -45,7 +43,8 @@ pub(super) fn prove(
     let state = root(members)?;
     if let Look::Dead(mut items) = state.clone().look() {
         // One item alone that has no ball is not dead with others apart from it.
-        let count = k.checked_add(outliers).filter(|&count| items.len() > count && count < ITEMS);
+        let count =
+            k.checked_add(outliers).filter(|&count| items.len() > count && count < CORE_SET_MAX);
         if let Some(count) = count {
             items.truncate(count + 1);
             let members = items.into_iter().map(|item| members[item]).collect();
@@ -75,7 +74,7 @@ pub(super) fn prove(
             }
         }
     }
-    if members.len() > ITEMS {
+    if members.len() > CORE_SET_MAX {
         return Ok(Err(Stop::ProofBudget));
     }
     let nodes = log.len() as u64;

@@ -1,7 +1,7 @@
 //! A node of the search: which item of X is in which cluster, and what that leaves open.
 //!
 //! *Idea.* A cluster is the set of rows that have all its items within the radius; it is not feasible when that is
-//! empty, and holds an item for good when all of these rows have it. For each cluster a column counts, for each item, how many
+//! empty, and holds an item for good when all of these rows have it. Children with a cluster that is not feasible are pruned. For each cluster a column counts, for each item, how many
 //! of its rows have that item, too.
 //! *Branching.* The item with the fewest places to go (Brélaz 1979, DSATUR), among equals the one that would leave
 //! its clusters the fewest rows.

@@ -186,7 +186,8 @@ fn sizes_at_the_ends_of_the_range_are_solved_or_refused() {
         assert_same(solved(&points(&scaled, 2, 3, 0)).answer.radius, first * scale);
     }
     let apart = [f64::MAX, -f64::MAX];
-    let refused = ask(&points(&apart, 1, 1, 0), &CentersOptions::default());
+    let problem = points(&apart, 1, 1, 0);
+    let refused = ask(&problem, &exact(&problem));
     assert!(matches!(refused, Err(Error::Overflow)));
 }
 
@@ -211,7 +212,7 @@ fn wrong_input_is_refused_by_name() {
     assert!(matches!(radius, Error::NegativeRadius { row: 0, .. }));
     assert!(matches!(ask(&[1.0], 1, Items::Balls, 1, false), Error::NoRadius { .. }));
     let shapes = ask(&[1.0, 1.0], 2, Items::Ellipsoids, 1, false);
-    assert!(matches!(shapes, Error::Input(InputError::Option { name: "items", .. })));
+    assert!(matches!(shapes, Error::Input(InputError::Option { name: "inputs", .. })));
     let problem = points(&[1.0, 2.0, 3.0], 1, 1, 3);
     let refused = self::ask(&problem, &exact(&problem));
     assert!(matches!(refused, Err(Error::Input(InputError::Option { name: "outliers", .. }))));

@@ -97,7 +97,7 @@ fn text_is_refused_with_its_line() {
         ("s.pts", "3\n0 0 0\n".into(), "it promises 3 points, but has 1"),
         ("s.pts", "-3\n0 0 0\n".into(), "it promises -3 points"),
         ("s.dxf", "0\n".into(), "s.dxf: dxf files are written, not read; read one of ply, obj, off, stl, xyz"),
-        ("s.3ds", "0\n".into(), "s.3ds: the format of the mesh cannot be told from the name; name it .ply, .obj"),
+        ("s.3ds", "0\n".into(), "s.3ds: the format of the mesh cannot be told from the name; give it one of the extensions .ply, .obj"),
         ("s.ply", String::new(), "s.ply is empty"),
     ] {
         let refused = message(read(name, text.clone()));

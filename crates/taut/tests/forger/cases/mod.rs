@@ -2,6 +2,7 @@
 
 pub mod ball;
 pub mod centers;
+pub mod circle;
 pub mod clouds;
 pub mod curve;
 pub mod ellipsoid;

@@ -3,6 +3,7 @@
 pub mod ball;
 mod body;
 pub mod centers;
+pub mod circle;
 mod claims;
 pub mod curve;
 pub mod dyadic;
@@ -31,6 +32,7 @@ use taut::certify::{AnyVerdict, EllipsoidVerdict, RobustVerdict};
 
 use self::ball::BallOracle;
 use self::centers::CentersOracle;
+use self::circle::CircleOracle;
 use self::curve::CurveOracle;
 use self::ellipsoid::EllipsoidOracle;
 use self::inscribed::InscribedOracle;
@@ -75,6 +77,7 @@ pub struct CaseOracle<'a> {
     input: &'a Input,
     balls: BTreeMap<u8, BallOracle>,
     centers: Option<CentersOracle>,
+    circle: Option<CircleOracle>,
     curve: Option<CurveOracle>,
     ellipsoids: BTreeMap<u8, EllipsoidOracle>,
     inscribed: Option<InscribedOracle>,
@@ -101,6 +104,7 @@ impl<'a> CaseOracle<'a> {
             input,
             balls: BTreeMap::new(),
             centers: None,
+            circle: None,
             curve: None,
             ellipsoids: BTreeMap::new(),
             inscribed: None,
@@ -126,6 +130,10 @@ impl<'a> CaseOracle<'a> {
             (AnySolution::Centers(found), AnyVerdict::Centers(verdict)) => {
                 let oracle =
                     self.centers.get_or_insert_with(|| CentersOracle::new(values, *columns));
+                oracle.judge(found, verdict)
+            }
+            (AnySolution::Circle(found), AnyVerdict::Circle(verdict)) => {
+                let oracle = self.circle.get_or_insert_with(|| CircleOracle::new(values, *columns));
                 oracle.judge(found, verdict)
             }
             (AnySolution::Curve(found), AnyVerdict::Curve(verdict)) => {
@@ -185,6 +193,10 @@ impl<'a> CaseOracle<'a> {
                     "the least radius of {} balls, {:?}, around {:?}{weights} but {}",
                     of.k, of.placement, of.items, of.outliers
                 );
+                vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
+            }
+            (AnySolution::Circle(_), AnyVerdict::Circle(verdict)) => {
+                let optimum = "the largest radius inside".to_owned();
                 vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
             }
             (AnySolution::Ellipsoid(found), AnyVerdict::Ellipsoid(verdict)) => {

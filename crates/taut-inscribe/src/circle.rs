@@ -1,0 +1,110 @@
+//! The largest circle in a simple polygon.
+//!
+//! *Problem.* The clearance of a point q is its distance to the nearest edge, d(q) = minᵢ dist(q, eᵢ). Find the center inside
+//! with the largest clearance.
+//! *Idea.* Branch and bound over cells of the bounding box ([`search`]). For weights λ ≥ 0 with Σ λᵢ = 1 the clearance is at most
+//! Σ λᵢ·dist(q, eᵢ), which is convex and so largest at a corner of the cell. The best weights of a cell are a solution of a small
+//! linear program ([`weights`]). At a local optimum the normals of the touching edges are balanced, Σ λᵢnᵢ = 0, so that the bound
+//! is off by the square of the size of the cell only, and by nothing where edges are touched between their ends: a cell
+//! around the optimum closes before it is small. The edges of the weights also give the center, by Newton's method ([`polish`]).
+//! *Guarantee.* largest radius ≤ (1 + ε)·radius, from the leaves of the subdivision, which are the certificate. No circle is
+//! reported that an edge enters.
+//! *Trap.* Far from the origin, or in a needle, no point in double precision is as good as the best center: the search then ends
+//! at cells that have no middle, with the gap that is left.
+//! *Reference.* Garcia-Castellanos and Lombardo, Poles of inaccessibility, Scottish Geographical J. 123(3), 2007, and the
+//! program polylabel, for cells with d(center) + half a diagonal as the bound; the weights are new here.
+
+mod cell;
+mod distance;
+mod polish;
+mod search;
+mod weights;
+
+use std::collections::BTreeMap;
+
+use taut_certify::{CircleCertificate, InscribedCircle, Solution, Trace};
+use taut_points::{InputError, Monitor, PointSource, shown_number};
+
+use crate::Error;
+use crate::ring::Ring;
+
+use self::distance::Edges;
+
+/// How much farther than the radius a touching edge may be, relative to the radius; rounding of the center comes on top.
+const TOUCHING_SLACK: f64 = 1e-10;
+
+/// How to look for the circle. Write `CircleOptions { epsilon: 1e-6, ..Default::default() }`.
+#[derive(Clone)]
+pub struct CircleOptions<'a> {
+    /// Proved relative gap to reach, in (0, 1): largest radius ≤ (1 + ε)·radius. Default 1e-9.
+    pub epsilon: f64,
+    /// Most cells of the certificate; where ε takes more, a larger gap is proved. At least 1, by default a million.
+    pub max_cells: u64,
+    /// Watches the work and can stop it. Default [`Monitor::silent`].
+    pub monitor: Monitor<'a>,
+}
+
+impl Default for CircleOptions<'_> {
+    fn default() -> Self {
+        CircleOptions { epsilon: 1e-9, max_cells: 1_000_000, monitor: Monitor::silent() }
+    }
+}
+
+/// Finds the largest circle in the simple polygon whose vertices are the points in order; the last may repeat the first.
+///
+/// The points are read once and kept in memory.
+///
+/// # Errors
+/// [`Error::NotSimple`] with the edges where the ring meets itself, [`Error::TooFewVertices`], [`Error::TooThin`], and
+/// [`Error::Input`] for bad points or options, and for what reading says.
+pub fn inscribed_circle(
+    ring: &dyn PointSource,
+    options: &CircleOptions<'_>,
+) -> Result<Solution<InscribedCircle>, Error> {
+    check_options(options)?;
+    let ring = Ring::read(ring, &options.monitor)?;
+    let edges = Edges::of(&ring.exact);
+    let found = search::search(&edges, options)?;
+    let radius = edges.unscaled_down(found.radius);
+    if found.center.is_none() || radius <= 0.0 {
+        return Err(Error::TooThin);
+    }
+    let center = found.center.unwrap_or_default();
+    let point = edges.scaled(center);
+    let rounding = 2.0 * f64::EPSILON * (point[0].abs() + point[1].abs());
+    let most = found.radius * (1.0 + TOUCHING_SLACK) + rounding;
+    let touching = (0..edges.len()).filter(|&edge| edges.distance(point, edge) <= most);
+    let certificate = CircleCertificate {
+        touching: touching.map(|edge| ring.rows[edge as usize]).collect(),
+        tree: found.log.tree,
+        leaves: found.log.leaves.into_iter().map(|leaf| leaf.numbers(&ring.rows)).collect(),
+        gap: ((found.upper / found.radius) * (1.0 + 8.0 * f64::EPSILON) - 1.0).max(0.0),
+        points_hash: ring.points_hash,
+    };
+    let counters = [
+        ("cells", certificate.tree.len() as u64),
+        ("searches", found.searches),
+        ("vertices", ring.rows.len() as u64),
+    ];
+    let trace = Trace {
+        method: "branch-and-bound".to_owned(),
+        stop: found.stop,
+        passes: 1,
+        iterations: found.cells,
+        core_set: certificate.touching.len() as u64,
+        history: vec![],
+        counters: BTreeMap::from(counters.map(|(name, count)| (name.to_owned(), count))),
+    };
+    Ok(Solution { answer: InscribedCircle { center, radius }, certificate, trace })
+}
+
+fn check_options(options: &CircleOptions<'_>) -> Result<(), InputError> {
+    let wrong = |name, value, expected| Err(InputError::Option { name, value, expected });
+    if !(options.epsilon > 0.0 && options.epsilon < 1.0) {
+        return wrong("epsilon", shown_number(options.epsilon), "a number above 0 and below 1");
+    }
+    if options.max_cells == 0 {
+        return wrong("max_cells", "0".to_owned(), "at least 1");
+    }
+    Ok(())
+}

@@ -1,0 +1,27 @@
+//! Largest shapes inside polygons, each with a certificate.
+//!
+//! | you want | call | promise | cost, n vertices |
+//! |---|---|---|---|
+//! | the largest circle in a simple polygon | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | O(n log n) for most rings, and the cells of the search |
+//!
+//! ```
+//! use taut_inscribe::{CircleOptions, inscribed_circle};
+//! use taut_points::Points;
+//!
+//! let ring = Points::new(&[0.0, 0.0, 4.0, 0.0, 4.0, 3.0], 2)?;   // vertices in order; the last may repeat the first
+//! let found = inscribed_circle(&ring, &CircleOptions::default())?;
+//! assert!((found.answer.radius - 1.0).abs() < 1e-9);
+//! assert!(found.check(&ring)?.gap <= 1e-9);                      // proved from the ring and the certificate alone
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Not for: polygons with holes, and rings that touch or cross themselves.
+#![forbid(unsafe_code)]
+
+mod circle;
+mod error;
+mod ring;
+mod simple;
+
+pub use circle::{CircleOptions, inscribed_circle};
+pub use error::Error;

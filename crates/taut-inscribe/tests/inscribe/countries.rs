@@ -1,0 +1,95 @@
+//! Outlines of countries, if `TAUT_DATA` names a folder with them.
+
+use std::io::Read;
+use std::path::Path;
+
+use super::common::{Ring, solve, verify};
+use taut_inscribe::Error;
+
+/// The rings of a file: countries by name, each a list of rings.
+fn rings(name: &str) -> Option<Vec<(String, Ring)>> {
+    let Some(folder) = std::env::var_os("TAUT_DATA") else {
+        eprintln!("TAUT_DATA is not set: {name} is left out");
+        return None;
+    };
+    let path = Path::new(&folder).join("inscribe").join(name);
+    let Ok(file) = std::fs::File::open(&path) else {
+        eprintln!("{} is not there: left out", path.display());
+        return None;
+    };
+    let mut text = String::new();
+    liblzma::read::XzDecoder::new(file).read_to_string(&mut text).unwrap();
+    let all: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let mut found = vec![];
+    collect(&all, "", &mut found);
+    Some(found)
+}
+
+/// Lists of points at any depth, each under the name of what holds it.
+fn collect(value: &serde_json::Value, name: &str, found: &mut Vec<(String, Ring)>) {
+    let point = |value: &serde_json::Value| {
+        let pair = value.as_array().filter(|pair| pair.len() == 2)?;
+        Some([pair[0].as_f64()?, pair[1].as_f64()?])
+    };
+    match value {
+        serde_json::Value::Object(fields) => {
+            fields.iter().for_each(|(key, value)| collect(value, key, found));
+        }
+        serde_json::Value::Array(items) => {
+            match items.iter().map(point).collect::<Option<Ring>>() {
+                Some(ring) if ring.len() > 2 => found.push((name.to_owned(), ring)),
+                _ => items.iter().for_each(|value| collect(value, name, found)),
+            }
+        }
+        _ => {}
+    }
+}
+
+#[test]
+fn countries_have_a_proved_circle() {
+    for file in ["countries_110m.json.xz", "countries_10m.json.xz"] {
+        let Some(rings) = rings(file) else { return };
+        assert!(rings.len() > 5, "{file}: {} rings", rings.len());
+        let (mut solved, mut refused) = (0, 0);
+        for (name, ring) in rings {
+            let found = match solve(&ring) {
+                Ok(found) => found,
+                Err(Error::NotSimple { .. }) => {
+                    refused += 1;
+                    continue;
+                }
+                Err(error) => panic!("{name}: {error}"),
+            };
+            solved += 1;
+            let (verdict, json) = (verify(&found, &ring), found.to_json().len());
+            assert!(verdict.gap <= 1.01e-9, "{name}: {verdict:?}");
+            assert!(json < 200_000, "{name}: {json} bytes");
+            if ring.len() > 700 {
+                let (vertices, radius) = (ring.len(), found.answer.radius);
+                let cells = found.certificate.tree.len();
+                println!(
+                    "{name}: {vertices} vertices, radius {radius}, {cells} cells, {json} bytes"
+                );
+            }
+        }
+        println!("{file}: {solved} rings solved, {refused} are not simple");
+        assert!(solved > 0);
+    }
+}
+
+#[test]
+fn rings_that_touch_themselves_are_named() {
+    let Some(rings) = rings("countries_10m_selftouching.json.xz") else { return };
+    let mut refused = 0;
+    for (name, ring) in rings {
+        match solve(&ring) {
+            Err(Error::NotSimple { edge, other }) => {
+                println!("{name}: edges {edge:?} and {other:?} of {}", ring.len());
+                refused += 1;
+            }
+            Ok(found) => drop(verify(&found, &ring)),
+            Err(error) => panic!("{name}: {error}"),
+        }
+    }
+    assert!(refused > 0);
+}

@@ -1,0 +1,120 @@
+//! Inputs at the edge of what is a polygon, and beyond.
+
+use super::common::{Ring, proved, regular, solve, solve_with, verify};
+use taut_certify::Stop;
+use taut_inscribe::{CircleOptions, Error, inscribed_circle};
+use taut_points::{InputError, Points};
+
+fn refusal(ring: &[[f64; 2]]) -> String {
+    solve(ring).unwrap_err().to_string()
+}
+
+#[test]
+fn too_few_vertices_are_refused() {
+    for (ring, distinct) in [
+        (vec![], 0),
+        (vec![[1.0, 2.0]], 1),
+        (vec![[1.0, 2.0]; 5], 1),
+        (vec![[0.0, 0.0], [1.0, 0.0]], 2),
+        (vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 0.0]], 2),
+    ] {
+        let error = solve(&ring).unwrap_err();
+        let found = matches!(error, Error::TooFewVertices { distinct: found } if found == distinct);
+        assert!(found, "{ring:?}: {error}");
+    }
+}
+
+#[test]
+fn rings_that_meet_themselves_are_refused_by_row() {
+    let bow = [[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]];
+    assert_eq!(
+        refusal(&bow),
+        "the edge from point 0 to point 1 meets the edge from point 2 to point 3: a ring may neither cross nor touch itself"
+    );
+    // Repeated rows: an edge is named by the rows between which it leads.
+    let doubled: Ring = bow.iter().flat_map(|&p| [p, p]).collect();
+    assert!(refusal(&doubled).contains("from point 1 to point 2 meets the edge from point 5 to"));
+    // No area: three points on a line.
+    assert!(refusal(&[[0.0, 0.0], [1.0, 1.0], [3.0, 3.0]]).contains("meets the edge"));
+    // A vertex on an edge, and a vertex that comes twice.
+    let touching = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 0.0], [0.0, 4.0]];
+    assert!(refusal(&touching).contains("from point 0 to point 1 meets"));
+    let pinched = [[0.0, 0.0], [2.0, 2.0], [4.0, 0.0], [4.0, 4.0], [2.0, 2.0], [0.0, 4.0]];
+    assert!(refusal(&pinched).contains("meets the edge"));
+    // The crossing of one pair among many edges.
+    let mut ring = regular(50_000);
+    ring.swap(777, 778);
+    assert!(refusal(&ring).contains("point 77"), "{}", refusal(&ring));
+}
+
+#[test]
+fn bad_points_and_options_are_refused() {
+    let points = [0.0, 0.0, 1.0, 0.0, f64::NAN, 1.0];
+    let error = inscribed_circle(&Points::new(&points, 2).unwrap(), &CircleOptions::default());
+    let row = matches!(error, Err(Error::Input(InputError::NonFinite { row: 2, column: 0, .. })));
+    assert!(row, "{error:?}");
+    let error = inscribed_circle(&Points::new(&points, 3).unwrap(), &CircleOptions::default());
+    assert!(matches!(error, Err(Error::Input(InputError::Dimension { dim: 3, .. }))), "{error:?}");
+    let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    for epsilon in [0.0, 1.0, -1e-9, f64::NAN, f64::INFINITY] {
+        let options = CircleOptions { epsilon, ..Default::default() };
+        let error = solve_with(&square, &options).unwrap_err().to_string();
+        assert!(error.contains("option `epsilon` is"), "{error}");
+    }
+    let options = CircleOptions { max_cells: 0, ..Default::default() };
+    assert!(solve_with(&square, &options).unwrap_err().to_string().contains("`max_cells` is 0"));
+}
+
+#[test]
+fn single_precision_points_have_the_circle_of_their_copies() {
+    let ring: Vec<f32> = regular(9).iter().flatten().map(|&x| x as f32).collect();
+    let copies: Vec<f64> = ring.iter().map(|&x| f64::from(x)).collect();
+    let options = CircleOptions::default();
+    let one = inscribed_circle(&Points::new(&ring, 2).unwrap(), &options).unwrap();
+    let other = inscribed_circle(&Points::new(&copies, 2).unwrap(), &options).unwrap();
+    assert_eq!(one, other);
+}
+
+#[test]
+fn needles_are_solved_to_the_gap() {
+    for height in [1e-3, 1e-6, 1e-9, 1e-12, 1e-15] {
+        let (found, _) = proved(&[[0.0, 0.0], [1.0, 0.0], [0.5, height]]);
+        // Area over half the perimeter.
+        let expected = height / (1.0 + 2.0 * 0.5f64.hypot(height));
+        assert!((found.answer.radius / expected - 1.0).abs() <= 1.1e-9, "{height:e}");
+    }
+    // Below 2⁻⁹³ of the length the checker cannot tell the height from 0.
+    let needle = [[0.0, 0.0], [1.0, 0.0], [0.5, 1e-30]];
+    assert!(matches!(solve(&needle).unwrap_err(), Error::TooThin));
+}
+
+#[test]
+fn far_from_the_origin_rounding_ends_the_search() {
+    // At 2^40 coordinates are multiples of 2⁻¹², and the center of this triangle is none.
+    let far = 2f64.powi(40);
+    let ring = [[far, far], [far + 1.0, far], [far + 0.25, far + 0.75]];
+    let found = solve(&ring).unwrap();
+    let verdict = verify(&found, &ring);
+    assert_eq!(found.trace.stop, Stop::Rounding);
+    assert!(verdict.gap > 1e-9 && verdict.gap < 2e-3, "{verdict:?}");
+    let near = [[0.0, 0.0], [1.0, 0.0], [0.25, 0.75]];
+    let radius = proved(&near).0.answer.radius;
+    assert!(found.answer.radius <= radius && radius <= verdict.upper, "{radius}, {verdict:?}");
+}
+
+#[test]
+fn a_polygon_without_a_point_inside_is_refused() {
+    let (one, next) = (1.0, 1.0 + f64::EPSILON);
+    let ring = [[one, one], [next, one], [one, next]];
+    assert!(matches!(solve(&ring).unwrap_err(), Error::TooThin), "{}", refusal(&ring));
+}
+
+#[test]
+fn the_largest_and_smallest_coordinates_are_solved() {
+    let max = f64::MAX;
+    let (found, verdict) = proved(&[[-max, -max], [max, -max], [max, max], [-max, max]]);
+    assert!(found.answer.radius > max * (1.0 - 1e-9) && verdict.upper.is_finite());
+    let min = f64::MIN_POSITIVE;
+    let (found, _) = proved(&[[0.0, 0.0], [min, 0.0], [min, min], [0.0, min]]);
+    assert!(found.answer.radius > 0.5 * min * (1.0 - 1e-9));
+}

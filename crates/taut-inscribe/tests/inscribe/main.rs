@@ -1,0 +1,9 @@
+//! The tests of `taut-inscribe` from outside, in one program.
+
+mod closed_forms;
+mod common;
+mod countries;
+mod degenerate;
+mod laws;
+mod mutations;
+mod sampling;

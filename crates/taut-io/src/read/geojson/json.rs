@@ -1,0 +1,193 @@
+//! JSON text as a tree of values.
+//!
+//! *Trap.* Lists can be nested as deep as the text is long: [`DEPTH_MAX`] keeps the recursion short.
+
+/// Lists and objects within each other; GeoJSON has at most ten.
+const DEPTH_MAX: usize = 64;
+
+/// A value.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Value {
+    Null,
+    Bool,
+    Number(f64),
+    Text(String),
+    Array(Vec<Value>),
+    /// Fields in the order of the text.
+    Object(Vec<(String, Value)>),
+}
+
+/// Reads one value as long as the text; an error says what is wrong and in which line.
+pub(super) fn parse(text: &[u8]) -> Result<Value, String> {
+    let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
+    let mut parser = Parser { text, at: 0 };
+    let found = parser.value(0).and_then(|value| {
+        parser.skip_blanks();
+        match parser.at == text.len() {
+            true => Ok(value),
+            false => Err("text after the end of the document"),
+        }
+    });
+    found.map_err(|problem| {
+        let line = 1 + text[..parser.at].iter().filter(|&&byte| byte == b'\n').count();
+        format!("line {line}: {problem}")
+    })
+}
+
+struct Parser<'a> {
+    text: &'a [u8],
+    at: usize,
+}
+
+type Parsed<T> = Result<T, &'static str>;
+
+impl Parser<'_> {
+    fn peek(&self) -> Option<u8> {
+        self.text.get(self.at).copied()
+    }
+
+    fn skip_blanks(&mut self) {
+        while self.peek().is_some_and(|byte| b" \t\r\n".contains(&byte)) {
+            self.at += 1;
+        }
+    }
+
+    /// Whether the next byte that is no blank is this one, which is then read.
+    fn eat(&mut self, byte: u8) -> bool {
+        self.skip_blanks();
+        let is_next = self.peek() == Some(byte);
+        self.at += usize::from(is_next);
+        is_next
+    }
+
+    fn value(&mut self, depth: usize) -> Parsed<Value> {
+        if depth > DEPTH_MAX {
+            return Err("lists are nested too deep");
+        }
+        self.skip_blanks();
+        match self.peek() {
+            Some(b'{') => self.object(depth),
+            Some(b'[') => self.array(depth),
+            Some(b'"') => self.text().map(Value::Text),
+            Some(b'-' | b'0'..=b'9') => self.number(),
+            Some(_) => self.word(),
+            None => Err("the text ends too early"),
+        }
+    }
+
+    fn object(&mut self, depth: usize) -> Parsed<Value> {
+        self.at += 1;
+        let mut fields = vec![];
+        if self.eat(b'}') {
+            return Ok(Value::Object(fields));
+        }
+        loop {
+            self.skip_blanks();
+            if self.peek() != Some(b'"') {
+                return Err("expected the name of a field");
+            }
+            let name = self.text()?;
+            if !self.eat(b':') {
+                return Err("expected a colon");
+            }
+            fields.push((name, self.value(depth + 1)?));
+            match (self.eat(b','), self.eat(b'}')) {
+                (true, false) => {}
+                (false, true) => return Ok(Value::Object(fields)),
+                _ => return Err("expected a comma or the end of an object"),
+            }
+        }
+    }
+
+    fn array(&mut self, depth: usize) -> Parsed<Value> {
+        self.at += 1;
+        let mut items = vec![];
+        if self.eat(b']') {
+            return Ok(Value::Array(items));
+        }
+        loop {
+            items.push(self.value(depth + 1)?);
+            match (self.eat(b','), self.eat(b']')) {
+                (true, false) => {}
+                (false, true) => return Ok(Value::Array(items)),
+                _ => return Err("expected a comma or the end of a list"),
+            }
+        }
+    }
+
+    fn number(&mut self) -> Parsed<Value> {
+        let rest = &self.text[self.at..];
+        let is_part = |byte: &u8| byte.is_ascii_digit() || b"+-.eE".contains(byte);
+        let end = rest.iter().position(|byte| !is_part(byte)).unwrap_or(rest.len());
+        let value = fast_float2::parse(&rest[..end]).map_err(|_| "this is no number")?;
+        self.at += end;
+        Ok(Value::Number(value))
+    }
+
+    fn word(&mut self) -> Parsed<Value> {
+        let words: [(&[u8], Value); 3] =
+            [(b"null", Value::Null), (b"true", Value::Bool), (b"false", Value::Bool)];
+        let rest = &self.text[self.at..];
+        let (word, value) =
+            words.into_iter().find(|(word, _)| rest.starts_with(word)).ok_or("this is no value")?;
+        self.at += word.len();
+        Ok(value)
+    }
+
+    /// Text between quotes. Of escapes that name a character by its number the number is not looked up: no name of GeoJSON has one.
+    fn text(&mut self) -> Parsed<String> {
+        self.at += 1;
+        let mut bytes = vec![];
+        loop {
+            let byte = self.peek().ok_or("a text does not end")?;
+            self.at += 1;
+            match byte {
+                b'"' => break,
+                b'\\' => {
+                    let escaped = self.peek().ok_or("a text does not end")?;
+                    self.at += 1;
+                    bytes.push(match escaped {
+                        b'n' => b'\n',
+                        b't' => b'\t',
+                        b'u' => b'?',
+                        other => other,
+                    });
+                }
+                other => bytes.push(other),
+            }
+        }
+        String::from_utf8(bytes).map_err(|_| "a text is not UTF-8")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_read() {
+        let found =
+            parse(b"\xef\xbb\xbf {\"a\": [1, -2.5e3, []], \"b\\\"\": {}, \"c\": null}\n").unwrap();
+        let numbers = vec![Value::Number(1.0), Value::Number(-2500.0), Value::Array(vec![])];
+        let expected =
+            [("a", Value::Array(numbers)), ("b\"", Value::Object(vec![])), ("c", Value::Null)];
+        assert_eq!(found, Value::Object(expected.map(|(k, v)| (k.to_owned(), v)).to_vec()));
+    }
+
+    #[test]
+    fn what_is_no_json_is_refused_by_line() {
+        for (text, problem) in [
+            ("", "line 1: the text ends too early"),
+            ("[1,\n2,,3]", "line 2: this is no value"),
+            ("{\"a\" 1}", "line 1: expected a colon"),
+            ("[1 2]", "line 1: expected a comma or the end of a list"),
+            ("[1,]", "line 1: expected a comma or the end of a list"),
+            ("{} x", "line 1: text after the end of the document"),
+            ("\"abc", "line 1: a text does not end"),
+            ("[--1]", "line 1: this is no number"),
+        ] {
+            assert_eq!(parse(text.as_bytes()).unwrap_err(), problem, "{text}");
+        }
+        assert!(parse("[".repeat(100_000).as_bytes()).unwrap_err().contains("too deep"));
+    }
+}

@@ -1,0 +1,87 @@
+//! GeoJSON as points.
+
+use super::{message, text, text_with, values};
+use taut_io::{Format, ReadOptions};
+
+const SQUARE: &str = "[[0,0],[4,0],[4,4],[0,4],[0,0]]";
+const POINTS: [f64; 10] = [0.0, 0.0, 4.0, 0.0, 4.0, 4.0, 0.0, 4.0, 0.0, 0.0];
+
+fn polygon(rings: &str) -> String {
+    format!("{{\"type\": \"Polygon\", \"coordinates\": [{rings}]}}")
+}
+
+fn feature(geometry: &str) -> String {
+    format!(
+        "{{\"geometry\": {geometry}, \"properties\": {{\"name\": \"a\\\"b\"}}, \"type\": \"Feature\"}}"
+    )
+}
+
+fn collection(features: &[String]) -> String {
+    let features = features.join(",\n");
+    format!("{{\"type\": \"FeatureCollection\", \"crs\": null, \"features\": [{features}]}}")
+}
+
+#[test]
+fn the_outer_ring_of_a_polygon_is_read() {
+    let bare = polygon(SQUARE);
+    let several = format!("{{\"type\": \"MultiPolygon\", \"coordinates\": [[{SQUARE}]]}}");
+    for document in [bare.clone(), feature(&bare), collection(&[feature(&bare)]), several] {
+        let input = text("a.geojson", &document).unwrap();
+        assert_eq!(
+            (input.format, &input.columns[..]),
+            (Format::GeoJson, &["x".into(), "y".into()][..])
+        );
+        assert_eq!(values(&input), POINTS, "{document}");
+    }
+}
+
+#[test]
+fn points_and_lines_are_read() {
+    let document = format!("{{\"type\": \"LineString\", \"coordinates\": {SQUARE}}}");
+    assert_eq!(values(&text("a.geojson", &document).unwrap()), POINTS);
+    // With heights, which are left out.
+    let document = "{\"coordinates\": [[1, 2, 3], [4, 5, 6]], \"type\": \"MultiPoint\"}";
+    assert_eq!(values(&text("a.geojson", document).unwrap()), [1.0, 2.0, 4.0, 5.0]);
+    let point = |x: u32| feature(&format!("{{\"type\": \"Point\", \"coordinates\": [{x}, 7]}}"));
+    let document = collection(&[point(1), feature("null"), point(2)]);
+    assert_eq!(values(&text("a.geojson", &document).unwrap()), [1.0, 7.0, 2.0, 7.0]);
+    let options = ReadOptions { columns: Some("y".parse().unwrap()), ..Default::default() };
+    let input = text_with("a.geojson", &polygon(SQUARE), &options).unwrap();
+    assert_eq!(values(&input), [0.0, 0.0, 4.0, 4.0, 0.0]);
+}
+
+#[test]
+fn what_is_not_supported_is_named() {
+    let hole = format!("{SQUARE}, [[1,1],[2,1],[2,2],[1,1]]");
+    for (document, words) in [
+        (polygon(&hole), "the Polygon of feature 0 (from 0) has a hole beside its outer ring"),
+        (
+            collection(&[feature(&polygon(SQUARE)), feature(&polygon(SQUARE))]),
+            "feature 0 and feature 1 (from 0) are both geometries",
+        ),
+        (
+            format!("{{\"type\": \"MultiPolygon\", \"coordinates\": [[{SQUARE}], [{SQUARE}]]}}"),
+            "has 2 polygons, and one is read",
+        ),
+        (polygon("[[0,0],[4,0],[4,\"x\"]]"), "position 2 (from 0) of the Polygon of feature 0"),
+        (polygon("[[0,0],[4],[4,4]]"), "position 1 (from 0)"),
+        (polygon("[[0,0],[4,0],[4,1e999]]"), "position 2 (from 0)"),
+        (feature("{\"type\": \"GeometryCollection\"}"), "is a \"GeometryCollection\""),
+        ("{\"type\": \"Polygon\"}".to_owned(), "has no `coordinates`"),
+        ("{\"features\": []}".to_owned(), "the document has no `type`"),
+        ("[1, 2]".to_owned(), "the document is no object"),
+        (polygon(""), "holds no point"),
+        (collection(&[]), "holds no point"),
+    ] {
+        let said = message(text("a.geojson", &document));
+        assert!(said.contains(words) && said.contains("a.geojson"), "{said}");
+    }
+}
+
+#[test]
+fn a_file_that_is_cut_short_is_refused_at_every_length() {
+    let document = collection(&[feature(&polygon(SQUARE))]);
+    for length in 0..document.len() {
+        assert!(text("a.geojson", &document[..length]).is_err(), "{length}");
+    }
+}

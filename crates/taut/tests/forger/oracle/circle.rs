@@ -1,0 +1,231 @@
+//! The circle in a polygon, in fractions.
+//!
+//! *Decided.* Whether the center is inside by the even-odd rule, and no edge is nearer than the radius: exact. Whether no circle is
+//! larger than the upper bound: refuted by any center inside with a larger clearance. The best center of a search in plain
+//! arithmetic, on a grid and from it to points that are equally far from three edges, is checked in fractions.
+
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+use taut::certify::{CircleVerdict, InscribedCircle, Solution};
+
+use super::Truth;
+
+type Point = [BigRational; 2];
+
+/// Points of the grid along each axis.
+const GRID: usize = 40;
+
+/// Points of the grid from which the search goes on.
+const STARTS: usize = 24;
+
+/// Edges nearest to a start of which all triples are tried.
+const NEAREST: usize = 6;
+
+/// Knows the truth about the circles in one ring.
+pub struct CircleOracle {
+    ring: Vec<Point>,
+    /// The squared clearance of the best center found, which is inside.
+    best: BigRational,
+}
+
+fn exact(x: f64) -> BigRational {
+    BigRational::from_float(x).expect("numbers of an input are finite")
+}
+
+impl CircleOracle {
+    /// Prepares to judge circles in the ring of these rows.
+    pub fn new(values: &[f64], columns: usize) -> Self {
+        if columns != 2 {
+            return CircleOracle { ring: vec![], best: BigRational::zero() };
+        }
+        let points: Vec<[f64; 2]> = values.chunks_exact(2).map(|row| [row[0], row[1]]).collect();
+        let ring = points.iter().map(|p| p.map(exact)).collect();
+        let mut oracle = CircleOracle { ring, best: BigRational::zero() };
+        for q in candidates(&points) {
+            let q = q.map(exact);
+            let clearance = oracle.squared_clearance(&q);
+            if clearance > oracle.best && oracle.is_inside(&q) {
+                oracle.best = clearance;
+            }
+        }
+        oracle
+    }
+
+    /// Judges every claim of an answer that the checker let pass.
+    pub fn judge(&self, found: &Solution<InscribedCircle>, verdict: &CircleVerdict) -> Truth {
+        let (answer, numbers) = (&found.answer, [verdict.lower, verdict.upper, verdict.gap]);
+        let are_numbers = answer.center.iter().all(|x| x.is_finite())
+            && numbers.iter().all(|x| x.is_finite() && *x >= 0.0)
+            && answer.radius == verdict.lower
+            && answer.radius > 0.0;
+        if !are_numbers {
+            return Truth::False(format!("{answer:?} and {verdict:?} are no numbers of a circle"));
+        }
+        let center = answer.center.map(exact);
+        let [lower, upper, gap] = numbers.map(exact);
+        let square = |x: &BigRational| x * x;
+        let is_inside = || self.is_inside(&center);
+        Truth::claim(is_inside(), || "the center is not inside".into())
+            .and(|| {
+                let holds = self.squared_clearance(&center) >= square(&lower);
+                Truth::claim(holds, || "an edge enters the circle".into())
+            })
+            .and(|| {
+                Truth::claim(self.best <= square(&upper), || {
+                    format!("there is a circle larger than {:?}", verdict.upper)
+                })
+            })
+            .and(|| {
+                let most = (BigRational::one() + &gap) * &lower;
+                Truth::claim(upper <= most, || format!("the gap is more than {:?}", verdict.gap))
+            })
+            .and(|| self.touching(found, &center))
+    }
+
+    /// Whether each touching edge is as near as it is said to be, but for a slack of 1e-9 of the radius and the rounding of the center.
+    fn touching(&self, found: &Solution<InscribedCircle>, center: &Point) -> Truth {
+        let slack = exact(1.0 + 1.1e-9) * exact(found.answer.radius)
+            + exact(1e-15) * (center[0].abs() + center[1].abs());
+        let most = &slack * &slack;
+        for &row in &found.certificate.touching {
+            let distance = self.squared_distance(center, row as usize);
+            if distance > most {
+                return Truth::False(format!("edge {row} is farther than the radius"));
+            }
+        }
+        Truth::claim(!found.certificate.touching.is_empty(), || "no edge touches".into())
+    }
+
+    fn edge(&self, row: usize) -> [&Point; 2] {
+        [&self.ring[row], &self.ring[(row + 1) % self.ring.len()]]
+    }
+
+    fn squared_clearance(&self, p: &Point) -> BigRational {
+        let distances = (0..self.ring.len()).map(|row| self.squared_distance(p, row));
+        distances.min().unwrap_or_else(BigRational::zero)
+    }
+
+    fn squared_distance(&self, p: &Point, row: usize) -> BigRational {
+        let [a, b] = self.edge(row);
+        let minus = |p: &Point, q: &Point| [&p[0] - &q[0], &p[1] - &q[1]];
+        let dot = |u: &Point, v: &Point| &u[0] * &v[0] + &u[1] * &v[1];
+        let (d, e) = (minus(p, a), minus(b, a));
+        let (along, square) = (dot(&d, &e), dot(&e, &e));
+        if !along.is_positive() {
+            return dot(&d, &d);
+        }
+        if along >= square {
+            let d = minus(p, b);
+            return dot(&d, &d);
+        }
+        let cross = &d[0] * &e[1] - &d[1] * &e[0];
+        &cross * &cross / square
+    }
+
+    /// The parity of the edges above p, which is on none.
+    fn is_inside(&self, p: &Point) -> bool {
+        let above = |row: &usize| {
+            let [a, b] = self.edge(*row);
+            (a[0] <= p[0]) != (b[0] <= p[0]) && {
+                let height = &a[1] + (&p[0] - &a[0]) * (&b[1] - &a[1]) / (&b[0] - &a[0]);
+                height > p[1]
+            }
+        };
+        (0..self.ring.len()).filter(above).count() % 2 == 1
+    }
+}
+
+/// Centers that may be good: points of a grid inside, and points equally far from three edges; found in plain arithmetic and proved by nobody.
+fn candidates(ring: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let scale = ring.iter().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
+    let ring: Vec<[f64; 2]> = ring.iter().map(|p| p.map(|x| x / scale)).collect();
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for p in &ring {
+        for k in 0..2 {
+            (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k]));
+        }
+    }
+    let features = |q: [f64; 2]| -> Vec<([f64; 2], f64)> {
+        (0..ring.len()).map(|i| feature(q, ring[i], ring[(i + 1) % ring.len()])).collect()
+    };
+    let mut grid: Vec<(f64, [f64; 2])> = vec![];
+    for i in 0..GRID {
+        for j in 0..GRID {
+            let at = |k: usize, step: usize| {
+                low[k] + (high[k] - low[k]) * (step as f64 + 0.5) / GRID as f64
+            };
+            let q = [at(0, i), at(1, j)];
+            if is_inside(&ring, q) {
+                let clearance = features(q).iter().fold(f64::INFINITY, |least, f| least.min(f.1));
+                grid.push((clearance, q));
+            }
+        }
+    }
+    grid.sort_by(|one, other| other.0.total_cmp(&one.0));
+    let mut found: Vec<[f64; 2]> = grid.iter().take(STARTS).map(|point| point.1).collect();
+    for (_, start) in grid.into_iter().take(STARTS) {
+        let here = features(start);
+        let mut near: Vec<usize> = (0..ring.len()).collect();
+        near.sort_by(|&i, &j| here[i].1.total_cmp(&here[j].1));
+        near.truncate(NEAREST);
+        for (i, &one) in near.iter().enumerate() {
+            for (j, &other) in near.iter().enumerate().skip(i + 1) {
+                for &third in &near[j + 1..] {
+                    let step = |q| newton(&features(q), [one, other, third]);
+                    let mut q = start;
+                    for _ in 0..20 {
+                        let [dx, dy] = step(q);
+                        q = [q[0] + dx, q[1] + dy];
+                    }
+                    found.push(q);
+                }
+            }
+        }
+    }
+    let unscaled = found.into_iter().map(|q| q.map(|x| x * scale));
+    unscaled.filter(|q| q.iter().all(|x| x.is_finite())).collect()
+}
+
+/// The even-odd rule in plain arithmetic.
+fn is_inside(ring: &[[f64; 2]], p: [f64; 2]) -> bool {
+    let crosses = |row: &usize| {
+        let (a, b) = (ring[*row], ring[(row + 1) % ring.len()]);
+        (a[0] <= p[0]) != (b[0] <= p[0])
+            && a[1] + (p[0] - a[0]) * ((b[1] - a[1]) / (b[0] - a[0])) > p[1]
+    };
+    (0..ring.len()).filter(crosses).count() % 2 == 1
+}
+
+/// The unit vector from the nearest point of the segment ab to q, and the distance.
+fn feature(q: [f64; 2], a: [f64; 2], b: [f64; 2]) -> ([f64; 2], f64) {
+    let (e, d) = ([b[0] - a[0], b[1] - a[1]], [q[0] - a[0], q[1] - a[1]]);
+    let share = (d[0] * e[0] + d[1] * e[1]) / (e[0] * e[0] + e[1] * e[1]);
+    let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 };
+    let v = [d[0] - share * e[0], d[1] - share * e[1]];
+    let length = v[0].hypot(v[1]);
+    (v.map(|x| x / length), length)
+}
+
+/// The step towards a point that is equally far from three edges.
+fn newton(features: &[([f64; 2], f64)], [one, other, third]: [usize; 3]) -> [f64; 2] {
+    let (n, d) = features[one];
+    let row = |i: usize| {
+        let (normal, distance) = features[i];
+        ([normal[0] - n[0], normal[1] - n[1]], d - distance)
+    };
+    let ((u, s), (v, t)) = (row(other), row(third));
+    let determinant = u[0] * v[1] - u[1] * v[0];
+    [(s * v[1] - t * u[1]) / determinant, (t * u[0] - s * v[0]) / determinant]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_best_center_of_a_triangle_is_found() {
+        let oracle = CircleOracle::new(&[0.0, 0.0, 4.0, 0.0, 4.0, 3.0], 2);
+        let (one, slack) = (BigRational::one(), exact(1e-12));
+        assert!(oracle.best <= one && oracle.best >= one - slack);
+    }
+}
