@@ -10,6 +10,7 @@ use taut_points::{Monitor, PointSource, PointsHash};
 use crate::json::{hash_from_hex, hash_to_hex};
 use crate::{Answer, CheckError};
 
+pub use check::evidence::{CurveEvidence, curve_evidence};
 pub use check::tour::{tour_bound, tour_length};
 pub use doubt::CurveDoubt;
 pub use violation::CurveViolation;

@@ -73,8 +73,8 @@ pub use centers::{
 };
 pub use circle::{CircleCertificate, CircleVerdict, CircleViolation, InscribedCircle};
 pub use curve::{
-    Curve, CurveCertificate, CurveComponent, CurveDoubt, CurveVerdict, CurveViolation, Place,
-    TourBound, tour_bound, tour_length,
+    Curve, CurveCertificate, CurveComponent, CurveDoubt, CurveEvidence, CurveVerdict,
+    CurveViolation, Place, TourBound, curve_evidence, tour_bound, tour_length,
 };
 pub use ellipsoid::{
     EllipseSupport, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipse_support,

@@ -13,9 +13,10 @@
 
 mod band;
 mod edges;
-mod evidence;
+pub(super) mod evidence;
 mod features;
 mod outliers;
+mod run;
 mod sampling;
 mod signs;
 mod simple;
@@ -25,11 +26,12 @@ pub(super) mod tour;
 mod tree;
 mod valley;
 
-use taut_points::{Monitor, PointSource, PointsHash};
+use taut_points::{Monitor, PointSource, PointsHash, ReadError};
 
 use self::edges::Edges;
+use self::evidence::CurveEvidence;
 use self::tour::{tour_bound, tour_length};
-use super::{Curve, CurveCertificate, CurveVerdict, CurveViolation};
+use super::{Curve, CurveCertificate, CurveDoubt, CurveVerdict, CurveViolation};
 use crate::CheckError;
 use crate::hashed_pass::{WantedRows, all_finite, hashed_pass};
 
@@ -50,15 +52,23 @@ pub(super) fn check(
     monitor.pass(1, source.len());
     let rows = read(source, certificate.points_hash, monitor)?;
     structure::rows(curve, &rows)?;
-    let edges = Edges::of(curve, &rows);
+    let edges = Edges::of(&curve.curves, &rows);
     let crossing = simple::crossing(&edges, monitor)?;
     if let (Some([one, other]), None) = (crossing, &certificate.tour) {
         let [(curve, edge), (other, other_edge)] = [one, other].map(|edge| edges.name(edge));
         return Err(CurveViolation::Crossing { curve, edge, other, other_edge }.into());
     }
     let placed = band::place(curve, certificate, &edges, &rows, monitor)?;
-    let evidence =
-        evidence::judge(curve, certificate.tour.is_some(), &edges, crossing, &placed, monitor)?;
+    let evidence = match (&certificate.tour, crossing) {
+        (Some(_), Some([one, _])) => {
+            let (curve, edge) = edges.name(one);
+            CurveEvidence::unknown(placed.band, CurveDoubt::Crossing { curve, edge })
+        }
+        (Some(_), None) => CurveEvidence::unknown(placed.band, CurveDoubt::Tour),
+        (None, _) => {
+            evidence::judge(&curve.curves, &edges, &placed, monitor).map_err(ReadError::from)?
+        }
+    };
     claims(certificate, &evidence)?;
     let tour_gap = tour_gap(curve, certificate, &edges, monitor)?;
     Ok(CurveVerdict {
@@ -95,10 +105,7 @@ fn read(
 }
 
 /// Whether no more is claimed than the evidence gives.
-fn claims(
-    certificate: &CurveCertificate,
-    evidence: &evidence::Evidence,
-) -> Result<(), CurveViolation> {
+fn claims(certificate: &CurveCertificate, evidence: &CurveEvidence) -> Result<(), CurveViolation> {
     let figures = [
         ("sampling ratio", certificate.sampling_ratio, evidence.sampling_ratio),
         ("noise ratio", certificate.noise_ratio, evidence.noise_ratio),
@@ -125,7 +132,7 @@ fn tour_gap(
     let (Some(bound), [component]) = (&certificate.tour, curve.curves.as_slice()) else {
         return Ok(None);
     };
-    let (is_open, cancelled) = (!component.closed, taut_points::ReadError::from);
+    let (is_open, cancelled) = (!component.closed, ReadError::from);
     let scaled: Vec<f64> = bound.potentials.iter().map(|p| p * edges.scale).collect();
     let lower = tour_bound(&edges.points, &scaled, is_open, monitor).map_err(cancelled)?;
     let claimed = bound.lower * edges.scale;

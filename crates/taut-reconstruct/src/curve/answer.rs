@@ -5,16 +5,20 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 use taut_certify::{
     Curve, CurveCertificate, CurveComponent, Place, Solution, Stop, TourBound, Trace,
+    curve_evidence,
 };
 use taut_points::{Cancelled, Monitor, PointSource, hash_points};
 
 use super::CurveOptions;
 use super::cloud::Cloud;
-use super::evidence::{Evidence, Segments, Spot, evidence};
+use super::nearest::{Segments, Spot};
 use crate::Error;
 
 /// Sites of one task.
 const TASK: usize = 1 << 12;
+
+/// Relative slack of the band claimed; distances in `f64` differ by about 1e-16 from machine to machine.
+const BAND_SLACK: f64 = 1e-12;
 
 /// What a method found.
 #[derive(Clone, Debug, Default)]
@@ -45,21 +49,17 @@ pub(super) fn finish(
     if curves.is_empty() {
         outliers = (0..cloud.sites.len() as u32).collect();
     }
-    let segments = Segments::of(&curves);
     let mut is_outlier = vec![false; cloud.sites.len()];
     outliers.iter().for_each(|&site| is_outlier[site as usize] = true);
-    let are_sites = curves.first().is_some_and(|one| !one.rows.is_empty());
-    let spots = match are_sites {
-        true => at_vertices(&curves, &segments, cloud, &is_outlier),
-        false => next_to(&segments, &cloud.sites, &is_outlier, monitor)?,
-    };
+    // The checker finds no evidence for a tour, and its vertices are points.
     let found = match tour {
-        Some(_) => Evidence::NONE,
-        None => evidence(&curves, &segments, &cloud.sites, &spots, monitor)?,
+        Some(_) => None,
+        None => Some(curve_evidence(&curves, &cloud.sites, &is_outlier, monitor)?),
     };
-    let band = spots.iter().flatten().fold(0.0f64, |band, spot| band.max(spot.distance));
-    let places = match options.places && segments.len() > 0 {
-        true => places(cloud, source.len() as usize, &segments, &spots),
+    // Figures of doubtful curves depend on rounding, and nobody asks for them.
+    let certified = found.filter(|found| found.doubt.is_none());
+    let places = match options.places && !curves.is_empty() {
+        true => places(cloud, source.len() as usize, &curves, &is_outlier, monitor)?,
         false => Vec::new(),
     };
     let mut rows: Vec<u64> = outliers
@@ -68,10 +68,10 @@ pub(super) fn finish(
         .collect();
     rows.sort_unstable();
     let certificate = CurveCertificate {
-        band: if are_sites { 0.0 } else { band_above(band, &cloud.sites, &spots, &segments) },
-        sampling_ratio: found.sampling_ratio,
-        noise_ratio: found.noise_ratio,
-        certified: found.certified,
+        band: found.map_or(0.0, |found| with_slack(found.band)),
+        sampling_ratio: certified.map_or(f64::MAX, |found| found.sampling_ratio),
+        noise_ratio: certified.map_or(f64::MAX, |found| found.noise_ratio),
+        certified: certified.is_some(),
         tour,
         points_hash: hash_points(source, monitor)?,
     };
@@ -85,7 +85,47 @@ pub(super) fn finish(
     Ok(Solution { answer: Curve { curves, noise, outliers: rows, places }, certificate, trace })
 }
 
-/// Spots of sites that are vertices.
+/// Returns a band a little wider than the one found, for a checker on a machine whose `hypot` differs in the last place.
+fn with_slack(band: f64) -> f64 {
+    match band > 0.0 {
+        true => (band * (1.0 + BAND_SLACK)).next_up().min(f64::MAX),
+        false => 0.0,
+    }
+}
+
+/// Returns the place of every row, of outliers too.
+fn places(
+    cloud: &Cloud,
+    rows: usize,
+    curves: &[CurveComponent],
+    is_outlier: &[bool],
+    monitor: &Monitor<'_>,
+) -> Result<Vec<Place>, Cancelled> {
+    let segments = Segments::of(curves);
+    let mut spots = at_vertices(curves, &segments, cloud, is_outlier);
+    spots.par_chunks_mut(TASK).enumerate().try_for_each(|(task, spots)| {
+        monitor.check()?;
+        let mut guess = usize::MAX;
+        for (k, spot) in spots.iter_mut().enumerate() {
+            let p = cloud.sites[task * TASK + k].map(|x| x * segments.scale);
+            *spot = spot.or_else(|| segments.next_to(p, guess));
+            guess = spot.map_or(guess, |spot| spot.edge as usize);
+        }
+        Ok(())
+    })?;
+    let mut places = vec![Place::default(); rows];
+    for (site, spot) in (0u32..).zip(&spots) {
+        let Some(spot) = spot else { continue };
+        let curve = segments.first.partition_point(|&first| first <= spot.edge) - 1;
+        let position = f64::from(spot.edge - segments.first[curve]) + spot.share;
+        for &row in cloud.rows(site) {
+            places[row as usize] = Place(curve as u32, position);
+        }
+    }
+    Ok(places)
+}
+
+/// Returns the spots of sites that are vertices, where vertices are points.
 fn at_vertices(
     curves: &[CurveComponent],
     segments: &Segments,
@@ -100,71 +140,8 @@ fn at_vertices(
             let is_end = !one.closed && vertex > 0 && vertex + 1 == one.vertices.len();
             let (edge, share) = if is_end { (vertex - 1, 1.0) } else { (vertex, 0.0) };
             let site = site_of_row[row as usize] as usize;
-            let spot = Spot { edge: first + edge as u32, share, distance: 0.0, left: true };
-            spots[site] = (!is_outlier[site]).then_some(spot);
+            spots[site] = (!is_outlier[site]).then_some(Spot { edge: first + edge as u32, share });
         }
     }
     spots
-}
-
-/// Spots of sites next to the edges.
-fn next_to(
-    segments: &Segments,
-    sites: &[[f64; 2]],
-    is_outlier: &[bool],
-    monitor: &Monitor<'_>,
-) -> Result<Vec<Option<Spot>>, Cancelled> {
-    let mut spots = vec![None; sites.len()];
-    spots.par_chunks_mut(TASK).enumerate().try_for_each(|(task, spots)| {
-        monitor.check()?;
-        let mut guess = usize::MAX;
-        for (k, spot) in spots.iter_mut().enumerate() {
-            let site = task * TASK + k;
-            if !is_outlier[site] {
-                let p = sites[site].map(|x| x * segments.scale);
-                *spot = segments.next_to(p, guess, f64::INFINITY);
-                guess = spot.map_or(guess, |spot| spot.edge as usize);
-            }
-        }
-        Ok(())
-    })?;
-    Ok(spots)
-}
-
-/// The band in units of the input, with all roundings of its distances added, and those of a checker's.
-fn band_above(band: f64, sites: &[[f64; 2]], spots: &[Option<Spot>], segments: &Segments) -> f64 {
-    if segments.len() == 0 {
-        return 0.0;
-    }
-    // What is rounded are differences of coordinates, none larger than the boxes of sites and edges together, and the band.
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for (p, _) in sites.iter().zip(spots).filter(|(_, spot)| spot.is_some()) {
-        for k in 0..2 {
-            (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k]));
-        }
-    }
-    let width = (0..2).map(|k| ((high[k] - low[k]) * segments.scale).max(0.0)).sum::<f64>();
-    let rounding = 32.0 * f64::EPSILON * (width + segments.reach() + band);
-    // Below the smallest normal number nothing is relative.
-    let least = 32.0 * f64::from_bits(1);
-    ((band * (1.0 + 1e-12) + rounding) / segments.scale + least).next_up().min(f64::MAX)
-}
-
-/// The place of every row, of outliers too.
-fn places(cloud: &Cloud, rows: usize, segments: &Segments, spots: &[Option<Spot>]) -> Vec<Place> {
-    let mut guess = usize::MAX;
-    let mut places = vec![Place::default(); rows];
-    for (site, spot) in spots.iter().enumerate() {
-        let p = cloud.sites[site].map(|x| x * segments.scale);
-        let Some(spot) = spot.or_else(|| segments.next_to(p, guess, f64::INFINITY)) else {
-            continue;
-        };
-        guess = spot.edge as usize;
-        let curve = segments.first.partition_point(|&first| first <= spot.edge) - 1;
-        let position = f64::from(spot.edge - segments.first[curve]) + spot.share;
-        for &row in cloud.rows(site as u32) {
-            places[row as usize] = Place(curve as u32, position);
-        }
-    }
-    places
 }

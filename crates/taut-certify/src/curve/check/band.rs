@@ -8,9 +8,9 @@
 use std::collections::HashMap;
 
 use rayon::prelude::*;
-use taut_points::{Monitor, ReadError};
+use taut_points::{Cancelled, Monitor, ReadError};
 
-use super::super::{Curve, CurveCertificate, CurveViolation};
+use super::super::{Curve, CurveCertificate, CurveComponent, CurveViolation};
 use super::edges::Edges;
 use crate::CheckError;
 use crate::arithmetic::U;
@@ -50,13 +50,12 @@ pub(super) fn place(
 ) -> Result<Placed, CheckError> {
     let mut is_outlier = vec![false; rows.len()];
     curve.outliers.iter().for_each(|&row| is_outlier[row as usize] = true);
-    let scaled = |row: usize| rows[row].map(|x| x * edges.scale);
     let (outliers, inliers): (Vec<usize>, Vec<usize>) =
         distinct(rows, &is_outlier).into_iter().partition(|&row| is_outlier[row]);
     let is_exact = curve.curves.first().is_some_and(|first| !first.rows.is_empty());
     let feet = match is_exact {
         true => at_vertices(edges, rows, &inliers)?,
-        false => next_to(edges, &inliers, scaled, monitor)?,
+        false => next_to(edges, rows, &inliers, monitor).map_err(ReadError::from)?,
     };
     let off = |foot: &Foot| edges.unscaled(foot.offset.abs());
     let is_within = |foot: &&Foot| off(foot) <= certificate.band;
@@ -64,13 +63,35 @@ pub(super) fn place(
         let (row, distance) = (foot.row as u64, off(foot));
         return Err(CurveViolation::OutsideBand { row, distance, band: certificate.band }.into());
     }
-    let widest = feet.iter().fold(0.0f64, |most, foot| most.max(foot.offset.abs()));
-    let band = edges.unscaled(widest);
     if !curve.places.is_empty() {
         places(curve, edges, rows, monitor)?;
     }
-    let outliers = outliers.into_iter().map(|row| (row, scaled(row))).collect();
-    Ok(Placed { inliers: feet, outliers, band, is_exact })
+    Ok(Placed::of(edges, rows, feet, outliers, is_exact))
+}
+
+impl Placed {
+    /// Places of distinct rows, of which some are outliers.
+    pub(super) fn of(
+        edges: &Edges,
+        rows: &[[f64; 2]],
+        inliers: Vec<Foot>,
+        outliers: Vec<usize>,
+        is_exact: bool,
+    ) -> Self {
+        let scaled = |row: usize| (row, rows[row].map(|x| x * edges.scale));
+        let widest = inliers.iter().fold(0.0f64, |most, foot| most.max(foot.offset.abs()));
+        let band = edges.unscaled(widest);
+        let outliers = outliers.into_iter().map(scaled).collect();
+        Self { inliers, outliers, band, is_exact }
+    }
+}
+
+/// The vertices of closed curves as places of the rows that they are.
+pub(super) fn of_vertices(curves: &[CurveComponent]) -> Vec<Foot> {
+    let rows = curves.iter().flat_map(|one| &one.rows);
+    rows.enumerate()
+        .map(|(edge, &row)| Foot { row: row as usize, edge, t: 0.0, offset: 0.0 })
+        .collect()
 }
 
 /// The rows but those that equal one before them, ascending; outliers equal outliers alone.
@@ -121,36 +142,30 @@ fn at_vertices(
     inliers.iter().map(foot).collect()
 }
 
-/// Rows next to the edges.
-fn next_to(
+/// Rows next to the edges. A row that no edge is near, as far as squares go, is infinitely far from the first.
+pub(super) fn next_to(
     edges: &Edges,
+    rows: &[[f64; 2]],
     inliers: &[usize],
-    scaled: impl Fn(usize) -> [f64; 2] + Sync,
     monitor: &Monitor<'_>,
-) -> Result<Vec<Foot>, CheckError> {
-    let blocks: Vec<Result<Vec<Foot>, CheckError>> = inliers
-        .par_chunks(ROWS_PER_TASK)
-        .map(|block| {
-            monitor.check().map_err(ReadError::from)?;
-            let foot = |&row: &usize| {
-                let p = scaled(row);
-                let none = CurveViolation::OutsideBand {
-                    row: row as u64,
-                    distance: f64::INFINITY,
-                    band: f64::MAX,
-                };
-                let (edge, t) = nearest(edges, p, f64::INFINITY).ok_or(none)?;
+) -> Result<Vec<Foot>, Cancelled> {
+    let foot = |&row: &usize| {
+        let p = rows[row].map(|x| x * edges.scale);
+        match nearest(edges, p, f64::INFINITY) {
+            Some((edge, t)) => {
                 let offset = distance(edges, p, edge, t) * side(edges, p, edge);
-                Ok(Foot { row, edge, t, offset })
-            };
-            block.iter().map(foot).collect()
-        })
-        .collect();
-    let mut feet = Vec::with_capacity(inliers.len());
-    for block in blocks {
-        feet.extend(block?);
-    }
-    Ok(feet)
+                Foot { row, edge, t, offset }
+            }
+            None => Foot { row, edge: 0, t: 0.0, offset: f64::INFINITY },
+        }
+    };
+    let of_task = |task: &[usize]| -> Result<Vec<Foot>, Cancelled> {
+        monitor.check()?;
+        Ok(task.iter().map(foot).collect())
+    };
+    let tasks = inliers.par_chunks(ROWS_PER_TASK);
+    let feet: Vec<Vec<Foot>> = tasks.map(of_task).collect::<Result<_, _>>()?;
+    Ok(feet.into_iter().flatten().collect())
 }
 
 /// The edge next to p, if one is nearer than `most`, and the share of it before the foot.

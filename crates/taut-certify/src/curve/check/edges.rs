@@ -1,6 +1,6 @@
 //! All edges of all curves in one list, with a tree over them.
 
-use super::super::Curve;
+use super::super::CurveComponent;
 use super::tree::Tree;
 
 /// The edges, curve after curve, each in its order.
@@ -23,10 +23,10 @@ pub(super) struct Edges {
 }
 
 impl Edges {
-    pub(super) fn of(curve: &Curve, rows: &[[f64; 2]]) -> Self {
+    pub(super) fn of(curves: &[CurveComponent], rows: &[[f64; 2]]) -> Self {
         let (mut exact, mut ends) = (vec![], vec![]);
         let (mut first_vertex, mut first_edge) = (vec![0], vec![0]);
-        for one in &curve.curves {
+        for one in curves {
             let (base, count) = (exact.len(), one.vertices.len());
             exact.extend_from_slice(&one.vertices);
             ends.extend((1..count).map(|k| [base + k - 1, base + k]));

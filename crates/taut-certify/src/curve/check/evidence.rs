@@ -2,10 +2,10 @@
 //!
 //! The thresholds are choices that keep below the theorem for clean samples, tried on known curves, noisy and clean.
 
-use taut_points::{Monitor, ReadError};
+use taut_points::{Cancelled, Monitor};
 
-use super::super::{Curve, CurveDoubt};
-use super::band::{Foot, Placed};
+use super::super::{CurveComponent, CurveDoubt};
+use super::band::{Foot, Placed, next_to, of_vertices};
 use super::edges::Edges;
 use super::{features, outliers, sampling};
 
@@ -27,43 +27,67 @@ const NOISY_CURVE_ROWS_MIN: usize = 128;
 /// The most that a curve may turn at one vertex, in radians.
 const TURN_MOST: f64 = std::f64::consts::FRAC_PI_3;
 
-/// What was found.
-pub(super) struct Evidence {
-    /// Infinite where it is not known.
-    pub(super) sampling_ratio: f64,
-    /// Infinite where it is not known.
-    pub(super) noise_ratio: f64,
-    /// The first reason against.
-    pub(super) doubt: Option<CurveDoubt>,
+/// The evidence that curves are those that points were sampled from: what [`CurveVerdict`](crate::CurveVerdict) tells of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurveEvidence {
+    /// The largest distance of a point that is no outlier from the curves, rounded up, in the unit of the points.
+    pub band: f64,
+    /// The largest of half a gap over the feature size in it; infinite where it is not known.
+    pub sampling_ratio: f64,
+    /// The largest distance of a point over the feature size beside it; infinite where it is not known.
+    pub noise_ratio: f64,
+    /// The first reason not to certify the curves. A row named in it is a position among the points.
+    pub doubt: Option<CurveDoubt>,
 }
 
+impl CurveEvidence {
+    /// The figures are not known.
+    pub(super) fn unknown(band: f64, doubt: CurveDoubt) -> Self {
+        let unknown = f64::INFINITY;
+        Self { band, sampling_ratio: unknown, noise_ratio: unknown, doubt: Some(doubt) }
+    }
+}
+
+/// Returns the evidence that curves are those that finite, distinct points were sampled from, as [`Solution::check`](crate::Solution::check)
+/// finds it, so that a solver need claim no more and no less.
+///
+/// The curves are simple, which is not checked here, and have finite vertices, at least three if closed and one if open. `points[k]` is left
+/// out where `is_outlier[k]`. Where vertices are rows, each point is a vertex or an outlier. The order of the points changes no figure.
+///
+/// # Errors
+/// [`Cancelled`] when the monitor stops the work.
+pub fn curve_evidence(
+    curves: &[CurveComponent],
+    points: &[[f64; 2]],
+    is_outlier: &[bool],
+    monitor: &Monitor<'_>,
+) -> Result<CurveEvidence, Cancelled> {
+    let edges = Edges::of(curves, points);
+    let is_set_aside = |&k: &usize| is_outlier.get(k).is_some_and(|&is_outlier| is_outlier);
+    let (outliers, inliers): (Vec<usize>, Vec<usize>) = (0..points.len()).partition(is_set_aside);
+    let is_exact = curves.first().is_some_and(|first| !first.rows.is_empty());
+    let inliers = match is_exact {
+        true => of_vertices(curves),
+        false => next_to(&edges, points, &inliers, monitor)?,
+    };
+    judge(curves, &edges, &Placed::of(&edges, points, inliers, outliers, is_exact), monitor)
+}
+
+/// Judges curves from the places of all rows.
 pub(super) fn judge(
-    curve: &Curve,
-    is_tour: bool,
+    curves: &[CurveComponent],
     edges: &Edges,
-    crossing: Option<[usize; 2]>,
     placed: &Placed,
     monitor: &Monitor<'_>,
-) -> Result<Evidence, ReadError> {
-    let unknown = |doubt| Evidence {
-        sampling_ratio: f64::INFINITY,
-        noise_ratio: f64::INFINITY,
-        doubt: Some(doubt),
-    };
-    if curve.curves.is_empty() {
+) -> Result<CurveEvidence, Cancelled> {
+    let unknown = |doubt| CurveEvidence::unknown(placed.band, doubt);
+    if curves.is_empty() {
         return Ok(unknown(CurveDoubt::Empty));
     }
-    if let Some([one, _]) = crossing {
-        let (curve, edge) = edges.name(one);
-        return Ok(unknown(CurveDoubt::Crossing { curve, edge }));
-    }
-    if is_tour {
-        return Ok(unknown(CurveDoubt::Tour));
-    }
-    if let Some(curve) = curve.curves.iter().position(|one| !one.closed) {
+    if let Some(curve) = curves.iter().position(|one| !one.closed) {
         return Ok(unknown(CurveDoubt::Open { curve }));
     }
-    let mut feet: Vec<Vec<Foot>> = vec![vec![]; curve.curves.len()];
+    let mut feet: Vec<Vec<Foot>> = vec![vec![]; curves.len()];
     for foot in &placed.inliers {
         feet[edges.name(foot.edge).0].push(*foot);
     }
@@ -113,7 +137,7 @@ pub(super) fn judge(
         .or(winding)
         .or(split)
         .or_else(|| outliers::doubt(edges, placed, gaps, band));
-    Ok(Evidence { sampling_ratio, noise_ratio, doubt })
+    Ok(CurveEvidence { band: placed.band, sampling_ratio, noise_ratio, doubt })
 }
 
 /// The first doubt of each kind, or the worst.

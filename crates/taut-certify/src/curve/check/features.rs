@@ -9,14 +9,16 @@
 //! of length L leaves no room for more than L/2π, by the isoperimetric inequality.
 //! *Sight.* Where vertices are rows, R(v) is looked for up to σ(v) only, and counts as that much where it is larger: the largest,
 //! over all gaps between rows of the curve, of nine times the gap less the way to it. No ε below 1/16 is told then.
+//! *Speed.* Runs of vertices that are dense beside what else is near need no search: [`super::run`].
 //! *φ.* The largest function below R that changes by no more than the length of the way along a curve.
 
 use std::f64::consts::TAU;
 
 use rayon::prelude::*;
-use taut_points::{Monitor, ReadError};
+use taut_points::{Cancelled, Monitor};
 
 use super::edges::Edges;
+use super::run;
 use super::tangent::{Tangent, dot, minus};
 use crate::arithmetic::U;
 
@@ -37,8 +39,11 @@ const SMOOTH_WAY_RATIO: f64 = 2.0;
 /// σ over a gap at v.
 const SIGHT_RATIO: f64 = 9.0;
 
-/// Vertices that a thread takes at once.
-const VERTICES: usize = 1 << 10;
+/// Vertices of one task.
+const VERTICES_PER_TASK: usize = 1 << 10;
+
+/// Vertices of one run, of which it is asked together whether anything else is near.
+const VERTICES_PER_RUN: usize = 1 << 5;
 
 /// What is known at the vertices of a closed curve.
 pub(super) struct Features {
@@ -57,7 +62,18 @@ pub(super) fn features(
     band: f64,
     is_exact: bool,
     monitor: &Monitor<'_>,
-) -> Result<Features, ReadError> {
+) -> Result<Features, Cancelled> {
+    found(edges, curve, band, [is_exact; 2], monitor)
+}
+
+/// The same; runs of vertices are taken together `by_runs` only.
+fn found(
+    edges: &Edges,
+    curve: usize,
+    band: f64,
+    [is_exact, by_runs]: [bool; 2],
+    monitor: &Monitor<'_>,
+) -> Result<Features, Cancelled> {
     let points = &edges.points[edges.first_vertex[curve]..edges.first_vertex[curve + 1]];
     let count = points.len();
     let mut along = vec![0.0];
@@ -70,20 +86,22 @@ pub(super) fn features(
         false => vec![along[count] / TAU; count],
     };
     let course = Course { edges, base: edges.first_edge[curve], points, along: &along, band };
-    let numbers: Vec<usize> = (0..count).collect();
-    let blocks: Vec<Result<Vec<(f64, f64)>, ReadError>> = numbers
-        .par_chunks(VERTICES)
-        .map(|block| {
-            monitor.check()?;
-            Ok(block.iter().map(|&v| course.radius_and_turn(v, most[v], is_exact)).collect())
-        })
-        .collect();
-    let mut found = Vec::with_capacity(count);
-    for block in blocks {
-        found.extend(block?);
-    }
+    let of_task = |task: usize| -> Result<Vec<(f64, f64)>, Cancelled> {
+        monitor.check()?;
+        let end = count.min((task + 1) * VERTICES_PER_TASK);
+        let mut found = Vec::with_capacity(VERTICES_PER_TASK);
+        for first in (task * VERTICES_PER_TASK..end).step_by(VERTICES_PER_RUN) {
+            let vertices = first..end.min(first + VERTICES_PER_RUN);
+            let clear =
+                if by_runs { run::clear_way(&course, &most, vertices.clone()) } else { None };
+            found.extend(vertices.map(|v| course.radius_and_turn(v, most[v], clear)));
+        }
+        Ok(found)
+    };
+    let tasks = (0..count.div_ceil(VERTICES_PER_TASK)).into_par_iter();
+    let found: Vec<Vec<(f64, f64)>> = tasks.map(of_task).collect::<Result<_, _>>()?;
     let (mut size, mut corner) = (Vec::with_capacity(count), (0, 0.0));
-    for (v, (radius, turn)) in found.into_iter().enumerate() {
+    for (v, (radius, turn)) in found.into_iter().flatten().enumerate() {
         size.push(radius);
         if turn > corner.1 {
             corner = (v, turn);
@@ -118,6 +136,10 @@ fn sight(along: &[f64]) -> Vec<f64> {
 
 /// The first number of a range for which something holds that holds for all after it too; the end if there is none.
 fn first(range: std::ops::Range<usize>, holds: impl Fn(usize) -> bool) -> usize {
+    // Where vertices are rows it is the first.
+    if holds(range.start) {
+        return range.start;
+    }
     let (mut least, mut end) = (range.start, range.end);
     while least < end {
         let middle = least + (end - least) / 2;
@@ -127,24 +149,25 @@ fn first(range: std::ops::Range<usize>, holds: impl Fn(usize) -> bool) -> usize 
 }
 
 /// A closed curve and the way along it.
-struct Course<'a> {
-    edges: &'a Edges,
+pub(super) struct Course<'a> {
+    pub(super) edges: &'a Edges,
     /// Its first edge.
-    base: usize,
-    points: &'a [[f64; 2]],
+    pub(super) base: usize,
+    pub(super) points: &'a [[f64; 2]],
     along: &'a [f64],
     band: f64,
 }
 
 impl Course<'_> {
     /// The way to the k-th vertex, counted on around the curve.
-    fn way(&self, k: usize) -> f64 {
+    pub(super) fn way(&self, k: usize) -> f64 {
         let count = self.points.len();
         self.along[k % count] + (k / count) as f64 * self.along[count]
     }
 
-    /// R, or `most` if that is less, and the turn at a vertex. With `is_near`, edges near the vertex are looked at one by one.
-    fn radius_and_turn(&self, vertex: usize, most: f64, is_near: bool) -> (f64, f64) {
+    /// R, or `most` if that is less, and the turn at a vertex. Only edges up to the way `clear` along the curve, over R, can meet circles if
+    /// that is told.
+    fn radius_and_turn(&self, vertex: usize, most: f64, clear: Option<f64>) -> (f64, f64) {
         let (count, base, span) = (self.points.len(), self.base, SPAN_RATIO * self.band);
         let here = count + vertex;
         let way = |k: usize| self.way(k);
@@ -191,17 +214,20 @@ impl Course<'_> {
                 false => radius.min(tangent.through_edge(segment)),
             }
         };
-        // What has been looked at, in steps back and on. What is as far along the curve as a circle is wide may be left to the search.
-        let mut seen = own;
-        while is_near && seen[0] + seen[1] < count && way(here + seen[1]) - way(here) < 2.0 * radius
-        {
-            radius = look(seen[1], radius);
-            seen[1] += 1;
-        }
-        while is_near && seen[0] + seen[1] < count && way(here) - way(here - seen[0]) < 2.0 * radius
-        {
-            radius = look(back(seen[0]), radius);
-            seen[0] += 1;
+        if let Some(clear) = clear {
+            for on in own[1]..count {
+                if way(here + on) - way(here) >= clear * radius {
+                    break;
+                }
+                radius = look(on, radius);
+            }
+            for off in own[0]..count {
+                if way(here) - way(here - off) >= clear * radius {
+                    break;
+                }
+                radius = look(back(off), radius);
+            }
+            return (radius, turn);
         }
         self.edges.tree.least(
             &mut radius,
@@ -213,7 +239,7 @@ impl Course<'_> {
                 let steps = |edge: usize| (edge - base + count - vertex) % count;
                 let (on, end) = (steps(start), steps(last));
                 let is_in = |part: [usize; 2]| on <= end && (end < part[1] || back(on) < part[0]);
-                match (is_in(seen), is_in(near)) {
+                match (is_in(own), is_in(near)) {
                     (true, _) => f64::INFINITY,
                     (_, true) => close.least(area),
                     _ => far.least(area),
@@ -225,11 +251,49 @@ impl Course<'_> {
                     return;
                 }
                 let on = (edge - base + count - vertex) % count;
-                if on >= seen[1] && back(on) >= seen[0] {
+                if on >= own[1] && back(on) >= own[0] {
                     *radius = look(on, *radius);
                 }
             },
         );
         (radius, turn)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::CurveComponent;
+
+    /// Radii by runs are those by search: uneven gaps on a circle, an ellipse with another strand near it, few vertices.
+    #[test]
+    fn runs_find_what_the_search_finds() {
+        let ring = |n: usize, wide: f64, high: f64| -> CurveComponent {
+            let uneven = |k: usize| k as f64 + 0.45 * (k as f64 * 2.4).sin();
+            let at = |k: usize| (uneven(k) * TAU / n as f64).sin_cos();
+            let vertices: Vec<[f64; 2]> =
+                (0..n).map(|k| [wide * at(k).1, high * at(k).0]).collect();
+            CurveComponent { rows: (0..n as u64).collect(), vertices, closed: true }
+        };
+        let sets = [
+            vec![ring(20_000, 1.0, 1.0)],
+            vec![ring(20_000, 1.0, 0.01), ring(5000, 1.01, 0.0105)],
+            vec![ring(300, 1.0, 0.3)],
+            vec![ring(24, 1.0, 1.0)],
+        ];
+        for (set, curves) in sets.iter().enumerate() {
+            let edges = Edges::of(curves, &[]);
+            for curve in 0..curves.len() {
+                let of = |by_runs| {
+                    found(&edges, curve, 0.0, [true, by_runs], &Monitor::silent()).unwrap()
+                };
+                let (runs, search) = (of(true), of(false));
+                assert_eq!(runs.corner, search.corner, "set {set}, curve {curve}");
+                for (k, (a, b)) in runs.size.iter().zip(&search.size).enumerate() {
+                    let is_same = (a / b - 1.0).abs() <= 1.0 / 32.0;
+                    assert!(is_same, "set {set}, curve {curve}, {k}: {a} {b}");
+                }
+            }
+        }
     }
 }

@@ -129,7 +129,7 @@ fn gathered(room: &Room, far: &[(usize, [f64; 2])]) -> Option<CurveDoubt> {
     if let Some(&(row, _)) = far.iter().find(|(_, p)| is_full(*p)) {
         return gathered(row, 0.0);
     }
-    let (mut sum, mut crowded) = (0.0, None);
+    let (mut distances, mut crowded) = (Vec::with_capacity(far.len()), None);
     for &(row, p) in far {
         let [x, y] = cell(p);
         let (mut next, mut counts) = (4.0 * usual, [0.0; EXPECTED.len()]);
@@ -143,12 +143,14 @@ fn gathered(room: &Room, far: &[(usize, [f64; 2])]) -> Option<CurveDoubt> {
                 }
             }
         }
-        sum += next;
+        distances.push(next);
         if crowded.is_none() && (0..EXPECTED.len()).any(|k| is_crowd(counts[k], EXPECTED[k])) {
             crowded = Some(row);
         }
     }
-    let near = sum / many / usual;
+    // Ascending, so that the sum does not depend on the order of the rows.
+    distances.sort_unstable_by(f64::total_cmp);
+    let near = distances.iter().sum::<f64>() / many / usual;
     // The mean of so many distances is off by 0.52/√n of itself, by four times that hardly ever.
     let is_gathered = near < NEAR_LEAST.min(1.0 - 4.0 * 0.52 / many.sqrt());
     match crowded.or(is_gathered.then_some(far[0].0)) {

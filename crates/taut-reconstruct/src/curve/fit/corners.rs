@@ -10,38 +10,17 @@
 //! none below thirty.
 //! *Trap.* Lines would do for the angle but not for the corner: it lies beyond the windows, where a bend of the sides shows most.
 
-use std::f64::consts::{FRAC_PI_6, PI};
+use std::f64::consts::PI;
 
 use super::local::{Parabola, Window};
+use super::parameters::{
+    CHANCE_EXCESS_MAX, CORNER_ANGLE_MIN, CORNER_FIT_MAX, HALF_SPAN_RATIO, NODES_MAX,
+    SIDE_DEVIATION_RATIO_MAX, SIDE_DEVIATIONS, SIDE_GROWTH, SIDE_POINTS_MIN, TURN_RATIO_MIN,
+};
 use super::regress::around;
 use super::strand::{Node, Strand};
 
 type Point = [f64; 2];
-
-// What follows was chosen on the outlines of polygons, of 3 to 12 corners, and on 200 smooth curves, none of which has any.
-
-/// A corner spoils this many deviations of the noise on either side.
-const HALF_SPAN_RATIO: f64 = 6.0;
-/// A corner has at least this angle, in radians.
-const CORNER_ANGLE_MIN: f64 = FRAC_PI_6;
-/// The strand turns at least by this share of it, as windows round corners off.
-const TURN_RATIO_MIN: f64 = 0.6;
-/// The shortest and the longest side, in deviations.
-const SIDE: [f64; 2] = [12.0, 60.0];
-/// Nodes are two deviations and more apart, so there are about ten within that and what corners spoil; more than this are not looked at.
-const NODES_MAX: usize = 50;
-/// Sides grow by this factor.
-const SIDE_GROWTH: f64 = 1.3;
-/// A side is too long whose deviation from its parabola is more than this, in those of the noise.
-const DEVIATION_RATIO_MAX: f64 = 1.3;
-/// A side, and what is between, has at least this many points.
-const SIDE_POINTS_MIN: u32 = 8;
-/// The mean square distance of the points between from the corner is at most this, in that of the noise.
-const CORNER_FIT_MAX: f64 = 1.4;
-/// By how much of itself it may exceed that from the curve that goes around, times the root of the number of points: by chance. Of 200
-/// smooth curves with bends of two to ten widths of the band some passed for corners with twice this; at the corners of polygons
-/// it is 0.5 to 0.9 of that from the curve, where points are many.
-const AS_NEAR: f64 = 1.5;
 
 /// A corner of a strand.
 #[derive(Clone, Copy, Debug)]
@@ -144,7 +123,7 @@ fn is_sharpest(strand: &Strand, turns: &[f64], i: usize) -> bool {
         return false;
     }
     // Between corners that are nearer to each other no side would be long enough.
-    let span = (SIDE[0] + 2.0 * HALF_SPAN_RATIO) * strand.nodes[i].deviation;
+    let span = (SIDE_DEVIATIONS[0] + 2.0 * HALF_SPAN_RATIO) * strand.nodes[i].deviation;
     let sharper = |forward: bool| {
         (1..count)
             .map_while(|k| match (forward, strand.closed) {
@@ -182,7 +161,7 @@ fn measure(strand: &Strand, i: usize, room: [f64; 2], window: &mut Window) -> Op
     }
     let count = f64::from(count);
     let noise = count * node.deviation * node.deviation;
-    let chance = 1.0 + AS_NEAR / count.sqrt();
+    let chance = 1.0 + CHANCE_EXCESS_MAX / count.sqrt();
     let fits = count >= f64::from(SIDE_POINTS_MIN)
         && corner <= CORNER_FIT_MAX * noise
         && corner <= chance * curve;
@@ -200,7 +179,7 @@ fn side(
     window: &mut Window,
 ) -> Option<Parabola> {
     let whole = strand.length();
-    let [mut length, longest] = SIDE.map(|side| side * node.deviation);
+    let [mut length, longest] = SIDE_DEVIATIONS.map(|side| side * node.deviation);
     let left = match (strand.closed, sign > 0.0) {
         (true, _) => 0.25 * whole,
         (false, true) => whole - from,
@@ -217,7 +196,7 @@ fn side(
             // The frame's origin is the strand's place next to the corner.
             let origin = strand.place(if strand.closed { from.rem_euclid(whole) } else { from });
             let found = window.fit(origin.0, points)?;
-            if found.variance.sqrt() > DEVIATION_RATIO_MAX * node.deviation {
+            if found.variance.sqrt() > SIDE_DEVIATION_RATIO_MAX * node.deviation {
                 break;
             }
             best = Some(if angle(found.tangent, origin.1).abs() > 0.5 * PI {

@@ -11,18 +11,8 @@
 
 use std::cmp::Ordering;
 
+use super::parameters::{ALONG_COS_MIN, KINK_NODES_MAX, ORDERED_NODES_MIN, ROUNDS_MAX};
 use super::strand::{Node, hermite};
-
-/// The way to the next node may make an angle of this cosine with a tangent.
-const ALONG_COS_MIN: f64 = 0.5;
-/// A strand that is still not in order after this many rounds is left as it was: kinks around outliers take two to
-/// five.
-const ROUNDS_MAX: usize = 50;
-/// A kink has at most this many nodes, three windows: where more are out of order, it is the order that is wrong, and
-/// the points there would be lost.
-const KINK_NODES_MAX: usize = 9;
-/// At least this many nodes must be in order: three are a closed curve whatever their tangents.
-const ORDERED_NODES_MIN: usize = 4;
 
 /// Puts nodes off the way onto it, and says how many there were.
 pub(super) fn straighten(nodes: &mut Vec<Node>, closed: bool) -> usize {

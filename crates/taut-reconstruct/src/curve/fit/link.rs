@@ -7,20 +7,12 @@
 
 use taut_oblivious::hilbert_order;
 
+use super::parameters::{ALONG_COS_MIN, CHAIN_SEEDS_MIN, END_DISTANCE_MAX, SEED_DISTANCE_MAX};
 use super::seeds::Seed;
 use crate::curve::Ends;
 use crate::curve::index::Index;
 
 type Point = [f64; 2];
-
-/// The next seed may be at most this many windows away.
-const SEED_DISTANCE_MAX: f64 = 2.5;
-/// Ends that face each other may be at most this many windows apart.
-const END_DISTANCE_MAX: f64 = 4.0;
-/// The way to a neighbour may leave a tangent by an angle of this cosine.
-const ALONG_COS_MIN: f64 = 0.5;
-/// A chain has at least this many seeds.
-const CHAIN_SEEDS_MIN: usize = 3;
 
 /// Seeds in the order of a curve, tangents along it.
 #[derive(Clone, Debug)]

@@ -8,12 +8,8 @@
 //! *Trap.* Two points at one u have no divided difference: a point that would join its double is not taken in, and the gap tells.
 //! *Reference.* Remez, Comptes Rendus 198 (1934), 2063–2065; Cheney, Introduction to Approximation Theory, chapter 3.
 
+use super::parameters::{EXCHANGES_MAX, GAP_MIN};
 type Point = [f64; 2];
-
-/// After this many exchanges the gap reached is good enough.
-const EXCHANGES_MAX: usize = 40;
-/// Exchanges end at this gap.
-const GAP_MIN: f64 = 1e-10;
 
 /// The best parabola of a window.
 #[derive(Clone, Copy, Debug)]

@@ -18,6 +18,7 @@ mod local;
 mod minimax;
 mod noise;
 mod output;
+mod parameters;
 mod regress;
 mod seeds;
 mod strand;
@@ -31,22 +32,13 @@ use super::cloud::Cloud;
 use super::index::Index;
 use crate::Error;
 use noise::Noise;
-use strand::{NOISE_SEEDS, Strand, assign};
+use parameters::{
+    BAND_DEVIATIONS, EDGE_DEVIATIONS_MAX, NODES_PER_SEED, NOISE_RATIO_MIN, NOISE_SEEDS,
+    POINT_DEVIATIONS_MAX,
+};
+use strand::{Strand, assign};
 
 type Point = [f64; 2];
-
-/// A point may be within this many standard deviations of a curve before the kind of noise is known, and where it has
-/// no edge.
-const POINT_DEVIATIONS_MAX: f64 = 5.0;
-/// This is the same in edges, where noise has one.
-const EDGE_DEVIATIONS_MAX: f64 = 1.5;
-/// The band of noise without an edge has this half-width in standard deviations.
-const BAND_DEVIATIONS: f64 = 3.0;
-/// Each seed gets this many nodes.
-const NODES_PER_SEED: usize = 3;
-
-/// Points off a curve by more than this share of their spacing along it are not its vertices.
-const NOISE_RATIO_MIN: f64 = 0.1;
 
 /// The curves of points, noisy or not.
 pub(super) fn fit(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Outcome, Error> {

@@ -5,15 +5,8 @@
 //! deviations is background, as dense there as within the band, and is subtracted first.
 //! *Guarantee.* A function of the distances; O(n log n).
 
+use super::parameters::{EDGE_MEDIANS_MAX, KIND_POINTS_MIN, NOISE_DEVIATIONS_MAX};
 use super::strand::Strand;
-
-/// Noise has an edge where nine tenths of it lie within this many medians: between 1.8 of uniform and 2.44 of normal
-/// noise, and below the 2.33 of a triangular one.
-const EDGE_MEDIANS_MAX: f64 = 2.13;
-/// The kind is told from at least this many points.
-const POINTS_MIN: usize = 100;
-/// Noise counts within this many standard deviations, and background does between that and twice as many.
-const NOISE_DEVIATIONS_MAX: f64 = 3.0;
 
 /// What is known about the noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +28,7 @@ impl Noise {
         shares.sort_unstable_by(f64::total_cmp);
         let below = |z: f64| shares.partition_point(|&share| share <= z);
         let near = below(NOISE_DEVIATIONS_MAX);
-        if near < POINTS_MIN {
+        if near < KIND_POINTS_MIN {
             return Self::UNKNOWN;
         }
         let background = (shares.len() - near) as f64 / (width - NOISE_DEVIATIONS_MAX);

@@ -5,16 +5,11 @@ use taut_oblivious::hilbert_order;
 use taut_points::Monitor;
 
 use super::Frame;
+use super::parameters::{EDGES_PER_NODE_MAX, PIECE_VERTICES_MIN};
 use super::strand::{Node, Strand, hermite};
 use crate::Error;
 use crate::curve::Ends;
 use crate::curve::chains::{chains, repair};
-
-/// There are at most this many edges between two nodes.
-const EDGES_PER_NODE_MAX: f64 = 16.0;
-
-/// Fewest vertices of a piece that is left where edges crossed.
-const PIECE: usize = 8;
 
 /// One polyline for each strand that has points, unless some cross: then fewer edges, and how many are gone.
 pub(super) fn curves(
@@ -48,7 +43,8 @@ pub(super) fn curves(
         return Ok((curves, 0));
     }
     let (edges, _) = repair(&sites, edges, ends, monitor)?;
-    let pieces = chains(sites.len(), &edges).into_iter().filter(|c| c.sites.len() >= PIECE);
+    let pieces =
+        chains(sites.len(), &edges).into_iter().filter(|c| c.sites.len() >= PIECE_VERTICES_MIN);
     let curves = pieces.map(|chain| CurveComponent {
         vertices: chain.sites.iter().map(|&site| sites[site as usize]).collect(),
         closed: chain.closed,

@@ -2,7 +2,7 @@
 //!
 //! *Problem.* Points lie in a band around a curve, in order. Where is the middle line?
 //! *Idea.* In the frame of a place on the curve as known so far, a parabola is fitted to the points of a window, by least squares or, for
-//! noise with an edge, by the least largest residual. Windows grow by [`WINDOW_GROWTH`] for as long as what each says of the place
+//! noise with an edge, by the least largest residual. Windows grow by [`REGRESSION_WINDOW_GROWTH`] for as long as what each says of the place
 //! agrees with what all shorter ones say, within their errors (Lepski's rule): then curvature does not bend the answer yet.
 //! *Guarantee.* Error O(n^(−4/9)) for least squares and O(n^(−4/5)) for the least largest residual, of a smooth curve.
 //! *Reference.* Lepski, Theory of Probability and its Applications 35 (1990), 454–466.
@@ -12,30 +12,14 @@ use rayon::prelude::*;
 use super::local::cholesky;
 use super::minimax::{Minimax, minimax};
 use super::noise::Noise;
+use super::parameters::{
+    HALF_LENGTH_RATIO, MINIMAX_ERROR, ONE_SIDED_ERROR_MIN, PEELED_OUTLIERS_MAX, PLACES_PER_WINDOW,
+    REGRESSION_WINDOW_GROWTH, SLOPE_MAX, STANDARD_ERRORS_MAX, WINDOW_DEVIATION_RATIO_MAX,
+    WINDOW_POINTS_MIN,
+};
 use super::strand::{Member, Node, Strand, hermite};
 
 type Point = [f64; 2];
-
-/// Windows are grown at one place in this many: their length changes slowly along the curve.
-const PLACES_PER_WINDOW: usize = 3;
-/// Windows grow by this factor.
-const WINDOW_GROWTH: f64 = 1.25;
-/// A window has at least this many points.
-const WINDOW_POINTS_MIN: usize = 6;
-/// Lepski's factor: two windows may differ by this many standard errors.
-const STANDARD_ERRORS_MAX: f64 = 1.0;
-/// A window by the frame of its middle holds |u| ≤ half. Along the curve that is up to half over this, as slopes are at most [`SLOPE_MAX`].
-const HALF_LENGTH_RATIO: f64 = 0.8;
-/// The least largest residual of m points has a middle that is off by so many δ/m, in trials with uniform noise.
-const MINIMAX_ERROR: f64 = 5.5;
-/// Standard error, in deviations of the noise, from which on a window has its points on one side, or next to none.
-const ONE_SIDED: f64 = 0.75;
-/// A window leaves out at most this many outliers one by one.
-const PEELED_OUTLIERS_MAX: usize = 8;
-/// The slope against the frame within a window is at most this.
-const SLOPE_MAX: f64 = 0.8;
-/// The residuals of a window have at most this deviation, in those of the noise.
-const DEVIATION_RATIO_MAX: f64 = 1.5;
 
 /// What windows say of one place.
 #[derive(Clone, Copy, Debug)]
@@ -199,7 +183,9 @@ fn longest(strand: &Strand, place: &Place, noise: &Noise, window: &mut Window) -
                 found.offset + STANDARD_ERRORS_MAX * found.error,
             ];
             agreed = [agreed[0].max(interval[0]), agreed[1].min(interval[1])];
-            if agreed[0] > agreed[1] || found.deviation > DEVIATION_RATIO_MAX * place.deviation {
+            if agreed[0] > agreed[1]
+                || found.deviation > WINDOW_DEVIATION_RATIO_MAX * place.deviation
+            {
                 break;
             }
             best = half;
@@ -207,7 +193,7 @@ fn longest(strand: &Strand, place: &Place, noise: &Noise, window: &mut Window) -
                 break;
             }
         }
-        half *= WINDOW_GROWTH;
+        half *= REGRESSION_WINDOW_GROWTH;
     }
     best
 }
@@ -223,8 +209,8 @@ fn narrow(
     window: &mut Window,
 ) -> Option<Estimate> {
     let mut found = measure(strand, place, half, noise, window)?;
-    while found.deviation > DEVIATION_RATIO_MAX * place.deviation {
-        half /= WINDOW_GROWTH;
+    while found.deviation > WINDOW_DEVIATION_RATIO_MAX * place.deviation {
+        half /= REGRESSION_WINDOW_GROWTH;
         let Some(shorter) = measure(strand, place, half, noise, window) else { break };
         found = shorter;
     }
@@ -257,7 +243,7 @@ fn measure(
         return None;
     }
     let found = least_squares(&window.points, half, place.deviation)?;
-    if found.error > ONE_SIDED * place.deviation {
+    if found.error > ONE_SIDED_ERROR_MIN * place.deviation {
         return None;
     }
     let Some(edge) = noise.edge.map(|edge| edge * place.deviation) else { return Some(found) };

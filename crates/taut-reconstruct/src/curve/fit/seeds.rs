@@ -20,51 +20,18 @@ use taut_oblivious::hilbert_order;
 use taut_points::Monitor;
 
 use super::local::{Parabola, Window};
+use super::parameters::{
+    ALONG_COS_MIN, ALONG_WINDOWS, BARREN_RATIO, BEST_FLATNESS_MIN, COARSE_RATIO_MIN,
+    CONFIRMED_FLATNESS_RATIO, CONFIRMING_RATIO, DENSITY_NEIGHBORS, DENSITY_RATIO_MAX, FLATNESS_MIN,
+    LENGTH_RATIO_MIN, LENGTHS_TRIED, NEUMANN_RATIO_MIN, POINTS_PER_CURVE_POINT_MAX,
+    SAMPLE_FLATNESS_RATIO, SAMPLE_POINTS, SEED_WINDOW_GROWTH, SLAB_DEVIATIONS_MAX,
+    SLAB_LENGTH_RATIO, SPACING_RATIO_MAX, SURE_POINTS_MIN, VAIN_POINTS_RATIO_MAX, WIDTH_RATIO_MIN,
+    WINDOW_RATIO_MAX,
+};
 use crate::Error;
 use crate::curve::index::{Index, distance2};
 
 type Point = [f64; 2];
-
-/// A window must be this many standard deviations of the residuals long, from its centre to its end.
-const FLATNESS_MIN: f64 = 8.0;
-/// What the best of all windows must reach where none is flat enough.
-const FLATNESS_LEAST: f64 = 5.0;
-/// Where no window was flat, no other is tried within this share of the largest.
-const BARREN_RATIO: f64 = 0.2;
-/// How many points may be looked at in vain before that, for each point there is.
-const MOST_VAIN: usize = 8;
-/// A window is coarse whose deviation is this many times the median of those within it.
-const COARSE_RATIO_MIN: f64 = 3.0;
-/// Windows end when they are this many times as long as the flattest.
-const WINDOW_RATIO_MAX: f64 = 4.0;
-/// Windows of fewer points may be flat by chance, of all those that are tried.
-const SURE_POINTS_MIN: usize = 60;
-/// The window that has to be flat as well is this many times as long.
-const CONFIRMING_RATIO: f64 = 1.4;
-/// It must have this share of the flatness.
-const CONFIRMED_FLATNESS_RATIO: f64 = 0.75;
-/// The mean square of successive differences of residuals that are noise is at least this times twice their variance.
-const NEUMANN_RATIO_MIN: f64 = 0.5;
-/// Windows grow by this factor.
-const WINDOW_GROWTH: f64 = 1.2;
-/// This many lengths of a window are tried around the curve.
-const LENGTHS_TRIED: usize = 4;
-/// This many points of a window tell whether it is worth a fit: they tell the width to 3 %, but where few of the window
-/// lie in a band.
-const SAMPLE_POINTS: usize = 512;
-/// A window that they show to have less than this share of the flatness is not worth a fit: it may be so much flatter
-/// than they show.
-const SAMPLE_FLATNESS_RATIO: f64 = 0.6;
-/// The distance of this many neighbours tells the density at a point.
-const DENSITY_NEIGHBORS: usize = 8;
-/// The slab of a seed has this half-length as a share of its window.
-const SLAB_RATIO: f64 = 0.45;
-/// Residuals of points of the slab, in standard deviations: 1.73 is the edge of uniform noise.
-const SLAB_WIDTH: f64 = 4.0;
-/// The density of outliers is less than that of nine tenths of the curve by the square of this.
-const SPACING_RATIO_MAX: f64 = 5.0;
-/// One of so many points is on curves at least: fewer, such as a clump in one place, do not tell how dense those are.
-const OF_CURVES: usize = 8;
 
 /// Stands for no seed.
 const NONE: u32 = u32::MAX;
@@ -89,7 +56,8 @@ pub(super) struct Seed {
 impl Seed {
     /// Whether its window shows that another one is flat by chance.
     fn is_longer(&self, other: &Seed) -> bool {
-        self.reach > LENGTH_RATIO_MIN * other.reach && self.deviation > AS_WIDE * other.deviation
+        self.reach > LENGTH_RATIO_MIN * other.reach
+            && self.deviation > WIDTH_RATIO_MIN * other.deviation
     }
 }
 
@@ -121,18 +89,6 @@ pub(super) fn seeds(
     Ok(apart(search.seeds.into_iter().flatten().collect()))
 }
 
-/// The same for points along the curve: a seed beside the curve has few.
-const DENSITY_RATIO_MAX: f64 = 4.0;
-/// Within this many windows most tangents are along that of a seed, to within 60°: it runs across the band by chance
-/// otherwise.
-const ALONG_WINDOWS: f64 = 1.5;
-/// The cosine of the angle within which they are along it: 60°.
-const ALONG_COS_MIN: f64 = 0.5;
-/// A window that others exceed by these factors, in length and in deviation, is flat by chance. In length alone they do where
-/// points are sparse, or where outliers hid the band.
-const LENGTH_RATIO_MIN: f64 = 2.5;
-const AS_WIDE: f64 = 1.5;
-
 /// The seeds that are not beside an earlier one, as two samples on either side of the band lead to one place, nor flat by chance.
 fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
     let order = hilbert_order(seeds.len(), |i| seeds[i].at);
@@ -146,7 +102,7 @@ fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
     let mut beside = vec![false; seeds.len()];
     for (i, seed) in seeds.iter().enumerate() {
         if !beside[number[i]] {
-            let apart = 0.5 * SLAB_RATIO * seed.reach;
+            let apart = 0.5 * SLAB_LENGTH_RATIO * seed.reach;
             index.within(seed.at, apart * apart, &mut |place| beside[place as usize] = true);
             beside[number[i]] = false;
         }
@@ -158,7 +114,7 @@ fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
         index.within(seed.at, seed.reach * seed.reach, &mut |place| {
             let (other, at) = (&seeds[order[place as usize] as usize], places[place as usize]);
             let across = (at[1] - seed.at[1]) * tx - (at[0] - seed.at[0]) * ty;
-            if across.abs() <= SLAB_WIDTH * seed.deviation {
+            if across.abs() <= SLAB_DEVIATIONS_MAX * seed.deviation {
                 slabs[place as usize][0] += 1;
                 slabs[place as usize][1] += u32::from(seed.is_longer(other));
             }
@@ -253,7 +209,7 @@ impl<'a> Search<'a> {
         monitor: &Monitor<'_>,
     ) -> Result<(), Error> {
         let mut done = Quantile::default();
-        let fewest = (order.len() / OF_CURVES).max(30);
+        let fewest = (order.len() / POINTS_PER_CURVE_POINT_MAX).max(30);
         for (count, &i) in order.iter().enumerate() {
             let i = i as usize;
             if count % 4096 == 0 {
@@ -359,11 +315,11 @@ impl<'a> Search<'a> {
     fn flat(&mut self, start: Point, spacing: f64) -> Option<(Parabola, f64)> {
         let most = (self.points.len() / 3).max(DENSITY_NEIGHBORS);
         // Not the spacing itself, at which the last neighbour is inside or outside as rounding will have it.
-        let mut reach = (WINDOW_GROWTH * spacing).max(REACH_MIN);
+        let mut reach = (SEED_WINDOW_GROWTH * spacing).max(REACH_MIN);
         let mut best: Option<(f64, Parabola, f64)> = None;
         let mut longest = f64::INFINITY;
         loop {
-            let least = best.map_or(FLATNESS_LEAST, |(most, ..)| most);
+            let least = best.map_or(BEST_FLATNESS_MIN, |(most, ..)| most);
             if let Some(parabola) = self.fit_if_flat(start, reach, least) {
                 let flatness = flatness(&parabola, reach);
                 if flatness >= least && (!self.is_filled(&parabola) || self.is_coarse(&parabola)) {
@@ -380,7 +336,7 @@ impl<'a> Search<'a> {
             if seen > most || seen == self.points.len() || reach > longest {
                 break;
             }
-            reach *= WINDOW_GROWTH;
+            reach *= SEED_WINDOW_GROWTH;
         }
         let (as_flat, mut parabola, mut reach) = best?;
         for _ in 0..2 {
@@ -401,7 +357,7 @@ impl<'a> Search<'a> {
             if flatness(&parabola, *reach) >= least {
                 return Some(parabola);
             }
-            *reach /= WINDOW_GROWTH;
+            *reach /= SEED_WINDOW_GROWTH;
         }
         None
     }
@@ -411,7 +367,7 @@ impl<'a> Search<'a> {
     /// Where the curve winds or bends within the window they do not, as its own course is what they show. The mean square of
     /// their differences is twice their variance where they are noise (von Neumann 1941).
     fn is_filled(&mut self, parabola: &Parabola) -> bool {
-        let most = SLAB_WIDTH * parabola.variance.sqrt();
+        let most = SLAB_DEVIATIONS_MAX * parabola.variance.sqrt();
         let along = &mut self.along;
         along.clear();
         along.extend(self.window.local.iter().map(|&p| [p[0], parabola.residual(p)]));
@@ -440,7 +396,7 @@ impl<'a> Search<'a> {
         let covered = &mut self.covered;
         covered[i] = NO_SEED;
         self.vain += self.ids.len();
-        if self.vain > MOST_VAIN * self.points.len() {
+        if self.vain > VAIN_POINTS_RATIO_MAX * self.points.len() {
             let at = self.points[i];
             let far =
                 |most: f64, &other: &u32| most.max(distance2(at, self.points[other as usize]));
@@ -451,9 +407,11 @@ impl<'a> Search<'a> {
 
     /// Marks the points of the slab for the next seed.
     fn cover(&mut self, parabola: &Parabola, reach: f64) {
-        let width = SLAB_WIDTH * parabola.variance.sqrt();
+        let width = SLAB_DEVIATIONS_MAX * parabola.variance.sqrt();
         for (&i, &local) in self.ids.iter().zip(&self.window.local) {
-            if local[0].abs() <= SLAB_RATIO * reach && parabola.residual(local).abs() <= width {
+            if local[0].abs() <= SLAB_LENGTH_RATIO * reach
+                && parabola.residual(local).abs() <= width
+            {
                 self.covered[i as usize] = self.seeds.len() as u32;
             }
         }

@@ -8,21 +8,11 @@ use rayon::prelude::*;
 use taut_oblivious::hilbert_order;
 
 use super::link::Chain;
+use super::parameters::{DEVIATION_MIN, NOISE_SEEDS, PIECES_PER_NODE, POINTS_PER_RUN};
 use super::seeds::Seed;
 use crate::curve::index::{Index, Nearest};
 
 type Point = [f64; 2];
-
-/// The nearest places of this many points are sought together.
-const POINTS_PER_RUN: usize = 16;
-/// This many seeds on either side of one tell the noise there.
-pub(super) const NOISE_SEEDS: usize = 2;
-/// A node has at least this deviation, in windows: of points without noise it would be that of roundings, and most
-/// would be farther off than that, as polylines and parabolas are. A window is eight deviations of noise and more long,
-/// and holds five points and more.
-const DEVIATION_MIN: f64 = 0.002;
-/// The polyline has this many pieces between two nodes.
-const PIECES_PER_NODE: usize = 4;
 
 /// A place on the curve with its tangent.
 #[derive(Clone, Copy, Debug)]

@@ -4,28 +4,17 @@
 //! *Idea.* Where points are off a parabola through a few of them by next to nothing beside their spacing, they are vertices. Where they
 //! are off it by about their spacing, they are a blob within a band, whose residuals grow as the square root of the number of points;
 //! if they grow faster it is the curve itself that is rugged, such as a coastline. Between the two only a fit can tell.
-//! *Guarantee.* What most of [`PLACES`] places say, or of half as many at least where there are more points; O(log n) beside the index. Points
+//! *Guarantee.* What most of [`PLACES_MAX`] places say, or of half as many at least where there are more points; O(log n) beside the index. Points
 //! that are fewer than those of four long windows are not judged, as a fit is soon done.
 
 use super::local::Window;
+use super::parameters::{
+    LONG_WINDOW_POINTS, PLACES_MAX, ROUGH_OFFSET_MIN, RUGGED_GROWTH_MIN, SHORT_WINDOW_POINTS,
+    VERTEX_OFFSET_MAX,
+};
 use crate::curve::index::Index;
 
 type Point = [f64; 2];
-
-/// Most places that are looked at.
-const PLACES: usize = 1000;
-/// A short window has this many points, with the one in the middle.
-const SHORT_WINDOW_POINTS: usize = 9;
-/// A long window has this many points, with the one in the middle.
-const LONG_WINDOW_POINTS: usize = 33;
-/// Off a parabola by less than this share of their spacing, points are vertices.
-const VERTEX_OFFSET_MAX: f64 = 0.05;
-/// Off it by more than this share, points are a blob or rugged.
-const ROUGH_OFFSET_MIN: f64 = 0.6;
-/// Residuals of long windows are more than this many times larger where points are rugged. Of blobs they are twice as
-/// large; in 1500 random draws of noisy curves they were at most 2.3 times as large, of the vertices of coastlines they
-/// are 3 times as large.
-const RUGGED_GROWTH_MIN: f64 = 2.6;
 
 /// Whether most points are vertices.
 pub(super) fn are_vertices(points: &[Point], index: &Index<'_>) -> bool {
@@ -35,7 +24,7 @@ pub(super) fn are_vertices(points: &[Point], index: &Index<'_>) -> bool {
     }
     let (mut window, mut near) = (Window::default(), Vec::new());
     let (mut looked_at, mut smooth, mut rough, mut growths) = (0, 0, 0, Vec::new());
-    for &at in points.iter().step_by(points.len().div_ceil(PLACES)) {
+    for &at in points.iter().step_by(points.len().div_ceil(PLACES_MAX)) {
         near.clear();
         let mut deviation_of = |count: usize| {
             index.nearest(at, count, &mut near);
