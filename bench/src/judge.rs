@@ -76,7 +76,7 @@ pub(crate) fn judge(
             let distance =
                 row.iter().zip(center).map(|(x, c)| (x - c) * (x - c)).sum::<f64>().sqrt();
             let this = distance + if items == Items::Balls { row[center.len()] } else { 0.0 };
-            // A NaN of the peer, in centre or radius, must be lost neither in a comparison nor in a maximum.
+            // A NaN of the peer, in center or radius, must be lost neither in a comparison nor in a maximum.
             let inside = this <= radius * (1.0 + ROUNDING);
             outside += u64::from(!inside);
             reach = if this.is_nan() { f64::INFINITY } else { reach.max(this) };
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn balls_reach_further_than_their_centres() {
+    fn balls_reach_further_than_their_centers() {
         let balls = Points::new(&[0.0, 0.5, 2.0, 0.5], 2).unwrap();
         let bracket = Verdict { lower: 1.5, upper: 1.5, gap: 0.0 };
         assert!(!judge(&balls, Items::Balls, &[1.0], 1.5, &bracket).unwrap().is_wrong());

@@ -5,15 +5,14 @@
 
 use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, Write};
-use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::time::{Duration, Instant};
 
-use anyhow::{Context as _, Result, bail, ensure};
 use miniball::{Ball, Enclosing};
 use nalgebra::{Const, OPoint};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize, Serializer};
+
+use crate::prelude::*;
 
 /// The time a peer is given to read its input and build its own points of it.
 const LOADING_TIME_MAX: Duration = Duration::from_secs(120);
@@ -25,7 +24,7 @@ pub(crate) struct Answer {
     pub(crate) seconds: f64,
     /// The radius it claims.
     pub(crate) radius: f64,
-    /// The centre it claims, or what its answer is made of instead.
+    /// The center it claims, or what its answer is made of instead.
     pub(crate) center: Vec<f64>,
     /// Points it says determine the answer; 0 where it does not tell.
     pub(crate) support: u64,
@@ -57,6 +56,12 @@ impl std::fmt::Display for Silence {
             Silence::Slow(limit) => write!(f, "no answer in {} s", limit.as_secs()),
             Silence::Ended => write!(f, "ended without an answer"),
         }
+    }
+}
+
+impl Serialize for Silence {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
     }
 }
 
@@ -219,6 +224,39 @@ impl Peer {
             RecvTimeoutError::Disconnected => Silence::Ended,
         })
     }
+}
+
+/// Lets a peer answer so many times about rows: its answers, and why there are no more.
+pub(crate) fn ask_often(
+    context: &Context,
+    name: &str,
+    (values, columns): (&[f64], usize),
+    times: usize,
+) -> Result<(Vec<Answer>, Option<Silence>)> {
+    let file = context.file("rows");
+    write_rows(&file, values, columns)?;
+    let mut running = match Peer::start(name, &file, context.temp.path())? {
+        Ok(running) => running,
+        Err(silence) => return Ok((vec![], Some(silence))),
+    };
+    let mut answers = Vec::new();
+    for _ in 0..times {
+        match running.solve(context.limit)? {
+            Ok(answer) => answers.push(answer),
+            Err(silence) => return Ok((answers, Some(silence))),
+        }
+    }
+    Ok((answers, None))
+}
+
+/// Lets a peer answer once about rows.
+pub(crate) fn ask(
+    context: &Context,
+    name: &str,
+    rows: (&[f64], usize),
+) -> Result<Result<Answer, Silence>> {
+    let (mut answers, silence) = ask_often(context, name, rows, 1)?;
+    Ok(answers.pop().ok_or(silence.unwrap_or(Silence::Ended)))
 }
 
 impl Drop for Peer {

@@ -1,26 +1,12 @@
-//! Raw files of generated points, larger than the memory that is allowed, and processes that solve them.
+//! Raw files of generated points, larger than the memory that is allowed.
 
-use std::ffi::OsString;
 use std::fs::File;
 use std::io::{BufWriter, Write};
-use std::path::Path;
-use std::process::{Command, Stdio};
 
-use anyhow::{Result, ensure};
 use rayon::prelude::*;
-use serde::de::DeserializeOwned;
-use taut_points::{Blocks, Distribution, GeneratedSource, PointSource, Rows, ScalarKind, Scratch};
+use taut_points::{Blocks, GeneratedSource, PointSource, Rows, ScalarKind, Scratch};
 
-use crate::input::SEED;
-
-/// What this program prints as JSON when it is called with `arguments`: in a process of its own, so that its peak memory
-/// is that of the solver.
-pub(crate) fn alone<T: DeserializeOwned>(arguments: &[OsString]) -> Result<T> {
-    let output =
-        Command::new(std::env::current_exe()?).args(arguments).stderr(Stdio::inherit()).output()?;
-    ensure!(output.status.success(), "the solving process failed");
-    Ok(serde_json::from_slice(&output.stdout)?)
-}
+use crate::prelude::*;
 
 /// Writes the points, block by block, unless a file of that size is there.
 pub(crate) fn make(path: &Path, n: u64, dim: usize) -> Result<()> {
@@ -42,7 +28,7 @@ pub(crate) fn make(path: &Path, n: u64, dim: usize) -> Result<()> {
                 let mut scratch = Scratch::new();
                 match source.read(blocks.range(block), &mut scratch)? {
                     Rows::F32(points) => Ok(points.values().to_vec()),
-                    Rows::F64(_) => anyhow::bail!("single precision was asked for"),
+                    Rows::F64(_) => bail!("single precision was asked for"),
                 }
             })
             .collect::<Result<_>>()?;

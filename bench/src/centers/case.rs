@@ -1,36 +1,18 @@
 //! The list of cases: which inputs, and what has to be reached.
 
 use super::goals::{FACTOR_GOAL, bandwidth, check, core_set, equal, radius};
-use crate::cases::Named;
-use crate::goals::Goal;
+use crate::prelude::*;
 
-/// A case by name.
-pub(super) struct Case {
-    /// Its name on the command line.
-    pub(super) name: &'static str,
-    /// What it shows.
-    pub(super) about: &'static str,
-    /// What is done.
-    pub(super) kind: Kind,
-    /// What has to be reached by all of its inputs.
-    pub(super) must: &'static [Goal],
-}
-
-impl Named for Case {
-    fn head(&self) -> [&'static str; 2] {
-        [self.name, self.about]
-    }
-}
-
-/// What is done in a case.
+/// What is done in a section.
+#[derive(Clone, Copy)]
 pub(super) enum Kind {
-    /// Free centres of points, to a gap.
+    /// Free centers of points, to a gap.
     Free(&'static [Task]),
-    /// Centres among the points, beside a set-cover program.
+    /// Centers among the points, beside a set-cover program.
     Discrete,
     /// Farthest-first traversals of many points.
     Traversal,
-    /// Centres of all but a few points.
+    /// Centers of all but a few points.
     Outliers,
     /// Points that come by once.
     Streams,
@@ -50,11 +32,11 @@ pub(super) const GERMANY: Set = Set::Cities("d15112.tsp.xz");
 const USA: Set = Set::Cities("usa13509.xy.xz");
 const SPACE: Set = Set::Normal(10_000);
 
-/// So many centres, to such a gap, and what has to be reached.
+/// So many centers, to such a gap, and what has to be reached.
 pub(super) struct Task {
     /// The points.
     pub(super) set: Set,
-    /// Number of centres.
+    /// Number of centers.
     pub(super) k: usize,
     /// Relative gap asked for.
     pub(super) epsilon: f64,
@@ -66,17 +48,19 @@ pub(super) struct Task {
     pub(super) aim: &'static [Goal],
 }
 
-const fn task(
-    set: Set,
-    k: usize,
-    epsilon: f64,
-    must: &'static [Goal],
-    aim: &'static [Goal],
-) -> Task {
-    Task { set, k, epsilon, permutations: usize::MAX, must, aim }
+const fn task(set: Set, k: usize, epsilon: f64) -> Task {
+    Task { set, k, epsilon, permutations: usize::MAX, must: &[], aim: &[] }
 }
 
 impl Task {
+    const fn must(self, must: &'static [Goal]) -> Self {
+        Task { must, ..self }
+    }
+
+    const fn aim(self, aim: &'static [Goal]) -> Self {
+        Task { aim, ..self }
+    }
+
     const fn once(self) -> Self {
         Task { permutations: 1, ..self }
     }
@@ -88,120 +72,106 @@ const QUICK_AIM: &[Goal] = &[Goal::seconds(0.05)];
 const CORE_SET_GOAL: Goal = core_set(200);
 const CHECK_GOAL: Goal = check(1.0);
 
-/// All cases, in the order in which they run; the longest is the last.
-pub(super) const CASES: &[Case] = &[
-    Case {
-        name: "cities",
-        about: "Cities of Germany and of the USA, free centres at ε = 1e-6, beside the optima that are known.",
-        kind: Kind::Free(&[
-            task(
-                GERMANY,
-                2,
-                GAP_EXACT,
-                &[radius(9342.60196519), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
-                QUICK_AIM,
-            ),
-            task(
-                GERMANY,
-                3,
-                GAP_EXACT,
-                &[radius(8139.66296907), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
-                QUICK_AIM,
-            ),
-            task(
-                GERMANY,
-                4,
-                GAP_EXACT,
-                &[radius(6573.74826488), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
-                QUICK_AIM,
-            ),
-            task(
-                GERMANY,
-                5,
-                GAP_EXACT,
-                &[radius(5818.46791619), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
-                QUICK_AIM,
-            ),
-            task(
-                GERMANY,
-                8,
-                GAP_EXACT,
-                &[radius(4306.44830458), Goal::seconds(2.0), CORE_SET_GOAL, CHECK_GOAL],
-                &[Goal::seconds(0.1)],
-            ),
-            task(
-                GERMANY,
-                10,
-                GAP_EXACT,
-                &[radius(3725.69052411), Goal::seconds(10.0)],
-                &[Goal::seconds(1.0)],
-            ),
-            task(GERMANY, 12, GAP_EXACT, &[Goal::seconds(60.0)], &[Goal::seconds(5.0)]),
-            task(
-                USA,
-                5,
-                GAP_EXACT,
-                &[radius(99986.80259875), Goal::seconds(0.2), CORE_SET_GOAL, CHECK_GOAL],
-                &[],
-            ),
-            task(USA, 10, GAP_EXACT, &[radius(65210.68259879), Goal::seconds(4.0)], &[]),
-        ]),
-        must: &[],
-    },
-    Case {
-        name: "cities-15",
-        about: "The same for k = 15, at 1 %.",
-        kind: Kind::Free(&[
-            task(GERMANY, 15, 0.01, &[Goal::seconds(300.0)], &[Goal::seconds(10.0)]),
-            task(USA, 15, 0.01, &[Goal::seconds(100.0)], &[Goal::seconds(4.0)]),
-        ]),
-        must: &[],
-    },
-    Case {
-        name: "space",
-        about: "Normal, 10⁴ × 3, free centres at 1 %: the thesis needed almost a week for four.",
-        kind: Kind::Free(&[
-            task(SPACE, 4, 0.01, &[Goal::seconds(0.1), CORE_SET_GOAL], &[Goal::seconds(0.01)]),
-            task(SPACE, 6, 0.01, &[Goal::seconds(0.3), CORE_SET_GOAL], &[Goal::seconds(0.03)]),
-            task(SPACE, 8, 0.01, &[Goal::seconds(3.0), CORE_SET_GOAL], &[Goal::seconds(0.2)]),
-            task(SPACE, 10, 0.01, &[Goal::seconds(40.0)], &[Goal::seconds(2.0)]),
-        ]),
-        must: &[],
-    },
-    Case {
-        name: "discrete",
-        about: "Centres among the points, exact: 200 small sets beside set-cover programs under HiGHS, and the cities of Germany.",
-        kind: Kind::Discrete,
-        must: &[Goal::gap(1e-11), equal(1e-12)],
-    },
-    Case {
-        name: "farthest-first",
-        about: "1000 points in farthest-first order, of 10⁷ × 3 in double and 10⁶ × 128 in single precision, beside NumPy.",
-        kind: Kind::Traversal,
-        must: &[bandwidth(0.8), equal(1e-5)],
-    },
-    Case {
-        name: "outliers",
-        about: "Uniform, 2000 × 2, without up to five points, at ε = 1e-6.",
-        kind: Kind::Outliers,
-        must: &[Goal::gap(GAP_EXACT)],
-    },
-    Case {
-        name: "streams",
-        about: "Normal, 10⁶ × 3, one after another: the factor measured beside the one stated, on two orders.",
-        kind: Kind::Streams,
-        must: &[FACTOR_GOAL],
-    },
-    Case {
-        name: "cities-20",
-        about: "The cities of Germany for k = 20, at 5 % and at 1 %: minutes, one permutation.",
-        kind: Kind::Free(&[
-            task(GERMANY, 20, 0.05, &[Goal::seconds(300.0)], &[]).once(),
-            task(GERMANY, 20, 0.01, &[], &[Goal::gap(0.01), Goal::seconds(600.0)]).once(),
-        ]),
-        must: &[],
-    },
-];
+/// All sections; the longest is the last.
+pub(super) const AREA: Area<Kind> = Area {
+    name: "centers",
+    runs: 5,
+    threads: &[1, 2],
+    limit: 120,
+    peer_budget: 600,
+    sections: &[
+        section(
+            "cities",
+            Kind::Free(&[
+                task(GERMANY, 2, GAP_EXACT)
+                    .must(&[radius(9342.60196519), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL])
+                    .aim(QUICK_AIM),
+                task(GERMANY, 3, GAP_EXACT)
+                    .must(&[radius(8139.66296907), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL])
+                    .aim(QUICK_AIM),
+                task(GERMANY, 4, GAP_EXACT)
+                    .must(&[radius(6573.74826488), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL])
+                    .aim(QUICK_AIM),
+                task(GERMANY, 5, GAP_EXACT)
+                    .must(&[radius(5818.46791619), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL])
+                    .aim(QUICK_AIM),
+                task(GERMANY, 8, GAP_EXACT)
+                    .must(&[radius(4306.44830458), Goal::seconds(2.0), CORE_SET_GOAL, CHECK_GOAL])
+                    .aim(&[Goal::seconds(0.1)]),
+                task(GERMANY, 10, GAP_EXACT)
+                    .must(&[radius(3725.69052411), Goal::seconds(10.0)])
+                    .aim(&[Goal::seconds(1.0)]),
+                task(GERMANY, 12, GAP_EXACT)
+                    .must(&[Goal::seconds(60.0)])
+                    .aim(&[Goal::seconds(5.0)]),
+                task(USA, 5, GAP_EXACT).must(&[
+                    radius(99986.80259875),
+                    Goal::seconds(0.2),
+                    CORE_SET_GOAL,
+                    CHECK_GOAL,
+                ]),
+                task(USA, 10, GAP_EXACT).must(&[radius(65210.68259879), Goal::seconds(4.0)]),
+            ]),
+        )
+        .about(
+            "Cities of Germany and of the USA, free centers at ε = 1e-6, beside the \
+                 optima that are known.",
+        ),
+        section(
+            "cities-15",
+            Kind::Free(&[
+                task(GERMANY, 15, 0.01).must(&[Goal::seconds(300.0)]).aim(&[Goal::seconds(10.0)]),
+                task(USA, 15, 0.01).must(&[Goal::seconds(100.0)]).aim(&[Goal::seconds(4.0)]),
+            ]),
+        )
+        .about("The same for k = 15, at 1 %."),
+        section(
+            "space",
+            Kind::Free(&[
+                task(SPACE, 4, 0.01)
+                    .must(&[Goal::seconds(0.1), CORE_SET_GOAL])
+                    .aim(&[Goal::seconds(0.01)]),
+                task(SPACE, 6, 0.01)
+                    .must(&[Goal::seconds(0.3), CORE_SET_GOAL])
+                    .aim(&[Goal::seconds(0.03)]),
+                task(SPACE, 8, 0.01)
+                    .must(&[Goal::seconds(3.0), CORE_SET_GOAL])
+                    .aim(&[Goal::seconds(0.2)]),
+                task(SPACE, 10, 0.01).must(&[Goal::seconds(40.0)]).aim(&[Goal::seconds(2.0)]),
+            ]),
+        )
+        .about("Normal, 10⁴ × 3, free centers at 1 %: the thesis needed almost a week for four."),
+        section("discrete", Kind::Discrete)
+            .about(
+                "Centers among the points, exact: 200 small sets beside set-cover programs \
+                 under HiGHS, and the cities of Germany.",
+            )
+            .must(&[Goal::gap(1e-11), equal(1e-12)]),
+        section("farthest-first", Kind::Traversal)
+            .about(
+                "1000 points in farthest-first order, of 10⁷ × 3 in double and 10⁶ × 128 in \
+                 single precision, beside NumPy.",
+            )
+            .must(&[bandwidth(0.8), equal(1e-5)]),
+        section("outliers", Kind::Outliers)
+            .about("Uniform, 2000 × 2, without up to five points, at ε = 1e-6.")
+            .must(&[Goal::gap(GAP_EXACT)]),
+        section("streams", Kind::Streams)
+            .about(
+                "Normal, 10⁶ × 3, one after another: the factor measured beside the one \
+                 stated, on two orders.",
+            )
+            .must(&[FACTOR_GOAL]),
+        section(
+            "cities-20",
+            Kind::Free(&[
+                task(GERMANY, 20, 0.05).must(&[Goal::seconds(300.0)]).once(),
+                task(GERMANY, 20, 0.01).aim(&[Goal::gap(0.01), Goal::seconds(600.0)]).once(),
+            ]),
+        )
+        .about("The cities of Germany for k = 20, at 5 % and at 1 %: minutes, one permutation."),
+    ],
+};
 
 #[cfg(test)]
 mod tests {
@@ -210,8 +180,8 @@ mod tests {
 
     #[test]
     fn names_are_unique_and_every_case_has_a_goal() {
-        for (at, case) in CASES.iter().enumerate() {
-            assert!(CASES[..at].iter().all(|other| other.name != case.name), "{}", case.name);
+        assert!(AREA.has_unique_names());
+        for case in AREA.sections {
             let has_goal = match case.kind {
                 Kind::Free(tasks) => {
                     tasks.iter().all(|task| !task.must.is_empty() || !task.aim.is_empty())
@@ -223,12 +193,12 @@ mod tests {
     }
 
     #[test]
-    fn more_centres_of_a_set_are_known_to_reach_less_far() {
+    fn more_centers_of_a_set_are_known_to_reach_less_far() {
         let radius = |goal: &Goal| match goal.direction {
             Direction::Near(radius) => Some(radius),
             _ => None,
         };
-        for case in CASES {
+        for case in AREA.sections {
             let Kind::Free(tasks) = case.kind else { continue };
             for pair in tasks.windows(2).filter(|pair| pair[0].set == pair[1].set) {
                 assert!(pair[0].k < pair[1].k || pair[0].epsilon > pair[1].epsilon);

@@ -1,20 +1,12 @@
 //! Outlines whose truth is known: coastlines and glyphs of `$TAUT_DATA/curve`.
 
 use std::collections::HashMap;
-use std::ops::Range;
-use std::path::Path;
 
-use anyhow::{Context as _, Result, ensure};
-use serde_json::{Value, json};
 use taut_mesh::{EdgeScore, crossings, edge_score};
-use taut_points::{Distribution, generate};
 use taut_reconstruct::{CurveMethod, CurveOptions};
 
 use super::drawn::{found_edges, found_lines, solve};
-use crate::context::Context;
-use crate::goals::Goals;
-use crate::stats::seconds;
-use crate::table::Table;
+use crate::prelude::*;
 
 /// Methods beside each other; the first is the default.
 const METHODS: [CurveMethod; 5] = [
@@ -27,19 +19,6 @@ const METHODS: [CurveMethod; 5] = [
 
 /// A closed outline.
 type Ring = Vec<[f64; 2]>;
-
-/// The text of a file; `None`, after saying so, where `TAUT_DATA` does not hold it.
-fn read(name: &str) -> Result<Option<String>> {
-    let path = std::env::var_os("TAUT_DATA").map(|data| Path::new(&data).join("curve").join(name));
-    let Some(path) = path.filter(|path| path.exists()) else {
-        println!("left out: set TAUT_DATA to a folder with curve/{name}");
-        return Ok(None);
-    };
-    let file = std::fs::File::open(&path).with_context(|| path.display().to_string())?;
-    let text = std::io::read_to_string(liblzma::read::XzDecoder::new(file))
-        .with_context(|| path.display().to_string())?;
-    Ok(Some(text))
-}
 
 /// Vertices of rings, shuffled, with the edges between them. Vertices at one place count as one.
 struct Shuffled {
@@ -105,48 +84,40 @@ fn rings(text: &str) -> Result<Vec<Ring>> {
 }
 
 /// Shares of the true edges, crossings and time.
-pub(super) fn coastlines(context: &Context, seeds: Range<u64>) -> Result<Value> {
-    let name = if context.quick { "naturalearth_land_50m" } else { "naturalearth_land_10m" };
-    let Some(text) = read(&format!("{name}.loops.txt.xz"))? else {
-        return Ok(json!({ "left_out": "no TAUT_DATA" }));
+pub(super) fn coastlines(context: &Context, out: &mut Outcome) -> Result<()> {
+    let name = context.size("naturalearth_land_10m", "naturalearth_land_50m");
+    let Some(text) = data::read_xz(&format!("curve/{name}.loops.txt.xz"))? else {
+        return out.left_out();
     };
-    let input = Shuffled::new(&rings(&text)?, seeds.start)?;
-    let threads = context.threads[context.threads.len() - 1];
-    let head = ["method", "true edges found", "false", "missing", "crossings", "time"];
-    let mut table = Table::new(&head);
-    let (mut report, mut default) = (vec![], None);
+    let input = Shuffled::new(&rings(&text)?, context.seeds.start)?;
+    let threads = context.last_threads();
+    let mut table =
+        Table::new("method | true edges found:% | false | missing | crossings | time:s");
     for method in METHODS {
         let options = CurveOptions { method, threads: Some(threads), ..CurveOptions::default() };
         let (score, crossing, mut least) = input.judge(&options)?;
         for _ in 1..context.runs {
             least = least.min(solve(&input.points, &options)?.1);
         }
-        let share = score.true_found as f64 / (score.true_found + score.missing) as f64;
-        table.push(vec![
-            method.name().to_owned(),
-            format!("{:.2} %", 100.0 * share),
-            score.false_found.to_string(),
-            score.missing.to_string(),
-            crossing.to_string(),
-            seconds(least),
-        ]);
-        report.push(json!({
-            "method": method.name(), "share": share, "true": score.true_found, "false": score.false_found,
-            "missing": score.missing, "crossings": crossing, "seconds": least,
+        let share = share(&score);
+        table.push(json!({
+            "method": method.name(), "true edges found": share, "true": score.true_found, "false": score.false_found,
+            "missing": score.missing, "crossings": crossing, "time": least,
         }));
-        default.get_or_insert((share, crossing, least));
+        if method == METHODS[0] {
+            out.at_least("share of the true edges", share, [0.95, 0.97], Unit::Percent);
+            out.must("no crossings", crossing, crossing == 0);
+            out.at_most("time", least, 2.0, Unit::Seconds);
+        }
     }
     let (n, edges) = (input.points.len() / 2, input.edges.len());
-    println!("{name}, {n} points, {edges} edges, {threads} threads\n\n{table}");
-    let mut goals = Goals::default();
-    if let Some((share, crossing, least)) = default {
-        let shown = format!("{:.2} %", 100.0 * share);
-        goals.must("at least 95 % of the true edges".into(), shown.clone(), share >= 0.95);
-        goals.aim("at least 97 % of the true edges".into(), shown, share >= 0.97);
-        goals.must("no crossings".into(), crossing.to_string(), crossing == 0);
-        goals.at_most("time", Some(least), (2.0, None), seconds);
-    }
-    Ok(json!({ "input": name, "points": n, "methods": report, "goals": goals.json() }))
+    out.table(&format!("{name}, {n} points, {edges} edges, {threads} threads"), table);
+    Ok(())
+}
+
+/// The share of the true edges that was found.
+fn share(score: &EdgeScore) -> f64 {
+    score.true_found as f64 / (score.true_found + score.missing) as f64
 }
 
 /// A glyph: its name and its outlines, sampled.
@@ -222,23 +193,21 @@ fn stem(glyphs: &[Glyph]) -> Option<f64> {
 }
 
 /// Glyphs whose edges are exactly the true ones.
-pub(super) fn glyphs(context: &Context, seeds: Range<u64>) -> Result<Value> {
-    let Some(text) = read("dejavu_serif_glyphs.quad.txt.xz")? else {
-        return Ok(json!({ "left_out": "no TAUT_DATA" }));
+pub(super) fn glyphs(context: &Context, out: &mut Outcome) -> Result<()> {
+    let Some(text) = data::read_xz("curve/dejavu_serif_glyphs.quad.txt.xz")? else {
+        return out.left_out();
     };
     let coarse = glyphs_of(&text, f64::INFINITY)?;
-    let stem = stem(&coarse).context("the letter l has no stem")?;
-    let glyphs = glyphs_of(&text, stem / 8.0)?;
-    let inputs: Vec<Shuffled> = glyphs
-        .iter()
-        .map(|glyph| Shuffled::new(&glyph.rings, seeds.start))
-        .collect::<Result<_>>()?;
-    let threads = context.threads[context.threads.len() - 1];
+    let spacing = stem(&coarse).context("the letter l has no stem")? / 8.0;
+    let glyphs = glyphs_of(&text, spacing)?;
+    let shuffled = |glyph: &Glyph| Shuffled::new(&glyph.rings, context.seeds.start);
+    let inputs: Vec<Shuffled> = glyphs.iter().map(shuffled).collect::<Result<_>>()?;
+    let threads = Some(context.last_threads());
+    let all = glyphs.len();
     let mut table =
-        Table::new(&["method", "exact", "true edges found", "false", "crossings", "time of all"]);
-    let (mut report, mut default) = (vec![], None);
+        Table::new("method | exact | true edges found:% | false | crossings | time of all:s");
     for method in METHODS {
-        let options = CurveOptions { method, threads: Some(threads), ..CurveOptions::default() };
+        let options = CurveOptions { method, threads, ..CurveOptions::default() };
         let (mut total, mut crossing, mut time, mut wrong) = (EdgeScore::default(), 0, 0.0, vec![]);
         for (glyph, input) in glyphs.iter().zip(&inputs) {
             let (score, crosses, seconds) = input.judge(&options)?;
@@ -251,37 +220,21 @@ pub(super) fn glyphs(context: &Context, seeds: Range<u64>) -> Result<Value> {
                 wrong.push(glyph.name.as_str());
             }
         }
-        let exact = glyphs.len() - wrong.len();
-        let share = total.true_found as f64 / (total.true_found + total.missing) as f64;
-        table.push(vec![
-            method.name().to_owned(),
-            format!("{exact} of {}", glyphs.len()),
-            format!("{:.2} %", 100.0 * share),
-            total.false_found.to_string(),
-            crossing.to_string(),
-            seconds(time),
-        ]);
-        report.push(json!({
-            "method": method.name(), "exact": exact, "wrong": wrong, "share": share, "false": total.false_found,
-            "missing": total.missing, "crossings": crossing, "seconds": time,
+        let exact = all - wrong.len();
+        table.push(json!({
+            "method": method.name(), "exact": format!("{exact} of {all}"), "wrong": wrong,
+            "true edges found": share(&total), "false": total.false_found, "missing": total.missing,
+            "crossings": crossing, "time of all": time,
         }));
-        default.get_or_insert(exact);
+        if method == METHODS[0] {
+            let share = exact as f64 / all as f64;
+            out.at_least("share of the glyphs exact", share, [0.8, 0.9], Unit::Percent);
+        }
     }
-    println!(
-        "{} glyphs, a point every {:.1} units, an eighth of the stem of l\n\n{table}",
-        glyphs.len(),
-        stem / 8.0
-    );
-    let mut goals = Goals::default();
-    if let Some(exact) = default {
-        let (share, shown) =
-            (exact as f64 / glyphs.len() as f64, format!("{exact} of {}", glyphs.len()));
-        goals.must("at least 80 % of the glyphs exact".into(), shown.clone(), share >= 0.8);
-        goals.aim("at least 90 % of the glyphs exact".into(), shown, share >= 0.9);
-    }
-    Ok(
-        json!({ "glyphs": glyphs.len(), "spacing": stem / 8.0, "methods": report, "goals": goals.json() }),
-    )
+    let caption =
+        format!("{all} glyphs, a point every {spacing:.1} units, an eighth of the stem of l");
+    out.table(&caption, table);
+    Ok(())
 }
 
 #[cfg(test)]

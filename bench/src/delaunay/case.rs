@@ -1,32 +1,31 @@
 //! The list of cases: which inputs, beside whom, and what has to be reached.
 
-use taut_points::{Distribution, Error, generate::Parameters};
+use taut_points::{Error, generate::Parameters};
 
 use super::goals::{bytes, check, exact_rate, of_cgal, of_uniform, speedup};
-use super::program::Peer;
-use crate::cases::Named;
-use crate::goals::Goal;
+use super::program::Triangulator;
+use crate::prelude::*;
 
-/// A case by name.
+/// What is triangulated, by whom.
+#[derive(Clone, Copy)]
 pub(super) struct Case {
-    /// Its name on the command line.
-    pub(super) name: &'static str,
-    /// What it shows.
-    pub(super) about: &'static str,
     /// Dimension of its inputs.
     pub(super) dim: usize,
-    /// What is triangulated.
     pub(super) inputs: &'static [Input],
     /// Peers beside taut.
-    pub(super) peers: &'static [Peer],
+    pub(super) peers: &'static [Triangulator],
     /// Numbers of threads taut is run with.
     pub(super) threads: &'static [usize],
 }
 
-impl Named for Case {
-    fn head(&self) -> [&'static str; 2] {
-        [self.name, self.about]
-    }
+/// Dimension, peers and threads, then the inputs.
+const fn case(
+    dim: usize,
+    peers: &'static [Triangulator],
+    threads: &'static [usize],
+    inputs: &'static [Input],
+) -> Case {
+    Case { dim, inputs, peers, threads }
 }
 
 /// One set of points.
@@ -66,10 +65,15 @@ const fn input(distribution: &'static str, n: usize, simplices: u64) -> Input {
 const FAILING_ANGLE: f64 = 302.328;
 
 /// All peers in the plane.
-pub(super) const PLANE_PEERS: &[Peer] =
-    &[Peer::Cgal, Peer::Spade, Peer::Delaunator, Peer::Triangle, Peer::Qhull];
+pub(super) const PLANE_PEERS: &[Triangulator] = &[
+    Triangulator::Cgal,
+    Triangulator::Spade,
+    Triangulator::Delaunator,
+    Triangulator::Triangle,
+    Triangulator::Qhull,
+];
 /// All peers in space.
-pub(super) const SPACE_PEERS: &[Peer] = &[Peer::Cgal, Peer::Qhull];
+pub(super) const SPACE_PEERS: &[Triangulator] = &[Triangulator::Cgal, Triangulator::Qhull];
 
 const PLANE_MUST: &[Goal] = &[of_cgal(0.55), check(0.5)];
 const PLANE_AIM: &[Goal] = &[of_cgal(0.38)];
@@ -77,124 +81,165 @@ const SPACE_MUST: &[Goal] = &[of_cgal(0.6), check(0.5)];
 const SPACE_AIM: &[Goal] = &[of_cgal(0.37)];
 const CLIFF_GOALS: &[Goal] = &[of_uniform(2.0), check(0.5)];
 
-/// All cases, in the order in which they run.
-pub(super) const CASES: &[Case] = &[
-    Case {
-        name: "plane",
-        about: "A million points of the plane, one thread.",
-        dim: 2,
-        inputs: &[
-            input("uniform", 1_000_000, 1_999_968)
-                .goals(&[of_cgal(0.55), exact_rate(1e-4), check(0.5)], PLANE_AIM),
-            input("normal", 1_000_000, 1_999_983).goals(PLANE_MUST, PLANE_AIM),
-            input("clouds", 1_000_000, 1_999_973).goals(PLANE_MUST, PLANE_AIM),
-            input("kuzmin", 1_000_000, 1_999_991).goals(&[of_cgal(0.65), check(0.5)], PLANE_AIM),
-            input("roads", 1_000_000, 1_999_980).goals(PLANE_MUST, PLANE_AIM),
-        ],
-        peers: PLANE_PEERS,
-        threads: &[1],
-    },
-    Case {
-        name: "plane-large",
-        about: "Ten million points of the plane, one thread.",
-        dim: 2,
-        inputs: &[
-            input("uniform", 10_000_000, 19_999_955).goals(&[of_cgal(0.5), check(0.5)], PLANE_AIM)
-        ],
-        peers: &[Peer::Cgal, Peer::Spade, Peer::Delaunator],
-        threads: &[1],
-    },
-    Case {
-        name: "plane-cliffs",
-        about: "Ties, lines and circles in the plane: no point may cost more than two of a uniform set of that size.",
-        dim: 2,
-        inputs: &[
-            input("uniform", 100_000, 199_962),
-            input("uniform", 1_000_000, 1_999_968),
-            input("grid", 1_000_000, 1_996_002).goals(CLIFF_GOALS, &[]),
-            Input { angle: Some(FAILING_ANGLE), ..input("grid", 1_000_000, 1_999_974) }
-                .goals(CLIFF_GOALS, &[]),
-            input("sphere", 100_000, 99_998).goals(CLIFF_GOALS, &[]),
-            input("roads", 1_000_000, 1_999_980).goals(CLIFF_GOALS, &[]),
-            input("lines", 1_000_000, 999_998).goals(CLIFF_GOALS, &[]),
-            input("spiral", 1_000_000, 1_822_953).goals(CLIFF_GOALS, &[]),
-            input("fan", 1_000_000, 999_998).goals(CLIFF_GOALS, &[]),
-        ],
-        peers: &[Peer::Cgal, Peer::Spade, Peer::Delaunator, Peer::Triangle],
-        threads: &[1],
-    },
-    Case {
-        name: "space",
-        about: "A million points of space, one thread.",
-        dim: 3,
-        inputs: &[
-            input("uniform", 1_000_000, 6_749_316)
-                .goals(&[of_cgal(0.6), exact_rate(1e-4), check(0.5)], SPACE_AIM),
-            input("normal", 1_000_000, 6_765_494).goals(SPACE_MUST, SPACE_AIM),
-            input("clouds", 1_000_000, 6_688_990).goals(SPACE_MUST, SPACE_AIM),
-        ],
-        peers: SPACE_PEERS,
-        threads: &[1],
-    },
-    Case {
-        name: "space-grid",
-        about: "The integer grid 100³: all ties; its tetrahedra are 6·99³.",
-        dim: 3,
-        inputs: &[input("grid", 1_000_000, 5_821_794).goals(SPACE_MUST, &[of_cgal(0.4)])],
-        peers: &[Peer::Cgal],
-        threads: &[1],
-    },
-    Case {
-        name: "space-surfaces",
-        about: "Points on surfaces and lines in space: cospherical, nearly cospherical, and as many tetrahedra as can be.",
-        dim: 3,
-        inputs: &[
-            input("torus", 1_000_000, 6_117_584).goals(SPACE_MUST, &[of_cgal(0.4)]),
-            input("sphere", 100_000, 302_075).goals(&[of_cgal(0.5), check(0.5)], &[of_cgal(0.27)]),
-            input("skew", 4_000, 1_999 * 1_999),
-        ],
-        peers: &[Peer::Cgal],
-        threads: &[1],
-    },
-    Case {
-        name: "threads-plane",
-        about: "Ten million points of the plane, one thread and two.",
-        dim: 2,
-        inputs: &[input("uniform", 10_000_000, 19_999_955).goals(&[speedup(1.5)], &[speedup(1.75)])],
-        peers: &[],
-        threads: &[1, 2],
-    },
-    Case {
-        name: "threads-space",
-        about: "A million points of space, one thread and two.",
-        dim: 3,
-        inputs: &[input("uniform", 1_000_000, 6_749_316).goals(&[speedup(1.5)], &[speedup(1.75)])],
-        peers: &[],
-        threads: &[1, 2],
-    },
-    Case {
-        name: "memory-plane",
-        about: "Peak memory above the input in the plane.",
-        dim: 2,
-        inputs: &[
-            input("uniform", 1_000_000, 1_999_968).goals(&[bytes(85.0)], &[bytes(72.0)]),
-            input("uniform", 10_000_000, 19_999_955).goals(&[bytes(85.0)], &[bytes(72.0)]),
-        ],
-        peers: &[Peer::Cgal, Peer::Spade, Peer::Delaunator],
-        threads: &[1, 2],
-    },
-    Case {
-        name: "memory-space",
-        about: "Peak memory above the input in space.",
-        dim: 3,
-        inputs: &[
-            input("uniform", 1_000_000, 6_749_316).goals(&[bytes(275.0)], &[bytes(250.0)]),
-            input("torus", 1_000_000, 6_117_584).goals(&[bytes(275.0)], &[bytes(250.0)]),
-        ],
-        peers: &[Peer::Cgal],
-        threads: &[1, 2],
-    },
-];
+/// All sections.
+pub(super) const AREA: Area<Case> = Area {
+    name: "delaunay",
+    runs: 5,
+    // Those of the section.
+    threads: &[],
+    limit: 120,
+    peer_budget: 30,
+    sections: &[
+        section(
+            "plane",
+            case(
+                2,
+                PLANE_PEERS,
+                &[1],
+                &[
+                    input("uniform", 1_000_000, 1_999_968)
+                        .goals(&[of_cgal(0.55), exact_rate(1e-4), check(0.5)], PLANE_AIM),
+                    input("normal", 1_000_000, 1_999_983).goals(PLANE_MUST, PLANE_AIM),
+                    input("clouds", 1_000_000, 1_999_973).goals(PLANE_MUST, PLANE_AIM),
+                    input("kuzmin", 1_000_000, 1_999_991)
+                        .goals(&[of_cgal(0.65), check(0.5)], PLANE_AIM),
+                    input("roads", 1_000_000, 1_999_980).goals(PLANE_MUST, PLANE_AIM),
+                ],
+            ),
+        )
+        .about("A million points of the plane, one thread."),
+        section(
+            "plane-large",
+            case(
+                2,
+                &[Triangulator::Cgal, Triangulator::Spade, Triangulator::Delaunator],
+                &[1],
+                &[input("uniform", 10_000_000, 19_999_955)
+                    .goals(&[of_cgal(0.5), check(0.5)], PLANE_AIM)],
+            ),
+        )
+        .about("Ten million points of the plane, one thread."),
+        section(
+            "plane-cliffs",
+            case(
+                2,
+                &[
+                    Triangulator::Cgal,
+                    Triangulator::Spade,
+                    Triangulator::Delaunator,
+                    Triangulator::Triangle,
+                ],
+                &[1],
+                &[
+                    input("uniform", 100_000, 199_962),
+                    input("uniform", 1_000_000, 1_999_968),
+                    input("grid", 1_000_000, 1_996_002).goals(CLIFF_GOALS, &[]),
+                    Input { angle: Some(FAILING_ANGLE), ..input("grid", 1_000_000, 1_999_974) }
+                        .goals(CLIFF_GOALS, &[]),
+                    input("sphere", 100_000, 99_998).goals(CLIFF_GOALS, &[]),
+                    input("roads", 1_000_000, 1_999_980).goals(CLIFF_GOALS, &[]),
+                    input("lines", 1_000_000, 999_998).goals(CLIFF_GOALS, &[]),
+                    input("spiral", 1_000_000, 1_822_953).goals(CLIFF_GOALS, &[]),
+                    input("fan", 1_000_000, 999_998).goals(CLIFF_GOALS, &[]),
+                ],
+            ),
+        )
+        .about(
+            "Ties, lines and circles in the plane: no point may cost more than two of a \
+                 uniform set of that size.",
+        ),
+        section(
+            "space",
+            case(
+                3,
+                SPACE_PEERS,
+                &[1],
+                &[
+                    input("uniform", 1_000_000, 6_749_316)
+                        .goals(&[of_cgal(0.6), exact_rate(1e-4), check(0.5)], SPACE_AIM),
+                    input("normal", 1_000_000, 6_765_494).goals(SPACE_MUST, SPACE_AIM),
+                    input("clouds", 1_000_000, 6_688_990).goals(SPACE_MUST, SPACE_AIM),
+                ],
+            ),
+        )
+        .about("A million points of space, one thread."),
+        section(
+            "space-grid",
+            case(
+                3,
+                &[Triangulator::Cgal],
+                &[1],
+                &[input("grid", 1_000_000, 5_821_794).goals(SPACE_MUST, &[of_cgal(0.4)])],
+            ),
+        )
+        .about("The integer grid 100³: all ties; its tetrahedra are 6·99³."),
+        section(
+            "space-surfaces",
+            case(
+                3,
+                &[Triangulator::Cgal],
+                &[1],
+                &[
+                    input("torus", 1_000_000, 6_117_584).goals(SPACE_MUST, &[of_cgal(0.4)]),
+                    input("sphere", 100_000, 302_075)
+                        .goals(&[of_cgal(0.5), check(0.5)], &[of_cgal(0.27)]),
+                    input("skew", 4_000, 1_999 * 1_999),
+                ],
+            ),
+        )
+        .about(
+            "Points on surfaces and lines in space: cospherical, nearly cospherical, and \
+                 as many tetrahedra as can be.",
+        ),
+        section(
+            "threads-plane",
+            case(
+                2,
+                &[],
+                &[1, 2],
+                &[input("uniform", 10_000_000, 19_999_955)
+                    .goals(&[speedup(1.5)], &[speedup(1.75)])],
+            ),
+        )
+        .about("Ten million points of the plane, one thread and two."),
+        section(
+            "threads-space",
+            case(
+                3,
+                &[],
+                &[1, 2],
+                &[input("uniform", 1_000_000, 6_749_316).goals(&[speedup(1.5)], &[speedup(1.75)])],
+            ),
+        )
+        .about("A million points of space, one thread and two."),
+        section(
+            "memory-plane",
+            case(
+                2,
+                &[Triangulator::Cgal, Triangulator::Spade, Triangulator::Delaunator],
+                &[1, 2],
+                &[
+                    input("uniform", 1_000_000, 1_999_968).goals(&[bytes(85.0)], &[bytes(72.0)]),
+                    input("uniform", 10_000_000, 19_999_955).goals(&[bytes(85.0)], &[bytes(72.0)]),
+                ],
+            ),
+        )
+        .about("Peak memory above the input in the plane."),
+        section(
+            "memory-space",
+            case(
+                3,
+                &[Triangulator::Cgal],
+                &[1, 2],
+                &[
+                    input("uniform", 1_000_000, 6_749_316).goals(&[bytes(275.0)], &[bytes(250.0)]),
+                    input("torus", 1_000_000, 6_117_584).goals(&[bytes(275.0)], &[bytes(250.0)]),
+                ],
+            ),
+        )
+        .about("Peak memory above the input in space."),
+    ],
+};
 
 #[cfg(test)]
 mod tests {
@@ -202,8 +247,8 @@ mod tests {
 
     #[test]
     fn names_are_unique_and_inputs_can_be_drawn() {
-        for (at, case) in CASES.iter().enumerate() {
-            assert!(CASES[..at].iter().all(|other| other.name != case.name), "{}", case.name);
+        assert!(AREA.has_unique_names());
+        for Section { name, kind: case, .. } in AREA.sections {
             for input in case.inputs {
                 let distribution = input.distribution(input.n, case.dim).unwrap();
                 assert!(distribution.to_string().starts_with(input.distribution));
@@ -211,7 +256,7 @@ mod tests {
                     Distribution::Grid { side, .. } => side.pow(case.dim as u32),
                     _ => input.n as u64,
                 };
-                assert_eq!(cells, input.n as u64, "{}: the whole grid", case.name);
+                assert_eq!(cells, input.n as u64, "{name}: the whole grid");
             }
         }
     }
@@ -219,7 +264,7 @@ mod tests {
     #[test]
     fn the_same_points_have_the_same_number_of_simplices_in_every_case() {
         let mut known: Vec<(String, u64)> = Vec::new();
-        for case in CASES {
+        for Section { kind: case, .. } in AREA.sections {
             for input in case.inputs {
                 let what =
                     format!("{} {:?} {} {}", input.distribution, input.angle, input.n, case.dim);

@@ -2,8 +2,7 @@
 
 use super::program::Program;
 use super::rounds::Rounds;
-use crate::goals::{Goal, Measured, Unit, range};
-use crate::stats::times;
+use crate::prelude::*;
 
 const OF_CGAL: &str = "processor time of one thread over CGAL's";
 const OF_UNIFORM: &str = "processor time per point over that of a uniform set of this size";
@@ -42,30 +41,25 @@ pub(super) const fn speedup(bound: f64) -> Goal {
     Goal::at_least(SPEEDUP, bound, Unit::Times)
 }
 
-impl Measured for Rounds {
-    /// The rounds themselves leave out builds that are not right.
-    fn rejected(&self) -> Option<&str> {
-        None
-    }
-
-    fn read(&self, goal: &Goal) -> Option<(f64, String)> {
+impl Rounds {
+    /// What goals ask for. Builds that are not right are left out by the rounds themselves.
+    pub(super) fn found(&self) -> Found {
         let one = Program::Taut(1);
-        let ratio = |value: f64| (value, times(value));
-        match goal.what {
-            OF_CGAL => self.of_cgal(one).map(|(least, rounds)| {
+        let mut found = Found::default();
+        found.say(
+            OF_CGAL,
+            self.of_cgal(one).map(|(least, rounds)| {
                 (least, format!("{}; by rounds {}", times(least), range(rounds, times)))
             }),
-            OF_UNIFORM => self.of_uniform(one).map(ratio),
-            BYTES => {
-                let all = self.threads().into_iter().map(|t| self.bytes(Program::Taut(t)));
-                let all: Option<Vec<f64>> = all.collect();
-                let most = all?.into_iter().max_by(f64::total_cmp)?;
-                Some((most, format!("{most:.1} B")))
-            }
-            EXACT_RATE => self.exact(one).map(|share| (share, format!("{share:.1e}"))),
-            CHECK => self.check(one).map(ratio),
-            SPEEDUP => self.speedup().map(|s| (s.median, range(s, times))),
-            _ => None,
+        );
+        found.add(OF_UNIFORM, self.of_uniform(one));
+        for threads in self.threads() {
+            let bytes = self.bytes(Program::Taut(threads));
+            found.say(BYTES, bytes.map(|bytes| (bytes, format!("{bytes:.1} B"))));
         }
+        found.add(EXACT_RATE, self.exact(one));
+        found.add(CHECK, self.check(one));
+        found.median(SPEEDUP, self.speedup(), times);
+        found
     }
 }

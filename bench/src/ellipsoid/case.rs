@@ -3,30 +3,10 @@
 use super::goals::{FLAGS_GOAL, OBJECTIVE_GOAL, PEER_FLAGS_GOAL, agreement, bracket, faster};
 use super::laws::Law;
 use super::robust::Cloud;
-use crate::cases::Named;
-use crate::goals::Goal;
+use crate::prelude::*;
 
-/// A case by name.
-pub(super) struct Case {
-    /// Its name on the command line.
-    pub(super) name: &'static str,
-    /// What it shows.
-    pub(super) about: &'static str,
-    /// What is done.
-    pub(super) kind: Kind,
-    /// What has to be reached by all of its inputs.
-    pub(super) must: &'static [Goal],
-    /// What is hoped for.
-    pub(super) aim: &'static [Goal],
-}
-
-impl Named for Case {
-    fn head(&self) -> [&'static str; 2] {
-        [self.name, self.about]
-    }
-}
-
-/// What is done in a case.
+/// What is done in a section.
+#[derive(Clone, Copy)]
 pub(super) enum Kind {
     /// Smallest ellipsoids of generated points.
     Points(&'static [Input]),
@@ -85,115 +65,110 @@ const SHELL_6_10: &[Goal] = &[Goal::seconds(0.5)];
 const SHELL_4_30: &[Goal] = &[Goal::seconds(1.5)];
 const SHELL_4_30_AIM: &[Goal] = &[Goal::seconds(0.4)];
 
-/// All cases, in the order in which they run.
-pub(super) const CASES: &[Case] = &[
-    Case {
-        name: "real",
-        about: "Thirty sets of real data at ε = 1e-12, beside the brackets in which their optima lie.",
-        kind: Kind::Real,
-        must: &[Goal::gap(1e-12), bracket(1e-11), Goal::seconds(1.5e-3)],
-        aim: &[bracket(1e-12), Goal::seconds(0.6e-3)],
-    },
-    Case {
-        name: "normal",
-        about: "Normal points at ε = 1e-12.",
-        kind: Kind::Points(&[
-            input(Law::Normal, 100_000, 10).goals(&[Goal::seconds(0.01)], &[Goal::seconds(0.003)]),
-            input(Law::Normal, 1_000_000, 10)
-                .goals(&[Goal::seconds(0.05)], &[Goal::seconds(0.015)]),
-            input(Law::Normal, 100_000, 30).goals(&[Goal::seconds(0.09)], &[Goal::seconds(0.025)]),
-            input(Law::Normal, 100_000, 50).goals(&[Goal::seconds(0.5)], &[Goal::seconds(0.12)]),
-            input(Law::Normal, 10_000, 100).goals(&[Goal::seconds(1.5)], &[Goal::seconds(0.3)]),
-        ]),
-        must: &[Goal::gap(1e-12)],
-        aim: &[],
-    },
-    Case {
-        name: "shells",
-        about: "Points near an ellipsoid with axes from 1 to 1000, at ε = 1e-12, five seeds each.",
-        kind: Kind::Points(&[
-            input(SHELLS[0], 100_000, 10).seeds(5).goals(SHELL_5_10, SHELL_5_10_AIM),
-            input(SHELLS[1], 100_000, 10).seeds(5).goals(SHELL_5_10, SHELL_5_10_AIM),
-            input(SHELLS[2], 100_000, 10).seeds(5).goals(SHELL_5_10, SHELL_5_10_AIM),
-            input(SHELLS[0], 1_000_000, 10).seeds(5).goals(SHELL_6_10, &[]),
-            input(SHELLS[1], 1_000_000, 10).seeds(5).goals(SHELL_6_10, &[]),
-            input(SHELLS[2], 1_000_000, 10).seeds(5).goals(SHELL_6_10, &[]),
-            input(SHELLS[0], 10_000, 30).seeds(5).goals(SHELL_4_30, SHELL_4_30_AIM),
-            input(SHELLS[1], 10_000, 30).seeds(5).goals(SHELL_4_30, SHELL_4_30_AIM),
-            input(SHELLS[2], 10_000, 30).seeds(5).goals(SHELL_4_30, SHELL_4_30_AIM),
-        ]),
-        must: &[Goal::gap(1e-12)],
-        aim: &[],
-    },
-    Case {
-        name: "tails",
-        about: "Cauchy points, and shells of space, at ε = 1e-12, five seeds each.",
-        kind: Kind::Points(&[
-            input(Law::Cauchy, 100_000, 10).seeds(5).goals(&[Goal::seconds(0.01)], &[]),
-            input(SHELLS[0], 1_000_000, 3).seeds(5).goals(&[Goal::seconds(0.06)], &[]),
-            input(SHELLS[1], 1_000_000, 3).seeds(5).goals(&[Goal::seconds(0.06)], &[]),
-            input(SHELLS[2], 1_000_000, 3).seeds(5).goals(&[Goal::seconds(0.06)], &[]),
-        ]),
-        must: &[Goal::gap(1e-12)],
-        aim: &[],
-    },
-    Case {
-        name: "plane",
-        about: "A million points of the plane at ε = 1e-12, beside CGAL's Min_ellipse_2.",
-        kind: Kind::Plane(&[Law::Normal, Law::Uniform, Law::Shell(1e-2), Law::Mix]),
-        must: &[Goal::gap(1e-12), faster(8.0)],
-        aim: &[faster(20.0)],
-    },
-    Case {
-        name: "ellipsoids",
-        about: "A thousand ellipsoids in ten dimensions at ε = 1e-6: the smallest ellipsoid, the smallest ball.",
-        kind: Kind::Shapes,
-        must: &[Goal::gap(1e-6), Goal::seconds(0.5)],
-        aim: &[Goal::seconds(0.1)],
-    },
-    Case {
-        name: "conic",
-        about: "Small sets of points, and twenty ellipsoids, at ε = 1e-10, beside the conic solver Clarabel under cvxpy.",
-        kind: Kind::Conic,
-        must: &[Goal::gap(1e-9), agreement(1e-6)],
-        aim: &[],
-    },
-    Case {
-        name: "approximate",
-        about: "Normal points at ε = 1e-12, beside CGAL's Approximate_min_ellipsoid_d and dynesty's bounding ellipsoid.",
-        kind: Kind::Approximate,
-        must: &[Goal::gap(1e-12)],
-        aim: &[],
-    },
-    Case {
-        name: "mcd",
-        about: "10⁵ points in ten dimensions, 30 % of them in one cloud far off: MCD beside scikit-learn, five seeds.",
-        kind: Kind::Contaminated(Cloud::Wide),
-        must: &[OBJECTIVE_GOAL, faster(5.0)],
-        aim: &[],
-    },
-    Case {
-        name: "mcd-tight",
-        about: "The same with a cloud a tenth as wide, which h points of the least determinant take in.",
-        kind: Kind::Contaminated(Cloud::Tight),
-        must: &[OBJECTIVE_GOAL, faster(5.0)],
-        aim: &[],
-    },
-    Case {
-        name: "flags",
-        about: "The outliers of hbk, stackloss and starsCYG, beside those published with robustbase, and scikit-learn's.",
-        kind: Kind::Flags,
-        must: &[FLAGS_GOAL, PEER_FLAGS_GOAL],
-        aim: &[],
-    },
-    Case {
-        name: "file",
-        about: "A file of 1.2 GB, 10⁸ normal points of space in single precision.",
-        kind: Kind::File,
-        must: &[Goal::gap(1e-9), Goal::passes(3), Goal::memory(256 << 20)],
-        aim: &[],
-    },
-];
+/// All sections; the longest is the last.
+pub(super) const AREA: Area<Kind> = Area {
+    name: "ellipsoid",
+    runs: 5,
+    threads: &[1, 2],
+    limit: 120,
+    peer_budget: 60,
+    sections: &[
+        section("real", Kind::Real)
+            .about(
+                "Thirty sets of real data at ε = 1e-12, beside the brackets in which their \
+                 optima lie.",
+            )
+            .must(&[Goal::gap(1e-12), bracket(1e-11), Goal::seconds(1.5e-3)])
+            .aim(&[bracket(1e-12), Goal::seconds(0.6e-3)]),
+        section(
+            "normal",
+            Kind::Points(&[
+                input(Law::Normal, 100_000, 10)
+                    .goals(&[Goal::seconds(0.01)], &[Goal::seconds(0.003)]),
+                input(Law::Normal, 1_000_000, 10)
+                    .goals(&[Goal::seconds(0.05)], &[Goal::seconds(0.015)]),
+                input(Law::Normal, 100_000, 30)
+                    .goals(&[Goal::seconds(0.09)], &[Goal::seconds(0.025)]),
+                input(Law::Normal, 100_000, 50)
+                    .goals(&[Goal::seconds(0.5)], &[Goal::seconds(0.12)]),
+                input(Law::Normal, 10_000, 100).goals(&[Goal::seconds(1.5)], &[Goal::seconds(0.3)]),
+            ]),
+        )
+        .about("Normal points at ε = 1e-12.")
+        .must(&[Goal::gap(1e-12)]),
+        section(
+            "shells",
+            Kind::Points(&[
+                input(SHELLS[0], 100_000, 10).seeds(5).goals(SHELL_5_10, SHELL_5_10_AIM),
+                input(SHELLS[1], 100_000, 10).seeds(5).goals(SHELL_5_10, SHELL_5_10_AIM),
+                input(SHELLS[2], 100_000, 10).seeds(5).goals(SHELL_5_10, SHELL_5_10_AIM),
+                input(SHELLS[0], 1_000_000, 10).seeds(5).goals(SHELL_6_10, &[]),
+                input(SHELLS[1], 1_000_000, 10).seeds(5).goals(SHELL_6_10, &[]),
+                input(SHELLS[2], 1_000_000, 10).seeds(5).goals(SHELL_6_10, &[]),
+                input(SHELLS[0], 10_000, 30).seeds(5).goals(SHELL_4_30, SHELL_4_30_AIM),
+                input(SHELLS[1], 10_000, 30).seeds(5).goals(SHELL_4_30, SHELL_4_30_AIM),
+                input(SHELLS[2], 10_000, 30).seeds(5).goals(SHELL_4_30, SHELL_4_30_AIM),
+            ]),
+        )
+        .about("Points near an ellipsoid with axes from 1 to 1000, at ε = 1e-12, five seeds each.")
+        .must(&[Goal::gap(1e-12)]),
+        section(
+            "tails",
+            Kind::Points(&[
+                input(Law::Cauchy, 100_000, 10).seeds(5).goals(&[Goal::seconds(0.01)], &[]),
+                input(SHELLS[0], 1_000_000, 3).seeds(5).goals(&[Goal::seconds(0.06)], &[]),
+                input(SHELLS[1], 1_000_000, 3).seeds(5).goals(&[Goal::seconds(0.06)], &[]),
+                input(SHELLS[2], 1_000_000, 3).seeds(5).goals(&[Goal::seconds(0.06)], &[]),
+            ]),
+        )
+        .about("Cauchy points, and shells of space, at ε = 1e-12, five seeds each.")
+        .must(&[Goal::gap(1e-12)]),
+        section("plane", Kind::Plane(&[Law::Normal, Law::Uniform, Law::Shell(1e-2), Law::Mix]))
+            .about("A million points of the plane at ε = 1e-12, beside CGAL's Min_ellipse_2.")
+            .must(&[Goal::gap(1e-12), faster(8.0)])
+            .aim(&[faster(20.0)]),
+        section("ellipsoids", Kind::Shapes)
+            .about(
+                "A thousand ellipsoids in ten dimensions at ε = 1e-6: the smallest ellipsoid, \
+                 the smallest ball.",
+            )
+            .must(&[Goal::gap(1e-6), Goal::seconds(0.5)])
+            .aim(&[Goal::seconds(0.1)]),
+        section("conic", Kind::Conic)
+            .about(
+                "Small sets of points, and twenty ellipsoids, at ε = 1e-10, beside the conic \
+                 solver Clarabel under cvxpy.",
+            )
+            .must(&[Goal::gap(1e-9), agreement(1e-6)]),
+        section("approximate", Kind::Approximate)
+            .about(
+                "Normal points at ε = 1e-12, beside CGAL's Approximate_min_ellipsoid_d and \
+                 dynesty's bounding ellipsoid.",
+            )
+            .must(&[Goal::gap(1e-12)]),
+        section("mcd", Kind::Contaminated(Cloud::Wide))
+            .about(
+                "10⁵ points in ten dimensions, 30 % of them in one cloud far off: MCD beside \
+                 scikit-learn, five seeds.",
+            )
+            .must(&[OBJECTIVE_GOAL, faster(5.0)]),
+        section("mcd-tight", Kind::Contaminated(Cloud::Tight))
+            .about(
+                "The same with a cloud a tenth as wide, which h points of the least \
+                 determinant take in.",
+            )
+            .must(&[OBJECTIVE_GOAL, faster(5.0)]),
+        section("flags", Kind::Flags)
+            .about(
+                "The outliers of hbk, stackloss and starsCYG, beside those published with \
+                 robustbase, and scikit-learn's.",
+            )
+            .must(&[FLAGS_GOAL, PEER_FLAGS_GOAL]),
+        section("file", Kind::File)
+            .about("A file of 1.2 GB, 10⁸ normal points of space in single precision.")
+            .must(&[Goal::gap(1e-9), Goal::passes(3), Goal::memory(256 << 20)]),
+    ],
+};
 
 #[cfg(test)]
 mod tests {
@@ -201,9 +176,7 @@ mod tests {
 
     #[test]
     fn names_are_unique_and_every_case_has_a_goal() {
-        for (at, case) in CASES.iter().enumerate() {
-            assert!(CASES[..at].iter().all(|other| other.name != case.name), "{}", case.name);
-            assert!(!case.must.is_empty(), "{}", case.name);
-        }
+        assert!(AREA.has_unique_names());
+        assert!(AREA.sections.iter().all(|section| !section.must.is_empty()));
     }
 }

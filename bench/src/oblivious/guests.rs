@@ -1,13 +1,7 @@
 //! Peers that are processes of their own: each gets the input as a file and takes its turn in every round.
 
-use std::fs::File;
-use std::io::Write;
-
-use anyhow::{Result, anyhow, bail};
-
 use super::lanes::Lanes;
-use crate::context::Context;
-use crate::peer::{Peer, Silence};
+use crate::prelude::*;
 
 /// Those that are there.
 pub(super) struct Guests(Vec<(&'static str, Peer)>);
@@ -20,12 +14,9 @@ impl Guests {
         columns: usize,
         names: &[&'static str],
     ) -> Result<Self> {
-        let (mut guests, input) = (vec![], context.temp.path().join("words"));
+        let (mut guests, input) = (vec![], context.file("words"));
         if !names.is_empty() {
-            let mut file = File::create(&input)?;
-            let rows = words.len() / columns;
-            file.write_all(bytemuck::cast_slice(&[rows as u64, columns as u64]))?;
-            file.write_all(bytemuck::cast_slice(words))?;
+            write_rows(&input, bytemuck::cast_slice(words), columns)?;
         }
         for &name in names {
             match Peer::start(name, &input, context.temp.path())? {

@@ -1,13 +1,8 @@
 //! Transposition of doubles in their own place, beside the crate's and beside going through a second array.
 
-use anyhow::{Result, ensure};
-use serde_json::{Value, json};
-
 use super::lanes::{Lanes, have_memory};
-use super::transpose::right;
-use crate::context::Context;
-use crate::stats::times;
-use crate::table::Table;
+use super::transpose::{gigabytes_per_second, right, shapes};
+use crate::prelude::*;
 
 /// The crate, in the tables.
 const CRATE: &str = "transpose";
@@ -15,37 +10,22 @@ const CRATE: &str = "transpose";
 const OUT_AND_BACK: &str = "out of place and back";
 
 /// The shapes of the section `transpose`; no bound is set for them.
-pub(super) fn run(context: &Context) -> Result<Value> {
-    let shapes = match context.quick {
-        true => [(512, 512), (1000, 1000), (512, 1024), (100_000, 3)],
-        false => [(4096, 4096), (10_000, 10_000), (8192, 16_384), (10_000_000, 3)],
-    };
-    let mut table = Table::new(&[
-        "shape",
-        "taut, GB/s",
-        "transpose, GB/s",
-        "out of place and back, GB/s",
-        "transpose ÷ taut",
-        "and back ÷ taut",
-    ]);
-    let mut measured = vec![];
-    for (rows, columns) in shapes {
-        let name = format!("{rows} × {columns}");
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let mut table = Table::new(
+        "shape | taut, GB/s:2 | transpose, GB/s:2 | out of place and back, GB/s:2 | transpose ÷ \
+            taut:x | and back ÷ taut:x",
+    );
+    for (rows, columns) in shapes(context) {
         let lanes = take_turns(context, rows, columns)?;
-        let bytes = (rows * columns * 8) as f64;
-        let rate = |name| format!("{:.2}", bytes / lanes.of(name) * 1e-9);
-        table.push(vec![
-            name.clone(),
-            rate("taut"),
-            rate(CRATE),
-            rate(OUT_AND_BACK),
-            times(lanes.faster("taut", CRATE)),
-            times(lanes.faster("taut", OUT_AND_BACK)),
-        ]);
-        measured.push(json!({ "shape": name, "lanes": lanes.json(rows * columns) }));
+        let rate = |name| gigabytes_per_second(&lanes, rows * columns, name);
+        table.push(json!({
+            "shape": format!("{rows} × {columns}"), "taut, GB/s": rate("taut"), "transpose, GB/s": rate(CRATE),
+            "out of place and back, GB/s": rate(OUT_AND_BACK), "transpose ÷ taut": lanes.faster("taut", CRATE),
+            "and back ÷ taut": lanes.faster("taut", OUT_AND_BACK), "lanes": lanes.json(rows * columns),
+        }));
     }
-    println!("matrix bytes per second, in place\n\n{table}");
-    Ok(json!({ "shapes": measured }))
+    out.table("matrix bytes per second, in place", table);
+    Ok(())
 }
 
 /// Each on the numbers 0, 1, 2, …, which are written before; what a program needs beside them it takes within its time.

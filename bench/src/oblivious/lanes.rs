@@ -5,15 +5,11 @@
 
 use std::hint::black_box;
 
-use anyhow::Result;
+use crate::prelude::*;
 #[cfg(target_os = "linux")]
 use memmap2::Advice;
 use memmap2::MmapMut;
 use rustix::time::{ClockId, clock_gettime};
-use serde_json::{Value, json};
-
-use crate::stats::times;
-use crate::table::Table;
 
 /// Times so far, by name, in the order in which the names came up.
 #[derive(Default)]
@@ -40,7 +36,7 @@ impl Lanes {
 
     /// The least seconds of that name; NaN, which meets no goal, if it never ran.
     pub(super) fn of(&self, name: &str) -> f64 {
-        self.iter().find(|lane| lane.0 == name).map_or(f64::NAN, |lane| lane.1)
+        least(self.rounds(name).iter().copied()).unwrap_or(f64::NAN)
     }
 
     /// How many times as long `other` took as `name`.
@@ -50,19 +46,24 @@ impl Lanes {
 
     /// How many times as long as the fastest round of that name its slowest took: what is noise.
     pub(super) fn spread(&self, name: &str) -> f64 {
-        let of_name = self.times.iter().find(|lane| lane.0 == name);
-        of_name.map_or(f64::NAN, |lane| lane.1.iter().copied().fold(0.0, f64::max) / self.of(name))
+        self.rounds(name).iter().copied().fold(0.0, f64::max) / self.of(name)
     }
 
     /// Nanoseconds for each of `n` and how many times as long as taut, program by program.
     pub(super) fn table(&self, n: usize) -> Table {
-        let mut table = Table::new(&["program", "ns each", "÷ taut", "slowest ÷ fastest round"]);
+        let mut table = Table::new("program | each:ns | ÷ taut:x | slowest ÷ fastest round:x");
         for (name, seconds) in self.iter() {
-            let each = format!("{:.2}", seconds / n as f64 * 1e9);
-            let [ratio, spread] = [self.faster("taut", name), self.spread(name)].map(times);
-            table.push(vec![name.to_owned(), each, ratio, spread]);
+            table.push(json!({
+                "program": name, "each": seconds / n as f64, "÷ taut": self.faster("taut", name),
+                "slowest ÷ fastest round": self.spread(name), "rounds": self.rounds(name),
+            }));
         }
         table
+    }
+
+    /// Seconds of that name in all rounds.
+    fn rounds(&self, name: &str) -> &[f64] {
+        self.times.iter().find(|lane| lane.0 == name).map_or(&[], |lane| &lane.1)
     }
 
     /// Nanoseconds for each of `n` in all rounds, for the report.
@@ -76,8 +77,7 @@ impl Lanes {
 
     /// Names and least seconds.
     fn iter(&self) -> impl Iterator<Item = (&'static str, f64)> {
-        let least = |seconds: &[f64]| seconds.iter().copied().fold(f64::INFINITY, f64::min);
-        self.times.iter().map(move |(name, seconds)| (*name, least(seconds)))
+        self.times.iter().map(|(name, _)| (*name, self.of(name)))
     }
 }
 

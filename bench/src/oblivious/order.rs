@@ -1,15 +1,11 @@
 //! Points in the order of a curve that fills space, beside CGAL's and beside keys of the crate fast_hilbert.
 
-use anyhow::{Result, ensure};
-use serde_json::{Value, json};
 use taut_oblivious::{hilbert_order, morton_order};
 
 use super::draw::Draw;
 use super::guests::Guests;
 use super::lanes::{Lanes, have_memory};
-use crate::context::Context;
-use crate::stats::times;
-use crate::table::Table;
+use crate::prelude::*;
 
 /// Keys of the crate and numbers, sorted by std.
 const CRATE: &str = "fast_hilbert and std's sort";
@@ -17,8 +13,8 @@ const CRATE: &str = "fast_hilbert and std's sort";
 const MORTON: &str = "taut, Z-order";
 
 /// Random points of the square and the cube, and of clouds in the square; no bound is set for them.
-pub(super) fn run(context: &Context) -> Result<Value> {
-    let n = if context.quick { 10_000 } else { 1_000_000 };
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let n = context.size(1_000_000, 10_000);
     let plane: Vec<[f64; 2]> = points(n, Draw::unit);
     // Dense along two sides, most of all in the corner.
     let dense: Vec<[f64; 2]> = points(n, |draw| draw.unit().powi(8));
@@ -27,11 +23,10 @@ pub(super) fn run(context: &Context) -> Result<Value> {
         ["cgal-hilbert-2-median", "cgal-hilbert-2-middle"],
         ["cgal-hilbert-3-median", "cgal-hilbert-3-middle"],
     ];
-    Ok(json!([
-        show("square", &plane, case(context, &plane, cgal[0], Some(quantised))?),
-        show("square, x⁸ and y⁸", &dense, case(context, &dense, cgal[0], Some(quantised))?),
-        show("cube", &space, case(context, &space, cgal[1], None)?),
-    ]))
+    show(out, "square", &plane, case(context, &plane, cgal[0], Some(quantized))?);
+    show(out, "square, x⁸ and y⁸", &dense, case(context, &dense, cgal[0], Some(quantized))?);
+    show(out, "cube", &space, case(context, &space, cgal[1], None)?);
+    Ok(())
 }
 
 fn points<const D: usize>(n: usize, number: fn(&mut Draw) -> f64) -> Vec<[f64; D]> {
@@ -86,7 +81,7 @@ fn case<const D: usize>(
 }
 
 /// Cells of a grid of 2³² by 2³² and numbers of points, as one would write it; the numbers are from 0 to 1.
-fn quantised(points: &[[f64; 2]]) -> Vec<u32> {
+fn quantized(points: &[[f64; 2]]) -> Vec<u32> {
     let key = |(i, point): (usize, &[f64; 2])| {
         let [x, y] = point.map(|number| (number * 4_294_967_296.0) as u32);
         (fast_hilbert::xy2h(x, y, 32), i as u32)
@@ -96,7 +91,7 @@ fn quantised(points: &[[f64; 2]]) -> Vec<u32> {
     keys.into_iter().map(|(_, i)| i).collect()
 }
 
-/// The mean distance between neighbours of the order; `None` unless it has every point once.
+/// The mean distance between neighbors of the order; `None` unless it has every point once.
 fn walk<const D: usize>(points: &[[f64; D]], order: &[u32]) -> Option<f64> {
     let mut seen = vec![false; points.len()];
     let once =
@@ -112,21 +107,18 @@ fn walk<const D: usize>(points: &[[f64; D]], order: &[u32]) -> Option<f64> {
 }
 
 /// A table, and the same for the report.
-fn show<const D: usize>(name: &str, points: &[[f64; D]], case: Case) -> Value {
+fn show<const D: usize>(out: &mut Outcome, name: &str, points: &[[f64; D]], case: Case) {
     let Case { lanes, steps } = case;
-    let mut table = Table::new(&["program", "ns a point", "÷ taut", "mean step ÷ taut's"]);
-    let least = steps.first().map_or(f64::NAN, |first| first.1);
+    let mut table = Table::new("program | a point:ns | ÷ taut:x | mean step ÷ taut's:x");
+    let first = steps.first().map_or(f64::NAN, |first| first.1);
     for (program, mean) in &steps {
-        let each = lanes.of(program) / points.len() as f64 * 1e9;
-        table.push(vec![
-            (*program).to_owned(),
-            format!("{each:.1}"),
-            times(lanes.faster("taut", program)),
-            times(mean / least),
-        ]);
+        table.push(json!({
+            "program": program, "a point": lanes.of(program) / points.len() as f64,
+            "÷ taut": lanes.faster("taut", program), "mean step ÷ taut's": mean / first, "step": mean,
+        }));
     }
-    println!("{} points: {name}\n\n{table}", points.len());
-    json!({ "points": name, "n": points.len(), "lanes": lanes.json(points.len()), "steps": steps })
+    out.table(&format!("{} points: {name}", points.len()), table);
+    out.keep(name, lanes.json(points.len()));
 }
 
 #[cfg(test)]
@@ -140,6 +132,6 @@ mod tests {
         for wrong in [&[0, 1, 2][..], &[0, 1, 2, 2], &[0, 1, 2, 4]] {
             assert_eq!(walk(&square, wrong), None);
         }
-        assert!(walk(&square, &quantised(&square.map(|p| p.map(|x| x / 2.0)))).is_some());
+        assert!(walk(&square, &quantized(&square.map(|p| p.map(|x| x / 2.0)))).is_some());
     }
 }

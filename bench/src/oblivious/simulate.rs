@@ -1,7 +1,5 @@
 //! How fast the simulator is, and the misses of algorithms beside their bounds.
 
-use anyhow::{Result, ensure};
-use serde_json::{Value, json};
 use taut_oblivious::Probe;
 use taut_reference::algorithms::{
     MatrixSizes, distribution_sort_instrumented, funnelsort_instrumented, mergesort_instrumented,
@@ -11,10 +9,7 @@ use taut_reference::simulate::{CacheShape, Simulator, StackDistances};
 
 use super::draw::Draw;
 use super::lanes::thread_cpu;
-use crate::context::Context;
-use crate::goals::Goals;
-use crate::stats::times;
-use crate::table::Table;
+use crate::prelude::*;
 
 /// Bytes of a word; M and B below are in words.
 const WORD: usize = 8;
@@ -27,28 +22,26 @@ const STACK: &str = "stack distances";
 type Shape = (usize, usize);
 
 /// Accesses per second, then misses.
-pub(super) fn run(context: &Context) -> Result<Value> {
-    let mut goals = Goals::default();
-    let rates = rates(context)?;
-    let bounds = bounds(context)?;
-    for (name, [product, sort, scattered]) in &rates {
-        let least = product.min(*sort).min(*scattered);
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let mut table = Table::new("memory | product:x | sort:x | at random:x");
+    for (name, [product, sort, scattered]) in rates(context)? {
+        table.push(json!([name, product, sort, scattered]));
+        let least = product.min(sort).min(scattered);
         // Stack distances answer for all sizes of memory at once, in O(log n).
-        let must = if *name == STACK { 5.0 } else { 20.0 };
-        if *name != THREE {
-            goals.at_least(&format!("{name}: million accesses per second"), least, (must, None));
+        let must = if name == STACK { 5.0 } else { 20.0 };
+        if name != THREE {
+            out.at_least(format!("{name}: million accesses per second"), least, must, Unit::Times);
         }
     }
-    for row in &bounds {
-        let what = format!("{}: largest ratio to {}", row.name, row.formula);
-        goals.at_most(&what, Some(row.largest), (row.allowed, None), |ratio| format!("{ratio:.3}"));
+    out.table("million accesses per second", table);
+    let mut table = Table::new("algorithm | formula | largest ratio:3 | allowed:3");
+    for Bound { name, formula, largest, allowed } in bounds(context)? {
+        table.push(json!([name, formula, largest, allowed]));
+        let what = format!("{name}: largest ratio to {formula}");
+        out.at_most(what, largest, allowed, Unit::Fixed(3));
     }
-    let bound = |row: &Bound| {
-        let Bound { name, formula, largest, allowed } = row;
-        json!({ "name": name, "formula": formula, "largest": largest, "allowed": allowed })
-    };
-    let bounds: Vec<Value> = bounds.iter().map(bound).collect();
-    Ok(json!({ "rates": rates, "bounds": bounds, "goals": goals.json() }))
+    out.table("misses of LRU memories, M ≥ B², over the formula", table);
+    Ok(())
 }
 
 /// Million accesses per second of a product, a sort, and accesses at random in 32 MiB.
@@ -67,12 +60,6 @@ fn rates(context: &Context) -> Result<Vec<(&'static str, [f64; 3])>> {
     }
     let fresh = || -> Result<_> { Ok(StackDistances::new(64)?) };
     found.push((STACK, fastest(context, fresh, StackDistances::accesses)?));
-    let mut table = Table::new(&["memory", "product", "sort", "at random"]);
-    for (name, rates) in &found {
-        let cells = rates.iter().map(|&rate| times(rate));
-        table.push([(*name).to_owned()].into_iter().chain(cells).collect());
-    }
-    println!("million accesses per second\n\n{table}");
     Ok(found)
 }
 
@@ -129,7 +116,7 @@ struct Bound {
 
 /// The bounds that take seconds; `cargo test -p taut-reference --test reference io_bounds` has all of them.
 fn bounds(context: &Context) -> Result<Vec<Bound>> {
-    let side = if context.quick { 256 } else { 1024 };
+    let side = context.size(1024, 256);
     let mut found = vec![];
     let (from, mut to) = (vec![1.0f64; side * side], vec![0.0; side * side]);
     let largest = ratio(
@@ -139,7 +126,7 @@ fn bounds(context: &Context) -> Result<Vec<Bound>> {
     )?;
     let name = format!("transposition, n = {side}");
     found.push(Bound { name, formula: "2n²/B", largest, allowed: 1.001 });
-    let side = if context.quick { 128 } else { 256 };
+    let side = context.size(256, 128);
     let (a, b, mut c) = (vec![1.0; side * side], vec![1.0; side * side], vec![0.0; side * side]);
     let largest = ratio(
         &[(1024, 8), (4096, 8), (4096, 32), (16_384, 32)],
@@ -148,7 +135,7 @@ fn bounds(context: &Context) -> Result<Vec<Bound>> {
     )?;
     let name = format!("product, n = {side}");
     found.push(Bound { name, formula: "n³/(B√M)", largest, allowed: 5.5 });
-    let n = if context.quick { 10_000 } else { 1 << 18 };
+    let n = context.size(1 << 18, 10_000);
     let grid = [
         (1024, 8),
         (4096, 8),
@@ -188,12 +175,6 @@ fn bounds(context: &Context) -> Result<Vec<Bound>> {
     ensure!(keys.is_sorted(), "distribution sort: not in order");
     let name = format!("distribution sort, n = {n}");
     found.push(Bound { name, formula, largest, allowed: 6.0 });
-    let mut table = Table::new(&["algorithm", "formula", "largest ratio", "allowed"]);
-    for row in &found {
-        let [largest, allowed] = [row.largest, row.allowed].map(|ratio| format!("{ratio:.3}"));
-        table.push(vec![row.name.clone(), row.formula.to_owned(), largest, allowed]);
-    }
-    println!("misses of LRU memories, M ≥ B², over the formula\n\n{table}");
     Ok(found)
 }
 

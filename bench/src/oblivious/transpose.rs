@@ -1,67 +1,56 @@
 //! Transposition of doubles out of place, beside copying them.
 
-use anyhow::{Result, ensure};
-use serde_json::{Value, json};
-
 use super::lanes::Lanes;
-use crate::context::Context;
-use crate::goals::Goals;
-use crate::stats::times;
-use crate::table::Table;
+use crate::prelude::*;
 
 /// The crate, in the tables.
 const CRATE: &str = "transpose";
 /// The copy.
 const COPY: &str = "memcpy";
 
+/// The four shapes.
+pub(super) fn shapes(context: &Context) -> [(usize, usize); 4] {
+    context.size(
+        [(4096, 4096), (10_000, 10_000), (8192, 16_384), (10_000_000, 3)],
+        [(512, 512), (1000, 1000), (512, 1024), (100_000, 3)],
+    )
+}
+
+/// The rate at which a program takes so many doubles.
+pub(super) fn gigabytes_per_second(lanes: &Lanes, doubles: usize, name: &str) -> f64 {
+    8e-9 * doubles as f64 / lanes.of(name)
+}
+
 /// The four shapes, and squares whose side is off by one.
-pub(super) fn run(context: &Context) -> Result<Value> {
-    let shapes = match context.quick {
-        true => [(512, 512), (1000, 1000), (512, 1024), (100_000, 3)],
-        false => [(4096, 4096), (10_000, 10_000), (8192, 16_384), (10_000_000, 3)],
-    };
-    let mut table = Table::new(&[
-        "shape",
-        "taut, GB/s",
-        "transpose, GB/s",
-        "memcpy, GB/s",
-        "transpose ÷ taut",
-        "memcpy ÷ taut",
-    ]);
-    let mut goals = Goals::default();
-    let mut measured = vec![];
-    let mut lines = vec![];
-    for (rows, columns) in shapes {
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let mut table = Table::new(
+        "shape | taut, GB/s:2 | transpose, GB/s:2 | memcpy, GB/s:2 | transpose ÷ taut:x | memcpy \
+            ÷ taut:x",
+    );
+    for (rows, columns) in shapes(context) {
         let name = format!("{rows} × {columns}");
         let lanes = take_turns(context, rows, columns)?;
-        let bytes = (rows * columns * 8) as f64;
-        let rate = |name| format!("{:.2}", bytes / lanes.of(name) * 1e-9);
+        let rate = |name| gigabytes_per_second(&lanes, rows * columns, name);
         let [crates, copy] = [CRATE, COPY].map(|other| lanes.faster("taut", other));
-        table.push(vec![
-            name.clone(),
-            rate("taut"),
-            rate(CRATE),
-            rate(COPY),
-            times(crates),
-            times(copy),
-        ]);
-        measured.push(json!({ "shape": name, "lanes": lanes.json(rows * columns) }));
-        lines.push((name, crates, copy));
+        table.push(json!({
+            "shape": name, "taut, GB/s": rate("taut"), "transpose, GB/s": rate(CRATE), "memcpy, GB/s": rate(COPY),
+            "transpose ÷ taut": crates, "memcpy ÷ taut": copy, "lanes": lanes.json(rows * columns),
+        }));
+        out.at_least(format!("{name}: the crate over taut"), crates, 1.5, Unit::Times);
+        out.at_least(format!("{name}: memcpy over taut"), copy, [0.5, 0.8], Unit::Times);
     }
-    println!("matrix bytes per second\n\n{table}");
-    for (name, crates, copy) in lines {
-        goals.at_least(&format!("{name}: the crate over taut"), crates, (1.5, None));
-        goals.at_least(&format!("{name}: memcpy over taut"), copy, (0.5, Some(0.8)));
-    }
-    for (n, _) in &shapes[..2] {
-        let sides = [n - 1, *n, n + 1];
-        let each = by_turns(context, sides)?;
+    out.table("matrix bytes per second", table);
+    let mut sides = Table::new("sides | each:ns");
+    for (n, _) in &shapes(context)[..2] {
+        let three = [n - 1, *n, n + 1];
+        let each = by_turns(context, three)?;
+        sides.push(json!([three, each]));
         let ratio = (each[1] / each[0]).max(each[1] / each[2]);
         let what = format!("{n}²: time per number over that of {n} ± 1");
-        goals.at_most(&what, Some(ratio), (1.3, None), times);
-        measured.push(json!({ "sides": sides, "ns": each.map(|seconds| seconds * 1e9) }));
+        out.at_most(what, ratio, 1.3, Unit::Times);
     }
-    Ok(json!({ "shapes": measured, "goals": goals.json() }))
+    out.table("squares of nearly the same side", sides);
+    Ok(())
 }
 
 /// taut, the crate and a copy. Before each the target is filled, so that it is in memory and holds no earlier answer.

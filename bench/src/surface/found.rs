@@ -1,20 +1,14 @@
 //! Surfaces that taut and its peers find, in one form.
 
-use std::time::Instant;
-
-use anyhow::{Context as _, Result};
 use taut_certify::{Solution, Surface};
-use taut_points::Points;
 use taut_reconstruct::{SurfaceOptions, surface};
 
 use super::samples::Point;
-use crate::context::Context;
-use crate::input::write_rows;
-use crate::peer::{Peer, Silence};
+use crate::prelude::*;
 
 /// A surface of taut, and the seconds that it took.
-pub(super) fn ours(
-    points: &[Point],
+pub(crate) fn ours(
+    points: &[[f64; 3]],
     options: &SurfaceOptions<'_>,
 ) -> Result<(Solution<Surface>, f64)> {
     let view = Points::new(points.as_flattened(), 3)?;
@@ -82,13 +76,7 @@ pub(super) fn theirs(
     way: Way,
     points: &[Point],
 ) -> Result<Result<Theirs, Silence>> {
-    let file = context.temp.path().join("surface");
-    write_rows(&file, points.as_flattened(), 3)?;
-    let mut running = match Peer::start(way.name(), &file, context.temp.path())? {
-        Ok(running) => running,
-        Err(silence) => return Ok(Err(silence)),
-    };
-    let answer = match running.solve(context.limit)? {
+    let answer = match peer::ask(context, way.name(), (points.as_flattened(), 3))? {
         Ok(answer) => answer,
         Err(silence) => return Ok(Err(silence)),
     };

@@ -1,16 +1,13 @@
 //! A surface through points, judged by its triangles alone: the same for taut and its peers.
 
-use std::collections::BTreeMap;
-
-use anyhow::{Result, ensure};
-use serde::Serialize;
 use taut_mesh::{TriangleMesh, topology};
 
 use super::samples::Point;
+use crate::prelude::*;
 
 /// What triangles on points are as a surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub(super) struct Judged {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Judged {
     /// Parts that hang together by edges.
     pub(super) components: usize,
     /// Handles of all parts together; `None` if one is no surface with two sides.
@@ -60,20 +57,27 @@ impl Judged {
         is_closed && self.unused == 0 && (self.components, self.genus) == (components, Some(genus))
     }
 
-    /// Components, genus, loops, bad edges, bad vertices and unused points, for a table.
-    pub(super) fn cells(&self) -> [String; 6] {
-        [
-            self.components.to_string(),
-            self.genus.map_or("–".to_owned(), |genus| genus.to_string()),
-            self.loops.to_string(),
-            self.bad_edges.to_string(),
-            self.bad_vertices.to_string(),
-            self.unused.to_string(),
-        ]
+    /// Components, genus and loops in words.
+    pub(super) fn shape(&self) -> String {
+        let genus = self.genus.map_or("–".to_owned(), |genus| genus.to_string());
+        format!("{}/{genus}/{}", self.components, self.loops)
     }
 
-    /// What a process of its own tells of it; the genus is missing where there is none.
-    pub(super) fn counters(&self) -> BTreeMap<String, u64> {
+    /// Columns of [`Self::cells`].
+    pub(super) const COLUMNS: &'static str =
+        "components | genus | loops | bad edges | bad vertices | unused";
+
+    /// For a table.
+    pub(super) fn cells(&self) -> Value {
+        json!({
+            "components": self.components, "genus": self.genus, "loops": self.loops,
+            "bad edges": self.bad_edges, "bad vertices": self.bad_vertices, "unused": self.unused,
+            "χ": self.euler,
+        })
+    }
+
+    /// What a process of its own tells of it, under [`COUNTERS`]; the genus is missing where there is none.
+    pub(super) fn counters(&self) -> impl Iterator<Item = (&'static str, u64)> {
         let counts = [
             ("components", Some(self.components as u64)),
             ("genus", self.genus),
@@ -81,9 +85,12 @@ impl Judged {
             ("bad", Some((self.bad_edges + self.bad_vertices) as u64)),
             ("unused", Some(self.unused as u64)),
         ];
-        counts.into_iter().filter_map(|(name, count)| Some((name.to_owned(), count?))).collect()
+        counts.into_iter().filter_map(|(name, count)| Some((name, count?)))
     }
 }
+
+/// Columns of what a process of its own tells.
+pub(super) const COUNTERS: &str = "components | genus | loops | bad | unused";
 
 #[cfg(test)]
 mod tests {

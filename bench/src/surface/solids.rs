@@ -2,11 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use anyhow::Result;
 use taut_io::Mesh;
-use taut_points::{Distribution, generate};
 
 use super::samples::{Point, chances, on_triangles};
+use crate::prelude::*;
 
 /// A solid with flat faces.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,34 +1,17 @@
 //! Parts, handles and loops of closed surfaces, beside what is true and what CGAL finds.
 
-use std::ops::Range;
-
-use anyhow::Result;
-use serde_json::{Value, json};
 use taut_reconstruct::SurfaceOptions;
 
 use super::found::{Way, ours, theirs};
 use super::judged::Judged;
 use super::models::{BLOB5, BUNNY, Model, SEVEN};
 use super::samples::{Point, thinned};
-use crate::context::Context;
-use crate::goals::Goals;
-use crate::peer::Silence;
-use crate::table::Table;
+use crate::prelude::*;
 
-/// Columns of the table; those in the middle are [`Judged::cells`].
-const HEAD: [&str; 11] = [
-    "set",
-    "points",
-    "program",
-    "components",
-    "genus",
-    "loops",
-    "bad edges",
-    "bad vertices",
-    "unused",
-    "exact",
-    "",
-];
+/// Columns of the table.
+fn columns() -> String {
+    format!("set | points | program | {} | exact | why", Judged::COLUMNS)
+}
 
 /// Programs on one set of points.
 struct Trial {
@@ -41,7 +24,8 @@ struct Trial {
 impl Trial {
     /// Lets taut and CGAL's programs work on points of a model.
     fn of(context: &Context, model: Model, points: &[Point], ways: &[Way]) -> Result<Self> {
-        let options = SurfaceOptions { threads: Some(context.threads[0]), ..Default::default() };
+        let options =
+            SurfaceOptions { threads: Some(context.last_threads()), ..Default::default() };
         let (found, _) = ours(points, &options)?;
         let mut trial = Trial {
             model,
@@ -76,40 +60,24 @@ impl Trial {
 
     /// A row for the truth and one for each program.
     fn print(&self, table: &mut Table) {
-        let head = [self.model.name.to_owned(), self.points.to_string()];
-        let mut row = |who: &str, cells: &[String]| {
-            let mut row = [&head[..], &[who.to_owned()], cells].concat();
-            row.resize(HEAD.len(), String::new());
-            table.push(row);
+        let mut row = |who: &str, cells: Value| {
+            let head = json!({ "set": self.model.name, "points": self.points, "program": who });
+            table.push(joined([head, cells]));
         };
-        let judged = |judged: &Judged| {
-            let exact = if self.is_exact(judged) { "yes" } else { "no" };
-            [&judged.cells()[..], &[exact.to_owned()]].concat()
-        };
+        let cells =
+            |judged: &Judged| joined([json!({ "exact": self.is_exact(judged) }), judged.cells()]);
         let Model { components, genus, .. } = self.model;
-        let none = [(); 4].map(|()| "0".to_owned());
-        row("truth", &[&[components.to_string(), genus.to_string()][..], &none].concat());
-        row("taut", &judged(&self.ours));
+        let truth = json!({
+            "components": components, "genus": genus, "loops": 0, "bad edges": 0, "bad vertices": 0, "unused": 0,
+        });
+        row("truth", truth);
+        row("taut", cells(&self.ours));
         for (way, found) in &self.theirs {
             match found {
-                Ok(found) => row(way.name(), &judged(found)),
-                Err(silence) => {
-                    row(way.name(), &[vec![String::new(); 7], vec![silence.to_string()]].concat());
-                }
+                Ok(judged) => row(way.name(), cells(judged)),
+                Err(silence) => row(way.name(), json!({ "why": silence })),
             }
         }
-    }
-
-    /// For the report.
-    fn json(&self) -> Value {
-        let theirs = self.theirs.iter().map(|(way, found)| match found {
-            Ok(judged) => json!({ "program": way.name(), "judged": judged }),
-            Err(silence) => json!({ "program": way.name(), "silence": silence.to_string() }),
-        });
-        json!({
-            "set": self.model.name, "points": self.points, "taut": self.ours, "exact": self.is_ours_exact(),
-            "peers": theirs.collect::<Vec<_>>(),
-        })
     }
 }
 
@@ -124,58 +92,46 @@ fn count(trials: &[Trial]) -> (usize, String) {
 }
 
 /// Whole sets, then thinned ones.
-pub(super) fn run(context: &Context, seeds: Range<u64>) -> Result<Value> {
-    let models = &SEVEN[..if context.quick { 2 } else { SEVEN.len() }];
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let models = &SEVEN[..context.size(SEVEN.len(), 2)];
+    let all = models.len();
     let mut shapes = vec![];
     for &model in models.iter().chain(&[BLOB5, BUNNY]) {
-        let Some(shape) = model.read()? else { return Ok(json!({ "left_out": "no TAUT_DATA" })) };
+        let Some(shape) = model.read()? else { return out.left_out() };
         shapes.push((model, shape.vertices));
     }
-    let mut table = Table::new(&HEAD);
+    let mut table = Table::new(&columns());
     let mut whole = vec![];
     for (model, points) in &shapes {
         let trial = Trial::of(context, *model, points, &[Way::Front, Way::Scales])?;
         trial.print(&mut table);
         whole.push(trial);
     }
-    println!("{table}");
-    let mut draws = vec![];
-    for share in [0.7, 0.5] {
-        for seed in seeds.clone() {
-            let mut table = Table::new(&HEAD);
+    out.table("", table);
+    let (exact, shown) = count(&whole[..all]);
+    out.must(format!("exact on {all} of {all}"), shown, exact == all);
+    for trial in &whole[all..] {
+        let goal = format!("{} exact (components, genus, loops)", trial.model.name);
+        out.must(goal, trial.ours.shape(), trial.is_ours_exact());
+    }
+    for (share, must, aim) in [(0.7, 5, 7), (0.5, 4, 6)] {
+        for seed in context.seeds.clone() {
+            let name = format!("{:.0} % of the points, seed {seed}", 100.0 * share);
+            let mut table = Table::new(&columns());
             let mut trials = vec![];
-            for (model, points) in &shapes[..models.len()] {
+            for (model, points) in &shapes[..all] {
                 let points = thinned(points, share, seed)?;
                 let trial = Trial::of(context, *model, &points, &[Way::Front])?;
                 trial.print(&mut table);
                 trials.push(trial);
             }
-            println!("{:.0} % of the points, seed {seed}\n\n{table}", 100.0 * share);
-            draws.push((share, seed, trials));
+            out.table(&name, table);
+            let (exact, shown) = count(&trials);
+            let judged = (all == SEVEN.len()).then_some(exact);
+            let goal = |least| format!("{name}: exact on {least} of 7");
+            out.must(goal(must), shown.clone(), judged.map(|exact| exact >= must));
+            out.aim(goal(aim), shown, judged.map(|exact| exact >= aim));
         }
     }
-
-    let mut goals = Goals::default();
-    let all = models.len();
-    let (exact, shown) = count(&whole[..all]);
-    goals.must(format!("exact on {all} of {all}"), shown, exact == all);
-    for trial in &whole[all..] {
-        let shown = trial.ours.cells()[..3].join("/");
-        let goal = format!("{} exact (components, genus, loops)", trial.model.name);
-        goals.must(goal, shown, trial.is_ours_exact());
-    }
-    for (share, seed, trials) in &draws {
-        let (must, aim) = if *share > 0.6 { (5, 7) } else { (4, 6) };
-        let (exact, shown) = count(trials);
-        let goal = |least| format!("{:.0} %, seed {seed}: exact on {least} of 7", 100.0 * share);
-        let judged = (all == SEVEN.len()).then_some(exact);
-        goals.must(goal(must), shown.clone(), judged.map(|exact| exact >= must));
-        goals.aim(goal(aim), shown, judged.map(|exact| exact >= aim));
-    }
-    let json_of = |trials: &[Trial]| trials.iter().map(Trial::json).collect::<Vec<_>>();
-    let draws: Vec<Value> = draws
-        .iter()
-        .map(|(share, seed, trials)| json!({ "share": share, "seed": seed, "trials": json_of(trials) }))
-        .collect();
-    Ok(json!({ "whole": json_of(&whole), "thinned": draws, "goals": goals.json() }))
+    Ok(())
 }
