@@ -9,8 +9,24 @@ mod paired;
 mod points;
 mod threads;
 
+use std::process::{Command, Stdio};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+
+use serde::{Deserialize, Serialize};
+use taut_certify::{Ball, Items, Solution, Stop, Verdict};
+use taut_enclose::{BallMethod, BallOptions, ball};
+use taut_points::{FileSource, ScalarKind};
+
+use crate::input::{Input, Radii};
+use crate::judge::{Judgement, judge};
 use crate::prelude::*;
-use case::{AREA, Kind};
+use crate::raw;
+use crate::rounds::{Beside, PeerRuns, Rounds, Seen};
+use case::{AREA, BallsCase, FGK, Kind, PointsCase};
+use goals::{BUDGET_STOPS, FASTER, OF_CAT, READS, SHARE, UNEXPLAINED, stops};
+use paired::{Goals, Paired};
 
 /// Runs the sections that were asked for.
 pub(crate) fn run(options: &Options) -> Result<()> {

@@ -10,8 +10,20 @@ mod outliers;
 mod streams;
 mod traversal;
 
+use taut_certify::{Centers, CentersVerdict, Items, LowerBound, Placement, Solution};
+use taut_enclose::{
+    CentersOptions, Cover, CoverOptions, FarthestFirst, FarthestFirstOptions, centers,
+    farthest_first,
+};
+use taut_points::{PointSource, Scalar};
+
+use crate::context::pool;
 use crate::prelude::*;
-use case::{AREA, Kind};
+use crate::read::plain_read;
+use crate::rounds::{Beside, Seen, TIME_COLUMNS};
+use case::{AREA, GERMANY, Kind, Set, Task};
+use goals::{BANDWIDTH, CHECK, CORE_SET, DIFFERS, FACTOR, FACTOR_ROUNDING, KNOWN_RADIUS_TOLERANCE};
+use judgement::{COLUMNS, judge};
 
 /// Runs the sections that were asked for.
 pub(crate) fn run(options: &Options) -> Result<()> {

@@ -14,7 +14,20 @@ mod theorem;
 mod tours;
 mod transport;
 
+use std::collections::HashMap;
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use taut_certify::{Curve, Solution};
+use taut_mesh::{EdgeScore, Polyline, Quality, compare, crossings, edge_score};
+use taut_points::generate::curves::{
+    CurveNoise, TestCurve, TruthCurves, epsilon_sample, sample_curve,
+};
+use taut_reconstruct::{CurveMethod, CurveOptions, CurveThesisOptions, curve};
+
+use crate::delaunay::program::{Program, Triangulator};
 use crate::prelude::*;
+use drawn::{CURVES, NOISE, Trials, few, found_edges, found_lines, solve, true_lines, truth};
 
 /// All sections; draws are those of each input.
 pub(crate) const AREA: Area<Run> = Area {

@@ -7,8 +7,22 @@ pub(crate) mod program;
 mod rounds;
 mod sets;
 
+use std::collections::BTreeMap;
+use std::process::{Command, Stdio};
+
+use serde::{Deserialize, Serialize};
+use taut_delaunay::{Complex, Counters, DelaunayOptions, Plane, Space, Triangulation};
+use taut_points::Error;
+use taut_points::generate::Parameters;
+
+use crate::context::pool;
+use crate::meter::Cost;
 use crate::prelude::*;
+use crate::process;
+use crate::process::Judged;
 use case::{AREA, Case};
+use goals::{BYTES, CHECK, EXACT_RATE, OF_CGAL, OF_UNIFORM, SPEEDUP};
+use one::Task;
 use program::{Program, Triangulator};
 use rounds::{PerPoint, Rounds};
 

@@ -14,8 +14,31 @@ mod real;
 mod robust;
 mod shapes;
 
+use std::collections::BTreeMap;
+use std::iter::{once, repeat};
+
+use serde::{Deserialize, Serialize};
+use taut_certify::{
+    Ball, EllipseSupport, Ellipsoid, EllipsoidVerdict, Items, RobustEllipsoid, Solution,
+    ellipse_support,
+};
+use taut_enclose::{
+    BallOptions, EllipsoidOptions, RobustOptions, ball, ellipsoid, robust_ellipsoid,
+};
+use taut_points::{FileSource, ScalarKind};
+
 use crate::prelude::*;
-use case::{AREA, Kind};
+use crate::raw;
+use crate::rounds::{Beside, Rounds, TIME_COLUMNS};
+use case::{AREA, Input, Kind};
+use goals::{
+    DIFFERS, FASTER, OBJECTIVE, OBJECTIVE_ROUNDING, OTHER_FLAGS, OTHER_THAN_PEER, OUTSIDE,
+};
+use judgement::Judgement;
+use laws::Law;
+use linear::product;
+use points::{columns, shown_gap, solve};
+use robust::Cloud;
 
 /// Runs the sections that were asked for.
 pub(crate) fn run(options: &Options) -> Result<()> {

@@ -4,14 +4,13 @@ use std::collections::BTreeMap;
 
 use crate::prelude::*;
 
-/// Something to reach. What must be reached and what is an aim stand in two lists.
+/// A bound for a quantity. What must be reached and what is an aim stand in two lists.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Goal {
     /// The quantity, as it is read of what was measured and said in the report.
-    pub(crate) what: &'static str,
+    pub(crate) what: Quantity,
     pub(crate) direction: Direction,
     pub(crate) bound: f64,
-    pub(crate) unit: Unit,
     /// The peers that the quantity compares with.
     pub(crate) peers: &'static [&'static str],
 }
@@ -64,55 +63,49 @@ impl Unit {
     }
 }
 
-pub(crate) const GAP: &str = "verified gap";
-pub(crate) const SECONDS: &str = "time by the clock";
-pub(crate) const PASSES: &str = "passes over all points";
-pub(crate) const MEMORY: &str = "peak memory of the process";
-pub(crate) const RADIUS: &str = "radius";
+/// Something that is measured, and how it is written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Quantity {
+    name: &'static str,
+    unit: Unit,
+}
+
+pub(crate) const GAP: Quantity = Quantity::new("verified gap", Unit::Power);
+pub(crate) const SECONDS: Quantity = Quantity::new("time by the clock", Unit::Seconds);
+pub(crate) const PASSES: Quantity = Quantity::new("passes over all points", Unit::Plain);
+pub(crate) const MEMORY: Quantity = Quantity::new("peak memory of the process", Unit::Memory);
+pub(crate) const RADIUS: Quantity = Quantity::new("radius", Unit::Power);
+
+impl Quantity {
+    pub(crate) const fn new(name: &'static str, unit: Unit) -> Self {
+        Quantity { name, unit }
+    }
+
+    /// The goal that it is at most this.
+    pub(crate) const fn at_most(self, bound: f64) -> Goal {
+        Goal { what: self, direction: Direction::AtMost, bound, peers: &[] }
+    }
+
+    /// The goal that it is at least this.
+    pub(crate) const fn at_least(self, bound: f64) -> Goal {
+        Goal { what: self, direction: Direction::AtLeast, bound, peers: &[] }
+    }
+
+    /// The goal that it is this, to a relative tolerance.
+    pub(crate) const fn near(self, value: f64, tolerance: f64) -> Goal {
+        Goal { what: self, direction: Direction::Near(value), bound: tolerance, peers: &[] }
+    }
+}
 
 impl Goal {
-    const fn new(what: &'static str, direction: Direction, bound: f64, unit: Unit) -> Self {
-        Goal { what, direction, bound, unit, peers: &[] }
-    }
-
-    pub(crate) const fn at_most(what: &'static str, bound: f64, unit: Unit) -> Self {
-        Goal::new(what, Direction::AtMost, bound, unit)
-    }
-
-    pub(crate) const fn at_least(what: &'static str, bound: f64, unit: Unit) -> Self {
-        Goal::new(what, Direction::AtLeast, bound, unit)
-    }
-
     /// The same beside these peers.
     pub(crate) const fn beside(self, peers: &'static [&'static str]) -> Self {
         Goal { peers, ..self }
     }
 
-    pub(crate) const fn gap(bound: f64) -> Self {
-        Goal::at_most(GAP, bound, Unit::Power)
-    }
-
-    pub(crate) const fn seconds(bound: f64) -> Self {
-        Goal::at_most(SECONDS, bound, Unit::Seconds)
-    }
-
-    pub(crate) const fn passes(bound: u32) -> Self {
-        Goal::at_most(PASSES, bound as f64, Unit::Plain)
-    }
-
-    /// At most so many bytes.
-    pub(crate) const fn memory(bound: u32) -> Self {
-        Goal::at_most(MEMORY, bound as f64, Unit::Memory)
-    }
-
-    /// This radius, to a relative tolerance.
-    pub(crate) const fn radius(value: f64, tolerance: f64) -> Self {
-        Goal::new(RADIUS, Direction::Near(value), tolerance, Unit::Power)
-    }
-
     /// The goal in words.
     fn words(&self) -> String {
-        let bound = match self.unit {
+        let bound = match self.what.unit {
             Unit::Power => format!("{:e}", self.bound),
             unit => unit.show(self.bound),
         };
@@ -120,7 +113,7 @@ impl Goal {
             [] => String::new(),
             peers => format!(" (beside {})", peers.join(" and ")),
         };
-        let what = self.what;
+        let what = self.what.name;
         match self.direction {
             Direction::AtMost => format!("{what}{beside} at most {bound}"),
             Direction::AtLeast => format!("{what}{beside} at least {bound}"),
@@ -153,7 +146,7 @@ impl Goal {
             // Nothing is believed of an answer that is wrong.
             (Some(why), _) => (format!("REJECTED by the checker: {why}"), Some(false)),
             (None, Some((value, said))) => {
-                let said = said.clone().unwrap_or_else(|| self.unit.show(*value));
+                let said = said.clone().unwrap_or_else(|| self.what.unit.show(*value));
                 (said, Some(self.is_met_by(*value)))
             }
             (None, None) => ("no answer".to_owned(), None),
@@ -193,21 +186,21 @@ impl Found {
     }
 
     /// Adds a value.
-    pub(crate) fn add(&mut self, what: &'static str, value: impl Into<Option<f64>>) {
+    pub(crate) fn add(&mut self, what: Quantity, value: impl Into<Option<f64>>) {
         let value = value.into().map(|value| (value, None));
-        self.values.entry(what).or_default().push(value);
+        self.values.entry(what.name).or_default().push(value);
     }
 
     /// Adds a value, with what is to be said of it.
-    pub(crate) fn say(&mut self, what: &'static str, value: Option<(f64, String)>) {
+    pub(crate) fn say(&mut self, what: Quantity, value: Option<(f64, String)>) {
         let value = value.map(|(value, said)| (value, Some(said)));
-        self.values.entry(what).or_default().push(value);
+        self.values.entry(what.name).or_default().push(value);
     }
 
     /// Adds the median of several runs.
     pub(crate) fn median(
         &mut self,
-        what: &'static str,
+        what: Quantity,
         runs: Option<Summary>,
         show: fn(f64) -> String,
     ) {
@@ -215,8 +208,8 @@ impl Found {
     }
 
     /// Leaves out a quantity that does not count.
-    pub(crate) fn forget(&mut self, what: &str) {
-        self.values.remove(what);
+    pub(crate) fn forget(&mut self, what: Quantity) {
+        self.values.remove(what.name);
     }
 
     /// Adds all that was found of another input.
@@ -229,7 +222,7 @@ impl Found {
 
     /// The value that is farthest on the wrong side.
     fn worst(&self, goal: &Goal) -> Option<&Said> {
-        let all = self.values.get(goal.what)?.iter().map(Option::as_ref);
+        let all = self.values.get(goal.what.name)?.iter().map(Option::as_ref);
         let all: Vec<&Said> = all.collect::<Option<_>>()?;
         all.into_iter().max_by(|a, b| goal.badness(a.0).total_cmp(&goal.badness(b.0)))
     }
@@ -239,7 +232,8 @@ impl Found {
 mod tests {
     use super::*;
 
-    const FASTER: Goal = Goal::at_least("faster", 2.0, Unit::Times);
+    const SPEED: Quantity = Quantity::new("faster", Unit::Times);
+    const FASTER: Goal = SPEED.at_least(2.0);
 
     fn met(goal: Goal, found: &Found) -> Option<bool> {
         goal.judge(found).2
@@ -250,18 +244,18 @@ mod tests {
         let mut found = Found::proved(Ok(1e-13));
         found.check(Ok(1e-11));
         found.add(SECONDS, 2.0);
-        found.add("faster", 2.5);
+        found.add(SPEED, 2.5);
         let mut other = Found::default();
-        other.add("faster", 1.5);
+        other.add(SPEED, 1.5);
         found.join(other);
-        assert_eq!(met(Goal::gap(1e-12), &found), Some(false));
-        assert_eq!(met(Goal::gap(1e-11), &found), Some(true));
-        assert_eq!(met(Goal::seconds(2.0), &found), Some(true));
-        assert_eq!(met(Goal::seconds(1.9), &found), Some(false));
+        assert_eq!(met(GAP.at_most(1e-12), &found), Some(false));
+        assert_eq!(met(GAP.at_most(1e-11), &found), Some(true));
+        assert_eq!(met(SECONDS.at_most(2.0), &found), Some(true));
+        assert_eq!(met(SECONDS.at_most(1.9), &found), Some(false));
         assert_eq!(met(FASTER, &found), Some(false));
-        assert_eq!(met(Goal::passes(3), &found), None);
+        assert_eq!(met(PASSES.at_most(3.0), &found), None);
         found.add(SECONDS, None);
-        assert_eq!(met(Goal::seconds(2.0), &found), None);
+        assert_eq!(met(SECONDS.at_most(2.0), &found), None);
     }
 
     #[test]
@@ -271,9 +265,9 @@ mod tests {
             for value in pair {
                 found.add(RADIUS, value);
                 found.add(SECONDS, value);
-                found.add("faster", 9.0 * value);
+                found.add(SPEED, 9.0 * value);
             }
-            for goal in [Goal::radius(1.0, 1e-9), Goal::seconds(2.0), FASTER] {
+            for goal in [RADIUS.near(1.0, 1e-9), SECONDS.at_most(2.0), FASTER] {
                 assert_eq!(met(goal, &found), Some(false), "{goal:?}");
             }
         }
@@ -284,14 +278,14 @@ mod tests {
         let mut found = Found::default();
         found.add(RADIUS, 10.0);
         found.add(RADIUS, 9.999995);
-        assert_eq!(met(Goal::radius(10.0, 1e-6), &found), Some(true));
-        assert_eq!(met(Goal::radius(10.0001, 1e-6), &found), Some(false));
+        assert_eq!(met(RADIUS.near(10.0, 1e-6), &found), Some(true));
+        assert_eq!(met(RADIUS.near(10.0001, 1e-6), &found), Some(false));
     }
 
     #[test]
     fn a_rejected_answer_meets_nothing() {
         let mut found = Found::proved(Err("outside".to_owned()));
         found.add(SECONDS, 1e-6);
-        assert_eq!(met(Goal::seconds(1.0), &found), Some(false));
+        assert_eq!(met(SECONDS.at_most(1.0), &found), Some(false));
     }
 }

@@ -3,7 +3,6 @@
 mod draw;
 mod files;
 mod guests;
-mod in_place;
 mod lanes;
 pub(crate) mod one;
 mod order;
@@ -16,7 +15,50 @@ mod sort;
 mod transpose;
 mod tree;
 
+use std::cmp::Reverse;
+use std::collections::{BTreeSet, BinaryHeap};
+use std::fs::File;
+use std::hint::black_box;
+use std::io::{BufReader, BufWriter, Read, Write};
+use std::num::NonZero;
+use std::os::unix::fs::{FileExt as _, OpenOptionsExt as _};
+
+use extsort::{ExternalSorter, Sortable};
+use indexset::BTreeSet as IndexSet;
+use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use memmap2::{Advice, MmapMut};
+use rand::SeedableRng;
+use rand::rngs::StdRng;
+use rand::seq::SliceRandom;
+use rdst::RadixSort;
+use rustix::fs::OFlags;
+use rustix::time::{ClockId, clock_gettime};
+use serde::{Deserialize, Serialize};
+use taut_certify::{
+    ElementOrder, FileAnswer, Files, Hash128, KeyKind, SortCertificate, SortedFile, TransposedFile,
+};
+use taut_oblivious::external::{FileSortOptions, RecordLayout, sort_file};
+use taut_oblivious::kdtree::KdTree;
+use taut_oblivious::{
+    FileMatrix, Probe, Sequential, TransposeFileOptions, bernoulli, hilbert_order, morton_order,
+    shuffle, transpose_file,
+};
+use taut_reference::algorithms::{
+    MatrixSizes, VebTree, distribution_sort_instrumented, funnelsort_instrumented,
+    mergesort_instrumented, multiply_instrumented, transpose_instrumented,
+};
+use taut_reference::packed::PackedSet;
+use taut_reference::search::{BlockedVanEmdeBoas, Eytzinger, SPlusTree, Sorted, SortedIndex};
+use taut_reference::simulate::{CacheShape, Simulator, StackDistances};
+use taut_reference::{PriorityQueue, SpillingQueue};
+use tempfile::TempDir;
+use voracious_radix_sort::RadixSort as _;
+
 use crate::prelude::*;
+use draw::{Draw, PATTERNS, Pattern};
+use guests::Guests;
+use lanes::{Lanes, have_memory, thread_cpu};
+use one::{FileCost, RECORD_BYTES, Task, Work};
 
 /// All sections.
 const AREA: Area<Run> = Area {
@@ -33,7 +75,7 @@ const AREA: Area<Run> = Area {
         runs("transpose", transpose::run).about(
             "Four shapes of doubles beside the crate transpose and a copy; sides off by one.",
         ),
-        runs("in-place", in_place::run).about(
+        runs("in-place", transpose::run_in_place).about(
             "The same shapes in their own place, beside the crate transpose and a second array.",
         ),
         runs("files", files::run).about(

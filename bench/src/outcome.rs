@@ -205,7 +205,7 @@ mod tests {
 
     #[test]
     fn parts_have_their_own_goals_and_tables() {
-        const MUST: &[Goal] = &[Goal::gap(1e-9)];
+        const MUST: &[Goal] = &[GAP.at_most(1e-9)];
         let mut out = Outcome::new([MUST, &[]]);
         let mut table = Table::new("n | time:s");
         table.push(json!({ "n": 3, "time": 0.5, "all": [0.5, 0.6] }));

@@ -19,7 +19,28 @@ pub(crate) mod table_one;
 mod timed;
 mod topology;
 
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use serde::{Deserialize, Serialize};
+use taut_certify::{Solution, Surface};
+use taut_io::{Content, Mesh, open_mesh};
+use taut_mesh::{TriangleMesh, compare_surfaces};
+use taut_reconstruct::{
+    Denoise, SurfaceMethod, SurfaceMode, SurfaceOptions, looks_one_sided, surface,
+};
+
+use crate::delaunay::program::Program;
 use crate::prelude::*;
+use distances::Distances;
+use found::{Way, ours, theirs};
+use judged::Judged;
+use models::{ANCHOR, BLOB5, BUNNY, DC, HORSE, Model, SEVEN, cactus};
+use samples::{
+    Point, band, chances, ellipsoids, fist, hemisphere, noisy, on_triangles, pear, rings, saddles,
+    sheets, spiral, thinned, wedge,
+};
+use solids::{Place, Solid, handles};
+use timed::Timed;
 
 /// All sections; extraction has one thread.
 pub(crate) const AREA: Area<Run> = Area {

@@ -12,10 +12,26 @@ mod figure;
 mod surface;
 mod sweep;
 
+use std::fmt::Write as _;
+use std::fs;
+
+use taut_draw::{
+    Aspect, Axis, DrawOptions, Figure as Drawing, Layer2, Look, Plot, Point2, Scale, Scene2,
+    Series, SeriesLook, Shape2, Style, Tone, surface_figures, to_svg,
+};
+use taut_enclose::{BallMethod, BallOptions, EllipsoidMethod, EllipsoidOptions};
+use taut_points::generate::curves::{CurveNoise, TestCurve, sample_curve};
+use taut_reconstruct::{CurveMethod, CurveOptions, CurveThesisOptions, SurfaceOptions};
 use tempfile::TempDir;
 
+use crate::input::Input;
+use crate::judge::judge;
 use crate::machine;
 use crate::prelude::*;
+use crate::surface::found::ours;
+use crate::surface::table_one::{TABLE, TableOne};
+use figure::{Curve, Figure};
+use sweep::{Measured, Sweep, warning};
 
 /// Which figures, and how far.
 #[derive(clap::Args)]

@@ -1,9 +1,6 @@
 //! Balls, under each of six radius laws.
 
-use super::case::BallsCase;
-use super::paired::{Goals, Paired};
-use crate::input::{Input, Radii};
-use crate::prelude::*;
+use super::*;
 
 /// Runs the case under all six laws.
 pub(super) fn run(

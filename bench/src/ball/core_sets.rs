@@ -1,12 +1,6 @@
 //! Core-set sizes as the thesis counts them: one far point per pass, ε = 1e-3.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
-
-use taut_enclose::{BallMethod, BallOptions, ball};
-
-use crate::input::Input;
-use crate::prelude::*;
+use super::*;
 
 /// Prints core-set sizes of four distributions, of USPS, and of the two instances of which the thesis gives figures.
 pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {

@@ -1,16 +1,6 @@
 //! A file larger than the memory that is allowed: passes beside `cat`, and the peak memory of the process.
 
-use std::process::{Command, Stdio};
-use std::sync::Mutex;
-
-use serde::{Deserialize, Serialize};
-use taut_certify::Stop;
-use taut_enclose::{BallOptions, ball};
-use taut_points::{FileSource, ScalarKind};
-
-use super::goals::{BUDGET_STOPS, OF_CAT, stops};
-use crate::prelude::*;
-use crate::raw;
+use super::*;
 
 /// The process that solves one raw file and nothing else, so that its peak memory is that of the solver.
 #[derive(Serialize, Deserialize)]

@@ -1,13 +1,7 @@
 //! taut, its peers and a plain read on one input, and what goals ask of their times and answers.
 
-use taut_certify::{Ball, Solution, Verdict};
-use taut_enclose::{BallOptions, ball};
-
-use super::goals::{BUDGET_STOPS, FASTER, READS, SHARE, UNEXPLAINED, stops};
-use crate::input::Input;
-use crate::judge::{Judgement, judge};
-use crate::prelude::*;
-use crate::rounds::{self, Beside, PeerRuns, Rounds, Seen};
+use super::*;
+use crate::rounds;
 
 /// What must be reached, and what is hoped for.
 pub(super) type Goals = [&'static [Goal]; 2];

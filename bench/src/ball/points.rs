@@ -1,9 +1,6 @@
 //! Points in memory, solved exactly.
 
-use super::case::{FGK, PointsCase};
-use super::paired::{Goals, Paired};
-use crate::input::Input;
-use crate::prelude::*;
+use super::*;
 
 /// Runs a case of generated points.
 pub(super) fn run(

@@ -1,10 +1,6 @@
 //! The same bytes for any number of threads.
 
-use taut_certify::Items;
-use taut_enclose::{BallMethod, BallOptions, ball};
-
-use crate::input::{Input, Radii};
-use crate::prelude::*;
+use super::*;
 
 /// Solves several inputs by each method with 1, 2 and 8 threads and compares the JSON of the solutions.
 ///

@@ -1,6 +1,6 @@
 //! Cities of `$TAUT_DATA/ball`, and permutations of rows.
 
-use crate::prelude::*;
+use super::*;
 
 /// The places of a file of `$TAUT_DATA/ball`, two numbers each; `None`, after saying so, where it is missing.
 pub(super) fn read(name: &str) -> Result<Option<Vec<f64>>> {

@@ -1,13 +1,6 @@
 //! Centers among the points: many small sets beside set-cover programs, and the cities alone.
 
-use taut_certify::{Items, Placement};
-use taut_enclose::{CentersOptions, centers};
-
-use super::case::GERMANY;
-use super::cities;
-use super::goals::DIFFERS;
-use super::judgement::{self, COLUMNS, judge};
-use crate::prelude::*;
+use super::*;
 
 const RANDOM_SETS: u64 = 200;
 const DIM: usize = 2;

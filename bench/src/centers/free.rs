@@ -1,12 +1,7 @@
 //! Free centers of points to a gap: medians over permutations of the rows.
 
-use taut_enclose::{CentersOptions, centers};
-
-use super::case::{Set, Task};
-use super::cities;
-use super::judgement::{self, COLUMNS, judge};
-use crate::prelude::*;
-use crate::rounds::{self, Beside, Seen, TIME_COLUMNS};
+use super::*;
+use crate::rounds;
 
 /// Coordinates, one row after another, and the dimension.
 type Rows = (Vec<f64>, usize);
@@ -86,7 +81,7 @@ fn run_task(
     out.table(&what, table);
     let mut found = judgement::found(&judgements);
     found.median(SECONDS, Summary::of(&clocks), seconds);
-    let gap = [Goal::gap(task.epsilon)];
+    let gap = [GAP.at_most(task.epsilon)];
     // What is only hoped for is no must by its gap.
     let gap: &[Goal] = if task.aim.contains(&gap[0]) { &[] } else { &gap };
     out.judge_by([gap, &[]], &found);

@@ -1,10 +1,6 @@
 //! What the checker proves of an answer, and what that costs.
 
-use taut_certify::{Centers, CentersVerdict, LowerBound, Solution};
-use taut_points::PointSource;
-
-use super::goals::{CHECK, CORE_SET};
-use crate::prelude::*;
+use super::*;
 
 /// Columns of a judgement.
 pub(super) const COLUMNS: &str = "radius:8 | verdict | core-set | by | branches | check:s";
@@ -92,8 +88,8 @@ mod tests {
         let wrong = judge(&solution, &points);
         assert_eq!(wrong.gap(), None);
         let met = |all: &[Judgement], goal: Goal| goal.judge(&found(all)).2;
-        assert_eq!(met(&[right.clone(), wrong], Goal::gap(1.0)), Some(false));
-        assert_eq!(met(std::slice::from_ref(&right), Goal::gap(1e-6)), Some(true));
-        assert_eq!(met(&[right], Goal::radius(1.0, 1e-9)), Some(true));
+        assert_eq!(met(&[right.clone(), wrong], GAP.at_most(1.0)), Some(false));
+        assert_eq!(met(std::slice::from_ref(&right), GAP.at_most(1e-6)), Some(true));
+        assert_eq!(met(&[right], RADIUS.near(1.0, 1e-9)), Some(true));
     }
 }

@@ -1,9 +1,6 @@
 //! Centers of all but a few points, in the plane.
 
-use taut_enclose::{CentersOptions, centers};
-
-use super::judgement::{self, COLUMNS, judge};
-use crate::prelude::*;
+use super::*;
 
 const N: usize = 2000;
 /// Numbers of centers; one is the smallest ball of all points but a few.

@@ -1,11 +1,6 @@
 //! Points that come by once: the factor that is measured beside the one that is stated, and the time of a point.
 
-use taut_certify::Placement;
-use taut_enclose::{Cover, CoverOptions};
-
-use super::goals::FACTOR;
-use super::judgement::{self, COLUMNS, judge};
-use crate::prelude::*;
+use super::*;
 
 const N: usize = 1_000_000;
 const DIM: usize = 3;

@@ -1,14 +1,6 @@
 //! Farthest-first traversals of many points: time, distances evaluated, plain reads, and NumPy beside.
 
-use taut_certify::Placement;
-use taut_enclose::{FarthestFirst, FarthestFirstOptions, farthest_first};
-use taut_points::Scalar;
-
-use super::goals::{BANDWIDTH, DIFFERS};
-use super::judgement::{self, COLUMNS, judge};
-use crate::context::pool;
-use crate::prelude::*;
-use crate::read::plain_read;
+use super::*;
 
 /// Points asked of taut.
 const TAUT_COUNT: u64 = 1000;

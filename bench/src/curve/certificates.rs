@@ -1,14 +1,6 @@
 //! Whether certificates can be believed: random trials of every kind, each with its truth.
 
-use rayon::prelude::*;
-use taut_mesh::compare;
-use taut_points::generate::curves::{
-    CurveNoise, TestCurve, TruthCurves, epsilon_sample, sample_curve,
-};
-use taut_reconstruct::{CurveMethod, CurveOptions};
-
-use super::drawn::{CURVES, few, found_lines, solve, true_lines};
-use crate::prelude::*;
+use super::*;
 
 /// Kinds of trials, by turns.
 #[derive(Clone, Copy, PartialEq)]

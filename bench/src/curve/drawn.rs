@@ -1,11 +1,6 @@
 //! Inputs drawn from curves whose truth is known, what was found of them, and how good that is.
 
-use crate::prelude::*;
-use rayon::prelude::*;
-use taut_certify::{Curve, Solution};
-use taut_mesh::{Polyline, Quality, compare};
-use taut_points::generate::curves::{CurveNoise, TestCurve, TruthCurves, sample_curve};
-use taut_reconstruct::{CurveOptions, curve};
+use super::*;
 
 /// The six test curves.
 pub(super) const CURVES: [&str; 6] = ["circle", "ellipse3", "flower5", "bumpy", "gear20", "multi4"];

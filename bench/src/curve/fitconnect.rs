@@ -1,10 +1,6 @@
 //! Beside published errors of FitConnect, which is not run: its figures are from one draw of the same law.
 
-use taut_points::generate::curves::TestCurve;
-use taut_reconstruct::CurveOptions;
-
-use super::drawn::{NOISE, Trials, truth};
-use crate::prelude::*;
+use super::*;
 
 const N: usize = 2000;
 /// Curve, rms, Hausdorff distance and seconds of FitConnect.

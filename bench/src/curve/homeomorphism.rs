@@ -1,10 +1,6 @@
 //! How often the default method finds the right curves, without outliers and with a tenth of them.
 
-use taut_points::generate::curves::{CurveNoise, TestCurve};
-use taut_reconstruct::CurveOptions;
-
-use super::drawn::{CURVES, NOISE, Trials, truth};
-use crate::prelude::*;
+use super::*;
 
 /// Connectivity over many draws.
 pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {

@@ -1,11 +1,6 @@
 //! Memory of a reconstruction above its input.
 
-use taut_points::generate::curves::{CurveNoise, TestCurve, sample_curve};
-use taut_reconstruct::CurveMethod;
-
-use super::drawn::{NOISE, truth};
-use super::one;
-use crate::prelude::*;
+use super::*;
 
 /// The bytes per point that reconstruction may take at its peak.
 const BYTES_PER_POINT_MAX: f64 = 300.0;

@@ -1,9 +1,6 @@
 //! taut as a program of its own: one reconstruction, one line, as the Delaunay peers do it.
 
-use serde::{Deserialize, Serialize};
-use taut_reconstruct::{CurveMethod, CurveOptions, curve};
-
-use crate::prelude::*;
+use super::*;
 
 /// What to reconstruct.
 #[derive(Serialize, Deserialize)]

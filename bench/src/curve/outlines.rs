@@ -1,12 +1,6 @@
 //! Outlines whose truth is known: coastlines and glyphs of `$TAUT_DATA/curve`.
 
-use std::collections::HashMap;
-
-use taut_mesh::{EdgeScore, crossings, edge_score};
-use taut_reconstruct::{CurveMethod, CurveOptions};
-
-use super::drawn::{found_edges, found_lines, solve};
-use crate::prelude::*;
+use super::*;
 
 /// Methods beside each other; the first is the default.
 const METHODS: [CurveMethod; 5] = [

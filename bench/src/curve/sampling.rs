@@ -1,12 +1,6 @@
 //! Random smooth curves at the sampling ratio of each method: exactly the true edges.
 
-use rayon::prelude::*;
-use taut_mesh::{EdgeScore, edge_score};
-use taut_points::generate::curves::{TestCurve, epsilon_sample};
-use taut_reconstruct::{CurveMethod, CurveOptions};
-
-use super::drawn::{few, found_edges, solve};
-use crate::prelude::*;
+use super::*;
 
 const METHODS: [(CurveMethod, f64); 4] = [
     (CurveMethod::NnCrust, 0.33),

@@ -1,11 +1,6 @@
 //! How the error of the default method falls with the number of points.
 
-use taut_points::generate::curves::{CurveNoise, TestCurve};
-use taut_reconstruct::CurveOptions;
-
-use super::drawn::{NOISE, Trials, truth};
-use crate::outcome::aim_only;
-use crate::prelude::*;
+use super::*;
 
 const SIZES: [usize; 5] = [1000, 4000, 16_000, 64_000, 250_000];
 

@@ -1,12 +1,6 @@
 //! Times of a million points and of ten million, noisy and clean, beside CGAL's Delaunay triangulation of the same points.
 
-use taut_points::generate::curves::{CurveNoise, TestCurve, sample_curve};
-use taut_reconstruct::CurveMethod;
-
-use super::drawn::{NOISE, truth};
-use super::one;
-use crate::delaunay::program::{Program, Triangulator};
-use crate::prelude::*;
+use super::*;
 
 /// Who works on an input.
 #[derive(Clone, Copy, PartialEq)]

@@ -1,11 +1,6 @@
 //! The algorithm of section 4.1 of the thesis where its theorem holds.
 
-use taut_mesh::{Polyline, compare};
-use taut_points::generate::curves::{CurveNoise, TestCurve, TruthCurves, sample_curve};
-use taut_reconstruct::{CurveMethod, CurveOptions, CurveThesisOptions};
-
-use super::drawn::{CURVES, Trials, true_lines, truth};
-use crate::prelude::*;
+use super::*;
 
 /// δ = 1 / 9ρ² for ρ = 4.
 const DELTA: f64 = 1.0 / 144.0;

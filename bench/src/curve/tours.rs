@@ -1,11 +1,6 @@
 //! Tours beside those of Concorde's Lin-Kernighan and of LKH.
 
-use taut_points::generate::curves::{CurveNoise, TestCurve, sample_curve};
-use taut_reconstruct::{CurveMethod, CurveOptions};
-
-use super::drawn::{NOISE, solve, truth};
-use crate::outcome::aim_only;
-use crate::prelude::*;
+use super::*;
 
 /// Units of the longer side of the box, as peers take whole numbers.
 const UNITS: f64 = 1e6;

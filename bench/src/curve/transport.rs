@@ -1,12 +1,6 @@
 //! Beside CGAL's reconstruction by optimal transport, which simplifies noisy points to a set of edges.
 
-use taut_mesh::{Polyline, Quality, compare};
-use taut_points::generate::curves::{TestCurve, sample_curve};
-use taut_reconstruct::CurveOptions;
-
-use super::drawn::{CURVES, NOISE, found_lines, solve, true_lines, truth};
-use crate::outcome::aim_only;
-use crate::prelude::*;
+use super::*;
 
 /// The tolerance of the peer, in units of the least local feature size.
 const PEER: &str = "cgal-transport-0.03";

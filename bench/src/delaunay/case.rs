@@ -1,10 +1,6 @@
 //! The list of cases: which inputs, beside whom, and what has to be reached.
 
-use taut_points::{Error, generate::Parameters};
-
-use super::goals::{bytes, check, exact_rate, of_cgal, of_uniform, speedup};
-use super::program::Triangulator;
-use crate::prelude::*;
+use super::*;
 
 /// What is triangulated, by whom.
 #[derive(Clone, Copy)]
@@ -75,11 +71,11 @@ pub(super) const PLANE_PEERS: &[Triangulator] = &[
 /// All peers in space.
 pub(super) const SPACE_PEERS: &[Triangulator] = &[Triangulator::Cgal, Triangulator::Qhull];
 
-const PLANE_MUST: &[Goal] = &[of_cgal(0.55), check(0.5)];
-const PLANE_AIM: &[Goal] = &[of_cgal(0.38)];
-const SPACE_MUST: &[Goal] = &[of_cgal(0.6), check(0.5)];
-const SPACE_AIM: &[Goal] = &[of_cgal(0.37)];
-const CLIFF_GOALS: &[Goal] = &[of_uniform(2.0), check(0.5)];
+const PLANE_MUST: &[Goal] = &[OF_CGAL.at_most(0.55), CHECK.at_most(0.5)];
+const PLANE_AIM: &[Goal] = &[OF_CGAL.at_most(0.38)];
+const SPACE_MUST: &[Goal] = &[OF_CGAL.at_most(0.6), CHECK.at_most(0.5)];
+const SPACE_AIM: &[Goal] = &[OF_CGAL.at_most(0.37)];
+const CLIFF_GOALS: &[Goal] = &[OF_UNIFORM.at_most(2.0), CHECK.at_most(0.5)];
 
 /// All sections.
 pub(super) const AREA: Area<Case> = Area {
@@ -97,12 +93,14 @@ pub(super) const AREA: Area<Case> = Area {
                 PLANE_PEERS,
                 &[1],
                 &[
-                    input("uniform", 1_000_000, 1_999_968)
-                        .goals(&[of_cgal(0.55), exact_rate(1e-4), check(0.5)], PLANE_AIM),
+                    input("uniform", 1_000_000, 1_999_968).goals(
+                        &[OF_CGAL.at_most(0.55), EXACT_RATE.at_most(1e-4), CHECK.at_most(0.5)],
+                        PLANE_AIM,
+                    ),
                     input("normal", 1_000_000, 1_999_983).goals(PLANE_MUST, PLANE_AIM),
                     input("clouds", 1_000_000, 1_999_973).goals(PLANE_MUST, PLANE_AIM),
                     input("kuzmin", 1_000_000, 1_999_991)
-                        .goals(&[of_cgal(0.65), check(0.5)], PLANE_AIM),
+                        .goals(&[OF_CGAL.at_most(0.65), CHECK.at_most(0.5)], PLANE_AIM),
                     input("roads", 1_000_000, 1_999_980).goals(PLANE_MUST, PLANE_AIM),
                 ],
             ),
@@ -115,7 +113,7 @@ pub(super) const AREA: Area<Case> = Area {
                 &[Triangulator::Cgal, Triangulator::Spade, Triangulator::Delaunator],
                 &[1],
                 &[input("uniform", 10_000_000, 19_999_955)
-                    .goals(&[of_cgal(0.5), check(0.5)], PLANE_AIM)],
+                    .goals(&[OF_CGAL.at_most(0.5), CHECK.at_most(0.5)], PLANE_AIM)],
             ),
         )
         .about("Ten million points of the plane, one thread."),
@@ -155,8 +153,10 @@ pub(super) const AREA: Area<Case> = Area {
                 SPACE_PEERS,
                 &[1],
                 &[
-                    input("uniform", 1_000_000, 6_749_316)
-                        .goals(&[of_cgal(0.6), exact_rate(1e-4), check(0.5)], SPACE_AIM),
+                    input("uniform", 1_000_000, 6_749_316).goals(
+                        &[OF_CGAL.at_most(0.6), EXACT_RATE.at_most(1e-4), CHECK.at_most(0.5)],
+                        SPACE_AIM,
+                    ),
                     input("normal", 1_000_000, 6_765_494).goals(SPACE_MUST, SPACE_AIM),
                     input("clouds", 1_000_000, 6_688_990).goals(SPACE_MUST, SPACE_AIM),
                 ],
@@ -169,7 +169,7 @@ pub(super) const AREA: Area<Case> = Area {
                 3,
                 &[Triangulator::Cgal],
                 &[1],
-                &[input("grid", 1_000_000, 5_821_794).goals(SPACE_MUST, &[of_cgal(0.4)])],
+                &[input("grid", 1_000_000, 5_821_794).goals(SPACE_MUST, &[OF_CGAL.at_most(0.4)])],
             ),
         )
         .about("The integer grid 100³: all ties; its tetrahedra are 6·99³."),
@@ -180,9 +180,11 @@ pub(super) const AREA: Area<Case> = Area {
                 &[Triangulator::Cgal],
                 &[1],
                 &[
-                    input("torus", 1_000_000, 6_117_584).goals(SPACE_MUST, &[of_cgal(0.4)]),
-                    input("sphere", 100_000, 302_075)
-                        .goals(&[of_cgal(0.5), check(0.5)], &[of_cgal(0.27)]),
+                    input("torus", 1_000_000, 6_117_584).goals(SPACE_MUST, &[OF_CGAL.at_most(0.4)]),
+                    input("sphere", 100_000, 302_075).goals(
+                        &[OF_CGAL.at_most(0.5), CHECK.at_most(0.5)],
+                        &[OF_CGAL.at_most(0.27)],
+                    ),
                     input("skew", 4_000, 1_999 * 1_999),
                 ],
             ),
@@ -198,7 +200,7 @@ pub(super) const AREA: Area<Case> = Area {
                 &[],
                 &[1, 2],
                 &[input("uniform", 10_000_000, 19_999_955)
-                    .goals(&[speedup(1.5)], &[speedup(1.75)])],
+                    .goals(&[SPEEDUP.at_least(1.5)], &[SPEEDUP.at_least(1.75)])],
             ),
         )
         .about("Ten million points of the plane, one thread and two."),
@@ -208,7 +210,8 @@ pub(super) const AREA: Area<Case> = Area {
                 3,
                 &[],
                 &[1, 2],
-                &[input("uniform", 1_000_000, 6_749_316).goals(&[speedup(1.5)], &[speedup(1.75)])],
+                &[input("uniform", 1_000_000, 6_749_316)
+                    .goals(&[SPEEDUP.at_least(1.5)], &[SPEEDUP.at_least(1.75)])],
             ),
         )
         .about("A million points of space, one thread and two."),
@@ -219,8 +222,10 @@ pub(super) const AREA: Area<Case> = Area {
                 &[Triangulator::Cgal, Triangulator::Spade, Triangulator::Delaunator],
                 &[1, 2],
                 &[
-                    input("uniform", 1_000_000, 1_999_968).goals(&[bytes(85.0)], &[bytes(72.0)]),
-                    input("uniform", 10_000_000, 19_999_955).goals(&[bytes(85.0)], &[bytes(72.0)]),
+                    input("uniform", 1_000_000, 1_999_968)
+                        .goals(&[BYTES.at_most(85.0)], &[BYTES.at_most(72.0)]),
+                    input("uniform", 10_000_000, 19_999_955)
+                        .goals(&[BYTES.at_most(85.0)], &[BYTES.at_most(72.0)]),
                 ],
             ),
         )
@@ -232,8 +237,10 @@ pub(super) const AREA: Area<Case> = Area {
                 &[Triangulator::Cgal],
                 &[1, 2],
                 &[
-                    input("uniform", 1_000_000, 6_749_316).goals(&[bytes(275.0)], &[bytes(250.0)]),
-                    input("torus", 1_000_000, 6_117_584).goals(&[bytes(275.0)], &[bytes(250.0)]),
+                    input("uniform", 1_000_000, 6_749_316)
+                        .goals(&[BYTES.at_most(275.0)], &[BYTES.at_most(250.0)]),
+                    input("torus", 1_000_000, 6_117_584)
+                        .goals(&[BYTES.at_most(275.0)], &[BYTES.at_most(250.0)]),
                 ],
             ),
         )

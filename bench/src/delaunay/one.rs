@@ -1,12 +1,6 @@
 //! taut as a program of its own: one build, one line, as the peers do it.
 
-use serde::{Deserialize, Serialize};
-use taut_delaunay::{Complex, Counters, DelaunayOptions, Plane, Space, Triangulation};
-
-use crate::context::pool;
-use crate::meter::Cost;
-use crate::prelude::*;
-use crate::process::Judged;
+use super::*;
 
 /// What to build.
 #[derive(Serialize, Deserialize)]

@@ -1,10 +1,6 @@
 //! Programs that triangulate.
 
-use std::process::{Command, Stdio};
-
-use super::one::Task;
-use crate::prelude::*;
-use crate::process;
+use super::*;
 
 /// Who triangulates.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,6 @@
 //! Rounds: all programs build the same file by turns, so that what else the machine does meets all alike.
 
-use std::collections::BTreeMap;
-
-use super::program::Program;
-use crate::prelude::*;
-use crate::process::Judged;
+use super::*;
 
 /// What one program did in all rounds.
 pub(super) struct Row {

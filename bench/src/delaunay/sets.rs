@@ -4,12 +4,7 @@
 //! sphere a program may have its own choice, and of equal rows it may name another; how many simplices are in both is
 //! said.
 
-use std::process::{Command, Stdio};
-
-use taut_delaunay::{DelaunayOptions, Plane, Space, Triangulation};
-
-use super::case::Case;
-use crate::prelude::*;
+use super::*;
 
 /// Compares the sets of all inputs of `cases`, each input once.
 pub(super) fn run(context: &Context, cases: &[&Section<Case>]) -> Result<()> {

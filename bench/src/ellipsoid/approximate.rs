@@ -1,9 +1,6 @@
 //! Programs that enclose points in an ellipsoid that need not be the smallest: what it costs, and how much larger it is.
 
-use super::judgement::Judgement;
-use super::laws::Law;
-use super::points::solve;
-use crate::prelude::*;
+use super::*;
 
 /// CGAL's `Approximate_min_ellipsoid_d` by its ε, and dynesty's bounding ellipsoid.
 const PEERS: [&str; 3] = ["cgal-approximate-0.01", "cgal-approximate-0.001", "dynesty"];

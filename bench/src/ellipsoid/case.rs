@@ -1,9 +1,6 @@
 //! The list of cases: which inputs, and what has to be reached.
 
-use super::goals::{FLAGS_GOAL, OBJECTIVE_GOAL, PEER_FLAGS_GOAL, agreement, bracket, faster};
-use super::laws::Law;
-use super::robust::Cloud;
-use crate::prelude::*;
+use super::*;
 
 /// What is done in a section.
 #[derive(Clone, Copy)]
@@ -59,11 +56,11 @@ impl Input {
 }
 
 const SHELLS: [Law; 3] = [Law::Shell(1e-2), Law::Shell(1e-4), Law::Shell(1e-8)];
-const SHELL_5_10: &[Goal] = &[Goal::seconds(0.09)];
-const SHELL_5_10_AIM: &[Goal] = &[Goal::seconds(0.03)];
-const SHELL_6_10: &[Goal] = &[Goal::seconds(0.5)];
-const SHELL_4_30: &[Goal] = &[Goal::seconds(1.5)];
-const SHELL_4_30_AIM: &[Goal] = &[Goal::seconds(0.4)];
+const SHELL_5_10: &[Goal] = &[SECONDS.at_most(0.09)];
+const SHELL_5_10_AIM: &[Goal] = &[SECONDS.at_most(0.03)];
+const SHELL_6_10: &[Goal] = &[SECONDS.at_most(0.5)];
+const SHELL_4_30: &[Goal] = &[SECONDS.at_most(1.5)];
+const SHELL_4_30_AIM: &[Goal] = &[SECONDS.at_most(0.4)];
 
 /// All sections; the longest is the last.
 pub(super) const AREA: Area<Kind> = Area {
@@ -78,24 +75,25 @@ pub(super) const AREA: Area<Kind> = Area {
                 "Thirty sets of real data at ε = 1e-12, beside the brackets in which their \
                  optima lie.",
             )
-            .must(&[Goal::gap(1e-12), bracket(1e-11), Goal::seconds(1.5e-3)])
-            .aim(&[bracket(1e-12), Goal::seconds(0.6e-3)]),
+            .must(&[GAP.at_most(1e-12), OUTSIDE.at_most(1e-11), SECONDS.at_most(1.5e-3)])
+            .aim(&[OUTSIDE.at_most(1e-12), SECONDS.at_most(0.6e-3)]),
         section(
             "normal",
             Kind::Points(&[
                 input(Law::Normal, 100_000, 10)
-                    .goals(&[Goal::seconds(0.01)], &[Goal::seconds(0.003)]),
+                    .goals(&[SECONDS.at_most(0.01)], &[SECONDS.at_most(0.003)]),
                 input(Law::Normal, 1_000_000, 10)
-                    .goals(&[Goal::seconds(0.05)], &[Goal::seconds(0.015)]),
+                    .goals(&[SECONDS.at_most(0.05)], &[SECONDS.at_most(0.015)]),
                 input(Law::Normal, 100_000, 30)
-                    .goals(&[Goal::seconds(0.09)], &[Goal::seconds(0.025)]),
+                    .goals(&[SECONDS.at_most(0.09)], &[SECONDS.at_most(0.025)]),
                 input(Law::Normal, 100_000, 50)
-                    .goals(&[Goal::seconds(0.5)], &[Goal::seconds(0.12)]),
-                input(Law::Normal, 10_000, 100).goals(&[Goal::seconds(1.5)], &[Goal::seconds(0.3)]),
+                    .goals(&[SECONDS.at_most(0.5)], &[SECONDS.at_most(0.12)]),
+                input(Law::Normal, 10_000, 100)
+                    .goals(&[SECONDS.at_most(1.5)], &[SECONDS.at_most(0.3)]),
             ]),
         )
         .about("Normal points at ε = 1e-12.")
-        .must(&[Goal::gap(1e-12)]),
+        .must(&[GAP.at_most(1e-12)]),
         section(
             "shells",
             Kind::Points(&[
@@ -111,62 +109,62 @@ pub(super) const AREA: Area<Kind> = Area {
             ]),
         )
         .about("Points near an ellipsoid with axes from 1 to 1000, at ε = 1e-12, five seeds each.")
-        .must(&[Goal::gap(1e-12)]),
+        .must(&[GAP.at_most(1e-12)]),
         section(
             "tails",
             Kind::Points(&[
-                input(Law::Cauchy, 100_000, 10).seeds(5).goals(&[Goal::seconds(0.01)], &[]),
-                input(SHELLS[0], 1_000_000, 3).seeds(5).goals(&[Goal::seconds(0.06)], &[]),
-                input(SHELLS[1], 1_000_000, 3).seeds(5).goals(&[Goal::seconds(0.06)], &[]),
-                input(SHELLS[2], 1_000_000, 3).seeds(5).goals(&[Goal::seconds(0.06)], &[]),
+                input(Law::Cauchy, 100_000, 10).seeds(5).goals(&[SECONDS.at_most(0.01)], &[]),
+                input(SHELLS[0], 1_000_000, 3).seeds(5).goals(&[SECONDS.at_most(0.06)], &[]),
+                input(SHELLS[1], 1_000_000, 3).seeds(5).goals(&[SECONDS.at_most(0.06)], &[]),
+                input(SHELLS[2], 1_000_000, 3).seeds(5).goals(&[SECONDS.at_most(0.06)], &[]),
             ]),
         )
         .about("Cauchy points, and shells of space, at ε = 1e-12, five seeds each.")
-        .must(&[Goal::gap(1e-12)]),
+        .must(&[GAP.at_most(1e-12)]),
         section("plane", Kind::Plane(&[Law::Normal, Law::Uniform, Law::Shell(1e-2), Law::Mix]))
             .about("A million points of the plane at ε = 1e-12, beside CGAL's Min_ellipse_2.")
-            .must(&[Goal::gap(1e-12), faster(8.0)])
-            .aim(&[faster(20.0)]),
+            .must(&[GAP.at_most(1e-12), FASTER.at_least(8.0)])
+            .aim(&[FASTER.at_least(20.0)]),
         section("ellipsoids", Kind::Shapes)
             .about(
                 "A thousand ellipsoids in ten dimensions at ε = 1e-6: the smallest ellipsoid, \
                  the smallest ball.",
             )
-            .must(&[Goal::gap(1e-6), Goal::seconds(0.5)])
-            .aim(&[Goal::seconds(0.1)]),
+            .must(&[GAP.at_most(1e-6), SECONDS.at_most(0.5)])
+            .aim(&[SECONDS.at_most(0.1)]),
         section("conic", Kind::Conic)
             .about(
                 "Small sets of points, and twenty ellipsoids, at ε = 1e-10, beside the conic \
                  solver Clarabel under cvxpy.",
             )
-            .must(&[Goal::gap(1e-9), agreement(1e-6)]),
+            .must(&[GAP.at_most(1e-9), DIFFERS.at_most(1e-6)]),
         section("approximate", Kind::Approximate)
             .about(
                 "Normal points at ε = 1e-12, beside CGAL's Approximate_min_ellipsoid_d and \
                  dynesty's bounding ellipsoid.",
             )
-            .must(&[Goal::gap(1e-12)]),
+            .must(&[GAP.at_most(1e-12)]),
         section("mcd", Kind::Contaminated(Cloud::Wide))
             .about(
                 "10⁵ points in ten dimensions, 30 % of them in one cloud far off: MCD beside \
                  scikit-learn, five seeds.",
             )
-            .must(&[OBJECTIVE_GOAL, faster(5.0)]),
+            .must(&[OBJECTIVE.at_most(OBJECTIVE_ROUNDING), FASTER.at_least(5.0)]),
         section("mcd-tight", Kind::Contaminated(Cloud::Tight))
             .about(
                 "The same with a cloud a tenth as wide, which h points of the least \
                  determinant take in.",
             )
-            .must(&[OBJECTIVE_GOAL, faster(5.0)]),
+            .must(&[OBJECTIVE.at_most(OBJECTIVE_ROUNDING), FASTER.at_least(5.0)]),
         section("flags", Kind::Flags)
             .about(
                 "The outliers of hbk, stackloss and starsCYG, beside those published with \
                  robustbase, and scikit-learn's.",
             )
-            .must(&[FLAGS_GOAL, PEER_FLAGS_GOAL]),
+            .must(&[OTHER_FLAGS.at_most(0.0), OTHER_THAN_PEER.at_most(0.0)]),
         section("file", Kind::File)
             .about("A file of 1.2 GB, 10⁸ normal points of space in single precision.")
-            .must(&[Goal::gap(1e-9), Goal::passes(3), Goal::memory(256 << 20)]),
+            .must(&[GAP.at_most(1e-9), PASSES.at_most(3.0), MEMORY.at_most((256 << 20) as f64)]),
     ],
 };
 

@@ -1,14 +1,7 @@
 //! Small problems beside a conic solver, which knows nothing of core-sets: cvxpy with Clarabel.
 
-use taut_certify::{Ball, Ellipsoid, Items, Solution};
-use taut_enclose::{BallOptions, EllipsoidOptions, ball, ellipsoid};
-
-use super::goals::DIFFERS;
-use super::laws::Law;
-use super::points::shown_gap;
-use super::shapes;
-use crate::prelude::*;
-use crate::rounds::{self, Beside};
+use super::*;
+use crate::rounds;
 
 /// The gap that taut is asked for; the solver is asked for the same.
 const EPSILON: f64 = 1e-10;

@@ -1,12 +1,6 @@
 //! A file larger than the memory that is allowed: reads of it, and the peak memory of the process that solves it.
 
-use serde::{Deserialize, Serialize};
-use taut_enclose::{EllipsoidOptions, ellipsoid};
-use taut_points::{FileSource, ScalarKind};
-
-use super::points::shown_gap;
-use crate::prelude::*;
-use crate::raw;
+use super::*;
 
 const D: usize = 3;
 

@@ -1,8 +1,6 @@
 //! The ellipsoid of a peer as a user would use it: what lies outside, and whether its volume is the least.
 
-use taut_certify::EllipsoidVerdict;
-
-use super::linear::{self, product};
+use super::*;
 
 /// Relative deviation that rounding in the peer's last steps explains.
 const ROUNDING: f64 = 1e-12;

@@ -1,6 +1,6 @@
 //! Points as the literature on ellipsoids draws them, made of taut's seeded generators.
 
-use crate::prelude::*;
+use super::*;
 
 /// From what points are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]

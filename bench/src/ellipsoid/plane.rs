@@ -1,11 +1,6 @@
 //! Ellipses around a million points, beside CGAL, whose ellipse is judged as well.
 
-use taut_certify::{EllipseSupport, ellipse_support};
-
-use super::judgement::Judgement;
-use super::laws::Law;
-use super::points::{columns, solve};
-use crate::prelude::*;
+use super::*;
 
 /// CGAL's program, as `bench/setup` builds it.
 const PEER: &str = "cgal-min-ellipse";

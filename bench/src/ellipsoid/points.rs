@@ -1,12 +1,7 @@
 //! Smallest ellipsoids of points: solved by rounds, then proved.
 
-use taut_certify::{Ellipsoid, EllipsoidVerdict, Solution};
-use taut_enclose::{EllipsoidOptions, ellipsoid};
-
-use super::case::Input;
-use super::goals::FASTER;
-use crate::prelude::*;
-use crate::rounds::{self, Beside, Rounds, TIME_COLUMNS};
+use super::*;
+use crate::rounds;
 
 /// The gap that is asked for.
 const EPSILON: f64 = 1e-12;

@@ -1,13 +1,6 @@
 //! Small sets of real data, beside the brackets in which their optima are known to lie.
 
-use std::collections::BTreeMap;
-
-use serde::Deserialize;
-
-use super::goals::OUTSIDE;
-use super::points::{columns, solve};
-use super::read;
-use crate::prelude::*;
+use super::*;
 
 /// Up to this dimension the time counts.
 const TIMED_DIM_MAX: usize = 13;

@@ -1,14 +1,7 @@
 //! MCD: the objective and the time beside scikit-learn, and the outliers of classical sets.
 
-use std::iter::{once, repeat};
-
-use taut_certify::{RobustEllipsoid, Solution};
-use taut_enclose::{RobustOptions, robust_ellipsoid};
-
-use super::goals::{FASTER, OBJECTIVE, OTHER_FLAGS, OTHER_THAN_PEER};
-use super::{linear, read};
-use crate::prelude::*;
-use crate::rounds::{self, Beside, TIME_COLUMNS};
+use super::*;
+use crate::rounds;
 
 /// scikit-learn's `MinCovDet` for the h that taut keeps.
 const PEER: &str = "sklearn-mcd-h";

@@ -1,11 +1,7 @@
 //! Ellipsoids as inputs: the smallest ellipsoid around them, the smallest ball.
 
-use taut_certify::Items;
-use taut_enclose::{BallOptions, EllipsoidOptions, ball, ellipsoid};
-
-use super::points::shown_gap;
-use crate::prelude::*;
-use crate::rounds::{self, Beside, TIME_COLUMNS};
+use super::*;
+use crate::rounds;
 
 const N: usize = 1000;
 const D: usize = 10;

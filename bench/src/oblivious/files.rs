@@ -1,18 +1,6 @@
 //! Files larger than the memory that is allowed: sorted beside the crate extsort, and transposed.
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
-
-use taut_certify::{
-    ElementOrder, FileAnswer, Files, Hash128, KeyKind, SortCertificate, SortedFile, TransposedFile,
-};
-use tempfile::TempDir;
-
-use super::draw::Draw;
-use super::lanes::have_memory;
-use super::one::{FileCost, RECORD_BYTES, Task, Work};
-use crate::outcome::{Bounds, aim_only};
-use crate::prelude::*;
+use super::*;
 
 /// How large things are.
 struct Sizes {

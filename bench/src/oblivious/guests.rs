@@ -1,7 +1,6 @@
 //! Peers that are processes of their own: each gets the input as a file and takes its turn in every round.
 
-use super::lanes::Lanes;
-use crate::prelude::*;
+use super::*;
 
 /// Those that are there.
 pub(super) struct Guests(Vec<(&'static str, Peer)>);

@@ -3,13 +3,9 @@
 //! *Trap.* A virtual machine may hand free memory back to its host after a moment. Whoever accesses it first then pays for
 //! the host, in processor time of the thread: up to 4 ms for a page of 2 MiB, where clearing it takes 0.2 ms.
 
-use std::hint::black_box;
+use super::*;
 
-use crate::prelude::*;
 #[cfg(target_os = "linux")]
-use memmap2::Advice;
-use memmap2::MmapMut;
-use rustix::time::{ClockId, clock_gettime};
 
 /// Times so far, by name, in the order in which the names came up.
 #[derive(Default)]

@@ -1,17 +1,8 @@
 //! One file sorted or transposed by a process of its own: its peak of memory and its I/O are those of the work.
 
-use std::fs::File;
-use std::io::{self, BufReader, BufWriter, Read, Write};
-use std::os::unix::fs::{FileExt as _, OpenOptionsExt as _};
-
-use extsort::{ExternalSorter, Sortable};
-use rustix::fs::OFlags;
-use serde::{Deserialize, Serialize};
-use taut_oblivious::external::{FileSortOptions, KeyKind, RecordLayout, sort_file};
-use taut_oblivious::{FileMatrix, TransposeFileOptions, transpose_file};
-use taut_reference::SpillingQueue;
-
-use crate::prelude::*;
+use super::*;
+use std::io;
+use taut_oblivious::external::KeyKind;
 
 /// A record has this many bytes, the first eight of which are its key.
 pub(super) const RECORD_BYTES: usize = 32;

@@ -1,11 +1,6 @@
 //! Points in the order of a curve that fills space, beside CGAL's and beside keys of the crate fast_hilbert.
 
-use taut_oblivious::{hilbert_order, morton_order};
-
-use super::draw::Draw;
-use super::guests::Guests;
-use super::lanes::{Lanes, have_memory};
-use crate::prelude::*;
+use super::*;
 
 /// Keys of the crate and numbers, sorted by std.
 const CRATE: &str = "fast_hilbert and std's sort";

@@ -1,14 +1,6 @@
 //! Ordered sets: the packed-memory array beside std's B-tree and the crate indexset.
 
-use std::collections::BTreeSet;
-
-use indexset::BTreeSet as IndexSet;
-use taut_reference::packed::PackedSet;
-
-use super::draw::Draw;
-use super::lanes::{Lanes, thread_cpu};
-use crate::outcome::Bounds;
-use crate::prelude::*;
+use super::*;
 
 /// The peers, in the tables.
 const TREE: &str = "BTreeSet";

@@ -1,15 +1,6 @@
 //! A queue of keys with values: all in, then all out in order.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
-
-use taut_reference::PriorityQueue;
-
-use super::draw::Draw;
-use super::guests::Guests;
-use super::lanes::{Lanes, have_memory};
-use crate::outcome::aim_only;
-use crate::prelude::*;
+use super::*;
 
 /// With values, and of keys alone, which its other queue is made for.
 const QUICKHEAP: [&str; 2] = ["quickheap", "quickheap-keys"];

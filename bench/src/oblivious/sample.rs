@@ -1,13 +1,7 @@
 //! Samples without replacement, in order.
 
-use rand::SeedableRng;
-use rand::rngs::StdRng;
-use rand::seq::SliceRandom;
-use taut_oblivious::{Sequential, bernoulli, sample, shuffle};
-
-use super::draw::Draw;
-use super::lanes::Lanes;
-use crate::prelude::*;
+use super::*;
+use taut_oblivious::sample;
 
 /// 2²⁰ of 2⁴⁰, and all items in random order.
 pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {

@@ -1,14 +1,8 @@
 //! Lower bounds among sorted keys, in all layouts.
 
-#[cfg(target_os = "linux")]
-use memmap2::Advice;
-use memmap2::MmapMut;
-use taut_reference::algorithms::VebTree;
-use taut_reference::search::{BlockedVanEmdeBoas, Eytzinger, SPlusTree, Sorted, SortedIndex};
+use super::*;
 
-use super::draw::Draw;
-use super::lanes::Lanes;
-use crate::prelude::*;
+#[cfg(target_os = "linux")]
 
 /// Independent look-ups one by one, in a batch, and dependent ones.
 struct Names {

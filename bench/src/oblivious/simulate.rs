@@ -1,15 +1,6 @@
 //! How fast the simulator is, and the misses of algorithms beside their bounds.
 
-use taut_oblivious::Probe;
-use taut_reference::algorithms::{
-    MatrixSizes, distribution_sort_instrumented, funnelsort_instrumented, mergesort_instrumented,
-    multiply_instrumented, transpose_instrumented,
-};
-use taut_reference::simulate::{CacheShape, Simulator, StackDistances};
-
-use super::draw::Draw;
-use super::lanes::thread_cpu;
-use crate::prelude::*;
+use super::*;
 
 /// Bytes of a word; M and B below are in words.
 const WORD: usize = 8;

@@ -1,13 +1,6 @@
 //! Numbers and records in order, in memory.
 
-use rdst::RadixSort;
-use voracious_radix_sort::RadixSort as _;
-
-use super::draw::{PATTERNS, Pattern};
-use super::guests::Guests;
-use super::lanes::{Lanes, have_memory};
-use crate::outcome::aim_only;
-use crate::prelude::*;
+use super::*;
 
 /// 32 bytes, of which eight are the key.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -1,13 +1,6 @@
 //! The nearest of points in space, beside kiddo's immutable tree.
 
-use std::num::NonZero;
-
-use kiddo::{ImmutableKdTree, SquaredEuclidean};
-use taut_oblivious::kdtree::KdTree;
-
-use super::draw::Draw;
-use super::lanes::Lanes;
-use crate::prelude::*;
+use super::*;
 
 /// One by one at random places, by batch, eight at once; building too.
 pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {

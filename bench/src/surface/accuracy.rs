@@ -1,11 +1,6 @@
 //! How far the reference is from the result, over what it is from CGAL's advancing front.
 
-use taut_reconstruct::SurfaceOptions;
-
-use super::distances::Distances;
-use super::found::{Way, ours, theirs};
-use super::models::SEVEN;
-use crate::prelude::*;
+use super::*;
 
 /// Sets where the peer is far off.
 const SHARP_MODELS: [&str; 3] = ["daratech", "fandisk", "mechpart"];

@@ -1,11 +1,6 @@
 //! What it costs to check a surface, beside what it cost to find it: processor time, on as many threads.
 
-use taut_reconstruct::{SurfaceOptions, surface};
-
-use super::models::{ANCHOR, BUNNY, DC, HORSE};
-use super::samples::Point;
-use super::solids::{Place, Solid, handles};
-use crate::prelude::*;
+use super::*;
 
 /// Solves and checks by turns; of processor seconds the least of all rounds counts.
 fn add(

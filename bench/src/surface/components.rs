@@ -1,9 +1,6 @@
 //! Many bodies at once: linear in their number, and each of them found.
 
-use super::samples::{Point, ellipsoids};
-use super::timed::Timed;
-use super::{judged, one};
-use crate::prelude::*;
+use super::*;
 
 /// taut on one thread on two inputs, by turns.
 fn both(context: &Context, points: [&[Point]; 2]) -> Result<[Builds; 2]> {

@@ -1,10 +1,7 @@
 //! Distances between a reference and a result, in parts of the reference's diagonal.
 
-use taut_io::Mesh;
-use taut_mesh::{SurfaceOptions, TriangleMesh, compare_surfaces};
-
-use super::samples::Point;
-use crate::prelude::*;
+use super::*;
+use taut_mesh::SurfaceOptions;
 
 /// Of one mesh from another: the largest and the mean, over the diagonal.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,6 @@
 //! Surfaces that taut and its peers find, in one form.
 
-use taut_certify::{Solution, Surface};
-use taut_reconstruct::{SurfaceOptions, surface};
-
-use super::samples::Point;
-use crate::prelude::*;
+use super::*;
 
 /// A surface of taut, and the seconds that it took.
 pub(crate) fn ours(

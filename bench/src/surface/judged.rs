@@ -1,9 +1,7 @@
 //! A surface through points, judged by its triangles alone: the same for taut and its peers.
 
-use taut_mesh::{TriangleMesh, topology};
-
-use super::samples::Point;
-use crate::prelude::*;
+use super::*;
+use taut_mesh::topology;
 
 /// What triangles on points are as a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

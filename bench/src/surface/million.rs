@@ -1,9 +1,6 @@
 //! A million random points of dc.
 
-use super::models::DC;
-use super::samples::on_triangles;
-use super::{judged, one};
-use crate::prelude::*;
+use super::*;
 
 /// Topology, seconds and bytes. One round is enough: it is the size that is tried.
 pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {

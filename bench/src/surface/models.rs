@@ -1,9 +1,6 @@
 //! Meshes of `$TAUT_DATA/surface`, and what is true of them.
 
-use taut_io::{Content, Mesh, open_mesh};
-
-use super::samples::Point;
-use crate::prelude::*;
+use super::*;
 
 /// A mesh whose vertices are the input, and the closed surface that they are from.
 #[derive(Clone, Copy, Debug)]

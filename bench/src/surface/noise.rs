@@ -1,13 +1,6 @@
 //! The bunny with noise: the pre-pass beside an interpolation of the noise.
 
-use taut_reconstruct::{Denoise, SurfaceOptions};
-
-use super::distances::Distances;
-use super::found::{Way, ours, theirs};
-use super::judged::Judged;
-use super::models::BUNNY;
-use super::samples::{Point, noisy};
-use crate::prelude::*;
+use super::*;
 
 /// Standard deviation of each coordinate over the diagonal of the bunny.
 const SIGMA: f64 = 1e-3;

@@ -1,10 +1,6 @@
 //! taut as a program of its own: one surface, one line, as the Delaunay peers do it.
 
-use serde::{Deserialize, Serialize};
-use taut_reconstruct::{SurfaceOptions, surface};
-
-use super::judged::Judged;
-use crate::prelude::*;
+use super::*;
 
 /// What to reconstruct.
 #[derive(Serialize, Deserialize)]

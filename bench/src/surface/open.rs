@@ -1,14 +1,6 @@
 //! Surfaces that end: one set of constants for scans, random sheets and what has one side only.
 
-use taut_certify::{Solution, Surface};
-use taut_reconstruct::{SurfaceMethod, SurfaceMode, SurfaceOptions, looks_one_sided};
-
-use super::distances::Distances;
-use super::found::{Way, ours, theirs};
-use super::judged::Judged;
-use super::models::BUNNY;
-use super::samples::{Point, band, hemisphere, sheets};
-use crate::prelude::*;
+use super::*;
 
 /// This many vertices of the bunny's mesh are used by no triangle.
 const UNREFERENCED_VERTICES: usize = 1113;

@@ -1,13 +1,6 @@
 //! Ball pivoting and Poisson reconstruction beside taut: what they find, how far it is off, and how long they take.
 
-use taut_reconstruct::SurfaceOptions;
-
-use super::distances::Distances;
-use super::found::{Way, ours, theirs};
-use super::judged::Judged;
-use super::models::{BUNNY, DC};
-use super::samples::Point;
-use crate::prelude::*;
+use super::*;
 
 /// Everybody, once, on two meshes.
 pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {

@@ -1,9 +1,6 @@
 //! Points of surfaces that are known: drawn from meshes, and made by formulas and taut's seeded generators.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
-
-use crate::prelude::*;
-use taut_io::Mesh;
+use super::*;
 
 /// A point of space.
 pub(crate) type Point = [f64; 3];

@@ -1,11 +1,6 @@
 //! Solids with flat faces, and a smooth one, sampled at random: evenly by area, each point independent of the others.
 
-use std::f64::consts::TAU;
-
-use taut_io::Mesh;
-
-use super::samples::{Point, chances, on_triangles};
-use crate::prelude::*;
+use super::*;
 
 /// A solid with flat faces.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,6 @@
 //! Times on four meshes beside CGAL's advancing front.
 
-use super::models::{ANCHOR, BUNNY, DC, HORSE};
-use super::timed::Timed;
-use crate::prelude::*;
+use super::*;
 
 /// Total and extraction, of each the ratio that must be reached and the one that is hoped for.
 pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {

@@ -1,15 +1,7 @@
 //! Table 1 of the thesis, its times beside ours, and the two inputs that it names as hard.
 
-use std::f64::consts::PI;
-
+use super::*;
 use taut_certify::SurfaceMethod;
-use taut_reconstruct::SurfaceOptions;
-
-use super::found::ours;
-use super::judged::Judged;
-use super::models::{BUNNY, cactus};
-use super::samples::{Point, fist, pear, rings, saddles, spiral, wedge};
-use crate::prelude::*;
 
 /// A row of the table: its name, its points, and the seconds that it took then.
 pub(crate) const TABLE: [(&str, usize, f64); 11] = [

@@ -3,11 +3,7 @@
 //! *Idea.* CGAL tells its Delaunay triangulation and its extraction apart. Of taut the triangulation is timed in a process of its own
 //! as well, on as many threads, and the extraction is what the whole takes beyond that: least less least.
 
-use super::found::{Way, theirs};
-use super::one;
-use super::samples::Point;
-use crate::delaunay::program::Program;
-use crate::prelude::*;
+use super::*;
 
 /// What is timed, in the order of the first round.
 #[derive(Clone, Copy, PartialEq)]

@@ -1,12 +1,6 @@
 //! Parts, handles and loops of closed surfaces, beside what is true and what CGAL finds.
 
-use taut_reconstruct::SurfaceOptions;
-
-use super::found::{Way, ours, theirs};
-use super::judged::Judged;
-use super::models::{BLOB5, BUNNY, Model, SEVEN};
-use super::samples::{Point, thinned};
-use crate::prelude::*;
+use super::*;
 
 /// Columns of the table.
 fn columns() -> String {

@@ -1,14 +1,8 @@
 //! Figures 5 to 15: core-set sizes and times of Algorithm 1 for balls, pure and fast, by dimension, number of points,
 //! distribution and ε, and its time beside CGAL, Gärtner's code and the simple method of Bădoiu and Clarkson.
 
-use taut_enclose::{BallMethod, BallOptions, ball};
-
-use super::figure::Figure;
-use super::sweep::{Sweep, Value, warning};
-use super::{Plan, Size};
-use crate::input::Input;
-use crate::judge::judge;
-use crate::prelude::*;
+use super::*;
+use taut_enclose::ball;
 
 /// A method of ours and the name of its curve.
 #[derive(Clone)]
@@ -39,13 +33,13 @@ impl Way {
         self.options.method == BallMethod::CoreSet && self.options.batch.is_none()
     }
 
-    fn measure(&self, plan: &Plan, x: f64, input: &Input) -> Result<Value> {
+    fn measure(&self, plan: &Plan, x: f64, input: &Input) -> Result<Measured> {
         let source = input.source()?;
         let options = BallOptions { inputs: input.items, ..self.options };
         let (found, seconds) = plan.best_of(|| Ok(ball(&*source, &options)?))?;
         // Checked outside the time.
         let gap = found.check(&*source).map(|verdict| verdict.gap);
-        Ok(Value {
+        Ok(Measured {
             x,
             seconds,
             core_set: found.trace.core_set as f64,
@@ -261,7 +255,7 @@ pub(super) fn beside_exact_codes(plan: &Plan) -> Result<()> {
 }
 
 /// The best time of a peer on `input`, with a warning when its answer is wrong; or why there is none.
-fn ask(plan: &Plan, x: f64, program: &str, input: &Input) -> Result<Result<Value, Silence>> {
+fn ask(plan: &Plan, x: f64, program: &str, input: &Input) -> Result<Result<Measured, Silence>> {
     let context = &plan.context;
     let (answers, silence) = peer::ask_often(context, program, input.rows()?, context.runs)?;
     if let Some(silence) = silence {
@@ -276,7 +270,7 @@ fn ask(plan: &Plan, x: f64, program: &str, input: &Input) -> Result<Result<Value
         let judged = judge(&*source, input.items, &answer.center, answer.radius, &bracket)?;
         warning = judged.is_wrong().then(|| judged.to_string()).or(warning);
     }
-    Ok(Ok(Value { x, seconds, core_set: f64::NAN, support: f64::NAN, warning }))
+    Ok(Ok(Measured { x, seconds, core_set: f64::NAN, support: f64::NAN, warning }))
 }
 
 pub(super) fn beside_badoiu_clarkson(plan: &Plan) -> Result<()> {

@@ -4,12 +4,10 @@
 //! figure 21 is called jagged, figure 22 is of a curve with sharp turns. Each is drawn here of points of our own; 21 and 22 by the
 //! crude method that the thesis used for them, and beside it by the default.
 
-use super::Plan;
-use crate::prelude::*;
+use super::*;
 use taut_certify::Curve;
-use taut_draw::{Aspect, Axis, Figure, Layer2, Look, Point2, Scene2, Shape2, Style, Tone, to_svg};
-use taut_points::generate::curves::{CurveNoise, TestCurve, sample_curve};
-use taut_reconstruct::{CurveMethod, CurveOptions, CurveThesisOptions, curve};
+use taut_draw::Figure;
+use taut_reconstruct::curve;
 
 /// One picture.
 struct Picture {

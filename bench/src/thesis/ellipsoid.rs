@@ -4,12 +4,8 @@
 //! are drawn beside what the same steps with steps away leave, and the support of the exact ellipsoid, which has between
 //! d + 1 and d(d + 3)/2 points. Each size is that of an answer whose gap was proved.
 
-use taut_enclose::{EllipsoidMethod, EllipsoidOptions, ellipsoid};
-
-use super::Plan;
-use super::figure::Figure;
-use super::sweep::{Sweep, Value, warning};
-use crate::prelude::*;
+use super::*;
+use taut_enclose::ellipsoid;
 
 const N: usize = 10_000;
 
@@ -38,7 +34,7 @@ struct Instance {
 }
 
 impl Way {
-    fn measure(&self, plan: &Plan, instance: Instance) -> Result<Value> {
+    fn measure(&self, plan: &Plan, instance: Instance) -> Result<Measured> {
         let Instance { x, law, dim, epsilon } = instance;
         let rows: Vec<f64> = generate(law, N, dim, SEED)?;
         let points = Points::new(&rows, dim)?;
@@ -47,7 +43,7 @@ impl Way {
         let (found, seconds) = plan.best_of(|| Ok(ellipsoid(&points, &options)?))?;
         // Checked outside the time.
         let gap = found.check(&points).map(|verdict| verdict.gap);
-        Ok(Value {
+        Ok(Measured {
             x,
             seconds,
             core_set: found.trace.core_set as f64,

@@ -1,11 +1,6 @@
 //! One figure: its curves as a table, as CSV and as SVG.
 
-use std::fmt::Write as _;
-
-use taut_draw::{Axis, Figure as Drawing, Plot, Scale, Series, SeriesLook, Style, Tone, to_svg};
-
-use super::Plan;
-use crate::prelude::*;
+use super::*;
 
 /// A curve: values of y by x.
 pub(super) struct Curve {

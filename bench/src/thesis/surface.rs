@@ -1,14 +1,7 @@
 //! Table 1 of the thesis, rerun: a table as CSV, and a picture of each row by the default method.
 
-use std::fs;
-
-use taut_draw::{DrawOptions, Style, surface_figures, to_svg};
-use taut_reconstruct::SurfaceOptions;
-
-use super::Plan;
-use crate::prelude::*;
-use crate::surface::found::ours;
-use crate::surface::table_one::{self, TABLE, TableOne};
+use super::*;
+use crate::surface::table_one;
 
 /// Reruns Table 1.
 pub(super) fn write(plan: &Plan) -> Result<()> {

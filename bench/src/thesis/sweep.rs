@@ -1,11 +1,9 @@
 //! A method over instances of growing size: its times and sizes, until its budget is used up.
 
-use super::Plan;
-use super::figure::{Curve, Figure};
-use crate::prelude::*;
+use super::*;
 
 /// What one instance gave.
-pub(super) struct Value {
+pub(super) struct Measured {
     pub(super) x: f64,
     /// The least of all runs.
     pub(super) seconds: f64,
@@ -41,7 +39,7 @@ pub(super) fn warning(gap: Result<f64, impl std::fmt::Display>, asked: f64) -> O
 /// The values of one method, in order of the instances.
 pub(super) struct Sweep {
     pub(super) name: String,
-    pub(super) values: Vec<Value>,
+    pub(super) values: Vec<Measured>,
     /// Where it stops early, and what has to be said of answers.
     notes: Vec<String>,
 }
@@ -54,7 +52,7 @@ impl Sweep {
         budget: Duration,
         instances: &[X],
         x: impl Fn(X) -> f64,
-        mut measure: impl FnMut(X) -> Result<Result<Value, Silence>>,
+        mut measure: impl FnMut(X) -> Result<Result<Measured, Silence>>,
     ) -> Result<Self> {
         let mut sweep = Sweep { name: name.into(), values: vec![], notes: vec![] };
         let mut used = 0.0;
@@ -82,7 +80,7 @@ impl Sweep {
     }
 
     /// Adds a curve with its notes to a figure.
-    pub(super) fn draw(&self, figure: &mut Figure, kind: &str, pick: fn(&Value) -> f64) {
+    pub(super) fn draw(&self, figure: &mut Figure, kind: &str, pick: fn(&Measured) -> f64) {
         let points = self.values.iter().map(|value| [value.x, pick(value)]).collect();
         figure.curves.push(Curve { name: format!("{}{kind}", self.name), points });
         for note in &self.notes {
