@@ -16,6 +16,8 @@ pub(crate) struct Section<Kind> {
     pub(crate) must: &'static [Goal],
     /// What is hoped for.
     pub(crate) aim: &'static [Goal],
+    /// Peers beside taut, by program name.
+    pub(crate) peers: &'static [&'static str],
     /// How often inputs are drawn, unless the command line says otherwise.
     draws: u64,
     /// Whether it runs only when it is named.
@@ -27,7 +29,7 @@ pub(crate) type Run = fn(&Context, &mut Outcome) -> Result<()>;
 
 /// A section of its own kind.
 pub(crate) const fn section<Kind: Copy>(name: &'static str, kind: Kind) -> Section<Kind> {
-    Section { name, about: "", kind, must: &[], aim: &[], draws: 1, is_extra: false }
+    Section { name, about: "", kind, must: &[], aim: &[], peers: &[], draws: 1, is_extra: false }
 }
 
 /// A section that has its inputs and goals in its code.
@@ -46,6 +48,10 @@ impl<Kind: Copy> Section<Kind> {
 
     pub(crate) const fn aim(self, aim: &'static [Goal]) -> Self {
         Section { aim, ..self }
+    }
+
+    pub(crate) const fn peers(self, peers: &'static [&'static str]) -> Self {
+        Section { peers, ..self }
     }
 
     pub(crate) const fn draws(self, draws: u64) -> Self {
@@ -126,6 +132,7 @@ impl<Kind> Area<Kind> {
         for section in sections {
             let quick = section.draws.div_ceil(10);
             let draws = options.seeds.unwrap_or(context.size(section.draws, quick));
+            context.peers = section.peers;
             context.seeds = options.first_seed..options.first_seed + draws;
             println!("## {}\n{}\n", section.name, section.about);
             let mut out = Outcome::new([section.must, section.aim]);
@@ -165,6 +172,7 @@ impl<Kind> Area<Kind> {
             runs: options.runs.map_or(usual, |runs| runs as usize),
             quick: options.quick,
             threads: threads.to_vec(),
+            peers: &[],
             seeds: 0..1,
             limit: Duration::from_secs(options.limit.unwrap_or(self.limit)),
             peer_budget: Duration::from_secs(options.peer_budget.unwrap_or(self.peer_budget)),

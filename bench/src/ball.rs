@@ -1,6 +1,5 @@
 //! The minimum enclosing ball: each section has an input, peers and goals.
 
-mod balls;
 mod case;
 mod core_sets;
 pub(crate) mod file;
@@ -24,21 +23,6 @@ use crate::judge::{Judgement, judge};
 use crate::prelude::*;
 use crate::raw;
 use crate::rounds::{Beside, PeerRuns, Rounds, Seen};
-use case::{AREA, BallsCase, FGK, Kind, PointsCase};
+pub(crate) use case::AREA;
 use goals::{BUDGET_STOPS, FASTER, OF_CAT, READS, SHARE, UNEXPLAINED, stops};
-use paired::{Goals, Paired};
-
-/// Runs the sections that were asked for.
-pub(crate) fn run(options: &Options) -> Result<()> {
-    AREA.run(options, |context, out, section| {
-        let goals = [section.must, section.aim];
-        match &section.kind {
-            Kind::Points(case) => points::run(context, out, goals, case),
-            Kind::Usps => points::run_usps(context, out, goals),
-            Kind::Balls(case) => balls::run(context, out, goals, case),
-            Kind::File => file::run(context, out),
-            Kind::CoreSets => core_sets::run(context, out),
-            Kind::Threads => threads::run(context, out),
-        }
-    })
-}
+use paired::Paired;

@@ -12,6 +12,8 @@ pub(crate) struct Context {
     pub(crate) quick: bool,
     /// Numbers of threads taut is run with.
     pub(crate) threads: Vec<usize>,
+    /// Peers that take part in the section, where it names them.
+    pub(crate) peers: &'static [&'static str],
     /// Seeds of what is drawn.
     pub(crate) seeds: Range<u64>,
     /// After which one run of a peer is stopped.

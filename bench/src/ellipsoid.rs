@@ -30,7 +30,8 @@ use taut_points::{FileSource, ScalarKind};
 use crate::prelude::*;
 use crate::raw;
 use crate::rounds::{Beside, Rounds, TIME_COLUMNS};
-use case::{AREA, Input, Kind};
+pub(crate) use case::AREA;
+use case::Input;
 use goals::{
     DIFFERS, FASTER, OBJECTIVE, OBJECTIVE_ROUNDING, OTHER_FLAGS, OTHER_THAN_PEER, OUTSIDE,
 };
@@ -39,21 +40,6 @@ use laws::Law;
 use linear::product;
 use points::{columns, shown_gap, solve};
 use robust::Cloud;
-
-/// Runs the sections that were asked for.
-pub(crate) fn run(options: &Options) -> Result<()> {
-    AREA.run(options, |context, out, section| match section.kind {
-        Kind::Points(inputs) => points::run(context, out, inputs),
-        Kind::Plane(laws) => plane::run(context, out, laws),
-        Kind::Real => real::run(context, out),
-        Kind::Shapes => shapes::run(context, out),
-        Kind::Conic => conic::run(context, out),
-        Kind::Approximate => approximate::run(context, out),
-        Kind::Contaminated(cloud) => robust::run(context, out, cloud),
-        Kind::Flags => robust::run_flags(context, out),
-        Kind::File => file::run(context, out),
-    })
-}
 
 /// The numbers of a file with one line of names, the first `columns` of each row, or all.
 fn read(path: &Path, columns: Option<usize>) -> Result<(Vec<f64>, usize)> {

@@ -82,10 +82,10 @@ enum Command {
 
 fn main() -> anyhow::Result<()> {
     match Arguments::parse().command {
-        Command::Ball(options) => ball::run(&options),
+        Command::Ball(options) => ball::AREA.run_all(&options),
         Command::Delaunay(arguments) => delaunay::run(&arguments),
-        Command::Ellipsoid(options) => ellipsoid::run(&options),
-        Command::Centers(options) => centers::run(&options),
+        Command::Ellipsoid(options) => ellipsoid::AREA.run_all(&options),
+        Command::Centers(options) => centers::AREA.run_all(&options),
         Command::Curve(options) => curve::AREA.run_all(&options),
         Command::Surface(options) => surface::AREA.run_all(&options),
         Command::Oblivious(options) => oblivious::run(&options),

@@ -26,7 +26,7 @@ use std::os::unix::fs::{FileExt as _, OpenOptionsExt as _};
 use extsort::{ExternalSorter, Sortable};
 use indexset::BTreeSet as IndexSet;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
-use memmap2::{Advice, MmapMut};
+use memmap2::MmapMut;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rand::seq::SliceRandom;

@@ -7,7 +7,7 @@ use crate::prelude::*;
 /// Tables, goals and values of a section, part by part.
 pub(crate) struct Outcome {
     /// What must be reached by each input, and what is hoped for.
-    lists: [&'static [Goal]; 2],
+    pub(crate) lists: [&'static [Goal]; 2],
     /// Goals of the part that is not closed, as they are printed, and for the report.
     lines: Vec<(String, Value)>,
     kept: Map<String, Value>,

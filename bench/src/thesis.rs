@@ -141,6 +141,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
             runs: arguments.runs as usize,
             quick: arguments.quick,
             threads: vec![1],
+            peers: &[],
             seeds: 1..2,
             limit: Duration::from_secs(arguments.budget),
             peer_budget: Duration::from_secs(arguments.budget),

@@ -3,9 +3,6 @@
 use super::*;
 use crate::rounds;
 
-/// What must be reached, and what is hoped for.
-pub(super) type Goals = [&'static [Goal]; 2];
-
 /// What one input gave.
 pub(super) struct Paired {
     rounds: Rounds<Solution<Ball>>,
@@ -17,8 +14,8 @@ pub(super) struct Paired {
 
 impl Paired {
     /// Lets taut (with each number of threads), the peers and plain reads take turns.
-    pub(super) fn run(context: &Context, input: &Input, peers: &[&str]) -> Result<Self> {
-        let source = input.source()?;
+    pub(super) fn run(context: &Context, input: &Input) -> Result<Self> {
+        let (source, peers) = (input.source()?, context.peers);
         let inputs = input.items;
         let options = BallOptions { epsilon: 0.0, inputs, ..BallOptions::default() };
         let solve = || Ok(ball(&*source, &options)?);
@@ -70,7 +67,7 @@ impl Paired {
     }
 
     /// What was measured, as far as `goals` ask for it.
-    fn found(&self, goals: Goals) -> Found {
+    fn found(&self, goals: [&[Goal]; 2]) -> Found {
         let gap = self.verdict.as_ref().map(|verdict| verdict.gap);
         let mut found = Found::proved(gap.map_err(String::clone));
         let trace = &self.rounds.found.trace;
@@ -115,12 +112,12 @@ impl Paired {
         found
     }
 
-    /// Prints the table of this input, and judges it by `goals`.
-    pub(super) fn show(&self, out: &mut Outcome, input: &Input, goals: Goals) {
+    /// Prints the table of this input, and judges it by the goals of the section.
+    pub(super) fn show(&self, out: &mut Outcome, input: &Input) {
         out.table(&input.what, self.table());
         let trace = &self.rounds.found.trace;
         out.keep("trace", json!(trace));
-        out.judge(&self.found(goals));
+        out.judge(&self.found(out.lists));
     }
 
     fn table(&self) -> Table {

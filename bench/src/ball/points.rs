@@ -1,24 +1,43 @@
-//! Points in memory, solved exactly.
+//! Points in memory, and balls under each of six radius laws, solved exactly.
 
 use super::*;
 
-/// Runs a case of generated points.
+/// Runs n generated points of dimension d.
 pub(super) fn run(
     context: &Context,
     out: &mut Outcome,
-    goals: Goals,
-    points: &PointsCase,
+    distribution: Distribution,
+    n: usize,
+    d: usize,
 ) -> Result<()> {
-    let n = context.size(points.n, (points.n / 10).max(500));
-    let draw = if points.single { Input::single } else { Input::points };
-    let input = draw(points.distribution, n, points.d)?;
-    Paired::run(context, &input, points.peers)?.show(out, &input, goals);
+    let n = context.size(n, (n / 10).max(500));
+    show(context, out, &Input::points(distribution, n, d)?)
+}
+
+/// Runs the largest instance of the thesis, in single precision, which peers do not take.
+pub(super) fn run_largest(context: &Context, out: &mut Outcome) -> Result<()> {
+    show(context, out, &Input::single(Distribution::Normal, context.count(100_000), 1500)?)
+}
+
+/// Runs the USPS digits.
+pub(super) fn run_usps(context: &Context, out: &mut Outcome) -> Result<()> {
+    match Input::usps()? {
+        Some(input) => show(context, out, &input),
+        None => out.left_out(),
+    }
+}
+
+/// Runs n balls with normal centers of dimension d under all laws.
+pub(super) fn run_balls(context: &Context, out: &mut Outcome, n: usize, d: usize) -> Result<()> {
+    for radii in Radii::ALL {
+        let input = Input::balls(radii, context.count(n), d)?;
+        show(context, out, &input)?;
+        out.close(&input.what);
+    }
     Ok(())
 }
 
-/// Runs the case of the USPS digits, beside the Fischer–Gärtner–Kutz code.
-pub(super) fn run_usps(context: &Context, out: &mut Outcome, goals: Goals) -> Result<()> {
-    let Some(input) = Input::usps()? else { return out.left_out() };
-    Paired::run(context, &input, FGK)?.show(out, &input, goals);
+fn show(context: &Context, out: &mut Outcome, input: &Input) -> Result<()> {
+    Paired::run(context, input)?.show(out, input);
     Ok(())
 }

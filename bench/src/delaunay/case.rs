@@ -14,14 +14,19 @@ pub(super) struct Case {
     pub(super) threads: &'static [usize],
 }
 
-/// Dimension, peers and threads, then the inputs.
-const fn case(
-    dim: usize,
-    peers: &'static [Triangulator],
-    threads: &'static [usize],
-    inputs: &'static [Input],
-) -> Case {
-    Case { dim, inputs, peers, threads }
+/// Inputs in so many dimensions, beside CGAL, with one thread.
+const fn case(dim: usize, inputs: &'static [Input]) -> Case {
+    Case { dim, inputs, peers: &[Triangulator::Cgal], threads: &[1] }
+}
+
+impl Case {
+    const fn peers(self, peers: &'static [Triangulator]) -> Self {
+        Case { peers, ..self }
+    }
+
+    const fn threads(self, threads: &'static [usize]) -> Self {
+        Case { threads, ..self }
+    }
 }
 
 /// One set of points.
@@ -90,8 +95,6 @@ pub(super) const AREA: Area<Case> = Area {
             "plane",
             case(
                 2,
-                PLANE_PEERS,
-                &[1],
                 &[
                     input("uniform", 1_000_000, 1_999_968).goals(
                         &[OF_CGAL.at_most(0.55), EXACT_RATE.at_most(1e-4), CHECK.at_most(0.5)],
@@ -103,31 +106,28 @@ pub(super) const AREA: Area<Case> = Area {
                         .goals(&[OF_CGAL.at_most(0.65), CHECK.at_most(0.5)], PLANE_AIM),
                     input("roads", 1_000_000, 1_999_980).goals(PLANE_MUST, PLANE_AIM),
                 ],
-            ),
+            )
+            .peers(PLANE_PEERS),
         )
         .about("A million points of the plane, one thread."),
         section(
             "plane-large",
             case(
                 2,
-                &[Triangulator::Cgal, Triangulator::Spade, Triangulator::Delaunator],
-                &[1],
                 &[input("uniform", 10_000_000, 19_999_955)
                     .goals(&[OF_CGAL.at_most(0.5), CHECK.at_most(0.5)], PLANE_AIM)],
-            ),
+            )
+            .peers(&[
+                Triangulator::Cgal,
+                Triangulator::Spade,
+                Triangulator::Delaunator,
+            ]),
         )
         .about("Ten million points of the plane, one thread."),
         section(
             "plane-cliffs",
             case(
                 2,
-                &[
-                    Triangulator::Cgal,
-                    Triangulator::Spade,
-                    Triangulator::Delaunator,
-                    Triangulator::Triangle,
-                ],
-                &[1],
                 &[
                     input("uniform", 100_000, 199_962),
                     input("uniform", 1_000_000, 1_999_968),
@@ -140,7 +140,13 @@ pub(super) const AREA: Area<Case> = Area {
                     input("spiral", 1_000_000, 1_822_953).goals(CLIFF_GOALS, &[]),
                     input("fan", 1_000_000, 999_998).goals(CLIFF_GOALS, &[]),
                 ],
-            ),
+            )
+            .peers(&[
+                Triangulator::Cgal,
+                Triangulator::Spade,
+                Triangulator::Delaunator,
+                Triangulator::Triangle,
+            ]),
         )
         .about(
             "Ties, lines and circles in the plane: no point may cost more than two of a \
@@ -150,8 +156,6 @@ pub(super) const AREA: Area<Case> = Area {
             "space",
             case(
                 3,
-                SPACE_PEERS,
-                &[1],
                 &[
                     input("uniform", 1_000_000, 6_749_316).goals(
                         &[OF_CGAL.at_most(0.6), EXACT_RATE.at_most(1e-4), CHECK.at_most(0.5)],
@@ -160,15 +164,14 @@ pub(super) const AREA: Area<Case> = Area {
                     input("normal", 1_000_000, 6_765_494).goals(SPACE_MUST, SPACE_AIM),
                     input("clouds", 1_000_000, 6_688_990).goals(SPACE_MUST, SPACE_AIM),
                 ],
-            ),
+            )
+            .peers(SPACE_PEERS),
         )
         .about("A million points of space, one thread."),
         section(
             "space-grid",
             case(
                 3,
-                &[Triangulator::Cgal],
-                &[1],
                 &[input("grid", 1_000_000, 5_821_794).goals(SPACE_MUST, &[OF_CGAL.at_most(0.4)])],
             ),
         )
@@ -177,8 +180,6 @@ pub(super) const AREA: Area<Case> = Area {
             "space-surfaces",
             case(
                 3,
-                &[Triangulator::Cgal],
-                &[1],
                 &[
                     input("torus", 1_000_000, 6_117_584).goals(SPACE_MUST, &[OF_CGAL.at_most(0.4)]),
                     input("sphere", 100_000, 302_075).goals(
@@ -197,52 +198,51 @@ pub(super) const AREA: Area<Case> = Area {
             "threads-plane",
             case(
                 2,
-                &[],
-                &[1, 2],
                 &[input("uniform", 10_000_000, 19_999_955)
                     .goals(&[SPEEDUP.at_least(1.5)], &[SPEEDUP.at_least(1.75)])],
-            ),
+            )
+            .peers(&[])
+            .threads(&[1, 2]),
         )
         .about("Ten million points of the plane, one thread and two."),
         section(
             "threads-space",
             case(
                 3,
-                &[],
-                &[1, 2],
                 &[input("uniform", 1_000_000, 6_749_316)
                     .goals(&[SPEEDUP.at_least(1.5)], &[SPEEDUP.at_least(1.75)])],
-            ),
+            )
+            .peers(&[])
+            .threads(&[1, 2]),
         )
         .about("A million points of space, one thread and two."),
         section(
             "memory-plane",
             case(
                 2,
-                &[Triangulator::Cgal, Triangulator::Spade, Triangulator::Delaunator],
-                &[1, 2],
                 &[
                     input("uniform", 1_000_000, 1_999_968)
                         .goals(&[BYTES.at_most(85.0)], &[BYTES.at_most(72.0)]),
                     input("uniform", 10_000_000, 19_999_955)
                         .goals(&[BYTES.at_most(85.0)], &[BYTES.at_most(72.0)]),
                 ],
-            ),
+            )
+            .peers(&[Triangulator::Cgal, Triangulator::Spade, Triangulator::Delaunator])
+            .threads(&[1, 2]),
         )
         .about("Peak memory above the input in the plane."),
         section(
             "memory-space",
             case(
                 3,
-                &[Triangulator::Cgal],
-                &[1, 2],
                 &[
                     input("uniform", 1_000_000, 6_749_316)
                         .goals(&[BYTES.at_most(275.0)], &[BYTES.at_most(250.0)]),
                     input("torus", 1_000_000, 6_117_584)
                         .goals(&[BYTES.at_most(275.0)], &[BYTES.at_most(250.0)]),
                 ],
-            ),
+            )
+            .threads(&[1, 2]),
         )
         .about("Peak memory above the input in space."),
     ],

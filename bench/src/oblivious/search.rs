@@ -1,8 +1,8 @@
 //! Lower bounds among sorted keys, in all layouts.
 
 use super::*;
-
 #[cfg(target_os = "linux")]
+use memmap2::Advice;
 
 /// Independent look-ups one by one, in a batch, and dependent ones.
 struct Names {
