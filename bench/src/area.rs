@@ -194,14 +194,6 @@ impl<Kind> Area<Kind> {
         report.add(out.finish(name));
         report.write(options.json.as_deref())
     }
-
-    /// Whether no two sections have one name.
-    #[cfg(test)]
-    pub(crate) fn has_unique_names(&self) -> bool {
-        let names: std::collections::BTreeSet<_> =
-            self.sections.iter().map(|section| section.name).collect();
-        names.len() == self.sections.len()
-    }
 }
 
 impl Area<Run> {
@@ -239,6 +231,19 @@ pub(crate) fn select<'a, T>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{ball, centers, curve, delaunay, ellipsoid, oblivious, surface};
+
+    #[test]
+    fn names_are_unique() {
+        fn are_unique<Kind>(area: &Area<Kind>) -> bool {
+            let names: std::collections::BTreeSet<_> =
+                area.sections.iter().map(|section| section.name).collect();
+            names.len() == area.sections.len()
+        }
+        let areas = [ball::AREA, centers::AREA, ellipsoid::AREA, curve::AREA, surface::AREA];
+        assert!(areas.iter().all(are_unique));
+        assert!(are_unique(&oblivious::AREA) && are_unique(&delaunay::AREA));
+    }
 
     #[test]
     fn a_whole_name_means_that_section_alone() {

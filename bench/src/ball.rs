@@ -3,7 +3,6 @@
 mod case;
 mod core_sets;
 pub(crate) mod file;
-mod goals;
 mod paired;
 mod points;
 mod threads;
@@ -24,5 +23,5 @@ use crate::prelude::*;
 use crate::raw;
 use crate::rounds::{Beside, PeerRuns, Rounds, Seen};
 pub(crate) use case::AREA;
-use goals::{BUDGET_STOPS, FASTER, OF_CAT, READS, SHARE, UNEXPLAINED, stops};
+use case::{BUDGET_STOPS, FASTER, OF_CAT, READS, SHARE, UNEXPLAINED, stops};
 use paired::Paired;

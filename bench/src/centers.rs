@@ -4,7 +4,6 @@ mod case;
 mod cities;
 mod discrete;
 mod free;
-mod goals;
 mod judgement;
 mod outliers;
 mod streams;
@@ -20,8 +19,9 @@ use taut_points::{PointSource, Scalar};
 use crate::context::pool;
 use crate::prelude::*;
 use crate::read::plain_read;
-use crate::rounds::{Beside, Seen, TIME_COLUMNS};
+use crate::rounds::{self, Beside, Seen, TIME_COLUMNS};
 pub(crate) use case::AREA;
-use case::{GERMANY, Set, Task};
-use goals::{BANDWIDTH, CHECK, CORE_SET, DIFFERS, FACTOR, FACTOR_ROUNDING, KNOWN_RADIUS_TOLERANCE};
+use case::{
+    BANDWIDTH, CHECK, CORE_SET, DIFFERS, FACTOR, GERMANY, KNOWN_RADIUS_TOLERANCE, Set, Task,
+};
 use judgement::{COLUMNS, judge};

@@ -25,7 +25,7 @@ use taut_points::generate::curves::{
 };
 use taut_reconstruct::{CurveMethod, CurveOptions, CurveThesisOptions, curve};
 
-use crate::delaunay::program::{Program, Triangulator};
+use crate::delaunay::program::{CGAL, Program};
 use crate::prelude::*;
 use drawn::{CURVES, NOISE, Trials, few, found_edges, found_lines, solve, true_lines, truth};
 

@@ -1,7 +1,6 @@
 //! Delaunay triangulations: taut and its peers on the same file, every build a process of its own.
 
 mod case;
-mod goals;
 pub(crate) mod one;
 pub(crate) mod program;
 mod rounds;
@@ -20,14 +19,11 @@ use crate::meter::Cost;
 use crate::prelude::*;
 use crate::process;
 use crate::process::Judged;
-use case::{AREA, Case};
-use goals::{BYTES, CHECK, EXACT_RATE, OF_CGAL, OF_UNIFORM, SPEEDUP};
+pub(crate) use case::AREA;
+use case::{BYTES, CHECK, Case, EXACT_RATE, OF_CGAL, OF_UNIFORM, SPEEDUP};
 use one::Task;
-use program::{Program, Triangulator};
+use program::{CGAL, DELAUNATOR, Program, QHULL, SPADE, TRIANGLE};
 use rounds::{PerPoint, Rounds};
-
-/// The peer that ratios are taken of.
-const CGAL: Program = Program::Peer(Triangulator::Cgal);
 
 /// Sections and how often.
 #[derive(clap::Args)]
@@ -132,7 +128,7 @@ impl Arguments {
     fn programs(
         &self,
         context: &Context,
-        peers: &[Triangulator],
+        peers: &[&'static str],
         threads: &[usize],
     ) -> Vec<Program> {
         let threads = if context.threads.is_empty() { threads } else { &context.threads };

@@ -4,7 +4,6 @@ mod approximate;
 mod case;
 mod conic;
 pub(crate) mod file;
-mod goals;
 mod judgement;
 mod laws;
 mod linear;
@@ -19,8 +18,7 @@ use std::iter::{once, repeat};
 
 use serde::{Deserialize, Serialize};
 use taut_certify::{
-    Ball, EllipseSupport, Ellipsoid, EllipsoidVerdict, Items, RobustEllipsoid, Solution,
-    ellipse_support,
+    EllipseSupport, Ellipsoid, EllipsoidVerdict, Items, RobustEllipsoid, Solution, ellipse_support,
 };
 use taut_enclose::{
     BallOptions, EllipsoidOptions, RobustOptions, ball, ellipsoid, robust_ellipsoid,
@@ -29,12 +27,9 @@ use taut_points::{FileSource, ScalarKind};
 
 use crate::prelude::*;
 use crate::raw;
-use crate::rounds::{Beside, Rounds, TIME_COLUMNS};
+use crate::rounds::{self, Beside, Rounds, TIME_COLUMNS};
 pub(crate) use case::AREA;
-use case::Input;
-use goals::{
-    DIFFERS, FASTER, OBJECTIVE, OBJECTIVE_ROUNDING, OTHER_FLAGS, OTHER_THAN_PEER, OUTSIDE,
-};
+use case::{DIFFERS, FASTER, Input, OBJECTIVE, OTHER_FLAGS, OTHER_THAN_PEER, OUTSIDE};
 use judgement::Judgement;
 use laws::Law;
 use linear::product;

@@ -118,6 +118,21 @@ pub(crate) fn write_raw(path: &Path, values: &[f64]) -> Result<()> {
     Ok(file.flush()?)
 }
 
+/// The numbers below `count` in an order that the seed determines.
+pub(crate) fn shuffled(count: usize, seed: u64) -> Result<Vec<usize>> {
+    let lots: Vec<f64> = generate(Distribution::Uniform, count, 1, seed)?;
+    let mut order: Vec<usize> = (0..count).collect();
+    order.sort_by(|&a, &b| lots[a].total_cmp(&lots[b]));
+    Ok(order)
+}
+
+/// Whether the rows are those below `count`, each once.
+pub(crate) fn is_permutation(rows: impl IntoIterator<Item = usize>, count: usize) -> bool {
+    let mut seen = vec![false; count];
+    let mut once = |row| seen.get_mut(row).is_some_and(|seen| !std::mem::replace(seen, true));
+    rows.into_iter().all(&mut once) && seen.into_iter().all(|is_seen| is_seen)
+}
+
 /// Reads what [`write_raw`] wrote, without a second copy.
 pub(crate) fn read_raw(path: &Path) -> Result<Vec<f64>> {
     let mut file = std::fs::File::open(path).with_context(|| path.display().to_string())?;

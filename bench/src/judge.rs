@@ -10,7 +10,7 @@ use taut_certify::{Items, Verdict};
 use taut_points::{Monitor, PointSource, ReadError, map_blocks};
 
 /// Relative deviation that rounding in the peer's last steps explains.
-const ROUNDING: f64 = 1e-12;
+pub(crate) const ROUNDING: f64 = 1e-12;
 /// A result is called wrong beyond this relative deviation: the tenth digit.
 const DEVIATION_MAX: f64 = 1e-10;
 
@@ -36,6 +36,24 @@ impl Judgement {
         self.is_within(ROUNDING)
     }
 
+    /// What was found, in words; `off` is about this quantity.
+    pub(crate) fn describe(&self, quantity: &str) -> String {
+        let Judgement { outside, excess, off } = self;
+        let word = match (self.is_wrong(), self.is_right()) {
+            (true, _) => "WRONG: ",
+            (_, false) => "INEXACT: ",
+            _ => "",
+        };
+        let encloses = match outside {
+            0 => format!("encloses ({excess:.1e})"),
+            n => format!("{n} outside by up to {excess:.1e}"),
+        };
+        match off.abs() <= ROUNDING {
+            true => format!("{word}{encloses}, {quantity} in our bracket"),
+            false => format!("{word}{encloses}, {quantity} {off:+.1e} off our bracket"),
+        }
+    }
+
     fn is_within(&self, tolerance: f64) -> bool {
         // NaN is within nothing.
         self.excess <= tolerance && self.off.abs() <= tolerance
@@ -44,19 +62,7 @@ impl Judgement {
 
 impl std::fmt::Display for Judgement {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match (self.is_wrong(), self.is_right()) {
-            (true, _) => write!(f, "WRONG: ")?,
-            (_, false) => write!(f, "INEXACT: ")?,
-            _ => {}
-        }
-        match self.outside {
-            0 => write!(f, "encloses ({:.1e})", self.excess)?,
-            n => write!(f, "{n} outside by up to {:.1e}", self.excess)?,
-        }
-        match self.off {
-            off if off.abs() <= ROUNDING => write!(f, ", radius in our bracket"),
-            off => write!(f, ", radius {off:+.1e} off our bracket"),
-        }
+        f.write_str(&self.describe("radius"))
     }
 }
 

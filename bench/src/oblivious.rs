@@ -61,7 +61,7 @@ use lanes::{Lanes, have_memory, thread_cpu};
 use one::{FileCost, RECORD_BYTES, Task, Work};
 
 /// All sections.
-const AREA: Area<Run> = Area {
+pub(crate) const AREA: Area<Run> = Area {
     name: "oblivious",
     sections: &[
         runs("search", search::run).about(
@@ -111,15 +111,4 @@ pub(crate) fn run(options: &Options) -> Result<()> {
     // All work on this thread, whose processor time is what counts.
     rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global()?;
     AREA.run_all(options)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_are_unique() {
-        let areas = [&AREA, &crate::curve::AREA, &crate::surface::AREA];
-        assert!(areas.iter().all(|area| area.has_unique_names()));
-    }
 }

@@ -11,7 +11,7 @@ pub(crate) use crate::area::{Area, Options, Run, Section, runs, section};
 pub(crate) use crate::context::Context;
 pub(crate) use crate::data;
 pub(crate) use crate::goals::{Found, GAP, Goal, MEMORY, PASSES, Quantity, RADIUS, SECONDS, Unit};
-pub(crate) use crate::input::{SEED, read_raw, write_raw, write_rows};
+pub(crate) use crate::input::{SEED, is_permutation, read_raw, shuffled, write_raw, write_rows};
 pub(crate) use crate::job::Job;
 pub(crate) use crate::meter::{self, Meter};
 pub(crate) use crate::outcome::{Bounds, Outcome, aim_only};

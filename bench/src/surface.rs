@@ -32,7 +32,7 @@ use taut_reconstruct::{
 use crate::delaunay::program::Program;
 use crate::prelude::*;
 use distances::Distances;
-use found::{Way, ours, theirs};
+use found::{FRONT, PEERS, SCALES, ours, theirs};
 use judged::Judged;
 use models::{ANCHOR, BLOB5, BUNNY, DC, HORSE, Model, SEVEN, cactus};
 use samples::{

@@ -19,9 +19,7 @@ fn places(text: &str) -> Vec<f64> {
 
 /// The rows in an order that the seed determines.
 pub(super) fn permuted(values: &[f64], dim: usize, seed: u64) -> Result<Vec<f64>> {
-    let lots: Vec<f64> = generate(Distribution::Uniform, values.len() / dim, 1, seed)?;
-    let mut order: Vec<usize> = (0..lots.len()).collect();
-    order.sort_by(|&a, &b| lots[a].total_cmp(&lots[b]));
+    let order = shuffled(values.len() / dim, seed)?;
     Ok(order.into_iter().flat_map(|row| &values[row * dim..][..dim]).copied().collect())
 }
 

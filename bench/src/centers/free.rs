@@ -1,7 +1,6 @@
 //! Free centers of points to a gap: medians over permutations of the rows.
 
 use super::*;
-use crate::rounds;
 
 /// Coordinates, one row after another, and the dimension.
 type Rows = (Vec<f64>, usize);

@@ -15,25 +15,16 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
     let points = Points::new(&values, 2)?;
     let columns = format!("k | left out | clock:s | processors:s | nodes | {COLUMNS}");
     let mut table = Table::new(&columns);
-    let (pool, mut judgements) = (context.pool()?, vec![]);
+    let mut judgements = vec![];
     for k in CENTERS {
         for outliers in OUTLIERS {
             let options = CentersOptions { epsilon: 1e-6, outliers, ..CentersOptions::default() };
-            let (mut wall, mut cpu, mut found) = (vec![], vec![], None);
-            for _ in 0..context.runs {
-                let meter = Meter::start();
-                let answer = pool.install(|| centers(&points, k, &options))?;
-                let cost = meter.stop();
-                wall.push(cost.wall);
-                cpu.push(cost.cpu);
-                found = Some(answer);
-            }
-            let found = found.context("no run")?;
-            let judgement = judge(&found, &points);
-            let median = |all: &[f64]| Summary::of(all).map(|summary| summary.median);
+            let solve = || Ok(centers(&points, k, &options)?);
+            let rounds = rounds::run(context, context.runs, Beside::default(), solve, |_| Ok(()))?;
+            let judgement = judge(&rounds.found, &points);
             let head = json!({
-                "k": k, "left out": outliers, "clock": median(&wall), "processors": median(&cpu),
-                "nodes": found.trace.iterations, "wall": wall, "cpu": cpu,
+                "k": k, "left out": outliers, "clock": Summary::of(rounds.walls()).map(|all| all.median),
+                "processors": rounds.processors(), "nodes": rounds.found.trace.iterations, "times": rounds.json(),
             });
             table.push(joined([head, judgement.cells()]));
             judgements.push(judgement);

@@ -13,7 +13,7 @@ impl Worker {
     fn build(self, file: &Path, limit: Duration) -> Result<Result<Build, Silence>> {
         match self {
             Worker::Taut(method, threads) => one::alone(method, threads, file, limit),
-            Worker::Cgal => Program::Peer(Triangulator::Cgal).build(2, file, false, limit),
+            Worker::Cgal => Program::Peer(CGAL).build(2, file, false, limit),
         }
     }
 }

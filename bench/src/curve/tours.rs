@@ -71,13 +71,9 @@ fn theirs(context: &Context, peer: &str, points: &[f64]) -> Result<Result<Tour, 
         Ok(answer) => answer,
         Err(silence) => return Ok(Err(silence)),
     };
-    let mut seen = vec![false; points.len() / 2];
-    for &row in &order {
-        let row = seen.get_mut(row as usize);
-        ensure!(row.is_some_and(|seen| !std::mem::replace(seen, true)), "{peer}: not a tour");
-    }
-    ensure!(order.len() == seen.len(), "{peer}: {} of {} points", order.len(), seen.len());
-    let length = length(points, order.into_iter().map(|row| row as usize));
+    let rows = || order.iter().map(|&row| row as usize);
+    ensure!(is_permutation(rows(), points.len() / 2), "{peer}: not a tour of all points");
+    let length = length(points, rows());
     Ok(Ok(Tour { length, seconds, bound: None, said: "lengths rounded".to_owned() }))
 }
 

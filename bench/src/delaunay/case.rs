@@ -2,25 +2,40 @@
 
 use super::*;
 
+pub(super) const OF_CGAL: Quantity =
+    Quantity::new("processor time of one thread over CGAL's", Unit::Times);
+pub(super) const OF_UNIFORM: Quantity =
+    Quantity::new("processor time per point over that of a uniform set of this size", Unit::Times);
+/// Of the peak, with any number of threads.
+pub(super) const BYTES: Quantity = Quantity::new("bytes per point above the input", Unit::Fixed(1));
+pub(super) const EXACT_RATE: Quantity =
+    Quantity::new("share of predicates decided exactly", Unit::Power);
+/// With one thread.
+pub(super) const CHECK: Quantity =
+    Quantity::new("processor time of the check over that of the build", Unit::Times);
+/// By the clock, in the median of all rounds.
+pub(super) const SPEEDUP: Quantity =
+    Quantity::new("time of one thread over that of two", Unit::Times);
+
 /// What is triangulated, by whom.
 #[derive(Clone, Copy)]
-pub(super) struct Case {
+pub(crate) struct Case {
     /// Dimension of its inputs.
     pub(super) dim: usize,
     pub(super) inputs: &'static [Input],
     /// Peers beside taut.
-    pub(super) peers: &'static [Triangulator],
+    pub(super) peers: &'static [&'static str],
     /// Numbers of threads taut is run with.
     pub(super) threads: &'static [usize],
 }
 
 /// Inputs in so many dimensions, beside CGAL, with one thread.
 const fn case(dim: usize, inputs: &'static [Input]) -> Case {
-    Case { dim, inputs, peers: &[Triangulator::Cgal], threads: &[1] }
+    Case { dim, inputs, peers: &[CGAL], threads: &[1] }
 }
 
 impl Case {
-    const fn peers(self, peers: &'static [Triangulator]) -> Self {
+    const fn peers(self, peers: &'static [&'static str]) -> Self {
         Case { peers, ..self }
     }
 
@@ -66,15 +81,9 @@ const fn input(distribution: &'static str, n: usize, simplices: u64) -> Input {
 const FAILING_ANGLE: f64 = 302.328;
 
 /// All peers in the plane.
-pub(super) const PLANE_PEERS: &[Triangulator] = &[
-    Triangulator::Cgal,
-    Triangulator::Spade,
-    Triangulator::Delaunator,
-    Triangulator::Triangle,
-    Triangulator::Qhull,
-];
+pub(super) const PLANE_PEERS: &[&str] = &[CGAL, SPADE, DELAUNATOR, TRIANGLE, QHULL];
 /// All peers in space.
-pub(super) const SPACE_PEERS: &[Triangulator] = &[Triangulator::Cgal, Triangulator::Qhull];
+pub(super) const SPACE_PEERS: &[&str] = &[CGAL, QHULL];
 
 const PLANE_MUST: &[Goal] = &[OF_CGAL.at_most(0.55), CHECK.at_most(0.5)];
 const PLANE_AIM: &[Goal] = &[OF_CGAL.at_most(0.38)];
@@ -83,7 +92,7 @@ const SPACE_AIM: &[Goal] = &[OF_CGAL.at_most(0.37)];
 const CLIFF_GOALS: &[Goal] = &[OF_UNIFORM.at_most(2.0), CHECK.at_most(0.5)];
 
 /// All sections.
-pub(super) const AREA: Area<Case> = Area {
+pub(crate) const AREA: Area<Case> = Area {
     name: "delaunay",
     runs: 5,
     // Those of the section.
@@ -117,11 +126,7 @@ pub(super) const AREA: Area<Case> = Area {
                 &[input("uniform", 10_000_000, 19_999_955)
                     .goals(&[OF_CGAL.at_most(0.5), CHECK.at_most(0.5)], PLANE_AIM)],
             )
-            .peers(&[
-                Triangulator::Cgal,
-                Triangulator::Spade,
-                Triangulator::Delaunator,
-            ]),
+            .peers(&[CGAL, SPADE, DELAUNATOR]),
         )
         .about("Ten million points of the plane, one thread."),
         section(
@@ -141,12 +146,7 @@ pub(super) const AREA: Area<Case> = Area {
                     input("fan", 1_000_000, 999_998).goals(CLIFF_GOALS, &[]),
                 ],
             )
-            .peers(&[
-                Triangulator::Cgal,
-                Triangulator::Spade,
-                Triangulator::Delaunator,
-                Triangulator::Triangle,
-            ]),
+            .peers(&[CGAL, SPADE, DELAUNATOR, TRIANGLE]),
         )
         .about(
             "Ties, lines and circles in the plane: no point may cost more than two of a \
@@ -227,7 +227,7 @@ pub(super) const AREA: Area<Case> = Area {
                         .goals(&[BYTES.at_most(85.0)], &[BYTES.at_most(72.0)]),
                 ],
             )
-            .peers(&[Triangulator::Cgal, Triangulator::Spade, Triangulator::Delaunator])
+            .peers(&[CGAL, SPADE, DELAUNATOR])
             .threads(&[1, 2]),
         )
         .about("Peak memory above the input in the plane."),
@@ -254,7 +254,6 @@ mod tests {
 
     #[test]
     fn names_are_unique_and_inputs_can_be_drawn() {
-        assert!(AREA.has_unique_names());
         for Section { name, kind: case, .. } in AREA.sections {
             for input in case.inputs {
                 let distribution = input.distribution(input.n, case.dim).unwrap();

@@ -8,34 +8,26 @@ pub(crate) enum Program {
     /// taut, with so many threads.
     Taut(usize),
     /// A peer, with one thread.
-    Peer(Triangulator),
+    Peer(&'static str),
 }
 
-/// A peer, as cases name it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Triangulator {
-    /// `Delaunay_triangulation_2` and `_3` of CGAL.
-    Cgal,
-    /// `bulk_load` of the crate spade, plane only.
-    Spade,
-    /// The crate delaunator, plane only.
-    Delaunator,
-    /// Triangle through Python, plane only.
-    Triangle,
-    /// Qhull through SciPy.
-    Qhull,
-}
+/// `Delaunay_triangulation_2` and `_3` of CGAL.
+pub(crate) const CGAL: &str = "CGAL";
+/// `bulk_load` of the crate spade, plane only.
+pub(super) const SPADE: &str = "spade";
+/// The crate delaunator, plane only.
+pub(super) const DELAUNATOR: &str = "delaunator";
+/// Triangle through Python, plane only.
+pub(super) const TRIANGLE: &str = "Triangle";
+/// Qhull through SciPy.
+pub(super) const QHULL: &str = "Qhull";
 
 impl Program {
     /// What the tables call it until it has told its version.
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Program::Taut(_) => "taut",
-            Program::Peer(Triangulator::Cgal) => "CGAL",
-            Program::Peer(Triangulator::Spade) => "spade",
-            Program::Peer(Triangulator::Delaunator) => "delaunator",
-            Program::Peer(Triangulator::Triangle) => "Triangle",
-            Program::Peer(Triangulator::Qhull) => "Qhull",
+            Program::Peer(name) => name,
         }
     }
 
@@ -48,24 +40,24 @@ impl Program {
     }
 
     /// Whether its predicates are exact.
-    pub(crate) const fn is_exact(self) -> bool {
-        !matches!(self, Program::Peer(Triangulator::Delaunator | Triangulator::Qhull))
+    pub(crate) fn is_exact(self) -> bool {
+        !matches!(self, Program::Peer(DELAUNATOR | QHULL))
     }
 
     /// How a peer is called; `None` where `bench/setup` did not get it.
-    fn command(self, peer: Triangulator, dim: usize, file: &Path) -> Option<Command> {
-        let built = peer::folder().join("peers/build");
-        let mut command = match peer {
-            Triangulator::Cgal => Command::new(built.join(format!("cgal-delaunay-{dim}"))),
-            Triangulator::Spade | Triangulator::Delaunator => {
-                let mut command = Command::new(built.join("rust/release/peers"));
-                command.arg(self.name());
+    fn command(self, dim: usize, file: &Path) -> Option<Command> {
+        let (folder, name) = (peer::folder(), self.name());
+        let mut command = match name {
+            CGAL => Command::new(folder.join(format!("peers/build/cgal-delaunay-{dim}"))),
+            SPADE | DELAUNATOR => {
+                let mut command = Command::new(folder.join("peers/build/rust/release/peers"));
+                command.arg(name);
                 command
             }
-            Triangulator::Triangle | Triangulator::Qhull => {
-                let mut command = Command::new(peer::folder().join(".venv/bin/python"));
-                command.arg(peer::folder().join("peers/delaunay.py"));
-                command.arg(self.name().to_lowercase()).arg(dim.to_string());
+            _ => {
+                let mut command = Command::new(folder.join(".venv/bin/python"));
+                command.arg(folder.join("peers/delaunay.py"));
+                command.arg(name.to_lowercase()).arg(dim.to_string());
                 command
             }
         };
@@ -85,7 +77,7 @@ impl Program {
             Program::Taut(threads) => {
                 Job::Delaunay(Task { dim, threads, check, file: file.to_owned() }).run(limit)
             }
-            Program::Peer(peer) => match self.command(peer, dim, file) {
+            Program::Peer(_) => match self.command(dim, file) {
                 Some(command) => process::run(command, limit).with_context(|| self.name()),
                 None => Ok(Err(Silence::NotInstalled)),
             },

@@ -117,7 +117,7 @@ impl Rounds {
 
     /// Least processor time of `program` over that of CGAL, with the range of the ratios round by round.
     pub(super) fn of_cgal(&self, program: Program) -> Option<(f64, Summary)> {
-        let (this, cgal) = (self.row(program)?, self.row(super::CGAL)?);
+        let (this, cgal) = (self.row(program)?, self.row(Program::Peer(CGAL))?);
         let range =
             Summary::of_ratios(&this.did.all(|build| build.cpu), &cgal.did.all(|build| build.cpu))?;
         Some((this.did.cpu()? / cgal.did.cpu()?, range))
@@ -195,13 +195,31 @@ impl Rounds {
     }
 }
 
+impl Rounds {
+    /// What goals ask for. Builds that are not right are left out by the rounds themselves.
+    pub(super) fn found(&self) -> Found {
+        let one = Program::Taut(1);
+        let mut found = Found::default();
+        found.say(
+            OF_CGAL,
+            self.of_cgal(one).map(|(least, rounds)| {
+                (least, format!("{}; by rounds {}", times(least), range(rounds, times)))
+            }),
+        );
+        found.add(OF_UNIFORM, self.of_uniform(one));
+        for threads in self.threads() {
+            found.add(BYTES, self.bytes(Program::Taut(threads)));
+        }
+        found.add(EXACT_RATE, self.exact(one));
+        found.add(CHECK, self.check(one));
+        found.median(SPEEDUP, self.speedup(), times);
+        found
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::program::Triangulator;
     use super::*;
-
-    const SPADE: Program = Program::Peer(Triangulator::Spade);
-    const QHULL: Program = Program::Peer(Triangulator::Qhull);
 
     fn row(program: Program, cpu: &[f64], simplices: u64) -> Row {
         let build = |&cpu: &f64| Build {
@@ -226,14 +244,14 @@ mod tests {
     #[test]
     fn ratios_are_of_the_least_times_and_ranges_of_each_round() {
         let found = rounds(vec![
-            row(super::super::CGAL, &[2e-3, 1e-3], 1990),
+            row(Program::Peer(CGAL), &[2e-3, 1e-3], 1990),
             row(Program::Taut(1), &[4e-4, 5e-4], 1990),
             row(Program::Taut(2), &[4e-4, 6e-4], 1990),
         ]);
         let (least, range) = found.of_cgal(Program::Taut(1)).unwrap();
         assert!((least - 0.4).abs() < 1e-12 && (range.min - 0.2).abs() < 1e-12);
         assert!((range.max - 0.5).abs() < 1e-12);
-        assert_eq!(found.of_cgal(SPADE).map(|(least, _)| least), None);
+        assert_eq!(found.of_cgal(Program::Peer(SPADE)).map(|(least, _)| least), None);
         let speedup = found.speedup().unwrap();
         assert!((speedup.max - 2.0).abs() < 1e-12 && (speedup.min - 5.0 / 3.0).abs() < 1e-12);
         assert_eq!((found.bytes(Program::Taut(1)), found.threads()), (Some(64.0), vec![1, 2]));
@@ -246,11 +264,11 @@ mod tests {
     #[test]
     fn a_wrong_number_of_simplices_is_called_so() {
         let judge = |row: Row| row.judgement(1000, Some(1990));
-        assert_eq!(judge(row(SPADE, &[1.0, 2.0], 1990)), "right");
-        assert_eq!(judge(row(SPADE, &[1.0, 2.0], 1989)), "WRONG by -1");
-        assert_eq!(judge(row(QHULL, &[1.0], 1992)), "WRONG by +2; not exact");
-        assert_eq!(judge(row(QHULL, &[1.0], 1990)), "right; not exact");
-        let mut short = row(SPADE, &[1.0], 1990);
+        assert_eq!(judge(row(Program::Peer(SPADE), &[1.0, 2.0], 1990)), "right");
+        assert_eq!(judge(row(Program::Peer(SPADE), &[1.0, 2.0], 1989)), "WRONG by -1");
+        assert_eq!(judge(row(Program::Peer(QHULL), &[1.0], 1992)), "WRONG by +2; not exact");
+        assert_eq!(judge(row(Program::Peer(QHULL), &[1.0], 1990)), "right; not exact");
+        let mut short = row(Program::Peer(SPADE), &[1.0], 1990);
         short.did.builds[0].points = 999;
         assert_eq!(judge(short), "WRONG: read 999 points");
         let mut ours = row(Program::Taut(1), &[2.0, 1.0], 1990);
@@ -263,9 +281,9 @@ mod tests {
         // The least time over that of the fastest build.
         assert_eq!(found.check(Program::Taut(1)), Some(0.8));
         assert_eq!(found.answer(Program::Taut(1)), Some(0.5));
-        let mut gone = row(SPADE, &[], 0);
+        let mut gone = row(Program::Peer(SPADE), &[], 0);
         gone.did.silence = Some(Silence::Ended);
         assert_eq!(judge(gone), "ended without an answer");
-        assert_eq!(row(SPADE, &[1.0], 1990).judgement(1000, None), "");
+        assert_eq!(row(Program::Peer(SPADE), &[1.0], 1990).judgement(1000, None), "");
     }
 }

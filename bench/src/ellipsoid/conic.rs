@@ -1,7 +1,6 @@
 //! Small problems beside a conic solver, which knows nothing of core-sets: cvxpy with Clarabel.
 
 use super::*;
-use crate::rounds;
 
 /// The gap that taut is asked for; the solver is asked for the same.
 const EPSILON: f64 = 1e-10;
@@ -15,93 +14,32 @@ const SEEDS: u64 = 3;
 const POINTS: [(usize, usize); 6] =
     [(100, 3), (300, 3), (1000, 3), (100, 10), (300, 10), (1000, 10)];
 
-/// What is solved.
-#[derive(Clone, Copy)]
-enum Problem {
-    Points,
-    Ellipsoid,
-    Ball,
-}
+/// What is told of an answer: its log-volume or radius, and the gap that the checker proves.
+type Told = (f64, Result<f64, String>);
 
-impl Problem {
-    fn peer(self) -> &'static str {
-        match self {
-            Problem::Points => "conic-points",
-            Problem::Ellipsoid => "conic-ellipsoid",
-            Problem::Ball => "conic-ball",
-        }
-    }
-}
-
-/// taut's answer.
-enum Solved {
-    Ellipsoid(Solution<Ellipsoid>),
-    Ball(Solution<Ball>),
-}
-
-impl Solved {
-    fn of(problem: Problem, rows: &Points<'_, f64>) -> Result<Self> {
-        let options = EllipsoidOptions { epsilon: EPSILON, ..EllipsoidOptions::default() };
-        Ok(match problem {
-            Problem::Points => Solved::Ellipsoid(ellipsoid(rows, &options)?),
-            Problem::Ellipsoid => Solved::Ellipsoid(ellipsoid(
-                rows,
-                &EllipsoidOptions { inputs: Items::Ellipsoids, ..options },
-            )?),
-            Problem::Ball => {
-                let options = BallOptions { epsilon: EPSILON, ..BallOptions::default() };
-                Solved::Ball(ball(rows, &BallOptions { inputs: Items::Ellipsoids, ..options })?)
-            }
-        })
-    }
-
-    /// The radius, or the log-volume.
-    fn value(&self) -> f64 {
-        match self {
-            Solved::Ellipsoid(found) => found.answer.log_volume,
-            Solved::Ball(found) => found.answer.radius,
-        }
-    }
-
-    /// How far a value of another program is off, relatively: in volume or in radius.
-    fn differs(&self, other: f64) -> f64 {
-        match self {
-            Solved::Ellipsoid(found) => (other - found.answer.log_volume).exp_m1().abs(),
-            Solved::Ball(found) => (other / found.answer.radius - 1.0).abs(),
-        }
-    }
-
-    /// The gap that the checker proves.
-    fn gap(&self, rows: &Points<'_, f64>) -> Result<f64, String> {
-        match self {
-            Solved::Ellipsoid(found) => found.check(rows).map(|verdict| verdict.gap),
-            Solved::Ball(found) => found.check(rows).map(|verdict| verdict.gap),
-        }
-        .map_err(|why| why.to_string())
-    }
-}
-
-/// A problem on one set of rows beside the solver.
-fn add(
+/// A problem on one set of rows beside the solver. Values of other programs are off relatively, in volume or in radius.
+fn add<T: Send>(
     context: &Context,
     table: &mut Table,
-    problem: Problem,
+    peer: &str,
     what: &str,
     (values, columns): (&[f64], usize),
+    solve: impl Fn(&Points<'_, f64>) -> Result<T> + Sync,
+    tell: impl Fn(&T, &Points<'_, f64>) -> Told,
 ) -> Result<Found> {
     let rows = Points::new(values, columns)?;
-    let peers = &[problem.peer()];
-    let beside = Beside { peers, rows: (values, columns), reads: None };
-    let solve = || Solved::of(problem, &rows);
-    let rounds = rounds::run(context, context.runs, beside, solve, |_| Ok(()))?;
+    let beside = Beside { peers: &[peer], rows: (values, columns), reads: None };
+    let rounds = rounds::run(context, context.runs, beside, || solve(&rows), |_| Ok(()))?;
     let peer = rounds.peer().context("one peer")?;
     let theirs = peer.answer.as_ref().map(|answer| answer.radius);
-    let ours = &rounds.found;
-    let gap = ours.gap(&rows);
-    let differs = theirs.map(|value| ours.differs(value));
+    let (ours, gap) = tell(&rounds.found, &rows);
+    let differs = theirs.map(|theirs| match peer.name.as_str() {
+        BALL => (theirs / ours - 1.0).abs(),
+        _ => (theirs - ours).exp_m1().abs(),
+    });
     table.push(json!({
         "input": what, "clock": rounds.clock(), "peer's clock": peer.least(),
-        "times faster": rounds.faster(peer).map(|(ratio, _)| ratio), "value": ours.value(), "peer's": theirs,
+        "times faster": rounds.faster(peer).map(|(ratio, _)| ratio), "value": ours, "peer's": theirs,
         "differs": differs, "verified gap": shown_gap(&gap), "why": peer.silence, "times": rounds.json(),
     }));
     let mut found = Found::proved(gap);
@@ -110,37 +48,59 @@ fn add(
     Ok(found)
 }
 
+/// The peers, one for each problem.
+const POINTS_PEER: &str = "conic-points";
+const ELLIPSOID: &str = "conic-ellipsoid";
+const BALL: &str = "conic-ball";
+
 /// Runs all problems.
 pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
-    for (title, problem) in [
-        ("smallest ellipsoid around points, normal", Problem::Points),
-        ("smallest ellipsoid around 20 ellipsoids", Problem::Ellipsoid),
-        ("smallest ball around 20 ellipsoids", Problem::Ball),
+    for (title, peer) in [
+        ("smallest ellipsoid around points, normal", POINTS_PEER),
+        ("smallest ellipsoid around 20 ellipsoids", ELLIPSOID),
+        ("smallest ball around 20 ellipsoids", BALL),
     ] {
         let mut table = Table::new(
-            "input | clock:s | peer's clock:s | times faster:x | value:10 | peer's:10 | \
-                differs:e | verified gap | why",
+            "input | clock:s | peer's clock:s | times faster:x | value:10 | peer's:10 | differs:e | \
+             verified gap | why",
         );
         let mut found = Found::default();
-        if let Problem::Points = problem {
-            for (n, d) in POINTS {
-                let values = Law::Normal.draw(n, d, SEED)?;
-                let what = format!("{n} × {d}");
-                found.join(add(context, &mut table, problem, &what, (&values, d))?);
-            }
-        } else {
-            for d in DIMS {
-                for seed in SEED..SEED + SEEDS {
-                    let values = shapes::draw(ELLIPSOIDS, d, seed)?;
-                    let what = format!("d = {d}, seed {seed}");
-                    let rows = (&values[..], d * (d + 3) / 2);
-                    found.join(add(context, &mut table, problem, &what, rows)?);
-                }
-            }
+        let inputs = if peer == POINTS_PEER { Items::Points } else { Items::Ellipsoids };
+        for (what, values, columns) in sets(inputs)? {
+            let (table, rows) = (&mut table, (&values[..], columns));
+            found.join(if peer == BALL {
+                let options = BallOptions { epsilon: EPSILON, inputs, ..Default::default() };
+                let solve = |rows: &Points<'_, f64>| Ok(ball(rows, &options)?);
+                add(context, table, peer, &what, rows, solve, |found, rows| {
+                    let gap = found.check(rows).map(|verdict| verdict.gap);
+                    (found.answer.radius, gap.map_err(|why| why.to_string()))
+                })?
+            } else {
+                let options = EllipsoidOptions { epsilon: EPSILON, inputs, ..Default::default() };
+                let solve = |rows: &Points<'_, f64>| Ok(ellipsoid(rows, &options)?);
+                add(context, table, peer, &what, rows, solve, |found, rows| {
+                    let gap = found.check(rows).map(|verdict| verdict.gap);
+                    (found.answer.log_volume, gap.map_err(|why| why.to_string()))
+                })?
+            });
         }
         out.table(title, table);
         out.judge(&found);
         out.close(title);
     }
     Ok(())
+}
+
+/// Names, rows and columns of the sets of points or of ellipsoids.
+fn sets(inputs: Items) -> Result<Vec<(String, Vec<f64>, usize)>> {
+    if inputs == Items::Points {
+        let draw = |(n, d)| Ok((format!("{n} × {d}"), Law::Normal.draw(n, d, SEED)?, d));
+        return POINTS.into_iter().map(draw).collect();
+    }
+    let sets = DIMS.into_iter().flat_map(|d| (SEED..SEED + SEEDS).map(move |seed| (d, seed)));
+    let draw = |(d, seed)| {
+        let values = shapes::draw(ELLIPSOIDS, d, seed)?;
+        Ok((format!("d = {d}, seed {seed}"), values, d * (d + 3) / 2))
+    };
+    sets.map(draw).collect()
 }

@@ -1,7 +1,6 @@
 //! Smallest ellipsoids of points: solved by rounds, then proved.
 
 use super::*;
-use crate::rounds;
 
 /// The gap that is asked for.
 const EPSILON: f64 = 1e-12;

@@ -1,7 +1,6 @@
 //! MCD: the objective and the time beside scikit-learn, and the outliers of classical sets.
 
 use super::*;
-use crate::rounds;
 
 /// scikit-learn's `MinCovDet` for the h that taut keeps.
 const PEER: &str = "sklearn-mcd-h";

@@ -1,7 +1,6 @@
 //! Ellipsoids as inputs: the smallest ellipsoid around them, the smallest ball.
 
 use super::*;
-use crate::rounds;
 
 const N: usize = 1000;
 const D: usize = 10;

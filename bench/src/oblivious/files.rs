@@ -15,25 +15,43 @@ const MEBIBYTE: f64 = 1048576.0;
 
 /// A tenth and a sixteenth of what the goals speak of.
 pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
-    let usual = Sizes::of(10_000_000, 26 << 20, [8192, 4096], 16 << 20);
-    measure(context, out, &context.size(usual, Sizes::of(100_000, 1 << 20, [300, 500], 1 << 18)))
+    let usual = Sizes {
+        records: 10_000_000,
+        sort_memory: 26 << 20,
+        rows: 8192,
+        columns: 4096,
+        transpose_memory: 16 << 20,
+    };
+    measure(
+        context,
+        out,
+        &context.size(
+            usual,
+            Sizes {
+                records: 100_000,
+                sort_memory: 1 << 20,
+                rows: 300,
+                columns: 500,
+                transpose_memory: 1 << 18,
+            },
+        ),
+    )
 }
 
 /// 3.2 GB sorted and 4 GiB transposed, under 256 MiB.
 pub(super) fn run_large(context: &Context, out: &mut Outcome) -> Result<()> {
     ensure!(context.scratch.is_some() && !context.quick, "give --scratch FOLDER, and not --quick");
-    measure(context, out, &Sizes::of(100_000_000, 256 << 20, [32_768, 16_384], 256 << 20))
-}
-
-impl Sizes {
-    fn of(
-        records: usize,
-        sort_memory: usize,
-        [rows, columns]: [usize; 2],
-        transpose_memory: usize,
-    ) -> Self {
-        Sizes { records, sort_memory, rows, columns, transpose_memory }
-    }
+    measure(
+        context,
+        out,
+        &Sizes {
+            records: 100_000_000,
+            sort_memory: 256 << 20,
+            rows: 32_768,
+            columns: 16_384,
+            transpose_memory: 256 << 20,
+        },
+    )
 }
 
 /// Both, in a folder that is removed at the end.

@@ -12,15 +12,8 @@ struct Sets {
     tree: BTreeSet<u64>,
     index: IndexSet<u64>,
     draw: Draw,
-    rows: Vec<Row>,
-}
-
-/// Seconds per key of the three.
-struct Row {
-    what: &'static str,
-    packed: f64,
-    tree: f64,
-    index: f64,
+    /// Seconds per key of the three.
+    rows: Vec<(&'static str, [f64; 3])>,
 }
 
 /// Insertions one by one, scans, ranges, look-ups, batches, and moves in four patterns.
@@ -38,7 +31,7 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
         "work | taut, per key:ns | BTreeSet, per key:ns | indexset, per key:ns | BTreeSet ÷ \
             taut:x | indexset ÷ taut:x",
     );
-    for Row { what, packed, tree, index } in &sets.rows {
+    for (what, [packed, tree, index]) in &sets.rows {
         table.push(json!([what, packed, tree, index, tree / packed, index / packed]));
     }
     let slots = sets.packed.slots() as f64 / sets.packed.len() as f64;
@@ -56,8 +49,8 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
         ("insert, from empty", [1.0, 1.5].into()),
         ("ranges of 1000", Bounds::from(10.0)),
     ] {
-        let row = sets.rows.iter().find(|row| row.what == what);
-        let ratio = row.map(|row| row.tree / row.packed);
+        let row = sets.rows.iter().find(|row| row.0 == what);
+        let ratio = row.map(|(_, [packed, tree, _])| tree / packed);
         out.at_least(format!("{what}: BTreeSet over taut"), ratio, bounds, Unit::Times);
     }
     let worst = patterns.iter().map(|pattern| pattern.1).fold(0.0, f64::max);
@@ -75,8 +68,7 @@ impl Sets {
             tree += seconds(|| insert(stretch, |key| self.tree.insert(key)));
             index += seconds(|| insert(stretch, |key| self.index.insert(key)));
         }
-        let [packed, tree, index] = [packed, tree, index].map(|seconds| seconds / n as f64);
-        self.rows.push(Row { what, packed, tree, index });
+        self.rows.push((what, [packed, tree, index].map(|seconds| seconds / n as f64)));
     }
 
     /// Batches, which the tree takes by `extend`; indexset takes none.
@@ -91,8 +83,8 @@ impl Sets {
             index += seconds(|| insert(&keys, |key| self.index.insert(key)));
             ensure!(new == self.tree.len() - before, "a batch has another number of new keys");
         }
-        let [packed, tree, index] = [packed, tree, index].map(|seconds| seconds / (6 * n) as f64);
-        self.rows.push(Row { what: "batches", packed, tree, index });
+        let each = [packed, tree, index].map(|seconds| seconds / (6 * n) as f64);
+        self.rows.push(("batches", each));
         Ok(())
     }
 
@@ -137,9 +129,7 @@ impl Sets {
             ("ranges of 1000", ranges, 1000 * starts.len()),
             ("look-ups", finds, wanted.len()),
         ] {
-            let [packed, tree, index] =
-                ["taut", TREE, INDEX].map(|name| lanes.of(name) / keys as f64);
-            self.rows.push(Row { what, packed, tree, index });
+            self.rows.push((what, ["taut", TREE, INDEX].map(|name| lanes.of(name) / keys as f64)));
         }
         Ok(())
     }

@@ -68,10 +68,7 @@ fn shuffles(context: &Context, n: usize) -> Result<Lanes> {
 
 /// Whether every number below the length is there once.
 fn permutes(items: &[u64]) -> bool {
-    let mut seen = vec![false; items.len()];
-    items
-        .iter()
-        .all(|&item| seen.get_mut(item as usize).is_some_and(|seen| !std::mem::replace(seen, true)))
+    is_permutation(items.iter().map(|&item| item as usize), items.len())
 }
 
 #[cfg(test)]

@@ -19,10 +19,10 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
         };
         let (found, _) = ours(&shape.vertices, &options)?;
         let taut = add("taut", &found.answer.triangles)?.missed;
-        let cgal = match theirs(context, Way::Front, &shape.vertices)? {
-            Ok(found) => Some(add(Way::Front.name(), &found.triangles)?.missed),
+        let cgal = match theirs(context, FRONT, &shape.vertices)? {
+            Ok(found) => Some(add(FRONT, &found.triangles)?.missed),
             Err(why) => {
-                table.push(json!({ "set": model.name, "program": Way::Front.name(), "why": why }));
+                table.push(json!({ "set": model.name, "program": FRONT, "why": why }));
                 None
             }
         };

@@ -35,10 +35,10 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
         };
         taut("taut, without", None)?;
         let (judged, taut) = taut("taut, pre-pass", Some(Denoise::default()))?;
-        let cgal = match theirs(context, Way::Front, &points)? {
-            Ok(found) => Some(add(Way::Front.name(), &points, &found.triangles)?.1),
+        let cgal = match theirs(context, FRONT, &points)? {
+            Ok(found) => Some(add(FRONT, &points, &found.triangles)?.1),
             Err(why) => {
-                table.push(json!({ "seed": seed, "program": Way::Front.name(), "why": why }));
+                table.push(json!({ "seed": seed, "program": FRONT, "why": why }));
                 None
             }
         };

@@ -28,11 +28,10 @@ impl Rows<'_> {
         let (found, _) = ours(points, &options)?;
         let judged = Judged::of(points, &found.answer.triangles)?;
         self.push(input, "taut", judged, Some(looks_one_sided(&found)));
-        let way = Way::Front;
-        match theirs(self.context, way, points)? {
-            Ok(found) => self.push(input, way.name(), Judged::of(points, &found.triangles)?, None),
+        match theirs(self.context, FRONT, points)? {
+            Ok(found) => self.push(input, FRONT, Judged::of(points, &found.triangles)?, None),
             Err(why) => {
-                self.table.push(json!({ "input": input, "program": way.name(), "why": why }));
+                self.table.push(json!({ "input": input, "program": FRONT, "why": why }));
             }
         }
         Ok((found, judged))

@@ -23,13 +23,13 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
             Ok(joined([head, topology, distances.cells()]))
         };
         table.push(row("taut", None, &found.answer.triangles, time)?);
-        for way in Way::ALL {
+        for way in PEERS {
             table.push(match theirs(context, way, points)? {
                 Ok(found) => {
                     let time = found.first + found.second;
-                    row(way.name(), found.places.as_deref(), &found.triangles, time)?
+                    row(way, found.places.as_deref(), &found.triangles, time)?
                 }
-                Err(why) => json!({ "set": model.name, "program": way.name(), "why": why }),
+                Err(why) => json!({ "set": model.name, "program": way, "why": why }),
             });
         }
     }

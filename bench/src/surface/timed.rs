@@ -50,7 +50,7 @@ impl Timed {
                 }
                 // A peer that gave no answer is not asked again.
                 Work::Cgal if timed.silence.is_some() => {}
-                Work::Cgal => match theirs(context, Way::Front, points)? {
+                Work::Cgal => match theirs(context, FRONT, points)? {
                     Ok(found) => timed.theirs.push([found.first, found.second]),
                     Err(silence) => timed.silence = Some(silence),
                 },

@@ -2,83 +2,65 @@
 
 use super::*;
 
-/// Columns of the table.
-fn columns() -> String {
-    format!("set | points | program | {} | exact | why", Judged::COLUMNS)
+/// What taut and the advancing front found of one set of points.
+struct Trial {
+    name: &'static str,
+    ours: Judged,
+    is_exact: bool,
+    /// `None` where the advancing front gave no answer.
+    is_theirs_exact: Option<bool>,
 }
 
-/// Programs on one set of points.
-struct Trial {
-    model: Model,
-    points: usize,
-    ours: Judged,
-    theirs: Vec<(Way, Result<Judged, Silence>)>,
+fn table() -> Table {
+    Table::new(&format!("set | points | program | {} | exact | why", Judged::COLUMNS))
 }
 
 impl Trial {
-    /// Lets taut and CGAL's programs work on points of a model.
-    fn of(context: &Context, model: Model, points: &[Point], ways: &[Way]) -> Result<Self> {
-        let options =
-            SurfaceOptions { threads: Some(context.last_threads()), ..Default::default() };
-        let (found, _) = ours(points, &options)?;
-        let mut trial = Trial {
-            model,
-            points: points.len(),
-            ours: Judged::of(points, &found.answer.triangles)?,
-            theirs: vec![],
-        };
-        for &way in ways {
-            let judged = match theirs(context, way, points)? {
-                Ok(found) => Ok(Judged::of(points, &found.triangles)?),
-                Err(silence) => Err(silence),
-            };
-            trial.theirs.push((way, judged));
-        }
-        Ok(trial)
-    }
-
-    fn is_exact(&self, judged: &Judged) -> bool {
-        judged.is_exact(self.model.components, self.model.genus)
-    }
-
-    /// Whether taut's answer is exact.
-    fn is_ours_exact(&self) -> bool {
-        self.is_exact(&self.ours)
-    }
-
-    /// Whether that of the advancing front is.
-    fn is_theirs_exact(&self) -> Option<bool> {
-        let (_, judged) = self.theirs.iter().find(|(way, _)| *way == Way::Front)?;
-        judged.as_ref().ok().map(|judged| self.is_exact(judged))
-    }
-
-    /// A row for the truth and one for each program.
-    fn print(&self, table: &mut Table) {
+    /// Lets taut and CGAL's programs work on points of a model: a row for the truth and one for each program.
+    fn of(
+        context: &Context,
+        table: &mut Table,
+        model: &Model,
+        points: &[Point],
+        ways: &[&str],
+    ) -> Result<Self> {
+        let &Model { name, components, genus, .. } = model;
+        let is_exact = |judged: &Judged| judged.is_exact(components, genus);
         let mut row = |who: &str, cells: Value| {
-            let head = json!({ "set": self.model.name, "points": self.points, "program": who });
+            let head = json!({ "set": name, "points": points.len(), "program": who });
             table.push(joined([head, cells]));
         };
         let cells =
-            |judged: &Judged| joined([json!({ "exact": self.is_exact(judged) }), judged.cells()]);
-        let Model { components, genus, .. } = self.model;
+            |judged: &Judged| joined([json!({ "exact": is_exact(judged) }), judged.cells()]);
         let truth = json!({
             "components": components, "genus": genus, "loops": 0, "bad edges": 0, "bad vertices": 0, "unused": 0,
         });
         row("truth", truth);
-        row("taut", cells(&self.ours));
-        for (way, found) in &self.theirs {
-            match found {
-                Ok(judged) => row(way.name(), cells(judged)),
-                Err(silence) => row(way.name(), json!({ "why": silence })),
+        let threads = Some(context.last_threads());
+        let (found, _) = ours(points, &SurfaceOptions { threads, ..Default::default() })?;
+        let judged = Judged::of(points, &found.answer.triangles)?;
+        row("taut", cells(&judged));
+        let mut is_theirs_exact = None;
+        for way in ways {
+            match theirs(context, way, points)? {
+                Ok(found) => {
+                    let judged = Judged::of(points, &found.triangles)?;
+                    row(way, cells(&judged));
+                    if *way == FRONT {
+                        is_theirs_exact = Some(is_exact(&judged));
+                    }
+                }
+                Err(silence) => row(way, json!({ "why": silence })),
             }
         }
+        Ok(Trial { name, ours: judged, is_exact: is_exact(&judged), is_theirs_exact })
     }
 }
 
 /// How many of some trials are exact, as taut and as the advancing front have it.
 fn count(trials: &[Trial]) -> (usize, String) {
-    let ours = trials.iter().filter(|trial| trial.is_ours_exact()).count();
-    let theirs: Option<Vec<bool>> = trials.iter().map(Trial::is_theirs_exact).collect();
+    let ours = trials.iter().filter(|trial| trial.is_exact).count();
+    let theirs: Option<Vec<bool>> = trials.iter().map(|trial| trial.is_theirs_exact).collect();
     let theirs = theirs.map_or("not measured".to_owned(), |exact| {
         exact.iter().filter(|exact| **exact).count().to_string()
     });
@@ -94,30 +76,26 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
         let Some(shape) = model.read()? else { return out.left_out() };
         shapes.push((model, shape.vertices));
     }
-    let mut table = Table::new(&columns());
+    let mut table = self::table();
     let mut whole = vec![];
     for (model, points) in &shapes {
-        let trial = Trial::of(context, *model, points, &[Way::Front, Way::Scales])?;
-        trial.print(&mut table);
-        whole.push(trial);
+        whole.push(Trial::of(context, &mut table, model, points, &[FRONT, SCALES])?);
     }
     out.table("", table);
     let (exact, shown) = count(&whole[..all]);
     out.must(format!("exact on {all} of {all}"), shown, exact == all);
     for trial in &whole[all..] {
-        let goal = format!("{} exact (components, genus, loops)", trial.model.name);
-        out.must(goal, trial.ours.shape(), trial.is_ours_exact());
+        let goal = format!("{} exact (components, genus, loops)", trial.name);
+        out.must(goal, trial.ours.shape(), trial.is_exact);
     }
     for (share, must, aim) in [(0.7, 5, 7), (0.5, 4, 6)] {
         for seed in context.seeds.clone() {
             let name = format!("{:.0} % of the points, seed {seed}", 100.0 * share);
-            let mut table = Table::new(&columns());
+            let mut table = self::table();
             let mut trials = vec![];
             for (model, points) in &shapes[..all] {
                 let points = thinned(points, share, seed)?;
-                let trial = Trial::of(context, *model, &points, &[Way::Front])?;
-                trial.print(&mut table);
-                trials.push(trial);
+                trials.push(Trial::of(context, &mut table, model, &points, &[FRONT])?);
             }
             out.table(&name, table);
             let (exact, shown) = count(&trials);

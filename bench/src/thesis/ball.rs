@@ -73,15 +73,18 @@ impl Pair {
         }
     }
 
-    fn add<X: Copy + Into<f64>>(
+    /// Adds curves over the dimension, of n points of a distribution.
+    fn add(
         &mut self,
         plan: &Plan,
-        way: &Way,
-        instances: &[X],
-        input: impl Fn(X) -> Result<Input>,
+        dims: &[u32],
+        (distribution, n): (Distribution, usize),
+        ways: &[Way],
     ) -> Result<()> {
-        let sweep = way.sweep(plan, instances, input)?;
-        self.draw(&sweep, way.is_default());
+        for way in ways {
+            let input = |d: u32| Input::points(distribution, n, d as usize);
+            self.draw(&way.sweep(plan, dims, input)?, way.is_default());
+        }
         Ok(())
     }
 
@@ -111,15 +114,13 @@ pub(super) fn pure_and_fast(plan: &Plan) -> Result<()> {
     ];
     let mut pair = Pair::new([5, 6], "10⁴ normal points, ε = 0.001", "dimension", notes);
     let dims = plan.upto(DIMS, 1, 5);
-    let input = |d: u32| Input::points(Distribution::Normal, 10_000, d as usize);
-    for way in [
+    let ways = [
         Way::new("Algorithm 1, pure", BallMethod::ThesisPure, EPSILON),
         Way::new("Algorithm 1, fast", BallMethod::ThesisFast, EPSILON),
         Way::one_per_pass("taut, one far point per pass", EPSILON),
         Way::default_exact("taut, exact"),
-    ] {
-        pair.add(plan, &way, dims, input)?;
-    }
+    ];
+    pair.add(plan, dims, (Distribution::Normal, 10_000), &ways)?;
     pair.show(plan)
 }
 
@@ -133,14 +134,12 @@ pub(super) fn two_numbers_of_points(plan: &Plan) -> Result<()> {
     const DIMS_TO_1500: &[u32] = &[50, 100, 200, 300, 400, 500, 600, 800, 1000, 1250, 1500];
     let dims = plan.upto(DIMS_TO_1500, 1, 5);
     for n in if plan.size == Size::Quick { &[10_000][..] } else { &[10_000, 100_000] } {
-        let input = |d: u32| Input::points(Distribution::Normal, *n, d as usize);
-        for way in [
+        let ways = [
             Way::new(format!("fast, n = {n}"), BallMethod::ThesisFast, EPSILON),
             Way::one_per_pass(format!("taut, one far point per pass, n = {n}"), EPSILON),
             Way::default_exact(format!("taut, exact, n = {n}")),
-        ] {
-            pair.add(plan, &way, dims, input)?;
-        }
+        ];
+        pair.add(plan, dims, (Distribution::Normal, *n), &ways)?;
     }
     pair.show(plan)
 }
@@ -160,9 +159,8 @@ pub(super) fn four_distributions(plan: &Plan) -> Result<()> {
         Distribution::Poisson,
         Distribution::CubeVertices,
     ] {
-        let input = |d: u32| Input::points(distribution, 10_000, d as usize);
         let way = Way::new(distribution.to_string(), BallMethod::ThesisFast, EPSILON);
-        pair.add(plan, &way, dims, input)?;
+        pair.add(plan, dims, (distribution, 10_000), &[way])?;
     }
     pair.show(plan)
 }
