@@ -9,7 +9,7 @@ mod outliers;
 mod streams;
 mod traversal;
 
-use taut_certify::{Centers, CentersVerdict, Items, LowerBound, Placement, Solution};
+use taut_certify::{Centers, CentersVerdict, LowerBound, Placement, Solution};
 use taut_enclose::{
     CentersOptions, Cover, CoverOptions, FarthestFirst, FarthestFirstOptions, centers,
     farthest_first,

@@ -2,7 +2,6 @@
 
 mod draw;
 mod files;
-mod guests;
 mod lanes;
 pub(crate) mod one;
 mod order;
@@ -56,8 +55,7 @@ use voracious_radix_sort::RadixSort as _;
 
 use crate::prelude::*;
 use draw::{Draw, PATTERNS, Pattern};
-use guests::Guests;
-use lanes::{Lanes, have_memory, thread_cpu};
+use lanes::{Guests, Lanes, have_memory, thread_cpu};
 use one::{FileCost, RECORD_BYTES, Task, Work};
 
 /// All sections.

@@ -8,11 +8,12 @@ use taut_points::{Blocks, GeneratedSource, PointSource, Rows, ScalarKind, Scratc
 
 use crate::prelude::*;
 
-/// Writes the points, block by block, unless a file of that size is there.
-pub(crate) fn make(path: &Path, n: u64, dim: usize) -> Result<()> {
+/// Writes normal points to a folder, block by block, unless a file of that size is there. Returns its path.
+pub(crate) fn make(folder: &Path, n: u64, dim: usize) -> Result<PathBuf> {
+    let path = folder.join(format!("normal-{n}x{dim}-seed{SEED}.f32"));
     let bytes = n * dim as u64 * 4;
     if path.metadata().is_ok_and(|found| found.len() == bytes) {
-        return Ok(());
+        return Ok(path);
     }
     println!("writing {} ({:.2} GB)", path.display(), bytes as f64 / 1e9);
     let source = GeneratedSource::new(Distribution::Normal, n, dim, SEED, ScalarKind::F32)?;
@@ -37,5 +38,6 @@ pub(crate) fn make(path: &Path, n: u64, dim: usize) -> Result<()> {
         }
     }
     file.flush()?;
-    Ok(std::fs::rename(part, path)?)
+    std::fs::rename(part, &path)?;
+    Ok(path)
 }

@@ -86,46 +86,33 @@ impl Plan {
     }
 }
 
-/// One experiment, which gives one figure or several.
-struct Rerun {
-    /// What it is called on the command line, figure by figure.
-    names: &'static [&'static str],
-    about: &'static str,
-    run: fn(&Plan) -> Result<()>,
-}
-
-const fn rerun(
-    names: &'static [&'static str],
-    about: &'static str,
-    run: fn(&Plan) -> Result<()>,
-) -> Rerun {
-    Rerun { names, about, run }
-}
+/// One experiment, which gives one figure or several: their names on the command line, what it shows, and how it runs.
+type Rerun = (&'static [&'static str], &'static str, fn(&Plan) -> Result<()>);
 
 const RERUNS: &[Rerun] = &[
-    rerun(&["2"], "A curve through noisy points.", |plan| curve::write(plan, "02")),
-    rerun(&["5", "6"], "Balls: the pure and the fast variant, by dimension.", ball::pure_and_fast),
-    rerun(&["7", "8"], "Balls: two numbers of points.", ball::two_numbers_of_points),
-    rerun(&["9", "10"], "Balls: four distributions.", ball::four_distributions),
-    rerun(&["11", "12"], "Balls: by ε, with USPS.", ball::by_epsilon),
-    rerun(&["13"], "Balls: low dimensions.", ball::low_dimensions),
-    rerun(&["14"], "Balls: beside exact codes.", ball::beside_exact_codes),
-    rerun(&["15"], "Balls: beside Bădoiu and Clarkson.", ball::beside_badoiu_clarkson),
-    rerun(&["18"], "Ellipsoids: sizes of core-sets, by dimension and by ε.", ellipsoid::figures),
-    rerun(&["21"], "Curves: the crude method on a jagged curve.", |plan| curve::write(plan, "21")),
-    rerun(&["22"], "Curves: the crude method at sharp turns.", |plan| curve::write(plan, "22")),
-    rerun(&["table-1"], "Surfaces: times and topology, with pictures.", surface::write),
+    (&["2"], "A curve through noisy points.", |plan| curve::write(plan, "02")),
+    (&["5", "6"], "Balls: the pure and the fast variant, by dimension.", ball::pure_and_fast),
+    (&["7", "8"], "Balls: two numbers of points.", ball::two_numbers_of_points),
+    (&["9", "10"], "Balls: four distributions.", ball::four_distributions),
+    (&["11", "12"], "Balls: by ε, with USPS.", ball::by_epsilon),
+    (&["13"], "Balls: low dimensions.", ball::low_dimensions),
+    (&["14"], "Balls: beside exact codes.", ball::beside_exact_codes),
+    (&["15"], "Balls: beside Bădoiu and Clarkson.", ball::beside_badoiu_clarkson),
+    (&["18"], "Ellipsoids: sizes of core-sets, by dimension and by ε.", ellipsoid::figures),
+    (&["21"], "Curves: the crude method on a jagged curve.", |plan| curve::write(plan, "21")),
+    (&["22"], "Curves: the crude method at sharp turns.", |plan| curve::write(plan, "22")),
+    (&["table-1"], "Surfaces: times and topology, with pictures.", surface::write),
 ];
 
 /// Reruns what was asked for.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     if arguments.list || arguments.names.is_empty() {
-        for Rerun { names, about, .. } in RERUNS {
+        for (names, about, _) in RERUNS {
             println!("{:<10} {about}", names.join(", "));
         }
         return Ok(());
     }
-    let all: Vec<&str> = RERUNS.iter().flat_map(|rerun| rerun.names).copied().collect();
+    let all: Vec<&str> = RERUNS.iter().flat_map(|(names, ..)| *names).copied().collect();
     let is_wanted = |name: &str| arguments.names.iter().any(|word| word == name || word == "all");
     for word in &arguments.names {
         let is_known = word == "all" || all.contains(&word.as_str());
@@ -152,6 +139,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     };
     std::fs::create_dir_all(&plan.out)?;
     println!("Machine and versions: {}\n", machine::describe());
-    let mut wanted = RERUNS.iter().filter(|rerun| rerun.names.iter().any(|name| is_wanted(name)));
-    wanted.try_for_each(|rerun| (rerun.run)(&plan))
+    let mut wanted = RERUNS.iter().filter(|(names, ..)| names.iter().any(|name| is_wanted(name)));
+    wanted.try_for_each(|(_, _, run)| run(&plan))
 }

@@ -75,8 +75,7 @@ impl Task {
 pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
     let (n, dim) = (context.size(1_000_000, 20_000), 2500);
     let Some(folder) = context.folder("10 GB") else { return out.left_out() };
-    let path = folder.join(format!("normal-{n}x{dim}-seed{SEED}.f32"));
-    raw::make(&path, n, dim)?;
+    let path = raw::make(&folder, n, dim)?;
     let threads = context.last_threads();
     let mut table = Table::new(
         "run | cat before:s | cat after:s | solve:s | passes | seconds of each pass:2 | speed of \

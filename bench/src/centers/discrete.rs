@@ -4,18 +4,11 @@ use super::*;
 
 const RANDOM_SETS: u64 = 200;
 const DIM: usize = 2;
-const OPTIONS: CentersOptions<'static> = CentersOptions {
-    inputs: Items::Points,
-    epsilon: 0.0,
-    method: taut_enclose::CentersMethod::Tree,
-    placement: Placement::Rows,
-    outliers: 0,
-    weights: false,
-    max_nodes: 10_000_000,
-    assignment: false,
-    threads: None,
-    monitor: Monitor::silent(),
-};
+
+/// Centers among the points, exact.
+fn options() -> CentersOptions<'static> {
+    CentersOptions { epsilon: 0.0, placement: Placement::Rows, ..CentersOptions::default() }
+}
 
 /// A small set and the number of its centers.
 struct Small {
@@ -59,7 +52,7 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
         let (mut least, mut last) = (f64::INFINITY, None);
         for _ in 0..context.runs {
             let start = Instant::now();
-            let answer = centers(&points, set.k, &OPTIONS)?;
+            let answer = centers(&points, set.k, &options())?;
             least = least.min(start.elapsed().as_secs_f64());
             last = Some(answer);
         }
@@ -119,7 +112,7 @@ fn run_cities(out: &mut Outcome) -> Result<()> {
     let mut table = Table::new(&format!("k | clock:s | nodes | {COLUMNS}"));
     for k in [5, 10] {
         let start = Instant::now();
-        let found = centers(&points, k, &OPTIONS)?;
+        let found = centers(&points, k, &options())?;
         let clock = start.elapsed().as_secs_f64();
         let head = json!({ "k": k, "clock": clock, "nodes": found.trace.iterations });
         table.push(joined([head, judge(&found, &points).cells()]));

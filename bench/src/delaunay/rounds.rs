@@ -134,21 +134,6 @@ impl Rounds {
         self.row(program)?.did.bytes_per_point()
     }
 
-    /// The largest share of predicates that no filter decided.
-    pub(super) fn exact(&self, program: Program) -> Option<f64> {
-        self.row(program)?.exact()
-    }
-
-    /// Processor time of the check over that of the build.
-    pub(super) fn check(&self, program: Program) -> Option<f64> {
-        self.row(program)?.of_build(|judged| judged.check)
-    }
-
-    /// The same of the answer in rows of the input, with its certificate.
-    fn answer(&self, program: Program) -> Option<f64> {
-        self.row(program)?.of_build(|judged| judged.answer)
-    }
-
     /// Wall clock of one thread over that of two, round by round.
     pub(super) fn speedup(&self) -> Option<Summary> {
         let wall = |threads| Some(self.row(Program::Taut(threads))?.did.all(|build| build.wall));
@@ -176,7 +161,8 @@ impl Rounds {
                 "by rounds": by_rounds, "÷ uniform": self.of_uniform(program), "wall": row.did.wall(),
                 "runs": row.did.builds.len(), "peak per point": self.bytes(program),
                 "simplices": first.map(|build| build.simplices), "exact stage": row.exact(),
-                "answer ÷ build": self.answer(program), "check ÷ build": self.check(program),
+                "answer ÷ build": row.of_build(|judged| judged.answer),
+                "check ÷ build": row.of_build(|judged| judged.check),
                 "judgement": row.judgement(self.n, self.reference), "builds": row.did.builds,
             }));
         }
@@ -210,8 +196,9 @@ impl Rounds {
         for threads in self.threads() {
             found.add(BYTES, self.bytes(Program::Taut(threads)));
         }
-        found.add(EXACT_RATE, self.exact(one));
-        found.add(CHECK, self.check(one));
+        let row = self.row(one);
+        found.add(EXACT_RATE, row.and_then(Row::exact));
+        found.add(CHECK, row.and_then(|row| row.of_build(|judged| judged.check)));
         found.median(SPEEDUP, self.speedup(), times);
         found
     }
@@ -279,8 +266,8 @@ mod tests {
         let found = rounds(vec![ours]);
         assert_eq!(found.rows[0].judgement(1000, Some(1990)), "WRONG by +1; REJECTED: a dent");
         // The least time over that of the fastest build.
-        assert_eq!(found.check(Program::Taut(1)), Some(0.8));
-        assert_eq!(found.answer(Program::Taut(1)), Some(0.5));
+        assert_eq!(found.rows[0].of_build(|judged| judged.check), Some(0.8));
+        assert_eq!(found.rows[0].of_build(|judged| judged.answer), Some(0.5));
         let mut gone = row(Program::Peer(SPADE), &[], 0);
         gone.did.silence = Some(Silence::Ended);
         assert_eq!(judge(gone), "ended without an answer");

@@ -50,8 +50,7 @@ impl Task {
 pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
     let n = context.size(100_000_000, 1_000_000);
     let Some(folder) = context.folder("1.2 GB") else { return out.left_out() };
-    let path = folder.join(format!("normal-{n}x{D}-seed{SEED}.f32"));
-    raw::make(&path, n, D)?;
+    let path = raw::make(&folder, n, D)?;
     let mut table =
         Table::new("threads | time:s | passes | verified gap | support | peak memory:MiB");
     let mut found = Found::default();

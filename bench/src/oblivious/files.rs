@@ -28,8 +28,8 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
         &context.size(
             usual,
             Sizes {
-                records: 100_000,
-                sort_memory: 1 << 20,
+                records: 400_000,
+                sort_memory: 4 << 20,
                 rows: 300,
                 columns: 500,
                 transpose_memory: 1 << 18,
@@ -216,7 +216,6 @@ fn write(path: &Path, words: usize, mut word: impl FnMut() -> u64) -> Result<()>
     for _ in 0..words {
         file.write_all(&word().to_le_bytes())?;
     }
-    file.flush()?;
     // Not to be written while something else is timed.
-    Ok(file.get_ref().sync_data()?)
+    Ok(file.into_inner()?.sync_data()?)
 }

@@ -144,8 +144,7 @@ fn extsort(from: &Path, to: &Path, memory: usize) -> Result<()> {
         let record = record.map_err(|error| anyhow!("extsort: {error}"))?;
         output.write_all(&record.0)?;
     }
-    output.flush()?;
-    Ok(output.get_ref().sync_data()?)
+    Ok(output.into_inner()?.sync_data()?)
 }
 
 /// The first eight bytes of a record are its key, the others come with it.
@@ -163,8 +162,7 @@ fn queue(from: &Path, to: &Path, memory: usize) -> Result<()> {
         output.write_all(&key.to_le_bytes())?;
         output.write_all(&rest)?;
     }
-    output.flush()?;
-    Ok(output.get_ref().sync_data()?)
+    Ok(output.into_inner()?.sync_data()?)
 }
 
 /// Reads and writes past the page cache, by large blocks in turn, but for what is less than a page at the end.

@@ -44,11 +44,11 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
         let Some(shape) = model.read()? else { continue };
         add(context, out, &mut table, model.name, &shape.vertices, runs)?;
     }
-    for solid in Solid::ALL {
-        for place in Place::ALL {
+    for (solid, name) in Solid::ALL {
+        for (place, position) in Place::ALL {
             for count in [20_000, 80_000].map(|count| context.count(count)) {
                 let points = solid.points(place, count, seed)?;
-                let input = format!("{}, {}, {count}", solid.name(), place.name());
+                let input = format!("{name}, {position}, {count}");
                 add(context, out, &mut table, &input, &points, runs)?;
             }
         }

@@ -35,7 +35,7 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
     let bodies = [(many, 100), (1, 100 * many)];
     let [small, large] = bodies.map(|(count, each)| ellipsoids(count, each, seed));
     let [apart, whole] = both(context, [&small?, &large?])?;
-    let mut table = Table::new(&format!("input | points | {} | one thread:s", judged::COUNTERS));
+    let mut table = Table::new(&format!("input | points | {} | one thread:s", Judged::COLUMNS));
     for (what, builds) in [(format!("{many} of 100"), &apart), ("one".to_owned(), &whole)] {
         let Some(build) = builds.builds.first() else { continue };
         let head = json!({

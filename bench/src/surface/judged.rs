@@ -74,21 +74,13 @@ impl Judged {
         })
     }
 
-    /// What a process of its own tells of it, under [`COUNTERS`]; the genus is missing where there is none.
-    pub(super) fn counters(&self) -> impl Iterator<Item = (&'static str, u64)> {
-        let counts = [
-            ("components", Some(self.components as u64)),
-            ("genus", self.genus),
-            ("loops", Some(self.loops as u64)),
-            ("bad", Some((self.bad_edges + self.bad_vertices) as u64)),
-            ("unused", Some(self.unused as u64)),
-        ];
-        counts.into_iter().filter_map(|(name, count)| Some((name, count?)))
+    /// The same as counters of a process of its own; the genus is missing where there is none.
+    pub(super) fn counters(&self) -> Vec<(&'static str, u64)> {
+        let cells = self.cells();
+        let names = Judged::COLUMNS.split(" | ");
+        names.filter_map(|name| Some((name, cells[name].as_u64()?))).collect()
     }
 }
-
-/// Columns of what a process of its own tells.
-pub(super) const COUNTERS: &str = "components | genus | loops | bad | unused";
 
 #[cfg(test)]
 mod tests {

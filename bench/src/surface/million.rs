@@ -7,7 +7,7 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
     let (n, threads) = (context.count(1_000_000), context.last_threads());
     let Some(shape) = DC.read()? else { return out.left_out() };
     let file = context.file("points.f64");
-    let mut table = Table::new(&format!("seed | {} | time:s | B/point:0 | why", judged::COUNTERS));
+    let mut table = Table::new(&format!("seed | {} | time:s | B/point:0 | why", Judged::COLUMNS));
     let mut builds: Vec<Build> = vec![];
     for seed in context.seeds.clone() {
         write_raw(&file, on_triangles(&shape, n, seed)?.as_flattened())?;
@@ -23,7 +23,13 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
         }
     }
     out.table(&format!("n = {n}, {threads} threads"), table);
-    let wanted = [("components", 1), ("genus", DC.genus), ("loops", 0), ("bad", 0)];
+    let wanted = [
+        ("components", 1),
+        ("genus", DC.genus),
+        ("loops", 0),
+        ("bad edges", 0),
+        ("bad vertices", 0),
+    ];
     let is_right =
         |build: &Build| wanted.iter().all(|(name, count)| build.counters.get(*name) == Some(count));
     let right = builds.iter().filter(|build| is_right(build)).count();
