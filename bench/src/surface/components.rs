@@ -24,10 +24,10 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
     table.push(joined([json!({ "bodies": few, "points": points.len() }), timed.cells()]));
     out.table("", table);
     // As it is called without other word, and then held to one thread, as CGAL's is.
-    for (on, ratio) in [
-        (format!("{} threads", context.last_threads()), timed.extraction_ratio_on_all()),
-        ("one thread".to_owned(), timed.extraction_ratio()),
-    ] {
+    let [_, on_one, on_all] = timed.ratios();
+    for (on, ratio) in
+        [(format!("{} threads", context.last_threads()), on_all), ("one thread".to_owned(), on_one)]
+    {
         let what = format!("{few} components: CGAL's extraction over taut's on {on}");
         out.at_least(what, ratio.map(|ratio| 1.0 / ratio), [50.0, 100.0], Unit::Times);
     }

@@ -9,10 +9,9 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
     for model in &models[..context.size(models.len(), 1)] {
         let Some(shape) = model.read()? else { return out.left_out() };
         let timed = Timed::by_turns(context, &shape.vertices)?;
-        let (name, total) = (model.name, timed.total_ratio());
+        let (name, [total, extraction, _]) = (model.name, timed.ratios());
         table.push(joined([json!({ "set": name, "points": shape.vertices.len() }), timed.cells()]));
         out.at_most(format!("{name}: total over CGAL's"), total, [0.40, 0.20], Unit::Times);
-        let extraction = timed.extraction_ratio();
         let what = format!("{name}: extraction over CGAL's");
         out.at_most(what, extraction, [0.35, 0.15], Unit::Times);
     }

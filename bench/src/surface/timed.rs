@@ -77,19 +77,13 @@ impl Timed {
         of.map(|of| least(self.theirs.iter().map(of)))
     }
 
-    /// taut's total over CGAL's.
-    pub(super) fn total_ratio(&self) -> Option<f64> {
-        Some(self.least(Work::Whole(self.threads))? / self.cgal()[2]?)
-    }
-
-    /// taut's extraction over CGAL's.
-    pub(super) fn extraction_ratio(&self) -> Option<f64> {
-        Some(self.extraction(1)? / self.cgal()[1]?)
-    }
-
-    /// taut's extraction with all threads over CGAL's, which knows one.
-    pub(super) fn extraction_ratio_on_all(&self) -> Option<f64> {
-        Some(self.extraction(self.threads)? / self.cgal()[1]?)
+    /// taut's total, its extraction on one thread and on all, each over CGAL's, which knows one.
+    pub(super) fn ratios(&self) -> [Option<f64>; 3] {
+        let over = |ours: Option<f64>, theirs: Option<f64>| Some(ours? / theirs?);
+        let [_, extraction, total] = self.cgal();
+        let [on_one, on_all] = [1, self.threads].map(|threads| self.extraction(threads));
+        let whole = self.least(Work::Whole(self.threads));
+        [over(whole, total), over(on_one, extraction), over(on_all, extraction)]
     }
 
     /// Columns of [`Self::cells`]. Without other word, on one thread.
@@ -99,14 +93,15 @@ impl Timed {
     /// Times and ratios, for a table.
     pub(super) fn cells(&self) -> Value {
         let [their_delaunay, their_extraction, _] = self.cgal();
+        let [total, extraction, _] = self.ratios();
         let silent = self.ours.iter().find_map(|(_, builds)| builds.silence.as_ref());
         let builds: Vec<&Builds> = self.ours.iter().map(|(_, builds)| builds).collect();
         json!({
             "all threads": self.least(Work::Whole(self.threads)), "one thread": self.least(Work::Whole(1)),
             "extraction on all": self.extraction(self.threads), "extraction": self.extraction(1),
             "Delaunay": self.least(Work::Delaunay(1)), "CGAL Delaunay": their_delaunay,
-            "CGAL extraction": their_extraction, "all threads / CGAL": self.total_ratio(),
-            "extraction / CGAL": self.extraction_ratio(), "why": silent.or(self.silence.as_ref()),
+            "CGAL extraction": their_extraction, "all threads / CGAL": total,
+            "extraction / CGAL": extraction, "why": silent.or(self.silence.as_ref()),
             "builds": builds, "CGAL": self.theirs,
         })
     }
