@@ -1,7 +1,7 @@
-"""dynesty's bounding ellipsoid of points in the protocol of protocol.hpp: bounding.py INPUT CENTRE.
+"""dynesty's bounding ellipsoid of points in the protocol of protocol.hpp: bounding.py INPUT CENTER.
 
 That of their covariance, widened until all are inside: it encloses, and is not meant to be the smallest. The answer is
-the centre c, then Q by rows: {x : (x - c)'Q(x - c) <= 1}. The radius is the logarithm of the volume it claims.
+the center c, then Q by rows: {x : (x - c)'Q(x - c) <= 1}. The radius is the logarithm of the volume it claims.
 """
 
 import json

@@ -1,18 +1,18 @@
-"""k centres in the protocol of protocol.hpp: centers.py PROBLEM INPUT CENTRE.
+"""k centers in the protocol of protocol.hpp: centers.py PROBLEM INPUT CENTER.
 
 PROBLEM is one of
 
-- `set-cover`: centres among the points, exact, by set-cover programs under HiGHS. INPUT holds many sets: in each row the
-  number of its set, from 0, the number of centres, then a point. Each line asks for the next set, after the last again
+- `set-cover`: centers among the points, exact, by set-cover programs under HiGHS. INPUT holds many sets: in each row the
+  number of its set, from 0, the number of centers, then a point. Each line asks for the next set, after the last again
   for the first. The radius sought is one of the distances; for those tried, by halving, a program asks for the fewest
-  points whose balls hold all: minimise sum y_j subject to sum of y_j over d_ij <= r at least 1 for each i, y binary.
-- `medoids`: the same sets by KMedoids of scikit-learn-extra, which minimises the sum of distances, not the largest.
+  points whose balls hold all: minimize sum y_j subject to sum of y_j over d_ij <= r at least 1 for each i, y binary.
+- `medoids`: the same sets by KMedoids of scikit-learn-extra, which minimizes the sum of distances, not the largest.
 - `traversal-K` and `traversal-single-K`: K points of the traversal of Gonzalez (1985) by NumPy, from row 0, in double
   and in single precision.
 
 Only the packages of the problem are loaded, before the clock runs.
 
-What goes to CENTRE are the rows chosen, as doubles, numbered within the set. Seconds of `set-cover` are those of the
+What goes to CENTER are the rows chosen, as doubles, numbered within the set. Seconds of `set-cover` are those of the
 distances, of building the programs and of solving them.
 """
 

@@ -1,6 +1,6 @@
-// CGAL's Approximate_min_ellipsoid_d over doubles: PROGRAM EPSILON INPUT CENTRE.
+// CGAL's Approximate_min_ellipsoid_d over doubles: PROGRAM EPSILON INPUT CENTER.
 //
-// Its ellipsoid encloses the points and has at most 1 + EPSILON times the least volume. The answer is the centre c, then
+// Its ellipsoid encloses the points and has at most 1 + EPSILON times the least volume. The answer is the center c, then
 // Q by rows: {x : (x - c)'Q(x - c) <= 1}, which is not timed. CGAL's numbers M, m, s say x'Mx + x'm + s <= a with
 // a = (1 + k)(d + 1), 1 + the epsilon it reached = (1 + k)^((d + 1)/2). Its manual has another a, with that epsilon in
 // place of k: the ellipsoid would be larger than promised. The radius is the epsilon that CGAL says it reached.

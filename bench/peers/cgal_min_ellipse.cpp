@@ -1,7 +1,7 @@
 // CGAL's Min_ellipse_2 over plain doubles, the points in random order: that of the seed 1 in the first round, 2 in the
 // second, so that a run can be repeated and no single order decides.
 //
-// The answer is the centre c, then Q by rows: the ellipse is (x - c)'Q(x - c) <= 1; then the support points. c and Q are calculated from CGAL's six
+// The answer is the center c, then Q by rows: the ellipse is (x - c)'Q(x - c) <= 1; then the support points. c and Q are calculated from CGAL's six
 // coefficients in long double, which is not timed. The radius is 1 and means nothing.
 #include "protocol.hpp"
 

@@ -1,8 +1,8 @@
-// Surfaces of CGAL in the protocol of protocol.hpp: PROGRAM WAY INPUT CENTRE.
+// Surfaces of CGAL in the protocol of protocol.hpp: PROGRAM WAY INPUT CENTER.
 //
 // WAY is `front`, Advancing_front_surface_reconstruction, or `scales`, Scale_space_surface_reconstruction_3 with four
 // rounds of its smoother and the advancing front as its mesher; options are those they take by default. What goes to
-// CENTRE are two times in seconds, of the Delaunay triangulation and of the extraction from it, or of the smoothing
+// CENTER are two times in seconds, of the Delaunay triangulation and of the extraction from it, or of the smoothing
 // and of the mesher with its triangulation; then the triangles, as many as `support` says, three rows each.
 #include "protocol.hpp"
 

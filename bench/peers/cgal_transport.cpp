@@ -1,6 +1,6 @@
-// CGAL's Optimal_transportation_reconstruction_2 in the protocol of protocol.hpp: PROGRAM TOLERANCE INPUT CENTRE.
+// CGAL's Optimal_transportation_reconstruction_2 in the protocol of protocol.hpp: PROGRAM TOLERANCE INPUT CENTER.
 //
-// What goes to CENTRE are the vertices, as many as `support` says, two coordinates each, then the edges, two numbers of
+// What goes to CENTER are the vertices, as many as `support` says, two coordinates each, then the edges, two numbers of
 // vertices each. The options are those it takes by default; it simplifies until the tolerance, a length, is reached.
 #include "protocol.hpp"
 

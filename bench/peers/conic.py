@@ -1,7 +1,7 @@
-"""cvxpy with the conic solver Clarabel in the protocol of protocol.hpp: conic.py PROBLEM INPUT CENTRE.
+"""cvxpy with the conic solver Clarabel in the protocol of protocol.hpp: conic.py PROBLEM INPUT CENTER.
 
 PROBLEM is `points` (smallest ellipsoid around rows that are points), `ellipsoid` or `ball` (smallest ellipsoid, smallest
-ball around rows that are ellipsoids: a centre, then the lower triangle of its shape S by rows). The radius is that of
+ball around rows that are ellipsoids: a center, then the lower triangle of its shape S by rows). The radius is that of
 the ball, or the logarithm of the volume.
 
 An ellipsoid {c + Au : |u| <= 1}, AA' = S, lies in {x : |Bx + b| <= 1} if and only if for some t >= 0 the matrix
@@ -26,7 +26,7 @@ OPTIONS = {"tol_gap_abs": 1e-10, "tol_gap_rel": 1e-10, "tol_feas": 1e-10}
 
 
 def split(rows):
-    """Centres and factors A, AA' = S, of ellipsoids given by rows."""
+    """Centers and factors A, AA' = S, of ellipsoids given by rows."""
     columns = rows.shape[1]
     dim = next(d for d in range(1, columns) if d * (d + 3) // 2 == columns)
     ellipsoids = []
@@ -39,7 +39,7 @@ def split(rows):
 
 
 def inside(image, factor, radius):
-    """The matrix inequality for an ellipsoid with centre `image` and factor `factor` in a ball of so much radius."""
+    """The matrix inequality for an ellipsoid with center `image` and factor `factor` in a ball of so much radius."""
     dim = factor.shape[0]
     t = cvxpy.Variable()
     column = cvxpy.reshape(image, (dim, 1), order="C")
@@ -58,7 +58,7 @@ def log_unit_ball(dim):
 
 
 def solve(problem, rows):
-    """Radius or log-volume, and the centre."""
+    """Radius or log-volume, and the center."""
     if problem == "ball":
         ellipsoids = split(rows)
         center, radius = cvxpy.Variable(len(ellipsoids[0][0])), cvxpy.Variable()

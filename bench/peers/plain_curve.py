@@ -1,6 +1,6 @@
-"""The centres of section 4.1 of the thesis, word by word, in the protocol of protocol.hpp: plain_curve.py RHO INPUT CENTRE.
+"""The centers of section 4.1 of the thesis, word by word, in the protocol of protocol.hpp: plain_curve.py RHO INPUT CENTER.
 
-The points are in units of the least local feature size. What goes to CENTRE are the centres that pruning leaves.
+The points are in units of the least local feature size. What goes to CENTER are the centers that pruning leaves.
 """
 
 import json
@@ -53,7 +53,7 @@ def estimate(points, tree, sample, initial, rho):
 
 
 def centers(points, rho):
-    """The centres left."""
+    """The centers left."""
     tree = cKDTree(points)
     count = math.ceil(math.log(len(points)) ** (1 + OMEGA))
     initial = numpy.sqrt(tree.query(points, k=count + 1)[0][:, -1])

@@ -1,9 +1,9 @@
 // How a peer talks to the bench.
 //
-// Called as `PROGRAM INPUT CENTRE`. INPUT is two little-endian 64-bit counts, rows and columns, then the rows as
+// Called as `PROGRAM INPUT CENTER`. INPUT is two little-endian 64-bit counts, rows and columns, then the rows as
 // little-endian doubles. When the rows are in memory the program prints `{"ready":true}`; after that it solves
 // once for each line it reads and answers with one line of JSON. Seconds are those of the solver alone: neither
-// reading the file nor building the peer's own point type is counted. The centre is written to CENTRE as doubles.
+// reading the file nor building the peer's own point type is counted. The center is written to CENTER as doubles.
 #pragma once
 
 #include <chrono>
@@ -63,7 +63,7 @@ template <typename Solve> int serve(const char *center_path, Solve solve) {
         const Found found = solve(seconds);
         std::FILE *file = std::fopen(center_path, "wb");
         if (!file || std::fwrite(found.center.data(), sizeof(double), found.center.size(), file) != found.center.size()) {
-            std::fprintf(stderr, "%s: the centre could not be written\n", center_path);
+            std::fprintf(stderr, "%s: the center could not be written\n", center_path);
             return 2;
         }
         std::fclose(file);

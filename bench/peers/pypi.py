@@ -1,4 +1,4 @@
-"""cyminiball or miniball from PyPI, in the protocol of protocol.hpp: pypi.py PACKAGE INPUT CENTRE."""
+"""cyminiball or miniball from PyPI, in the protocol of protocol.hpp: pypi.py PACKAGE INPUT CENTER."""
 
 import json
 import sys
@@ -8,7 +8,7 @@ import numpy
 
 
 def solver(package):
-    """The package's function from points to (centre, squared radius)."""
+    """The package's function from points to (center, squared radius)."""
     if package == "cyminiball":
         import cyminiball
 

@@ -1,8 +1,8 @@
-"""Ball pivoting and Poisson reconstruction in the protocol of protocol.hpp: surface.py WAY INPUT CENTRE.
+"""Ball pivoting and Poisson reconstruction in the protocol of protocol.hpp: surface.py WAY INPUT CENTER.
 
 WAY is open3d-pivoting, open3d-poisson, pymeshlab-pivoting or pymeshlab-poisson. Normals are those of the 12 nearest points, for Open3D
 turned along a tangent tree; they are what the peers need and are part of the time. Open3D's balls have 1, 1.5, 2 and 3 times the mean
-distance to the 6 nearest points; pymeshlab chooses its own. Poisson has depth 9. What goes to CENTRE are the seconds of the normals and
+distance to the 6 nearest points; pymeshlab chooses its own. Poisson has depth 9. What goes to CENTER are the seconds of the normals and
 of the surface, the triangles, as many as `support` says, and the vertices: none where they are the rows of the input.
 """
 

@@ -1,6 +1,6 @@
-"""LKH through elkai in the protocol of protocol.hpp: tours.py elkai INPUT CENTRE, points that are whole numbers.
+"""LKH through elkai in the protocol of protocol.hpp: tours.py elkai INPUT CENTER, points that are whole numbers.
 
-What goes to CENTRE is the order of the rows, as doubles. Seconds are those of the call, which writes the problem down for
+What goes to CENTER is the order of the rows, as doubles. Seconds are those of the call, which writes the problem down for
 LKH and reads the tour.
 """
 

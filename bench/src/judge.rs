@@ -10,7 +10,7 @@ use taut_certify::{Items, Verdict};
 use taut_points::{Monitor, PointSource, ReadError, map_blocks};
 
 /// Relative deviation that rounding in the peer's last steps explains.
-const ROUNDING: f64 = 1e-12;
+pub(crate) const ROUNDING: f64 = 1e-12;
 /// A result is called wrong beyond this relative deviation: the tenth digit.
 const DEVIATION_MAX: f64 = 1e-10;
 
@@ -36,6 +36,24 @@ impl Judgement {
         self.is_within(ROUNDING)
     }
 
+    /// What was found, in words; `off` is about this quantity.
+    pub(crate) fn describe(&self, quantity: &str) -> String {
+        let Judgement { outside, excess, off } = self;
+        let word = match (self.is_wrong(), self.is_right()) {
+            (true, _) => "WRONG: ",
+            (_, false) => "INEXACT: ",
+            _ => "",
+        };
+        let encloses = match outside {
+            0 => format!("encloses ({excess:.1e})"),
+            n => format!("{n} outside by up to {excess:.1e}"),
+        };
+        match off.abs() <= ROUNDING {
+            true => format!("{word}{encloses}, {quantity} in our bracket"),
+            false => format!("{word}{encloses}, {quantity} {off:+.1e} off our bracket"),
+        }
+    }
+
     fn is_within(&self, tolerance: f64) -> bool {
         // NaN is within nothing.
         self.excess <= tolerance && self.off.abs() <= tolerance
@@ -44,19 +62,7 @@ impl Judgement {
 
 impl std::fmt::Display for Judgement {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match (self.is_wrong(), self.is_right()) {
-            (true, _) => write!(f, "WRONG: ")?,
-            (_, false) => write!(f, "INEXACT: ")?,
-            _ => {}
-        }
-        match self.outside {
-            0 => write!(f, "encloses ({:.1e})", self.excess)?,
-            n => write!(f, "{n} outside by up to {:.1e}", self.excess)?,
-        }
-        match self.off {
-            off if off.abs() <= ROUNDING => write!(f, ", radius in our bracket"),
-            off => write!(f, ", radius {off:+.1e} off our bracket"),
-        }
+        f.write_str(&self.describe("radius"))
     }
 }
 
@@ -76,7 +82,7 @@ pub(crate) fn judge(
             let distance =
                 row.iter().zip(center).map(|(x, c)| (x - c) * (x - c)).sum::<f64>().sqrt();
             let this = distance + if items == Items::Balls { row[center.len()] } else { 0.0 };
-            // A NaN of the peer, in centre or radius, must be lost neither in a comparison nor in a maximum.
+            // A NaN of the peer, in center or radius, must be lost neither in a comparison nor in a maximum.
             let inside = this <= radius * (1.0 + ROUNDING);
             outside += u64::from(!inside);
             reach = if this.is_nan() { f64::INFINITY } else { reach.max(this) };
@@ -129,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn balls_reach_further_than_their_centres() {
+    fn balls_reach_further_than_their_centers() {
         let balls = Points::new(&[0.0, 0.5, 2.0, 0.5], 2).unwrap();
         let bracket = Verdict { lower: 1.5, upper: 1.5, gap: 0.0 };
         assert!(!judge(&balls, Items::Balls, &[1.0], 1.5, &bracket).unwrap().is_wrong());

@@ -5,15 +5,14 @@
 
 use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, Write};
-use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::time::{Duration, Instant};
 
-use anyhow::{Context as _, Result, bail, ensure};
 use miniball::{Ball, Enclosing};
 use nalgebra::{Const, OPoint};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize, Serializer};
+
+use crate::prelude::*;
 
 /// The time a peer is given to read its input and build its own points of it.
 const LOADING_TIME_MAX: Duration = Duration::from_secs(120);
@@ -25,7 +24,7 @@ pub(crate) struct Answer {
     pub(crate) seconds: f64,
     /// The radius it claims.
     pub(crate) radius: f64,
-    /// The centre it claims, or what its answer is made of instead.
+    /// The center it claims, or what its answer is made of instead.
     pub(crate) center: Vec<f64>,
     /// Points it says determine the answer; 0 where it does not tell.
     pub(crate) support: u64,
@@ -60,90 +59,77 @@ impl std::fmt::Display for Silence {
     }
 }
 
+impl Serialize for Silence {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
 /// The folder `bench` of the repository this program was built from.
 pub(crate) fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
+/// Peers by the beginnings of their names: the Python package of a script, or nothing for a program of `peers/build`,
+/// then the script or program and its argument. NAME stands for the name of the peer, REST for what follows the beginning.
+/// A name that is not here is that of a program, with its build (`fgk-native`, `cgal-spheres-3-o2`).
+const PEERS: &[(&str, &str, &str)] = &[
+    ("cyminiball", "cyminiball", "pypi.py NAME"),
+    ("miniball-pypi", "miniball", "pypi.py miniball"),
+    ("sklearn-mcd-", "sklearn", "mcd.py REST"),
+    ("conic-", "cvxpy", "conic.py REST"),
+    ("set-cover", "highspy", "centers.py NAME"),
+    ("medoids", "sklearn_extra.cluster", "centers.py NAME"),
+    ("traversal-", "numpy", "centers.py NAME"),
+    ("elkai", "elkai", "tours.py NAME"),
+    ("plain-curve", "scipy", "plain_curve.py 4"),
+    ("dynesty", "dynesty", "bounding.py"),
+    ("open3d-", "open3d", "surface.py NAME"),
+    ("pymeshlab-", "pymeshlab", "surface.py NAME"),
+    ("cgal-hilbert-2-", "", "cgal-hilbert-2 REST"),
+    ("cgal-hilbert-3-", "", "cgal-hilbert-3 REST"),
+    ("cgal-approximate-", "", "cgal-approximate-ellipsoid REST"),
+    ("cgal-transport-", "", "cgal-transport REST"),
+    ("cgal-surface-", "", "cgal-surface REST"),
+    ("concorde", "", "tours/release/tours"),
+    ("quickheap", "", "rust/release/peers NAME"),
+    ("", "", "NAME"),
+];
+
 /// How a peer is called; `None` when it is not installed.
-///
-/// Names: a program of `peers/build` with its build (`fgk-native`, `cgal-spheres-3-o2`), or `cyminiball`,
-/// `miniball-pypi`, `miniball-crate`, `sklearn-mcd-H`, `conic-PROBLEM`, `dynesty`, `cgal-approximate-EPSILON`, `set-cover`,
-/// `medoids`, `traversal-K`, `traversal-single-K`, `concorde`, `elkai`, `plain-curve`, `cgal-transport-TOLERANCE`,
-/// `cgal-surface-WAY`, `open3d-WAY`, `pymeshlab-WAY`, `numpy-sort`, `numpy-sort-avx2`, `quickheap`, `quickheap-keys`,
-/// `cgal-hilbert-D-POLICY`.
 fn command(name: &str) -> Result<Option<Command>> {
-    let python = |package: &str| {
-        let interpreter = folder().join(".venv/bin/python");
-        let installed = Command::new(&interpreter)
-            .args(["-c", &format!("import {package}")])
-            .stderr(Stdio::null())
-            .status()
-            .is_ok_and(|status| status.success());
-        installed.then(|| {
-            let mut command = Command::new(interpreter);
+    if name == "miniball-crate" {
+        let mut command = Command::new(std::env::current_exe()?);
+        command.arg("peer-crate");
+        return Ok(Some(command));
+    }
+    if name.starts_with("numpy-sort") {
+        return Ok(sorter(name));
+    }
+    let found = PEERS.iter().find_map(|(start, package, words)| {
+        Some((name.strip_prefix(start)?, *package, words.split(' ')))
+    });
+    let (rest, package, mut words) = found.with_context(|| name.to_owned())?;
+    let program = words.next().unwrap_or_default().replace("NAME", name);
+    let arguments = words.map(|word| word.replace("NAME", name).replace("REST", rest));
+    let mut command = match package {
+        "" => Command::new(folder().join("peers/build").join(program)),
+        package => {
+            let mut command = Command::new(folder().join(".venv/bin/python"));
+            let import = format!("import {package}");
+            let status = command.args(["-c", &import]).stderr(Stdio::null()).status();
+            if !status.is_ok_and(|status| status.success()) {
+                return Ok(None);
+            }
+            command = Command::new(command.get_program());
             // Libraries below Python start threads of their own.
             command.env("OMP_NUM_THREADS", "1").env("OPENBLAS_NUM_THREADS", "1");
+            command.arg(folder().join("peers").join(program));
             command
-        })
-    };
-    let script = |package: &str, file: &str, argument: &str| {
-        python(package).map(|mut command| {
-            command.arg(folder().join("peers").join(file)).arg(argument);
-            command
-        })
-    };
-    let pypi = |package: &str| script(package, "pypi.py", package);
-    Ok(match name {
-        "cyminiball" => pypi("cyminiball"),
-        "miniball-pypi" => pypi("miniball"),
-        "sklearn-mcd-h" => script("sklearn", "mcd.py", "h"),
-        "sklearn-mcd-own" => script("sklearn", "mcd.py", "own"),
-        "conic-points" => script("cvxpy", "conic.py", "points"),
-        "conic-ellipsoid" => script("cvxpy", "conic.py", "ellipsoid"),
-        "conic-ball" => script("cvxpy", "conic.py", "ball"),
-        "set-cover" => script("highspy", "centers.py", "set-cover"),
-        "medoids" => script("sklearn_extra.cluster", "centers.py", "medoids"),
-        "elkai" => script("elkai", "tours.py", "elkai"),
-        "plain-curve" => script("scipy", "plain_curve.py", "4"),
-        "numpy-sort" | "numpy-sort-avx2" => sorter(name),
-        "open3d-pivoting" | "open3d-poisson" => script("open3d", "surface.py", name),
-        "pymeshlab-pivoting" | "pymeshlab-poisson" => script("pymeshlab", "surface.py", name),
-        name if name.starts_with("traversal-") => script("numpy", "centers.py", name),
-        "dynesty" => python("dynesty").map(|mut command| {
-            command.arg(folder().join("peers/bounding.py"));
-            command
-        }),
-        "miniball-crate" => {
-            let mut command = Command::new(std::env::current_exe()?);
-            command.arg("peer-crate");
-            Some(command)
         }
-        name => {
-            const WITH_ARGUMENT: [(&str, &str); 5] = [
-                ("cgal-hilbert-2-", "cgal-hilbert-2"),
-                ("cgal-hilbert-3-", "cgal-hilbert-3"),
-                ("cgal-approximate-", "cgal-approximate-ellipsoid"),
-                ("cgal-transport-", "cgal-transport"),
-                ("cgal-surface-", "cgal-surface"),
-            ];
-            let prefixed = WITH_ARGUMENT
-                .iter()
-                .find_map(|(prefix, program)| Some((*program, name.strip_prefix(prefix)?)));
-            let (program, argument) = match (prefixed, name) {
-                (Some((program, argument)), _) => (program, Some(argument)),
-                (None, "concorde") => ("tours/release/tours", None),
-                (None, "quickheap" | "quickheap-keys") => ("rust/release/peers", Some(name)),
-                (None, name) => (name, None),
-            };
-            let path = folder().join("peers/build").join(program);
-            path.exists().then(|| {
-                let mut command = Command::new(path);
-                command.args(argument);
-                command
-            })
-        }
-    })
+    };
+    command.args(arguments);
+    Ok(Path::new(command.get_program()).exists().then_some(command))
 }
 
 /// numpy of its own folder, as other packages want an older one; `-avx2` keeps it from longer vectors.
@@ -219,6 +205,39 @@ impl Peer {
             RecvTimeoutError::Disconnected => Silence::Ended,
         })
     }
+}
+
+/// Lets a peer answer so many times about rows: its answers, and why there are no more.
+pub(crate) fn ask_often(
+    context: &Context,
+    name: &str,
+    (values, columns): (&[f64], usize),
+    times: usize,
+) -> Result<(Vec<Answer>, Option<Silence>)> {
+    let file = context.file("rows");
+    write_rows(&file, values, columns)?;
+    let mut running = match Peer::start(name, &file, context.temp.path())? {
+        Ok(running) => running,
+        Err(silence) => return Ok((vec![], Some(silence))),
+    };
+    let mut answers = Vec::new();
+    for _ in 0..times {
+        match running.solve(context.limit)? {
+            Ok(answer) => answers.push(answer),
+            Err(silence) => return Ok((answers, Some(silence))),
+        }
+    }
+    Ok((answers, None))
+}
+
+/// Lets a peer answer once about rows.
+pub(crate) fn ask(
+    context: &Context,
+    name: &str,
+    rows: (&[f64], usize),
+) -> Result<Result<Answer, Silence>> {
+    let (mut answers, silence) = ask_often(context, name, rows, 1)?;
+    Ok(answers.pop().ok_or(silence.unwrap_or(Silence::Ended)))
 }
 
 impl Drop for Peer {

@@ -1,32 +1,19 @@
-//! Raw files of generated points, larger than the memory that is allowed, and processes that solve them.
+//! Raw files of generated points, larger than the memory that is allowed.
 
-use std::ffi::OsString;
 use std::fs::File;
 use std::io::{BufWriter, Write};
-use std::path::Path;
-use std::process::{Command, Stdio};
 
-use anyhow::{Result, ensure};
 use rayon::prelude::*;
-use serde::de::DeserializeOwned;
-use taut_points::{Blocks, Distribution, GeneratedSource, PointSource, Rows, ScalarKind, Scratch};
+use taut_points::{Blocks, GeneratedSource, PointSource, Rows, ScalarKind, Scratch};
 
-use crate::input::SEED;
+use crate::prelude::*;
 
-/// What this program prints as JSON when it is called with `arguments`: in a process of its own, so that its peak memory
-/// is that of the solver.
-pub(crate) fn alone<T: DeserializeOwned>(arguments: &[OsString]) -> Result<T> {
-    let output =
-        Command::new(std::env::current_exe()?).args(arguments).stderr(Stdio::inherit()).output()?;
-    ensure!(output.status.success(), "the solving process failed");
-    Ok(serde_json::from_slice(&output.stdout)?)
-}
-
-/// Writes the points, block by block, unless a file of that size is there.
-pub(crate) fn make(path: &Path, n: u64, dim: usize) -> Result<()> {
+/// Writes normal points to a folder, block by block, unless a file of that size is there. Returns its path.
+pub(crate) fn make(folder: &Path, n: u64, dim: usize) -> Result<PathBuf> {
+    let path = folder.join(format!("normal-{n}x{dim}-seed{SEED}.f32"));
     let bytes = n * dim as u64 * 4;
     if path.metadata().is_ok_and(|found| found.len() == bytes) {
-        return Ok(());
+        return Ok(path);
     }
     println!("writing {} ({:.2} GB)", path.display(), bytes as f64 / 1e9);
     let source = GeneratedSource::new(Distribution::Normal, n, dim, SEED, ScalarKind::F32)?;
@@ -42,7 +29,7 @@ pub(crate) fn make(path: &Path, n: u64, dim: usize) -> Result<()> {
                 let mut scratch = Scratch::new();
                 match source.read(blocks.range(block), &mut scratch)? {
                     Rows::F32(points) => Ok(points.values().to_vec()),
-                    Rows::F64(_) => anyhow::bail!("single precision was asked for"),
+                    Rows::F64(_) => bail!("single precision was asked for"),
                 }
             })
             .collect::<Result<_>>()?;
@@ -51,5 +38,6 @@ pub(crate) fn make(path: &Path, n: u64, dim: usize) -> Result<()> {
         }
     }
     file.flush()?;
-    Ok(std::fs::rename(part, path)?)
+    std::fs::rename(part, &path)?;
+    Ok(path)
 }

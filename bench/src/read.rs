@@ -10,7 +10,7 @@ const CHUNK: usize = 1 << 20;
 /// Words per step: enough independent sums that the additions never wait for each other.
 const LANES: usize = 64;
 
-/// Seconds of one vectorised sum over all `bytes`, a multiple of four, on the threads of `pool`.
+/// Seconds of one vectorized sum over all `bytes`, a multiple of four, on the threads of `pool`.
 pub(crate) fn plain_read(bytes: &[u8], pool: &rayon::ThreadPool) -> f64 {
     let words: &[u32] = bytemuck::cast_slice(bytes);
     let start = Instant::now();

@@ -1,11 +1,7 @@
-//! What a run leaves behind: tables on the terminal, and everything as JSON for those who want to recompute.
-
-use std::path::Path;
-
-use anyhow::Result;
-use serde_json::{Value, json};
+//! Everything that was measured, as JSON for those who want to recompute.
 
 use crate::machine;
+use crate::prelude::*;
 
 /// Collects what is measured.
 pub(crate) struct Report {
@@ -21,13 +17,14 @@ impl Report {
         Report { machine, cases: Vec::new() }
     }
 
-    /// Adds a case.
+    /// Adds a section.
     pub(crate) fn add(&mut self, case: Value) {
         self.cases.push(case);
     }
 
-    /// Writes everything to `path`.
-    pub(crate) fn write(&self, path: &Path) -> Result<()> {
+    /// Writes everything to `path`, if there is one.
+    pub(crate) fn write(&self, path: Option<&Path>) -> Result<()> {
+        let Some(path) = path else { return Ok(()) };
         let whole = json!({ "machine": self.machine, "cases": self.cases });
         Ok(std::fs::write(path, serde_json::to_string_pretty(&whole)? + "\n")?)
     }

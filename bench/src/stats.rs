@@ -33,6 +33,17 @@ impl Summary {
     }
 }
 
+/// The least of several values; `None` of none.
+pub(crate) fn least(values: impl IntoIterator<Item = f64>) -> Option<f64> {
+    values.into_iter().min_by(f64::total_cmp)
+}
+
+/// Median and range of several runs.
+pub(crate) fn range(summary: Summary, show: fn(f64) -> String) -> String {
+    let Summary { median, min, max, count } = summary;
+    format!("{} (range {}–{}, {count} runs)", show(median), show(min), show(max))
+}
+
 /// Seconds with a unit that suits them.
 pub(crate) fn seconds(value: f64) -> String {
     match value {

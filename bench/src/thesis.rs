@@ -1,31 +1,46 @@
-//! Figures 5 to 15 and 18 of the thesis, rerun: CSV for those who compute, SVG for those who look.
+//! Figures and the table of the thesis, rerun: CSV for those who compute, SVG for those who look.
 //!
-//! *What is rerun.* The experiments of chapter II: core-set sizes and times of Algorithm 1, pure and fast, by
-//! dimension, number of points, distribution and ε, and its time beside CGAL, Gärtner's code and the simple method
-//! of Bădoiu and Clarkson. The methods of the thesis take one far point per pass; taut's default method is drawn
-//! beside them, with its support and its working set.
+//! *What is rerun.* Core-sets and times of balls (figures 5 to 15) and of ellipsoids (figure 18), curves through noisy
+//! points (figures 2, 21 and 22), and surfaces (table 1). taut's default methods are drawn beside those of the thesis.
 //! *What differs.* The machine (the thesis had a 2.66 GHz Xeon, and for figures 14 and 15 a 1 GHz Pentium III), the
 //! conic solver, and the random points. Sizes can be compared; times only within one figure.
-//! *Figure 18* is about ellipsoids and has a command of its own, as have figures 2, 21 and 22, which are about curves.
 
+mod ball;
 mod curve;
 mod ellipsoid;
 mod figure;
-mod series;
+mod surface;
+mod sweep;
 
-use std::path::PathBuf;
-use std::time::Duration;
+use std::fmt::Write as _;
+use std::fs;
 
-use anyhow::Result;
+use taut_draw::{
+    Aspect, Axis, DrawOptions, Figure as Drawing, Layer2, Look, Plot, Point2, Scale, Scene2,
+    Series, SeriesLook, Shape2, Style, Tone, surface_figures, to_svg,
+};
+use taut_enclose::{BallMethod, BallOptions, EllipsoidMethod, EllipsoidOptions};
+use taut_points::generate::curves::{CurveNoise, TestCurve, sample_curve};
+use taut_reconstruct::{CurveMethod, CurveOptions, CurveThesisOptions, SurfaceOptions};
 use tempfile::TempDir;
 
+use crate::input::Input;
+use crate::judge::judge;
 use crate::machine;
+use crate::prelude::*;
+use crate::surface::found::ours;
+use crate::surface::table_one::{TABLE, TableOne};
+use figure::{Curve, Figure};
+use sweep::{Measured, Sweep, warning};
 
 /// Which figures, and how far.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Figures to rerun, 5 to 15; none means all.
-    figures: Vec<u32>,
+    /// Figures by number, `table-1`, or `all`; none lists them.
+    names: Vec<String>,
+    /// Show what can be rerun and do nothing.
+    #[arg(long)]
+    list: bool,
     /// Go to the largest dimensions and numbers of points of the thesis; without it, under about five minutes.
     #[arg(long)]
     full: bool,
@@ -33,11 +48,11 @@ pub(crate) struct Arguments {
     #[arg(long, conflicts_with = "full")]
     quick: bool,
     /// Folder for the CSV and SVG files.
-    #[arg(long, default_value = "bench/thesis-ball")]
+    #[arg(long, default_value = "bench/thesis")]
     out: PathBuf,
-    /// Times of each point of a curve; the smallest is drawn.
-    #[arg(long, default_value_t = 1)]
-    runs: usize,
+    /// Times of each instance, of which the smallest is drawn or written.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    runs: u64,
     /// Seconds after which a curve is not continued to larger instances; it is then said where it stops.
     #[arg(long, default_value_t = 15)]
     budget: u64,
@@ -51,12 +66,13 @@ enum Size {
     Full,
 }
 
-/// What all figures share.
+/// What all reruns share.
 struct Plan {
     size: Size,
-    runs: usize,
-    budget: Duration,
-    temp: TempDir,
+    /// Runs of each instance; `limit` is the budget of a curve.
+    context: Context,
+    /// Where files go.
+    out: PathBuf,
 }
 
 impl Plan {
@@ -70,85 +86,59 @@ impl Plan {
     }
 }
 
-/// How far figure 18 goes.
-#[derive(clap::Args)]
-pub(crate) struct EllipsoidArguments {
-    /// Go to larger dimensions and smaller ε; without it, under about a minute.
-    #[arg(long)]
-    full: bool,
-    /// Smallest sizes only: to try the program, not to look at.
-    #[arg(long, conflicts_with = "full")]
-    quick: bool,
-    /// Folder for the CSV and SVG files.
-    #[arg(long, default_value = "bench/thesis-ellipsoid")]
-    out: PathBuf,
-    /// Times of each point of a curve; the smallest is drawn.
-    #[arg(long, default_value_t = 1)]
-    runs: usize,
-    /// Seconds after which a curve is not continued to larger instances; it is then said where it stops.
-    #[arg(long, default_value_t = 15)]
-    budget: u64,
-}
+/// One experiment, which gives one figure or several: their names on the command line, what it shows, and how it runs.
+type Rerun = (&'static [&'static str], &'static str, fn(&Plan) -> Result<()>);
 
-fn plan(full: bool, quick: bool, runs: usize, budget: u64) -> Result<Plan> {
-    Ok(Plan {
-        size: match (full, quick) {
+const RERUNS: &[Rerun] = &[
+    (&["2"], "A curve through noisy points.", |plan| curve::write(plan, "02")),
+    (&["5", "6"], "Balls: the pure and the fast variant, by dimension.", ball::pure_and_fast),
+    (&["7", "8"], "Balls: two numbers of points.", ball::two_numbers_of_points),
+    (&["9", "10"], "Balls: four distributions.", ball::four_distributions),
+    (&["11", "12"], "Balls: by ε, with USPS.", ball::by_epsilon),
+    (&["13"], "Balls: low dimensions.", ball::low_dimensions),
+    (&["14"], "Balls: beside exact codes.", ball::beside_exact_codes),
+    (&["15"], "Balls: beside Bădoiu and Clarkson.", ball::beside_badoiu_clarkson),
+    (&["18"], "Ellipsoids: sizes of core-sets, by dimension and by ε.", ellipsoid::figures),
+    (&["21"], "Curves: the crude method on a jagged curve.", |plan| curve::write(plan, "21")),
+    (&["22"], "Curves: the crude method at sharp turns.", |plan| curve::write(plan, "22")),
+    (&["table-1"], "Surfaces: times and topology, with pictures.", surface::write),
+];
+
+/// Reruns what was asked for.
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+    if arguments.list || arguments.names.is_empty() {
+        for (names, about, _) in RERUNS {
+            println!("{:<10} {about}", names.join(", "));
+        }
+        return Ok(());
+    }
+    let all: Vec<&str> = RERUNS.iter().flat_map(|(names, ..)| *names).copied().collect();
+    let is_wanted = |name: &str| arguments.names.iter().any(|word| word == name || word == "all");
+    for word in &arguments.names {
+        let is_known = word == "all" || all.contains(&word.as_str());
+        ensure!(is_known, "no figure or table is called `{word}`: see `bench thesis --list`");
+    }
+    let plan = Plan {
+        size: match (arguments.full, arguments.quick) {
             (true, _) => Size::Full,
             (_, true) => Size::Quick,
             _ => Size::Usual,
         },
-        runs: runs.max(1),
-        budget: Duration::from_secs(budget),
-        temp: TempDir::new()?,
-    })
-}
-
-/// Prints figures and writes them.
-fn show(figures: Vec<figure::Figure>, folder: &std::path::Path) -> Result<()> {
-    for figure in figures {
-        figure.print();
-        figure.write(folder)?;
-    }
-    Ok(())
-}
-
-/// Where the pictures of curves go.
-#[derive(clap::Args)]
-pub(crate) struct CurveArguments {
-    /// Folder for the SVG files.
-    #[arg(long, default_value = "bench/thesis-curve")]
-    out: PathBuf,
-}
-
-/// Redraws figures 2, 21 and 22.
-pub(crate) fn run_curve(arguments: &CurveArguments) -> Result<()> {
-    std::fs::create_dir_all(&arguments.out)?;
-    for path in curve::write(&arguments.out)? {
-        println!("{}", path.display());
-    }
-    Ok(())
-}
-
-/// Reruns figure 18.
-pub(crate) fn run_ellipsoid(arguments: &EllipsoidArguments) -> Result<()> {
-    let EllipsoidArguments { full, quick, runs, budget, .. } = *arguments;
-    let plan = plan(full, quick, runs, budget)?;
-    std::fs::create_dir_all(&arguments.out)?;
+        context: Context {
+            runs: arguments.runs as usize,
+            quick: arguments.quick,
+            threads: vec![1],
+            peers: &[],
+            seeds: 1..2,
+            limit: Duration::from_secs(arguments.budget),
+            peer_budget: Duration::from_secs(arguments.budget),
+            scratch: None,
+            temp: TempDir::new()?,
+        },
+        out: arguments.out.clone(),
+    };
+    std::fs::create_dir_all(&plan.out)?;
     println!("Machine and versions: {}\n", machine::describe());
-    show(ellipsoid::figures(&plan)?, &arguments.out)
-}
-
-/// Reruns the figures that were asked for.
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    let Arguments { full, quick, runs, budget, .. } = *arguments;
-    let plan = plan(full, quick, runs, budget)?;
-    std::fs::create_dir_all(&arguments.out)?;
-    println!("Machine and versions: {}\n", machine::describe());
-    let wanted = |number: &u32| arguments.figures.is_empty() || arguments.figures.contains(number);
-    for (numbers, draw) in series::FIGURES {
-        if numbers.iter().any(wanted) {
-            show(draw(&plan)?, &arguments.out)?;
-        }
-    }
-    Ok(())
+    let mut wanted = RERUNS.iter().filter(|(names, ..)| names.iter().any(|name| is_wanted(name)));
+    wanted.try_for_each(|(_, _, run)| run(&plan))
 }

@@ -1,55 +1,43 @@
-//! Cases of points in memory, solved exactly.
+//! Points in memory, and balls under each of six radius laws, solved exactly.
 
-use anyhow::Result;
-use serde_json::json;
-use taut_enclose::BallOptions;
+use super::*;
 
-use super::case::{Case, PointsCase};
-use super::goals::Measured;
-use super::{Context, paired};
-use crate::goals;
-use crate::input::Input;
-
-/// Runs a case of generated points.
-pub(super) fn run(context: &mut Context, case: &Case, points: &PointsCase) -> Result<()> {
-    let n = if context.quick { (points.n / 10).max(500) } else { points.n };
-    let input = if points.single {
-        Input::single(points.distribution, n, points.d)?
-    } else {
-        Input::points(points.distribution, n, points.d)?
-    };
-    run_input(context, case, &input, points.peers)
+/// Runs n generated points of dimension d.
+pub(super) fn run(
+    context: &Context,
+    out: &mut Outcome,
+    distribution: Distribution,
+    n: usize,
+    d: usize,
+) -> Result<()> {
+    let n = context.size(n, (n / 10).max(500));
+    show(context, out, &Input::points(distribution, n, d)?)
 }
 
-/// Runs the case of the USPS digits, beside the Fischer–Gärtner–Kutz code.
-pub(super) fn run_usps(context: &mut Context, case: &Case) -> Result<()> {
+/// Runs the largest instance of the thesis, in single precision, which peers do not take.
+pub(super) fn run_largest(context: &Context, out: &mut Outcome) -> Result<()> {
+    show(context, out, &Input::single(Distribution::Normal, context.count(100_000), 1500)?)
+}
+
+/// Runs the USPS digits.
+pub(super) fn run_usps(context: &Context, out: &mut Outcome) -> Result<()> {
     match Input::usps()? {
-        Some(input) => run_input(context, case, &input, &["fgk-native", "fgk-o2"]),
-        None => {
-            println!("left out: set TAUT_DATA to a folder with ball/usps_train.csv.xz");
-            context.report.add(json!({ "name": case.name, "left_out": "TAUT_DATA is not set" }));
-            Ok(())
-        }
+        Some(input) => show(context, out, &input),
+        None => out.left_out(),
     }
 }
 
-fn run_input(context: &mut Context, case: &Case, input: &Input, peers: &[&str]) -> Result<()> {
-    let options = BallOptions { epsilon: 0.0, ..BallOptions::default() };
-    let paired = paired::run(context, input, &options, peers)?;
-    println!("{}\n\n{}", input.what, paired.table());
-    let measured = Measured {
-        verdict: paired.verdict.clone().ok(),
-        passes: paired.found.trace.passes,
-        stop: paired.found.trace.stop,
-        paired: Some(&paired),
-        ..Measured::default()
-    };
-    let goals = goals::print(&[case.must], &[case.aim], &measured);
-    context.report.add(json!({
-        "name": case.name,
-        "input": input.what,
-        "measured": paired.json(),
-        "goals": goals,
-    }));
+/// Runs n balls with normal centers of dimension d under all laws.
+pub(super) fn run_balls(context: &Context, out: &mut Outcome, n: usize, d: usize) -> Result<()> {
+    for radii in Radii::ALL {
+        let input = Input::balls(radii, context.count(n), d)?;
+        show(context, out, &input)?;
+        out.close(&input.what);
+    }
+    Ok(())
+}
+
+fn show(context: &Context, out: &mut Outcome, input: &Input) -> Result<()> {
+    Paired::run(context, input)?.show(out, input);
     Ok(())
 }

@@ -1,22 +1,13 @@
 //! The same bytes for any number of threads.
 
-use anyhow::{Result, ensure};
-use serde_json::json;
-use taut_certify::Items;
-use taut_enclose::{BallMethod, BallOptions, ball};
-use taut_points::Distribution;
-
-use super::Context;
-use super::case::Case;
-use crate::input::{Input, Radii};
-use crate::table::Table;
+use super::*;
 
 /// Solves several inputs by each method with 1, 2 and 8 threads and compares the JSON of the solutions.
 ///
 /// # Errors
 /// When two of them differ in a single byte.
-pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
-    let n = if context.quick { 1_000 } else { 10_000 };
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let n = context.count(10_000);
     let mut inputs = vec![
         Input::points(Distribution::Normal, n, 3)?,
         Input::points(Distribution::Normal, n, 300)?,
@@ -32,7 +23,7 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
     }
     inputs.extend(Input::usps()?);
 
-    let mut table = Table::new(&["input", "method", "bytes", "threads compared"]);
+    let mut table = Table::new("input | method | bytes | threads compared");
     let mut compared = 0;
     for input in &inputs {
         for method in BallMethod::ALL {
@@ -43,25 +34,26 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
                 _ => 1e-3,
             };
             let solve = |threads| -> Result<String> {
+                let inputs = input.items;
                 let options = BallOptions {
                     epsilon,
                     method,
                     threads: Some(threads),
-                    ..BallOptions::default()
+                    inputs,
+                    ..Default::default()
                 };
-                let source = input.source()?;
-                Ok(ball(&*source, &BallOptions { inputs: input.items, ..options })?.to_json())
+                Ok(ball(&*input.source()?, &options)?.to_json())
             };
             let one = match solve(1) {
                 Ok(one) => one,
                 // The thesis' methods may be for points alone; that is said, and the default must do both.
                 Err(refusal) if method != BallMethod::CoreSet && input.items == Items::Balls => {
-                    table.push(vec![
-                        input.what.clone(),
+                    table.push(json!([
+                        input.what,
                         method.to_string(),
-                        "refused".into(),
-                        refusal.to_string(),
-                    ]);
+                        "refused",
+                        refusal.to_string()
+                    ]));
                     continue;
                 }
                 Err(error) => return Err(error),
@@ -73,18 +65,12 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
                     input.what
                 );
             }
-            table.push(vec![
-                input.what.clone(),
-                method.to_string(),
-                one.len().to_string(),
-                "1, 2, 8".into(),
-            ]);
+            table.push(json!([input.what, method.to_string(), one.len(), "1, 2, 8"]));
             compared += 1;
         }
     }
-    println!(
-        "{table}\n- must: byte-identical for 1, 2 and 8 threads: {compared} of {compared} solutions: met"
-    );
-    context.report.add(json!({ "name": case.name, "identical": compared }));
+    out.table("", table);
+    let shown = format!("{compared} of {compared} solutions");
+    out.must("byte-identical for 1, 2 and 8 threads", shown, true);
     Ok(())
 }

@@ -1,40 +1,21 @@
 //! The list of cases: which inputs, and what has to be reached.
 
-use super::goals::{FACTOR_GOAL, bandwidth, check, core_set, equal, radius};
-use crate::cases::Named;
-use crate::goals::Goal;
+use super::*;
 
-/// A case by name.
-pub(super) struct Case {
-    /// Its name on the command line.
-    pub(super) name: &'static str,
-    /// What it shows.
-    pub(super) about: &'static str,
-    /// What is done.
-    pub(super) kind: Kind,
-    /// What has to be reached by all of its inputs.
-    pub(super) must: &'static [Goal],
-}
+/// The radii that cases name are known to so many digits.
+pub(super) const KNOWN_RADIUS_TOLERANCE: f64 = 1e-6;
+/// Rounding in a factor, which a maximum may meet exactly.
+const FACTOR_ROUNDING: f64 = 1e-9;
 
-impl Named for Case {
-    fn head(&self) -> [&'static str; 2] {
-        [self.name, self.about]
-    }
-}
-
-/// What is done in a case.
-pub(super) enum Kind {
-    /// Free centres of points, to a gap.
-    Free(&'static [Task]),
-    /// Centres among the points, beside a set-cover program.
-    Discrete,
-    /// Farthest-first traversals of many points.
-    Traversal,
-    /// Centres of all but a few points.
-    Outliers,
-    /// Points that come by once.
-    Streams,
-}
+pub(super) const CORE_SET: Quantity = Quantity::new("rows in the certificate", Unit::Plain);
+pub(super) const CHECK: Quantity = Quantity::new("time of the check", Unit::Seconds);
+pub(super) const DIFFERS: Quantity =
+    Quantity::new("relative difference of radii to the peer's", Unit::Power);
+/// Whole passes, one for each center, would take this share of the time when nothing but memory bound them.
+pub(super) const BANDWIDTH: Quantity =
+    Quantity::new("share of the bandwidth bound, a plain read for each center", Unit::Times);
+pub(super) const FACTOR: Quantity =
+    Quantity::new("radius over lower bound, over the factor stated", Unit::Times);
 
 /// Points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,190 +31,158 @@ pub(super) const GERMANY: Set = Set::Cities("d15112.tsp.xz");
 const USA: Set = Set::Cities("usa13509.xy.xz");
 const SPACE: Set = Set::Normal(10_000);
 
-/// So many centres, to such a gap, and what has to be reached.
+/// So many centers, to such a gap, and what has to be reached.
+#[derive(Clone, Copy)]
 pub(super) struct Task {
     /// The points.
     pub(super) set: Set,
-    /// Number of centres.
+    /// Number of centers.
     pub(super) k: usize,
     /// Relative gap asked for.
     pub(super) epsilon: f64,
     /// Most permutations, where one takes minutes.
     pub(super) permutations: usize,
-    /// What has to be reached, beside the gap.
+    /// The radius that is known.
+    pub(super) radius: Option<f64>,
+    /// What has to be reached, beside the gap and the radius.
     pub(super) must: &'static [Goal],
     /// What is hoped for.
     pub(super) aim: &'static [Goal],
 }
 
-const fn task(
-    set: Set,
-    k: usize,
-    epsilon: f64,
-    must: &'static [Goal],
-    aim: &'static [Goal],
-) -> Task {
-    Task { set, k, epsilon, permutations: usize::MAX, must, aim }
+const fn task(set: Set, k: usize, epsilon: f64) -> Task {
+    Task { set, k, epsilon, permutations: usize::MAX, radius: None, must: &[], aim: &[] }
 }
 
 impl Task {
+    const fn radius(self, radius: f64) -> Self {
+        Task { radius: Some(radius), ..self }
+    }
+
+    const fn must(self, must: &'static [Goal]) -> Self {
+        Task { must, ..self }
+    }
+
+    const fn aim(self, aim: &'static [Goal]) -> Self {
+        Task { aim, ..self }
+    }
+
     const fn once(self) -> Self {
         Task { permutations: 1, ..self }
     }
 }
 
 const GAP_EXACT: f64 = 1e-6;
-const SECONDS_GOAL: Goal = Goal::seconds(0.3);
-const QUICK_AIM: &[Goal] = &[Goal::seconds(0.05)];
-const CORE_SET_GOAL: Goal = core_set(200);
-const CHECK_GOAL: Goal = check(1.0);
+const QUICK_AIM: &[Goal] = &[SECONDS.at_most(0.05)];
+const CORE_SET_GOAL: Goal = CORE_SET.at_most(200.0);
+const CHECK_GOAL: Goal = CHECK.at_most(1.0);
+const PROVEN: &[Goal] = &[SECONDS.at_most(0.3), CORE_SET_GOAL, CHECK_GOAL];
 
-/// All cases, in the order in which they run; the longest is the last.
-pub(super) const CASES: &[Case] = &[
-    Case {
-        name: "cities",
-        about: "Cities of Germany and of the USA, free centres at ε = 1e-6, beside the optima that are known.",
-        kind: Kind::Free(&[
-            task(
-                GERMANY,
-                2,
-                GAP_EXACT,
-                &[radius(9342.60196519), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
-                QUICK_AIM,
-            ),
-            task(
-                GERMANY,
-                3,
-                GAP_EXACT,
-                &[radius(8139.66296907), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
-                QUICK_AIM,
-            ),
-            task(
-                GERMANY,
-                4,
-                GAP_EXACT,
-                &[radius(6573.74826488), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
-                QUICK_AIM,
-            ),
-            task(
-                GERMANY,
-                5,
-                GAP_EXACT,
-                &[radius(5818.46791619), SECONDS_GOAL, CORE_SET_GOAL, CHECK_GOAL],
-                QUICK_AIM,
-            ),
-            task(
-                GERMANY,
-                8,
-                GAP_EXACT,
-                &[radius(4306.44830458), Goal::seconds(2.0), CORE_SET_GOAL, CHECK_GOAL],
-                &[Goal::seconds(0.1)],
-            ),
-            task(
-                GERMANY,
-                10,
-                GAP_EXACT,
-                &[radius(3725.69052411), Goal::seconds(10.0)],
-                &[Goal::seconds(1.0)],
-            ),
-            task(GERMANY, 12, GAP_EXACT, &[Goal::seconds(60.0)], &[Goal::seconds(5.0)]),
-            task(
-                USA,
-                5,
-                GAP_EXACT,
-                &[radius(99986.80259875), Goal::seconds(0.2), CORE_SET_GOAL, CHECK_GOAL],
-                &[],
-            ),
-            task(USA, 10, GAP_EXACT, &[radius(65210.68259879), Goal::seconds(4.0)], &[]),
-        ]),
-        must: &[],
-    },
-    Case {
-        name: "cities-15",
-        about: "The same for k = 15, at 1 %.",
-        kind: Kind::Free(&[
-            task(GERMANY, 15, 0.01, &[Goal::seconds(300.0)], &[Goal::seconds(10.0)]),
-            task(USA, 15, 0.01, &[Goal::seconds(100.0)], &[Goal::seconds(4.0)]),
-        ]),
-        must: &[],
-    },
-    Case {
-        name: "space",
-        about: "Normal, 10⁴ × 3, free centres at 1 %: the thesis needed almost a week for four.",
-        kind: Kind::Free(&[
-            task(SPACE, 4, 0.01, &[Goal::seconds(0.1), CORE_SET_GOAL], &[Goal::seconds(0.01)]),
-            task(SPACE, 6, 0.01, &[Goal::seconds(0.3), CORE_SET_GOAL], &[Goal::seconds(0.03)]),
-            task(SPACE, 8, 0.01, &[Goal::seconds(3.0), CORE_SET_GOAL], &[Goal::seconds(0.2)]),
-            task(SPACE, 10, 0.01, &[Goal::seconds(40.0)], &[Goal::seconds(2.0)]),
-        ]),
-        must: &[],
-    },
-    Case {
-        name: "discrete",
-        about: "Centres among the points, exact: 200 small sets beside set-cover programs under HiGHS, and the cities of Germany.",
-        kind: Kind::Discrete,
-        must: &[Goal::gap(1e-11), equal(1e-12)],
-    },
-    Case {
-        name: "farthest-first",
-        about: "1000 points in farthest-first order, of 10⁷ × 3 in double and 10⁶ × 128 in single precision, beside NumPy.",
-        kind: Kind::Traversal,
-        must: &[bandwidth(0.8), equal(1e-5)],
-    },
-    Case {
-        name: "outliers",
-        about: "Uniform, 2000 × 2, without up to five points, at ε = 1e-6.",
-        kind: Kind::Outliers,
-        must: &[Goal::gap(GAP_EXACT)],
-    },
-    Case {
-        name: "streams",
-        about: "Normal, 10⁶ × 3, one after another: the factor measured beside the one stated, on two orders.",
-        kind: Kind::Streams,
-        must: &[FACTOR_GOAL],
-    },
-    Case {
-        name: "cities-20",
-        about: "The cities of Germany for k = 20, at 5 % and at 1 %: minutes, one permutation.",
-        kind: Kind::Free(&[
-            task(GERMANY, 20, 0.05, &[Goal::seconds(300.0)], &[]).once(),
-            task(GERMANY, 20, 0.01, &[], &[Goal::gap(0.01), Goal::seconds(600.0)]).once(),
-        ]),
-        must: &[],
-    },
+const CITIES: &[Task] = &[
+    task(GERMANY, 2, GAP_EXACT).radius(9342.60196519).must(PROVEN).aim(QUICK_AIM),
+    task(GERMANY, 3, GAP_EXACT).radius(8139.66296907).must(PROVEN).aim(QUICK_AIM),
+    task(GERMANY, 4, GAP_EXACT).radius(6573.74826488).must(PROVEN).aim(QUICK_AIM),
+    task(GERMANY, 5, GAP_EXACT).radius(5818.46791619).must(PROVEN).aim(QUICK_AIM),
+    task(GERMANY, 8, GAP_EXACT)
+        .radius(4306.44830458)
+        .must(&[SECONDS.at_most(2.0), CORE_SET_GOAL, CHECK_GOAL])
+        .aim(&[SECONDS.at_most(0.1)]),
+    task(GERMANY, 10, GAP_EXACT)
+        .radius(3725.69052411)
+        .must(&[SECONDS.at_most(10.0)])
+        .aim(&[SECONDS.at_most(1.0)]),
+    task(GERMANY, 12, GAP_EXACT).must(&[SECONDS.at_most(60.0)]).aim(&[SECONDS.at_most(5.0)]),
+    task(USA, 5, GAP_EXACT).radius(99986.80259875).must(&[
+        SECONDS.at_most(0.2),
+        CORE_SET_GOAL,
+        CHECK_GOAL,
+    ]),
+    task(USA, 10, GAP_EXACT).radius(65210.68259879).must(&[SECONDS.at_most(4.0)]),
 ];
+
+const CITIES_15: &[Task] = &[
+    task(GERMANY, 15, 0.01).must(&[SECONDS.at_most(300.0)]).aim(&[SECONDS.at_most(10.0)]),
+    task(USA, 15, 0.01).must(&[SECONDS.at_most(100.0)]).aim(&[SECONDS.at_most(4.0)]),
+];
+
+const SPACE_TASKS: &[Task] = &[
+    task(SPACE, 4, 0.01).must(&[SECONDS.at_most(0.1), CORE_SET_GOAL]).aim(&[SECONDS.at_most(0.01)]),
+    task(SPACE, 6, 0.01).must(&[SECONDS.at_most(0.3), CORE_SET_GOAL]).aim(&[SECONDS.at_most(0.03)]),
+    task(SPACE, 8, 0.01).must(&[SECONDS.at_most(3.0), CORE_SET_GOAL]).aim(&[SECONDS.at_most(0.2)]),
+    task(SPACE, 10, 0.01).must(&[SECONDS.at_most(40.0)]).aim(&[SECONDS.at_most(2.0)]),
+];
+
+const CITIES_20: &[Task] = &[
+    task(GERMANY, 20, 0.05).must(&[SECONDS.at_most(300.0)]).once(),
+    task(GERMANY, 20, 0.01).aim(&[GAP.at_most(0.01), SECONDS.at_most(600.0)]).once(),
+];
+
+/// All sections; the longest is the last.
+pub(crate) const AREA: Area<Run> = Area {
+    name: "centers",
+    runs: 5,
+    threads: &[1, 2],
+    limit: 120,
+    peer_budget: 600,
+    sections: &[
+        runs("cities", |run, out| free::run(run, out, CITIES)).about(
+            "Cities of Germany and of the USA, free centers at ε = 1e-6, beside the \
+                 optima that are known.",
+        ),
+        runs("cities-15", |run, out| free::run(run, out, CITIES_15))
+            .about("The same for k = 15, at 1 %."),
+        runs("space", |run, out| free::run(run, out, SPACE_TASKS)).about(
+            "Normal, 10⁴ × 3, free centers at 1 %: the thesis needed almost a week for four.",
+        ),
+        runs("discrete", discrete::run)
+            .about(
+                "Centers among the points, exact: 200 small sets beside set-cover programs \
+                 under HiGHS, and the cities of Germany.",
+            )
+            .must(&[GAP.at_most(1e-11), DIFFERS.at_most(1e-12)]),
+        runs("farthest-first", traversal::run)
+            .about(
+                "1000 points in farthest-first order, of 10⁷ × 3 in double and 10⁶ × 128 in \
+                 single precision, beside NumPy.",
+            )
+            .must(&[BANDWIDTH.at_least(0.8), DIFFERS.at_most(1e-5)]),
+        runs("outliers", outliers::run)
+            .about("Uniform, 2000 × 2, without up to five points, at ε = 1e-6.")
+            .must(&[GAP.at_most(GAP_EXACT)]),
+        runs("streams", streams::run)
+            .about(
+                "Normal, 10⁶ × 3, one after another: the factor measured beside the one \
+                 stated, on two orders.",
+            )
+            .must(&[FACTOR.at_most(1.0 + FACTOR_ROUNDING)]),
+        runs("cities-20", |run, out| free::run(run, out, CITIES_20)).about(
+            "The cities of Germany for k = 20, at 5 % and at 1 %: minutes, one permutation.",
+        ),
+    ],
+};
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::goals::Direction;
+
+    const ALL: [&[Task]; 4] = [CITIES, CITIES_15, SPACE_TASKS, CITIES_20];
 
     #[test]
     fn names_are_unique_and_every_case_has_a_goal() {
-        for (at, case) in CASES.iter().enumerate() {
-            assert!(CASES[..at].iter().all(|other| other.name != case.name), "{}", case.name);
-            let has_goal = match case.kind {
-                Kind::Free(tasks) => {
-                    tasks.iter().all(|task| !task.must.is_empty() || !task.aim.is_empty())
-                }
-                _ => !case.must.is_empty(),
-            };
-            assert!(has_goal, "{}", case.name);
+        for section in AREA.sections {
+            let is_free = ["cities", "space"].iter().any(|name| section.name.starts_with(name));
+            assert!(is_free || !section.must.is_empty(), "{}", section.name);
         }
+        assert!(ALL.concat().iter().all(|task| !task.must.is_empty() || !task.aim.is_empty()));
     }
 
     #[test]
-    fn more_centres_of_a_set_are_known_to_reach_less_far() {
-        let radius = |goal: &Goal| match goal.direction {
-            Direction::Near(radius) => Some(radius),
-            _ => None,
-        };
-        for case in CASES {
-            let Kind::Free(tasks) = case.kind else { continue };
+    fn more_centers_of_a_set_are_known_to_reach_less_far() {
+        for tasks in ALL {
             for pair in tasks.windows(2).filter(|pair| pair[0].set == pair[1].set) {
                 assert!(pair[0].k < pair[1].k || pair[0].epsilon > pair[1].epsilon);
-                let [a, b] = [0, 1].map(|i| pair[i].must.iter().find_map(radius));
-                assert!(a.zip(b).is_none_or(|(a, b)| a > b), "{}, k = {}", case.name, pair[1].k);
+                let radii = pair[0].radius.zip(pair[1].radius);
+                assert!(radii.is_none_or(|(a, b)| a > b), "k = {}", pair[1].k);
             }
         }
     }

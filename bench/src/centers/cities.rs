@@ -1,21 +1,10 @@
 //! Cities of `$TAUT_DATA/ball`, and permutations of rows.
 
-use std::path::Path;
+use super::*;
 
-use anyhow::{Context as _, Result};
-use taut_points::{Distribution, generate};
-
-/// The places of a file, two numbers each; `None`, after saying so, where `TAUT_DATA` does not hold it.
+/// The places of a file of `$TAUT_DATA/ball`, two numbers each; `None`, after saying so, where it is missing.
 pub(super) fn read(name: &str) -> Result<Option<Vec<f64>>> {
-    let path = std::env::var_os("TAUT_DATA").map(|data| Path::new(&data).join("ball").join(name));
-    let Some(path) = path.filter(|path| path.exists()) else {
-        println!("left out: set TAUT_DATA to a folder with ball/{name}");
-        return Ok(None);
-    };
-    let file = std::fs::File::open(&path).with_context(|| path.display().to_string())?;
-    let text = std::io::read_to_string(liblzma::read::XzDecoder::new(file))
-        .with_context(|| path.display().to_string())?;
-    Ok(Some(places(&text)))
+    Ok(data::read_xz(&format!("ball/{name}"))?.map(|text| places(&text)))
 }
 
 /// The last two numbers of each line that is made of two numbers or more: TSPLIB's head has words in its lines, and its rows
@@ -30,9 +19,7 @@ fn places(text: &str) -> Vec<f64> {
 
 /// The rows in an order that the seed determines.
 pub(super) fn permuted(values: &[f64], dim: usize, seed: u64) -> Result<Vec<f64>> {
-    let lots: Vec<f64> = generate(Distribution::Uniform, values.len() / dim, 1, seed)?;
-    let mut order: Vec<usize> = (0..lots.len()).collect();
-    order.sort_by(|&a, &b| lots[a].total_cmp(&lots[b]));
+    let order = shuffled(values.len() / dim, seed)?;
     Ok(order.into_iter().flat_map(|row| &values[row * dim..][..dim]).copied().collect())
 }
 

@@ -1,45 +1,23 @@
-//! Centres among the points: many small sets beside set-cover programs, and the cities alone.
+//! Centers among the points: many small sets beside set-cover programs, and the cities alone.
 
-use std::time::Instant;
-
-use anyhow::Result;
-use serde_json::{Value, json};
-use taut_certify::{Items, Placement};
-use taut_enclose::{CentersOptions, centers};
-use taut_points::{Distribution, Monitor, Points, generate};
-
-use super::case::{Case, GERMANY};
-use super::judgement::{self, COLUMNS, judge};
-use super::{Context, cities};
-use crate::goals;
-use crate::input::{SEED, write_rows};
-use crate::peer::{Answer, Peer, Silence};
-use crate::stats::{Summary, seconds, times};
-use crate::table::Table;
+use super::*;
 
 const RANDOM_SETS: u64 = 200;
 const DIM: usize = 2;
-const OPTIONS: CentersOptions<'static> = CentersOptions {
-    inputs: Items::Points,
-    epsilon: 0.0,
-    method: taut_enclose::CentersMethod::Tree,
-    placement: Placement::Rows,
-    outliers: 0,
-    weights: false,
-    max_nodes: 10_000_000,
-    assignment: false,
-    threads: None,
-    monitor: Monitor::silent(),
-};
 
-/// A small set and the number of its centres.
+/// Centers among the points, exact.
+fn options() -> CentersOptions<'static> {
+    CentersOptions { epsilon: 0.0, placement: Placement::Rows, ..CentersOptions::default() }
+}
+
+/// A small set and the number of its centers.
 struct Small {
     values: Vec<f64>,
     k: usize,
 }
 
 impl Small {
-    /// 80 to 119 points after one of four laws, 2 to 6 centres.
+    /// 80 to 119 points after one of four laws, 2 to 6 centers.
     fn draw(number: u64) -> Result<Self> {
         let law = match number % 4 {
             0 => Distribution::Uniform,
@@ -52,9 +30,8 @@ impl Small {
     }
 }
 
-/// One run of `peer` over all sets: its answers, as far as it came.
-fn ask(context: &Context, peer: &str, sets: &[Small]) -> Result<(Vec<Answer>, Option<Silence>)> {
-    let file = context.temp.path().join("sets");
+/// All sets as the peers read them: number of the set, number of its centers, point.
+fn rows(sets: &[Small]) -> Vec<f64> {
     let mut rows = Vec::new();
     for (number, set) in sets.iter().enumerate() {
         for point in set.values.chunks_exact(DIM) {
@@ -62,92 +39,60 @@ fn ask(context: &Context, peer: &str, sets: &[Small]) -> Result<(Vec<Answer>, Op
             rows.extend(point);
         }
     }
-    write_rows(&file, &rows, DIM + 2)?;
-    let mut running = match Peer::start(peer, &file, context.temp.path())? {
-        Ok(running) => running,
-        Err(silence) => return Ok((vec![], Some(silence))),
-    };
-    let mut answers = Vec::new();
-    for _ in sets {
-        match running.solve(context.limit)? {
-            Ok(answer) => answers.push(answer),
-            Err(silence) => return Ok((answers, Some(silence))),
-        }
-    }
-    Ok((answers, None))
+    rows
 }
 
 /// Runs the small sets, then the cities.
-pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
-    let count = if context.quick { RANDOM_SETS / 10 } else { RANDOM_SETS };
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let count = context.size(RANDOM_SETS, RANDOM_SETS / 10);
     let sets = (0..count).map(Small::draw).collect::<Result<Vec<_>>>()?;
     let (mut clocks, mut judgements) = (vec![], vec![]);
     for set in &sets {
         let points = Points::new(&set.values, DIM)?;
-        let mut least = f64::INFINITY;
-        let mut found = None;
+        let (mut least, mut last) = (f64::INFINITY, None);
         for _ in 0..context.runs {
             let start = Instant::now();
-            let answer = centers(&points, set.k, &OPTIONS)?;
+            let answer = centers(&points, set.k, &options())?;
             least = least.min(start.elapsed().as_secs_f64());
-            found = Some(answer);
+            last = Some(answer);
         }
-        if let Some(found) = &found {
-            judgements.push(judge(found, &points));
-            clocks.push(least);
-        }
+        judgements.push(judge(&last.context("no round")?, &points));
+        clocks.push(least);
     }
-    let mut measured = judgement::measured(&judgements);
-    let head = ["program", "sets", "time of a set", "times taut's", "radius ÷ taut's", "largest"];
-    let mut table = Table::new(&head);
-    let spread = |summary: Option<Summary>, show: fn(f64) -> String| {
-        summary.map_or(String::new(), |s| {
-            format!("{} ({}–{})", show(s.median), show(s.min), show(s.max))
-        })
-    };
-    let own = spread(Summary::of(&clocks), seconds);
-    table.push(vec!["taut".into(), count.to_string(), own, "1".into(), "1".into(), "1".into()]);
-    let mut peers = Vec::new();
+    let mut found = judgement::found(&judgements);
+    let mut table = Table::new(
+        "program | sets | time of a set:s | times taut's:x | radius ÷ taut's:4 | largest:4 | why",
+    );
+    let ours: Vec<f64> = judgements.iter().map(|of| of.radius).collect();
+    table.push(json!({
+        "program": "taut", "sets": count, "time of a set": Summary::of(&clocks), "times taut's": 1.0,
+        "radius ÷ taut's": 1.0, "largest": 1.0, "seconds": clocks, "radii": ours,
+    }));
+    let rows = rows(&sets);
     for peer in ["set-cover", "medoids"] {
-        let (answers, silence) = ask(context, peer, &sets)?;
+        let (answers, silence) = peer::ask_often(context, peer, (&rows, DIM + 2), sets.len())?;
         let theirs: Vec<f64> = answers.iter().map(|answer| answer.seconds).collect();
         let radii: Vec<f64> = answers.iter().map(|answer| answer.radius).collect();
-        let ours: Vec<f64> = judgements.iter().map(|of| of.radius).collect();
         let ratios = Summary::of_ratios(&radii, &ours);
-        let said = silence
-            .as_ref()
-            .map_or(answers.len().to_string(), |silence| format!("{} ({silence})", answers.len()));
-        table.push(vec![
-            peer.to_owned(),
-            said,
-            spread(Summary::of(&theirs), seconds),
-            spread(Summary::of_ratios(&theirs, &clocks), times),
-            ratios.map_or(String::new(), |s| format!("{:.4}", s.median)),
-            ratios.map_or(String::new(), |s| format!("{:.4}", s.max)),
-        ]);
-        if peer == "set-cover" && silence.is_none() {
-            measured.differs = largest_deviation(&radii, &ours);
-        }
-        peers.push(json!({
-            "peer": peer, "seconds": theirs, "radii": radii, "silence": silence.map(|s| s.to_string()),
+        table.push(json!({
+            "program": peer, "sets": answers.len(), "time of a set": Summary::of(&theirs),
+            "times taut's": Summary::of_ratios(&theirs, &clocks),
+            "radius ÷ taut's": ratios.map(|s| s.median), "largest": ratios.map(|s| s.max),
+            "why": silence, "seconds": theirs, "radii": radii,
         }));
+        if peer == "set-cover" {
+            let differs = largest_deviation(&radii, &ours).filter(|_| silence.is_none());
+            found.add(DIFFERS, differs);
+        }
     }
-    println!(
-        "{count} sets of 80 to 119 points of the plane, k from 2 to 6; the least of {} runs of each\n\n{table}",
+    let caption = format!(
+        "{count} sets of 80 to 119 points of the plane, k from 2 to 6; the least of {} runs of each",
         context.runs
     );
-    let goals = goals::print(&[case.must], &[], &measured);
-    println!();
-    let small: Vec<Value> = judgements
-        .iter()
-        .zip(&clocks)
-        .map(|(judgement, clock)| json!({ "seconds": clock, "judgement": judgement.json() }))
-        .collect();
-    let cities = run_cities()?;
-    context.report.add(json!({
-        "name": case.name, "sets": small, "peers": peers, "goals": goals, "cities": cities,
-    }));
-    Ok(())
+    out.table(&caption, table);
+    out.judge(&found);
+    out.close("small sets");
+    run_cities(out)
 }
 
 /// The largest |a/b − 1|; NaN is larger than any number, `None` where there is no pair or one has no partner.
@@ -159,28 +104,21 @@ fn largest_deviation(theirs: &[f64], ours: &[f64]) -> Option<f64> {
     off.reduce(|a, b| if a.is_nan() || a > b { a } else { b })
 }
 
-/// Centres among the cities, exact, without a peer: their distances alone are 10⁸.
-fn run_cities() -> Result<Value> {
-    let super::case::Set::Cities(name) = GERMANY else { return Ok(Value::Null) };
-    let Some(values) = cities::read(name)? else { return Ok(json!("no TAUT_DATA")) };
+/// Centers among the cities, exact, without a peer: their distances alone are 10⁸.
+fn run_cities(out: &mut Outcome) -> Result<()> {
+    let super::case::Set::Cities(name) = GERMANY else { return Ok(()) };
+    let Some(values) = cities::read(name)? else { return out.left_out() };
     let points = Points::new(&values, DIM)?;
-    let mut table = Table::new(&[&["k", "clock", "nodes"], &COLUMNS[..]].concat());
-    let mut all = Vec::new();
+    let mut table = Table::new(&format!("k | clock:s | nodes | {COLUMNS}"));
     for k in [5, 10] {
         let start = Instant::now();
-        let found = centers(&points, k, &OPTIONS)?;
+        let found = centers(&points, k, &options())?;
         let clock = start.elapsed().as_secs_f64();
-        let judgement = judge(&found, &points);
-        let nodes = found.trace.iterations;
-        table.push(
-            [vec![k.to_string(), seconds(clock), nodes.to_string()], judgement.cells()].concat(),
-        );
-        all.push(
-            json!({ "k": k, "seconds": clock, "nodes": nodes, "judgement": judgement.json() }),
-        );
+        let head = json!({ "k": k, "clock": clock, "nodes": found.trace.iterations });
+        table.push(joined([head, judge(&found, &points).cells()]));
     }
-    println!("{name}, {} × {DIM}, centres among the cities, exact\n\n{table}", points.len());
-    Ok(json!(all))
+    out.table(&format!("{name}, {} × {DIM}, centers among the cities, exact", points.len()), table);
+    Ok(())
 }
 
 #[cfg(test)]
@@ -188,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sets_are_small_and_their_centres_few() {
+    fn sets_are_small_and_their_centers_few() {
         let sets: Vec<Small> = (0..40).map(|number| Small::draw(number).unwrap()).collect();
         assert!(sets.iter().all(|set| (160..240).contains(&set.values.len())));
         for k in 2..=6 {

@@ -1,30 +1,18 @@
-//! Free centres of points to a gap: medians over permutations of the rows.
+//! Free centers of points to a gap: medians over permutations of the rows.
 
-use anyhow::{Result, ensure};
-use serde_json::json;
-use taut_enclose::{CentersOptions, centers};
-use taut_points::{Distribution, Points, generate};
-
-use super::case::{Case, Set, Task};
-use super::judgement::{self, COLUMNS, judge};
-use super::{Context, cities};
-use crate::goals::{self, Goal};
-use crate::input::SEED;
-use crate::meter::Meter;
-use crate::stats::{Summary, seconds};
-use crate::table::Table;
+use super::*;
 
 /// Coordinates, one row after another, and the dimension.
 type Rows = (Vec<f64>, usize);
 
 impl Set {
     /// Its rows and their dimension; `None`, after saying so, where they are not to be had.
-    fn load(self, quick: bool) -> Result<Option<Rows>> {
+    fn load(self, context: &Context) -> Result<Option<Rows>> {
         Ok(match self {
             // A tenth of the cities would have other optima.
             Set::Cities(name) => cities::read(name)?.map(|values| (values, 2)),
             Set::Normal(n) => {
-                let n = if quick { n / 10 } else { n };
+                let n = context.count(n);
                 Some((generate(Distribution::Normal, n, 3, SEED)?, 3))
             }
         })
@@ -38,91 +26,67 @@ impl Set {
     }
 }
 
-/// Runs all tasks of a case.
-pub(super) fn run(context: &mut Context, case: &Case, tasks: &[Task]) -> Result<()> {
-    let mut all = Vec::new();
+/// Runs all tasks.
+pub(super) fn run(context: &Context, out: &mut Outcome, tasks: &'static [Task]) -> Result<()> {
     // `None` for a set that is not to be had, so that this is said once.
     let mut loaded: Option<(Set, Option<Rows>)> = None;
     for task in tasks {
         let values = match loaded.take() {
             Some((set, values)) if set == task.set => values,
-            _ => task.set.load(context.quick)?,
+            _ => task.set.load(context)?,
         };
         let (_, values) = loaded.insert((task.set, values));
-        let Some((values, dim)) = values else {
-            all.push(json!({ "set": task.set.name(), "k": task.k, "left_out": "no TAUT_DATA" }));
-            continue;
-        };
-        all.push(run_task(context, case, task, values, *dim)?);
+        if let Some((values, dim)) = values {
+            run_task(context, out, task, values, *dim)?;
+        } else {
+            out.keep("left_out", json!(task.set.name()));
+        }
     }
-    context.report.add(json!({ "name": case.name, "tasks": all }));
     Ok(())
 }
 
 fn run_task(
     context: &Context,
-    case: &Case,
-    task: &Task,
+    out: &mut Outcome,
+    task: &'static Task,
     values: &[f64],
     dim: usize,
-) -> Result<serde_json::Value> {
+) -> Result<()> {
     let options = CentersOptions { epsilon: task.epsilon, ..CentersOptions::default() };
-    let pools = context
-        .threads
-        .iter()
-        .map(|&threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build())
-        .collect::<Result<Vec<_>, _>>()?;
-    let head = ["permutation", "clock", "processors", "one thread", "nodes"];
-    let mut table = Table::new(&[&head[..], &COLUMNS[..]].concat());
-    let (mut judgements, mut clocks, mut report) = (vec![], vec![], vec![]);
+    let pool = context.pool()?;
+    let mut table = Table::new(&format!("permutation | {TIME_COLUMNS} | nodes | {COLUMNS}"));
+    let (mut judgements, mut clocks) = (vec![], vec![]);
     for permutation in 0..context.runs.min(task.permutations) as u64 {
         let rows = cities::permuted(values, dim, SEED + permutation)?;
         let points = Points::new(&rows, dim)?;
-        let (mut times, mut found) = (vec![], None);
-        for (pool, &threads) in pools.iter().zip(&context.threads) {
-            let meter = Meter::start();
-            let answer = pool.install(|| centers(&points, task.k, &options))?;
-            let cost = meter.stop();
-            times.push(json!({ "threads": threads, "wall": cost.wall, "cpu": cost.cpu }));
-            let is_same = found.as_ref().is_none_or(|(before, _)| *before == answer);
-            ensure!(is_same, "{threads} threads give another answer than fewer");
-            let one = (threads == 1).then_some(cost.cpu);
-            let one = found.as_ref().and_then(|(_, (_, one))| *one).or(one);
-            found = Some((answer, (cost, one)));
-        }
-        let Some((answer, (cost, one))) = found else { continue };
-        let judgement = match pools.last() {
-            Some(pool) => pool.install(|| judge(&answer, &points)),
-            None => judge(&answer, &points),
-        };
-        let nodes = answer.trace.iterations;
-        table.push(
-            [
-                vec![
-                    permutation.to_string(),
-                    seconds(cost.wall),
-                    seconds(cost.cpu),
-                    one.map(seconds).unwrap_or_default(),
-                    nodes.to_string(),
-                ],
-                judgement.cells(),
-            ]
-            .concat(),
-        );
-        report.push(json!({ "times": times, "nodes": nodes, "judgement": judgement.json() }));
-        clocks.push(cost.wall);
+        let mut first = None;
+        let solve = || Ok(centers(&points, task.k, &options)?);
+        let rounds = rounds::run(context, 1, Beside::default(), solve, |seen| {
+            let Seen::Ours(answer) = seen else { return Ok(()) };
+            let is_same = first.get_or_insert_with(|| answer.clone()) == answer;
+            ensure!(is_same, "an answer differs from that with another number of threads");
+            Ok(())
+        })?;
+        let judgement = pool.install(|| judge(&rounds.found, &points));
+        let head = json!({
+            "permutation": permutation, "nodes": rounds.found.trace.iterations, "times": rounds.json(),
+        });
+        table.push(joined([head, rounds.cells(), judgement.cells()]));
+        clocks.extend(rounds.clock());
         judgements.push(judgement);
     }
-    let n = values.len() / dim;
-    println!("{}, {n} × {dim}, k = {}, ε = {:e}\n\n{table}", task.set.name(), task.k, task.epsilon);
-    let mut measured = judgement::measured(&judgements);
-    measured.clock = Summary::of(&clocks);
-    let gap = [Goal::gap(task.epsilon)];
+    let (name, n) = (task.set.name(), values.len() / dim);
+    let what = format!("{name}, {n} × {dim}, k = {}, ε = {:e}", task.k, task.epsilon);
+    out.table(&what, table);
+    let mut found = judgement::found(&judgements);
+    found.median(SECONDS, Summary::of(&clocks), seconds);
+    let gap = GAP.at_most(task.epsilon);
+    let radius = task.radius.map(|radius| RADIUS.near(radius, KNOWN_RADIUS_TOLERANCE));
     // What is only hoped for is no must by its gap.
-    let gap: &[Goal] = if task.aim.contains(&gap[0]) { &[] } else { &gap };
-    let goals = goals::print(&[gap, case.must, task.must], &[task.aim], &measured);
-    println!();
-    Ok(json!({
-        "set": task.set.name(), "k": task.k, "epsilon": task.epsilon, "permutations": report, "goals": goals,
-    }))
+    let gap = Some(gap).filter(|gap| !task.aim.contains(gap));
+    let known: Vec<Goal> = gap.into_iter().chain(radius).collect();
+    out.judge_by([&known, &[]], &found);
+    out.judge_by([task.must, task.aim], &found);
+    out.close(&what);
+    Ok(())
 }

@@ -1,16 +1,9 @@
 //! What the checker proves of an answer, and what that costs.
 
-use std::time::Instant;
-
-use serde_json::{Value, json};
-use taut_certify::{Centers, CentersVerdict, LowerBound, Solution};
-use taut_points::PointSource;
-
-use super::goals::Measured;
-use crate::stats::{Summary, seconds};
+use super::*;
 
 /// Columns of a judgement.
-pub(super) const COLUMNS: [&str; 6] = ["radius", "verdict", "core-set", "by", "branches", "check"];
+pub(super) const COLUMNS: &str = "radius:8 | verdict | core-set | by | branches | check:s";
 
 /// A judgement of one answer.
 #[derive(Clone, Debug)]
@@ -20,11 +13,11 @@ pub(super) struct Judgement {
     /// What was proved, or why nothing was.
     pub(super) verdict: Result<CentersVerdict, String>,
     /// Rows in the core-set.
-    pub(super) core_set: usize,
+    core_set: usize,
     /// How the lower bound is proved.
-    pub(super) proof: &'static str,
+    proof: &'static str,
     /// Seconds of the check.
-    pub(super) seconds: f64,
+    seconds: f64,
 }
 
 /// Judges an answer on the threads of the pool it is called in.
@@ -50,46 +43,31 @@ impl Judgement {
     }
 
     /// Cells under [`COLUMNS`].
-    pub(super) fn cells(&self) -> Vec<String> {
-        let (said, nodes) = match &self.verdict {
-            Ok(verdict) => (format!("proved, gap {:.1e}", verdict.gap), verdict.nodes.to_string()),
-            Err(why) => (format!("REJECTED: {why}"), String::new()),
-        };
-        let radius = format!("{:.8}", self.radius);
-        let [size, proof] = [self.core_set.to_string(), self.proof.to_owned()];
-        vec![radius, said, size, proof, nodes, seconds(self.seconds)]
-    }
-
-    /// Everything, for the report.
-    pub(super) fn json(&self) -> Value {
+    pub(super) fn cells(&self) -> Value {
         let verdict = self.verdict.as_ref();
+        let said = match verdict {
+            Ok(verdict) => format!("proved, gap {:.1e}", verdict.gap),
+            Err(why) => format!("REJECTED: {why}"),
+        };
         json!({
-            "radius": self.radius,
-            "lower": verdict.ok().map(|verdict| verdict.lower),
-            "gap": self.gap(),
-            "rejected": verdict.err(),
-            "core_set": self.core_set,
-            "proof": self.proof,
-            "nodes": verdict.ok().map(|verdict| verdict.nodes),
-            "check_seconds": self.seconds,
+            "radius": self.radius, "verdict": said, "core-set": self.core_set, "by": self.proof,
+            "branches": verdict.ok().map(|verdict| verdict.nodes), "check": self.seconds,
+            "lower": verdict.ok().map(|verdict| verdict.lower), "gap": self.gap(),
         })
     }
 }
 
-/// What goals ask for of several judgements: the worst.
-pub(super) fn measured(all: &[Judgement]) -> Measured {
-    let gaps: Option<Vec<f64>> = all.iter().map(Judgement::gap).collect();
-    let least = all.iter().map(|of| of.radius).reduce(f64::min);
-    let most = all.iter().map(|of| of.radius).reduce(f64::max);
-    let times: Vec<f64> = all.iter().map(|of| of.seconds).collect();
-    Measured {
-        rejected: all.iter().find_map(|of| of.verdict.as_ref().err().cloned()),
-        gap: gaps.and_then(|gaps| gaps.into_iter().reduce(f64::max)),
-        radii: least.zip(most).map(|(least, most)| [least, most]),
-        core_set: all.iter().map(|of| of.core_set).max(),
-        check: Summary::of(&times),
-        ..Measured::default()
+/// What goals ask for of several judgements.
+pub(super) fn found(all: &[Judgement]) -> Found {
+    let mut found = Found::default();
+    for of in all {
+        found.check(of.verdict.as_ref().map(|verdict| verdict.gap).map_err(String::clone));
+        found.say(RADIUS, Some((of.radius, Unit::Fixed(8).show(of.radius))));
+        found.add(CORE_SET, of.core_set as f64);
     }
+    let times: Vec<f64> = all.iter().map(|of| of.seconds).collect();
+    found.median(CHECK, Summary::of(&times), seconds);
+    found
 }
 
 #[cfg(test)]
@@ -103,14 +81,15 @@ mod tests {
         let values = [0.0, 0.0, 0.0, 2.0, 9.0, 0.0, 9.0, 1.0];
         let points = Points::new(&values, 2).unwrap();
         let options = CentersOptions { epsilon: 1e-6, ..CentersOptions::default() };
-        let mut found = centers(&points, 2, &options).unwrap();
-        let right = judge(&found, &points);
+        let mut solution = centers(&points, 2, &options).unwrap();
+        let right = judge(&solution, &points);
         assert!(right.gap().is_some_and(|gap| gap <= 1e-6));
-        found.answer.radius *= 0.9;
-        let wrong = judge(&found, &points);
+        solution.answer.radius *= 0.9;
+        let wrong = judge(&solution, &points);
         assert_eq!(wrong.gap(), None);
-        let both = measured(&[right.clone(), wrong]);
-        assert!(both.rejected.is_some() && both.gap.is_none());
-        assert_eq!(measured(&[right]).radii, Some([1.0, 1.0]));
+        let met = |all: &[Judgement], goal: Goal| goal.judge(&found(all)).2;
+        assert_eq!(met(&[right.clone(), wrong], GAP.at_most(1.0)), Some(false));
+        assert_eq!(met(std::slice::from_ref(&right), GAP.at_most(1e-6)), Some(true));
+        assert_eq!(met(&[right], RADIUS.near(1.0, 1e-9)), Some(true));
     }
 }

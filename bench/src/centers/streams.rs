@@ -1,19 +1,6 @@
 //! Points that come by once: the factor that is measured beside the one that is stated, and the time of a point.
 
-use anyhow::Result;
-use serde_json::json;
-use taut_certify::Placement;
-use taut_enclose::{Cover, CoverOptions};
-use taut_points::{Distribution, Monitor, Points, generate};
-
-use super::Context;
-use super::case::Case;
-use super::judgement::{self, judge};
-use crate::goals;
-use crate::input::SEED;
-use crate::meter::Meter;
-use crate::stats::{Summary, seconds};
-use crate::table::Table;
+use super::*;
 
 const N: usize = 1_000_000;
 const DIM: usize = 3;
@@ -32,72 +19,55 @@ fn from_inside(values: &[f64]) -> Vec<f64> {
 }
 
 /// Runs both orders.
-pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
-    let n = if context.quick { N / 10 } else { N };
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let n = context.count(N);
     let drawn: Vec<f64> = generate(Distribution::Normal, n, DIM, SEED)?;
     let sorted = from_inside(&drawn);
-    let threads = context.threads.last().copied().unwrap_or(1);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    let head = ["order", "k", "instances", "clock of a point", "factor stated", "while streaming"];
-    let head = [&head[..], &["after a second pass", "verdict", "check"]].concat();
-    let mut table = Table::new(&head);
-    let (mut judgements, mut factor, mut all) = (vec![], 0.0f64, vec![]);
+    let pool = context.pool()?;
+    let mut table = Table::new(&format!(
+        "order | k | instances | clock of a point:ns | factor stated:3 | while streaming:3 | \
+            after a second pass:3 | {COLUMNS}"
+    ));
+    let (mut judgements, mut factors) = (vec![], vec![]);
     for (order, values) in [("as drawn", &drawn), ("from inside", &sorted)] {
         let points = Points::new(values, DIM)?;
-        for k in CENTERS {
-            for instances in INSTANCES {
-                let options = CoverOptions { instances };
-                let (mut clocks, mut found) = (vec![], None);
-                for _ in 0..context.runs {
-                    let mut cover = Cover::new(DIM, k, &options)?;
-                    let meter = Meter::start();
-                    pool.install(|| {
-                        (0..n).step_by(BLOCK).try_for_each(|first| {
-                            cover.add(&points.slice(first..(first + BLOCK).min(n)))
-                        })
-                    })?;
-                    clocks.push(meter.stop().wall / n as f64);
-                    found = Some(cover);
-                }
-                let Some(cover) = found else { continue };
-                let covered = cover.covered();
-                let measured = covered.radius / covered.lower_bound;
-                let solution = cover.solution(Placement::Rows, &points, &Monitor::silent())?;
-                let judgement = judge(&solution, &points);
-                let proved = judgement.gap().map(|gap| 1.0 + gap);
-                let stated = options.factor();
-                let clock = Summary::of(&clocks).map(|summary| summary.median);
-                let [radius, lower] = [covered.radius, covered.lower_bound];
-                table.push(vec![
-                    order.to_owned(),
-                    k.to_string(),
-                    instances.to_string(),
-                    clock.map(|clock| format!("{:.0} ns", 1e9 * clock)).unwrap_or_default(),
-                    format!("{stated:.3}"),
-                    format!("{measured:.3}"),
-                    proved.map_or(String::new(), |factor| format!("{factor:.3}")),
-                    judgement
-                        .verdict
-                        .as_ref()
-                        .map_or_else(|why| format!("REJECTED: {why}"), |_| "proved".to_owned()),
-                    seconds(judgement.seconds),
-                ]);
-                all.push(json!({
-                    "order": order, "k": k, "instances": instances, "seconds_of_a_point": clocks, "stated": stated,
-                    "radius": radius, "lower_bound": lower, "judgement": judgement.json(),
-                }));
-                // NaN has to be seen, and a maximum would lose it.
-                let ratio = measured / stated;
-                factor = if ratio.is_nan() { f64::INFINITY } else { factor.max(ratio) };
-                judgements.push(judgement);
+        for (k, instances) in CENTERS.into_iter().flat_map(|k| INSTANCES.map(|i| (k, i))) {
+            let options = CoverOptions { instances };
+            let (mut clocks, mut found) = (vec![], None);
+            for _ in 0..context.runs {
+                let mut cover = Cover::new(DIM, k, &options)?;
+                let meter = Meter::start();
+                pool.install(|| {
+                    (0..n).step_by(BLOCK).try_for_each(|first| {
+                        cover.add(&points.slice(first..(first + BLOCK).min(n)))
+                    })
+                })?;
+                clocks.push(meter.stop().wall / n as f64);
+                found = Some(cover);
             }
+            let cover = found.context("no run")?;
+            let covered = cover.covered();
+            let measured = covered.radius / covered.lower_bound;
+            let stated = options.factor();
+            let judgement =
+                judge(&cover.solution(Placement::Rows, &points, &Monitor::silent())?, &points);
+            let head = json!({
+                "order": order, "k": k, "instances": instances, "factor stated": stated, "while streaming": measured,
+                "clock of a point": Summary::of(&clocks).map(|summary| summary.median), "clocks": clocks,
+                "after a second pass": judgement.gap().map(|gap| 1.0 + gap),
+                "streamed radius": covered.radius, "streamed lower bound": covered.lower_bound,
+            });
+            table.push(joined([head, judgement.cells()]));
+            factors.push(measured / stated);
+            judgements.push(judgement);
         }
     }
-    println!("normal, {n} × {DIM}, {threads} threads, in blocks of {BLOCK}\n\n{table}");
-    let mut measured = judgement::measured(&judgements);
-    measured.factor = Some(factor);
-    let goals = goals::print(&[case.must], &[], &measured);
-    context.report.add(json!({ "name": case.name, "streams": all, "goals": goals }));
+    let threads = context.last_threads();
+    let caption = format!("normal, {n} × {DIM}, {threads} threads, in blocks of {BLOCK}");
+    out.table(&caption, table);
+    let mut found = judgement::found(&judgements);
+    factors.into_iter().for_each(|factor| found.add(FACTOR, factor));
+    out.judge(&found);
     Ok(())
 }
 

@@ -1,21 +1,6 @@
 //! Whether certificates can be believed: random trials of every kind, each with its truth.
 
-use std::ops::Range;
-
-use anyhow::Result;
-use rayon::prelude::*;
-use serde_json::{Value, json};
-use taut_mesh::compare;
-use taut_points::{
-    Points,
-    generate::curves::{CurveNoise, TestCurve, TruthCurves, epsilon_sample, sample_curve},
-};
-use taut_reconstruct::{CurveMethod, CurveOptions};
-
-use super::drawn::{CURVES, found_lines, pool, solve, true_lines};
-use crate::context::Context;
-use crate::goals::Goals;
-use crate::table::Table;
+use super::*;
 
 /// Kinds of trials, by turns.
 #[derive(Clone, Copy, PartialEq)]
@@ -53,7 +38,7 @@ const CLEAN_METHODS: [CurveMethod; 5] = [
 
 /// A number in [0, 1) that the seed determines, another one for each `salt`.
 fn lot(seed: u64, salt: u64) -> f64 {
-    // The finaliser of SplitMix64.
+    // The finalizer of SplitMix64.
     let mut x = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(salt);
     x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -99,99 +84,64 @@ fn draw(kind: Kind, seed: u64) -> (TruthCurves, Vec<f64>, CurveMethod) {
 
 /// What became of a trial.
 #[derive(Clone, Copy, Default)]
-struct Outcome {
-    certified: bool,
-    right: bool,
-    rejected: bool,
+struct Trial {
+    seed: u64,
+    is_certified: bool,
+    is_right: bool,
+    is_rejected: bool,
+}
+
+impl Trial {
+    fn run(seed: u64) -> Result<Self> {
+        let (truth, points, method) = draw(kind_of(seed), seed);
+        let options = CurveOptions { method, ..CurveOptions::default() };
+        let (found, _) = solve(&points, &options)?;
+        let verdict = found.check(&Points::new(&points, 2)?);
+        let quality = compare(&true_lines(&truth), &found_lines(&found.answer));
+        Ok(Trial {
+            seed,
+            // What the checker confirms counts, not what the solver claims.
+            is_certified: verdict.as_ref().is_ok_and(|verdict| verdict.certified),
+            is_right: quality.topology_right(),
+            is_rejected: verdict.is_err(),
+        })
+    }
+
+    fn is_wrong(&self) -> bool {
+        self.is_certified && !self.is_right
+    }
+}
+
+fn kind_of(seed: u64) -> Kind {
+    KINDS[seed as usize % KINDS.len()].0
 }
 
 /// All trials.
-pub(super) fn run(context: &Context, seeds: Range<u64>) -> Result<Value> {
-    let pool = pool(context.threads[context.threads.len() - 1])?;
-    let seeds: Vec<u64> = seeds.collect();
-    let kind_of = |seed: u64| KINDS[seed as usize % KINDS.len()];
-    let outcomes: Vec<Outcome> = pool.install(|| {
-        seeds
-            .par_iter()
-            .map(|&seed| {
-                let (kind, _) = kind_of(seed);
-                let (truth, points, method) = draw(kind, seed);
-                let options = CurveOptions { method, ..CurveOptions::default() };
-                let (found, _) = solve(&points, &options)?;
-                let verdict = found.check(&Points::new(&points, 2)?);
-                let quality = compare(&true_lines(&truth), &found_lines(&found.answer));
-                Ok(Outcome {
-                    // What the checker confirms counts, not what the solver claims.
-                    certified: verdict.as_ref().is_ok_and(|verdict| verdict.certified),
-                    right: quality.topology_right(),
-                    rejected: verdict.is_err(),
-                })
-            })
-            .collect::<Result<_>>()
-    })?;
-    let mut table = Table::new(&[
-        "trials",
-        "all",
-        "right",
-        "certified",
-        "wrongly",
-        "rejected",
-        "seeds of the wrong",
-    ]);
-    let (mut goals, mut report) = (Goals::default(), vec![]);
-    let (mut wrong_all, mut rejected_all, mut dense) = (0, 0, None);
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let seeds = context.seeds.clone();
+    let trials: Vec<Trial> =
+        context.pool()?.install(|| seeds.into_par_iter().map(Trial::run).collect::<Result<_>>())?;
+    let mut table =
+        Table::new("trials | all | right | certified | wrongly | rejected | seeds of the wrong");
     for (kind, name) in KINDS {
-        let of: Vec<(u64, Outcome)> = seeds
-            .iter()
-            .zip(&outcomes)
-            .filter(|(seed, _)| kind_of(**seed).0 == kind)
-            .map(|(&seed, &outcome)| (seed, outcome))
-            .collect();
-        let count =
-            |what: fn(&Outcome) -> bool| of.iter().filter(|(_, outcome)| what(outcome)).count();
-        let (right, certified) = (count(|o| o.right), count(|o| o.certified));
-        let wrong: Vec<u64> =
-            of.iter().filter(|(_, o)| o.certified && !o.right).map(|&(seed, _)| seed).collect();
-        let rejected = count(|o| o.rejected);
-        let few: Vec<String> = wrong.iter().take(5).map(u64::to_string).collect();
-        table.push(vec![
-            name.to_owned(),
-            of.len().to_string(),
-            right.to_string(),
-            certified.to_string(),
-            wrong.len().to_string(),
-            rejected.to_string(),
-            few.join(" "),
-        ]);
-        report.push(json!({
-            "kind": name, "all": of.len(), "right": right, "certified": certified, "wrong_seeds": wrong, "rejected": rejected,
+        let of = || trials.iter().filter(|trial| kind_of(trial.seed) == kind);
+        let count = |is: fn(&Trial) -> bool| of().filter(|trial| is(trial)).count();
+        let (all, certified) = (of().count(), count(|trial| trial.is_certified));
+        let wrong: Vec<u64> = of().filter(|trial| trial.is_wrong()).map(|t| t.seed).collect();
+        table.push(json!({
+            "trials": name, "all": all, "right": count(|trial| trial.is_right), "certified": certified,
+            "wrongly": wrong.len(), "rejected": count(|trial| trial.is_rejected), "seeds of the wrong": few(&wrong),
+            "wrong_seeds": wrong,
         }));
-        wrong_all += wrong.len();
-        rejected_all += rejected;
-        if kind == Kind::Dense {
-            dense = Some((certified, of.len()));
+        if kind == Kind::Dense && all > 0 {
+            let share = certified as f64 / all as f64;
+            out.at_least("share of the dense trials certified", share, [0.7, 0.8], Unit::Percent);
         }
     }
-    println!("{table}");
-    goals.must(
-        format!("no false certificate in {}", seeds.len()),
-        wrong_all.to_string(),
-        wrong_all == 0,
-    );
-    goals.must(
-        "no answer rejected by the checker".into(),
-        rejected_all.to_string(),
-        rejected_all == 0,
-    );
-    if let Some((certified, all)) = dense.filter(|(_, all)| *all > 0) {
-        let share = certified as f64 / all as f64;
-        let shown = format!("{certified} of {all}");
-        goals.must(
-            "at least 70 % of the dense trials certified".into(),
-            shown.clone(),
-            share >= 0.7,
-        );
-        goals.aim("at least 80 % of the dense trials certified".into(), shown, share >= 0.8);
-    }
-    Ok(json!({ "trials": report, "goals": goals.json() }))
+    out.table("", table);
+    let wrong = trials.iter().filter(|trial| trial.is_wrong()).count();
+    out.must(format!("no false certificate in {}", trials.len()), wrong, wrong == 0);
+    let rejected = trials.iter().filter(|trial| trial.is_rejected).count();
+    out.must("no answer rejected by the checker", rejected, rejected == 0);
+    Ok(())
 }

@@ -1,20 +1,6 @@
 //! Inputs drawn from curves whose truth is known, what was found of them, and how good that is.
 
-use std::ops::Range;
-use std::time::Instant;
-
-use anyhow::{Context as _, Result};
-use rayon::prelude::*;
-use serde_json::{Value, json};
-use taut_certify::{Curve, Solution};
-use taut_mesh::{Polyline, Quality, compare};
-use taut_points::{
-    Points,
-    generate::curves::{CurveNoise, TestCurve, TruthCurves, sample_curve},
-};
-use taut_reconstruct::{CurveOptions, curve};
-
-use crate::stats::Summary;
+use super::*;
 
 /// The six test curves.
 pub(super) const CURVES: [&str; 6] = ["circle", "ellipse3", "flower5", "bumpy", "gear20", "multi4"];
@@ -64,61 +50,47 @@ pub(super) fn solve(values: &[f64], options: &CurveOptions<'_>) -> Result<(Solut
 
 /// One draw, and what was found of it.
 pub(super) struct Trial {
-    pub(super) seed: u64,
-    pub(super) quality: Quality,
+    seed: u64,
+    quality: Quality,
     pub(super) seconds: f64,
-    pub(super) noise: f64,
+    noise: f64,
 }
 
 /// Draws of one curve by one law.
 pub(super) struct Trials {
-    pub(super) n: usize,
+    name: &'static str,
+    n: usize,
     pub(super) trials: Vec<Trial>,
 }
 
 impl Trials {
     /// Draws n points for each seed and judges what is found; draws run beside each other on the threads of `pool`.
+    ///
+    /// Without a pool they run one after the other: beside each other a thread that waits for its draw works on another
+    /// one, whose time it is told.
     pub(super) fn run(
-        pool: &rayon::ThreadPool,
-        truth: &TruthCurves,
+        pool: Option<&rayon::ThreadPool>,
+        (name, truth): (&'static str, &TruthCurves),
         n: usize,
         noise: &CurveNoise,
         options: &CurveOptions<'_>,
-        seeds: Range<u64>,
+        mut seeds: Range<u64>,
     ) -> Result<Self> {
-        let trial = Self::trial(truth, n, noise, options);
-        let seeds: Vec<u64> = seeds.collect();
-        let trials = pool.install(|| seeds.into_par_iter().map(trial).collect::<Result<_>>())?;
-        Ok(Trials { n, trials })
-    }
-
-    /// The same one after the other. Beside each other a thread that waits for its draw works on another one, whose time it is told.
-    pub(super) fn timed(
-        pool: &rayon::ThreadPool,
-        truth: &TruthCurves,
-        n: usize,
-        noise: &CurveNoise,
-        options: &CurveOptions<'_>,
-        seeds: Range<u64>,
-    ) -> Result<Self> {
-        let trial = Self::trial(truth, n, noise, options);
-        let trials = pool.install(|| seeds.map(trial).collect::<Result<_>>())?;
-        Ok(Trials { n, trials })
-    }
-
-    fn trial<'a>(
-        truth: &'a TruthCurves,
-        n: usize,
-        noise: &'a CurveNoise,
-        options: &'a CurveOptions<'a>,
-    ) -> impl Fn(u64) -> Result<Trial> + Sync + 'a {
         let lines = true_lines(truth);
-        move |seed| {
+        let trial = |seed| -> Result<Trial> {
             let sample = sample_curve(truth, n, noise, seed);
             let (found, seconds) = solve(&sample.points, options)?;
             let quality = compare(&lines, &found_lines(&found.answer));
             Ok(Trial { seed, quality, seconds, noise: found.answer.noise })
-        }
+        };
+        let trials = match pool {
+            Some(pool) => pool.install(|| seeds.into_par_iter().map(trial).collect::<Result<_>>()),
+            None => seeds.try_fold(vec![], |mut trials, seed| {
+                trials.push(trial(seed)?);
+                Ok(trials)
+            }),
+        };
+        Ok(Trials { name, n, trials: trials? })
     }
 
     /// How many are right in connectivity and without crossings.
@@ -133,22 +105,27 @@ impl Trials {
     }
 
     /// The middle of what `of` tells of each draw.
-    pub(super) fn median(&self, of: impl Fn(&Trial) -> f64) -> f64 {
+    fn median(&self, of: impl Fn(&Trial) -> f64) -> f64 {
         let values: Vec<f64> = self.trials.iter().map(of).collect();
         Summary::of(&values).map_or(f64::NAN, |summary| summary.median)
     }
 
-    /// The seeds that went wrong, the first few.
-    pub(super) fn wrong(&self) -> String {
-        let mut wrong = self.trials.iter().filter(|trial| !trial.quality.topology_right());
-        let seeds: Vec<String> =
-            wrong.by_ref().take(5).map(|trial| trial.seed.to_string()).collect();
-        let more = if wrong.next().is_some() { " …" } else { "" };
-        seeds.join(" ") + more
+    /// How many of all are right.
+    pub(super) fn right_of_all(&self) -> String {
+        format!("{} of {}", self.right(), self.trials.len())
     }
 
-    /// For the report.
-    pub(super) fn json(&self) -> Value {
+    /// Judges whether at least this share is right.
+    pub(super) fn judge_right(&self, out: &mut Outcome, what: &str, share: f64) {
+        let is_met = self.right() as f64 >= share * self.trials.len() as f64;
+        let goal = format!("{}{what}: right in {} of 100", self.name, 100.0 * share);
+        out.must(goal, self.right_of_all(), is_met);
+    }
+
+    /// A row of a table: what was found, and all draws for the report.
+    pub(super) fn row(&self) -> Value {
+        let wrong = self.trials.iter().filter(|trial| !trial.quality.topology_right());
+        let wrong: Vec<u64> = wrong.map(|trial| trial.seed).collect();
         let trials = self.trials.iter().map(|trial| {
             let q = &trial.quality;
             json!({
@@ -157,18 +134,21 @@ impl Trials {
                 "loops": q.loops_found, "homeomorphic": q.homeomorphic, "crossings": q.crossings,
             })
         });
-        json!({ "n": self.n, "trials": trials.collect::<Vec<_>>() })
+        json!({
+            "curve": self.name, "n": self.n, "right": self.right_of_all(), "wrong seeds": few(&wrong),
+            "rms": self.rms(), "largest": self.median(|trial| trial.quality.vertex_max),
+            "Hausdorff": self.median(|trial| trial.quality.hausdorff),
+            "noise told": self.median(|trial| trial.noise),
+            "median time of a draw": self.median(|trial| trial.seconds),
+            "trials": trials.collect::<Value>(),
+        })
     }
 }
 
-/// A pool of as many threads.
-pub(super) fn pool(threads: usize) -> Result<rayon::ThreadPool> {
-    Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build()?)
-}
-
-/// Errors as they are read best.
-pub(super) fn error(value: f64) -> String {
-    format!("{value:.2e}")
+/// The first few seeds.
+pub(super) fn few(seeds: &[u64]) -> String {
+    let few: Vec<String> = seeds.iter().take(5).map(u64::to_string).collect();
+    few.join(" ") + if seeds.len() > 5 { " …" } else { "" }
 }
 
 #[cfg(test)]

@@ -1,17 +1,6 @@
 //! Beside published errors of FitConnect, which is not run: its figures are from one draw of the same law.
 
-use std::ops::Range;
-
-use anyhow::Result;
-use serde_json::{Value, json};
-use taut_points::generate::curves::TestCurve;
-use taut_reconstruct::CurveOptions;
-
-use super::drawn::{NOISE, Trials, error, truth};
-use crate::context::Context;
-use crate::goals::Goals;
-use crate::stats::{seconds, times};
-use crate::table::Table;
+use super::*;
 
 const N: usize = 2000;
 /// Curve, rms, Hausdorff distance and seconds of FitConnect.
@@ -24,51 +13,31 @@ const FITCONNECT: [(&str, f64, f64, &str); 5] = [
 ];
 
 /// Errors and times row by row.
-pub(super) fn run(context: &Context, seeds: Range<u64>) -> Result<Value> {
-    let threads = context.threads[context.threads.len() - 1];
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let threads = context.last_threads();
     let options = CurveOptions { threads: Some(threads), ..CurveOptions::default() };
-    // One draw after another, so that times are those of a draw alone.
-    let pool = super::drawn::pool(1)?;
-    let (mut goals, mut report) = (Goals::default(), vec![]);
-    let head = [
-        "curve",
-        "rms",
-        "FitConnect's",
-        "ratio",
-        "Hausdorff",
-        "FitConnect's",
-        "right",
-        "time",
-        "FitConnect's [s]",
-    ];
-    let mut table = Table::new(&head);
-    let mut rows = vec![];
+    let mut table = Table::new(
+        "curve | rms:ee | FitConnect's rms:ee | ratio:x | Hausdorff:ee | FitConnect's \
+            Hausdorff:ee | right | time:s | FitConnect's [s]",
+    );
     for (name, their_rms, their_hausdorff, their_seconds) in FITCONNECT {
         let truth = truth(name, TestCurve::VERTICES)?;
-        let trials = Trials::timed(&pool, &truth, N, &NOISE, &options, seeds.clone())?;
-        let rms = trials.rms();
+        let seeds = context.seeds.clone();
+        // One draw after another, so that times are those of a draw alone.
+        let trials = Trials::run(None, (name, &truth), N, &NOISE, &options, seeds)?;
+        let ratio = trials.rms() / their_rms;
         let worst = trials.trials.iter().map(|trial| trial.seconds).fold(0.0, f64::max);
-        let (right, all) = (trials.right(), trials.trials.len());
-        table.push(vec![
-            name.to_owned(),
-            error(rms),
-            error(their_rms),
-            times(rms / their_rms),
-            error(trials.median(|trial| trial.quality.hausdorff)),
-            error(their_hausdorff),
-            format!("{right} of {all}"),
-            seconds(worst),
-            their_seconds.to_owned(),
-        ]);
-        rows.push((name, rms / their_rms, right == all, format!("{right} of {all}"), worst));
-        report.push(json!({ "curve": name, "fitconnect_rms": their_rms, "trials": trials.json() }));
+        let mut row = trials.row();
+        row["FitConnect's rms"] = their_rms.into();
+        row["FitConnect's Hausdorff"] = their_hausdorff.into();
+        row["FitConnect's [s]"] = their_seconds.into();
+        row["ratio"] = ratio.into();
+        row["time"] = worst.into();
+        table.push(row);
+        out.at_most(format!("{name}: rms over FitConnect's"), ratio, [1.0, 0.5], Unit::Times);
+        trials.judge_right(out, "", 1.0);
+        out.at_most(format!("{name}: time"), worst, [0.05, 0.01], Unit::Seconds);
     }
-    println!("n = {N}, the slowest of all draws, {threads} threads\n\n{table}");
-    for (name, ratio, is_right, right, worst) in rows {
-        let what = format!("{name}: rms over FitConnect's");
-        goals.at_most(&what, Some(ratio), (1.0, Some(0.5)), times);
-        goals.must(format!("{name}: right in all draws"), right, is_right);
-        goals.at_most(&format!("{name}: time"), Some(worst), (0.05, Some(0.01)), seconds);
-    }
-    Ok(json!({ "draws": report, "goals": goals.json() }))
+    out.table(&format!("n = {N}, the slowest of all draws, {threads} threads"), table);
+    Ok(())
 }

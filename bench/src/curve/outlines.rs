@@ -1,20 +1,6 @@
 //! Outlines whose truth is known: coastlines and glyphs of `$TAUT_DATA/curve`.
 
-use std::collections::HashMap;
-use std::ops::Range;
-use std::path::Path;
-
-use anyhow::{Context as _, Result, ensure};
-use serde_json::{Value, json};
-use taut_mesh::{EdgeScore, crossings, edge_score};
-use taut_points::{Distribution, generate};
-use taut_reconstruct::{CurveMethod, CurveOptions};
-
-use super::drawn::{found_edges, found_lines, solve};
-use crate::context::Context;
-use crate::goals::Goals;
-use crate::stats::seconds;
-use crate::table::Table;
+use super::*;
 
 /// Methods beside each other; the first is the default.
 const METHODS: [CurveMethod; 5] = [
@@ -28,19 +14,6 @@ const METHODS: [CurveMethod; 5] = [
 /// A closed outline.
 type Ring = Vec<[f64; 2]>;
 
-/// The text of a file; `None`, after saying so, where `TAUT_DATA` does not hold it.
-fn read(name: &str) -> Result<Option<String>> {
-    let path = std::env::var_os("TAUT_DATA").map(|data| Path::new(&data).join("curve").join(name));
-    let Some(path) = path.filter(|path| path.exists()) else {
-        println!("left out: set TAUT_DATA to a folder with curve/{name}");
-        return Ok(None);
-    };
-    let file = std::fs::File::open(&path).with_context(|| path.display().to_string())?;
-    let text = std::io::read_to_string(liblzma::read::XzDecoder::new(file))
-        .with_context(|| path.display().to_string())?;
-    Ok(Some(text))
-}
-
 /// Vertices of rings, shuffled, with the edges between them. Vertices at one place count as one.
 struct Shuffled {
     points: Vec<f64>,
@@ -52,9 +25,7 @@ struct Shuffled {
 impl Shuffled {
     fn new(rings: &[Ring], seed: u64) -> Result<Self> {
         let count: usize = rings.iter().map(Vec::len).sum();
-        let lots: Vec<f64> = generate(Distribution::Uniform, count, 1, seed)?;
-        let mut order: Vec<usize> = (0..count).collect();
-        order.sort_by(|&a, &b| lots[a].total_cmp(&lots[b]));
+        let order = shuffled(count, seed)?;
         let vertices: Vec<[f64; 2]> = rings.concat();
         let points: Vec<f64> = order.iter().flat_map(|&at| vertices[at]).collect();
         let mut rows: HashMap<[u64; 2], u64> = HashMap::new();
@@ -104,49 +75,77 @@ fn rings(text: &str) -> Result<Vec<Ring>> {
     Ok(rings)
 }
 
-/// Shares of the true edges, crossings and time.
-pub(super) fn coastlines(context: &Context, seeds: Range<u64>) -> Result<Value> {
-    let name = if context.quick { "naturalearth_land_50m" } else { "naturalearth_land_10m" };
-    let Some(text) = read(&format!("{name}.loops.txt.xz"))? else {
-        return Ok(json!({ "left_out": "no TAUT_DATA" }));
-    };
-    let input = Shuffled::new(&rings(&text)?, seeds.start)?;
-    let threads = context.threads[context.threads.len() - 1];
-    let head = ["method", "true edges found", "false", "missing", "crossings", "time"];
-    let mut table = Table::new(&head);
-    let (mut report, mut default) = (vec![], None);
+/// Lets all methods work on all inputs: shares of the true edges, crossings and time. Returns what the default found.
+fn compare_methods(
+    context: &Context,
+    out: &mut Outcome,
+    caption: &str,
+    inputs: &[(&str, Shuffled)],
+    runs: usize,
+) -> Result<Compared> {
+    let threads = Some(context.last_threads());
+    let mut table = Table::new(
+        "method | exact | true edges found:% | false | missing | crossings | time of all:s",
+    );
+    let mut default = None;
     for method in METHODS {
-        let options = CurveOptions { method, threads: Some(threads), ..CurveOptions::default() };
-        let (score, crossing, mut least) = input.judge(&options)?;
-        for _ in 1..context.runs {
-            least = least.min(solve(&input.points, &options)?.1);
+        let options = CurveOptions { method, threads, ..CurveOptions::default() };
+        let (mut total, mut crossings, mut time, mut wrong) =
+            (EdgeScore::default(), 0, 0.0, vec![]);
+        for (name, input) in inputs {
+            let (score, crosses, mut least) = input.judge(&options)?;
+            for _ in 1..runs {
+                least = least.min(solve(&input.points, &options)?.1);
+            }
+            total.true_found += score.true_found;
+            total.false_found += score.false_found;
+            total.missing += score.missing;
+            crossings += crosses;
+            time += least;
+            if !score.exact() {
+                wrong.push(name);
+            }
         }
-        let share = score.true_found as f64 / (score.true_found + score.missing) as f64;
-        table.push(vec![
-            method.name().to_owned(),
-            format!("{:.2} %", 100.0 * share),
-            score.false_found.to_string(),
-            score.missing.to_string(),
-            crossing.to_string(),
-            seconds(least),
-        ]);
-        report.push(json!({
-            "method": method.name(), "share": share, "true": score.true_found, "false": score.false_found,
-            "missing": score.missing, "crossings": crossing, "seconds": least,
+        let found = Compared {
+            share: total.true_found as f64 / (total.true_found + total.missing) as f64,
+            exact: 1.0 - wrong.len() as f64 / inputs.len() as f64,
+            crossings,
+            time,
+        };
+        table.push(json!({
+            "method": method.name(), "exact": format!("{} of {}", inputs.len() - wrong.len(), inputs.len()),
+            "true edges found": found.share, "true": total.true_found, "false": total.false_found,
+            "missing": total.missing, "crossings": crossings, "time of all": time, "wrong": wrong,
         }));
-        default.get_or_insert((share, crossing, least));
+        default.get_or_insert(found);
     }
-    let (n, edges) = (input.points.len() / 2, input.edges.len());
-    println!("{name}, {n} points, {edges} edges, {threads} threads\n\n{table}");
-    let mut goals = Goals::default();
-    if let Some((share, crossing, least)) = default {
-        let shown = format!("{:.2} %", 100.0 * share);
-        goals.must("at least 95 % of the true edges".into(), shown.clone(), share >= 0.95);
-        goals.aim("at least 97 % of the true edges".into(), shown, share >= 0.97);
-        goals.must("no crossings".into(), crossing.to_string(), crossing == 0);
-        goals.at_most("time", Some(least), (2.0, None), seconds);
-    }
-    Ok(json!({ "input": name, "points": n, "methods": report, "goals": goals.json() }))
+    out.table(caption, table);
+    default.context("no method")
+}
+
+/// What a method found of all inputs.
+struct Compared {
+    /// The share of the true edges.
+    share: f64,
+    /// The share of the inputs whose edges are exactly the true ones.
+    exact: f64,
+    crossings: usize,
+    time: f64,
+}
+
+/// Shares of the true edges, crossings and time.
+pub(super) fn coastlines(context: &Context, out: &mut Outcome) -> Result<()> {
+    let name = context.size("naturalearth_land_10m", "naturalearth_land_50m");
+    let Some(text) = data::read_xz(&format!("curve/{name}.loops.txt.xz"))? else {
+        return out.left_out();
+    };
+    let input = Shuffled::new(&rings(&text)?, context.seeds.start)?;
+    let caption = format!("{name}, {} points, {} edges", input.points.len() / 2, input.edges.len());
+    let found = compare_methods(context, out, &caption, &[(name, input)], context.runs)?;
+    out.at_least("share of the true edges", found.share, [0.95, 0.97], Unit::Percent);
+    out.must("no crossings", found.crossings, found.crossings == 0);
+    out.at_most("time", found.time, 2.0, Unit::Seconds);
+    Ok(())
 }
 
 /// A glyph: its name and its outlines, sampled.
@@ -222,66 +221,24 @@ fn stem(glyphs: &[Glyph]) -> Option<f64> {
 }
 
 /// Glyphs whose edges are exactly the true ones.
-pub(super) fn glyphs(context: &Context, seeds: Range<u64>) -> Result<Value> {
-    let Some(text) = read("dejavu_serif_glyphs.quad.txt.xz")? else {
-        return Ok(json!({ "left_out": "no TAUT_DATA" }));
+pub(super) fn glyphs(context: &Context, out: &mut Outcome) -> Result<()> {
+    let Some(text) = data::read_xz("curve/dejavu_serif_glyphs.quad.txt.xz")? else {
+        return out.left_out();
     };
     let coarse = glyphs_of(&text, f64::INFINITY)?;
-    let stem = stem(&coarse).context("the letter l has no stem")?;
-    let glyphs = glyphs_of(&text, stem / 8.0)?;
-    let inputs: Vec<Shuffled> = glyphs
-        .iter()
-        .map(|glyph| Shuffled::new(&glyph.rings, seeds.start))
-        .collect::<Result<_>>()?;
-    let threads = context.threads[context.threads.len() - 1];
-    let mut table =
-        Table::new(&["method", "exact", "true edges found", "false", "crossings", "time of all"]);
-    let (mut report, mut default) = (vec![], None);
-    for method in METHODS {
-        let options = CurveOptions { method, threads: Some(threads), ..CurveOptions::default() };
-        let (mut total, mut crossing, mut time, mut wrong) = (EdgeScore::default(), 0, 0.0, vec![]);
-        for (glyph, input) in glyphs.iter().zip(&inputs) {
-            let (score, crosses, seconds) = input.judge(&options)?;
-            total.true_found += score.true_found;
-            total.false_found += score.false_found;
-            total.missing += score.missing;
-            crossing += crosses;
-            time += seconds;
-            if !score.exact() {
-                wrong.push(glyph.name.as_str());
-            }
-        }
-        let exact = glyphs.len() - wrong.len();
-        let share = total.true_found as f64 / (total.true_found + total.missing) as f64;
-        table.push(vec![
-            method.name().to_owned(),
-            format!("{exact} of {}", glyphs.len()),
-            format!("{:.2} %", 100.0 * share),
-            total.false_found.to_string(),
-            crossing.to_string(),
-            seconds(time),
-        ]);
-        report.push(json!({
-            "method": method.name(), "exact": exact, "wrong": wrong, "share": share, "false": total.false_found,
-            "missing": total.missing, "crossings": crossing, "seconds": time,
-        }));
-        default.get_or_insert(exact);
+    let spacing = stem(&coarse).context("the letter l has no stem")? / 8.0;
+    let glyphs = glyphs_of(&text, spacing)?;
+    let mut inputs = vec![];
+    for Glyph { name, rings } in &glyphs {
+        inputs.push((name.as_str(), Shuffled::new(rings, context.seeds.start)?));
     }
-    println!(
-        "{} glyphs, a point every {:.1} units, an eighth of the stem of l\n\n{table}",
-        glyphs.len(),
-        stem / 8.0
+    let caption = format!(
+        "{} glyphs, a point every {spacing:.1} units, an eighth of the stem of l",
+        glyphs.len()
     );
-    let mut goals = Goals::default();
-    if let Some(exact) = default {
-        let (share, shown) =
-            (exact as f64 / glyphs.len() as f64, format!("{exact} of {}", glyphs.len()));
-        goals.must("at least 80 % of the glyphs exact".into(), shown.clone(), share >= 0.8);
-        goals.aim("at least 90 % of the glyphs exact".into(), shown, share >= 0.9);
-    }
-    Ok(
-        json!({ "glyphs": glyphs.len(), "spacing": stem / 8.0, "methods": report, "goals": goals.json() }),
-    )
+    let found = compare_methods(context, out, &caption, &inputs, 1)?;
+    out.at_least("share of the glyphs exact", found.exact, [0.8, 0.9], Unit::Percent);
+    Ok(())
 }
 
 #[cfg(test)]

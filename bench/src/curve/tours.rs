@@ -1,22 +1,6 @@
 //! Tours beside those of Concorde's Lin-Kernighan and of LKH.
 
-use std::ops::Range;
-
-use anyhow::{Result, ensure};
-use serde_json::{Value, json};
-use taut_points::{
-    Distribution, Points, generate,
-    generate::curves::{CurveNoise, TestCurve, sample_curve},
-};
-use taut_reconstruct::{CurveMethod, CurveOptions};
-
-use super::drawn::{NOISE, solve, truth};
-use crate::context::Context;
-use crate::goals::Goals;
-use crate::input::write_rows;
-use crate::peer::{Answer, Peer, Silence};
-use crate::stats::{seconds, times};
-use crate::table::Table;
+use super::*;
 
 /// Units of the longer side of the box, as peers take whole numbers.
 const UNITS: f64 = 1e6;
@@ -83,32 +67,22 @@ fn theirs(context: &Context, peer: &str, points: &[f64]) -> Result<Result<Tour, 
         .enumerate()
         .map(|(i, v)| ((v - low[i % 2]) * (UNITS / side)).round())
         .collect();
-    let file = context.temp.path().join("tour");
-    write_rows(&file, &whole, 2)?;
-    let mut running = match Peer::start(peer, &file, context.temp.path())? {
-        Ok(running) => running,
-        Err(silence) => return Ok(Err(silence)),
-    };
-    let Answer { seconds, center: order, .. } = match running.solve(context.limit)? {
+    let Answer { seconds, center: order, .. } = match peer::ask(context, peer, (&whole, 2))? {
         Ok(answer) => answer,
         Err(silence) => return Ok(Err(silence)),
     };
-    let mut seen = vec![false; points.len() / 2];
-    for &row in &order {
-        let row = seen.get_mut(row as usize);
-        ensure!(row.is_some_and(|seen| !std::mem::replace(seen, true)), "{peer}: not a tour");
-    }
-    ensure!(order.len() == seen.len(), "{peer}: {} of {} points", order.len(), seen.len());
-    let length = length(points, order.into_iter().map(|row| row as usize));
+    let rows = || order.iter().map(|&row| row as usize);
+    ensure!(is_permutation(rows(), points.len() / 2), "{peer}: not a tour of all points");
+    let length = length(points, rows());
     Ok(Ok(Tour { length, seconds, bound: None, said: "lengths rounded".to_owned() }))
 }
 
 /// Times, lengths and bounds.
-pub(super) fn run(context: &Context, seeds: Range<u64>) -> Result<Value> {
-    let seed = seeds.start;
-    let threads = context.threads[context.threads.len() - 1];
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let seed = context.seeds.start;
+    let threads = context.last_threads();
     let clean = CurveNoise { delta: 0.0, ..NOISE };
-    let (small, large) = if context.quick { (500, 10_000) } else { (5000, 100_000) };
+    let (small, large) = (context.count(5000), context.count(100_000));
     let flower = truth("flower5", TestCurve::VERTICES)?;
     let bumpy = truth("bumpy", TestCurve::VERTICES)?;
     let on = |truth, n| sample_curve(truth, n, &clean, seed).points;
@@ -120,114 +94,54 @@ pub(super) fn run(context: &Context, seeds: Range<u64>) -> Result<Value> {
         ("bumpy", on(&bumpy, large), &[]),
         ("uniform", uniform(large)?, &[]),
     ];
-    let mut table = Table::new(&[
-        "points",
-        "n",
-        "program",
-        "length ÷ taut's",
-        "time",
-        "÷ taut's",
-        "over its bound",
-        "",
-    ]);
-    let (mut goals, mut report, mut judged) = (Goals::default(), vec![], vec![]);
-    for (name, points, peers) in &inputs {
-        let n = points.len() / 2;
-        let ours = ours(context, points, threads)?;
+    let mut table = Table::new(
+        "points | n | program | length ÷ taut's:6 | time:s | ÷ taut's:x | over its bound:% | remark",
+    );
+    for (points, values, peers) in &inputs {
+        let n = values.len() / 2;
+        let ours = ours(context, values, threads)?;
         let gap = ours.bound.map(|bound| ours.length / bound - 1.0);
-        table.push(vec![
-            name.to_string(),
-            n.to_string(),
-            "taut".into(),
-            "1".into(),
-            seconds(ours.seconds),
-            "1".into(),
-            gap.map(|gap| format!("{:.4} %", 100.0 * gap)).unwrap_or_default(),
-            ours.said.clone(),
-        ]);
-        let mut others = vec![];
-        for peer in *peers {
-            let (cells, json) = match theirs(context, peer, points)? {
-                Ok(tour) => {
-                    let ratios = (tour.length / ours.length, tour.seconds / ours.seconds);
-                    others.push((*peer, Some(ratios)));
-                    (
-                        [
-                            format!("{:.6}", ratios.0),
-                            seconds(tour.seconds),
-                            times(ratios.1),
-                            tour.said,
-                        ],
-                        json!({ "peer": peer, "length": tour.length, "seconds": tour.seconds }),
-                    )
-                }
-                Err(silence) => {
-                    others.push((*peer, None));
-                    let said = silence.to_string();
-                    let json = json!({ "peer": peer, "silence": said });
-                    ([String::new(), String::new(), String::new(), said], json)
-                }
-            };
-            let [length, time, ratio, said] = cells;
-            table.push(vec![
-                name.to_string(),
-                n.to_string(),
-                peer.to_string(),
-                length,
-                time,
-                ratio,
-                String::new(),
-                said,
-            ]);
-            report.push(json!({ "points": name, "n": n, "peer": json }));
-        }
-        report.push(json!({
-            "points": name, "n": n, "length": ours.length, "seconds": ours.seconds, "bound": ours.bound, "said": ours.said,
+        table.push(json!({
+            "points": points, "n": n, "program": "taut", "length ÷ taut's": 1.0, "time": ours.seconds, "÷ taut's": 1.0,
+            "over its bound": gap, "remark": ours.said, "length": ours.length, "bound": ours.bound,
         }));
-        judged.push((*name, n, ours, others));
-    }
-    println!("{threads} threads\n\n{table}");
-    for (name, n, ours, others) in judged {
-        let verified = ours.bound.is_some() && ours.said == "checked";
-        let shown = ours.bound.map_or(ours.said.clone(), |bound| {
-            format!(
-                "{}, tour at most {:.4} % longer",
-                ours.said,
-                100.0 * (ours.length / bound - 1.0)
-            )
+        let name = format!("{points}, n = {n}");
+        let is_verified = gap.is_some() && ours.said == "checked";
+        let shown = gap.map_or(String::new(), |gap| {
+            format!(", tour at most {} longer", Unit::Percent.show(gap))
         });
-        goals.must(format!("{name}, n = {n}: bound verified"), shown, verified);
-        for (peer, ratios) in others {
+        out.must(format!("{name}: bound verified"), format!("{}{shown}", ours.said), is_verified);
+        for &peer in *peers {
+            let theirs = theirs(context, peer, values)?;
+            let [length, time] = match &theirs {
+                Ok(tour) => [tour.length / ours.length, tour.seconds / ours.seconds].map(Some),
+                Err(_) => [None; 2],
+            };
+            let remark = match &theirs {
+                Ok(tour) => tour.said.clone(),
+                Err(silence) => silence.to_string(),
+            };
+            table.push(json!({
+                "points": points, "n": n, "program": peer, "length ÷ taut's": length, "÷ taut's": time,
+                "time": theirs.ok().map(|tour| tour.seconds), "remark": remark,
+            }));
             if peer != "concorde" {
                 continue;
             }
-            let faster = ratios.map(|(_, time)| time);
-            let shown =
-                faster.map_or("not measured".into(), |time| format!("{} times", times(time)));
-            let goal = format!("{name}, n = {n}: 10 times faster than Concorde's Lin-Kernighan");
-            let length = ratios.map(|(length, _)| length);
             // Whole numbers are 1e-6 of the box apart.
-            let no_longer = length.map(|length| length >= 1.0 - 1e-9);
-            let length = length.map_or("not measured".into(), |length| {
-                format!("its length is {length:.6} of taut's")
-            });
-            let shorter = format!("{name}, n = {n}: no longer than Concorde's");
-            if name == "uniform" {
-                goals.aim(goal, shown, faster.map(|time| time >= 10.0));
-                goals.aim(shorter, length, no_longer);
-            } else {
-                goals.must(goal, shown, faster.map(|time| time >= 10.0));
-                goals.must(shorter, length, no_longer);
+            for (what, value, bound, unit) in [
+                ("time of Concorde's Lin-Kernighan over ours", time, 10.0, Unit::Times),
+                ("length of Concorde's over ours", length, 1.0 - 1e-9, Unit::Fixed(6)),
+            ] {
+                let is_aim = *points == "uniform";
+                let bounds = if is_aim { aim_only(bound) } else { bound.into() };
+                out.at_least(format!("{name}: {what}"), value, bounds, unit);
             }
         }
         if n == large {
-            goals.at_most(
-                &format!("{name}, n = {n}: time"),
-                Some(ours.seconds),
-                (2.0, Some(1.0)),
-                seconds,
-            );
+            out.at_most(format!("{name}: time"), ours.seconds, [2.0, 1.0], Unit::Seconds);
         }
     }
-    Ok(json!({ "tours": report, "goals": goals.json() }))
+    out.table(&format!("{threads} threads"), table);
+    Ok(())
 }

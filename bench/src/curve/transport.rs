@@ -1,21 +1,6 @@
 //! Beside CGAL's reconstruction by optimal transport, which simplifies noisy points to a set of edges.
 
-use std::ops::Range;
-use std::time::Instant;
-
-use anyhow::{Context as _, Result};
-use serde_json::{Value, json};
-use taut_mesh::{Polyline, Quality, compare};
-use taut_points::generate::curves::{TestCurve, sample_curve};
-use taut_reconstruct::CurveOptions;
-
-use super::drawn::{CURVES, NOISE, error, found_lines, solve, true_lines, truth};
-use crate::context::Context;
-use crate::goals::Goals;
-use crate::input::write_rows;
-use crate::peer::Peer;
-use crate::stats::seconds;
-use crate::table::Table;
+use super::*;
 
 /// The tolerance of the peer, in units of the least local feature size.
 const PEER: &str = "cgal-transport-0.03";
@@ -59,66 +44,44 @@ fn chains(vertices: &[[f64; 2]], edges: &[[usize; 2]]) -> Vec<(Vec<[f64; 2]>, bo
 /// What the peer found: vertices, edges and seconds.
 type Answer = (Vec<[f64; 2]>, Vec<[usize; 2]>, f64);
 
-fn ask(context: &Context, points: &[f64]) -> Result<Result<Answer, String>> {
-    let file = context.temp.path().join("transport");
-    write_rows(&file, points, 2)?;
-    let mut running = match Peer::start(PEER, &file, context.temp.path())? {
-        Ok(running) => running,
-        Err(silence) => return Ok(Err(silence.to_string())),
-    };
-    let answer = match running.solve(context.limit)? {
+fn ask(context: &Context, points: &[f64]) -> Result<Result<Answer, Silence>> {
+    let answer = match peer::ask(context, PEER, (points, 2))? {
         Ok(answer) => answer,
-        Err(silence) => return Ok(Err(silence.to_string())),
+        Err(silence) => return Ok(Err(silence)),
     };
     // As many vertices as `support` says, then edges.
     let flat = answer.center;
     let (vertices, edges) = flat
         .split_at_checked(2 * answer.support as usize)
         .context("the peer's answer is cut off")?;
-    let vertices = vertices.chunks_exact(2).map(|p| [p[0], p[1]]).collect();
-    let edges = edges.chunks_exact(2).map(|e| [e[0] as usize, e[1] as usize]).collect();
-    Ok(Ok((vertices, edges, answer.seconds)))
+    let edges = edges.as_chunks::<2>().0.iter().map(|edge| edge.map(|row| row as usize)).collect();
+    Ok(Ok((vertices.as_chunks().0.to_vec(), edges, answer.seconds)))
 }
 
 /// Errors, connectivity and times of both.
-pub(super) fn run(context: &Context, seeds: Range<u64>) -> Result<Value> {
-    let n = if context.quick { 500 } else { 2000 };
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let n = context.size(2000, 500);
     let options = CurveOptions { threads: Some(context.threads[0]), ..CurveOptions::default() };
-    let head = ["curve", "program", "vertices", "rms", "Hausdorff", "curves", "right", "time", ""];
-    let mut table = Table::new(&head);
-    let (mut report, mut wins) = (vec![], vec![]);
+    let mut table = Table::new(
+        "curve | program | vertices | rms:ee | Hausdorff:ee | curves | right | time:s | why",
+    );
     for name in CURVES {
         let truth = truth(name, TestCurve::VERTICES)?;
         let lines = true_lines(&truth);
-        let points = sample_curve(&truth, n, &NOISE, seeds.start).points;
+        let points = sample_curve(&truth, n, &NOISE, context.seeds.start).points;
         let mut row = |who: &str, vertices: usize, quality: &Quality, time: f64| {
-            let right = if quality.topology_right() { "yes" } else { "no" };
-            table.push(vec![
-                name.to_owned(),
-                who.to_owned(),
-                vertices.to_string(),
-                error(quality.vertex_rms),
-                error(quality.hausdorff),
-                quality.loops_found.to_string(),
-                right.to_owned(),
-                seconds(time),
-                String::new(),
-            ]);
-            report.push(json!({
-                "curve": name, "program": who, "vertices": vertices, "vertex_rms": quality.vertex_rms,
-                "hausdorff": quality.hausdorff, "curves": quality.loops_found, "right": quality.topology_right(),
-                "seconds": time,
+            table.push(json!({
+                "curve": name, "program": who, "vertices": vertices, "rms": quality.vertex_rms,
+                "Hausdorff": quality.hausdorff, "curves": quality.loops_found, "right": quality.topology_right(),
+                "time": time,
             }));
         };
         let (found, time) = solve(&points, &options)?;
         let ours = compare(&lines, &found_lines(&found.answer));
-        row(
-            "taut",
-            found.answer.curves.iter().map(|curve| curve.vertices.len()).sum(),
-            &ours,
-            time,
-        );
+        let vertices = found.answer.curves.iter().map(|curve| curve.vertices.len()).sum();
+        row("taut", vertices, &ours, time);
         let clock = Instant::now();
+        let mut ratio = None;
         match ask(context, &points)? {
             Ok((vertices, edges, time)) => {
                 let chains = chains(&vertices, &edges);
@@ -128,30 +91,17 @@ pub(super) fn run(context: &Context, seeds: Range<u64>) -> Result<Value> {
                     .collect();
                 let theirs = compare(&lines, &found);
                 row(PEER, vertices.len(), &theirs, time);
-                wins.push((name, Some((ours.vertex_rms, theirs.vertex_rms))));
+                ratio = Some(ours.vertex_rms / theirs.vertex_rms);
             }
-            Err(said) => {
-                let mut cells = vec![name.to_owned(), PEER.to_owned()];
-                cells.resize(head.len() - 2, String::new());
-                cells.extend([seconds(clock.elapsed().as_secs_f64()), said]);
-                table.push(cells);
-                wins.push((name, None));
-            }
+            Err(silence) => table.push(json!({
+                "curve": name, "program": PEER, "time": clock.elapsed().as_secs_f64(), "why": silence,
+            })),
         }
+        out.at_most(format!("{name}: rms over CGAL's"), ratio, aim_only(1.0), Unit::Times);
     }
-    println!("n = {n}, noise of rms {}\n\n{table}", error(NOISE.delta / 3f64.sqrt()));
-    let mut goals = Goals::default();
-    for (name, rms) in wins {
-        let shown = rms.map_or("no answer to compare with".to_owned(), |(ours, theirs)| {
-            format!("{} and {}", error(ours), error(theirs))
-        });
-        goals.aim(
-            format!("{name}: rms below CGAL's"),
-            shown,
-            rms.map(|(ours, theirs)| ours < theirs),
-        );
-    }
-    Ok(json!({ "n": n, "rows": report, "goals": goals.json() }))
+    let rms = Unit::Error.show(NOISE.delta / 3f64.sqrt());
+    out.table(&format!("n = {n}, noise of rms {rms}"), table);
+    Ok(())
 }
 
 #[cfg(test)]

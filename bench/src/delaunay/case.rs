@@ -1,31 +1,46 @@
 //! The list of cases: which inputs, beside whom, and what has to be reached.
 
-use taut_points::{Distribution, Error, generate::Parameters};
+use super::*;
 
-use super::goals::{bytes, check, exact_rate, of_cgal, of_uniform, speedup};
-use super::program::Peer;
-use crate::cases::Named;
-use crate::goals::Goal;
+pub(super) const OF_CGAL: Quantity =
+    Quantity::new("processor time of one thread over CGAL's", Unit::Times);
+pub(super) const OF_UNIFORM: Quantity =
+    Quantity::new("processor time per point over that of a uniform set of this size", Unit::Times);
+/// Of the peak, with any number of threads.
+pub(super) const BYTES: Quantity = Quantity::new("bytes per point above the input", Unit::Fixed(1));
+pub(super) const EXACT_RATE: Quantity =
+    Quantity::new("share of predicates decided exactly", Unit::Power);
+/// With one thread.
+pub(super) const CHECK: Quantity =
+    Quantity::new("processor time of the check over that of the build", Unit::Times);
+/// By the clock, in the median of all rounds.
+pub(super) const SPEEDUP: Quantity =
+    Quantity::new("time of one thread over that of two", Unit::Times);
 
-/// A case by name.
-pub(super) struct Case {
-    /// Its name on the command line.
-    pub(super) name: &'static str,
-    /// What it shows.
-    pub(super) about: &'static str,
+/// What is triangulated, by whom.
+#[derive(Clone, Copy)]
+pub(crate) struct Case {
     /// Dimension of its inputs.
     pub(super) dim: usize,
-    /// What is triangulated.
     pub(super) inputs: &'static [Input],
     /// Peers beside taut.
-    pub(super) peers: &'static [Peer],
+    pub(super) peers: &'static [&'static str],
     /// Numbers of threads taut is run with.
     pub(super) threads: &'static [usize],
 }
 
-impl Named for Case {
-    fn head(&self) -> [&'static str; 2] {
-        [self.name, self.about]
+/// Inputs in so many dimensions, beside CGAL, with one thread.
+const fn case(dim: usize, inputs: &'static [Input]) -> Case {
+    Case { dim, inputs, peers: &[CGAL], threads: &[1] }
+}
+
+impl Case {
+    const fn peers(self, peers: &'static [&'static str]) -> Self {
+        Case { peers, ..self }
+    }
+
+    const fn threads(self, threads: &'static [usize]) -> Self {
+        Case { threads, ..self }
     }
 }
 
@@ -66,135 +81,172 @@ const fn input(distribution: &'static str, n: usize, simplices: u64) -> Input {
 const FAILING_ANGLE: f64 = 302.328;
 
 /// All peers in the plane.
-pub(super) const PLANE_PEERS: &[Peer] =
-    &[Peer::Cgal, Peer::Spade, Peer::Delaunator, Peer::Triangle, Peer::Qhull];
+pub(super) const PLANE_PEERS: &[&str] = &[CGAL, SPADE, DELAUNATOR, TRIANGLE, QHULL];
 /// All peers in space.
-pub(super) const SPACE_PEERS: &[Peer] = &[Peer::Cgal, Peer::Qhull];
+pub(super) const SPACE_PEERS: &[&str] = &[CGAL, QHULL];
 
-const PLANE_MUST: &[Goal] = &[of_cgal(0.55), check(0.5)];
-const PLANE_AIM: &[Goal] = &[of_cgal(0.38)];
-const SPACE_MUST: &[Goal] = &[of_cgal(0.6), check(0.5)];
-const SPACE_AIM: &[Goal] = &[of_cgal(0.37)];
-const CLIFF_GOALS: &[Goal] = &[of_uniform(2.0), check(0.5)];
+const PLANE_MUST: &[Goal] = &[OF_CGAL.at_most(0.55), CHECK.at_most(0.5)];
+const PLANE_AIM: &[Goal] = &[OF_CGAL.at_most(0.38)];
+const SPACE_MUST: &[Goal] = &[OF_CGAL.at_most(0.6), CHECK.at_most(0.5)];
+const SPACE_AIM: &[Goal] = &[OF_CGAL.at_most(0.37)];
+const CLIFF_GOALS: &[Goal] = &[OF_UNIFORM.at_most(2.0), CHECK.at_most(0.5)];
 
-/// All cases, in the order in which they run.
-pub(super) const CASES: &[Case] = &[
-    Case {
-        name: "plane",
-        about: "A million points of the plane, one thread.",
-        dim: 2,
-        inputs: &[
-            input("uniform", 1_000_000, 1_999_968)
-                .goals(&[of_cgal(0.55), exact_rate(1e-4), check(0.5)], PLANE_AIM),
-            input("normal", 1_000_000, 1_999_983).goals(PLANE_MUST, PLANE_AIM),
-            input("clouds", 1_000_000, 1_999_973).goals(PLANE_MUST, PLANE_AIM),
-            input("kuzmin", 1_000_000, 1_999_991).goals(&[of_cgal(0.65), check(0.5)], PLANE_AIM),
-            input("roads", 1_000_000, 1_999_980).goals(PLANE_MUST, PLANE_AIM),
-        ],
-        peers: PLANE_PEERS,
-        threads: &[1],
-    },
-    Case {
-        name: "plane-large",
-        about: "Ten million points of the plane, one thread.",
-        dim: 2,
-        inputs: &[
-            input("uniform", 10_000_000, 19_999_955).goals(&[of_cgal(0.5), check(0.5)], PLANE_AIM)
-        ],
-        peers: &[Peer::Cgal, Peer::Spade, Peer::Delaunator],
-        threads: &[1],
-    },
-    Case {
-        name: "plane-cliffs",
-        about: "Ties, lines and circles in the plane: no point may cost more than two of a uniform set of that size.",
-        dim: 2,
-        inputs: &[
-            input("uniform", 100_000, 199_962),
-            input("uniform", 1_000_000, 1_999_968),
-            input("grid", 1_000_000, 1_996_002).goals(CLIFF_GOALS, &[]),
-            Input { angle: Some(FAILING_ANGLE), ..input("grid", 1_000_000, 1_999_974) }
-                .goals(CLIFF_GOALS, &[]),
-            input("sphere", 100_000, 99_998).goals(CLIFF_GOALS, &[]),
-            input("roads", 1_000_000, 1_999_980).goals(CLIFF_GOALS, &[]),
-            input("lines", 1_000_000, 999_998).goals(CLIFF_GOALS, &[]),
-            input("spiral", 1_000_000, 1_822_953).goals(CLIFF_GOALS, &[]),
-            input("fan", 1_000_000, 999_998).goals(CLIFF_GOALS, &[]),
-        ],
-        peers: &[Peer::Cgal, Peer::Spade, Peer::Delaunator, Peer::Triangle],
-        threads: &[1],
-    },
-    Case {
-        name: "space",
-        about: "A million points of space, one thread.",
-        dim: 3,
-        inputs: &[
-            input("uniform", 1_000_000, 6_749_316)
-                .goals(&[of_cgal(0.6), exact_rate(1e-4), check(0.5)], SPACE_AIM),
-            input("normal", 1_000_000, 6_765_494).goals(SPACE_MUST, SPACE_AIM),
-            input("clouds", 1_000_000, 6_688_990).goals(SPACE_MUST, SPACE_AIM),
-        ],
-        peers: SPACE_PEERS,
-        threads: &[1],
-    },
-    Case {
-        name: "space-grid",
-        about: "The integer grid 100³: all ties; its tetrahedra are 6·99³.",
-        dim: 3,
-        inputs: &[input("grid", 1_000_000, 5_821_794).goals(SPACE_MUST, &[of_cgal(0.4)])],
-        peers: &[Peer::Cgal],
-        threads: &[1],
-    },
-    Case {
-        name: "space-surfaces",
-        about: "Points on surfaces and lines in space: cospherical, nearly cospherical, and as many tetrahedra as can be.",
-        dim: 3,
-        inputs: &[
-            input("torus", 1_000_000, 6_117_584).goals(SPACE_MUST, &[of_cgal(0.4)]),
-            input("sphere", 100_000, 302_075).goals(&[of_cgal(0.5), check(0.5)], &[of_cgal(0.27)]),
-            input("skew", 4_000, 1_999 * 1_999),
-        ],
-        peers: &[Peer::Cgal],
-        threads: &[1],
-    },
-    Case {
-        name: "threads-plane",
-        about: "Ten million points of the plane, one thread and two.",
-        dim: 2,
-        inputs: &[input("uniform", 10_000_000, 19_999_955).goals(&[speedup(1.5)], &[speedup(1.75)])],
-        peers: &[],
-        threads: &[1, 2],
-    },
-    Case {
-        name: "threads-space",
-        about: "A million points of space, one thread and two.",
-        dim: 3,
-        inputs: &[input("uniform", 1_000_000, 6_749_316).goals(&[speedup(1.5)], &[speedup(1.75)])],
-        peers: &[],
-        threads: &[1, 2],
-    },
-    Case {
-        name: "memory-plane",
-        about: "Peak memory above the input in the plane.",
-        dim: 2,
-        inputs: &[
-            input("uniform", 1_000_000, 1_999_968).goals(&[bytes(85.0)], &[bytes(72.0)]),
-            input("uniform", 10_000_000, 19_999_955).goals(&[bytes(85.0)], &[bytes(72.0)]),
-        ],
-        peers: &[Peer::Cgal, Peer::Spade, Peer::Delaunator],
-        threads: &[1, 2],
-    },
-    Case {
-        name: "memory-space",
-        about: "Peak memory above the input in space.",
-        dim: 3,
-        inputs: &[
-            input("uniform", 1_000_000, 6_749_316).goals(&[bytes(275.0)], &[bytes(250.0)]),
-            input("torus", 1_000_000, 6_117_584).goals(&[bytes(275.0)], &[bytes(250.0)]),
-        ],
-        peers: &[Peer::Cgal],
-        threads: &[1, 2],
-    },
-];
+/// All sections.
+pub(crate) const AREA: Area<Case> = Area {
+    name: "delaunay",
+    runs: 5,
+    // Those of the section.
+    threads: &[],
+    limit: 120,
+    peer_budget: 30,
+    sections: &[
+        section(
+            "plane",
+            case(
+                2,
+                &[
+                    input("uniform", 1_000_000, 1_999_968).goals(
+                        &[OF_CGAL.at_most(0.55), EXACT_RATE.at_most(1e-4), CHECK.at_most(0.5)],
+                        PLANE_AIM,
+                    ),
+                    input("normal", 1_000_000, 1_999_983).goals(PLANE_MUST, PLANE_AIM),
+                    input("clouds", 1_000_000, 1_999_973).goals(PLANE_MUST, PLANE_AIM),
+                    input("kuzmin", 1_000_000, 1_999_991)
+                        .goals(&[OF_CGAL.at_most(0.65), CHECK.at_most(0.5)], PLANE_AIM),
+                    input("roads", 1_000_000, 1_999_980).goals(PLANE_MUST, PLANE_AIM),
+                ],
+            )
+            .peers(PLANE_PEERS),
+        )
+        .about("A million points of the plane, one thread."),
+        section(
+            "plane-large",
+            case(
+                2,
+                &[input("uniform", 10_000_000, 19_999_955)
+                    .goals(&[OF_CGAL.at_most(0.5), CHECK.at_most(0.5)], PLANE_AIM)],
+            )
+            .peers(&[CGAL, SPADE, DELAUNATOR]),
+        )
+        .about("Ten million points of the plane, one thread."),
+        section(
+            "plane-cliffs",
+            case(
+                2,
+                &[
+                    input("uniform", 100_000, 199_962),
+                    input("uniform", 1_000_000, 1_999_968),
+                    input("grid", 1_000_000, 1_996_002).goals(CLIFF_GOALS, &[]),
+                    Input { angle: Some(FAILING_ANGLE), ..input("grid", 1_000_000, 1_999_974) }
+                        .goals(CLIFF_GOALS, &[]),
+                    input("sphere", 100_000, 99_998).goals(CLIFF_GOALS, &[]),
+                    input("roads", 1_000_000, 1_999_980).goals(CLIFF_GOALS, &[]),
+                    input("lines", 1_000_000, 999_998).goals(CLIFF_GOALS, &[]),
+                    input("spiral", 1_000_000, 1_822_953).goals(CLIFF_GOALS, &[]),
+                    input("fan", 1_000_000, 999_998).goals(CLIFF_GOALS, &[]),
+                ],
+            )
+            .peers(&[CGAL, SPADE, DELAUNATOR, TRIANGLE]),
+        )
+        .about(
+            "Ties, lines and circles in the plane: no point may cost more than two of a \
+                 uniform set of that size.",
+        ),
+        section(
+            "space",
+            case(
+                3,
+                &[
+                    input("uniform", 1_000_000, 6_749_316).goals(
+                        &[OF_CGAL.at_most(0.6), EXACT_RATE.at_most(1e-4), CHECK.at_most(0.5)],
+                        SPACE_AIM,
+                    ),
+                    input("normal", 1_000_000, 6_765_494).goals(SPACE_MUST, SPACE_AIM),
+                    input("clouds", 1_000_000, 6_688_990).goals(SPACE_MUST, SPACE_AIM),
+                ],
+            )
+            .peers(SPACE_PEERS),
+        )
+        .about("A million points of space, one thread."),
+        section(
+            "space-grid",
+            case(
+                3,
+                &[input("grid", 1_000_000, 5_821_794).goals(SPACE_MUST, &[OF_CGAL.at_most(0.4)])],
+            ),
+        )
+        .about("The integer grid 100³: all ties; its tetrahedra are 6·99³."),
+        section(
+            "space-surfaces",
+            case(
+                3,
+                &[
+                    input("torus", 1_000_000, 6_117_584).goals(SPACE_MUST, &[OF_CGAL.at_most(0.4)]),
+                    input("sphere", 100_000, 302_075).goals(
+                        &[OF_CGAL.at_most(0.5), CHECK.at_most(0.5)],
+                        &[OF_CGAL.at_most(0.27)],
+                    ),
+                    input("skew", 4_000, 1_999 * 1_999),
+                ],
+            ),
+        )
+        .about(
+            "Points on surfaces and lines in space: cospherical, nearly cospherical, and \
+                 as many tetrahedra as can be.",
+        ),
+        section(
+            "threads-plane",
+            case(
+                2,
+                &[input("uniform", 10_000_000, 19_999_955)
+                    .goals(&[SPEEDUP.at_least(1.5)], &[SPEEDUP.at_least(1.75)])],
+            )
+            .peers(&[])
+            .threads(&[1, 2]),
+        )
+        .about("Ten million points of the plane, one thread and two."),
+        section(
+            "threads-space",
+            case(
+                3,
+                &[input("uniform", 1_000_000, 6_749_316)
+                    .goals(&[SPEEDUP.at_least(1.5)], &[SPEEDUP.at_least(1.75)])],
+            )
+            .peers(&[])
+            .threads(&[1, 2]),
+        )
+        .about("A million points of space, one thread and two."),
+        section(
+            "memory-plane",
+            case(
+                2,
+                &[
+                    input("uniform", 1_000_000, 1_999_968)
+                        .goals(&[BYTES.at_most(85.0)], &[BYTES.at_most(72.0)]),
+                    input("uniform", 10_000_000, 19_999_955)
+                        .goals(&[BYTES.at_most(85.0)], &[BYTES.at_most(72.0)]),
+                ],
+            )
+            .peers(&[CGAL, SPADE, DELAUNATOR])
+            .threads(&[1, 2]),
+        )
+        .about("Peak memory above the input in the plane."),
+        section(
+            "memory-space",
+            case(
+                3,
+                &[
+                    input("uniform", 1_000_000, 6_749_316)
+                        .goals(&[BYTES.at_most(275.0)], &[BYTES.at_most(250.0)]),
+                    input("torus", 1_000_000, 6_117_584)
+                        .goals(&[BYTES.at_most(275.0)], &[BYTES.at_most(250.0)]),
+                ],
+            )
+            .threads(&[1, 2]),
+        )
+        .about("Peak memory above the input in space."),
+    ],
+};
 
 #[cfg(test)]
 mod tests {
@@ -202,8 +254,7 @@ mod tests {
 
     #[test]
     fn names_are_unique_and_inputs_can_be_drawn() {
-        for (at, case) in CASES.iter().enumerate() {
-            assert!(CASES[..at].iter().all(|other| other.name != case.name), "{}", case.name);
+        for Section { name, kind: case, .. } in AREA.sections {
             for input in case.inputs {
                 let distribution = input.distribution(input.n, case.dim).unwrap();
                 assert!(distribution.to_string().starts_with(input.distribution));
@@ -211,7 +262,7 @@ mod tests {
                     Distribution::Grid { side, .. } => side.pow(case.dim as u32),
                     _ => input.n as u64,
                 };
-                assert_eq!(cells, input.n as u64, "{}: the whole grid", case.name);
+                assert_eq!(cells, input.n as u64, "{name}: the whole grid");
             }
         }
     }
@@ -219,7 +270,7 @@ mod tests {
     #[test]
     fn the_same_points_have_the_same_number_of_simplices_in_every_case() {
         let mut known: Vec<(String, u64)> = Vec::new();
-        for case in CASES {
+        for Section { kind: case, .. } in AREA.sections {
             for input in case.inputs {
                 let what =
                     format!("{} {:?} {} {}", input.distribution, input.angle, input.n, case.dim);

@@ -1,62 +1,43 @@
 //! taut as a program of its own: one build, one line, as the peers do it.
 
-use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::Read;
-use std::path::PathBuf;
-
-use anyhow::{Context as _, Result, bail};
-use taut_delaunay::{Complex, Counters, DelaunayOptions, Plane, Space, Triangulation};
-use taut_points::{Monitor, Points};
-
-use super::program::{Build, Judged};
-use crate::meter::{Cost, Meter};
+use super::*;
 
 /// What to build.
-#[derive(clap::Args)]
-pub(crate) struct OneArguments {
-    /// Dimension, 2 or 3.
-    #[arg(long)]
-    dim: usize,
-    /// Threads.
-    #[arg(long)]
-    threads: usize,
-    /// Judge the answer as well, when the build is over.
-    #[arg(long)]
-    check: bool,
+#[derive(Serialize, Deserialize)]
+pub(crate) struct Task {
+    /// 2 or 3.
+    pub(super) dim: usize,
+    pub(super) threads: usize,
+    /// Whether the answer is judged as well, when the build is over.
+    pub(super) check: bool,
     /// Little-endian doubles, row by row.
-    file: PathBuf,
+    pub(super) file: PathBuf,
 }
 
-/// Builds the triangulation and prints what it cost.
-pub(crate) fn run(arguments: &OneArguments) -> Result<()> {
-    let mut file =
-        File::open(&arguments.file).with_context(|| arguments.file.display().to_string())?;
-    let mut values = vec![0.0f64; file.metadata()?.len() as usize / 8];
-    file.read_exact(bytemuck::cast_slice_mut(&mut values))?;
-    let points = Points::new(&values, arguments.dim)?;
-    let options =
-        DelaunayOptions { threads: Some(arguments.threads), ..DelaunayOptions::default() };
-    let n = points.len() as u64;
-    let meter = Meter::start();
-    let build = match arguments.dim {
-        2 => {
-            let built = Plane::build(&points, &options)?;
-            let build = line(n, meter.stop(), &built);
-            Build { judged: arguments.judge(&built, &points)?, ..build }
+impl Task {
+    /// Builds the triangulation, and tells what it cost.
+    pub(crate) fn perform(&self) -> Result<Build> {
+        let values = read_raw(&self.file)?;
+        let points = Points::new(&values, self.dim)?;
+        let options = DelaunayOptions { threads: Some(self.threads), ..Default::default() };
+        let meter = Meter::start();
+        match self.dim {
+            2 => self.tell(&points, &Plane::build(&points, &options)?, meter),
+            3 => self.tell(&points, &Space::build(&points, &options)?, meter),
+            dim => bail!("the dimension is {dim}: expected 2 or 3"),
         }
-        3 => {
-            let built = Space::build(&points, &options)?;
-            let build = line(n, meter.stop(), &built);
-            Build { judged: arguments.judge(&built, &points)?, ..build }
-        }
-        dim => bail!("--dim is {dim}: expected 2 or 3"),
-    };
-    println!("{}", serde_json::to_string(&build)?);
-    Ok(())
-}
+    }
 
-impl OneArguments {
+    fn tell<const D: usize, const V: usize>(
+        &self,
+        points: &Points<'_, f64>,
+        built: &Triangulation<D, V>,
+        meter: Meter,
+    ) -> Result<Build> {
+        let build = line(points.len(), meter.stop(), built);
+        Ok(Build { judged: self.judge(built, points)?, ..build })
+    }
+
     /// What it takes to have an answer of the triangulation and to judge it, with as many threads as the build.
     fn judge<const D: usize, const V: usize>(
         &self,
@@ -66,8 +47,7 @@ impl OneArguments {
         if !self.check {
             return Ok(None);
         }
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads).build()?;
-        pool.install(|| {
+        pool(self.threads)?.install(|| {
             let meter = Meter::start();
             let solution = built.solution(points, &Monitor::silent())?;
             let answer = meter.stop().cpu;
@@ -80,7 +60,7 @@ impl OneArguments {
 }
 
 fn line<const D: usize, const V: usize>(
-    points: u64,
+    points: usize,
     cost: Cost,
     built: &Triangulation<D, V>,
 ) -> Build {
@@ -108,15 +88,6 @@ fn line<const D: usize, const V: usize>(
         ("unbounded", stages.unbounded),
         ("ties", stages.ties),
     ];
-    Build {
-        program: format!("taut {}", env!("TAUT_BUILT_FROM")),
-        points,
-        simplices,
-        cpu: cost.cpu,
-        wall: cost.wall,
-        peak: cost.peak,
-        exact: (calls > 0).then(|| open as f64 / calls as f64),
-        counters: BTreeMap::from(counters.map(|(name, count)| (name.to_owned(), count))),
-        judged: None,
-    }
+    let exact = (calls > 0).then(|| open as f64 / calls as f64);
+    Build { exact, ..Build::of_taut(points, simplices, cost, counters) }
 }

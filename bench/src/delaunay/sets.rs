@@ -4,47 +4,31 @@
 //! sphere a program may have its own choice, and of equal rows it may name another; how many simplices are in both is
 //! said.
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
-use std::path::Path;
-use std::process::{Command, Stdio};
-
-use anyhow::{Context as _, Result, ensure};
-use taut_delaunay::{DelaunayOptions, Plane, Space, Triangulation};
-use taut_points::{Points, generate};
-
-use super::case::Case;
-use crate::input::SEED;
-use crate::peer::folder;
-use crate::table::Table;
+use super::*;
 
 /// Compares the sets of all inputs of `cases`, each input once.
-pub(super) fn run(cases: &[&Case], quick: bool) -> Result<()> {
-    let mut table = Table::new(&["input", "taut", "CGAL", "in both", "equal"]);
+pub(super) fn run(context: &Context, cases: &[&Section<Case>]) -> Result<()> {
+    let mut table = Table::new("input | taut | CGAL | in both | equal");
     let mut done = Vec::new();
-    let temp = tempfile::tempdir()?;
     let options = DelaunayOptions::default();
-    let file = temp.path().join("points.f64");
-    for case in cases {
+    let file = context.file("points.f64");
+    for Section { kind: case, .. } in cases {
         for input in case.inputs {
-            let n = if quick { input.n / 10 } else { input.n };
+            let n = context.count(input.n);
             let distribution = input.distribution(n, case.dim)?;
             let what = format!("{distribution} -n {n} -d {}", case.dim);
             if done.contains(&what) {
                 continue;
             }
             let values: Vec<f64> = generate(distribution, n, case.dim, SEED)?;
-            let mut out = BufWriter::new(File::create(&file)?);
-            values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))?;
-            out.into_inner()?;
+            write_raw(&file, &values)?;
             let points = Points::new(&values, case.dim)?;
             let (ours, theirs, common) = match case.dim {
                 2 => compare(ours(&Plane::build(&points, &options)?), &file)?,
                 _ => compare(ours(&Space::build(&points, &options)?), &file)?,
             };
-            let equal = if common == ours && ours == theirs { "yes" } else { "no" };
-            let cells = [ours, theirs, common].map(|count| count.to_string());
-            table.push([vec![what.clone()], cells.to_vec(), vec![equal.into()]].concat());
+            let is_equal = common == ours && ours == theirs;
+            table.push(json!([what, ours, theirs, common, is_equal]));
             done.push(what);
         }
     }
@@ -66,7 +50,7 @@ fn sorted<const V: usize>(mut simplices: Vec<[u32; V]>) -> Vec<[u32; V]> {
 
 /// How many simplices taut has, CGAL has on the points in `file`, and both have.
 fn compare<const V: usize>(ours: Vec<[u32; V]>, file: &Path) -> Result<(usize, usize, usize)> {
-    let program = folder().join(format!("peers/build/cgal-simplices-{}", V - 1));
+    let program = peer::folder().join(format!("peers/build/cgal-simplices-{}", V - 1));
     ensure!(program.exists(), "{} is not installed: run bench/setup", program.display());
     let output = Command::new(&program).arg(file).stderr(Stdio::inherit()).output();
     let output = output.with_context(|| program.display().to_string())?;

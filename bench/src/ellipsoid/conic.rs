@@ -1,19 +1,6 @@
 //! Small problems beside a conic solver, which knows nothing of core-sets: cvxpy with Clarabel.
 
-use anyhow::Result;
-use serde_json::json;
-use taut_certify::{Ball, Ellipsoid, Items, Solution};
-use taut_enclose::{BallOptions, EllipsoidOptions, ball, ellipsoid};
-use taut_points::Points;
-
-use super::case::Case;
-use super::goals::Measured;
-use super::laws::Law;
-use super::{Context, rounds, shapes};
-use crate::goals;
-use crate::input::{SEED, write_rows};
-use crate::stats::{seconds, times};
-use crate::table::Table;
+use super::*;
 
 /// The gap that taut is asked for; the solver is asked for the same.
 const EPSILON: f64 = 1e-10;
@@ -27,166 +14,93 @@ const SEEDS: u64 = 3;
 const POINTS: [(usize, usize); 6] =
     [(100, 3), (300, 3), (1000, 3), (100, 10), (300, 10), (1000, 10)];
 
-/// What is solved.
-#[derive(Clone, Copy)]
-enum Problem {
-    Points,
-    Ellipsoid,
-    Ball,
+/// What is told of an answer: its log-volume or radius, and the gap that the checker proves.
+type Told = (f64, Result<f64, String>);
+
+/// A problem on one set of rows beside the solver. Values of other programs are off relatively, in volume or in radius.
+fn add<T: Send>(
+    context: &Context,
+    table: &mut Table,
+    peer: &str,
+    what: &str,
+    (values, columns): (&[f64], usize),
+    solve: impl Fn(&Points<'_, f64>) -> Result<T> + Sync,
+    tell: impl Fn(&T, &Points<'_, f64>) -> Told,
+) -> Result<Found> {
+    let rows = Points::new(values, columns)?;
+    let beside = Beside { peers: &[peer], rows: (values, columns), reads: None };
+    let rounds = rounds::run(context, context.runs, beside, || solve(&rows), |_| Ok(()))?;
+    let peer = rounds.peer().context("one peer")?;
+    let theirs = peer.answer.as_ref().map(|answer| answer.radius);
+    let (ours, gap) = tell(&rounds.found, &rows);
+    let differs = theirs.map(|theirs| match peer.name.as_str() {
+        BALL => (theirs / ours - 1.0).abs(),
+        _ => (theirs - ours).exp_m1().abs(),
+    });
+    table.push(json!({
+        "input": what, "clock": rounds.clock(), "peer's clock": peer.least(),
+        "times faster": rounds.faster(peer).map(|(ratio, _)| ratio), "value": ours, "peer's": theirs,
+        "differs": differs, "verified gap": shown_gap(&gap), "why": peer.silence, "times": rounds.json(),
+    }));
+    let mut found = Found::proved(gap);
+    found.say(SECONDS, rounds.said());
+    found.add(DIFFERS, differs);
+    Ok(found)
 }
 
-impl Problem {
-    fn peer(self) -> &'static str {
-        match self {
-            Problem::Points => "conic-points",
-            Problem::Ellipsoid => "conic-ellipsoid",
-            Problem::Ball => "conic-ball",
-        }
-    }
-}
-
-/// taut's answer.
-enum Found {
-    Ellipsoid(Solution<Ellipsoid>),
-    Ball(Solution<Ball>),
-}
-
-impl Found {
-    fn of(problem: Problem, rows: &Points<'_, f64>) -> Result<Found> {
-        let options = EllipsoidOptions { epsilon: EPSILON, ..EllipsoidOptions::default() };
-        Ok(match problem {
-            Problem::Points => Found::Ellipsoid(ellipsoid(rows, &options)?),
-            Problem::Ellipsoid => Found::Ellipsoid(ellipsoid(
-                rows,
-                &EllipsoidOptions { inputs: Items::Ellipsoids, ..options },
-            )?),
-            Problem::Ball => {
-                let options = BallOptions { epsilon: EPSILON, ..BallOptions::default() };
-                Found::Ball(ball(rows, &BallOptions { inputs: Items::Ellipsoids, ..options })?)
-            }
-        })
-    }
-
-    /// The radius, or the log-volume.
-    fn value(&self) -> f64 {
-        match self {
-            Found::Ellipsoid(found) => found.answer.log_volume,
-            Found::Ball(found) => found.answer.radius,
-        }
-    }
-
-    /// How far a value of another program is off, relatively: in volume or in radius.
-    fn differs(&self, other: f64) -> f64 {
-        match self {
-            Found::Ellipsoid(found) => (other - found.answer.log_volume).exp_m1().abs(),
-            Found::Ball(found) => (other / found.answer.radius - 1.0).abs(),
-        }
-    }
-
-    /// The gap that the checker proves.
-    fn gap(&self, rows: &Points<'_, f64>) -> Result<f64, String> {
-        match self {
-            Found::Ellipsoid(found) => {
-                found.check(rows).map(|verdict| verdict.gap).map_err(|why| why.to_string())
-            }
-            Found::Ball(found) => {
-                found.check(rows).map(|verdict| verdict.gap).map_err(|why| why.to_string())
-            }
-        }
-    }
-}
-
-/// Sets of one problem, and the table they are shown in.
-struct Sets {
-    table: Table,
-    measured: Vec<Measured>,
-    report: Vec<serde_json::Value>,
-}
-
-impl Sets {
-    fn new() -> Self {
-        let head = ["input", "clock", "peer's clock", "times faster", "value", "peer's", "differs"];
-        let table = Table::new(&[&head[..], &["verified gap"]].concat());
-        Sets { table, measured: vec![], report: vec![] }
-    }
-
-    fn add(
-        &mut self,
-        context: &Context,
-        problem: Problem,
-        what: String,
-        values: &[f64],
-        columns: usize,
-    ) -> Result<()> {
-        let file = context.temp.path().join("rows");
-        write_rows(&file, values, columns)?;
-        let rows = Points::new(values, columns)?;
-        let peer = Some((problem.peer(), file.as_path()));
-        let rounds = rounds::run(context, &context.threads, peer, || Found::of(problem, &rows))?;
-        let found = &rounds.found;
-        let gap = found.gap(&rows);
-        let (theirs, differs, said) = match &rounds.peer {
-            Some(Ok((answer, _))) => {
-                let differs = found.differs(answer.radius);
-                (format!("{:.10}", answer.radius), Some(differs), format!("{differs:.1e}"))
-            }
-            Some(Err(silence)) => (silence.to_string(), None, String::new()),
-            None => Default::default(),
-        };
-        self.table.push(vec![
-            what.clone(),
-            rounds.clock().map(seconds).unwrap_or_default(),
-            rounds.peer_seconds().map(seconds).unwrap_or_default(),
-            rounds.faster().map(|(ratio, _)| times(ratio)).unwrap_or_default(),
-            format!("{:.10}", found.value()),
-            theirs,
-            said,
-            gap.as_ref().map_or_else(|why| format!("REJECTED: {why}"), |gap| format!("{gap:.1e}")),
-        ]);
-        self.report.push(json!({
-            "input": what, "value": found.value(), "differs": differs, "gap": gap.as_ref().ok(),
-            "times": rounds.json(),
-        }));
-        let measured = Measured {
-            gap: gap.as_ref().ok().copied(),
-            rejected: gap.err(),
-            differs,
-            ..rounds.measured()
-        };
-        self.measured.push(measured);
-        Ok(())
-    }
-}
+/// The peers, one for each problem.
+const POINTS_PEER: &str = "conic-points";
+const ELLIPSOID: &str = "conic-ellipsoid";
+const BALL: &str = "conic-ball";
 
 /// Runs all problems.
-pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
-    let mut all = vec![];
-    for (title, problem) in [
-        ("smallest ellipsoid around points, normal", Problem::Points),
-        ("smallest ellipsoid around 20 ellipsoids", Problem::Ellipsoid),
-        ("smallest ball around 20 ellipsoids", Problem::Ball),
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    for (title, peer) in [
+        ("smallest ellipsoid around points, normal", POINTS_PEER),
+        ("smallest ellipsoid around 20 ellipsoids", ELLIPSOID),
+        ("smallest ball around 20 ellipsoids", BALL),
     ] {
-        let mut sets = Sets::new();
-        if let Problem::Points = problem {
-            for (n, d) in POINTS {
-                let values = Law::Normal.draw(n, d, SEED)?;
-                sets.add(context, problem, format!("{n} × {d}"), &values, d)?;
-            }
-        } else {
-            for d in DIMS {
-                for seed in SEED..SEED + SEEDS {
-                    let values = shapes::draw(ELLIPSOIDS, d, seed)?;
-                    let what = format!("d = {d}, seed {seed}");
-                    sets.add(context, problem, what, &values, d * (d + 3) / 2)?;
-                }
-            }
+        let mut table = Table::new(
+            "input | clock:s | peer's clock:s | times faster:x | value:10 | peer's:10 | differs:e | \
+             verified gap | why",
+        );
+        let mut found = Found::default();
+        let inputs = if peer == POINTS_PEER { Items::Points } else { Items::Ellipsoids };
+        for (what, values, columns) in sets(inputs)? {
+            let (table, rows) = (&mut table, (&values[..], columns));
+            found.join(if peer == BALL {
+                let options = BallOptions { epsilon: EPSILON, inputs, ..Default::default() };
+                let solve = |rows: &Points<'_, f64>| Ok(ball(rows, &options)?);
+                add(context, table, peer, &what, rows, solve, |found, rows| {
+                    let gap = found.check(rows).map(|verdict| verdict.gap);
+                    (found.answer.radius, gap.map_err(|why| why.to_string()))
+                })?
+            } else {
+                let options = EllipsoidOptions { epsilon: EPSILON, inputs, ..Default::default() };
+                let solve = |rows: &Points<'_, f64>| Ok(ellipsoid(rows, &options)?);
+                add(context, table, peer, &what, rows, solve, |found, rows| {
+                    let gap = found.check(rows).map(|verdict| verdict.gap);
+                    (found.answer.log_volume, gap.map_err(|why| why.to_string()))
+                })?
+            });
         }
-        println!("{title}\n\n{}", sets.table);
-        let worst = Measured::worst(sets.measured).unwrap_or_default();
-        let goals = goals::print(&[case.must], &[case.aim], &worst);
-        println!();
-        all.push(json!({ "problem": title, "sets": sets.report, "goals": goals }));
+        out.table(title, table);
+        out.judge(&found);
+        out.close(title);
     }
-    context.report.add(json!({ "name": case.name, "problems": all }));
     Ok(())
+}
+
+/// Names, rows and columns of the sets of points or of ellipsoids.
+fn sets(inputs: Items) -> Result<Vec<(String, Vec<f64>, usize)>> {
+    if inputs == Items::Points {
+        let draw = |(n, d)| Ok((format!("{n} × {d}"), Law::Normal.draw(n, d, SEED)?, d));
+        return POINTS.into_iter().map(draw).collect();
+    }
+    let sets = DIMS.into_iter().flat_map(|d| (SEED..SEED + SEEDS).map(move |seed| (d, seed)));
+    let draw = |(d, seed)| {
+        let values = shapes::draw(ELLIPSOIDS, d, seed)?;
+        Ok((format!("d = {d}, seed {seed}"), values, d * (d + 3) / 2))
+    };
+    sets.map(draw).collect()
 }

@@ -1,25 +1,16 @@
 //! The ellipsoid of a peer as a user would use it: what lies outside, and whether its volume is the least.
 
-use taut_certify::EllipsoidVerdict;
-
-use super::linear::{self, product};
-
-/// Relative deviation that rounding in the peer's last steps explains.
-const ROUNDING: f64 = 1e-12;
-/// An ellipsoid is called wrong beyond this relative deviation: the tenth digit.
-const DEVIATION_MAX: f64 = 1e-10;
+use super::*;
+use crate::judge;
 
 /// What was found about the ellipsoid of a peer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Judgement {
-    /// Points that lie outside by more than rounding.
-    pub(super) outside: u64,
-    /// By how much the norm exceeds 1 at the worst of them.
-    pub(super) excess: f64,
+    /// Points that lie outside, by how much the norm exceeds 1 at the worst of them, and how far the logarithm of the volume
+    /// lies from the bracket that was proved.
+    pub(super) found: judge::Judgement,
     /// The logarithm of its volume.
     pub(super) log_volume: f64,
-    /// How far the logarithm of the volume lies below (negative) or above the bracket that was proved; 0 inside.
-    pub(super) off: f64,
 }
 
 impl Judgement {
@@ -31,7 +22,8 @@ impl Judgement {
         bracket: Option<&EllipsoidVerdict>,
     ) -> Judgement {
         if numbers.len() != d * (d + 1) {
-            return Judgement { outside: 0, excess: f64::NAN, log_volume: f64::NAN, off: f64::NAN };
+            let found = judge::Judgement { outside: 0, excess: f64::NAN, off: f64::NAN };
+            return Judgement { found, log_volume: f64::NAN };
         }
         let (center, matrix) = numbers.split_at(d);
         let (mut outside, mut worst) = (0, f64::NEG_INFINITY);
@@ -41,7 +33,7 @@ impl Judgement {
             let images = matrix.chunks_exact(d).map(|q| product(q, &offset));
             let norm = images.zip(&offset).map(|(image, o)| image * o).sum::<f64>().sqrt();
             // NaN is inside nothing.
-            let inside = norm <= 1.0 + ROUNDING;
+            let inside = norm <= 1.0 + judge::ROUNDING;
             outside += u64::from(!inside);
             worst = if norm.is_nan() { f64::INFINITY } else { worst.max(norm) };
         }
@@ -54,26 +46,14 @@ impl Judgement {
             volume if volume.is_nan() => f64::NAN,
             _ => 0.0,
         });
-        Judgement { outside, excess: worst - 1.0, log_volume, off }
+        let found = judge::Judgement { outside, excess: worst - 1.0, off };
+        Judgement { found, log_volume }
     }
 }
 
 impl std::fmt::Display for Judgement {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let within = |tolerance| self.excess <= tolerance && self.off.abs() <= tolerance;
-        match (within(DEVIATION_MAX), within(ROUNDING)) {
-            (false, _) => write!(f, "WRONG: ")?,
-            (_, false) => write!(f, "INEXACT: ")?,
-            _ => {}
-        }
-        match self.outside {
-            0 => write!(f, "encloses ({:.1e})", self.excess)?,
-            n => write!(f, "{n} points outside by up to {:.1e}", self.excess)?,
-        }
-        match self.off {
-            off if off.abs() <= ROUNDING => write!(f, ", volume in our bracket"),
-            off => write!(f, ", log-volume {off:+.1e} off our bracket"),
-        }
+        f.write_str(&self.found.describe("log-volume"))
     }
 }
 
@@ -95,14 +75,14 @@ mod tests {
         let values = [1.0, 0.0, -1.0, 0.0, 0.0, 1.0];
         let of = |numbers: &[f64]| Judgement::of(&values, 2, numbers, Some(&unit));
         let right = of(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
-        assert_eq!((right.outside, right.excess, right.off), (0, 0.0, 0.0));
-        assert_eq!(right.to_string(), "encloses (0.0e0), volume in our bracket");
+        assert_eq!((right.found.outside, right.found.excess, right.found.off), (0, 0.0, 0.0));
+        assert_eq!(right.to_string(), "encloses (0.0e0), log-volume in our bracket");
         let shifted = of(&[0.5, 0.0, 1.0, 0.0, 0.0, 1.0]);
-        assert_eq!((shifted.outside, shifted.off), (2, 0.0));
-        assert!(shifted.to_string().starts_with("WRONG: 2 points outside by up to 5.0e-1"));
+        assert_eq!((shifted.found.outside, shifted.found.off), (2, 0.0));
+        assert!(shifted.to_string().starts_with("WRONG: 2 outside by up to 5.0e-1"));
         assert!(of(&[0.0, 0.0, 0.5, 0.0, 0.0, 0.5]).to_string().starts_with("WRONG: encloses"));
         let nan = of(&[f64::NAN, 0.0, 1.0, 0.0, 0.0, 1.0]);
-        assert!(nan.outside == 3 && nan.to_string().starts_with("WRONG"));
+        assert!(nan.found.outside == 3 && nan.to_string().starts_with("WRONG"));
         assert!(of(&[0.0]).to_string().starts_with("WRONG"));
     }
 }

@@ -1,7 +1,6 @@
 //! Points as the literature on ellipsoids draws them, made of taut's seeded generators.
 
-use anyhow::Result;
-use taut_points::{Distribution, generate};
+use super::*;
 
 /// From what points are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,7 +13,7 @@ pub(super) enum Law {
     Cauchy,
     /// Uniform direction, distance uniform in (1 − t, 1], stretched along d axes from 1 to 1000 and turned.
     Shell(f64),
-    /// Ten normal clouds of any shape around centres uniform in [−10, 10]ᵈ, after Sun and Freund.
+    /// Ten normal clouds of any shape around centers uniform in [−10, 10]ᵈ, after Sun and Freund.
     Mix,
 }
 

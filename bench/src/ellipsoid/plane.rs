@@ -1,19 +1,6 @@
 //! Ellipses around a million points, beside CGAL, whose ellipse is judged as well.
 
-use anyhow::Result;
-use serde_json::json;
-use taut_certify::{EllipseSupport, ellipse_support};
-use taut_points::{Monitor, Points};
-
-use super::Context;
-use super::case::Case;
-use super::judgement::Judgement;
-use super::laws::Law;
-use super::points::{COLUMNS, solve};
-use crate::goals;
-use crate::input::{SEED, write_rows};
-use crate::stats::{seconds, times};
-use crate::table::Table;
+use super::*;
 
 /// CGAL's program, as `bench/setup` builds it.
 const PEER: &str = "cgal-min-ellipse";
@@ -21,64 +8,45 @@ const PEER: &str = "cgal-min-ellipse";
 /// Numbers of an ellipse of CGAL's, c and Q; its support points come after them.
 const NUMBERS: usize = 6;
 
-/// Runs the case under all laws.
-pub(super) fn run(context: &mut Context, case: &Case, laws: &[Law]) -> Result<()> {
-    let n = if context.quick { 100_000 } else { 1_000_000 };
-    let mut all = Vec::new();
+/// Runs all laws.
+pub(super) fn run(context: &Context, out: &mut Outcome, laws: &[Law]) -> Result<()> {
+    let n = context.count(1_000_000);
     for law in laws {
         let values = law.draw(n, 2, SEED)?;
         let what = format!("{law}, {n} × 2");
-        let file = context.temp.path().join("points");
-        write_rows(&file, &values, 2)?;
-        let solved = solve(context, &values, 2, Some((PEER, &file)))?;
+        let solved = solve(context, context.runs, &values, 2, &[PEER])?;
         let support = &solved.rounds.found.certificate.support;
         let proved = ellipse_support(&Points::new(&values, 2)?, support, &Monitor::silent());
-        let mut table = Table::new(&[&["program"], &COLUMNS[..], &["answer"]].concat());
-        table.push([vec!["taut".to_owned()], solved.cells(), vec![String::new()]].concat());
-        let mut row = vec![PEER.to_owned()];
-        row.resize(COLUMNS.len() + 1, String::new());
-        let mut judged = String::new();
-        let mut their_support = None;
-        match &solved.rounds.peer {
-            Some(Ok((answer, _))) => {
-                row[1] = solved.rounds.peer_seconds().map(seconds).unwrap_or_default();
-                row[COLUMNS.len()] = answer.support.to_string();
-                let verdict = solved.verdict.as_ref().ok();
-                let (ellipse, support) = answer.center.split_at(NUMBERS.min(answer.center.len()));
-                judged = Judgement::of(&values, 2, ellipse, verdict).to_string();
-                their_support = Some(rows_of(support, &values));
-                row.push(judged.clone());
-            }
-            Some(Err(silence)) => row.push(silence.to_string()),
-            None => row.push("not asked".to_owned()),
+        let mut table = Table::new(&format!("program | {} | answer", columns()));
+        table.push(joined([json!({ "program": "taut" }), solved.cells()]));
+        let peer = solved.rounds.peer().context("one peer")?;
+        let their_support = peer.answer.as_ref().map(|answer| {
+            let (ellipse, support) = answer.center.split_at(NUMBERS.min(answer.center.len()));
+            let judged = Judgement::of(&values, 2, ellipse, solved.verdict.as_ref().ok());
+            table.push(json!({
+                "program": PEER, "clock": peer.least(), "support": answer.support, "answer": judged.to_string(),
+            }));
+            rows_of(support, &values)
+        });
+        if their_support.is_none() {
+            table.push(json!({ "program": PEER, "answer": peer.said() }));
         }
-        table.push(row);
-        println!("{what}\n\n{table}");
-        if let Some((ratio, rounds)) = solved.rounds.faster() {
+        out.table(&what, table);
+        if let Some((ratio, rounds)) = solved.rounds.faster(peer) {
             // Each round of CGAL's has a shuffle of its own: the least is that of its luckiest.
-            let [least, middle, most] = [rounds.min, rounds.median, rounds.max].map(times);
-            println!(
-                "- faster than CGAL: {} times; by rounds {middle}, {least} to {most}",
-                times(ratio)
-            );
+            let by_rounds = range(rounds, times);
+            println!("- faster than CGAL: {} times; by rounds {by_rounds}", times(ratio));
         }
-        let mut measured = solved.measured();
+        let mut found = solved.found();
         match &proved {
             Ok(proved) => println!("- support {}", told(proved, their_support.as_deref())),
-            Err(why) => measured.rejected = Some(format!("its support: {why}")),
+            Err(why) => found.reject(Some(format!("its support: {why}"))),
         }
-        let goals = goals::print(&[case.must], &[case.aim], &measured);
-        println!();
-        all.push(json!({
-            "input": what,
-            "solved": solved.json(),
-            "support": proved.ok().map(|proved| proved.rows),
-            "peer": judged,
-            "peer_support": their_support,
-            "goals": goals,
-        }));
+        out.keep("solved", solved.json());
+        out.keep("support", json!([proved.ok().map(|proved| proved.rows), their_support]));
+        out.judge(&found);
+        out.close(&what);
     }
-    context.report.add(json!({ "name": case.name, "inputs": all }));
     Ok(())
 }
 
@@ -91,7 +59,8 @@ fn told(proved: &EllipseSupport, theirs: Option<&[u64]>) -> String {
         Some(_) => "; CGAL's is another",
     };
     format!(
-        "proved by exact arithmetic: rows {rows:?}, {on_border} on the border, {near_border} took whole numbers{same}"
+        "proved by exact arithmetic: rows {rows:?}, {on_border} on the border, {near_border} \
+            took whole numbers{same}"
     )
 }
 

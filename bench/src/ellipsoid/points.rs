@@ -1,127 +1,98 @@
 //! Smallest ellipsoids of points: solved by rounds, then proved.
 
-use anyhow::Result;
-use serde_json::{Value, json};
-use taut_certify::{Ellipsoid, EllipsoidVerdict, Solution, Stop};
-use taut_enclose::{EllipsoidOptions, ellipsoid};
-use taut_points::Points;
-
-use super::case::{Case, Input};
-use super::goals::Measured;
-use super::rounds::TIME_COLUMNS;
-use super::{Context, rounds};
-use crate::goals;
-use crate::input::SEED;
-use crate::table::Table;
+use super::*;
 
 /// The gap that is asked for.
-pub(super) const EPSILON: f64 = 1e-12;
+const EPSILON: f64 = 1e-12;
 
 /// One set of points, solved and judged.
 pub(super) struct Solved {
     /// The answers and times.
-    pub(super) rounds: rounds::Rounds<Solution<Ellipsoid>>,
+    pub(super) rounds: Rounds<Solution<Ellipsoid>>,
     /// What the checker says.
     pub(super) verdict: Result<EllipsoidVerdict, String>,
 }
 
-/// Solves `values`, rows of d numbers; `peer` is a program and the file it reads.
+/// Solves `values`, rows of d numbers, beside peers.
 pub(super) fn solve(
     context: &Context,
+    runs: usize,
     values: &[f64],
     d: usize,
-    peer: Option<(&str, &std::path::Path)>,
+    peers: &[&str],
 ) -> Result<Solved> {
     let points = Points::new(values, d)?;
     let options = EllipsoidOptions { epsilon: EPSILON, ..EllipsoidOptions::default() };
-    let rounds =
-        rounds::run(context, &context.threads, peer, || Ok(ellipsoid(&points, &options)?))?;
+    let beside = Beside { peers, rows: (values, d), reads: None };
+    let solve = || Ok(ellipsoid(&points, &options)?);
+    let rounds = rounds::run(context, runs, beside, solve, |_| Ok(()))?;
     let verdict = rounds.found.check(&points).map_err(|why| why.to_string());
     Ok(Solved { rounds, verdict })
 }
 
+/// What the checker says, for a table.
+pub(super) fn shown_gap(gap: &Result<f64, String>) -> String {
+    gap.as_ref().map_or_else(|why| format!("REJECTED: {why}"), |gap| Unit::Power.show(*gap))
+}
+
 impl Solved {
-    /// What goals ask for.
-    pub(super) fn measured(&self) -> Measured {
-        Measured {
-            rejected: self.verdict.as_ref().err().cloned(),
-            gap: self.verdict.as_ref().ok().map(|verdict| verdict.gap),
-            passes: Some(self.rounds.found.trace.passes),
-            ..self.rounds.measured()
-        }
+    fn gap(&self) -> Result<f64, String> {
+        self.verdict.as_ref().map(|verdict| verdict.gap).map_err(String::clone)
     }
 
-    /// Cells: clock, processors, one thread, gap, stop, passes, steps, support.
-    pub(super) fn cells(&self) -> Vec<String> {
-        let trace = &self.rounds.found.trace;
-        let mut cells = self.rounds.cells();
-        cells.extend([
-            match &self.verdict {
-                Ok(verdict) => format!("{:.1e}", verdict.gap),
-                Err(why) => format!("REJECTED: {why}"),
-            },
-            match trace.stop {
-                Stop::Converged => "converged",
-                Stop::Rounding => "rounding",
-                Stop::PassBudget => "pass budget",
-                Stop::NodeBudget => "node budget",
-                Stop::ProofBudget => "proof budget",
-            }
-            .to_owned(),
-            trace.passes.to_string(),
-            trace.iterations.to_string(),
-            self.rounds.found.certificate.support.len().to_string(),
-        ]);
-        cells
+    /// What goals ask for.
+    pub(super) fn found(&self) -> Found {
+        let mut found = Found::proved(self.gap());
+        found.add(PASSES, self.rounds.found.trace.passes as f64);
+        found.say(SECONDS, self.rounds.said());
+        let faster = self.rounds.peer().and_then(|peer| self.rounds.faster(peer));
+        found.add(FASTER, faster.map(|(ratio, _)| ratio));
+        found
+    }
+
+    /// Cells under [`columns`].
+    pub(super) fn cells(&self) -> Value {
+        let found = &self.rounds.found;
+        let cells = json!({
+            "verified gap": shown_gap(&self.gap()), "stop": found.trace.stop, "passes": found.trace.passes,
+            "steps": found.trace.iterations, "support": found.certificate.support.len(),
+        });
+        joined([self.rounds.cells(), cells])
     }
 
     /// Everything, for the report.
     pub(super) fn json(&self) -> Value {
         let found = &self.rounds.found;
         json!({
-            "times": self.rounds.json(),
-            "gap": self.verdict.as_ref().ok().map(|verdict| verdict.gap),
-            "rejected": self.verdict.as_ref().err(),
-            "log_volume": found.answer.log_volume,
-            "support": found.certificate.support.len(),
+            "times": self.rounds.json(), "gap": self.gap(), "log_volume": found.answer.log_volume,
             "trace": &found.trace,
         })
     }
 }
 
-/// The names of the columns of [`Solved::cells`].
-pub(super) const COLUMNS: [&str; 8] = [
-    TIME_COLUMNS[0],
-    TIME_COLUMNS[1],
-    TIME_COLUMNS[2],
-    "verified gap",
-    "stop",
-    "passes",
-    "steps",
-    "support",
-];
+/// Columns of [`Solved::cells`].
+pub(super) fn columns() -> String {
+    format!("{TIME_COLUMNS} | verified gap | stop | passes | steps | support")
+}
 
 /// Runs all inputs of a case, each under all of its seeds.
-pub(super) fn run(context: &mut Context, case: &Case, inputs: &[Input]) -> Result<()> {
-    let mut all = Vec::new();
+pub(super) fn run(context: &Context, out: &mut Outcome, inputs: &[Input]) -> Result<()> {
     for input in inputs {
-        let n = if context.quick { input.n / 10 } else { input.n };
+        let n = context.count(input.n);
         let what = format!("{}, {n} × {}", input.law, input.d);
-        let mut table = Table::new(&[&["seed"], &COLUMNS[..]].concat());
-        let (mut measured, mut seeds) = (Vec::new(), Vec::new());
+        let mut table = Table::new(&format!("seed | {}", columns()));
+        let mut found = Found::default();
         for seed in SEED..SEED + input.seeds {
             let values = input.law.draw(n, input.d, seed)?;
-            let solved = solve(context, &values, input.d, None)?;
-            table.push([vec![seed.to_string()], solved.cells()].concat());
-            measured.push(solved.measured());
-            seeds.push(json!({ "seed": seed, "solved": solved.json() }));
+            let solved = solve(context, context.runs, &values, input.d, &[])?;
+            let head = json!({ "seed": seed, "solved": solved.json() });
+            table.push(joined([head, solved.cells()]));
+            found.join(solved.found());
         }
-        println!("{what}\n\n{table}");
-        let worst = Measured::worst(measured).unwrap_or_default();
-        let goals = goals::print(&[case.must, input.must], &[case.aim, input.aim], &worst);
-        println!();
-        all.push(json!({ "input": what, "seeds": seeds, "goals": goals }));
+        out.table(&what, table);
+        out.judge(&found);
+        out.judge_by([input.must, input.aim], &found);
+        out.close(&what);
     }
-    context.report.add(json!({ "name": case.name, "inputs": all }));
     Ok(())
 }

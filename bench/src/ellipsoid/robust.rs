@@ -1,19 +1,6 @@
 //! MCD: the objective and the time beside scikit-learn, and the outliers of classical sets.
 
-use anyhow::{Context as _, Result, ensure};
-use serde_json::json;
-use taut_certify::{RobustEllipsoid, Solution};
-use taut_enclose::{RobustOptions, robust_ellipsoid};
-use taut_points::{Distribution, Points, generate};
-
-use super::case::Case;
-use super::goals::Measured;
-use super::{Context, data, linear, read, rounds};
-use crate::goals;
-use crate::input::{SEED, write_rows};
-use crate::peer::{Answer, Peer};
-use crate::stats::seconds;
-use crate::table::Table;
+use super::*;
 
 /// scikit-learn's `MinCovDet` for the h that taut keeps.
 const PEER: &str = "sklearn-mcd-h";
@@ -103,76 +90,59 @@ fn lists(answer: &Answer) -> Vec<Vec<u64>> {
 }
 
 /// Runs MCD beside scikit-learn.
-pub(super) fn run(context: &mut Context, case: &Case, cloud: Cloud) -> Result<()> {
-    let n = if context.quick { N / 10 } else { N };
+pub(super) fn run(context: &Context, out: &mut Outcome, cloud: Cloud) -> Result<()> {
+    let n = context.count(N);
     let what = format!(
         "{n} × {D}, of ten points {OUTLIERS_PER_TEN} in one cloud far off, {}",
         if cloud == Cloud::Wide { "as wide as the first" } else { "a tenth as wide as the first" }
     );
-    let head = ["seed", "program", "h", "ln det", "of the second cloud kept"];
-    let mut table = Table::new(&[&head[..], &rounds::TIME_COLUMNS[..]].concat());
-    let (mut measured, mut sets) = (vec![], vec![]);
-    let runs = context.runs;
-    for seed in SEED..SEED + SEEDS {
+    let mut table = Table::new(&format!(
+        "seed | program | h | ln det:10 | of the second cloud kept | {TIME_COLUMNS} | why"
+    ));
+    let mut found = Found::default();
+    // The peer needs ten seconds: of all seeds but the first one round each.
+    for (seed, runs) in (SEED..SEED + SEEDS).zip(once(context.runs).chain(repeat(1))) {
         let values = draw(cloud, n, D, seed)?;
-        let file = context.temp.path().join("points");
-        write_rows(&file, &values, D)?;
         let points = Points::new(&values, D)?;
-        let rounds = rounds::run(context, &context.threads, Some((PEER, &file)), || {
-            Ok(robust_ellipsoid(&points, &RobustOptions::default())?)
-        })?;
-        // The peer needs ten seconds: of the other seeds one round each.
-        context.runs = 1;
-        let rejected = rounds.found.check(&points).err().map(|why| why.to_string());
+        let beside = Beside { peers: &[PEER], rows: (&values, D), reads: None };
+        let solve = || Ok(robust_ellipsoid(&points, &RobustOptions::default())?);
+        let rounds = rounds::run(context, runs, beside, solve, |_| Ok(()))?;
+        found.reject(rounds.found.check(&points).err().map(|why| why.to_string()));
         let left_out = &rounds.found.certificate.left_out;
         let kept: Vec<u64> =
             (0..n as u64).filter(|row| left_out.binary_search(row).is_err()).collect();
         let ours = log_det(&values, D, &kept).context("the points kept have no covariance")?;
         let row = |program: &str, kept: &[u64], value: Option<f64>| {
             let planted = kept.iter().filter(|row| is_planted(**row)).count();
-            let value = value.map_or("none for this h".into(), |value| format!("{value:.10}"));
-            let [seed, h, planted] =
-                [seed.to_string(), kept.len().to_string(), planted.to_string()];
-            vec![seed, program.to_owned(), h, value, planted]
+            json!({
+                "seed": seed, "program": program, "h": kept.len(), "ln det": value,
+                "of the second cloud kept": planted,
+            })
         };
-        table.push([row("taut", &kept, Some(ours)), rounds.cells()].concat());
+        let times = json!({ "times": rounds.json() });
+        table.push(joined([row("taut", &kept, Some(ours)), rounds.cells(), times]));
+        let peer = rounds.peer().context("one peer")?;
         let mut theirs = None;
-        match &rounds.peer {
-            Some(Ok((answer, _))) => {
-                let rows = lists(answer).swap_remove(0);
-                // Fewer points have a smaller determinant: only subsets of one size can be compared.
-                theirs = log_det(&values, D, &rows).filter(|_| rows.len() == kept.len());
-                let time = rounds.peer_seconds().map(seconds).unwrap_or_default();
-                let times = [time, String::new(), String::new()];
-                table.push([&row(PEER, &rows, theirs)[..], &times].concat());
-            }
-            Some(Err(silence)) => {
-                let mut cells = vec![seed.to_string(), PEER.to_owned(), silence.to_string()];
-                cells.resize(head.len() + rounds::TIME_COLUMNS.len(), String::new());
-                table.push(cells);
-            }
-            None => {}
+        if let Some(answer) = &peer.answer {
+            let rows = lists(answer).swap_remove(0);
+            // Fewer points have a smaller determinant: only subsets of one size can be compared.
+            theirs = log_det(&values, D, &rows).filter(|_| rows.len() == kept.len());
+            let why = if theirs.is_none() { "none for this h" } else { "" };
+            let tail = json!({ "clock": peer.least(), "why": why });
+            table.push(joined([row(PEER, &rows, theirs), tail]));
+        } else {
+            table.push(json!({ "seed": seed, "program": PEER, "why": peer.said() }));
         }
         let first = first_cloud(&values, D, kept.len())?;
-        let mut cells = vec![seed.to_string(), "best of the first cloud".to_owned()];
-        cells.extend([kept.len().to_string(), format!("{first:.10}"), "0".to_owned()]);
-        cells.resize(head.len() + rounds::TIME_COLUMNS.len(), String::new());
-        table.push(cells);
-        sets.push(json!({
-            "seed": seed, "times": rounds.json(), "ln_det": ours, "peer_ln_det": theirs,
-            "first_cloud_ln_det": first,
+        table.push(json!({
+            "seed": seed, "program": "best of the first cloud", "h": kept.len(), "ln det": first,
+            "of the second cloud kept": 0,
         }));
-        measured.push(Measured {
-            rejected,
-            objective: theirs.map(|theirs| ours - theirs),
-            ..rounds.measured()
-        });
+        found.add(OBJECTIVE, theirs.map(|theirs| ours - theirs));
+        found.add(FASTER, rounds.faster(peer).map(|(ratio, _)| ratio));
     }
-    context.runs = runs;
-    println!("{what}\n\n{table}");
-    let worst = Measured::worst(measured).unwrap_or_default();
-    let goals = goals::print(&[case.must], &[case.aim], &worst);
-    context.report.add(json!({ "name": case.name, "input": what, "sets": sets, "goals": goals }));
+    out.table(&what, table);
+    out.judge(&found);
     Ok(())
 }
 
@@ -185,7 +155,7 @@ const CLASSICAL_SETS: [(&str, usize, &[u64]); 3] = [
 
 /// Why scikit-learn flags other rows of two of them.
 const NOTES: &str = "\
-- weighed out: rows that have no part in the final centre and scatter; what scikit-learn answers as `support_`
+- weighed out: rows that have no part in the final center and scatter; what scikit-learn answers as `support_`
 - flagged: rows beyond the quantile 0.975 of χ² in the final metric
 - starsCYG, row 9: the final mean and covariance are those of the same 41 rows. taut and robustbase multiply by the
   consistency factor 1.431 of 41 of 47 rows and by a factor for small samples, scikit-learn by that of 97.5 %, 1.104, with
@@ -201,79 +171,61 @@ fn from_one(rows: &[u64]) -> Vec<u64> {
 }
 
 /// Compares the flags of the classical sets.
-pub(super) fn run_flags(context: &mut Context, case: &Case) -> Result<()> {
-    let Some(folder) = data() else {
-        context.report.add(json!({ "name": case.name, "left_out": "no TAUT_DATA" }));
-        return Ok(());
-    };
-    let mut table = Table::new(&["set", "program", "h", "ln det", "weighed out", "flagged"]);
-    let (mut others, mut rejected, mut peers) = (Vec::new(), None, Some(Vec::new()));
+pub(super) fn run_flags(context: &Context, out: &mut Outcome) -> Result<()> {
+    let mut table = Table::new("set | program | h | ln det:6 | weighed out | flagged | why");
+    let (mut others, mut peers, mut found) = (vec![], Some(vec![]), Found::default());
     for (name, columns, published) in CLASSICAL_SETS {
-        let (values, d) = read(&folder.join(name), Some(columns)).with_context(|| name)?;
+        let Some(path) = data::find(&format!("ellipsoid/{name}")) else { return out.left_out() };
+        let (values, d) = read(&path, Some(columns)).with_context(|| name)?;
         let points = Points::new(&values, d)?;
-        let found: Solution<RobustEllipsoid> =
-            robust_ellipsoid(&points, &RobustOptions::default())?;
-        rejected = rejected.or(found.check(&points).err().map(|why| format!("{name}: {why}")));
-        let list = |rows: &[u64]| rows.iter().map(u64::to_string).collect::<Vec<_>>().join(" ");
-        let flagged = from_one(&found.answer.flagged);
-        let weighed = from_one(&found.certificate.weighed_out);
-        if flagged != published {
-            others.push(name.to_owned());
-        }
-        let value = |value: f64| format!("{value:.6}");
-        let h = found.certificate.kept.to_string();
-        let objective = value(found.certificate.objective);
-        let row = |program: &str, cells: [String; 4]| {
-            [&[name.to_owned(), program.to_owned()][..], &cells].concat()
+        let ours = robust_ellipsoid(&points, &RobustOptions::default())?;
+        found.reject(ours.check(&points).err().map(|why| format!("{name}: {why}")));
+        let row = |program: &str, found: &Solution<RobustEllipsoid>| {
+            json!({
+                "set": name, "program": program, "h": found.certificate.kept, "ln det": found.certificate.objective,
+                "weighed out": from_one(&found.certificate.weighed_out), "flagged": from_one(&found.answer.flagged),
+            })
         };
-        table.push(row("taut", [h.clone(), objective, list(&weighed), list(&flagged)]));
-        table.push(row("robustbase", [h, String::new(), String::new(), list(published)]));
-        let file = context.temp.path().join("points");
-        write_rows(&file, &values, d)?;
+        table.push(row("taut", &ours));
+        table.push(json!({
+            "set": name, "program": "robustbase", "h": ours.certificate.kept, "flagged": published,
+        }));
+        if from_one(&ours.answer.flagged) != published {
+            others.push(name);
+        }
         for peer in [PEER, PEER_OWN] {
-            let answer = Peer::start(peer, &file, context.temp.path())?;
-            let answer = match answer {
-                Ok(mut running) => running.solve(context.limit)?,
-                Err(silence) => Err(silence),
-            };
-            match answer {
-                Ok(answer) => {
-                    let lists = lists(&answer);
-                    let theirs = from_one(&lists[1]);
-                    if peer == PEER && theirs != weighed {
-                        peers.iter_mut().for_each(|sets| sets.push(name.to_owned()));
-                    }
-                    let objective = log_det(&values, d, &lists[0]).map_or(String::new(), value);
-                    let flagged = list(&from_one(&lists[2]));
-                    let h = lists[0].len();
-                    table.push(row(peer, [h.to_string(), objective, list(&theirs), flagged]));
-                    if h as u64 != found.certificate.kept {
-                        let same = robust_ellipsoid(&points, &keeping(h, values.len() / d, d))?;
-                        let [weighed, flagged] =
-                            [&same.certificate.weighed_out, &same.answer.flagged]
-                                .map(|rows| list(&from_one(rows)));
-                        let h = same.certificate.kept.to_string();
-                        let objective = value(same.certificate.objective);
-                        table.push(row("taut, as many", [h, objective, weighed, flagged]));
-                    }
-                }
+            let lists = match peer::ask(context, peer, (&values, d))? {
+                Ok(answer) => lists(&answer),
                 Err(silence) => {
                     peers = None;
-                    let empty = String::new;
-                    table.push(row(peer, [silence.to_string(), empty(), empty(), empty()]));
+                    table.push(json!({ "set": name, "program": peer, "why": silence }));
+                    continue;
                 }
+            };
+            let (h, weighed_out) = (lists[0].len(), from_one(&lists[1]));
+            if peer == PEER && weighed_out != from_one(&ours.certificate.weighed_out) {
+                peers.iter_mut().for_each(|sets| sets.push(name));
+            }
+            table.push(json!({
+                "set": name, "program": peer, "h": h, "ln det": log_det(&values, d, &lists[0]),
+                "weighed out": weighed_out, "flagged": from_one(&lists[2]),
+            }));
+            if h as u64 != ours.certificate.kept {
+                let same = robust_ellipsoid(&points, &keeping(h, values.len() / d, d))?;
+                table.push(row("taut, as many", &same));
             }
         }
     }
-    println!("{table}\n{NOTES}\n");
-    let measured = Measured {
-        rejected,
-        other_flags: Some(others),
-        other_than_peer: peers,
-        ..Measured::default()
+    out.table("", table);
+    println!("{NOTES}\n");
+    // How many sets there are, and which.
+    let counted = |sets: Vec<&str>| {
+        let said = if sets.is_empty() { "none".to_owned() } else { sets.join(", ") };
+        (sets.len() as f64, said)
     };
-    let goals = goals::print(&[case.must], &[case.aim], &measured);
-    context.report.add(json!({ "name": case.name, "goals": goals }));
+    found.say(OTHER_FLAGS, Some(counted(others)));
+    found.say(OTHER_THAN_PEER, peers.map(counted));
+    out.judge(&found);
     Ok(())
 }
 

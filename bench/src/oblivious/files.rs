@@ -1,26 +1,6 @@
 //! Files larger than the memory that is allowed: sorted beside the crate extsort, and transposed.
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
-use std::path::Path;
-
-use anyhow::{Context as _, Result, bail, ensure};
-use clap::ValueEnum;
-use serde_json::{Value, json};
-use taut_certify::{
-    ElementOrder, FileAnswer, Files, Hash128, KeyKind, SortCertificate, SortedFile, TransposedFile,
-};
-use taut_points::Monitor;
-use tempfile::TempDir;
-
-use super::draw::Draw;
-use super::lanes::have_memory;
-use super::one::{FileCost, RECORD_BYTES, Work};
-use crate::context::Context;
-use crate::goals::Goals;
-use crate::raw::alone;
-use crate::stats::{seconds, times};
-use crate::table::Table;
+use super::*;
 
 /// How large things are.
 struct Sizes {
@@ -31,83 +11,80 @@ struct Sizes {
     transpose_memory: usize,
 }
 
-/// What each program cost: the best of it, and all rounds.
-struct Costs {
-    best: Vec<FileCost>,
-    rounds: Vec<Vec<FileCost>>,
-}
+const MEBIBYTE: f64 = 1048576.0;
 
 /// A tenth and a sixteenth of what the goals speak of.
-pub(super) fn run(context: &Context) -> Result<Value> {
-    let sizes = match context.quick {
-        true => Sizes::of(100_000, 1 << 20, [300, 500], 1 << 18),
-        false => Sizes::of(10_000_000, 26 << 20, [8192, 4096], 16 << 20),
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let usual = Sizes {
+        records: 10_000_000,
+        sort_memory: 26 << 20,
+        rows: 8192,
+        columns: 4096,
+        transpose_memory: 16 << 20,
     };
-    measure(context, &sizes)
+    measure(
+        context,
+        out,
+        &context.size(
+            usual,
+            Sizes {
+                records: 400_000,
+                sort_memory: 4 << 20,
+                rows: 300,
+                columns: 500,
+                transpose_memory: 1 << 18,
+            },
+        ),
+    )
 }
 
 /// 3.2 GB sorted and 4 GiB transposed, under 256 MiB.
-pub(super) fn run_large(context: &Context) -> Result<Value> {
-    measure(context, &Sizes::of(100_000_000, 256 << 20, [32_768, 16_384], 256 << 20))
-}
-
-impl Sizes {
-    fn of(
-        records: usize,
-        sort_memory: usize,
-        [rows, columns]: [usize; 2],
-        transpose_memory: usize,
-    ) -> Self {
-        Sizes { records, sort_memory, rows, columns, transpose_memory }
-    }
+pub(super) fn run_large(context: &Context, out: &mut Outcome) -> Result<()> {
+    ensure!(context.scratch.is_some() && !context.quick, "give --scratch FOLDER, and not --quick");
+    measure(
+        context,
+        out,
+        &Sizes {
+            records: 100_000_000,
+            sort_memory: 256 << 20,
+            rows: 32_768,
+            columns: 16_384,
+            transpose_memory: 256 << 20,
+        },
+    )
 }
 
 /// Both, in a folder that is removed at the end.
-fn measure(context: &Context, sizes: &Sizes) -> Result<Value> {
+fn measure(context: &Context, out: &mut Outcome, sizes: &Sizes) -> Result<()> {
     let folder = match &context.scratch {
         Some(folder) => TempDir::new_in(folder)?,
         None => TempDir::new()?,
     };
-    let mut goals = Goals::default();
-    let mut table = Table::new(&[
-        "work",
-        "file",
-        "limit",
-        "processor",
-        "clock",
-        "peak",
-        "I/O ÷ file",
-        "clock ÷ copies",
-    ]);
+    let mut table = Table::new(
+        "work | file:MiB | limit:MiB | processor:s | clock:s | peak:MiB | I/O ÷ file:x | clock ÷ \
+            copies:x",
+    );
     let (from, to) = (folder.path().join("from"), folder.path().join("to"));
     let sorted = sort(context, sizes, [&from, &to], &mut table)?;
     let transposed = transposition(context, sizes, [&from, &to], &mut table)?;
-    let transposition = transposed.best;
-    let [taut, extsort, queue, disk, _] = &sorted.best[..] else { bail!("five programs sort") };
-    println!("{table}");
+    let [taut, extsort, queue, disk, _] = &sorted[..] else { bail!("five programs sort") };
+    out.table("", table);
     let bytes = (sizes.records * RECORD_BYTES) as f64;
     let io = taut.counted.map_or(f64::NAN, |counted| counted as f64 / bytes);
-    goals.must(
-        "sort: I/O four times the file, within 1 %".into(),
-        times(io),
-        (io - 4.0).abs() <= 0.04,
-    );
-    let peak = over_limit(taut, sizes.sort_memory);
-    goals.at_most("sort: peak above the limit", peak, (32.0, None), mebibytes);
-    let over = over_limit(queue, sizes.sort_memory);
-    let what = "queue: peak at most 16 MiB above the limit".into();
-    goals.aim(what, over.map_or(String::new(), mebibytes), over.map(|over| over <= 16.0));
+    out.must("sort: I/O four times the file, within 1 %", times(io), (io - 4.0).abs() <= 0.04);
+    // The program itself is among the bytes of the peak.
+    let over = |cost: &FileCost, memory: usize| cost.peak.map(|peak| peak as f64 - memory as f64);
+    let (sort, queue) = (over(taut, sizes.sort_memory), over(queue, sizes.sort_memory));
+    out.at_most("sort: peak above the limit", sort, 32.0 * MEBIBYTE, Unit::Memory);
+    out.at_most("queue: peak above the limit", queue, aim_only(16.0 * MEBIBYTE), Unit::Memory);
+    let transposed = over(&transposed[0], sizes.transpose_memory);
+    let what = "transposition: peak above the limit";
+    out.at_most(what, transposed, 16.0 * MEBIBYTE, Unit::Memory);
     let ratio = extsort.cpu / taut.cpu;
-    goals.at_least("sort: processor time of extsort over taut's", ratio, (3.0, None));
-    goals.aim(
-        "sort: clock at most 1.3 times that of the disk for as many bytes".into(),
-        times(taut.wall / (2.0 * disk.wall)),
-        taut.wall <= 1.3 * 2.0 * disk.wall,
-    );
-    let peak = over_limit(&transposition[0], sizes.transpose_memory);
-    goals.at_most("transposition: peak above the limit", peak, (16.0, None), mebibytes);
-    let rounds = json!({ "sort": sorted.rounds, "transposition": transposed.rounds });
-    Ok(json!({ "rounds": rounds, "goals": goals.json() }))
+    out.at_least("sort: processor time of extsort over taut's", ratio, 3.0, Unit::Times);
+    let what = "sort: clock over that of the disk for as many bytes";
+    out.at_most(what, taut.wall / (2.0 * disk.wall), aim_only(1.3), Unit::Times);
+    Ok(())
 }
 
 /// taut, extsort, taut's queue, the disk alone, a copy; each sorted output is judged by taut's certificate, whose checker
@@ -117,7 +94,7 @@ fn sort(
     sizes: &Sizes,
     [from, to]: [&Path; 2],
     table: &mut Table,
-) -> Result<Costs> {
+) -> Result<Vec<FileCost>> {
     let mut draw = Draw(1);
     write(from, sizes.records * RECORD_BYTES / 8, || draw.word())?;
     let mut certificate = None;
@@ -153,7 +130,7 @@ fn transposition(
     sizes: &Sizes,
     [from, to]: [&Path; 2],
     table: &mut Table,
-) -> Result<Costs> {
+) -> Result<Vec<FileCost>> {
     let mut draw = Draw(2);
     write(from, sizes.rows * sizes.columns, || draw.word())?;
     let (rows, columns) = (sizes.rows as u64, sizes.columns as u64);
@@ -187,39 +164,30 @@ fn by_turns(
     (memory, rows, bytes, copies): (usize, u64, u64, f64),
     mut judge: impl FnMut(Work, &FileCost) -> Result<()>,
     table: &mut Table,
-) -> Result<Costs> {
+) -> Result<Vec<FileCost>> {
     let mut rounds = vec![vec![]; works.len()];
     for _ in 0..context.runs {
         for (&work, costs) in works.iter().zip(&mut rounds) {
-            let mut arguments = vec!["one-oblivious".into(), name(work).into()];
-            arguments
-                .extend([format!("--memory={memory}").into(), format!("--rows={rows}").into()]);
-            arguments.extend([from.into(), to.into()]);
+            let [from, to] = [from, to].map(Path::to_owned);
             // A host that took free memory back gives it again at the cost of whoever accesses it first.
             have_memory(memory)?;
-            let cost: FileCost = alone(&arguments)?;
+            let output = to.clone();
+            let cost: FileCost = Job::File(Task { work, memory, rows, from, to }).finish()?;
             judge(work, &cost)?;
-            std::fs::remove_file(to)?;
+            std::fs::remove_file(output)?;
             costs.push(cost);
         }
     }
     let best: Vec<FileCost> = rounds.iter().filter_map(|costs| best(costs)).collect();
     let copy = copies * best[best.len() - 1].wall;
-    for (work, cost) in works.iter().zip(&best) {
-        let io = cost.io.map_or(String::new(), |io| times(io as f64 / bytes as f64));
-        let size = |bytes: u64| mebibytes(bytes as f64 / 1048576.0);
-        table.push(vec![
-            name(*work),
-            size(bytes),
-            size(memory as u64),
-            seconds(cost.cpu),
-            seconds(cost.wall),
-            cost.peak.map_or(String::new(), size),
-            io,
-            times(cost.wall / copy),
-        ]);
+    for ((work, cost), rounds) in works.iter().zip(&best).zip(&rounds) {
+        table.push(json!({
+            "work": work, "file": bytes, "limit": memory, "processor": cost.cpu, "clock": cost.wall, "peak": cost.peak,
+            "I/O ÷ file": cost.io.map(|io| io as f64 / bytes as f64), "clock ÷ copies": cost.wall / copy,
+            "rounds": rounds,
+        }));
     }
-    Ok(Costs { best, rounds })
+    Ok(best)
 }
 
 /// The least times, and the most of all else.
@@ -236,27 +204,12 @@ fn best(costs: &[FileCost]) -> Option<FileCost> {
     Some(best)
 }
 
-/// A name on the command line.
-fn name(work: Work) -> String {
-    work.to_possible_value().map_or(String::new(), |value| value.get_name().to_owned())
-}
-
-/// Mebibytes of the peak above the limit, the program itself among them.
-fn over_limit(cost: &FileCost, memory: usize) -> Option<f64> {
-    cost.peak.map(|peak| (peak as f64 - memory as f64) / 1048576.0)
-}
-
-fn mebibytes(value: f64) -> String {
-    format!("{value:.1} MiB")
-}
-
 /// Words, least significant byte first.
 fn write(path: &Path, words: usize, mut word: impl FnMut() -> u64) -> Result<()> {
     let mut file = BufWriter::with_capacity(1 << 20, File::create(path)?);
     for _ in 0..words {
         file.write_all(&word().to_le_bytes())?;
     }
-    file.flush()?;
     // Not to be written while something else is timed.
-    Ok(file.get_ref().sync_data()?)
+    Ok(file.into_inner()?.sync_data()?)
 }

@@ -3,17 +3,9 @@
 //! *Trap.* A virtual machine may hand free memory back to its host after a moment. Whoever accesses it first then pays for
 //! the host, in processor time of the thread: up to 4 ms for a page of 2 MiB, where clearing it takes 0.2 ms.
 
-use std::hint::black_box;
-
-use anyhow::Result;
+use super::*;
 #[cfg(target_os = "linux")]
 use memmap2::Advice;
-use memmap2::MmapMut;
-use rustix::time::{ClockId, clock_gettime};
-use serde_json::{Value, json};
-
-use crate::stats::times;
-use crate::table::Table;
 
 /// Times so far, by name, in the order in which the names came up.
 #[derive(Default)]
@@ -40,7 +32,7 @@ impl Lanes {
 
     /// The least seconds of that name; NaN, which meets no goal, if it never ran.
     pub(super) fn of(&self, name: &str) -> f64 {
-        self.iter().find(|lane| lane.0 == name).map_or(f64::NAN, |lane| lane.1)
+        least(self.rounds(name).iter().copied()).unwrap_or(f64::NAN)
     }
 
     /// How many times as long `other` took as `name`.
@@ -50,19 +42,24 @@ impl Lanes {
 
     /// How many times as long as the fastest round of that name its slowest took: what is noise.
     pub(super) fn spread(&self, name: &str) -> f64 {
-        let of_name = self.times.iter().find(|lane| lane.0 == name);
-        of_name.map_or(f64::NAN, |lane| lane.1.iter().copied().fold(0.0, f64::max) / self.of(name))
+        self.rounds(name).iter().copied().fold(0.0, f64::max) / self.of(name)
     }
 
     /// Nanoseconds for each of `n` and how many times as long as taut, program by program.
     pub(super) fn table(&self, n: usize) -> Table {
-        let mut table = Table::new(&["program", "ns each", "÷ taut", "slowest ÷ fastest round"]);
+        let mut table = Table::new("program | each:ns | ÷ taut:x | slowest ÷ fastest round:x");
         for (name, seconds) in self.iter() {
-            let each = format!("{:.2}", seconds / n as f64 * 1e9);
-            let [ratio, spread] = [self.faster("taut", name), self.spread(name)].map(times);
-            table.push(vec![name.to_owned(), each, ratio, spread]);
+            table.push(json!({
+                "program": name, "each": seconds / n as f64, "÷ taut": self.faster("taut", name),
+                "slowest ÷ fastest round": self.spread(name), "rounds": self.rounds(name),
+            }));
         }
         table
+    }
+
+    /// Seconds of that name in all rounds.
+    fn rounds(&self, name: &str) -> &[f64] {
+        self.times.iter().find(|lane| lane.0 == name).map_or(&[], |lane| &lane.1)
     }
 
     /// Nanoseconds for each of `n` in all rounds, for the report.
@@ -76,8 +73,49 @@ impl Lanes {
 
     /// Names and least seconds.
     fn iter(&self) -> impl Iterator<Item = (&'static str, f64)> {
-        let least = |seconds: &[f64]| seconds.iter().copied().fold(f64::INFINITY, f64::min);
-        self.times.iter().map(move |(name, seconds)| (*name, least(seconds)))
+        self.times.iter().map(|(name, _)| (*name, self.of(name)))
+    }
+}
+
+/// Peers that are processes of their own, as far as they are there: each gets the input as a file and takes its turn.
+pub(super) struct Guests(Vec<(&'static str, Peer)>);
+
+impl Guests {
+    /// Starts peers on rows of so many words; one that is not installed is named and left out.
+    pub(super) fn invite(
+        context: &Context,
+        words: &[u64],
+        columns: usize,
+        names: &[&'static str],
+    ) -> Result<Self> {
+        let (mut guests, input) = (vec![], context.file("words"));
+        if !names.is_empty() {
+            write_rows(&input, bytemuck::cast_slice(words), columns)?;
+        }
+        for &name in names {
+            match Peer::start(name, &input, context.temp.path())? {
+                Ok(peer) => guests.push((name, peer)),
+                Err(silence @ Silence::NotInstalled) => println!("{name}: {silence}\n"),
+                Err(silence) => bail!("{name}: {silence}"),
+            }
+        }
+        Ok(Self(guests))
+    }
+
+    /// A turn of each; its seconds are kept, and `judge` is given its name and the words it answers with.
+    pub(super) fn turn(
+        &mut self,
+        context: &Context,
+        lanes: &mut Lanes,
+        mut judge: impl FnMut(&'static str, &[u64]) -> Result<()>,
+    ) -> Result<()> {
+        for (name, peer) in &mut self.0 {
+            let answer = peer.solve(context.limit)?;
+            let answer = answer.map_err(|silence| anyhow!("{name}: {silence}"))?;
+            judge(name, bytemuck::cast_slice(&answer.center))?;
+            lanes.keep(name, answer.seconds);
+        }
+        Ok(())
     }
 }
 

@@ -1,26 +1,14 @@
 //! One file sorted or transposed by a process of its own: its peak of memory and its I/O are those of the work.
 
-use std::fs::File;
-use std::io::{self, BufReader, BufWriter, Read, Write};
-use std::os::unix::fs::{FileExt as _, OpenOptionsExt as _};
-use std::path::{Path, PathBuf};
-
-use anyhow::{Context as _, Result, anyhow};
-use extsort::{ExternalSorter, Sortable};
-use rustix::fs::OFlags;
-use serde::{Deserialize, Serialize};
-use taut_oblivious::external::{FileSortOptions, KeyKind, RecordLayout, sort_file};
-use taut_oblivious::{FileMatrix, TransposeFileOptions, transpose_file};
-use taut_points::Monitor;
-use taut_reference::SpillingQueue;
-
-use crate::meter::{Meter, peak};
+use super::*;
+use std::io;
+use taut_oblivious::external::KeyKind;
 
 /// A record has this many bytes, the first eight of which are its key.
 pub(super) const RECORD_BYTES: usize = 32;
 
 /// What to do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Work {
     /// Sort by taut.
     Sort,
@@ -37,23 +25,20 @@ pub(super) enum Work {
 }
 
 /// One file.
-#[derive(clap::Args)]
-pub(crate) struct OneArguments {
-    #[arg(value_enum)]
-    work: Work,
+#[derive(Serialize, Deserialize)]
+pub(crate) struct Task {
+    pub(super) work: Work,
     /// Bytes of memory.
-    #[arg(long)]
-    memory: usize,
+    pub(super) memory: usize,
     /// Rows of a matrix to transpose.
-    #[arg(long, default_value_t = 1)]
-    rows: u64,
-    from: PathBuf,
-    to: PathBuf,
+    pub(super) rows: u64,
+    pub(super) from: PathBuf,
+    pub(super) to: PathBuf,
 }
 
 /// What it cost.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(super) struct FileCost {
+pub(crate) struct FileCost {
     /// Processor seconds of the process.
     pub(super) cpu: f64,
     /// Seconds by the clock.
@@ -69,44 +54,45 @@ pub(super) struct FileCost {
 }
 
 /// Records with a key of eight bytes, least significant first.
-pub(super) fn layout() -> RecordLayout {
+fn layout() -> RecordLayout {
     RecordLayout { width: RECORD_BYTES, key: 0..8, kind: KeyKind::U64 }
 }
 
-/// Does it and prints the cost.
-pub(crate) fn run(arguments: &OneArguments) -> Result<()> {
-    // As the peer: one thread.
-    rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global()?;
-    let OneArguments { work, memory, rows, from, to } = arguments;
-    let monitor = Monitor::silent();
-    let (mut counted, mut certificate) = (None, None);
-    let before = asked();
-    let meter = Meter::start();
-    match work {
-        Work::Sort => {
-            let options = FileSortOptions { memory: *memory, ..Default::default() };
-            let done = sort_file(from, to, &layout(), &options, &monitor)?;
-            counted = Some(done.bytes_read + done.bytes_written);
-            let hash = done.certificate.hash;
-            certificate = Some((done.certificate.records, [(hash >> 64) as u64, hash as u64]));
+impl Task {
+    /// Does it, and tells what it cost.
+    pub(crate) fn perform(&self) -> Result<FileCost> {
+        // As the peer: one thread.
+        rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global()?;
+        let Task { work, memory, rows, from, to } = self;
+        let monitor = Monitor::silent();
+        let (mut counted, mut certificate) = (None, None);
+        let before = asked();
+        let meter = Meter::start();
+        match work {
+            Work::Sort => {
+                let options = FileSortOptions { memory: *memory, ..Default::default() };
+                let done = sort_file(from, to, &layout(), &options, &monitor)?;
+                counted = Some(done.bytes_read + done.bytes_written);
+                let hash = done.certificate.hash;
+                certificate = Some((done.certificate.records, [(hash >> 64) as u64, hash as u64]));
+            }
+            Work::Extsort => extsort(from, to, *memory)?,
+            Work::Queue => queue(from, to, *memory)?,
+            Work::Transpose => {
+                let columns = from.metadata()?.len() / 8 / rows;
+                let matrix = FileMatrix { rows: *rows, columns, width: 8, offset: 0 };
+                let options = TransposeFileOptions { memory: *memory };
+                let done = transpose_file(from, matrix, to, &[], &options, &monitor)?;
+                counted = Some(done.bytes_read + done.bytes_written);
+            }
+            Work::Disk => disk(from, to)?,
+            Work::Copy => copy(from, to)?,
         }
-        Work::Extsort => extsort(from, to, *memory)?,
-        Work::Queue => queue(from, to, *memory)?,
-        Work::Transpose => {
-            let columns = from.metadata()?.len() / 8 / rows;
-            let matrix = FileMatrix { rows: *rows, columns, width: 8, offset: 0 };
-            let options = TransposeFileOptions { memory: *memory };
-            let done = transpose_file(from, matrix, to, &[], &options, &monitor)?;
-            counted = Some(done.bytes_read + done.bytes_written);
-        }
-        Work::Disk => disk(from, to)?,
-        Work::Copy => copy(from, to)?,
+        let cost = meter.stop();
+        let io = asked().zip(before).map(|(after, before)| after - before);
+        let peak = meter::peak();
+        Ok(FileCost { cpu: cost.cpu, wall: cost.wall, peak, io, counted, certificate })
     }
-    let cost = meter.stop();
-    let io = asked().zip(before).map(|(after, before)| after - before);
-    let done = FileCost { cpu: cost.cpu, wall: cost.wall, peak: peak(), io, counted, certificate };
-    println!("{}", serde_json::to_string(&done)?);
-    Ok(())
 }
 
 /// Bytes that this process has asked the system to read and to write; `None` where /proc does not tell.
@@ -158,8 +144,7 @@ fn extsort(from: &Path, to: &Path, memory: usize) -> Result<()> {
         let record = record.map_err(|error| anyhow!("extsort: {error}"))?;
         output.write_all(&record.0)?;
     }
-    output.flush()?;
-    Ok(output.get_ref().sync_data()?)
+    Ok(output.into_inner()?.sync_data()?)
 }
 
 /// The first eight bytes of a record are its key, the others come with it.
@@ -177,8 +162,7 @@ fn queue(from: &Path, to: &Path, memory: usize) -> Result<()> {
         output.write_all(&key.to_le_bytes())?;
         output.write_all(&rest)?;
     }
-    output.flush()?;
-    Ok(output.get_ref().sync_data()?)
+    Ok(output.into_inner()?.sync_data()?)
 }
 
 /// Reads and writes past the page cache, by large blocks in turn, but for what is less than a page at the end.

@@ -1,15 +1,6 @@
 //! Points in the order of a curve that fills space, beside CGAL's and beside keys of the crate fast_hilbert.
 
-use anyhow::{Result, ensure};
-use serde_json::{Value, json};
-use taut_oblivious::{hilbert_order, morton_order};
-
-use super::draw::Draw;
-use super::guests::Guests;
-use super::lanes::{Lanes, have_memory};
-use crate::context::Context;
-use crate::stats::times;
-use crate::table::Table;
+use super::*;
 
 /// Keys of the crate and numbers, sorted by std.
 const CRATE: &str = "fast_hilbert and std's sort";
@@ -17,8 +8,8 @@ const CRATE: &str = "fast_hilbert and std's sort";
 const MORTON: &str = "taut, Z-order";
 
 /// Random points of the square and the cube, and of clouds in the square; no bound is set for them.
-pub(super) fn run(context: &Context) -> Result<Value> {
-    let n = if context.quick { 10_000 } else { 1_000_000 };
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let n = context.size(1_000_000, 10_000);
     let plane: Vec<[f64; 2]> = points(n, Draw::unit);
     // Dense along two sides, most of all in the corner.
     let dense: Vec<[f64; 2]> = points(n, |draw| draw.unit().powi(8));
@@ -27,11 +18,9 @@ pub(super) fn run(context: &Context) -> Result<Value> {
         ["cgal-hilbert-2-median", "cgal-hilbert-2-middle"],
         ["cgal-hilbert-3-median", "cgal-hilbert-3-middle"],
     ];
-    Ok(json!([
-        show("square", &plane, case(context, &plane, cgal[0], Some(quantised))?),
-        show("square, x⁸ and y⁸", &dense, case(context, &dense, cgal[0], Some(quantised))?),
-        show("cube", &space, case(context, &space, cgal[1], None)?),
-    ]))
+    case(context, out, "square", &plane, cgal[0], Some(quantized))?;
+    case(context, out, "square, x⁸ and y⁸", &dense, cgal[0], Some(quantized))?;
+    case(context, out, "cube", &space, cgal[1], None)
 }
 
 fn points<const D: usize>(n: usize, number: fn(&mut Draw) -> f64) -> Vec<[f64; D]> {
@@ -42,20 +31,17 @@ fn points<const D: usize>(n: usize, number: fn(&mut Draw) -> f64) -> Vec<[f64; D
 /// An order, by an order of points.
 type By<const D: usize> = fn(&[[f64; D]]) -> Vec<u32>;
 
-/// Times, and of each program the mean step from a point to the next.
-struct Case {
-    lanes: Lanes,
-    steps: Vec<(&'static str, f64)>,
-}
-
 /// All by turns; each order must have every point once. Curves differ, so the length of the way is shown beside.
 fn case<const D: usize>(
     context: &Context,
+    out: &mut Outcome,
+    name: &str,
     points: &[[f64; D]],
     cgal: [&'static str; 2],
     other: Option<By<D>>,
-) -> Result<Case> {
-    let mut found = Case { lanes: Lanes::default(), steps: vec![] };
+) -> Result<()> {
+    // Times, and of each program the mean step from a point to the next.
+    let (mut lanes, mut steps) = (Lanes::default(), vec![]);
     let words: Vec<u64> = points.iter().flatten().map(|number| number.to_bits()).collect();
     let mut guests = Guests::invite(context, &words, D, &cgal)?;
     let ours: By<D> = |points| hilbert_order(points.len(), |i| points[i]);
@@ -66,27 +52,37 @@ fn case<const D: usize>(
             let mean = walk(points, order);
             ensure!(mean.is_some(), "{name}: a point is lost");
             if round == 0 {
-                found.steps.extend(mean.map(|mean| (name, mean)));
+                steps.extend(mean.map(|mean| (name, mean)));
             }
             Ok(())
         };
         for (name, by) in programs {
             let Some(by) = by else { continue };
             have_memory(64 * points.len())?;
-            let order = found.lanes.time(name, || by(points));
+            let order = lanes.time(name, || by(points));
             judge(name, &order)?;
         }
         have_memory(64 * points.len())?;
-        guests.turn(context, &mut found.lanes, |name, order| {
+        guests.turn(context, &mut lanes, |name, order| {
             let order: Vec<u32> = order.iter().map(|&word| f64::from_bits(word) as u32).collect();
             judge(name, &order)
         })?;
     }
-    Ok(found)
+    let mut table = Table::new("program | a point:ns | ÷ taut:x | mean step ÷ taut's:x");
+    let first = steps.first().map_or(f64::NAN, |first| first.1);
+    for (program, mean) in &steps {
+        table.push(json!({
+            "program": program, "a point": lanes.of(program) / points.len() as f64,
+            "÷ taut": lanes.faster("taut", program), "mean step ÷ taut's": mean / first, "step": mean,
+        }));
+    }
+    out.table(&format!("{} points: {name}", points.len()), table);
+    out.keep(name, lanes.json(points.len()));
+    Ok(())
 }
 
 /// Cells of a grid of 2³² by 2³² and numbers of points, as one would write it; the numbers are from 0 to 1.
-fn quantised(points: &[[f64; 2]]) -> Vec<u32> {
+fn quantized(points: &[[f64; 2]]) -> Vec<u32> {
     let key = |(i, point): (usize, &[f64; 2])| {
         let [x, y] = point.map(|number| (number * 4_294_967_296.0) as u32);
         (fast_hilbert::xy2h(x, y, 32), i as u32)
@@ -96,12 +92,9 @@ fn quantised(points: &[[f64; 2]]) -> Vec<u32> {
     keys.into_iter().map(|(_, i)| i).collect()
 }
 
-/// The mean distance between neighbours of the order; `None` unless it has every point once.
+/// The mean distance between neighbors of the order; `None` unless it has every point once.
 fn walk<const D: usize>(points: &[[f64; D]], order: &[u32]) -> Option<f64> {
-    let mut seen = vec![false; points.len()];
-    let once =
-        |&i: &u32| seen.get_mut(i as usize).is_some_and(|seen| !std::mem::replace(seen, true));
-    if order.len() != points.len() || !order.iter().all(once) {
+    if !is_permutation(order.iter().map(|&row| row as usize), points.len()) {
         return None;
     }
     let step = |pair: &[u32]| {
@@ -109,24 +102,6 @@ fn walk<const D: usize>(points: &[[f64; D]], order: &[u32]) -> Option<f64> {
         (0..D).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
     };
     Some(order.windows(2).map(step).sum::<f64>() / (points.len() - 1) as f64)
-}
-
-/// A table, and the same for the report.
-fn show<const D: usize>(name: &str, points: &[[f64; D]], case: Case) -> Value {
-    let Case { lanes, steps } = case;
-    let mut table = Table::new(&["program", "ns a point", "÷ taut", "mean step ÷ taut's"]);
-    let least = steps.first().map_or(f64::NAN, |first| first.1);
-    for (program, mean) in &steps {
-        let each = lanes.of(program) / points.len() as f64 * 1e9;
-        table.push(vec![
-            (*program).to_owned(),
-            format!("{each:.1}"),
-            times(lanes.faster("taut", program)),
-            times(mean / least),
-        ]);
-    }
-    println!("{} points: {name}\n\n{table}", points.len());
-    json!({ "points": name, "n": points.len(), "lanes": lanes.json(points.len()), "steps": steps })
 }
 
 #[cfg(test)]
@@ -140,6 +115,6 @@ mod tests {
         for wrong in [&[0, 1, 2][..], &[0, 1, 2, 2], &[0, 1, 2, 4]] {
             assert_eq!(walk(&square, wrong), None);
         }
-        assert!(walk(&square, &quantised(&square.map(|p| p.map(|x| x / 2.0)))).is_some());
+        assert!(walk(&square, &quantized(&square.map(|p| p.map(|x| x / 2.0)))).is_some());
     }
 }

@@ -1,18 +1,6 @@
 //! Ordered sets: the packed-memory array beside std's B-tree and the crate indexset.
 
-use std::collections::BTreeSet;
-
-use anyhow::{Result, ensure};
-use indexset::BTreeSet as IndexSet;
-use serde_json::{Value, json};
-use taut_reference::packed::PackedSet;
-
-use super::draw::Draw;
-use super::lanes::{Lanes, thread_cpu};
-use crate::context::Context;
-use crate::goals::Goals;
-use crate::stats::times;
-use crate::table::Table;
+use super::*;
 
 /// The peers, in the tables.
 const TREE: &str = "BTreeSet";
@@ -24,20 +12,13 @@ struct Sets {
     tree: BTreeSet<u64>,
     index: IndexSet<u64>,
     draw: Draw,
-    rows: Vec<Row>,
-}
-
-/// Seconds per key of the three.
-struct Row {
-    what: &'static str,
-    packed: f64,
-    tree: f64,
-    index: f64,
+    /// Seconds per key of the three.
+    rows: Vec<(&'static str, [f64; 3])>,
 }
 
 /// Insertions one by one, scans, ranges, look-ups, batches, and moves in four patterns.
-pub(super) fn run(context: &Context) -> Result<Value> {
-    let n = if context.quick { 100_000 } else { 10_000_000 };
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let n = context.size(10_000_000, 100_000);
     let (packed, tree, index) = (PackedSet::new(), BTreeSet::new(), IndexSet::new());
     let mut sets = Sets { packed, tree, index, draw: Draw(1), rows: vec![] };
     sets.insert("insert, from empty", n);
@@ -46,55 +27,35 @@ pub(super) fn run(context: &Context) -> Result<Value> {
     sets.read(context, n)?;
     sets.batches(n / 100)?;
     sets.agree()?;
-    let mut table = Table::new(&[
-        "work",
-        "taut, ns per key",
-        "BTreeSet, ns per key",
-        "indexset, ns per key",
-        "BTreeSet ÷ taut",
-        "indexset ÷ taut",
-    ]);
-    for row in &sets.rows {
-        let [ours, tree, index] =
-            [row.packed, row.tree, row.index].map(|seconds| format!("{:.2}", seconds * 1e9));
-        table.push(vec![
-            row.what.to_owned(),
-            ours,
-            tree,
-            index,
-            times(row.tree / row.packed),
-            times(row.index / row.packed),
-        ]);
-    }
-    println!(
-        "{n} u64; {} slots per key\n\n{table}",
-        times(sets.packed.slots() as f64 / sets.packed.len() as f64)
+    let mut table = Table::new(
+        "work | taut, per key:ns | BTreeSet, per key:ns | indexset, per key:ns | BTreeSet ÷ \
+            taut:x | indexset ÷ taut:x",
     );
+    for (what, [packed, tree, index]) in &sets.rows {
+        table.push(json!([what, packed, tree, index, tree / packed, index / packed]));
+    }
+    let slots = sets.packed.slots() as f64 / sets.packed.len() as f64;
+    out.table(&format!("{n} u64; {} slots per key", times(slots)), table);
     let bound = 1.5 * (n as f64).log2().powi(2);
-    let mut moves = Table::new(&["pattern", "moves per insertion", "1.5 log² n"]);
+    let mut moves = Table::new("pattern | moves per insertion:x | 1.5 log² n:x");
     let patterns = hammered(n)?;
     for (name, each) in &patterns {
-        moves.push(vec![name.to_string(), times(*each), times(bound)]);
+        moves.push(json!([name, each, bound]));
     }
-    println!("{moves}");
-    let mut goals = Goals::default();
-    let mut goal = |what: &'static str, bounds| {
-        let row = sets.rows.iter().find(|row| row.what == what);
-        let ratio = row.map_or(f64::NAN, |row| row.tree / row.packed);
-        goals.at_least(&format!("{what}: BTreeSet over taut"), ratio, bounds);
-    };
-    goal("full scan", (20.0, None));
-    goal("batches", (5.0, Some(8.0)));
-    goal("insert, from empty", (1.0, Some(1.5)));
-    goal("ranges of 1000", (10.0, None));
+    out.table("", moves);
+    for (what, bounds) in [
+        ("full scan", 20.0.into()),
+        ("batches", [5.0, 8.0].into()),
+        ("insert, from empty", [1.0, 1.5].into()),
+        ("ranges of 1000", Bounds::from(10.0)),
+    ] {
+        let row = sets.rows.iter().find(|row| row.0 == what);
+        let ratio = row.map(|(_, [packed, tree, _])| tree / packed);
+        out.at_least(format!("{what}: BTreeSet over taut"), ratio, bounds, Unit::Times);
+    }
     let worst = patterns.iter().map(|pattern| pattern.1).fold(0.0, f64::max);
-    goals.at_most("moves per insertion, worst pattern", Some(worst), (bound, None), times);
-    let row = |row: &Row| {
-        let [taut, tree, index] = [row.packed, row.tree, row.index].map(|seconds| seconds * 1e9);
-        json!({ "what": row.what, "taut": taut, "BTreeSet": tree, "indexset": index })
-    };
-    let rows: Vec<Value> = sets.rows.iter().map(row).collect();
-    Ok(json!({ "n": n, "ns": rows, "moves": patterns, "goals": goals.json() }))
+    out.at_most("moves per insertion, worst pattern", worst, bound, Unit::Times);
+    Ok(())
 }
 
 impl Sets {
@@ -107,8 +68,7 @@ impl Sets {
             tree += seconds(|| insert(stretch, |key| self.tree.insert(key)));
             index += seconds(|| insert(stretch, |key| self.index.insert(key)));
         }
-        let [packed, tree, index] = [packed, tree, index].map(|seconds| seconds / n as f64);
-        self.rows.push(Row { what, packed, tree, index });
+        self.rows.push((what, [packed, tree, index].map(|seconds| seconds / n as f64)));
     }
 
     /// Batches, which the tree takes by `extend`; indexset takes none.
@@ -123,8 +83,8 @@ impl Sets {
             index += seconds(|| insert(&keys, |key| self.index.insert(key)));
             ensure!(new == self.tree.len() - before, "a batch has another number of new keys");
         }
-        let [packed, tree, index] = [packed, tree, index].map(|seconds| seconds / (6 * n) as f64);
-        self.rows.push(Row { what: "batches", packed, tree, index });
+        let each = [packed, tree, index].map(|seconds| seconds / (6 * n) as f64);
+        self.rows.push(("batches", each));
         Ok(())
     }
 
@@ -169,9 +129,7 @@ impl Sets {
             ("ranges of 1000", ranges, 1000 * starts.len()),
             ("look-ups", finds, wanted.len()),
         ] {
-            let [packed, tree, index] =
-                ["taut", TREE, INDEX].map(|name| lanes.of(name) / keys as f64);
-            self.rows.push(Row { what, packed, tree, index });
+            self.rows.push((what, ["taut", TREE, INDEX].map(|name| lanes.of(name) / keys as f64)));
         }
         Ok(())
     }

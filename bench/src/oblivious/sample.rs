@@ -1,20 +1,11 @@
 //! Samples without replacement, in order.
 
-use anyhow::{Result, ensure};
-use rand::SeedableRng;
-use rand::rngs::StdRng;
-use rand::seq::SliceRandom;
-use serde_json::{Value, json};
-use taut_oblivious::{Sequential, bernoulli, sample, shuffle};
-
-use super::draw::Draw;
-use super::lanes::Lanes;
-use crate::context::Context;
-use crate::goals::Goals;
+use super::*;
+use taut_oblivious::sample;
 
 /// 2²⁰ of 2⁴⁰, and all items in random order.
-pub(super) fn run(context: &Context) -> Result<Value> {
-    let (n, k) = (1u64 << 40, if context.quick { 1u64 << 14 } else { 1 << 20 });
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let (n, k) = (1u64 << 40, context.size(1u64 << 20, 1 << 14));
     let mut lanes = Lanes::default();
     for round in 0..context.runs as u64 {
         let drawn = lanes.time("taut", || sample(round, n, k))?;
@@ -37,21 +28,13 @@ pub(super) fn run(context: &Context) -> Result<Value> {
         });
         judge(&drawn, n, 0..=k as usize)?;
     }
-    println!("{k} of 2⁴⁰; the last row may have less than k\n\n{}", lanes.table(k as usize));
-    let each = lanes.of("taut") / k as f64 * 1e9;
-    let items = if context.quick { 100_000 } else { 10_000_000 };
+    let caption = format!("{k} of 2⁴⁰; the last row may have less than k");
+    out.table(&caption, lanes.table(k as usize));
+    let items = context.size(10_000_000, 100_000);
     let shuffled = shuffles(context, items)?;
-    println!("{items} u64 in random order\n\n{}", shuffled.table(items));
-    let mut goals = Goals::default();
-    let show = |value: f64| format!("{value:.1} ns");
-    goals.at_most("a sample", Some(each), (20.0, None), show);
-    Ok(json!({
-        "k": k,
-        "samples": lanes.json(k as usize),
-        "items": items,
-        "shuffles": shuffled.json(items),
-        "goals": goals.json(),
-    }))
+    out.table(&format!("{items} u64 in random order"), shuffled.table(items));
+    out.at_most("a sample", lanes.of("taut") / k as f64, 20e-9, Unit::Nanoseconds);
+    Ok(())
 }
 
 /// In order, distinct, below n, and as many as there should be.
@@ -85,10 +68,7 @@ fn shuffles(context: &Context, n: usize) -> Result<Lanes> {
 
 /// Whether every number below the length is there once.
 fn permutes(items: &[u64]) -> bool {
-    let mut seen = vec![false; items.len()];
-    items
-        .iter()
-        .all(|&item| seen.get_mut(item as usize).is_some_and(|seen| !std::mem::replace(seen, true)))
+    is_permutation(items.iter().map(|&item| item as usize), items.len())
 }
 
 #[cfg(test)]

@@ -1,19 +1,8 @@
 //! Lower bounds among sorted keys, in all layouts.
 
-use anyhow::{Result, ensure};
+use super::*;
 #[cfg(target_os = "linux")]
 use memmap2::Advice;
-use memmap2::MmapMut;
-use serde_json::{Value, json};
-use taut_reference::algorithms::VebTree;
-use taut_reference::search::{BlockedVanEmdeBoas, Eytzinger, SPlusTree, Sorted, SortedIndex};
-
-use super::draw::Draw;
-use super::lanes::Lanes;
-use crate::context::Context;
-use crate::goals::Goals;
-use crate::stats::times;
-use crate::table::Table;
 
 /// Independent look-ups one by one, in a batch, and dependent ones.
 struct Names {
@@ -36,8 +25,8 @@ struct Queries {
 }
 
 /// Of each layout the ratio to std.
-pub(super) fn run(context: &Context) -> Result<Value> {
-    let (n, asked) = if context.quick { (1 << 16, 1 << 14) } else { (1 << 24, 1 << 20) };
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let (n, asked) = context.size((1 << 24, 1 << 20), (1 << 16, 1 << 14));
     let mut keys = Draw(1).words(n);
     taut_oblivious::sort(&mut keys);
     ensure!(keys.is_sorted(), "the keys are not in order");
@@ -66,47 +55,32 @@ pub(super) fn run(context: &Context) -> Result<Value> {
         queries.ask_index(&mut lanes, &layouts[3], &blocked)?;
         queries.ask_index(&mut lanes, &layouts[4], &splus)?;
     }
-    Ok(show(n, asked, &lanes, &layouts))
+    show(out, n, asked, &lanes, &layouts);
+    Ok(())
 }
 
-/// Tables, goals and the report.
-fn show(n: usize, asked: usize, lanes: &Lanes, layouts: &[Names]) -> Value {
-    let ns = |name: &str| match lanes.of(name) {
-        seconds if seconds.is_nan() => String::new(),
-        seconds => format!("{:.1}", seconds / asked as f64 * 1e9),
-    };
-    let mut table = Table::new(&[
-        "layout",
-        "ns, one by one",
-        "ns, batch",
-        "std ÷ batch",
-        "std on huge pages ÷ batch",
-        "ns, dependent",
-        "dependent ÷ std",
-    ]);
+/// The table and goals.
+fn show(out: &mut Outcome, n: usize, asked: usize, lanes: &Lanes, layouts: &[Names]) {
+    let each = |name: &str| lanes.of(name) / asked as f64;
+    let mut table = Table::new(
+        "layout | one by one:ns | batch:ns | std ÷ batch:x | std on huge pages ÷ batch:x | \
+            dependent:ns | dependent ÷ std:x",
+    );
     for names in [&STD, &STD_HUGE].into_iter().chain(layouts) {
-        let over = |std: &Names| match names.batch {
-            "" => String::new(),
-            batch => times(lanes.faster(batch, std.single)),
-        };
-        table.push(vec![
-            names.single.to_owned(),
-            ns(names.single),
-            ns(names.batch),
-            over(&STD),
-            over(&STD_HUGE),
-            ns(names.dependent),
-            times(lanes.faster(STD.dependent, names.dependent)),
-        ]);
+        table.push(json!({
+            "layout": names.single, "one by one": each(names.single), "batch": each(names.batch),
+            "std ÷ batch": lanes.faster(names.batch, STD.single),
+            "std on huge pages ÷ batch": lanes.faster(names.batch, STD_HUGE.single),
+            "dependent": each(names.dependent),
+            "dependent ÷ std": lanes.faster(STD.dependent, names.dependent),
+        }));
     }
-    println!("{n} keys, {asked} look-ups\n\n{table}");
-    let mut goals = Goals::default();
+    out.table(&format!("{n} keys, {asked} look-ups"), table);
+    out.keep("lanes", lanes.json(asked));
     let batch = lanes.faster("S+ tree, batch", STD.single);
-    goals.at_least("batches: std over taut", batch, (30.0, Some(40.0)));
+    out.at_least("batches: std over taut", batch, [30.0, 40.0], Unit::Times);
     let dependent = lanes.faster(STD.dependent, "S+ tree, dependent");
-    let what = "dependent look-ups over std's";
-    goals.at_most(what, Some(dependent), (0.4, None), times);
-    json!({ "keys": n, "look_ups": asked, "lanes": lanes.json(asked), "goals": goals.json() })
+    out.at_most("dependent look-ups over std's", dependent, 0.4, Unit::Times);
 }
 
 fn binary_search(keys: &[u64], key: u64) -> usize {

@@ -1,20 +1,6 @@
 //! How fast the simulator is, and the misses of algorithms beside their bounds.
 
-use anyhow::{Result, ensure};
-use serde_json::{Value, json};
-use taut_oblivious::Probe;
-use taut_reference::algorithms::{
-    MatrixSizes, distribution_sort_instrumented, funnelsort_instrumented, mergesort_instrumented,
-    multiply_instrumented, transpose_instrumented,
-};
-use taut_reference::simulate::{CacheShape, Simulator, StackDistances};
-
-use super::draw::Draw;
-use super::lanes::thread_cpu;
-use crate::context::Context;
-use crate::goals::Goals;
-use crate::stats::times;
-use crate::table::Table;
+use super::*;
 
 /// Bytes of a word; M and B below are in words.
 const WORD: usize = 8;
@@ -23,32 +9,26 @@ const WORD: usize = 8;
 const THREE: &str = "L1, L2 and DTLB at once";
 const STACK: &str = "stack distances";
 
+/// A sort whose accesses are recorded.
+type Sort = fn(&mut [u64], &mut Simulator);
+
 /// M and B.
 type Shape = (usize, usize);
 
 /// Accesses per second, then misses.
-pub(super) fn run(context: &Context) -> Result<Value> {
-    let mut goals = Goals::default();
-    let rates = rates(context)?;
-    let bounds = bounds(context)?;
-    for (name, [product, sort, scattered]) in &rates {
-        let least = product.min(*sort).min(*scattered);
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let mut table = Table::new("memory | product:x | sort:x | at random:x");
+    for (name, [product, sort, scattered]) in rates(context)? {
+        table.push(json!([name, product, sort, scattered]));
+        let least = product.min(sort).min(scattered);
         // Stack distances answer for all sizes of memory at once, in O(log n).
-        let must = if *name == STACK { 5.0 } else { 20.0 };
-        if *name != THREE {
-            goals.at_least(&format!("{name}: million accesses per second"), least, (must, None));
+        let must = if name == STACK { 5.0 } else { 20.0 };
+        if name != THREE {
+            out.at_least(format!("{name}: million accesses per second"), least, must, Unit::Times);
         }
     }
-    for row in &bounds {
-        let what = format!("{}: largest ratio to {}", row.name, row.formula);
-        goals.at_most(&what, Some(row.largest), (row.allowed, None), |ratio| format!("{ratio:.3}"));
-    }
-    let bound = |row: &Bound| {
-        let Bound { name, formula, largest, allowed } = row;
-        json!({ "name": name, "formula": formula, "largest": largest, "allowed": allowed })
-    };
-    let bounds: Vec<Value> = bounds.iter().map(bound).collect();
-    Ok(json!({ "rates": rates, "bounds": bounds, "goals": goals.json() }))
+    out.table("million accesses per second", table);
+    bounds(context, out)
 }
 
 /// Million accesses per second of a product, a sort, and accesses at random in 32 MiB.
@@ -67,12 +47,6 @@ fn rates(context: &Context) -> Result<Vec<(&'static str, [f64; 3])>> {
     }
     let fresh = || -> Result<_> { Ok(StackDistances::new(64)?) };
     found.push((STACK, fastest(context, fresh, StackDistances::accesses)?));
-    let mut table = Table::new(&["memory", "product", "sort", "at random"]);
-    for (name, rates) in &found {
-        let cells = rates.iter().map(|&rate| times(rate));
-        table.push([(*name).to_owned()].into_iter().chain(cells).collect());
-    }
-    println!("million accesses per second\n\n{table}");
     Ok(found)
 }
 
@@ -119,82 +93,53 @@ fn scattered<P: Probe>(probe: &mut P) -> Result<()> {
     Ok(())
 }
 
-/// Misses of an algorithm over what its formula says.
-struct Bound {
-    name: String,
-    formula: &'static str,
-    largest: f64,
-    allowed: f64,
-}
-
 /// The bounds that take seconds; `cargo test -p taut-reference --test reference io_bounds` has all of them.
-fn bounds(context: &Context) -> Result<Vec<Bound>> {
-    let side = if context.quick { 256 } else { 1024 };
-    let mut found = vec![];
+fn bounds(context: &Context, out: &mut Outcome) -> Result<()> {
+    let mut table = Table::new("algorithm | formula | largest ratio:3 | allowed:3");
+    let mut add = |name: String, formula: &str, largest: f64, allowed: f64| {
+        table.push(json!([name, formula, largest, allowed]));
+        let what = format!("{name}: largest ratio to {formula}");
+        out.at_most(what, largest, allowed, Unit::Fixed(3));
+    };
+    let side = context.size(1024, 256);
     let (from, mut to) = (vec![1.0f64; side * side], vec![0.0; side * side]);
     let largest = ratio(
         &[(4096, 8), (4096, 32), (32_768, 64)],
         |probe| Ok(transpose_instrumented(&from, &mut to, side, side, 1, probe)?),
         |_, b| 2.0 * (side * side) as f64 / b,
     )?;
-    let name = format!("transposition, n = {side}");
-    found.push(Bound { name, formula: "2n²/B", largest, allowed: 1.001 });
-    let side = if context.quick { 128 } else { 256 };
+    add(format!("transposition, n = {side}"), "2n²/B", largest, 1.001);
+    let side = context.size(256, 128);
     let (a, b, mut c) = (vec![1.0; side * side], vec![1.0; side * side], vec![0.0; side * side]);
     let largest = ratio(
         &[(1024, 8), (4096, 8), (4096, 32), (16_384, 32)],
         |probe| Ok(multiply_instrumented(&a, &b, &mut c, MatrixSizes::square(side), 1, probe)?),
         |m, b| (side as f64).powi(3) / (b * m.sqrt()),
     )?;
-    let name = format!("product, n = {side}");
-    found.push(Bound { name, formula: "n³/(B√M)", largest, allowed: 5.5 });
-    let n = if context.quick { 10_000 } else { 1 << 18 };
-    let grid = [
-        (1024, 8),
-        (4096, 8),
-        (16_384, 8),
-        (4096, 16),
-        (1024, 32),
-        (4096, 32),
-        (16_384, 32),
-        (4096, 64),
-        (16_384, 64),
+    add(format!("product, n = {side}"), "n³/(B√M)", largest, 5.5);
+    let n = context.size(1 << 18, 10_000);
+    // All pairs with M at least B².
+    let sizes = [1024, 4096, 16_384].into_iter().flat_map(|m| [8, 16, 32, 64].map(|b| (m, b)));
+    let grid: Vec<Shape> = sizes.filter(|&(m, b)| m >= b * b).collect();
+    let sorts: [(&str, Sort); 2] = [
+        ("funnelsort", |keys, probe| funnelsort_instrumented(keys, probe)),
+        ("distribution sort", |keys, probe| distribution_sort_instrumented(keys, 7, probe)),
     ];
-    let scans = |m: f64, b: f64| {
-        let scan = n as f64 / b;
-        scan * (1.0 + scan.ln() / (m / b).ln())
-    };
-    let formula = "(n/B)(1 + log_{M/B}(n/B))";
-    let mut keys = Draw(1).words(n);
-    let largest = ratio(
-        &grid,
-        |probe| {
-            funnelsort_instrumented(&mut keys, probe);
+    for (name, sort) in sorts {
+        let mut keys = Draw(1).words(n);
+        let work = |probe: &mut Simulator| {
+            sort(&mut keys, probe);
             Ok(())
-        },
-        scans,
-    )?;
-    ensure!(keys.is_sorted(), "funnelsort: not in order");
-    found.push(Bound { name: format!("funnelsort, n = {n}"), formula, largest, allowed: 6.0 });
-    let mut keys = Draw(1).words(n);
-    let largest = ratio(
-        &grid,
-        |probe| {
-            distribution_sort_instrumented(&mut keys, 7, probe);
-            Ok(())
-        },
-        scans,
-    )?;
-    ensure!(keys.is_sorted(), "distribution sort: not in order");
-    let name = format!("distribution sort, n = {n}");
-    found.push(Bound { name, formula, largest, allowed: 6.0 });
-    let mut table = Table::new(&["algorithm", "formula", "largest ratio", "allowed"]);
-    for row in &found {
-        let [largest, allowed] = [row.largest, row.allowed].map(|ratio| format!("{ratio:.3}"));
-        table.push(vec![row.name.clone(), row.formula.to_owned(), largest, allowed]);
+        };
+        let largest = ratio(&grid, work, |m, b| {
+            let scan = n as f64 / b;
+            scan * (1.0 + scan.ln() / (m / b).ln())
+        })?;
+        ensure!(keys.is_sorted(), "{name}: not in order");
+        add(format!("{name}, n = {n}"), "(n/B)(1 + log_{M/B}(n/B))", largest, 6.0);
     }
-    println!("misses of LRU memories, M ≥ B², over the formula\n\n{table}");
-    Ok(found)
+    out.table("misses of LRU memories, M ≥ B², over the formula", table);
+    Ok(())
 }
 
 /// The largest ratio of misses to a formula of M and B, of memories that all record the same run.

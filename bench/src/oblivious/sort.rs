@@ -1,19 +1,6 @@
 //! Numbers and records in order, in memory.
 
-use std::time::Duration;
-
-use anyhow::{Result, ensure};
-use rdst::RadixSort;
-use serde_json::{Value, json};
-use voracious_radix_sort::RadixSort as _;
-
-use super::draw::{PATTERNS, Pattern};
-use super::guests::Guests;
-use super::lanes::{Lanes, have_memory};
-use crate::context::Context;
-use crate::goals::Goals;
-use crate::stats::times;
-use crate::table::Table;
+use super::*;
 
 /// 32 bytes, of which eight are the key.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -32,53 +19,50 @@ const REST_TIME: Duration = Duration::from_secs(4);
 const NUMPY: [&str; 2] = ["numpy-sort", "numpy-sort-avx2"];
 
 /// Uniform keys at full size, then all patterns at a tenth of it.
-pub(super) fn run(context: &Context) -> Result<Value> {
-    let n = if context.quick { 100_000 } else { 10_000_000 };
-    let mut goals = Goals::default();
-    let mut measured = vec![];
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let n = context.size(10_000_000, 100_000);
     let uniform = keys(context, &PATTERNS[0], n, &NUMPY)?;
-    measured.push(report("keys", &PATTERNS[0], n, &uniform));
     let whole = records(context, &PATTERNS[0], n, true)?;
-    measured.push(report("records", &PATTERNS[0], n, &whole));
     for (what, lanes) in [("u64", &uniform), ("records of 32 bytes", &whole)] {
-        println!("{n} {what}, uniform\n\n{}", lanes.table(n));
+        out.table(&format!("{n} {what}, uniform"), lanes.table(n));
     }
     let n = n / 10;
-    let mut table = Table::new(&["pattern", "ns, key", "std ÷ taut", "ns, record", "std ÷ taut"]);
+    let mut table = Table::new("pattern | key:ns | std ÷ taut:x | record:ns | its std ÷ taut:x");
     let mut worst = [(0.0, ""); 2];
     for pattern in &PATTERNS {
         let both = [keys(context, pattern, n, &[])?, records(context, pattern, n, false)?];
-        let mut cells = vec![pattern.name.to_owned()];
         for (lanes, worst) in both.iter().zip(&mut worst) {
             let slower = lanes.faster(STD, "taut");
             if slower > worst.0 {
                 *worst = (slower, pattern.name);
             }
-            cells.push(format!("{:.2}", lanes.of("taut") / n as f64 * 1e9));
-            cells.push(times(1.0 / slower));
         }
-        table.push(cells);
-        measured.push(report("keys", pattern, n, &both[0]));
-        measured.push(report("records", pattern, n, &both[1]));
+        let [key, record] = both.each_ref().map(|lanes| lanes.of("taut") / n as f64);
+        let [faster, record_faster] = both.each_ref().map(|lanes| lanes.faster("taut", STD));
+        table.push(json!({
+            "pattern": pattern.name, "key": key, "std ÷ taut": faster, "record": record, "its std ÷ taut": record_faster,
+            "lanes": both.map(|lanes| lanes.json(n)),
+        }));
     }
-    println!("{n} of each pattern\n\n{table}");
+    out.table(&format!("{n} of each pattern"), table);
     let over = |lanes: &Lanes, other| lanes.faster("taut", other);
-    goals.at_least("u64: std unstable over taut", over(&uniform, STD), (2.0, None));
-    goals.at_least("u64: rdst over taut", over(&uniform, "rdst"), (1.0, None));
+    out.at_least("u64: std unstable over taut", over(&uniform, STD), 2.0, Unit::Times);
+    out.at_least("u64: rdst over taut", over(&uniform, "rdst"), 1.0, Unit::Times);
     let numpy = NUMPY.map(|name| uniform.faster(name, "taut"));
     // NaN, of one that is missing, is no larger.
     let numpy = numpy.into_iter().fold(f64::NAN, f64::max);
-    let met = (!numpy.is_nan()).then_some(numpy <= 1.1);
-    goals.aim("u64: taut over the faster numpy at most 1.1".into(), times(numpy), met);
+    let numpy = (!numpy.is_nan()).then_some(numpy);
+    out.at_most("u64: taut over the faster numpy", numpy, aim_only(1.1), Unit::Times);
     let what = "records: std unstable over taut";
-    goals.at_least(what, over(&whole, STD), (1.7, Some(2.0)));
+    out.at_least(what, over(&whole, STD), [1.7, 2.0], Unit::Times);
     let rested = whole.faster(TAUT_RESTED, STD);
-    goals.at_least("records, after a rest: std unstable over taut", rested, (1.7, Some(2.0)));
+    let what = "records, after a rest: std unstable over taut";
+    out.at_least(what, rested, [1.7, 2.0], Unit::Times);
     for ((slower, name), what) in worst.into_iter().zip(["u64", "records"]) {
         let what = format!("{what}, worst pattern ({name}): taut over std unstable");
-        goals.at_most(&what, Some(slower), (1.2, None), times);
+        out.at_most(what, slower, 1.2, Unit::Times);
     }
-    Ok(json!({ "measured": measured, "goals": goals.json() }))
+    Ok(())
 }
 
 /// Numbers; all programs must leave what std's stable sort leaves. Peers by name are processes, which take turns too.
@@ -142,9 +126,4 @@ fn records(context: &Context, pattern: &Pattern, n: usize, rest: bool) -> Result
         }
     }
     Ok(lanes)
-}
-
-/// One input, for the report.
-fn report(what: &str, pattern: &Pattern, n: usize, lanes: &Lanes) -> Value {
-    json!({ "what": what, "pattern": pattern.name, "n": n, "lanes": lanes.json(n) })
 }

@@ -1,20 +1,10 @@
 //! The nearest of points in space, beside kiddo's immutable tree.
 
-use std::num::NonZero;
-
-use anyhow::{Context as _, Result, anyhow, ensure};
-use kiddo::{ImmutableKdTree, SquaredEuclidean};
-use serde_json::{Value, json};
-use taut_oblivious::kdtree::KdTree;
-
-use super::draw::Draw;
-use super::lanes::Lanes;
-use crate::context::Context;
-use crate::goals::Goals;
+use super::*;
 
 /// One by one at random places, by batch, eight at once; building too.
-pub(super) fn run(context: &Context) -> Result<Value> {
-    let (n, asked) = if context.quick { (100_000, 10_000) } else { (16_000_000, 100_000) };
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let (n, asked) = context.size((16_000_000, 100_000), (100_000, 10_000));
     let mut draw = Draw(1);
     let points = draw.points(n);
     let places = draw.points(asked);
@@ -23,7 +13,7 @@ pub(super) fn run(context: &Context) -> Result<Value> {
     let theirs: ImmutableKdTree<f64, 3> = build
         .time("kiddo", || ImmutableKdTree::new_from_slice(&points))
         .map_err(|error| anyhow!("kiddo: {error:?}"))?;
-    println!("{n} points built once\n\n{}", build.table(n));
+    out.table(&format!("{n} points built once"), build.table(n));
     let (mut one, mut eight) = (Lanes::default(), Lanes::default());
     let few = &places[..asked / 5];
     for _ in 0..context.runs {
@@ -56,16 +46,9 @@ pub(super) fn run(context: &Context) -> Result<Value> {
         });
         ensure!(found == peer, "the eight nearest differ");
     }
-    println!("the nearest of {asked} random places\n\n{}", one.table(asked));
-    println!("the eight nearest of {} of them\n\n{}", few.len(), eight.table(few.len()));
-    let mut goals = Goals::default();
-    let what = "one by one: kiddo over taut";
-    goals.at_least(what, one.faster("taut", "kiddo"), (1.0, Some(1.5)));
-    Ok(json!({
-        "points": n,
-        "build": build.json(n),
-        "nearest": one.json(asked),
-        "eight": eight.json(few.len()),
-        "goals": goals.json(),
-    }))
+    out.table(&format!("the nearest of {asked} random places"), one.table(asked));
+    out.table(&format!("the eight nearest of {} of them", few.len()), eight.table(few.len()));
+    let ratio = one.faster("taut", "kiddo");
+    out.at_least("one by one: kiddo over taut", ratio, [1.0, 1.5], Unit::Times);
+    Ok(())
 }

@@ -1,58 +1,37 @@
 //! How far the reference is from the result, over what it is from CGAL's advancing front.
 
-use std::ops::Range;
-
-use anyhow::Result;
-use serde_json::{Value, json};
-use taut_reconstruct::SurfaceOptions;
-
-use super::distances::Distances;
-use super::found::{Way, ours, theirs};
-use super::models::SEVEN;
-use crate::context::Context;
-use crate::goals::Goals;
-use crate::stats::times;
-use crate::table::Table;
+use super::*;
 
 /// Sets where the peer is far off.
 const SHARP_MODELS: [&str; 3] = ["daratech", "fandisk", "mechpart"];
 
 /// Distances on the seven, and their ratios.
-pub(super) fn run(context: &Context, _: Range<u64>) -> Result<Value> {
-    let options = SurfaceOptions { threads: Some(context.threads[0]), ..Default::default() };
-    let mut table = Table::new(&[&["set", "program"][..], &Distances::HEAD, &[""]].concat());
-    let (mut report, mut ratios) = (vec![], vec![]);
-    for model in &SEVEN[..if context.quick { 2 } else { SEVEN.len() }] {
-        let Some(shape) = model.read()? else { return Ok(json!({ "left_out": "no TAUT_DATA" })) };
-        let mut row = |who: &str, distances: Option<Distances>, said: String| {
-            let cells = distances.map_or([(); 4].map(|()| String::new()), |found| found.cells());
-            table.push([&[model.name.to_owned(), who.to_owned()][..], &cells, &[said]].concat());
-            report.push(json!({ "set": model.name, "program": who, "distances": distances }));
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let options = SurfaceOptions { threads: Some(context.last_threads()), ..Default::default() };
+    let mut table = Table::new(&format!("set | program | {} | why", Distances::COLUMNS));
+    for model in &SEVEN[..context.size(SEVEN.len(), 2)] {
+        let Some(shape) = model.read()? else { return out.left_out() };
+        let mut add = |who: &str, triangles: &[[u32; 3]]| -> Result<Distances> {
+            let distances = Distances::of(&shape, &shape.vertices, triangles)?;
+            let head = json!({ "set": model.name, "program": who });
+            table.push(joined([head, distances.cells()]));
+            Ok(distances)
         };
         let (found, _) = ours(&shape.vertices, &options)?;
-        let taut = Distances::of(&shape, &shape.vertices, &found.answer.triangles)?;
-        row("taut", Some(taut), String::new());
-        let cgal = match theirs(context, Way::Front, &shape.vertices)? {
-            Ok(found) => {
-                let cgal = Distances::of(&shape, &shape.vertices, &found.triangles)?;
-                row(Way::Front.name(), Some(cgal), String::new());
-                Some(cgal)
-            }
-            Err(silence) => {
-                row(Way::Front.name(), None, silence.to_string());
+        let taut = add("taut", &found.answer.triangles)?.missed;
+        let cgal = match theirs(context, FRONT, &shape.vertices)? {
+            Ok(found) => Some(add(FRONT, &found.triangles)?.missed),
+            Err(why) => {
+                table.push(json!({ "set": model.name, "program": FRONT, "why": why }));
                 None
             }
         };
-        ratios.push((model.name, taut, cgal));
+        let bound = if SHARP_MODELS.contains(&model.name) { 0.7 } else { 1.05 };
+        let largest = cgal.map(|cgal| taut.hausdorff / cgal.hausdorff);
+        let mean = cgal.map(|cgal| taut.mean / cgal.mean);
+        out.at_most(format!("{}: largest over CGAL's", model.name), largest, bound, Unit::Times);
+        out.at_most(format!("{}: mean over CGAL's", model.name), mean, bound, Unit::Times);
     }
-    println!("{table}");
-    let mut goals = Goals::default();
-    for (name, taut, cgal) in ratios {
-        let bound = if SHARP_MODELS.contains(&name) { 0.7 } else { 1.05 };
-        let largest = cgal.map(|cgal| taut.missed.hausdorff / cgal.missed.hausdorff);
-        let mean = cgal.map(|cgal| taut.missed.mean / cgal.missed.mean);
-        goals.at_most(&format!("{name}: largest over CGAL's"), largest, (bound, None), times);
-        goals.at_most(&format!("{name}: mean over CGAL's"), mean, (bound, None), times);
-    }
-    Ok(json!({ "rows": report, "goals": goals.json() }))
+    out.table("", table);
+    Ok(())
 }

@@ -1,110 +1,63 @@
 //! What it costs to check a surface, beside what it cost to find it: processor time, on as many threads.
 
-use std::ops::Range;
+use super::*;
 
-use anyhow::{Context as _, Result};
-use serde_json::{Value, json};
-use taut_points::Points;
-use taut_reconstruct::{SurfaceOptions, surface};
-
-use super::models::{ANCHOR, BUNNY, DC, HORSE};
-use super::samples::Point;
-use super::solids::{Place, Solid, handles};
-use crate::context::Context;
-use crate::goals::Goals;
-use crate::meter::Meter;
-use crate::stats::{seconds, times};
-use crate::table::Table;
-
-/// What was measured on one input.
-struct Checked {
-    input: String,
-    points: usize,
-    triangles: usize,
-    certified: bool,
-    /// Processor seconds of the solver and of the checker, the least of all rounds.
-    solve: f64,
-    check: f64,
-}
-
-impl Checked {
-    /// Solves and checks by turns.
-    fn of(context: &Context, input: String, points: &[Point], runs: usize) -> Result<Self> {
-        let threads = context.threads[0];
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-        let options = SurfaceOptions { threads: Some(threads), ..SurfaceOptions::default() };
-        let view = Points::new(points.as_flattened(), 3)?;
-        let (mut solve, mut check) = (f64::INFINITY, f64::INFINITY);
-        let (mut triangles, mut certified) = (0, false);
-        for _ in 0..runs {
-            let meter = Meter::start();
-            let found = surface(&view, &options)?;
-            solve = solve.min(meter.stop().cpu);
-            let meter = Meter::start();
-            let verdict = pool.install(|| found.check(&view));
-            check = check.min(meter.stop().cpu);
-            let verdict = verdict.with_context(|| input.clone())?;
-            (triangles, certified) = (found.answer.triangles.len(), verdict.certified);
-        }
-        Ok(Checked { input, points: points.len(), triangles, certified, solve, check })
+/// Solves and checks by turns; of processor seconds the least of all rounds counts.
+fn add(
+    context: &Context,
+    out: &mut Outcome,
+    table: &mut Table,
+    input: &str,
+    points: &[Point],
+    runs: usize,
+) -> Result<()> {
+    let pool = context.pool()?;
+    let threads = Some(context.last_threads());
+    let options = SurfaceOptions { threads, ..SurfaceOptions::default() };
+    let view = Points::new(points.as_flattened(), 3)?;
+    let (mut solve, mut check, mut last) = (f64::INFINITY, f64::INFINITY, None);
+    for _ in 0..runs {
+        let meter = Meter::start();
+        let found = surface(&view, &options)?;
+        solve = solve.min(meter.stop().cpu);
+        let meter = Meter::start();
+        let verdict = pool.install(|| found.check(&view));
+        check = check.min(meter.stop().cpu);
+        let verdict = verdict.with_context(|| input.to_owned())?;
+        last = Some((found.answer.triangles.len(), verdict.certified));
     }
-
-    fn ratio(&self) -> f64 {
-        self.check / self.solve
-    }
+    let (triangles, certified) = last.context("no round")?;
+    table.push(json!({
+        "input": input, "points": points.len(), "triangles": triangles, "certified": certified,
+        "solve": solve, "check": check, "ratio": check / solve,
+    }));
+    out.at_most(format!("{input}: check over solve"), check / solve, [1.0, 0.5], Unit::Times);
+    Ok(())
 }
 
 /// Meshes, solids with flat faces in three places and two sizes, a million points of a smooth body.
-pub(super) fn run(context: &Context, seeds: Range<u64>) -> Result<Value> {
-    let scale = if context.quick { 10 } else { 1 };
-    let mut all = vec![];
+pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
+    let (seed, runs) = (context.seeds.start, context.runs);
+    let mut table =
+        Table::new("input | points | triangles | certified | solve:s | check:s | ratio:x");
     for model in [BUNNY, DC, ANCHOR, HORSE] {
         let Some(shape) = model.read()? else { continue };
-        all.push(Checked::of(context, model.name.to_owned(), &shape.vertices, context.runs)?);
+        add(context, out, &mut table, model.name, &shape.vertices, runs)?;
     }
-    for solid in Solid::ALL {
-        for place in Place::ALL {
-            for count in [20_000 / scale, 80_000 / scale] {
-                let points = solid.points(place, count, seeds.start)?;
-                let input = format!("{}, {}, {count}", solid.name(), place.name());
-                all.push(Checked::of(context, input, &points, context.runs)?);
+    for (solid, name) in Solid::ALL {
+        for (place, position) in Place::ALL {
+            for count in [20_000, 80_000].map(|count| context.count(count)) {
+                let points = solid.points(place, count, seed)?;
+                let input = format!("{name}, {position}, {count}");
+                add(context, out, &mut table, &input, &points, runs)?;
             }
         }
     }
     // One round is enough: it is the size that is tried.
-    let points = handles(1_000_000 / scale, seeds.start)?;
-    all.push(Checked::of(context, format!("three handles, {}", points.len()), &points, 1)?);
-
-    let mut table =
-        Table::new(&["input", "points", "triangles", "certified", "solve", "check", "ratio"]);
-    let mut goals = Goals::default();
-    for one in &all {
-        table.push(vec![
-            one.input.clone(),
-            one.points.to_string(),
-            one.triangles.to_string(),
-            if one.certified { "yes" } else { "NO" }.to_owned(),
-            seconds(one.solve),
-            seconds(one.check),
-            times(one.ratio()),
-        ]);
-    }
-    println!(
-        "processor time on {} threads, the least of {} rounds\n\n{table}",
-        context.threads[0], context.runs
-    );
-    for one in &all {
-        let what = format!("{}: check over solve", one.input);
-        goals.at_most(&what, Some(one.ratio()), (1.0, Some(0.5)), times);
-    }
-    let rows: Vec<Value> = all
-        .iter()
-        .map(|one| {
-            json!({
-                "input": one.input, "points": one.points, "triangles": one.triangles,
-                "certified": one.certified, "solve": one.solve, "check": one.check,
-            })
-        })
-        .collect();
-    Ok(json!({ "rows": rows, "goals": goals.json() }))
+    let points = handles(context.count(1_000_000), seed)?;
+    let input = format!("three handles, {}", points.len());
+    add(context, out, &mut table, &input, &points, 1)?;
+    let threads = context.last_threads();
+    out.table(&format!("processor time on {threads} threads, the least of {runs} rounds"), table);
+    Ok(())
 }

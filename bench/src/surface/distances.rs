@@ -1,14 +1,10 @@
 //! Distances between a reference and a result, in parts of the reference's diagonal.
 
-use anyhow::Result;
-use serde::Serialize;
-use taut_io::Mesh;
-use taut_mesh::{SurfaceOptions, TriangleMesh, compare_surfaces};
-
-use super::samples::Point;
+use super::*;
+use taut_mesh::SurfaceOptions;
 
 /// Of one mesh from another: the largest and the mean, over the diagonal.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Distance {
     /// The largest.
     pub(super) hausdorff: f64,
@@ -17,7 +13,7 @@ pub(super) struct Distance {
 }
 
 /// Both ways.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Distances {
     /// Of the reference from the result: what is missed.
     pub(super) missed: Distance,
@@ -36,19 +32,15 @@ impl Distances {
         Ok(Distances { missed, invented })
     }
 
-    /// Names of [`Self::cells`].
-    pub(super) const HEAD: [&'static str; 4] = [
-        "reference to result, largest %",
-        "mean 1e-4",
-        "result to reference, largest %",
-        "mean 1e-4",
-    ];
+    /// Columns of [`Self::cells`]; parts of ten thousand where percents would be small.
+    pub(super) const COLUMNS: &'static str = "reference to result, largest:% | mean 1e-4:4 | \
+        result to reference, largest:% | its mean 1e-4:4";
 
     /// For a table.
-    pub(super) fn cells(&self) -> [String; 4] {
-        let [missed, invented] = [self.missed, self.invented]
-            .map(|of| [format!("{:.3}", 100.0 * of.hausdorff), format!("{:.4}", 1e4 * of.mean)]);
-        let ([a, b], [c, d]) = (missed, invented);
-        [a, b, c, d]
+    pub(super) fn cells(&self) -> Value {
+        json!({
+            "reference to result, largest": self.missed.hausdorff, "mean 1e-4": 1e4 * self.missed.mean,
+            "result to reference, largest": self.invented.hausdorff, "its mean 1e-4": 1e4 * self.invented.mean,
+        })
     }
 }

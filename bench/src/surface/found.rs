@@ -1,20 +1,10 @@
 //! Surfaces that taut and its peers find, in one form.
 
-use std::time::Instant;
-
-use anyhow::{Context as _, Result};
-use taut_certify::{Solution, Surface};
-use taut_points::Points;
-use taut_reconstruct::{SurfaceOptions, surface};
-
-use super::samples::Point;
-use crate::context::Context;
-use crate::input::write_rows;
-use crate::peer::{Peer, Silence};
+use super::*;
 
 /// A surface of taut, and the seconds that it took.
-pub(super) fn ours(
-    points: &[Point],
+pub(crate) fn ours(
+    points: &[[f64; 3]],
     options: &SurfaceOptions<'_>,
 ) -> Result<(Solution<Surface>, f64)> {
     let view = Points::new(points.as_flattened(), 3)?;
@@ -23,46 +13,13 @@ pub(super) fn ours(
     Ok((found, clock.elapsed().as_secs_f64()))
 }
 
-/// A peer and its way to a surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Way {
-    /// CGAL's `Advancing_front_surface_reconstruction`.
-    Front,
-    /// CGAL's `Scale_space_surface_reconstruction_3`.
-    Scales,
-    /// Ball pivoting of Open3D.
-    Open3dPivoting,
-    /// Poisson reconstruction of Open3D.
-    Open3dPoisson,
-    /// Ball pivoting of pymeshlab.
-    PymeshlabPivoting,
-    /// Screened Poisson reconstruction of pymeshlab.
-    PymeshlabPoisson,
-}
-
-impl Way {
-    /// All of them.
-    pub(super) const ALL: [Self; 6] = [
-        Way::Front,
-        Way::Scales,
-        Way::Open3dPivoting,
-        Way::Open3dPoisson,
-        Way::PymeshlabPivoting,
-        Way::PymeshlabPoisson,
-    ];
-
-    /// What the tables call it.
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Way::Front => "cgal-surface-front",
-            Way::Scales => "cgal-surface-scales",
-            Way::Open3dPivoting => "open3d-pivoting",
-            Way::Open3dPoisson => "open3d-poisson",
-            Way::PymeshlabPivoting => "pymeshlab-pivoting",
-            Way::PymeshlabPoisson => "pymeshlab-poisson",
-        }
-    }
-}
+/// CGAL's `Advancing_front_surface_reconstruction`.
+pub(super) const FRONT: &str = "cgal-surface-front";
+/// CGAL's `Scale_space_surface_reconstruction_3`.
+pub(super) const SCALES: &str = "cgal-surface-scales";
+/// These, and ball pivoting and (screened) Poisson reconstruction of Open3D and pymeshlab.
+pub(super) const PEERS: [&str; 6] =
+    [FRONT, SCALES, "open3d-pivoting", "open3d-poisson", "pymeshlab-pivoting", "pymeshlab-poisson"];
 
 /// A surface of a peer.
 pub(super) struct Theirs {
@@ -79,16 +36,10 @@ pub(super) struct Theirs {
 /// Lets a peer find a surface, in a process of its own.
 pub(super) fn theirs(
     context: &Context,
-    way: Way,
+    way: &str,
     points: &[Point],
 ) -> Result<Result<Theirs, Silence>> {
-    let file = context.temp.path().join("surface");
-    write_rows(&file, points.as_flattened(), 3)?;
-    let mut running = match Peer::start(way.name(), &file, context.temp.path())? {
-        Ok(running) => running,
-        Err(silence) => return Ok(Err(silence)),
-    };
-    let answer = match running.solve(context.limit)? {
+    let answer = match peer::ask(context, way, (points.as_flattened(), 3))? {
         Ok(answer) => answer,
         Err(silence) => return Ok(Err(silence)),
     };

@@ -1,16 +1,11 @@
 //! A surface through points, judged by its triangles alone: the same for taut and its peers.
 
-use std::collections::BTreeMap;
-
-use anyhow::{Result, ensure};
-use serde::Serialize;
-use taut_mesh::{TriangleMesh, topology};
-
-use super::samples::Point;
+use super::*;
+use taut_mesh::topology;
 
 /// What triangles on points are as a surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub(super) struct Judged {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Judged {
     /// Parts that hang together by edges.
     pub(super) components: usize,
     /// Handles of all parts together; `None` if one is no surface with two sides.
@@ -60,28 +55,30 @@ impl Judged {
         is_closed && self.unused == 0 && (self.components, self.genus) == (components, Some(genus))
     }
 
-    /// Components, genus, loops, bad edges, bad vertices and unused points, for a table.
-    pub(super) fn cells(&self) -> [String; 6] {
-        [
-            self.components.to_string(),
-            self.genus.map_or("–".to_owned(), |genus| genus.to_string()),
-            self.loops.to_string(),
-            self.bad_edges.to_string(),
-            self.bad_vertices.to_string(),
-            self.unused.to_string(),
-        ]
+    /// Components, genus and loops in words.
+    pub(super) fn shape(&self) -> String {
+        let genus = self.genus.map_or("–".to_owned(), |genus| genus.to_string());
+        format!("{}/{genus}/{}", self.components, self.loops)
     }
 
-    /// What a process of its own tells of it; the genus is missing where there is none.
-    pub(super) fn counters(&self) -> BTreeMap<String, u64> {
-        let counts = [
-            ("components", Some(self.components as u64)),
-            ("genus", self.genus),
-            ("loops", Some(self.loops as u64)),
-            ("bad", Some((self.bad_edges + self.bad_vertices) as u64)),
-            ("unused", Some(self.unused as u64)),
-        ];
-        counts.into_iter().filter_map(|(name, count)| Some((name.to_owned(), count?))).collect()
+    /// Columns of [`Self::cells`].
+    pub(super) const COLUMNS: &'static str =
+        "components | genus | loops | bad edges | bad vertices | unused";
+
+    /// For a table.
+    pub(super) fn cells(&self) -> Value {
+        json!({
+            "components": self.components, "genus": self.genus, "loops": self.loops,
+            "bad edges": self.bad_edges, "bad vertices": self.bad_vertices, "unused": self.unused,
+            "χ": self.euler,
+        })
+    }
+
+    /// The same as counters of a process of its own; the genus is missing where there is none.
+    pub(super) fn counters(&self) -> Vec<(&'static str, u64)> {
+        let cells = self.cells();
+        let names = Judged::COLUMNS.split(" | ");
+        names.filter_map(|name| Some((name, cells[name].as_u64()?))).collect()
     }
 }
 

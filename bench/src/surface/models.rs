@@ -1,12 +1,6 @@
 //! Meshes of `$TAUT_DATA/surface`, and what is true of them.
 
-use std::fs::File;
-use std::path::{Path, PathBuf};
-
-use anyhow::{Context as _, Result};
-use taut_io::{Content, Mesh, open_mesh};
-
-use super::samples::Point;
+use super::*;
 
 /// A mesh whose vertices are the input, and the closed surface that they are from.
 #[derive(Clone, Copy, Debug)]
@@ -43,23 +37,9 @@ pub(super) const SEVEN: [Model; 7] = [
     model("knot2", "knot2", 2, 2),
 ];
 
-/// The path of a file of the folder; `None`, after saying so, where `TAUT_DATA` does not hold it.
-fn path(file: &str) -> Option<PathBuf> {
-    let path =
-        std::env::var_os("TAUT_DATA").map(|data| Path::new(&data).join("surface").join(file));
-    let path = path.filter(|path| path.exists());
-    if path.is_none() {
-        println!("left out: set TAUT_DATA to a folder with surface/{file}");
-    }
-    path
-}
-
 /// The points of Hoppe's cactus, lines `p x y z` between remarks.
 pub(super) fn cactus() -> Result<Option<Vec<Point>>> {
-    let Some(path) = path("hoppe_cactus.pts.xz") else { return Ok(None) };
-    let file = File::open(&path).with_context(|| path.display().to_string())?;
-    let text = std::io::read_to_string(liblzma::read::XzDecoder::new(file))
-        .with_context(|| path.display().to_string())?;
+    let Some(text) = data::read_xz("surface/hoppe_cactus.pts.xz")? else { return Ok(None) };
     let mut points = vec![];
     for line in text.lines() {
         if let ["p", x, y, z] = line.split_whitespace().collect::<Vec<_>>()[..] {
@@ -72,9 +52,10 @@ pub(super) fn cactus() -> Result<Option<Vec<Point>>> {
 impl Model {
     /// Its mesh, if it is there.
     pub(super) fn read(&self) -> Result<Option<Mesh>> {
-        let Some(path) = path(&format!("{}.off.xz", self.file)) else { return Ok(None) };
-        let shape =
-            open_mesh(&path, Content::Surface, None).with_context(|| path.display().to_string())?;
-        Ok(Some(shape))
+        let Some(path) = data::find(&format!("surface/{}.off.xz", self.file)) else {
+            return Ok(None);
+        };
+        let shape = open_mesh(&path, Content::Surface, None);
+        shape.map(Some).with_context(|| path.display().to_string())
     }
 }

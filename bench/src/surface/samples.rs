@@ -1,13 +1,9 @@
 //! Points of surfaces that are known: drawn from meshes, and made by formulas and taut's seeded generators.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
-
-use anyhow::Result;
-use taut_io::Mesh;
-use taut_points::{Distribution, generate};
+use super::*;
 
 /// A point of space.
-pub(super) type Point = [f64; 3];
+pub(crate) type Point = [f64; 3];
 
 /// Rows of `N` numbers in [0, 1).
 pub(super) fn chances<const N: usize>(count: usize, seed: u64) -> Result<Vec<[f64; N]>> {
@@ -67,7 +63,7 @@ pub(super) fn hemisphere(count: usize, seed: u64) -> Result<Vec<Point>> {
     Ok(points)
 }
 
-/// So many ellipsoids with the axes 3 : 2 : 1, of random points each, in a cubic grid with a gap of 2 between neighbours.
+/// So many ellipsoids with the axes 3 : 2 : 1, of random points each, in a cubic grid with a gap of 2 between neighbors.
 pub(super) fn ellipsoids(count: usize, each: usize, seed: u64) -> Result<Vec<Point>> {
     let side = (1..).find(|side| side * side * side >= count).unwrap_or(1);
     let points = sphere(count * each, seed)?.into_iter().enumerate().map(|(i, point)| {

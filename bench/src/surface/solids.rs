@@ -1,12 +1,6 @@
 //! Solids with flat faces, and a smooth one, sampled at random: evenly by area, each point independent of the others.
 
-use std::f64::consts::TAU;
-
-use anyhow::Result;
-use taut_io::Mesh;
-use taut_points::{Distribution, generate};
-
-use super::samples::{Point, chances, on_triangles};
+use super::*;
 
 /// A solid with flat faces.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,17 +14,9 @@ pub(super) enum Solid {
 }
 
 impl Solid {
-    /// All of them.
-    pub(super) const ALL: [Self; 3] = [Self::Bored, Self::Stairs, Self::Frame];
-
-    /// What tables call it.
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Solid::Bored => "bored box",
-            Solid::Stairs => "stairs",
-            Solid::Frame => "frame",
-        }
-    }
+    /// All of them, with what tables call them.
+    pub(super) const ALL: [(Self, &'static str); 3] =
+        [(Self::Bored, "bored box"), (Self::Stairs, "stairs"), (Self::Frame, "frame")];
 
     /// Its faces, cut into triangles; corners are not shared.
     fn shape(self) -> Mesh {
@@ -67,17 +53,9 @@ pub(super) enum Place {
 }
 
 impl Place {
-    /// All of them.
-    pub(super) const ALL: [Self; 3] = [Self::Upright, Self::Turned, Self::Tilted];
-
-    /// What tables call it.
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Place::Upright => "upright",
-            Place::Turned => "turned",
-            Place::Tilted => "tilted",
-        }
-    }
+    /// All of them, with what tables call them.
+    pub(super) const ALL: [(Self, &'static str); 3] =
+        [(Self::Upright, "upright"), (Self::Turned, "turned"), (Self::Tilted, "tilted")];
 
     fn of(self, mut points: Vec<Point>) -> Vec<Point> {
         // A turn and a reflection, times three.

@@ -4,18 +4,10 @@
 //! figure 21 is called jagged, figure 22 is of a curve with sharp turns. Each is drawn here of points of our own; 21 and 22 by the
 //! crude method that the thesis used for them, and beside it by the default.
 
-use std::path::{Path, PathBuf};
-
-use anyhow::{Context as _, Result};
+use super::*;
 use taut_certify::Curve;
-use taut_draw::{Aspect, Axis, Figure, Layer2, Look, Point2, Scene2, Shape2, Style, Tone, to_svg};
-use taut_points::{
-    Distribution, Points, generate,
-    generate::curves::{CurveNoise, TestCurve, sample_curve},
-};
-use taut_reconstruct::{CurveMethod, CurveOptions, CurveThesisOptions, curve};
-
-use crate::input::SEED;
+use taut_draw::Figure;
+use taut_reconstruct::curve;
 
 /// One picture.
 struct Picture {
@@ -98,7 +90,8 @@ fn draw(picture: &Picture, found: &Curve) -> Figure {
             picture.title
         ),
         caption: format!(
-            "{} points of our own, method {}: curves {}, vertices {vertices}, estimated noise {:.3}, outliers {}.",
+            "{} points of our own, method {}: curves {}, vertices {vertices}, estimated noise \
+                {:.3}, outliers {}.",
             picture.points.len() / 2,
             picture.method.name(),
             found.curves.len(),
@@ -114,17 +107,16 @@ fn draw(picture: &Picture, found: &Curve) -> Figure {
     })
 }
 
-/// Draws all pictures to a folder.
-pub(super) fn write(folder: &Path) -> Result<Vec<PathBuf>> {
-    let mut written = vec![];
-    for picture in pictures()? {
+/// Draws the pictures of one figure.
+pub(super) fn write(plan: &Plan, figure: &str) -> Result<()> {
+    for picture in pictures()?.iter().filter(|picture| picture.number.starts_with(figure)) {
         let options = CurveOptions { method: picture.method, ..CurveOptions::default() };
         let found = curve(&Points::new(&picture.points, 2)?, &options)?;
-        let path = folder.join(format!("figure-{}.svg", picture.number));
-        std::fs::write(&path, to_svg(&draw(&picture, &found.answer), &Style::default()))?;
-        written.push(path);
+        let path = plan.out.join(format!("figure-{}.svg", picture.number));
+        std::fs::write(&path, to_svg(&draw(picture, &found.answer), &Style::default()))?;
+        println!("{}", path.display());
     }
-    Ok(written)
+    Ok(())
 }
 
 #[cfg(test)]

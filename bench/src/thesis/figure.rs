@@ -1,12 +1,6 @@
 //! One figure: its curves as a table, as CSV and as SVG.
 
-use std::fmt::Write as _;
-use std::path::Path;
-
-use anyhow::Result;
-use taut_draw::{Axis, Figure as Drawing, Plot, Scale, Series, SeriesLook, Style, Tone, to_svg};
-
-use crate::table::Table;
+use super::*;
 
 /// A curve: values of y by x.
 pub(super) struct Curve {
@@ -19,19 +13,19 @@ pub(super) struct Curve {
 /// A figure of the thesis, rerun.
 pub(super) struct Figure {
     /// Its number in the thesis.
-    pub(super) number: u32,
+    number: u32,
     /// A letter where one figure of the thesis became several; may be empty.
-    pub(super) part: &'static str,
+    part: &'static str,
     /// What is plotted, over what, of what input.
-    pub(super) title: String,
+    title: String,
     /// Name of the horizontal quantity.
-    pub(super) x: &'static str,
+    x: &'static str,
     /// Name of the vertical quantity.
-    pub(super) y: &'static str,
+    y: &'static str,
     /// Unit of the vertical quantity; may be empty.
-    pub(super) unit: &'static str,
+    unit: &'static str,
     /// Scale of the vertical axis.
-    pub(super) scale: Scale,
+    scale: Scale,
     /// Its curves.
     pub(super) curves: Vec<Curve>,
     /// What the thesis says of it, what was left out, where curves stop early.
@@ -39,20 +33,54 @@ pub(super) struct Figure {
 }
 
 impl Figure {
+    /// A figure of times.
+    pub(super) fn of_times(number: u32, title: impl Into<String>, x: &'static str) -> Self {
+        Figure::new(number, title.into(), x, ["time", "s"], Scale::Log)
+    }
+
+    /// A figure of core-set sizes.
+    pub(super) fn of_sizes(number: u32, title: impl Into<String>, x: &'static str) -> Self {
+        Figure::new(number, title.into(), x, ["points", ""], Scale::Linear)
+    }
+
+    fn new(
+        number: u32,
+        title: String,
+        x: &'static str,
+        [y, unit]: [&'static str; 2],
+        scale: Scale,
+    ) -> Self {
+        Figure { number, part: "", title, x, y, unit, scale, curves: vec![], notes: vec![] }
+    }
+
+    /// The same as one part of what the thesis has in one figure.
+    pub(super) fn part(self, part: &'static str) -> Self {
+        Figure { part, ..self }
+    }
+
+    /// Adds a note.
+    pub(super) fn note(mut self, note: impl Into<String>) -> Self {
+        self.notes.push(note.into());
+        self
+    }
+
+    /// Prints the figure and writes it.
+    pub(super) fn show(&self, plan: &Plan) -> Result<()> {
+        self.print();
+        self.write(&plan.out)
+    }
+
     /// Prints the values as a table, a row for each x.
-    pub(super) fn print(&self) {
-        let mut head = vec![self.x];
-        head.extend(self.curves.iter().map(|curve| curve.name.as_str()));
-        let mut table = Table::new(&head);
+    fn print(&self) {
+        let names: String = self.curves.iter().map(|curve| format!(" | {}", curve.name)).collect();
+        let mut table = Table::new(&format!("{}{names}", self.x));
         let mut all: Vec<f64> = self.curves.iter().flat_map(|c| &c.points).map(|p| p[0]).collect();
         all.sort_by(f64::total_cmp);
         all.dedup();
         for x in all {
-            let mut row = vec![number(x)];
-            row.extend(self.curves.iter().map(|curve| {
-                curve.points.iter().find(|p| p[0] == x).map_or(String::new(), |p| number(p[1]))
-            }));
-            table.push(row);
+            let at = |curve: &Curve| curve.points.iter().find(|p| p[0] == x).map(|p| number(p[1]));
+            let cells = self.curves.iter().map(|curve| at(curve).unwrap_or_default());
+            table.push([number(x)].into_iter().chain(cells).collect::<Vec<String>>());
         }
         let unit = if self.unit.is_empty() { String::new() } else { format!(" [{}]", self.unit) };
         println!(
@@ -66,7 +94,7 @@ impl Figure {
     }
 
     /// Writes `figure-NN.csv` and `figure-NN.svg`, with the part behind the number, to `folder`.
-    pub(super) fn write(&self, folder: &Path) -> Result<()> {
+    fn write(&self, folder: &Path) -> Result<()> {
         let mut csv = String::from("series,x,y\n");
         for curve in &self.curves {
             for [x, y] in &curve.points {
@@ -123,17 +151,10 @@ mod tests {
 
     #[test]
     fn a_figure_is_written_as_values_and_as_picture() {
-        let figure = Figure {
-            number: 8,
-            part: "",
-            title: "core-set size".into(),
-            x: "dimension",
-            y: "points",
-            unit: "",
-            scale: Scale::Linear,
-            curves: vec![Curve { name: "n = 10⁴".into(), points: vec![[2.0, 3.0], [3.0, 4.0]] }],
-            notes: vec!["The thesis: 30–170.".into()],
-        };
+        let mut figure =
+            Figure::of_sizes(8, "core-set size", "dimension").note("The thesis: 30–170.");
+        let points = vec![[2.0, 3.0], [3.0, 4.0]];
+        figure.curves.push(Curve { name: "n = 10⁴".into(), points });
         let folder = tempfile::tempdir().unwrap();
         figure.write(folder.path()).unwrap();
         let csv = std::fs::read_to_string(folder.path().join("figure-08.csv")).unwrap();

@@ -21,7 +21,7 @@ impl Distance for Place {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().collect();
-    let [_, input, centre] = &arguments[..] else {
+    let [_, input, center] = &arguments[..] else {
         return Err("expected INPUT and CENTRE".into());
     };
     let bytes = std::fs::read(input)?;
@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let seconds = start.elapsed().as_secs_f64();
         let order: Vec<u8> =
             found.tour.iter().flat_map(|&row| f64::from(row).to_le_bytes()).collect();
-        std::fs::write(centre, order)?;
+        std::fs::write(center, order)?;
         println!("{{\"seconds\":{seconds},\"radius\":{}}}", found.length);
     }
     Ok(())
