@@ -49,7 +49,7 @@ fn measure<T: Scalar>(name: &str, values: &[T], d: usize, radius: f64, center: f
         };
         (0..7).map(|_| once()).fold(0.0, f64::max)
     };
-    // Every row is inside; only then does the checker come to the multipliers, which have nothing to do with the centre.
+    // Every row is inside; only then does the checker come to the multipliers, which have nothing to do with the center.
     let outcome = solution.check(&points);
     assert!(matches!(outcome, Err(CheckError::Rejected(Violation::Center { .. }))), "{outcome:?}");
     let check = speed(&|| drop(solution.check(&points)));

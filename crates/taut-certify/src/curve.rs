@@ -110,7 +110,7 @@ pub struct CurveVerdict {
     pub outliers: u64,
     /// The largest distance of a row that is no outlier from the curve, rounded up.
     pub band: f64,
-    /// Whether no two edges meet but neighbours at their vertex. Of tours alone it may be false; other answers are refused then.
+    /// Whether no two edges meet but neighbors at their vertex. Of tours alone it may be false; other answers are refused then.
     pub is_simple: bool,
     /// ε as the checker finds it; infinite where it is not known.
     pub sampling_ratio: f64,

@@ -17,7 +17,7 @@ use crate::{Answer, CheckError};
     expecting = "an inscribed ellipsoid: an object with center, axes and log_volume"
 )]
 pub struct InscribedEllipsoid {
-    /// The d coordinates of the centre c.
+    /// The d coordinates of the center c.
     pub center: Vec<f64>,
     /// G, d rows of d numbers.
     pub axes: Vec<Vec<f64>>,

@@ -77,7 +77,7 @@ pub enum Stop {
 pub struct PassBounds {
     /// Lower bound on the optimal radius or log-volume, proved by the multipliers of that moment.
     pub lower: f64,
-    /// Radius or log-volume that encloses all points from the centre of that moment.
+    /// Radius or log-volume that encloses all points from the center of that moment.
     pub upper: f64,
     /// Points in the working set then.
     pub working_set: u64,

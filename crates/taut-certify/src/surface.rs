@@ -58,7 +58,7 @@ pub struct Unused {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SurfaceMethod {
-    /// Cells labelled inside or outside by a signed spanning tree.
+    /// Cells labeled inside or outside by a signed spanning tree.
     #[default]
     Tree,
     /// The advancing front of the thesis.
@@ -70,7 +70,7 @@ pub enum SurfaceMethod {
 }
 
 choice! { "method", SurfaceMethod {
-    Tree = "tree", "all space is inside or outside, by the strongest of what neighbouring cells say";
+    Tree = "tree", "all space is inside or outside, by the strongest of what neighboring cells say";
     Thesis = "thesis", "a front that grows over facets with empty equatorial spheres";
     Alpha = "alpha", "the alpha shape";
     Hull = "hull", "all facets with empty equatorial spheres, without choosing";

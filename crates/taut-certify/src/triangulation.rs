@@ -17,7 +17,7 @@ pub(crate) use check::{
 pub use fingerprint::{Fingerprint, FingerprintFormError, SiteHash, fingerprint};
 pub use violation::MeshViolation;
 
-/// In [`TriangulationCertificate::neighbors`]: there is no neighbour, the facet lies on the hull.
+/// In [`TriangulationCertificate::neighbors`]: there is no neighbor, the facet lies on the hull.
 pub const NO_NEIGHBOR: u32 = u32::MAX;
 
 /// The Delaunay triangulation of the points of a set in the plane or in space.

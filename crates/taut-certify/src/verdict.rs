@@ -33,9 +33,9 @@ pub enum Violation {
         found: String,
     },
     /// The answer has another dimension than the points.
-    #[error("the centre has {}, but the points have dimension {expected}", Counted(*found, "number"))]
+    #[error("the center has {}, but the points have dimension {expected}", Counted(*found, "number"))]
     Dimension {
-        /// Coordinates of the centre.
+        /// Coordinates of the center.
         found: usize,
         /// Dimension of the points.
         expected: usize,
@@ -78,8 +78,8 @@ pub enum Violation {
         /// Its radius.
         value: f64,
     },
-    /// The certificate speaks of balls, but the rows have no room for a centre and a radius.
-    #[error("a ball needs a centre and a radius, but rows have {}", Counted(*columns, "column"))]
+    /// The certificate speaks of balls, but the rows have no room for a center and a radius.
+    #[error("a ball needs a center and a radius, but rows have {}", Counted(*columns, "column"))]
     NoRadius {
         /// Columns there are.
         columns: usize,
@@ -155,9 +155,9 @@ pub enum Violation {
         /// What they sum to.
         sum: f64,
     },
-    /// The centre is not the combination of the support that the multipliers say.
+    /// The center is not the combination of the support that the multipliers say.
     #[error(
-        "coordinate {column} of the centre is {claimed:?}, but the multipliers give {found:?}, {difference:e} beside it"
+        "coordinate {column} of the center is {claimed:?}, but the multipliers give {found:?}, {difference:e} beside it"
     )]
     Center {
         /// Coordinate, from 0.
@@ -166,17 +166,17 @@ pub enum Violation {
         claimed: f64,
         /// What the certificate gives.
         found: f64,
-        /// found − claimed, with the tail of the centre and before both were rounded to one `f64`.
+        /// found − claimed, with the tail of the center and before both were rounded to one `f64`.
         difference: f64,
     },
     /// A point lies outside the answer.
     #[error(
-        "point {row} lies {distance:?} from the centre, outside the radius {radius:?}, by {excess:e}"
+        "point {row} lies {distance:?} from the center, outside the radius {radius:?}, by {excess:e}"
     )]
     Outside {
         /// The first such point, from 0.
         row: u64,
-        /// How far it reaches from the centre.
+        /// How far it reaches from the center.
         distance: f64,
         /// The claimed radius.
         radius: f64,
@@ -359,7 +359,7 @@ pub enum Violation {
         /// Its squared distance.
         nearer: f64,
     },
-    /// Something is wrong with centres.
+    /// Something is wrong with centers.
     #[error(transparent)]
     Centers(#[from] CentersViolation),
     /// Something is wrong with an inscribed circle.

@@ -199,9 +199,9 @@ pub(crate) fn noun(items: Items) -> &'static str {
     }
 }
 
-/// The centre beside a size, with a word on what is left out of many coordinates.
-pub(crate) fn centre(center: &[f64], size: f64) -> Field {
-    let mut field = Field::new("centre", coordinates(center, size));
+/// The center beside a size, with a word on what is left out of many coordinates.
+pub(crate) fn center(center: &[f64], size: f64) -> Field {
+    let mut field = Field::new("center", coordinates(center, size));
     if abridged(center) {
         field.value += &format!(" {} in all", count(center.len() as u64));
         field = field.remark("the JSON holds them (-o FILE)");

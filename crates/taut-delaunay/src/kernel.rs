@@ -7,7 +7,7 @@ use crate::simplex::Simplex;
 
 /// A mesh under construction: a Delaunay triangulation of the sites inserted so far, closed by ghosts.
 ///
-/// Sites are numbered by the caller; coordinates are normalised (no −0; magnitudes at most 2⁴⁰, or `filtered` is off).
+/// Sites are numbered by the caller; coordinates are normalized (no −0; magnitudes at most 2⁴⁰, or `filtered` is off).
 /// The perturbation is lexicographic in the coordinates, so the mesh is a function of the set of inserted sites.
 pub(crate) trait Kernel<const D: usize, const V: usize>: Sized {
     /// A mesh over these sites, none of them inserted yet.

@@ -6,7 +6,7 @@ pub const GHOST: u32 = u32::MAX;
 /// In place of vertex 0: this slot holds no simplex.
 pub(crate) const DEAD_MARK: u32 = u32::MAX - 1;
 
-/// A triangle (`V = 3`) or a tetrahedron (`V = 4`) with its neighbours.
+/// A triangle (`V = 3`) or a tetrahedron (`V = 4`) with its neighbors.
 ///
 /// Vertices are site numbers in positive order. A ghost has [`GHOST`] among its vertices and is oriented as if that
 /// vertex lay far outside the hull, so that all simplices together close up to a sphere and every facet has two sides.
@@ -15,8 +15,8 @@ pub(crate) const DEAD_MARK: u32 = u32::MAX - 1;
 pub struct Simplex<const V: usize> {
     /// Site numbers; [`GHOST`] for the vertex at infinity.
     pub vertices: [u32; V],
-    /// Across the facet opposite vertex i: `neighbour << 2 | facet`, where `facet` is the place of the same facet in
-    /// the neighbour.
+    /// Across the facet opposite vertex i: `neighbor << 2 | facet`, where `facet` is the place of the same facet in
+    /// the neighbor.
     pub neighbors: [u32; V],
 }
 

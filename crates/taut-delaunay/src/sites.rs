@@ -1,4 +1,4 @@
-//! From input rows to sites: distinct, normalised points, numbered along the Hilbert curve.
+//! From input rows to sites: distinct, normalized points, numbered along the Hilbert curve.
 //!
 //! Idea: a power-of-two scale changes no sign of any predicate, so coordinates are scaled, exactly, to where filters are
 //! safe and where gridded data become integers; −0 becomes 0; equal points become one site.
@@ -84,7 +84,7 @@ impl<const D: usize> Sites<D> {
         }
         let largest = largest_magnitude(points)?;
         monitor.check()?;
-        let (scale, integral, filtered) = normalisation(points, largest);
+        let (scale, integral, filtered) = normalization(points, largest);
         let rows = hilbert_order(n, |i: usize| row::<T, D>(points, i).map(|x| scale.apply(x)));
         monitor.check()?;
         let settings = Settings { integral, filtered, vectors };
@@ -167,7 +167,7 @@ fn lowest_exponent_above<T: Scalar>(points: &Points<'_, T>, floor: i32) -> Optio
 }
 
 /// How to scale, and whether coordinates are then integers, and filters safe.
-fn normalisation<T: Scalar>(points: &Points<'_, T>, largest: f64) -> (Scale, bool, bool) {
+fn normalization<T: Scalar>(points: &Points<'_, T>, largest: f64) -> (Scale, bool, bool) {
     if largest == 0.0 {
         return (Scale::by(0), true, true);
     }
@@ -187,7 +187,7 @@ fn normalisation<T: Scalar>(points: &Points<'_, T>, largest: f64) -> (Scale, boo
     }
 }
 
-/// Merges equal neighbours; the first of each run, which has the smallest row, stays.
+/// Merges equal neighbors; the first of each run, which has the smallest row, stays.
 fn merge<const D: usize>(coordinates: &mut Vec<[f64; D]>, rows: &mut Vec<u32>) -> Vec<[u32; 2]> {
     let any = coordinates.par_windows(2).with_min_len(TASK).any(|pair| pair[0] == pair[1]);
     let mut duplicates = Vec::new();

@@ -209,7 +209,7 @@ fn full<const D: usize, const V: usize, G: Geometry<D, V>>(
     Ok(Built { complex: Complex::Full, slots: Slots::of(vec![simplices]), counters })
 }
 
-/// Points of space on a plane: with one more point off it, all of whose neighbours are in it.
+/// Points of space on a plane: with one more point off it, all of whose neighbors are in it.
 fn flat(sites: &Sites<3>, on: [u32; 3], options: &DelaunayOptions<'_>) -> Result<Built<4>, Error> {
     let top = sites.len() as u32;
     let mut coordinates = sites.coordinates.clone();
@@ -273,7 +273,7 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
         &self.slots
     }
 
-    /// The [`slots`](Self::slots) alone, in one array in which neighbours are found by their numbers. All else is given back.
+    /// The [`slots`](Self::slots) alone, in one array in which neighbors are found by their numbers. All else is given back.
     pub fn into_slots(self) -> Vec<Simplex<V>> {
         self.slots.into_array()
     }

@@ -155,7 +155,7 @@ pub(crate) fn logarithmic(span: &Span, most: usize) -> Ticks {
     let width = span.high - span.low;
     let (first, last) = (span.low.ceil() as i32, span.high.floor() as i32);
     let stride = ((width / most.max(1) as f64).ceil() as i32).max(1);
-    // All plain or all raised, so that neighbours compare at a glance.
+    // All plain or all raised, so that neighbors compare at a glance.
     let plain = first >= -3 && last <= 4;
     let mut marks: Vec<(f64, String)> = (first..=last)
         .filter(|e| e.rem_euclid(stride) == 0)

@@ -2,7 +2,7 @@
 //!
 //! *Idea.* In the plane and in space the ball is drawn as it is. Beyond, a projection of it hides what matters: almost
 //! all points seem to lie deep inside, though many may touch the boundary. So there are two pictures: a projection
-//! along the two directions in which the support spreads most, and the distances of all points from the centre.
+//! along the two directions in which the support spreads most, and the distances of all points from the center.
 //! *Guarantee.* The items are read twice at most (once for all, once more for those drawn); what is left out is counted
 //! in the caption.
 
@@ -26,7 +26,7 @@ const PROJECTION_ITEM_COUNT: usize = 64;
 const PROJECTION_ITEM_WEIGHT: f64 = 1e-4;
 
 /// Pictures of a ball and its points: the plane for d ≤ 2, space for d = 3, a projection and the distances from the
-/// centre beyond; then the bounds and the gap by pass, where the trace has them.
+/// center beyond; then the bounds and the gap by pass, where the trace has them.
 ///
 /// # Errors
 /// [`Error::Mismatch`] when `source` is not what the ball was made for, [`Error::NonFinite`],
@@ -70,7 +70,7 @@ fn check(solution: &Solution<Ball>, source: &dyn PointSource) -> Result<(), Erro
     agree("number of multipliers", certificate.support.len(), certificate.multipliers.len())?;
     all_there("number of points", &certificate.support, source.len())?;
     let center = ball.center.iter().chain(&ball.center_tail);
-    let numbers = (center.map(|v| ("a coordinate of the centre", v)))
+    let numbers = (center.map(|v| ("a coordinate of the center", v)))
         .chain([("the radius", &ball.radius)])
         .chain(certificate.multipliers.iter().map(|v| ("a multiplier", v)));
     all_finite(numbers)?;
@@ -226,17 +226,17 @@ impl Picture<'_> {
         let words = format!(
             "A shadow on the two directions in which the support spreads most.{shares} The circle is the shadow of the \
              ball: every {} falls inside it, and even one that touches the ball usually falls well inside; the \
-             distances from the centre tell which do.",
+             distances from the center tell which do.",
             self.input.thing()
         );
         let axes = [
-            "first direction of the support, from the centre",
-            "second direction, from the centre",
+            "first direction of the support, from the center",
+            "second direction, from the center",
         ];
         Ok(Projected { measure: &self.scaled, unit: self.scaled.unit, directions, words, axes })
     }
 
-    /// d > 3: how far every item reaches from the centre.
+    /// d > 3: how far every item reaches from the center.
     fn distances(&self) -> Result<Option<Figure>, Error> {
         let radius = self.ball().radius;
         if radius == 0.0 {
@@ -250,8 +250,8 @@ impl Picture<'_> {
         let words = Histogram {
             title: format!("How far the {}s reach", self.input.thing()),
             axis: match items {
-                Items::Points => "distance from the centre",
-                Items::Balls | Items::Ellipsoids => "distance from the centre to the far side",
+                Items::Points => "distance from the center",
+                Items::Balls | Items::Ellipsoids => "distance from the center to the far side",
             },
             border: ("radius", format!("radius {}", short(radius, 6))),
             reach: radius,

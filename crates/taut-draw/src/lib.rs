@@ -3,11 +3,11 @@
 //! | you have | you call | you get |
 //! |---|---|---|
 //! | a ball and its points | [`ball_figures`] | scenes of the plane or of space, and plots |
-//! | k centres and their items | [`centers_figures`] | the same, with all balls, what is left out and the core-set |
+//! | k centers and their items | [`centers_figures`] | the same, with all balls, what is left out and the core-set |
 //! | the radius for each of several k | [`elbow_figure`] | a plot of both bounds |
 //! | an ellipsoid and its points | [`ellipsoid_figures`] | scenes of the plane or of space, shadows on pairs of coordinates, and plots |
 //! | a robust ellipsoid and its points | [`robust_figures`] | the same with outliers apart, and the distance of each point |
-//! | an ellipsoid in a polytope, and its half-spaces | [`inscribed_figures`] | scenes of the plane or of space, cuts through the centre, and plots |
+//! | an ellipsoid in a polytope, and its half-spaces | [`inscribed_figures`] | scenes of the plane or of space, cuts through the center, and plots |
 //! | a circle in a polygon, and the ring | [`circle_figures`] | a scene of the plane, with the edges that are touched |
 //! | a triangulation and its points | [`delaunay_figures`] | scenes of the plane or of space, and the Voronoi diagram |
 //! | curves and their points | [`curve_figures`] | scenes of the plane, with the band of noise, outliers and ends |

@@ -123,7 +123,7 @@ pub struct Point2 {
 pub struct Circle2 {
     /// Its number in the input, from 0, shown on hovering.
     pub id: Option<u64>,
-    /// Its centre.
+    /// Its center.
     pub center: [f64; 2],
     /// Its radius, at least 0, in data units.
     pub radius: f64,

@@ -107,7 +107,7 @@ pub struct Point3 {
 pub struct Sphere3 {
     /// Its number in the input, from 0, shown on hovering.
     pub id: Option<u64>,
-    /// Its centre.
+    /// Its center.
     pub center: [f64; 3],
     /// Its radius, at least 0, in data units.
     pub radius: f64,

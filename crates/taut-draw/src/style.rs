@@ -1,17 +1,17 @@
-//! Colours by meaning, in a light and a dark theme.
+//! Colors by meaning, in a light and a dark theme.
 //!
-//! *Idea.* A mark names what it stands for ([`Tone`]), never a colour; a renderer writes the tone as a class, and a
-//! theme gives the class its colour. The palette is built on that of Okabe and Ito, which people with the common
-//! forms of colour blindness can tell apart; marks of differing meaning also differ in shape, size or dash.
+//! *Idea.* A mark names what it stands for ([`Tone`]), never a color; a renderer writes the tone as a class, and a
+//! theme gives the class its color. The palette is built on that of Okabe and Ito, which people with the common
+//! forms of color blindness can tell apart; marks of differing meaning also differ in shape, size or dash.
 
-/// How figures are coloured in SVG and PNG. Write `Style { theme: Theme::Dark, ..Default::default() }`.
+/// How figures are colored in SVG and PNG. Write `Style { theme: Theme::Dark, ..Default::default() }`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Style {
     /// Dark ink on white, or light ink on near-black. Default [`Theme::Light`].
     pub theme: Theme,
 }
 
-/// The two sets of colours.
+/// The two sets of colors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Theme {
     /// For paper and bright screens.
@@ -39,7 +39,7 @@ pub enum Tone {
     Third,
     /// A fourth thing to compare with.
     Fourth,
-    /// Text and centres.
+    /// Text and centers.
     Ink,
     /// Axes and remarks.
     Muted,
@@ -89,7 +89,7 @@ impl Tone {
     }
 }
 
-/// Colours beside the tones: the ground, the grid.
+/// Colors beside the tones: the ground, the grid.
 const GROUND: [&str; 2] = ["#ffffff", "#14181d"];
 const GRID: [&str; 2] = ["#e4e8ec", "#2b333b"];
 
@@ -98,7 +98,7 @@ impl Theme {
         pair[usize::from(self == Theme::Dark)]
     }
 
-    /// The colour of a tone.
+    /// The color of a tone.
     pub(crate) fn color(self, tone: Tone) -> &'static str {
         self.pick(match tone {
             Tone::Point => ["#52697c", "#9db2c4"],
@@ -122,7 +122,7 @@ impl Theme {
         out
     }
 
-    /// The classes with the colours of this theme, for a document that stands alone.
+    /// The classes with the colors of this theme, for a document that stands alone.
     pub(crate) fn classes(self) -> String {
         classes(|name| match name {
             "ground" => self.pick(GROUND).into(),

@@ -1,4 +1,4 @@
-//! One read of all items of a shape: which are drawn, and how far each reaches from the centre.
+//! One read of all items of a shape: which are drawn, and how far each reaches from the center.
 //!
 //! *Idea.* Where there are more items than a picture can hold, three kinds are kept: the support; the items that reach
 //! farthest, with those extreme in a few directions, since they shape the ball; and of the others those whose numbers
@@ -49,13 +49,13 @@ pub(crate) fn noun(items: Items) -> &'static str {
 
 /// A shape that says how far items reach.
 pub(crate) trait Measure {
-    /// Coordinates of its centre.
+    /// Coordinates of its center.
     fn dim(&self) -> usize;
 
-    /// The vector from the centre to an item's place, in some unit.
+    /// The vector from the center to an item's place, in some unit.
     fn offset(&self, row: &[f64]) -> Vec<f64>;
 
-    /// How far an item reaches from the centre, as a part of the way to the border.
+    /// How far an item reaches from the center, as a part of the way to the border.
     fn part(&self, row: &[f64], items: Items) -> f64;
 }
 
@@ -76,7 +76,7 @@ impl Scaled {
         Scaled { unit, center, radius: ball.radius / unit }
     }
 
-    /// How far an item reaches from the centre, in units.
+    /// How far an item reaches from the center, in units.
     pub(crate) fn reach(&self, row: &[f64], items: Items) -> f64 {
         let square: f64 = self.offset(row).iter().map(|v| v * v).sum();
         let own = match items {
@@ -188,7 +188,7 @@ pub(crate) fn survey(
             let part = shape.part(&row, question.items);
             if !part.is_finite() {
                 // Only beside a shape many orders of magnitude smaller, which cannot be the answer for this point.
-                let what = format!("distance of point {id} from the centre, in radii,");
+                let what = format!("distance of point {id} from the center, in radii,");
                 return Err(Error::NonFinite { what, value: part });
             }
             if question.left_out.binary_search(&id).is_err() {

@@ -1,7 +1,7 @@
 //! The minimum enclosing ball of points, of balls or of ellipsoids: one problem, one certificate, four methods.
 //!
 //! A method ([`core_set`], [`thesis`], [`badoiu_clarkson`]) ends with convex multipliers and the pass made from the
-//! centre they mean ([`outcome`]); [`proof`] turns that into an answer and its certificate, whatever the method was.
+//! center they mean ([`outcome`]); [`proof`] turns that into an answer and its certificate, whatever the method was.
 
 mod active_set;
 mod badoiu_clarkson;
@@ -30,8 +30,8 @@ pub(crate) use proof::reach_up;
 
 /// The smallest ball that encloses points, balls or ellipsoids, of a source of any size.
 ///
-/// `source` holds n points of dimension d; or n balls, as rows of a centre and a radius ≥ 0; or n ellipsoids, as rows of a
-/// centre m and the lower triangle of a shape matrix S, row by row, for the set {m + v : vv′ ⪯ S}.
+/// `source` holds n points of dimension d; or n balls, as rows of a center and a radius ≥ 0; or n ellipsoids, as rows of a
+/// center m and the lower triangle of a shape matrix S, row by row, for the set {m + v : vv′ ⪯ S}.
 /// [`BallOptions::inputs`] says which; [`Items`] has the details. A ball of radius 0 is a point, and S may be singular.
 ///
 /// The answer holds every input exactly, and its certificate proves that no ball of radius R/(1 + gap) does. The gap is

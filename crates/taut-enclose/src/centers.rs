@@ -1,8 +1,8 @@
 //! k equal balls around all items, as small as can be, with a lower bound that others can confirm.
 //!
-//! A method ([`tree`], [`thesis`], a traversal) ends with centres, a core-set and radii that trees over the core-set have shown
+//! A method ([`tree`], [`thesis`], a traversal) ends with centers, a core-set and radii that trees over the core-set have shown
 //! to be too small; [`proof`] proves one of these again, in a form that can be checked, and [`answer`] measures every item from the
-//! centres as they are returned.
+//! centers as they are returned.
 
 mod answer;
 mod cloud;
@@ -57,12 +57,12 @@ const LEAST_PROVED: f64 = f64::from_bits((1023 - 480) << 52);
 const PROOF_FACTOR: u64 = 20;
 const PROOF_NODES: u64 = 10_000;
 
-/// k centres such that no point of `points`, n × d, is farther than `radius` from the nearest, with a radius at most 1 + ε times the
+/// k centers such that no point of `points`, n × d, is farther than `radius` from the nearest, with a radius at most 1 + ε times the
 /// least possible.
 ///
 /// The problem is NP-hard; the time is exponential in k, and proofs are what takes it. In the plane gaps of 1e-6 are proved up to k
 /// of about 12, and 1 % up to about 15; in space 1 % up to about 10. Whatever the k, the search can be stopped
-/// ([`CentersOptions::max_nodes`]) and returns centres with the gap proved so far, at worst that of farthest-first traversal, a
+/// ([`CentersOptions::max_nodes`]) and returns centers with the gap proved so far, at worst that of farthest-first traversal, a
 /// factor of 2 (with weights or outliers there is no such promise). Duplicates, points on a line and k ≥ n are solved as any others.
 ///
 /// *Cost.* Nodes of some 5 to 50 µs in the plane and in space, and of milliseconds in hundreds of dimensions, where for
@@ -172,7 +172,7 @@ fn solve_in<P: Position>(
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Centers>, Error> {
     let cloud = Cloud::<P>::new(table.items());
-    // More centres than items are of no use, but what is proved is proved of as many as were asked for.
+    // More centers than items are of no use, but what is proved is proved of as many as were asked for.
     let asked = k;
     let k = k.min(cloud.len());
     let z = options.outliers as usize;
@@ -194,7 +194,7 @@ fn solve_in<P: Position>(
     finish(table, &cloud, items, asked, options, found, proof, (given_up, why), answered)
 }
 
-/// Centres of the traversal, with its own bound.
+/// Centers of the traversal, with its own bound.
 fn of_traversal<P: Position>(start: Start<P>) -> Found<P> {
     let core_set = start.apart;
     let (lower, upper, working_set) = (start.lower, start.plain.radius, core_set.len() as u64);

@@ -1,6 +1,6 @@
-//! Centres of points that come by once, and centres of points that are in many places.
+//! Centers of points that come by once, and centers of points that are in many places.
 //!
-//! *Problem.* Few centres near all points, and a bound on how much nearer others could be, when the points are read once, a
+//! *Problem.* Few centers near all points, and a bound on how much nearer others could be, when the points are read once, a
 //! block at a time ([`Cover`]), or each part of them where it lies ([`Summary`]).
 //! *Idea of the stream.* An instance guesses a radius r and keeps points that are more than 2r apart; what is nearer to one of them
 //! is counted as its own. When there are more than k, no k balls of radius r hold them: the guess grows by a factor α, and of
@@ -8,7 +8,7 @@
 //! *Guarantee.* Whatever is dropped is within 2r + 2r/α + 2r/α² + … < 2rα/(α − 1) of a point kept, and of all instances
 //! the one with the smallest guess is at most a factor α^(1/m) above a guess that failed: at most 2α^(1+1/m)/(α − 1)
 //! times the optimum, which α = m + 1 makes smallest. One instance is the doubling algorithm and has 8.
-//! *Trap.* What is counted as covered was never measured against the centre it now has; the radius of a [`Cover`] is a sum of
+//! *Trap.* What is counted as covered was never measured against the center it now has; the radius of a [`Cover`] is a sum of
 //! distances, an upper bound. One more pass measures it.
 //! *Reference.* Charikar, Chekuri, Feder and Motwani, SIAM J. Comput. 33(6), 2004 (doubling); McCutchen and Khuller, APPROX 2008,
 //! and Guha, ICDT 2009 (instances in parallel).
@@ -70,7 +70,7 @@ pub struct Covered {
     pub apart: Vec<u64>,
 }
 
-/// k centres of a stream of points, at any moment, in memory for m(k + 1) points.
+/// k centers of a stream of points, at any moment, in memory for m(k + 1) points.
 ///
 /// The blocks may be of any size: the same rows in the same order give the same answer.
 ///
@@ -230,7 +230,7 @@ impl Cover {
         }
     }
 
-    /// The best centres for the points that came by so far.
+    /// The best centers for the points that came by so far.
     pub fn covered(&self) -> Covered {
         let best = self.instances.iter().reduce(|a, b| if b.radius() < a.radius() { b } else { a });
         let (flat, rows, radius) = match best {
@@ -246,7 +246,7 @@ impl Cover {
         }
     }
 
-    /// The best centres with their true radius and a certificate: one pass over `source`, which holds the points that came by,
+    /// The best centers with their true radius and a certificate: one pass over `source`, which holds the points that came by,
     /// in the same order.
     ///
     /// # Errors
@@ -289,7 +289,7 @@ impl Cover {
     }
 }
 
-/// k centres of a source in two passes: one for a [`Cover`], one to measure its radius.
+/// k centers of a source in two passes: one for a [`Cover`], one to measure its radius.
 pub(crate) fn cover_in_two_passes(
     source: &dyn PointSource,
     k: usize,

@@ -41,8 +41,8 @@ const ROUNDING: f64 = 5e-15;
 
 /// The ellipsoid of least volume that encloses points, balls or ellipsoids, of a source of any size.
 ///
-/// `source` holds n points of dimension d; or n balls, as rows of a centre and a radius ≥ 0; or n ellipsoids, as rows of a
-/// centre m and the lower triangle of a shape matrix S, row by row, for the set {m + v : vv′ ⪯ S}.
+/// `source` holds n points of dimension d; or n balls, as rows of a center and a radius ≥ 0; or n ellipsoids, as rows of a
+/// center m and the lower triangle of a shape matrix S, row by row, for the set {m + v : vv′ ⪯ S}.
 /// [`EllipsoidOptions::inputs`] says which; [`Items`] has the details. S may be singular.
 ///
 /// The answer holds every input, and its certificate proves that no enclosing ellipsoid has a log-volume less by more
@@ -68,7 +68,7 @@ const ROUNDING: f64 = 5e-15;
 /// assert!((found.answer.log_volume - (4.0 * std::f64::consts::PI).ln()).abs() < 1e-12);
 /// assert!((found.answer.matrix[0][0] - 1.0 / 8.0).abs() < 1e-12);
 ///
-/// // Two unit discs, the centres 2 apart.
+/// // Two unit discs, the centers 2 apart.
 /// let discs = [-1.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0];
 /// let discs = Points::new(&discs, 5)?;
 /// let options = EllipsoidOptions { inputs: Items::Ellipsoids, ..Default::default() };

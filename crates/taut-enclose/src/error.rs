@@ -20,8 +20,8 @@ pub enum Error {
         /// Its radius.
         value: f64,
     },
-    /// Balls were announced, but the rows have no room for a centre and a radius.
-    #[error("a ball needs a centre and a radius, but rows have {columns} column")]
+    /// Balls were announced, but the rows have no room for a center and a radius.
+    #[error("a ball needs a center and a radius, but rows have {columns} column")]
     NoRadius {
         /// Columns there are.
         columns: usize,

@@ -1,9 +1,9 @@
-//! Farthest-first traversal: an order of points whose every beginning is a good set of centres.
+//! Farthest-first traversal: an order of points whose every beginning is a good set of centers.
 //!
 //! *Problem.* For each k ≤ `count` at once, k of n points such that all points are near one of them.
 //! *Idea.* Each next point is the one that is farthest from all before it. That it is so far away proves, with those before
 //! it, that no k balls of half the radius hold all points.
-//! *Guarantee.* The first k points have at most twice the radius of the best k centres, wherever those may be, for every k.
+//! *Guarantee.* The first k points have at most twice the radius of the best k centers, wherever those may be, for every k.
 //! Distances are those of the kernel, and of equal ones the lower row is taken: what is skipped on the way changes nothing.
 //! *How it is fast.* In three ways that skip what cannot matter, [`lazy`] for all points, [`boxes`] in up to three
 //! dimensions, [`rows`] in more; [`blocks`] is for points that are not in memory.
@@ -24,7 +24,7 @@ use crate::Error;
 use crate::frame::survey;
 use lazy::Job;
 
-/// Up to this many dimensions a box around neighbours says enough about them. Beyond, boxes are nearly as large as the whole.
+/// Up to this many dimensions a box around neighbors says enough about them. Beyond, boxes are nearly as large as the whole.
 const DIM_OF_BOXES_MAX: usize = 3;
 
 /// How to go through the points. Write `FarthestFirstOptions { start: 7, ..Default::default() }`.

@@ -1,7 +1,7 @@
 //! The ellipsoid of largest volume inside a polytope.
 //!
-//! *Problem.* {x : aᵢ′x ≤ bᵢ}: maximise ln det G over {c + Gz : |z| ≤ 1} with |G′aᵢ| + aᵢ′c ≤ bᵢ.
-//! *Idea.* An interior point by a linear programme ([`start`]), then Newton steps along the central path, each in the
+//! *Problem.* {x : aᵢ′x ≤ bᵢ}: maximize ln det G over {c + Gz : |z| ≤ 1} with |G′aᵢ| + aᵢ′c ≤ bᵢ.
+//! *Idea.* An interior point by a linear program ([`start`]), then Newton steps along the central path, each in the
 //! frame in which the current ellipsoid is the unit ball, so that no step sees how long the polytope is ([`path`]). The
 //! path gives multipliers; a least-squares correction makes them satisfy their equations to the last digits.
 //! *Guarantee.* The ellipsoid is inside at any moment. The gap is n times the parameter of the path.
@@ -66,7 +66,7 @@ impl HalfSpaces {
 /// larger by more than the gap. The gap is at most [`InscribedOptions::epsilon`] unless
 /// [`Trace::stop`](taut_certify::Trace::stop) says why not.
 ///
-/// *Cost.* Thirty to eighty Newton steps of O(nd⁴ + d⁶), after a linear programme; O(nd + d⁴) memory,
+/// *Cost.* Thirty to eighty Newton steps of O(nd⁴ + d⁶), after a linear program; O(nd + d⁴) memory,
 /// for the half-spaces too, whatever they come from.
 ///
 /// ```
@@ -214,7 +214,7 @@ fn prove(
     // entries moves it by more, a wider margin is found.
     let margin = 8.0 * (dim + 8) as f64 * f64::EPSILON;
     let mut wider = margin;
-    path::orthogonalise(&mut axes, dim);
+    path::orthogonalize(&mut axes, dim);
     loop {
         let room = measure(&axes) * (1.0 - wider);
         if !(room > 0.0 && room.is_finite()) || wider > SHRINKAGE_MAX {

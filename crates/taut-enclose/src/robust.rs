@@ -1,4 +1,4 @@
-//! Centre and scatter of most of the points, whatever the others are: MCD, MVE, trimming.
+//! Center and scatter of most of the points, whatever the others are: MCD, MVE, trimming.
 //!
 //! [`search`] finds the rows to keep; [`fit`] goes down to a subspace where many rows lie in one, and weighs outliers
 //! out; what it ends in becomes an answer here.
@@ -31,11 +31,11 @@ use crate::ellipsoid::outcome::log_unit_ball;
 use crate::ellipsoid::survey::Survey;
 pub use options::RobustOptions;
 
-/// Centre and scatter of most of n points of dimension d, the tolerance ellipsoid, and the points outside of it.
+/// Center and scatter of most of n points of dimension d, the tolerance ellipsoid, and the points outside of it.
 ///
 /// By default the h = ⌊(n + d + 1)/2⌋ points are sought whose covariance has the least determinant (MCD): wherever
 /// nearly half of the points are, the answer stays bounded, though a denser cluster may win. Points far out in the
-/// metric of the h are then weighed out, and centre and scatter taken of the rest.
+/// metric of the h are then weighed out, and center and scatter taken of the rest.
 ///
 /// *What is proved.* The certificate names the h points; the checker takes their mean and covariance anew, all factors,
 /// weights and flags, and that no C-step leads on from them. That no other h points have a lower determinant is *not*
@@ -44,13 +44,13 @@ pub use options::RobustOptions;
 /// and small kicks, lead lower still; no C-step and no such exchange of points near the border is left. For `mve` and
 /// `trim` it is proved besides that no smaller ellipsoid holds the points kept.
 ///
-/// *Equivariance.* What is minimised is affine equivariant, and so is the answer wherever the starts lead to the same
+/// *Equivariance.* What is minimized is affine equivariant, and so is the answer wherever the starts lead to the same
 /// optimum, as they do on all but small or shapeless sets. The starts themselves are not: rankings look at coordinates
 /// one by one, which only bears shifts and scales, and simplices are drawn by the bits of the points, so that their
 /// order does not matter.
 ///
 /// *Exact fit.* When h points lie in a hyperplane, or a smaller subspace, that is reported, not refused: the answer has
-/// a [`hull`](RobustEllipsoid::hull), centre and scatter are those of the points on it, and all others are flagged.
+/// a [`hull`](RobustEllipsoid::hull), center and scatter are those of the points on it, and all others are flagged.
 ///
 /// *Cost.* By `mcd`, for up to 4000 points: rankings of O(nd² log n), a thousand C-steps on up to 600 points, and some
 /// hundred C-steps of O(nd²) on all. Beyond, starts see a sample of 2000, and all points are read some hundred to two

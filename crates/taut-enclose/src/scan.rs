@@ -1,11 +1,11 @@
-//! Passes over all items: who reaches farthest from a centre.
+//! Passes over all items: who reaches farthest from a center.
 //!
 //! *Idea.* A pass is one read of the source in fixed blocks on all threads ([`pass`]); it returns the farthest items
 //! under a total order, so it does not depend on how threads meet them. The first pass also hashes the points and
 //! refuses coordinates that are not finite.
 //! *Scale.* Squares overflow beyond 1e154 and vanish below 1e-162. When the first pass finds itself near either end,
 //! all later reads multiply by an exact power of two that brings distances to about 1, after taking away a fixed
-//! point where coordinates are so large beside their differences that they would overflow. Centres, reaches
+//! point where coordinates are so large beside their differences that they would overflow. Centers, reaches
 //! and rows that leave this module are in those units; [`Scan::scale`] says which, and [`Scan::outside`] leads back.
 
 mod pass;
@@ -31,7 +31,7 @@ pub(crate) struct Query<'c> {
     pub(crate) above: f64,
     /// How many of them at most.
     pub(crate) keep: usize,
-    /// List at most two items per face of the cube around the centre, too, of those with a squared reach above this.
+    /// List at most two items per face of the cube around the center, too, of those with a squared reach above this.
     pub(crate) by_face_above: Option<f64>,
 }
 
@@ -43,7 +43,7 @@ pub(crate) struct Found {
     pub(crate) far: Vec<Far>,
     /// Every item that reaches farther than this (squared) is in `far`.
     pub(crate) listed_above: f64,
-    /// Where asked for: at most two items per face of the cube around the centre, farthest first.
+    /// Where asked for: at most two items per face of the cube around the center, farthest first.
     pub(crate) by_face: Vec<Far>,
 }
 
@@ -243,7 +243,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// A centre in the units of this scan as one or two terms in those of the source.
+    /// A center in the units of this scan as one or two terms in those of the source.
     pub(crate) fn outside(&self, center: &Center) -> Center {
         if self.scale == 1.0 {
             return center.clone();
@@ -262,7 +262,7 @@ impl<'a> Scan<'a> {
         outside
     }
 
-    /// A centre in the units of the source, brought to those of this scan; the inverse of [`outside`](Self::outside).
+    /// A center in the units of the source, brought to those of this scan; the inverse of [`outside`](Self::outside).
     pub(crate) fn inside(&self, center: &Center) -> Center {
         if self.scale == 1.0 {
             return center.clone();

@@ -3,7 +3,7 @@
 //! *Idea.* Each found curve must lie next to one true curve alone, another one for each, close where that one closes, and run along
 //! it without turning back: the places of its vertices, as shares of the length of the true curve, rise or fall all the way.
 //! *Guarantee.* A closed curve runs around exactly once; one with ends covers more than half of the true one. Places may fall back
-//! by a thousandth of the length in all, not at each step: vertices near the centre of a bend have places that jitter.
+//! by a thousandth of the length in all, not at each step: vertices near the center of a bend have places that jitter.
 //! *Trap.* This sees vertices, not edges: what edges cross is seen by [`crossings`](crate::crossings), how far they stray by the
 //! Hausdorff distance.
 

@@ -20,7 +20,7 @@ use crate::union_find::UnionFind;
 ///
 /// - An *edge* is a pair of vertices that are two corners of a triangle. It is a *boundary* edge if it is so for one triangle,
 ///   *non-manifold* if for more than two.
-/// - The *link* of a vertex is the graph on its neighbours that has an edge for the opposite side of each triangle at the
+/// - The *link* of a vertex is the graph on its neighbors that has an edge for the opposite side of each triangle at the
 ///   vertex. A vertex of a surface has one path or one cycle for a link (one of two edges where a triangle is given twice); all
 ///   others are *non-manifold*, among them the ends of each non-manifold edge.
 /// - A *component* is a largest set of triangles that one can walk through over edges. Two components can share vertices.

@@ -1,7 +1,7 @@
 //! Every predicate and every stage of it against integers without end, on a million hard cases.
 //!
 //! The oracle shares no formula with the predicates: it expands determinants of absolute coordinates, solves for
-//! circumcentres by Cramer's rule, and perturbs the lifts by numbers that are really there.
+//! circumcenters by Cramer's rule, and perturbs the lifts by numbers that are really there.
 
 mod balls;
 mod cases;

@@ -1,10 +1,10 @@
 //! The checker of robust ellipsoids, in arithmetic of its own.
 //!
-//! *Problem.* Given points, a list of those kept, centre, scatter and flags: are they what the method makes of the
+//! *Problem.* Given points, a list of those kept, center, scatter and flags: are they what the method makes of the
 //! points kept, and do the points kept leave nothing to improve by a C-step?
 //! *Idea.* Everything is judged in the frame of the answer, y = F(x − c), where scatters are nearly multiples of I. Each
 //! pass hashes what it reads ([`scan`]).
-//! 1. Doubled precision: moments of the rows kept and of those not weighed out. From these: centre, scatter, objective;
+//! 1. Doubled precision: moments of the rows kept and of those not weighed out. From these: center, scatter, objective;
 //!    factors by series of their own ([`factors`]). A hull must be as thin as that of an ellipsoid by itself.
 //! 2. Flags: exactly the rows outside, but for what evaluating |F(x − c)| in `f64` may be off by.
 //! 3. By `mve` and `trim`, the checker of ellipsoids judges that around the rows kept.
@@ -80,7 +80,7 @@ pub(super) fn check(
     // S = (F′F)⁻¹/border.
     let border = if is_trimmed { 1.0 / certificate.raw_scale } else { certificate.cutoff };
     scatter::check(answer, &frame, hull.as_ref(), border, slack.of_shapes)?;
-    // ln det S and what was minimised, from ln |det F|, or that of F within the hull.
+    // ln det S and what was minimized, from ln |det F|, or that of F within the hull.
     let log_factor = agreement::log_unit_ball(rank).iter().sum::<f64>() - log_volume;
     let log_det = if rank == 0 { 0.0 } else { -2.0 * log_factor - rank as f64 * border.ln() };
     let agree_in_logarithm = |what: &str, claimed: f64, found: f64| {
@@ -242,7 +242,7 @@ fn same(
         || (slack == 0.0 && one.center_tail != other.center_tail)
     {
         return Err(Violation::Estimate {
-            what: "the first coordinate of the centre".into(),
+            what: "the first coordinate of the center".into(),
             claimed: one.center[0],
             found: other.center[0],
         });

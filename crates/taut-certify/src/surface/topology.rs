@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// - An *edge* is a pair of rows that are two corners of a triangle. It is a *boundary* edge if it is so for one triangle,
 ///   *non-manifold* if for more than two.
-/// - The *link* of a vertex is the graph on its neighbours that has an edge for the opposite side of each triangle at the vertex. A
+/// - The *link* of a vertex is the graph on its neighbors that has an edge for the opposite side of each triangle at the vertex. A
 ///   vertex of a surface has one path or one cycle for a link; all others are *non-manifold*, among them the ends of each
 ///   non-manifold edge.
 /// - A *component* is a largest set of triangles that one can walk through over edges. Two components can share vertices.

@@ -75,14 +75,14 @@ pub enum MeshViolation {
         /// The simplex.
         simplex: usize,
     },
-    /// The neighbour named across a facet does not share it, or does not know of it.
+    /// The neighbor named across a facet does not share it, or does not know of it.
     #[error("simplex {simplex} names simplex {neighbor} across facet {facet}: {problem}")]
     Neighbor {
         /// The simplex.
         simplex: usize,
         /// Its facet.
         facet: usize,
-        /// The neighbour it names.
+        /// The neighbor it names.
         neighbor: u32,
         /// What is wrong with that.
         problem: &'static str,
@@ -187,10 +187,10 @@ impl fmt::Display for Ids<'_> {
 fn conflict(simplex: usize, neighbor: usize, row: u32, tie: bool) -> String {
     match tie {
         false => format!(
-            "point {row}, of simplex {neighbor}, lies inside the circumsphere of its neighbour, simplex {simplex}"
+            "point {row}, of simplex {neighbor}, lies inside the circumsphere of its neighbor, simplex {simplex}"
         ),
         true => format!(
-            "point {row}, of simplex {neighbor}, lies on the circumsphere of its neighbour, simplex {simplex}, and the \
+            "point {row}, of simplex {neighbor}, lies on the circumsphere of its neighbor, simplex {simplex}, and the \
              perturbation puts it inside"
         ),
     }

@@ -190,13 +190,13 @@ fn centers(damage: &mut Damage<'_>) {
                 let mut moved = case.clone();
                 moved.solution.answer.centers[center][column] += step;
                 if is_outside(&moved) || case.task.placement == Placement::Rows {
-                    damage.to("centre moved", |case| *case = moved);
+                    damage.to("center moved", |case| *case = moved);
                 }
             }
             for value in [f64::NAN, f64::INFINITY, f64::MAX] {
-                damage.to("centre not finite or far", |case| {
+                damage.to("center not finite or far", |case| {
                     case.solution.answer.centers[center][column] = value;
-                    // Without the far centre, some row must be outside or the bound of k is wrong.
+                    // Without the far center, some row must be outside or the bound of k is wrong.
                     case.solution.answer.radius *= 1.0 - 1e-9;
                 });
             }
@@ -204,17 +204,17 @@ fn centers(damage: &mut Damage<'_>) {
         let mut fewer = case.clone();
         fewer.solution.answer.centers.remove(center);
         if is_outside(&fewer) {
-            damage.to("centre dropped", |case| *case = fewer);
+            damage.to("center dropped", |case| *case = fewer);
         }
-        damage.to("centre too long", |case| {
+        damage.to("center too long", |case| {
             case.solution.answer.centers[center].push(0.0);
         });
-        damage.to("centre too short", |case| {
+        damage.to("center too short", |case| {
             case.solution.answer.centers[center].pop();
         });
     }
-    damage.to("no centres", |case| case.solution.answer.centers.clear());
-    damage.to("centres beyond k", |case| {
+    damage.to("no centers", |case| case.solution.answer.centers.clear());
+    damage.to("centers beyond k", |case| {
         let first = case.solution.answer.centers[0].clone();
         case.solution.answer.centers.resize(case.solution.certificate.k as usize + 1, first);
     });
@@ -223,14 +223,14 @@ fn centers(damage: &mut Damage<'_>) {
         for center in 0..count {
             let own = case.solution.answer.rows[center];
             for row in (0..n + 2).chain([u64::MAX]).filter(|&row| row != own) {
-                damage.to("row of a centre", |case| case.solution.answer.rows[center] = row);
+                damage.to("row of a center", |case| case.solution.answer.rows[center] = row);
             }
         }
         damage.to("rows missing", |case| case.solution.answer.rows.clear());
-        damage.to("centres free", |case| case.solution.certificate.placement = Placement::Free);
+        damage.to("centers free", |case| case.solution.certificate.placement = Placement::Free);
     } else {
-        damage.to("rows of free centres", |case| case.solution.answer.rows = vec![0; count]);
-        damage.to("centres at rows", |case| case.solution.certificate.placement = Placement::Rows);
+        damage.to("rows of free centers", |case| case.solution.answer.rows = vec![0; count]);
+        damage.to("centers at rows", |case| case.solution.certificate.placement = Placement::Rows);
     }
 }
 

@@ -115,7 +115,7 @@ proptest! {
 
     /// Ties at the bound itself are decided exactly.
     #[test]
-    fn centres_among_the_rows(values in prop::collection::vec(-6i32..7, 2..17), weights in prop::collection::vec(1i32..4, 8)) {
+    fn centers_among_the_rows(values in prop::collection::vec(-6i32..7, 2..17), weights in prop::collection::vec(1i32..4, 8)) {
         let values: Vec<f64> = values[..values.len() / 2 * 2].iter().map(|&v| v.into()).collect();
         let rows = Task { placement: Placement::Rows, ..Task::points(&values, 2) };
         all_proofs("rows", &rows, 1e-15);

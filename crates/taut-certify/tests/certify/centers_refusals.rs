@@ -13,7 +13,7 @@ use taut_points::{Monitor, Points, PointsHash, ReadError, hash_points};
 
 use crate::common;
 
-/// k centres at these places, of this radius.
+/// k centers at these places, of this radius.
 fn by_hand(
     points: &Points<'_, f64>,
     centers: &[&[f64]],
@@ -74,7 +74,7 @@ fn integer_corners_have_no_gap_at_all() {
 }
 
 #[test]
-fn one_centre_is_the_smallest_ball() {
+fn one_center_is_the_smallest_ball() {
     // 3-4-5: the hypotenuse of 10 is a diameter.
     let values = [0.0, 0.0, 6.0, 0.0, 6.0, 8.0, 3.0, 4.0];
     let points = Points::new(&values, 2).unwrap();
@@ -146,7 +146,7 @@ fn weights_far_apart_prove_nothing() {
     }
 }
 
-/// The heavy point fixes one centre; the others are 2 apart.
+/// The heavy point fixes one center; the others are 2 apart.
 #[test]
 fn weights_far_apart_do_not_hide_what_is_apart() {
     let rows = [0.0, 1e150, 1.0, 1e-150, 3.0, 1e-150];
@@ -185,7 +185,7 @@ fn rows_that_are_no_items_are_named() {
 }
 
 #[test]
-fn equally_near_centres_are_all_right_and_others_are_not() {
+fn equally_near_centers_are_all_right_and_others_are_not() {
     let values = [0.0, 0.0, 4.0, 0.0, 2.0, 0.0, 2.0, 1.0];
     let points = Points::new(&values, 2).unwrap();
     let centers: [&[f64]; 2] = [&[0.0, 0.0], &[4.0, 0.0]];
@@ -257,9 +257,9 @@ fn a_deep_log_takes_no_stack() {
     assert_eq!(violation, CentersViolation::LogEnds { branches: 1024 });
 }
 
-/// 5000 rows and 200 centres, of which each row finds one by way of lists.
+/// 5000 rows and 200 centers, of which each row finds one by way of lists.
 #[test]
-fn many_centres_hold_many_rows() {
+fn many_centers_hold_many_rows() {
     let values = numbers(3 * 5000, 9);
     let points = Points::new(&values, 3).unwrap();
     let centers: Vec<&[f64]> = values.chunks(3).take(200).collect();

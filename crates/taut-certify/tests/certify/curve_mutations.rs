@@ -200,7 +200,7 @@ const DAMAGE: [Damage; 22] = [
         |v| curve_violation(v, |v| matches!(v, CurveViolation::Vertices { .. })),
     ),
     (
-        "equal neighbours",
+        "equal neighbors",
         |c, k| {
             let one = curve(c, k);
             let (at, n) = (k % one.vertices.len(), one.vertices.len());

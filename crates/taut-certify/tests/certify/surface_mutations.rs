@@ -72,7 +72,7 @@ fn triangles_that_are_changed_are_refused() {
             damage.refused("a triangle turned over, with its topology", |case| {
                 case.answer().triangles[t] = [a, c, b];
                 case.topology();
-                // Alone it has no neighbour to disagree with.
+                // Alone it has no neighbor to disagree with.
                 assert!(!case.solution.answer.topology.is_oriented());
             });
             damage.refused("a triangle twice", |case| {

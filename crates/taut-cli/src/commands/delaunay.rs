@@ -51,7 +51,7 @@ pub(crate) struct Args {
     /// Print the JSON instead of the summary
     #[arg(long, help_heading = "Writing")]
     json: bool,
-    /// Leave the neighbours out of the JSON, which makes it half as large and its check slower
+    /// Leave the neighbors out of the JSON, which makes it half as large and its check slower
     #[arg(long, help_heading = "Writing")]
     no_neighbors: bool,
     /// Write the facets of the convex hull as a mesh

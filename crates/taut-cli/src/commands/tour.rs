@@ -325,7 +325,7 @@ fn surfaces(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result
 /// The triangulation with the other diagonal in the first two triangles that share an edge.
 fn with_an_edge_turned(found: &Solution<Triangulation>) -> Solution<Triangulation> {
     let mut doctored = found.clone();
-    // Without neighbours the checker finds them by itself, as in a file of bare triangles.
+    // Without neighbors the checker finds them by itself, as in a file of bare triangles.
     let neighbors = std::mem::take(&mut doctored.certificate.neighbors);
     let simplices = &mut doctored.answer.simplices;
     let Some(facet) = neighbors.iter().position(|&across| across != NO_NEIGHBOR) else {

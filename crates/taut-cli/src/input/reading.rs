@@ -157,7 +157,7 @@ impl Opened {
                 shown_number(value)
             ),
             SolveError::NoRadius { .. } => anyhow!(
-                "{}: a ball needs a centre and a radius, at least two columns, but there is one: leave out --balls \
+                "{}: a ball needs a center and a radius, at least two columns, but there is one: leave out --balls \
                  or choose more with --columns",
                 self.name()
             ),
@@ -173,7 +173,7 @@ impl Opened {
                 self.name()
             ),
             SolveError::NoShape { columns } => anyhow!(
-                "{}: ellipsoids in dimension d have d(d + 3)/2 columns, 2, 5, 9, 14, …, the centre and the lower \
+                "{}: ellipsoids in dimension d have d(d + 3)/2 columns, 2, 5, 9, 14, …, the center and the lower \
                  triangle of the shape matrix, but there are {columns}: leave out --ellipsoids or choose others with \
                  --columns",
                 self.name()

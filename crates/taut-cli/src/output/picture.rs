@@ -27,7 +27,7 @@ pub(crate) struct PictureOptions {
     /// Which picture to draw to SVG or PNG, from 1: the scene comes first, then plots
     #[arg(long, value_name = "N", default_value_t = 1)]
     figure: usize,
-    /// Colours of SVG and PNG; HTML follows the reader
+    /// Colors of SVG and PNG; HTML follows the reader
     #[arg(long, value_name = "NAME", default_value = "light", value_parser = themes())]
     theme: Theme,
     /// Width, pixels, from 240 to 10000

@@ -1,4 +1,4 @@
-//! What is said about centres.
+//! What is said about centers.
 
 use taut::certify::Centers;
 use taut::certify::{CentersCertificate, LowerBound, Placement};
@@ -8,33 +8,33 @@ use taut::{Items, Solution};
 use crate::output::numbers::{abridged, coordinates, count, counted, exact, gap};
 use crate::reports::{Claims, Field, Report, Summary, noun, rows_of, share, stopped};
 
-/// The coordinates of at most this many centres are shown; more are in the JSON.
+/// The coordinates of at most this many centers are shown; more are in the JSON.
 const SHOWN_CENTERS_MAX: usize = 20;
 
 impl Summary for Centers {
-    const FOUND: &'static str = "the centres found";
+    const FOUND: &'static str = "the centers found";
 
     fn title(report: &Report<'_, Self>) -> String {
         let certificate = &report.found.certificate;
-        let centres = match certificate.placement {
-            Placement::Free => counted(certificate.k, "centre"),
-            Placement::Rows => format!("{} among them", counted(certificate.k, "centre")),
+        let centers = match certificate.placement {
+            Placement::Free => counted(certificate.k, "center"),
+            Placement::Rows => format!("{} among them", counted(certificate.k, "center")),
         };
         let items = items_of(certificate, report.points.source().len(), Self::dim(report));
-        format!("{items}: {centres}")
+        format!("{items}: {centers}")
     }
 
     fn fields(report: &Report<'_, Self>) -> Vec<Field> {
         let (answer, certificate) = (&report.found.answer, &report.found.certificate);
         let (trace, noun) = (&report.found.trace, noun(certificate.items));
-        let mut fields = report.centres();
+        let mut fields = report.centers();
         let [radius, lower] = [answer.radius, answer.lower_bound].map(exact);
         let counts = if answer.outliers.is_empty() { "" } else { " that counts" };
         fields.extend([
             Field::new("radius", radius)
-                .remark(format!("no {noun}{counts} is farther from the centre next to it")),
+                .remark(format!("no {noun}{counts} is farther from the center next to it")),
             Field::new("lower bound", &*lower)
-                .remark(format!("no {} have a smaller radius", counted(certificate.k, "centre"))),
+                .remark(format!("no {} have a smaller radius", counted(certificate.k, "center"))),
         ]);
         fields.push(match &report.verdict {
             Some(proved) => gap_of(answer, proved.gap),
@@ -92,7 +92,7 @@ impl Summary for Centers {
         let (k, radius) = (count(certificate.k), exact(found.answer.radius));
         let fields = vec![
             Field::proved(
-                "centres",
+                "centers",
                 format!("{}, {placement}", count(found.answer.centers.len() as u64)),
             )
             .remark(format!("of at most {k}")),
@@ -103,7 +103,7 @@ impl Summary for Centers {
         ];
         Claims {
             what: format!(
-                "centres, k = {k}, {placement}, of radius {radius}, around {items}{rests_on}"
+                "centers, k = {k}, {placement}, of radius {radius}, around {items}{rests_on}"
             ),
             gap: Some(proved.gap),
             fields,
@@ -112,8 +112,8 @@ impl Summary for Centers {
 }
 
 impl Report<'_, Centers> {
-    /// A line for each of the first centres: its place, of which row it is, how many are next to it.
-    fn centres(&self) -> Vec<Field> {
+    /// A line for each of the first centers: its place, of which row it is, how many are next to it.
+    fn centers(&self) -> Vec<Field> {
         let answer = &self.found.answer;
         let mut sizes = vec![0u64; answer.centers.len()];
         for &center in &answer.assignment {
@@ -124,8 +124,8 @@ impl Report<'_, Centers> {
         let mut fields = Vec::new();
         for (j, center) in answer.centers.iter().enumerate().take(SHOWN_CENTERS_MAX) {
             let name = match j {
-                0 if answer.centers.len() == 1 => "centre",
-                0 => "centres",
+                0 if answer.centers.len() == 1 => "center",
+                0 => "centers",
                 _ => "",
             };
             let mut place = coordinates(center, answer.radius);

@@ -56,7 +56,7 @@ fn a_negative_radius() {
     desk.put("discs.csv", "x,y,radius\n0,0,1\n1,1,-0.25\n");
     refused(&desk, "discs.csv --balls", &["discs.csv", "row 2", "column 2", "`radius`", "-0.25"]);
     desk.put("line.csv", "1\n2\n");
-    refused(&desk, "line.csv --balls", &["line.csv", "a centre and a radius"]);
+    refused(&desk, "line.csv --balls", &["line.csv", "a center and a radius"]);
 }
 
 #[test]

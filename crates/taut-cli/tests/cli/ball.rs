@@ -2,7 +2,7 @@
 
 use crate::desk::Desk;
 
-/// Smallest disc: centre (1, 0), radius 1, by the first two points.
+/// Smallest disc: center (1, 0), radius 1, by the first two points.
 const TRIANGLE: &str = "x,y\n0,0\n2,0\n1,0.5\n";
 
 #[test]
@@ -12,7 +12,7 @@ fn the_summary_names_every_number() {
     let run = desk.taut("ball points.csv").ends(0).says(&[
         "Smallest ball around 3 points in 2 dimensions\n",
         "\n  radius    1",
-        "\n  centre    (1, 0)\n",
+        "\n  center    (1, 0)\n",
         "\n  gap       ",
         "\n  verified  yes; every point is inside, and the gap is proved\n",
         "\n  method    core-set; converged\n",
@@ -81,13 +81,13 @@ fn without_the_check_nothing_is_called_verified() {
 }
 
 #[test]
-fn balls_are_centres_and_a_radius() {
+fn balls_are_centers_and_a_radius() {
     let desk = Desk::new();
     desk.put("discs.csv", "x,y,r\n0,0,1\n5,0,2\n");
     desk.taut("ball discs.csv --balls --epsilon 0 -o ball.json").ends(0).says(&[
         "around 2 balls in 2 dimensions",
         "\n  radius    4\n",
-        "\n  centre    (3, 0)\n",
+        "\n  center    (3, 0)\n",
     ]);
     desk.taut("verify ball.json discs.csv").ends(0);
 }
@@ -99,7 +99,7 @@ fn columns_are_chosen_by_name_number_and_range() {
     for columns in ["x,y", "1,2", "1-2", "1-"] {
         desk.taut(&format!("ball points.csv --columns {columns} --epsilon 0"))
             .ends(0)
-            .says(&["\n  centre    (1, 0)\n"]);
+            .says(&["\n  center    (1, 0)\n"]);
     }
 }
 
@@ -110,7 +110,7 @@ fn raw_files_are_read_with_their_layout() {
     desk.put("points.bin", values);
     desk.taut("ball points.bin --raw-dim 2 --raw-type f32 --raw-offset 4 --epsilon 0")
         .ends(0)
-        .says(&["3 points in 2 dimensions", "\n  centre    (1, 0)\n"]);
+        .says(&["3 points in 2 dimensions", "\n  center    (1, 0)\n"]);
     desk.taut("ball points.bin --raw-dim 2").ends(2).complains(&["--raw-type"]);
 }
 
@@ -154,10 +154,10 @@ fn a_stop_by_budget_stays_one_when_nobody_listens() {
 }
 
 #[test]
-fn the_centre_shown_lies_in_its_ball() {
+fn the_center_shown_lies_in_its_ball() {
     let desk = Desk::new();
     desk.put("far.csv", "1000000000000.5,7\n1000000000001.5,7\n");
-    desk.taut("ball far.csv").ends(0).says(&["\n  centre    (1000000000001, 7)\n"]);
+    desk.taut("ball far.csv").ends(0).says(&["\n  center    (1000000000001, 7)\n"]);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::desk::Desk;
 
-/// Two groups of four, at (0, 0) to (0, 2) and (9, 0) to (9, 1): two centres have radius 1.
+/// Two groups of four, at (0, 0) to (0, 2) and (9, 0) to (9, 1): two centers have radius 1.
 const TOWNS: &str = "x,y\n0,0\n0,2\n9,0\n9,1\n0,1\n9,0.5\n";
 
 fn desk() -> Desk {
@@ -19,12 +19,12 @@ fn close(value: &serde_json::Value, wanted: f64) {
 #[test]
 fn the_summary_names_every_number() {
     let run = desk().taut("centers towns.csv -k 2 --epsilon 1e-6").ends(0).says(&[
-        "6 points in 2 dimensions: 2 centres\n",
-        "\n  centres     (",
+        "6 points in 2 dimensions: 2 centers\n",
+        "\n  centers     (",
         "(0, 1)\n",
         "\n  radius      1",
         "\n  lower bound ",
-        "no 2 centres have a smaller radius\n",
+        "no 2 centers have a smaller radius\n",
         "\n  gap         ",
         "\n  verified    yes; every point is in a ball, and the gap is proved\n",
         "\n  method      tree; converged\n",
@@ -70,9 +70,9 @@ fn answers_are_verified_and_lies_rejected() {
     desk.taut("centers towns.csv -k 2 --epsilon 1e-6 -o centers.json").ends(0);
     desk.taut("verify centers.json towns.csv --epsilon 1e-6").ends(0).says(&[
         "Verified within a gap of ",
-        ": centres, k = 2, anywhere, of radius 1",
+        ": centers, k = 2, anywhere, of radius 1",
         ", around 6 points in 2 dimensions\n",
-        "\n  centres   2, anywhere; proved: of at most 2\n",
+        "\n  centers   2, anywhere; proved: of at most 2\n",
         "\n  left out  none; proved\n",
         " ≤ least radius ≤ ",
         "\n  branches ",
@@ -109,11 +109,11 @@ fn answers_are_verified_and_lies_rejected() {
 }
 
 #[test]
-fn centres_among_the_points_are_named_by_their_rows() {
+fn centers_among_the_points_are_named_by_their_rows() {
     let desk = desk();
     desk.taut("centers towns.csv -k 2 --discrete --epsilon 0 --assignment -o centers.json")
         .ends(0)
-        .says(&["2 centres among them\n", "(0, 1); row 5, next to 3 points\n", "(9, "]);
+        .says(&["2 centers among them\n", "(0, 1); row 5, next to 3 points\n", "(9, "]);
     let found: serde_json::Value = serde_json::from_str(&desk.text("centers.json")).unwrap();
     // Of the places around (9, 0.5) each is near enough to the others.
     let mut rows: Vec<u64> =
@@ -123,7 +123,7 @@ fn centres_among_the_points_are_named_by_their_rows() {
     close(&found["answer"]["radius"], 1.0);
     desk.taut("verify centers.json towns.csv")
         .ends(0)
-        .says(&["\n  centres   2, among the points; proved: of at most 2\n"]);
+        .says(&["\n  centers   2, among the points; proved: of at most 2\n"]);
 }
 
 #[test]
@@ -141,7 +141,7 @@ fn outliers_weights_and_balls_are_asked_for() {
     desk.put("heavy.csv", "x,w\n0,2\n3,1\n");
     desk.taut("centers heavy.csv -k 1 --weights --epsilon 1e-9 -o heavy.json")
         .ends(0)
-        .says(&["2 points with weights in 1 dimension: 1 centre\n", "\n  centre      (1"]);
+        .says(&["2 points with weights in 1 dimension: 1 center\n", "\n  center      (1"]);
     let found: serde_json::Value = serde_json::from_str(&desk.text("heavy.json")).unwrap();
     close(&found["answer"]["radius"], 2.0);
     desk.taut("verify heavy.json heavy.csv")
@@ -150,7 +150,7 @@ fn outliers_weights_and_balls_are_asked_for() {
     desk.put("discs.csv", "x,y,r\n0,0,1\n4,0,2\n100,0,3\n");
     desk.taut("centers discs.csv -k 2 --balls --epsilon 1e-9 -o discs.json")
         .ends(0)
-        .says(&["3 balls in 2 dimensions: 2 centres\n", "every ball is in a ball"]);
+        .says(&["3 balls in 2 dimensions: 2 centers\n", "every ball is in a ball"]);
     let found: serde_json::Value = serde_json::from_str(&desk.text("discs.json")).unwrap();
     close(&found["answer"]["radius"], 3.5);
     desk.taut("verify discs.json discs.csv").ends(0).says(&[", around 3 balls in 2 dimensions\n"]);
@@ -173,7 +173,7 @@ fn all_methods_end_in_a_proof() {
     }
 }
 
-/// Two passes, one to look and one to measure; centres that are rows are named on request.
+/// Two passes, one to look and one to measure; centers that are rows are named on request.
 #[test]
 fn a_stream_is_read_twice() {
     let desk = Desk::new();
@@ -204,7 +204,7 @@ fn the_elbow_is_a_table_a_file_and_a_plot() {
     desk.taut("centers towns.csv --elbow 1..6 --epsilon 1e-6 -o elbow.csv --draw elbow.svg")
         .ends(0)
         .says(&[
-            "Radius by number of centres of 6 points\n",
+            "Radius by number of centers of 6 points\n",
             "\n  k  radius",
             "\n  2  1 ",
             "verified",
@@ -223,7 +223,7 @@ fn the_elbow_is_a_table_a_file_and_a_plot() {
     assert!(rows.iter().all(|row| (0.0..=1e-6).contains(&row[3])));
     assert_eq!((rows[1][1], rows[5][1], rows[5][2]), (1.0, 0.0, 0.0));
     let picture = desk.text("elbow.svg");
-    for part in ["Radius by number of centres", "radius found", "lower bound: proved"] {
+    for part in ["Radius by number of centers", "radius found", "lower bound: proved"] {
         assert!(picture.contains(part), "{part}");
     }
     desk.taut("centers towns.csv --elbow 2..3 --draw elbow.html --quiet").ends(0);
@@ -247,7 +247,7 @@ fn the_elbow_ends_where_the_radius_does_and_says_how_far_it_is() {
     assert!(run.err.contains("at most 1000 values of k"), "{}", run.err);
 }
 
-/// Searches that are stopped at once may end with a larger radius than those for fewer centres; the table does not.
+/// Searches that are stopped at once may end with a larger radius than those for fewer centers; the table does not.
 #[test]
 fn the_elbow_never_rises() {
     let desk = Desk::new();
@@ -266,13 +266,13 @@ fn the_elbow_never_rises() {
 }
 
 #[test]
-fn centres_are_drawn_with_their_circles_and_what_is_left_out() {
+fn centers_are_drawn_with_their_circles_and_what_is_left_out() {
     let desk = desk();
     desk.put("far.csv", format!("{TOWNS}500,0\n"));
     desk.taut("centers far.csv -k 2 --outliers 1 -o found.json --draw found.svg").ends(0);
     let picture = desk.text("found.svg");
     for part in
-        ["Centres of 7 points, k = 2, d = 2", "the 2 circles", "core-set (", "left out (1 point)"]
+        ["Centers of 7 points, k = 2, d = 2", "the 2 circles", "core-set (", "left out (1 point)"]
     {
         assert!(picture.contains(part), "{part}");
     }

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::desk::Desk;
 
-/// Points of circles, each with a centre, a radius and a number.
+/// Points of circles, each with a center, a radius and a number.
 fn circles(list: &[([f64; 2], f64, usize)]) -> String {
     let mut text = String::from("x,y\n");
     for &([x, y], r, n) in list {

@@ -2,7 +2,7 @@
 
 use crate::desk::Desk;
 
-/// A square with its centre, and its first corner again.
+/// A square with its center, and its first corner again.
 const SQUARE: &str = "x,y\n0,0\n2,0\n2,2\n0,2\n1,1\n0,0\n";
 
 fn desk() -> Desk {
@@ -91,7 +91,7 @@ fn wrong_meshes_are_rejected_and_broken_ones_refused() {
     let desk = desk();
     desk.taut("delaunay points.csv -o mesh.off").ends(0);
     let mesh = desk.text("mesh.off");
-    // Both diagonals of the square go through its centre, so a triangle of three corners covers it.
+    // Both diagonals of the square go through its center, so a triangle of three corners covers it.
     let last = mesh.lines().last().unwrap();
     desk.put("wrong.off", mesh.replace(last, "3 0 1 2"));
     desk.taut("verify wrong.off points.csv").ends(1).says(&["Rejected: wrong.off: "]);

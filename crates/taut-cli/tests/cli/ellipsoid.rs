@@ -109,7 +109,7 @@ fn the_summary_names_every_number() {
     let run = desk.taut("ellipsoid points.csv").ends(0).says(&[
         "Smallest ellipsoid around 5 points in 2 dimensions\n",
         "\n  log-volume 2.53102424",
-        "\n  centre     (2, 1)\n",
+        "\n  center     (2, 1)\n",
         "; no enclosing ellipsoid has a log-volume below 2.53102424",
         "\n  verified   yes; every point is inside, and the gap is proved\n",
         "\n  method     newton; converged\n",

@@ -112,8 +112,8 @@ fn radii_make_balls() {
     let desk = Desk::new();
     let balls = rows(&desk.taut("generate normal -n 300 -d 2 --radii uniform:1:2").ends(0).out);
     assert!(balls.iter().all(|ball| ball.len() == 3 && (1.0..=2.0).contains(&ball[2])));
-    let centres = rows(&desk.taut("generate normal -n 300 -d 2").ends(0).out);
-    assert!(balls.iter().zip(&centres).all(|(ball, centre)| ball[..2] == centre[..]));
+    let centers = rows(&desk.taut("generate normal -n 300 -d 2").ends(0).out);
+    assert!(balls.iter().zip(&centers).all(|(ball, center)| ball[..2] == center[..]));
     desk.taut("generate normal -n 300 -d 2 --radii exponential:0.1 -o balls.csv").ends(0);
     desk.taut("ball balls.csv --balls")
         .ends(0)

@@ -17,7 +17,7 @@ fn the_largest_ellipse_in_a_rectangle_is_that_of_its_half_widths() {
     desk.taut("inscribe ellipsoid sides.csv -o inside.json --draw inside.svg").ends(0).says(&[
         "Largest ellipsoid inside 4 half-spaces in 2 dimensions\n",
         "\n  log-volume 1.837877",
-        "\n  centre     (2, 1)\n",
+        "\n  center     (2, 1)\n",
         "\n  gap        ",
         "no ellipsoid inside has a log-volume above 1.837877",
         "\n  verified   yes; ",
@@ -79,8 +79,8 @@ fn pictures_of_every_dimension_hold_what_they_name() {
     let desk = Desk::new();
     for (dim, parts) in [
         (1, &["no meaning", "touching (3 half-spaces)"][..]),
-        (3, &["touching (7 half-spaces)", "centre"]),
-        (5, &["Cuts through the centre", "column 4"]),
+        (3, &["touching (7 half-spaces)", "center"]),
+        (5, &["Cuts through the center", "column 4"]),
         (9, &["6 of 9 coordinates"]),
     ] {
         let side = |j: usize, sign: i32| {

@@ -88,7 +88,7 @@ fn the_tour_shows_and_verifies_every_tool() {
         "Most of the points: outliers",
         "an outlier less",
         "lacks point 149",
-        "Near to all: k centres",
+        "Near to all: k centers",
         "taut centers europe.csv -k 8",
         "From within: a polytope",
         "a millionth longer",

@@ -1,4 +1,4 @@
-//! `taut ellipsoid --robust`: centre, scatter and outliers, and their proof.
+//! `taut ellipsoid --robust`: center, scatter and outliers, and their proof.
 
 use crate::desk::Desk;
 
@@ -33,7 +33,7 @@ fn outliers_are_named_and_all_is_verified() {
         let line = format!("ellipsoid points.csv --robust {line} -o robust.json");
         desk.taut(&line).ends(0).says(&[
             "Robust ellipsoid of 31 points in 2 dimensions\n",
-            "\n  centre     (2, 2)\n",
+            "\n  center     (2, 2)\n",
             "\n  log-det    ",
             "\n  verified   yes; ",
             "checking ",

@@ -4,7 +4,7 @@ use taut::{InscribedOptions, Points, inscribed_ellipsoid};
 
 use crate::desk::Desk;
 
-/// Two unit discs as centres and lower triangles of shape matrices; the centres are 2 apart.
+/// Two unit discs as centers and lower triangles of shape matrices; the centers are 2 apart.
 const DISCS: &str = "x,y,s11,s21,s22\n-1,0,1,0,1\n1,0,1,0,1\n";
 const BALLS: &str = "x,y,r\n-1,0,1\n1,0,1\n";
 
@@ -14,7 +14,7 @@ fn the_smallest_ball_around_ellipsoids() {
     desk.put("discs.csv", DISCS);
     desk.taut("ball discs.csv --ellipsoids -o ball.json").ends(0).says(&[
         "Smallest ball around 2 ellipsoids in 2 dimensions\n",
-        "\n  centre    (0, 0)\n",
+        "\n  center    (0, 0)\n",
         "verified  yes; every ellipsoid is inside",
     ]);
     let found: serde_json::Value = serde_json::from_str(&desk.text("ball.json")).unwrap();
@@ -60,7 +60,7 @@ fn the_ellipsoid_of_least_volume_around_balls_and_ellipsoids() {
             .ends(0)
             .says(&[
                 &format!("Smallest ellipsoid around 2 {noun}s in 2 dimensions\n"),
-                "\n  centre     (0, 0)\n",
+                "\n  center     (0, 0)\n",
                 &format!("verified   yes; every {noun} is inside"),
             ]);
         let found: serde_json::Value = serde_json::from_str(&desk.text("found.json")).unwrap();

@@ -130,7 +130,7 @@ fn meshes_are_written_in_every_format_and_points_read_from_them() {
 }
 
 #[test]
-fn normals_and_colours_go_with_their_points() {
+fn normals_and_colors_go_with_their_points() {
     let desk = Desk::new();
     let head = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
                 property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n";

@@ -84,7 +84,7 @@ fn another_dimension_is_rejected() {
     let desk = solved();
     desk.put("space.csv", "0,0,0\n1,1,1\n");
     desk.taut("verify ball.json space.csv").ends(1).says(&[
-        "Rejected: space.csv does not belong to ball.json: the centre has 2 numbers, but the points have dimension 3",
+        "Rejected: space.csv does not belong to ball.json: the center has 2 numbers, but the points have dimension 3",
     ]);
 }
 

@@ -101,7 +101,7 @@ impl<const V: usize> Cell<V> {
         self.own.contains(&sites.iter().copied().fold(GHOST, u32::min))
     }
 
-    /// Turns the slots into those of the whole, where they begin at `offset`. Neighbours of other cells are still to be
+    /// Turns the slots into those of the whole, where they begin at `offset`. Neighbors of other cells are still to be
     /// joined.
     fn hand_over(mut self, offset: u32) -> Vec<Simplex<V>> {
         for t in 0..self.simplices.len() {
@@ -137,7 +137,7 @@ impl<const V: usize> Cell<V> {
             let ours = self.owns(&sites);
             for i in 0..V {
                 let (other, facet) = decode(self.simplices[t as usize].neighbors[i]);
-                let there = self.sites_of(other).expect("a live simplex has live neighbours");
+                let there = self.sites_of(other).expect("a live simplex has live neighbors");
                 match (ours, self.owns(&there)) {
                     // A cell that owns both sides has joined them itself.
                     (true, true) => continue,

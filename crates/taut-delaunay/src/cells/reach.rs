@@ -4,7 +4,7 @@
 //! α < 0: its maximum over a box is a sum over the axes. A ghost's half-space is the same with α = 0.
 //! Guarantee: a box that is ruled out holds no conflict; rounding is on the safe side by `slack`. What is not ruled
 //! out is asked exactly, point by point.
-//! Trap: the centre and the radius of a sliver's sphere are worthless in floating point; the form needs neither.
+//! Trap: the center and the radius of a sliver's sphere are worthless in floating point; the form needs neither.
 
 use crate::vector::{cross, difference, dot, largest, square};
 

@@ -49,7 +49,7 @@ pub(super) fn mesh(points: &[Point], order: &[u32], settings: Settings) -> Mesh 
     mesh
 }
 
-/// A mesh in an order that keeps neighbours close, checked.
+/// A mesh in an order that keeps neighbors close, checked.
 fn checked(mut points: Vec<Point>, settings: Settings) -> Mesh {
     points.sort_by(|&a, &b| lexicographic(a, b));
     points.dedup();
@@ -174,7 +174,7 @@ fn every_order_of_small_subsets_of_grids_gives_the_one_triangulation() {
 
 #[test]
 fn points_on_circles_of_a_lattice() {
-    // x² + y² = 5²·13²·17²: 108 points on one circle, with its centre and some of its chords.
+    // x² + y² = 5²·13²·17²: 108 points on one circle, with its center and some of its chords.
     let r2 = (5i64 * 13 * 17).pow(2);
     let mut points: Vec<Point> = vec![[0.0, 0.0], [1.0, 2.0]];
     for x in -1105i64..=1105 {
@@ -218,7 +218,7 @@ fn sets_of_many_kinds_are_locally_delaunay() {
         (0..n).map(|i| if i == 0 { [0.5, 1.0] } else { [f64::from(i), 0.0] }).collect(),
         (0..n).map(|i| [random.unit(), f64::from(i % 2)]).collect(),
         (0..n).map(|i| [0.1 * f64::from(i), 0.3 * f64::from(i)]).collect(),
-        // Millimetres of a wall, on both sides of zero.
+        // Millimeters of a wall, on both sides of zero.
         (0..n)
             .map(|_| [random.unit() * 2e4 - 1e4, (random.unit() * 6.0 - 3.0).round() * 1e3])
             .collect(),

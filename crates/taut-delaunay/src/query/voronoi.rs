@@ -37,7 +37,7 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
 impl Locator<'_, 2, 3> {
     /// The Voronoi cell of a site, clipped to the box between two corners.
     ///
-    /// O(k²) for k neighbours.
+    /// O(k²) for k neighbors.
     ///
     /// # Panics
     /// If there is no such site.
@@ -49,7 +49,7 @@ impl Locator<'_, 2, 3> {
 impl Locator<'_, 3, 4> {
     /// The Voronoi cell of a site, clipped to the box between two corners.
     ///
-    /// O(k²) for k neighbours.
+    /// O(k²) for k neighbors.
     ///
     /// # Panics
     /// If there is no such site.

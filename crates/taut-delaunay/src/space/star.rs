@@ -49,7 +49,7 @@ impl Star {
         self.local.push(0);
     }
 
-    /// Writes one simplex (q, a, b, c) for each facet into the slot of the same place, with all neighbours on both
+    /// Writes one simplex (q, a, b, c) for each facet into the slot of the same place, with all neighbors on both
     /// sides.
     #[inline(always)]
     pub(super) fn fill(
@@ -105,7 +105,7 @@ impl Star {
     }
 
     /// Pairs the edges in an open hash table of twice their number at least. A boundary gets here where a site has
-    /// hundreds of neighbours: an apex over a plane full of sites, the centre of a sphere.
+    /// hundreds of neighbors: an apex over a plane full of sites, the center of a sphere.
     #[cold]
     #[inline(never)]
     fn fill_by_hash(

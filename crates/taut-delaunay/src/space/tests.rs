@@ -84,7 +84,7 @@ fn finite(mesh: &Mesh) -> usize {
     mesh.simplices().iter().filter(|s| s.is_live() && !s.is_ghost()).count()
 }
 
-/// Neighbours, orientation, the Euler relation, and that no simplex is in conflict with the vertex across any facet.
+/// Neighbors, orientation, the Euler relation, and that no simplex is in conflict with the vertex across any facet.
 fn check(mesh: &mut Mesh) {
     let Mesh { sites, simplices, marks, judge, .. } = mesh;
     assert!(marks.iter().all(|&mark| mark == 0), "marks are clear");

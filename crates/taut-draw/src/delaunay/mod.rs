@@ -24,7 +24,7 @@ use crate::survey::spread;
 use crate::{DrawOptions, Error, Figure};
 
 /// Pictures of a triangulation and its points. In the plane: the triangulation; of many points a window of it as well; and
-/// the Voronoi diagram, if the certificate names neighbours. In space: the hull with what can be shown within.
+/// the Voronoi diagram, if the certificate names neighbors. In space: the hull with what can be shown within.
 ///
 /// # Errors
 /// [`Error::Mismatch`] when `source` is not what the triangulation was made for, [`Error::NonFinite`],

@@ -98,7 +98,7 @@ fn check(
     let named = certificate.support.iter().chain(&certificate.left_out);
     all_there("number of points", named, source.len())?;
     let center = ellipsoid.center.iter().chain(&ellipsoid.center_tail);
-    let numbers = (center.map(|v| ("a coordinate of the centre", v)))
+    let numbers = (center.map(|v| ("a coordinate of the center", v)))
         .chain(ellipsoid.factor.iter().flatten().map(|v| ("an entry of the factor", v)))
         .chain(basis.iter().flatten().map(|v| ("an entry of the hull", v)))
         .chain(certificate.directions.iter().flatten().map(|v| ("a direction", v)))
@@ -171,7 +171,7 @@ impl<'a> Picture<'a> {
         })
     }
 
-    /// In space, the longest axis; the mean of the outliers from the centre, where a robust ellipsoid has some.
+    /// In space, the longest axis; the mean of the outliers from the center, where a robust ellipsoid has some.
     fn facing(&self, left_out: &[f64]) -> Option<Vec<f64>> {
         if self.robust.is_none() || left_out.is_empty() {
             return self.body.principal().into_iter().next();
@@ -191,7 +191,7 @@ impl<'a> Picture<'a> {
         let words = Histogram {
             title: format!("How far the {}s reach", self.input.thing()),
             axis: match items {
-                Items::Points => "|F(x − c)|: 0 at the centre, 1 on the border",
+                Items::Points => "|F(x − c)|: 0 at the center, 1 on the border",
                 Items::Balls | Items::Ellipsoids => "largest |F(x − c)|: 1 on the border",
             },
             border: ("border", "border".into()),

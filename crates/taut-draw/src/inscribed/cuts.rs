@@ -1,4 +1,4 @@
-//! A polytope of more than three dimensions: cuts through the centre of the ellipsoid, and how near the half-spaces come.
+//! A polytope of more than three dimensions: cuts through the center of the ellipsoid, and how near the half-spaces come.
 
 use super::clip::{Polygon, polygon};
 use super::{ELLIPSOID, Picture};
@@ -51,7 +51,7 @@ impl Picture<'_> {
             layer(ELLIPSOID, Tone::Answer, Shape2::Polygons(ellipses)),
         ];
         let caption = format!(
-            "{} Cuts through the centre along pairs of coordinates, each scaled to fill its panel; on the diagonal, \
+            "{} Cuts through the center along pairs of coordinates, each scaled to fill its panel; on the diagonal, \
              the range of the coordinate over the ellipsoid.{}",
             self.caption(is_whole),
             choice(&chosen, self.dim(), "in which the ellipsoid is tilted most"),
@@ -68,7 +68,7 @@ impl Picture<'_> {
             list.push([(place + 1) as f64, side.distance]);
         }
         let caption = format!(
-            "{} The distance of a half-space from the centre is counted in the metric of the ellipsoid.",
+            "{} The distance of a half-space from the center is counted in the metric of the ellipsoid.",
             self.nearness()
         );
         let axes = ["half-spaces, the nearest first", "distance: 1 touches"].map(Axis::named);

@@ -1,6 +1,6 @@
 //! Figures of the largest ellipsoid inside a polytope.
 //!
-//! *Idea.* In the plane and in space polytope and ellipsoid are drawn as they are. Beyond, the planes through the centre
+//! *Idea.* In the plane and in space polytope and ellipsoid are drawn as they are. Beyond, the planes through the center
 //! along pairs of coordinates cut both of them: unlike shadows, such cuts of a polytope need its half-spaces alone. Beside them
 //! stands how near each half-space comes.
 //! *Guarantee.* The half-spaces are read once; what is left out is counted in the caption.
@@ -22,7 +22,7 @@ use crate::scene::{Layer, Mark, Marks, Scene};
 use crate::{DrawOptions, Error, Figure, Look, Tone};
 
 /// Pictures of an ellipsoid in a polytope, whose half-spaces are the rows of `source`: the plane for d ≤ 2, space for
-/// d = 3, cuts through the centre and the distances of the half-spaces beyond; then bounds and gap by stage, where the
+/// d = 3, cuts through the center and the distances of the half-spaces beyond; then bounds and gap by stage, where the
 /// trace has them.
 ///
 /// # Errors
@@ -73,7 +73,7 @@ fn check(solution: &Solution<InscribedEllipsoid>, source: &dyn PointSource) -> R
     }
     agree("number of multipliers", certificate.support.len(), certificate.multipliers.len())?;
     all_there("number of half-spaces", &certificate.support, source.len())?;
-    let numbers = (ellipsoid.center.iter().map(|v| ("a coordinate of the centre", v)))
+    let numbers = (ellipsoid.center.iter().map(|v| ("a coordinate of the center", v)))
         .chain(ellipsoid.axes.iter().flatten().map(|v| ("an entry of the axes", v)))
         .chain(certificate.multipliers.iter().map(|v| ("a multiplier", v)));
     all_finite(numbers)
@@ -116,7 +116,7 @@ impl Picture<'_> {
         center.iter().zip(axes).map(|(c, row)| c + along(row)).collect()
     }
 
-    /// Polytope, ellipsoid, where half-spaces touch it, and its centre.
+    /// Polytope, ellipsoid, where half-spaces touch it, and its center.
     fn scene(&self) -> Scene<'_> {
         let (dim, options) = (self.dim(), self.options);
         let (polytope, is_whole) = self.polytope();

@@ -127,7 +127,7 @@ impl Side {
         let wide = length(&seen);
         let distance = slack / wide;
         if !distance.is_finite() {
-            let what = format!("distance of half-space {id} from the centre, in half axes,");
+            let what = format!("distance of half-space {id} from the center, in half axes,");
             return Err(Error::NonFinite { what, value: distance });
         }
         seen.iter_mut().for_each(|v| *v /= wide);

@@ -30,7 +30,7 @@ pub(crate) struct Raster {
     near: Vec<f32>,
     /// How light it is there, 0 to 255.
     light: Vec<u8>,
-    /// The number of its colours.
+    /// The number of its colors.
     ink: Vec<u8>,
     /// Its number.
     owner: Vec<u32>,
@@ -151,7 +151,7 @@ impl Raster {
             let mut last = facet.owner;
             self.scan(facet, |raster, sample, near, _| {
                 let nearest = raster.owner[sample];
-                // Neighbouring samples mostly say the same.
+                // Neighboring samples mostly say the same.
                 if nearest != last && raster.near[sample] > near + difference {
                     last = nearest;
                     pairs.push([facet.owner, nearest]);

@@ -1,7 +1,7 @@
 //! One builder of scenes for every answer that is made of bodies, around items or inside half-spaces.
 //!
 //! *Idea.* An answer names its layers once, in the coordinates of its points: bodies (balls of one radius, or an ellipsoid),
-//! items, marks and centres. A view turns each layer into shapes of the plane or of space: an interval, the plane, space, a
+//! items, marks and centers. A view turns each layer into shapes of the plane or of space: an interval, the plane, space, a
 //! projection on two directions, or a panel for each pair of coordinates.
 
 mod histogram;
@@ -62,7 +62,7 @@ pub(crate) enum Marks<'a> {
     Items(Group),
     /// Points that decide the answer.
     Points(Vec<Mark>),
-    /// Centres.
+    /// Centers.
     Crosses(&'a [Vec<f64>]),
     /// Shapes of a picture of the plane, drawn as they are.
     Plane(Shape2),
@@ -116,7 +116,7 @@ impl<'a> Layer<'a> {
     }
 
     pub(crate) fn centers(centers: &'a [Vec<f64>]) -> Self {
-        let name = if centers.len() == 1 { "centre" } else { "centres" };
+        let name = if centers.len() == 1 { "center" } else { "centers" };
         Layer::new(name, Tone::Ink, Look::Solid, Marks::Crosses(centers))
     }
 

@@ -1,7 +1,7 @@
 //! Figures of surfaces through points of space.
 //!
 //! *Idea.* One scene to turn by hand and one sheet of fixed views hold the same: the surface with a tint for either side, its
-//! boundary in an accent colour, edges of more than two triangles, and the points that no triangle uses. A triangle that is turned
+//! boundary in an accent color, edges of more than two triangles, and the points that no triangle uses. A triangle that is turned
 //! over, and what is seen through a hole, show the tint of the back.
 //! *Guarantee.* Every triangle is drawn, whatever their number. Of unused points at most [`DrawOptions::max_points`] are, an even
 //! sample, and the caption says so.

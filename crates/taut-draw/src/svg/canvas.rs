@@ -142,7 +142,7 @@ impl Canvas {
         }
     }
 
-    /// A closed chain with a colour of its own.
+    /// A closed chain with a color of its own.
     pub(super) fn polygon(&mut self, places: &[[f64; 2]], [r, g, b]: [u8; 3]) {
         let _ = write!(self.body, "<path fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"");
         for (i, place) in places.iter().enumerate() {
@@ -182,7 +182,7 @@ impl Canvas {
             write!(self.body, "<text class=\"{class}\" x=\"{x}\" y=\"{y}\"{anchor}>{text}</text>");
     }
 
-    /// A word that reads upwards, centred on its place.
+    /// A word that reads upwards, centerd on its place.
     pub(super) fn text_upwards(&mut self, at: [f64; 2], class: &str, text: &str) {
         let [x, y] = at.map(px);
         let text = escape(text);

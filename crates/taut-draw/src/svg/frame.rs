@@ -8,9 +8,9 @@ use crate::{Axis, Look, Theme, Tone};
 /// How much stands around the marks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Chrome {
-    /// A document of its own: ground, colours, title and caption.
+    /// A document of its own: ground, colors, title and caption.
     Full(Theme),
-    /// A part of a page, which has its own colours, titles and captions.
+    /// A part of a page, which has its own colors, titles and captions.
     Bare,
 }
 

@@ -1,6 +1,6 @@
 //! Figures as SVG.
 //!
-//! *Idea.* Marks carry classes that name their meaning; colours come from a style sheet, inside the document where
+//! *Idea.* Marks carry classes that name their meaning; colors come from a style sheet, inside the document where
 //! it stands alone, of the page where it is part of one.
 //! *Guarantee.* Every number written is finite; text from outside is escaped; the same figure gives the same bytes.
 //! *Trap.* Marks that are not finite cannot be placed: they are left out, so check data before it comes here.

@@ -110,10 +110,10 @@ impl Cover {
 
         let theme = match chrome {
             Chrome::Full(theme) => theme,
-            // The page's own colours change with the screen; those of an image cannot.
+            // The page's own colors change with the screen; those of an image cannot.
             Chrome::Bare => Theme::Light,
         };
-        // Two inks for each surface; a scene of more than 127 opaque surfaces has the last colours for the others.
+        // Two inks for each surface; a scene of more than 127 opaque surfaces has the last colors for the others.
         let inks: Vec<Ramp> =
             solids.iter().take(127).flat_map(|s| s.tones).map(|tone| ramp(theme, tone)).collect();
         let mut raster = Raster::new(width * across, height * across);

@@ -154,7 +154,7 @@ fn marks(canvas: &mut Canvas, layer: &Layer2, x: &Span, y: &Span, axes: [&Axis; 
             canvas.open(&classes, &format!("data-layer=\"points\" fill-opacity=\"{opacity}\""));
             for point in points.iter().filter(|p| finite(&p.at)) {
                 let at = place(&point.at);
-                // A title for each of many points would double the document; labelled ones are few.
+                // A title for each of many points would double the document; labeled ones are few.
                 let words = if point.label.is_empty() {
                     String::new()
                 } else {

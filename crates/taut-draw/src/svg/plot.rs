@@ -71,7 +71,7 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
                 &format!("f-{}", bar.tone.name()),
                 "data-layer=\"bars\" fill-opacity=\"0.55\"",
             );
-            // Half a pixel at each side keeps neighbours apart.
+            // Half a pixel at each side keeps neighbors apart.
             let inset = ((right - left).abs() / 4.0).min(0.5);
             canvas.rect([left.min(right) + inset, top], [left.max(right) - inset, room.bottom]);
             canvas.close();

@@ -8,7 +8,7 @@ use taut_draw::{
 };
 use taut_points::{Distribution, Monitor, Points, generate, hash_points};
 
-/// An answer written by hand, so that these tests depend on no solver: F about a centre.
+/// An answer written by hand, so that these tests depend on no solver: F about a center.
 fn solution(
     values: &[f64],
     columns: usize,

@@ -1,12 +1,12 @@
 //! Minimum enclosing ball by steps to the farthest point, and nothing else: Algorithm 10 of the thesis.
 //!
 //! *Problem.* As [`super::core_set`].
-//! *Idea.* Move the centre a shrinking part β of the way to the point that reaches farthest: c ← c + β(p − c), from the
+//! *Idea.* Move the center a shrinking part β of the way to the point that reaches farthest: c ← c + β(p − c), from the
 //! middle of the pair (q, q′) with β = 1/(i + 2), i = 3, 4, …
 //! *Multipliers.* The step to an item of X is λ ← (1 − β)λ + βe, so c stays a convex combination of the points visited
 //! and proves a lower bound at every step. For points the bound changes to r² ← (1 − β)(r² + βD²), D the farthest
 //! distance; it may fall, as β does not ask what would be best.
-//! *Balls.* The farthest point of a ball lies beyond its centre cᵢ: the step to it is a step to cᵢ by βD/(D − rᵢ).
+//! *Balls.* The farthest point of a ball lies beyond its center cᵢ: the step to it is a step to cᵢ by βD/(D − rᵢ).
 //! Where that would go past cᵢ it ends at cᵢ, which keeps λ convex.
 //! *Guarantee.* R ≤ (1 + ε)·R* after 1/ε² steps of O(nd). The steps end as soon as the multipliers prove the gap, or
 //! with the budget of passes; the trace says what was reached.
@@ -22,7 +22,7 @@ use super::working_set::WorkingSet;
 use crate::Error;
 use crate::scan::Scan;
 
-/// A centre on its way: multipliers over the items visited.
+/// A center on its way: multipliers over the items visited.
 pub(super) struct Walk {
     pub(super) set: WorkingSet,
     pub(super) lambda: Vec<f64>,

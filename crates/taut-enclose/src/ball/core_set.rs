@@ -1,6 +1,6 @@
 //! Minimum enclosing ball by batches of far points and an exact active set: the default method.
 //!
-//! *Problem.* Items (points, or balls with centre cᵢ and radius rᵢ): find c that minimises R(c) = maxᵢ |c − cᵢ| + rᵢ.
+//! *Problem.* Items (points, or balls with center cᵢ and radius rᵢ): find c that minimizes R(c) = maxᵢ |c − cᵢ| + rᵢ.
 //! *Idea.* Each pass over all items brings the m that reach farthest beyond the current ball to a working set; the
 //! exact ball of the working set ([`super::active_set`]) is the next ball. With m of 16 to 128 rather than 1, three
 //! to five passes are enough on ordinary data, and the last of them finds nothing outside: exact costs no more than ε.
@@ -11,7 +11,7 @@
 //! *Guarantee.* The lower bound grows with every pass that adds an item, so the method ends; it stops at
 //! R ≤ (1 + ε)·r, or when no item violates the ball beyond rounding.
 //! *Trap.* Thousands of near-copies of one far point fill a batch and teach nothing: when few of a batch enter the
-//! support, the next pass takes at most two per face of the cube around the centre. Doing so always would cost twice
+//! support, the next pass takes at most two per face of the cube around the center. Doing so always would cost twice
 //! the passes on cube vertices. When most of a batch enters, the support is large, and the batch is doubled.
 //! *Measured.* Starting from a sample, dropping points that provably stay inside, and caching distances were each
 //! tried and each cost more than they saved: so few points are ever scanned again that nothing is left to save.

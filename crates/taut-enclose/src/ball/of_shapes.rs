@@ -3,7 +3,7 @@
 //! *Problem.* Items {m + v : vv′ ⪯ S}: the ball of least radius that encloses them all.
 //! *Idea.* It is the ball of the points of all items. The working set holds some of these points, each known by its item
 //! and a direction; its exact ball is that of the default method for points ([`active_set`](super::active_set)); a pass
-//! asks every item for its farthest point from the centre ([`reach`]), and those outside join the set.
+//! asks every item for its farthest point from the center ([`reach`]), and those outside join the set.
 //! *Guarantee.* Lower bounds never fall; it stops at R ≤ (1 + ε)·r. The axes of an item do not change from pass to pass:
 //! they are found once, in O(d³), and a pass costs O(d²) for each item and a few steps of O(d).
 //! *Trap.* Where an item touches in a circle, any point of it is farthest: so an item names several points at once.
@@ -31,9 +31,9 @@ const BATCH: usize = 4;
 const NEAR_POINT_RATIO: f64 = 0.1;
 /// This many passes without a better gap show that rounding is in the way.
 const STALE_PASSES_MAX: u32 = 4;
-/// Items that reach this near the border, relatively, are measured again from the centre as it is returned.
+/// Items that reach this near the border, relatively, are measured again from the center as it is returned.
 const BORDER_TOLERANCE: f64 = 1e-8;
-/// A centre beyond this many radii is kept in two terms.
+/// A center beyond this many radii is kept in two terms.
 const FAR_OFF: f64 = 8.0;
 
 /// A point of an item by its direction.
@@ -202,7 +202,7 @@ fn add(
     set.add(&ids, &rows, false);
 }
 
-/// Asks every item for its farthest point from a centre.
+/// Asks every item for its farthest point from a center.
 fn pass(
     framed: &Framed,
     axes: &[Axes],
@@ -254,7 +254,7 @@ fn seed(axes: &Axes, direction: &[f64]) -> Vec<f64> {
     rows.zip(&axes.squares).map(|(v, l)| l.max(0.0).sqrt() * dot(v, direction)).collect()
 }
 
-/// Both bounds again, from the centre as it is returned.
+/// Both bounds again, from the center as it is returned.
 fn prove(
     shapes: &Shapes,
     origin: &Center,
@@ -318,7 +318,7 @@ fn prove(
     Ok(Solution { answer, certificate, trace })
 }
 
-/// The centre in the space of the items; in two terms where rounding it to one could be seen.
+/// The center in the space of the items; in two terms where rounding it to one could be seen.
 fn settled(origin: &Center, scale: f64, center: &[f64], radius: f64) -> Center {
     let terms: Vec<DoubleDouble> =
         origin.high.iter().zip(center).map(|(&o, &c)| DoubleDouble::sum(o, c * scale)).collect();

@@ -1,4 +1,4 @@
-//! What a method hands over to be proved: the best centre so far, its multipliers, and what the pass from it found.
+//! What a method hands over to be proved: the best center so far, its multipliers, and what the pass from it found.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use crate::kernel::Center;
 use crate::scan::{Found, Scan};
 use crate::top::Far;
 
-/// A centre with its multipliers, and the pass that was made from it.
+/// A center with its multipliers, and the pass that was made from it.
 pub(super) struct Candidate {
     pub(super) support: Vec<u64>,
     pub(super) lambda: Vec<f64>,
@@ -38,7 +38,7 @@ impl Outcome {
         }
     }
 
-    /// All items are one point: it is the centre.
+    /// All items are one point: it is the center.
     pub(super) fn single(scan: &Scan<'_>, id: u64) -> Result<Self, crate::Error> {
         let center = Center { high: scan.rows(&[id])?[..scan.dim()].to_vec(), low: vec![] };
         let found = Found {

@@ -1,6 +1,6 @@
 //! From a method's outcome to an answer with a certificate: both bounds again, from the items and multipliers alone.
 //!
-//! *Upper.* The pass from the returned centre gives every reach to a known relative error. The items that could reach
+//! *Upper.* The pass from the returned center gives every reach to a known relative error. The items that could reach
 //! farthest are measured again in double-double, and the radius is rounded up from the largest; where more items are
 //! cospherical than a pass lists, the error bound of the pass is added instead.
 //! *Lower.* r² = Σ λᵢ|pᵢ − c|² − |c − Σ λᵢpᵢ|² with Σλ = 1, in double-double; for balls the bound of
@@ -81,7 +81,7 @@ fn unscale_up(value: f64, scale: f64) -> f64 {
     if unscaled * scale < value { unscaled.next_up() } else { unscaled }
 }
 
-/// The centre as it will be returned, in the units of the source. Where it is not the one the pass was made from, as
+/// The center as it will be returned, in the units of the source. Where it is not the one the pass was made from, as
 /// subnormal coordinates and points far from the origin of a scaled scan round it, one more pass is made from it.
 fn settle_center(scan: &mut Scan<'_>, best: &mut Candidate) -> Result<Center, Error> {
     let outside = scan.outside(&best.center);
@@ -110,7 +110,7 @@ fn sort_by_id(best: &mut Candidate) {
 /// Rows that are measured together: fixed, so that sums do not depend on threads.
 const ROWS_AT_ONCE: usize = 16;
 
-/// Items measured from the returned centre in double-double; in the units of the scan.
+/// Items measured from the returned center in double-double; in the units of the scan.
 struct Measurement {
     items: Vec<Measured>,
     /// Σ wᵢ(cᵢ − c), coordinate by coordinate.
@@ -171,7 +171,7 @@ impl Measurement {
     }
 }
 
-/// The smallest radius from the centre, rounded up, that is proved to hold all items.
+/// The smallest radius from the center, rounded up, that is proved to hold all items.
 fn upper_bound(
     scan: &Scan<'_>,
     best: &Candidate,
@@ -199,7 +199,7 @@ fn upper_bound(
 }
 
 impl Measured {
-    /// An item at this difference from the centre, of the given radius before scaling.
+    /// An item at this difference from the center, of the given radius before scaling.
     fn new(difference: &Difference, given: f64, scale: f64) -> Self {
         let squared = difference.squared();
         let r = given * scale;
@@ -241,7 +241,7 @@ fn lower_bound(weights: &[DoubleDouble], support: &Measurement) -> DoubleDouble 
         let spread = DoubleDouble::from(item.r).sub(mean).square();
         inner = inner.add(w.mul(item.squared.sub(spread)));
     }
-    // What the returned centre, being rounded, lies beside the one the multipliers mean.
+    // What the returned center, being rounded, lies beside the one the multipliers mean.
     let inner = support.beside.iter().fold(inner, |inner, sum| inner.sub(sum.square()));
     let bound = mean.add(inner.sqrt());
     // No ball is smaller than one it holds.

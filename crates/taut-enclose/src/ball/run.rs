@@ -1,6 +1,6 @@
 //! What the methods of the thesis share: where they start, and the pass from a convex combination with its bounds.
 //!
-//! A combination λ over a set X of items is a centre c = Σ λᵢcᵢ. It proves a lower bound on R* by itself, and one pass
+//! A combination λ over a set X of items is a center c = Σ λᵢcᵢ. It proves a lower bound on R* by itself, and one pass
 //! from c gives the upper bound and the item that reaches farthest, which is all these methods ask of a pass.
 
 use taut_certify::{Items, PassBounds, Stop};
@@ -27,7 +27,7 @@ pub(super) struct Look {
     pub(super) farthest: u64,
     /// How far it reaches: the radius that encloses all items.
     pub(super) upper: f64,
-    /// The radius that encloses X from this centre.
+    /// The radius that encloses X from this center.
     #[cfg(feature = "conic")]
     pub(super) held: f64,
     /// The lower bound on R* that λ proves.
@@ -84,7 +84,7 @@ impl<'s, 'a> Run<'s, 'a> {
             .fold(lower_bound(set, &support, &weights), f64::max);
 
         let center = match support[..] {
-            // One item is its own centre, to the last bit.
+            // One item is its own center, to the last bit.
             [only] => {
                 let row = self.scan.rows(&[set.id(only)])?;
                 Center { high: row[..self.scan.dim()].to_vec(), low: vec![] }
@@ -152,7 +152,7 @@ pub(super) fn diameter_pair(run: &mut Run<'_, '_>) -> Result<Start, Error> {
         return Ok(Start::Done(Stop::Converged, set));
     }
     if set.contains(from_q.farthest) {
-        // A ball that reaches beyond all others even from its own centre is the answer, to rounding.
+        // A ball that reaches beyond all others even from its own center is the answer, to rounding.
         return Ok(Start::Done(Stop::Rounding, set));
     }
     run.add(&mut set, from_q.farthest)?;

@@ -1,4 +1,4 @@
-//! From centres in the units of the search to an answer in those of the rows: every reach once more, from the centres as they are
+//! From centers in the units of the search to an answer in those of the rows: every reach once more, from the centers as they are
 //! returned.
 
 use super::cloud::{Cloud, Far};
@@ -11,7 +11,7 @@ use crate::frame::exponent;
 use crate::kernel::{Center, Difference, relative_error};
 
 /// At most this many items that may reach as far as the farthest are measured exactly: mostly two or three for each of
-/// some centres.
+/// some centers.
 const MEASURED_ITEMS_MAX: usize = 64;
 /// Squares of distances below this have lost digits.
 const SQUARE_MIN: f64 = 1e-140;
@@ -25,7 +25,7 @@ pub(super) struct Answered {
     pub(super) assignment: Vec<u32>,
 }
 
-/// Measures everything from these centres, of which those that are nearest to nothing are left away.
+/// Measures everything from these centers, of which those that are nearest to nothing are left away.
 pub(super) fn answer<P: Position>(
     table: &Table,
     cloud: &Cloud<P>,
@@ -86,7 +86,7 @@ pub(super) fn answer<P: Position>(
     Ok(Answered { centers: outside, radius, outliers, assignment: numbers })
 }
 
-/// How far an item reaches from the nearest centre, in the units of the rows: the larger of what is exact, rounded up, and what
+/// How far an item reaches from the nearest center, in the units of the rows: the larger of what is exact, rounded up, and what
 /// plain `f64` says.
 fn reach<P: Position>(
     table: &Table,
@@ -101,7 +101,7 @@ fn reach<P: Position>(
             let reach = |j: usize| length(position, inside[j].as_ref());
             reach(a).total_cmp(&reach(b))
         })
-        .expect("there is a centre");
+        .expect("there is a center");
     let row = table.rows.row(cloud.rows[item as usize] as usize);
     let (place, extra) = row.split_at(table.rows.dim);
     let (weight, radius) = match table.rows.shape {

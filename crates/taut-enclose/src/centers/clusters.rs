@@ -1,4 +1,4 @@
-//! A part of a colouring: items of the core-set in k clusters, and what each further item would do to each of them.
+//! A part of a coloring: items of the core-set in k clusters, and what each further item would do to each of them.
 //!
 //! *State.* The core-set X; clusters 1…used, each with its items, their exact ball, and its guests: the items of X that fit into
 //! it, with the radius of the ball with each, which is below the threshold; which items are left out.

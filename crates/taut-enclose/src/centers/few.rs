@@ -1,4 +1,4 @@
-//! Points at so few places that each has a centre of its own.
+//! Points at so few places that each has a center of its own.
 //!
 //! *Trap.* Places are told apart by their coordinates: squares of distances may vanish where coordinates differ.
 
@@ -13,7 +13,7 @@ use super::CentersOptions;
 use super::item_rows::ItemRows;
 use super::nearest::nearest;
 
-/// A centre for each place, but for places that are left out with all their rows.
+/// A center for each place, but for places that are left out with all their rows.
 pub(super) struct Few {
     centers: Vec<Vec<f64>>,
     /// The first row at each.
@@ -23,7 +23,7 @@ pub(super) struct Few {
 }
 
 impl Few {
-    /// Of points; none where k centres leave more than z of them out.
+    /// Of points; none where k centers leave more than z of them out.
     pub(super) fn of(points: &ItemRows, k: usize, z: usize) -> Option<Self> {
         if !points.are_points() {
             return None;

@@ -36,7 +36,7 @@ impl Position for Vec<f64> {
     }
 }
 
-/// What an item is, and so how far it reaches from a centre at distance D.
+/// What an item is, and so how far it reaches from a center at distance D.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shape {
     /// A point: D.
@@ -123,7 +123,7 @@ impl<P: Position> ItemSet<P> {
         if self.shape == Shape::Points { 0.0 } else { self.extras[item] }
     }
 
-    /// How far an item reaches from a centre at this distance.
+    /// How far an item reaches from a center at this distance.
     #[inline(always)]
     pub(super) fn reach_at(&self, item: usize, distance: f64) -> f64 {
         match self.shape {
@@ -133,7 +133,7 @@ impl<P: Position> ItemSet<P> {
         }
     }
 
-    /// How far an item reaches from a centre.
+    /// How far an item reaches from a center.
     #[inline(always)]
     pub(super) fn reach(&self, item: usize, center: &P) -> f64 {
         self.reach_at(item, square(self.at(item), center.as_ref()).sqrt())

@@ -1,19 +1,19 @@
-//! What can be asked of centres.
+//! What can be asked of centers.
 
 use taut_certify::{Items, Placement};
 use taut_points::{InputError, Monitor, check_threads, choice, shown_number};
 
 use crate::{CoverOptions, Error};
 
-/// How to look for centres.
+/// How to look for centers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CentersMethod {
-    /// A tree over a small growing core-set, to any proved gap; for centres among the points, covers by their balls.
+    /// A tree over a small growing core-set, to any proved gap; for centers among the points, covers by their balls.
     #[default]
     Tree,
     /// The algorithm of the thesis (Algorithm 2), with a bound that is valid in place of its own: each item that is
-    /// farthest from all balls is given to each of them in turn. Free centres of points or balls, without weights and outliers.
+    /// farthest from all balls is given to each of them in turn. Free centers of points or balls, without weights and outliers.
     Thesis,
     /// Farthest-first traversal (Gonzalez 1985): at most twice the optimal radius, in O(nkd) for any n and d. Balls, points
     /// with weights and sets with outliers are held in memory and gone through 2k + z + d times; with weights or outliers
@@ -26,7 +26,7 @@ pub enum CentersMethod {
 
 choice! { "method", CentersMethod {
     Tree = "tree", "a tree over a small growing core-set: the best";
-    Thesis = "thesis", "Algorithm 2, with a bound that holds; free centres, no weights, no outliers";
+    Thesis = "thesis", "Algorithm 2, with a bound that holds; free centers, no weights, no outliers";
     FarthestFirst = "farthest-first",
         "at most twice the least radius, whatever --epsilon says; for any k, fast";
     Stream(CoverOptions::DEFAULT) = "stream",
@@ -34,7 +34,7 @@ choice! { "method", CentersMethod {
          not held in memory; no balls, weights, outliers or assignment";
 }}
 
-/// How to look for centres. Write `CentersOptions { epsilon: 1e-6, ..Default::default() }`.
+/// How to look for centers. Write `CentersOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CentersOptions<'a> {
     /// What the rows are: points or balls. Default [`Items::Points`].
@@ -44,18 +44,18 @@ pub struct CentersOptions<'a> {
     pub epsilon: f64,
     /// Default [`CentersMethod::Tree`].
     pub method: CentersMethod,
-    /// Where centres may be. Default [`Placement::Free`].
+    /// Where centers may be. Default [`Placement::Free`].
     pub placement: Placement,
     /// Most items that may be left out. Default 0.
     pub outliers: u64,
     /// Whether the last column holds weights w > 0: a point then counts with w times its distance. Default no.
     pub weights: bool,
-    /// Most nodes of the search; then the best centres so far are returned with their gap. A node with k clusters beside a
+    /// Most nodes of the search; then the best centers so far are returned with their gap. A node with k clusters beside a
     /// core-set of m items in d dimensions counts once more for each 20,000 of kmd; a search ends up to some hundred nodes
     /// before the last. Writing down the proof may take trees of twenty times the nodes of the search, and 10,000; where it
     /// takes more, the bound before is proved. Default 10 million.
     pub max_nodes: u64,
-    /// Whether the answer is to say which centre each item has. Default no.
+    /// Whether the answer is to say which center each item has. Default no.
     pub assignment: bool,
     /// Threads, 1 to 1024; `None` for those of the surrounding pool. The answer does not depend on it.
     pub threads: Option<usize>,

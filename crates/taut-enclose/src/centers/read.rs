@@ -1,6 +1,6 @@
 //! Rows as items, about an origin near them and in units in which squares neither overflow nor vanish.
 //!
-//! *Idea.* A centre has no more digits than its coordinates, which are few where all rows are far from the origin. A column whose
+//! *Idea.* A center has no more digits than its coordinates, which are few where all rows are far from the origin. A column whose
 //! values differ by little is therefore moved by the least of them, which is exact: both are within a factor of 2 (Sterbenz).
 //! *Guarantee.* Moved and scaled rows are the rows, without rounding; what cannot be is refused.
 

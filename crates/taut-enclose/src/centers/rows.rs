@@ -1,13 +1,13 @@
-//! k centres among the rows: the discrete k-center problem, to a proved gap, down to 0.
+//! k centers among the rows: the discrete k-center problem, to a proved gap, down to 0.
 //!
-//! *Problem.* Of n items in ℝᵈ choose k rows as centres, and up to z items to leave out, such that the largest reach of an
-//! item from the nearest centre is least: w·|p − c| for points, |m − c| + r for balls.
+//! *Problem.* Of n items in ℝᵈ choose k rows as centers, and up to z items to leave out, such that the largest reach of an
+//! item from the nearest center is least: w·|p − c| for points, |m − c| + r for balls.
 //! *Idea.* The optimum is one of the n² reaches between rows. Farthest-first traversals bracket it ([`start`]). For a radius
 //! between the bounds, each item has the set of rows within it, and a cluster is what such sets have in common; a tree
 //! over a few items X either finds that no k clusters hold X, which raises the lower bound to the next reach of X, or
-//! centres that hold all ([`search`]). The bracket is halved until it is narrow; then the radius wanted is tried at once.
+//! centers that hold all ([`search`]). The bracket is halved until it is narrow; then the radius wanted is tried at once.
 //! *Guarantee.* For ε = 0 no k rows have a smaller radius, as reaches are evaluated in `f64`. The bound given is lower by a
-//! relative 1e-12, which is more than rounding. When the nodes are used up, the best centres and the best bound so far.
+//! relative 1e-12, which is more than rounding. When the nodes are used up, the best centers and the best bound so far.
 //! *Cost.* O(nd) for each item of X and each radius, O(nkd) for each cover that is measured; nodes exponential in k and z.
 //! Memory: all rows, and n|X|/8 bytes.
 //! *Trap.* "Less than the radius", everywhere: at the optimum itself there is a cover.
@@ -56,7 +56,7 @@ fn proved(radius: f64, sites: &Sites) -> f64 {
     claimed(radius * (1.0 - rounding(sites)), 1.0)
 }
 
-/// At most k rows as centres of all items but `options.outliers` of them.
+/// At most k rows as centers of all items but `options.outliers` of them.
 pub(super) fn solve(
     rows: ItemRows,
     items: Items,
@@ -66,7 +66,7 @@ pub(super) fn solve(
 ) -> Result<Solution<Centers>, Error> {
     let sites = Sites::of(rows);
     let outliers = options.outliers as usize;
-    // More centres than rows are of no use.
+    // More centers than rows are of no use.
     let mut bracket = Bracket::new(&sites, k.min(sites.len()), outliers, options, monitor)?;
     if !bracket.incumbent.radius.is_finite() {
         return Err(Error::Overflow);
@@ -266,7 +266,7 @@ impl<'a> Bracket<'a> {
     }
 }
 
-/// The centres as they are returned: by row, each once, with a radius that holds as anybody may evaluate it.
+/// The centers as they are returned: by row, each once, with a radius that holds as anybody may evaluate it.
 fn answer(
     sites: &Sites,
     incumbent: &Incumbent,

@@ -4,10 +4,10 @@
 //! *Idea.* The item farthest from all balls is given to each of them in turn, the nearest ball first. σ is the best radius so far; a
 //! branch ends when one of its balls has a radius of σ/(1 + ε) or more.
 //! *Guarantee.* Radius ≤ (1 + ε)·σ*.
-//! *Departures.* The thesis ends a branch when the item is farther than σ from the centre of the ball that it is to join. That is
-//! not valid, as the centre moves: at distance D from the centre of a smallest ball of radius r < D, the new radius is at least
+//! *Departures.* The thesis ends a branch when the item is farther than σ from the center of the ball that it is to join. That is
+//! not valid, as the center moves: at distance D from the center of a smallest ball of radius r < D, the new radius is at least
 //! (D² + r²)/2D and may be as small as that. That bound is asked first, then the ball is made. The index in line 10 of the algorithm
-//! should be j. Of the balls that are still empty, only the first is tried, as all are the same. The radius from the centres of
+//! should be j. Of the balls that are still empty, only the first is tried, as all are the same. The radius from the centers of
 //! each node is a bound on σ*, not only that of the leaves.
 //! *Reference.* Thesis, section 2.5.
 
@@ -34,7 +34,7 @@ struct Frame<P> {
     undo: Option<(usize, Option<Ball<P>>)>,
 }
 
-/// Solves to a gap of `epsilon`, from the centres of a traversal.
+/// Solves to a gap of `epsilon`, from the centers of a traversal.
 pub(super) fn solve<P: Position>(
     cloud: &Cloud<P>,
     plain: Incumbent<P>,
@@ -113,7 +113,7 @@ pub(super) fn solve<P: Position>(
     })
 }
 
-/// The clusters that p can join, the nearest centre first.
+/// The clusters that p can join, the nearest center first.
 fn branch<P: Position>(
     cloud: &Cloud<P>,
     clusters: &[Cluster<P>],

@@ -1,9 +1,9 @@
-//! Free centres to any proved gap: one depth-first tree over a small growing core-set.
+//! Free centers to any proved gap: one depth-first tree over a small growing core-set.
 //!
 //! *Problem.* Items, k and z: k balls of the least equal radius σ* that hold all items but z.
-//! *Idea.* Colour a core-set X with k colours so that no colour needs a ball of radius τ = σ/(1 + ε) or more, σ being the best
+//! *Idea.* Color a core-set X with k colors so that no color needs a ball of radius τ = σ/(1 + ε) or more, σ being the best
 //! radius so far. Where that is impossible, τ is a lower bound. Where it succeeds, the balls are looked at from all items: σ may
-//! get smaller, and the farthest item joins X. The item with the fewest colours left is coloured next ([`super::clusters`]).
+//! get smaller, and the farthest item joins X. The item with the fewest colors left is colored next ([`super::clusters`]).
 //! ε comes down in steps, 0.1, 0.05, …: each step that ends has proved a gap, and leaves a better σ and X to the next.
 //! *Restarts.* An early choice on a small X may be a poor one: while X grows, the tree starts anew after 200 nodes, then 400, ….
 //! *Threads.* A tree that is not small is cut into up to [`WALK_COUNT`] walks ([`super::walk`]), which go on side by side for [`NODES_PER_ROUND`] nodes
@@ -14,7 +14,7 @@
 //! *Trap.* A threshold is a bound only when the tree for it has ended; that of a step under way says nothing.
 //! *Evidence.* On 15,112 cities: adding all items outside at once makes X twice as large and the tree up to five times;
 //! dropping items that did not help for some restarts makes it 1.8 to 3.5 times as large.
-//! Steps by a factor of 0.3 take 1.5 to 2 times as long as by 0.5 for 10 to 15 centres of cities, and less for 10 in space.
+//! Steps by a factor of 0.3 take 1.5 to 2 times as long as by 0.5 for 10 to 15 centers of cities, and less for 10 in space.
 //! *Reference.* The tree extends Algorithm 2 of the thesis (section 2.5); the choice of items is that of Brélaz, Comm. ACM 22, 1979.
 
 use std::collections::HashSet;
@@ -34,13 +34,13 @@ const FIRST_GAP: f64 = 0.1;
 const NEXT_GAP: f64 = 0.5;
 /// The first gap, however little is known; half of infinity would never end.
 const WIDEST_GAP: f64 = 1e6;
-/// Once a step below this leaves the centres as they are, the next is the last.
+/// Once a step below this leaves the centers as they are, the next is the last.
 const LAST_BUT_ONE: f64 = 0.03;
 /// Nodes before the first restart.
 const FIRST_RUN: u64 = 200;
 /// A tree with more nodes is cut.
 const UNCUT_NODES_MAX: u64 = 4000;
-/// This many walks go side by side, enough to keep the cores of a large machine busy. On 11 to 15 centres of cities 16
+/// This many walks go side by side, enough to keep the cores of a large machine busy. On 11 to 15 centers of cities 16
 /// to 32 of them, and 500 to 1000 nodes of each, serve equally well: a tree has about as many nodes as without cuts,
 /// and no fewer with shorter rounds.
 const WALK_COUNT: usize = 24;

@@ -21,7 +21,7 @@ use super::items::Position;
 use super::start::{Incumbent, improve};
 use crate::Error;
 
-/// Centres whose radius is this near to the best are worth Lloyd's steps, and those within the gap that is sought.
+/// Centers whose radius is this near to the best are worth Lloyd's steps, and those within the gap that is sought.
 const WORTH_IMPROVING: f64 = 1.01;
 /// So many coordinates, of the items beside each cluster, count as a node.
 const NODE_COORDINATES: usize = 20_000;
@@ -223,7 +223,7 @@ impl<'c, P: Position> Walk<'c, P> {
         }
     }
 
-    /// All items, seen from the centres of clusters that hold the core-set. False where that ends the branch.
+    /// All items, seen from the centers of clusters that hold the core-set. False where that ends the branch.
     fn look(&mut self) -> Result<bool, Error> {
         let Task { cloud, monitor, k, z } = *self.task;
         monitor.check().map_err(ReadError::from)?;
@@ -260,7 +260,7 @@ impl<'c, P: Position> Walk<'c, P> {
         }
     }
 
-    /// Takes centres that are better than its own.
+    /// Takes centers that are better than its own.
     pub(super) fn offer(&mut self, found: &Incumbent<P>) {
         if found.radius < self.best.radius {
             self.best = found.clone();

@@ -1,4 +1,4 @@
-//! One pass that measures centres: how far the farthest point is from the nearest of them.
+//! One pass that measures centers: how far the farthest point is from the nearest of them.
 
 use taut_points::{Monitor, PointSource, Points, PointsHash, Rows, Scalar, map_blocks};
 
@@ -14,7 +14,7 @@ const CHUNK: usize = 512;
 
 /// What the pass finds.
 pub(super) struct Measured {
-    /// The largest distance of a point to the centre next to it, as evaluated.
+    /// The largest distance of a point to the center next to it, as evaluated.
     pub(super) radius: f64,
     pub(super) points_hash: PointsHash,
     /// One, or two where squares overflow or vanish.
@@ -46,7 +46,7 @@ pub(super) fn measure(
             rows.copy_row(i, &mut row);
             let mut nearest = f64::INFINITY;
             for center in &centers {
-                // A centre too far away for a number is not the nearest, unless all are.
+                // A center too far away for a number is not the nearest, unless all are.
                 nearest = nearest.min(distance(&row, &center.high).unwrap_or(f64::INFINITY));
             }
             radius = radius.max(nearest);
@@ -57,7 +57,7 @@ pub(super) fn measure(
     Ok(Measured { radius, points_hash: survey.hash, passes: 2 })
 }
 
-/// The largest squared distance of a point to the nearest centre; not finite or tiny where squares leave the range.
+/// The largest squared distance of a point to the nearest center; not finite or tiny where squares leave the range.
 fn farthest<T: Scalar>(points: &Points<'_, T>, centers: &[Center]) -> f64 {
     let (mut farthest, mut values, mut least) = (0.0, [0.0; CHUNK], [0.0; CHUNK]);
     for chunk in points.values().chunks(CHUNK * points.dim()) {

@@ -1,7 +1,7 @@
 //! What one place says about its points to those who put the answers of all places together.
 //!
 //! *Idea.* The first points of a farthest-first traversal, and how far all others are from them. Put together, such summaries are
-//! again some points and a distance within which all others are. Centres of these few are centres of all, the distance being
+//! again some points and a distance within which all others are. Centers of these few are centers of all, the distance being
 //! added; and since the few are rows of the input, a proof that k balls of some radius do not hold them is one for all.
 //! *Guarantee.* Summaries of k + 1 points each and a farthest-first root give at most 4 times the optimum, every summary being
 //! within 2 times the optimum of its points and the root within as much of the summaries, and at most 6 times the bound that
@@ -158,7 +158,7 @@ impl Summary {
         Ok(reduced)
     }
 
-    /// k centres for the points of `source`, found among these rows by farthest-first traversal and measured by one pass.
+    /// k centers for the points of `source`, found among these rows by farthest-first traversal and measured by one pass.
     ///
     /// # Errors
     /// As [`farthest_first()`] and [`Summary::lift`].
@@ -174,17 +174,17 @@ impl Summary {
         self.lift(found.solution(k, placement, &points)?, source, monitor)
     }
 
-    /// Centres of [`Summary::points`], by whatever solver, as centres of the points of `source`: row numbers become those of
+    /// Centers of [`Summary::points`], by whatever solver, as centers of the points of `source`: row numbers become those of
     /// the whole, the lower bound and its proof hold as they are, and the radius is measured by one pass.
     ///
-    /// What is proved of centres among these rows need not hold among all rows, of which some may lie better. So centres
-    /// among the rows are taken only with a proof that speaks of centres anywhere, by points apart, as [`Summary::solve`] and
+    /// What is proved of centers among these rows need not hold among all rows, of which some may lie better. So centers
+    /// among the rows are taken only with a proof that speaks of centers anywhere, by points apart, as [`Summary::solve`] and
     /// [`farthest_first()`] give it.
     ///
     /// # Errors
-    /// [`Error::Input`] for centres of anything but all of these points, without weights, for those among the rows with
+    /// [`Error::Input`] for centers of anything but all of these points, without weights, for those among the rows with
     /// another proof, and for those whose lower bound is 0 while points are left out, as happens with summaries of no more
-    /// rows than centres; [`Error::Input`], [`Error::Overflow`], [`Error::Input`].
+    /// rows than centers; [`Error::Input`], [`Error::Overflow`], [`Error::Input`].
     pub fn lift(
         &self,
         found: Solution<Centers>,
@@ -196,7 +196,7 @@ impl Summary {
             Error::Input(InputError::Option {
                 name: "found",
                 value: value.into(),
-                expected: "centres of the points of the summary with a lower bound, without weights and outliers",
+                expected: "centers of the points of the summary with a lower bound, without weights and outliers",
             })
         };
         if certificate.items != Items::Points || certificate.weights || certificate.outliers > 0 {
@@ -220,7 +220,7 @@ impl Summary {
         let measured = measure(source, &answer.centers, monitor)?;
         if answer.lower_bound == 0.0 && measured.radius > 0.0 {
             return Err(wrong(
-                "without a bound: summaries of more rows than there are centres prove one",
+                "without a bound: summaries of more rows than there are centers prove one",
             ));
         }
         answer.radius = rounded_up(measured.radius, source.dim());
@@ -233,7 +233,7 @@ impl Summary {
 }
 
 impl Summary {
-    /// Whether the lower bound is that no two of the core-set fit in one ball, wherever its centre is.
+    /// Whether the lower bound is that no two of the core-set fit in one ball, wherever its center is.
     fn are_apart_anywhere(&self, answer: &Centers, certificate: &CentersCertificate) -> bool {
         let rows = &certificate.core_set;
         let place = |row: u64| {

@@ -101,7 +101,7 @@ fn all(survey: &Survey<'_>, sample: &Sample) -> Result<Pool, Error> {
             pool.push(id, row, 1.0);
         }
     }
-    pool.normalise();
+    pool.normalize();
     Ok(pool)
 }
 
@@ -145,7 +145,7 @@ fn step_away(
         pool.retain(|k| ids[k] != id);
         *counters.others.entry("drop-steps".into()).or_default() += 1;
     }
-    pool.normalise();
+    pool.normalize();
     true
 }
 

@@ -307,7 +307,7 @@ fn flat(
     Ok(solution(survey, answer, outcome, settled.gap, options))
 }
 
-/// The centre in the space of the points.
+/// The center in the space of the points.
 pub(super) fn lifted(origin: &[f64], directions: &[f64], center: &Center) -> Center {
     let dim = origin.len();
     let mut terms: Vec<DoubleDouble> = origin.iter().map(|&o| o.into()).collect();

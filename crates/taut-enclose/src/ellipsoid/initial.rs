@@ -31,7 +31,7 @@ pub(super) fn points(survey: &mut Survey<'_>, sample: &Sample, seed: u64) -> Res
     let mut span: Vec<Vec<f64>> = vec![];
     for direction in directions.chunks_exact(dim) {
         let mut b = direction.to_vec();
-        orthogonalise(&mut b, &span);
+        orthogonalize(&mut b, &span);
         let scaled: Vec<f64> = b.iter().zip(&extents).map(|(b, e)| b / e).collect();
         let (most, least) = extremes(survey, &scaled, &sample.origin)?;
         take(&mut pool, survey, &sample.origin, &[most, least])?;
@@ -39,7 +39,7 @@ pub(super) fn points(survey: &mut Survey<'_>, sample: &Sample, seed: u64) -> Res
         let (p, q) = rows.split_at(dim);
         let mut difference: Vec<f64> =
             p.iter().zip(q).zip(&extents).map(|((p, q), e)| (q - p) / e).collect();
-        orthogonalise(&mut difference, &span);
+        orthogonalize(&mut difference, &span);
         let norm = dot(&difference, &difference).sqrt();
         if norm > 0.0 {
             difference.iter_mut().for_each(|v| *v /= norm);
@@ -56,12 +56,12 @@ fn take(pool: &mut Pool, survey: &Survey<'_>, origin: &[f64], ids: &[u64]) -> Re
         pool.push(id, row, 1.0);
     }
     pool.weights_mut().fill(1.0);
-    pool.normalise();
+    pool.normalize();
     Ok(())
 }
 
 /// Takes from v its part in the span; twice, as once leaves what rounding makes of it.
-fn orthogonalise(v: &mut [f64], span: &[Vec<f64>]) {
+fn orthogonalize(v: &mut [f64], span: &[Vec<f64>]) {
     for other in span.iter().chain(span) {
         let product = dot(v, other);
         add_scaled(v, -product, other);

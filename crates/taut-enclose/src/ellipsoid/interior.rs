@@ -83,7 +83,7 @@ pub(super) fn solve(
     for &i in order.iter().take(state.p - 1) {
         weights[i] = best.1[i];
     }
-    pool.normalise();
+    pool.normalize();
     Ok(())
 }
 

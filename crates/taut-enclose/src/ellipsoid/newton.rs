@@ -1,7 +1,7 @@
 //! The ellipsoid of a pool of points: Newton's method on the dual, each quadratic model solved exactly.
 //!
-//! *Problem.* Points p₁…p_k, m = d + 1: multipliers u ≥ 0 that maximise f(u) = ln det Σ uᵢqᵢqᵢ′ − m·Σuᵢ, qᵢ = (pᵢ, 1).
-//! Its maximiser sums to 1 by itself, and is that of the D-optimal design, the dual of the ellipsoid.
+//! *Problem.* Points p₁…p_k, m = d + 1: multipliers u ≥ 0 that maximize f(u) = ln det Σ uᵢqᵢqᵢ′ − m·Σuᵢ, qᵢ = (pᵢ, 1).
+//! Its maximizer sums to 1 by itself, and is that of the D-optimal design, the dual of the ellipsoid.
 //! *Idea.* In coordinates in which Σ uᵢwᵢwᵢ′ = 1 the second-order model of f is a non-negative least squares ([`nnls`]),
 //! solved from the points in use; then a step towards its solution, as long as f rises.
 //! *Guarantee.* f never falls. Near the optimum the number of right digits doubles with each step, degenerate or not:
@@ -109,7 +109,7 @@ pub(super) fn solve(
         for (i, v) in step.weights {
             weights[i] += t * v;
         }
-        pool.normalise();
+        pool.normalize();
     }
     let Some((largest, weights)) = best else { return Ok(f64::INFINITY) };
     if weights != pool.weights() {
@@ -145,7 +145,7 @@ mod tests {
         for (i, row) in rows.chunks_exact(dim).enumerate() {
             pool.push(i as u64, row, 1.0);
         }
-        pool.normalise();
+        pool.normalize();
         let mut whitener = Whitener::of_scales(&vec![1.0; dim]);
         let (mut counters, monitor) = (Counters::default(), Monitor::silent());
         let tolerance = Tolerance { easy: 1e-13, hard: 1e-13 };
@@ -155,7 +155,7 @@ mod tests {
 
     #[test]
     fn known_designs_are_found() {
-        // A triangle with an inner point, which gets no weight; a square with its centre.
+        // A triangle with an inner point, which gets no weight; a square with its center.
         let (pool, largest) = solved(&[0.0, 0.0, 5.0, 0.0, 0.0, 1.0, 1.0, 0.25], 2);
         assert!(gap(2, largest) <= 1e-13);
         assert!(pool.weights()[..3].iter().all(|u| (u - 1.0 / 3.0).abs() < 1e-13));

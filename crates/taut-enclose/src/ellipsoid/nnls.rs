@@ -2,7 +2,7 @@
 //!
 //! *Problem.* At multipliers u, in coordinates in which Σ uᵢwᵢwᵢ′ = 1 for wᵢ = (yᵢ, 1), the second-order model of
 //! ln det Σ vᵢwᵢwᵢ′ − m·Σvᵢ, m = d + 1, is (up to a constant) (2κ − m1)′v − v′Hv/2, κᵢ = |wᵢ|², Hᵢⱼ = (wᵢ·wⱼ)². Find
-//! its maximiser over v ≥ 0.
+//! its maximizer over v ≥ 0.
 //! *Idea.* Lawson and Hanson's active set with a triangular factor of H over the points in use. The gradient is
 //! gᵢ = bᵢ − wᵢ′Nwᵢ with the m × m matrix N = Σ vⱼwⱼwⱼ′: one sweep prices thousands of points without a row of H. Each
 //! sweep gives a batch, whose members are priced again, exactly, when their turn comes.
@@ -44,7 +44,7 @@ pub(super) enum Outcome {
     Stuck,
 }
 
-/// A maximiser of the model.
+/// A maximizer of the model.
 pub(super) struct Step {
     /// The points in use and their v.
     pub(super) weights: Vec<(usize, f64)>,
@@ -181,7 +181,7 @@ impl<'a> ActiveSet<'a> {
         gram
     }
 
-    /// Takes up points with given v; those that depend on others are left out. Then the model is maximised over them.
+    /// Takes up points with given v; those that depend on others are left out. Then the model is maximized over them.
     fn start(&mut self, points: &[usize], v: &[f64], counters: &mut Counters) {
         if points.len() >= BLOCKED_FACTOR_MIN {
             let rows: Vec<f64> = points.iter().flat_map(|&i| self.row(i)).collect();
@@ -275,7 +275,7 @@ impl<'a> ActiveSet<'a> {
         }
     }
 
-    /// Goes to the maximiser of the model over the members, or as far as v ≥ 0 lets it, dropping who is in the way.
+    /// Goes to the maximizer of the model over the members, or as far as v ≥ 0 lets it, dropping who is in the way.
     fn settle(&mut self, counters: &mut Counters) {
         loop {
             let z = self.factor.solution();
@@ -366,7 +366,7 @@ mod tests {
         for (i, row) in rows.chunks_exact(dim).enumerate() {
             pool.push(i as u64, row, 1.0);
         }
-        pool.normalise();
+        pool.normalize();
         let mut whitener = Whitener::of_scales(&vec![1.0; dim]);
         assert_eq!(whitener.rebase(&pool, REBASE_TOLERANCE), Rebased::Plainly);
         whitener.apply(&pool)

@@ -68,7 +68,7 @@ impl Pool {
     }
 
     /// Makes the multipliers sum to 1; those that rounding has made of nothing become 0.
-    pub(super) fn normalise(&mut self) {
+    pub(super) fn normalize(&mut self) {
         /// Weights below this are 0: far below what moves a log-volume of 1e-14, far above the rounding of a sum.
         const WEIGHT_MIN: f64 = 1e-15;
         self.weights.iter_mut().filter(|u| **u < WEIGHT_MIN).for_each(|u| *u = 0.0);

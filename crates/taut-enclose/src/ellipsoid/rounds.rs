@@ -7,7 +7,7 @@
 //! its ellipsoid lists, as long as that list is known to hold every point outside ([`shortlist`]).
 //! *Guarantee.* Lower bounds never fall. One pass or two with a list; without, three to five on ordinary data and about a
 //! dozen where all points lie near one ellipsoid. The points in memory are those of the pool and of the list.
-//! *Trap.* The points farthest outside are often near-copies of each other, so each sector around the centre may only
+//! *Trap.* The points farthest outside are often near-copies of each other, so each sector around the center may only
 //! give a few: a sector is a coordinate of the image and its sign.
 //! *Trap.* A point that lies very far outside gets weight at once: models are made at multipliers, and one of leverage
 //! 1e16 has no digit in a model made without it.
@@ -190,7 +190,7 @@ fn pool_of_sample(sample: &Sample, whitener: &Whitener, size: usize) -> Pool {
         sample.pool.copy_row(i, &mut row);
         pool.push(sample.pool.ids()[i], &row, 1.0);
     }
-    pool.normalise();
+    pool.normalize();
     pool
 }
 
@@ -226,11 +226,11 @@ fn first_pool(
         sample.pool.copy_row(i, &mut row);
         pool.push(sample.pool.ids()[i], &row, 1.0);
     }
-    pool.normalise();
+    pool.normalize();
     Ok(pool)
 }
 
-/// The centre of a whitener in the coordinates of the source; in two terms where rounding it to one could be seen.
+/// The center of a whitener in the coordinates of the source; in two terms where rounding it to one could be seen.
 pub(super) fn center_of(origin: &[f64], whitener: &Whitener) -> Center {
     /// A change of a leverage below this shows nothing: it is far below the rounding of a leverage.
     const LEVERAGE_CHANGE_MIN: f64 = 1e-16;
@@ -329,5 +329,5 @@ fn jump(pool: &mut Pool, added: usize) {
     for (i, u) in pool.weights_mut().iter_mut().enumerate() {
         *u = if i + added < k { *u / 2.0 } else { 0.5 / added as f64 };
     }
-    pool.normalise();
+    pool.normalize();
 }

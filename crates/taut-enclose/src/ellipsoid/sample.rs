@@ -70,7 +70,7 @@ impl Sample {
             self.pool.push(id, row, 0.0);
         }
         self.pool.weights_mut().fill(1.0);
-        self.pool.normalise();
+        self.pool.normalize();
     }
 
     /// A map that makes the covariance of the sample the identity, and what stood in its way.

@@ -154,7 +154,7 @@ mod tests {
             let query = Query { matrix: whitener.matrix(), center: &center, above: 1e9, keep: 10 };
             let list = Shortlist::of_pass(&mut survey, query, &whitener, &sample, 0.05).unwrap();
             assert!((600..1700).contains(&list.ids.len()), "{}", list.ids.len());
-            // Steps to single points change shape and centre.
+            // Steps to single points change shape and center.
             let mut other = whitener.clone();
             for (step, beta) in [(3, 0.02), (500, 0.05), (4000, -0.0001)] {
                 other.step(&values[step * dim..][..dim], beta);

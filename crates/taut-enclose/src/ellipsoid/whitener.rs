@@ -2,9 +2,9 @@
 //!
 //! *Idea.* With y = Mx − t for a lower triangular M, take mean ȳ and covariance Σ = LL′ of the images and replace M by
 //! L⁻¹M, t by L⁻¹(t + ȳ). Then the leverage κ − 1 of a point is |y|².
-//! *Guarantee.* Repeated, this *is* a Cholesky factorisation of the inverse covariance, but in steps each of which is
+//! *Guarantee.* Repeated, this *is* a Cholesky factorization of the inverse covariance, but in steps each of which is
 //! well conditioned: the last Σ is the identity up to rounding, so leverages are right to about 1e-15 wherever the
-//! points themselves say that much. On sets with axes in a ratio of 1e12 one factorisation has no digit right.
+//! points themselves say that much. On sets with axes in a ratio of 1e12 one factorization has no digit right.
 //! *Trap.* A covariance that rounding has made indefinite is shifted by a multiple of the identity, which costs one
 //! more turn and no accuracy (shifted CholeskyQR; Fukaya, Kannan, Nakatsukasa, Yamamoto, Yanagisawa, SIAM J. Sci.
 //! Comput. 42(1), 2020).

@@ -8,11 +8,11 @@ use crate::Error;
 use crate::apart::Apart;
 
 impl FarthestFirst {
-    /// The first `k` points as centres of all, with the proof that no k centres have half their radius.
+    /// The first `k` points as centers of all, with the proof that no k centers have half their radius.
     ///
     /// `source` holds the points of the traversal; up to k of them are read. Where the order is shorter than `k` because all
-    /// other points are copies, there are fewer centres, the radius is 0, and so is the lower bound. `placement` says among which
-    /// centres to compare: the bound holds for both.
+    /// other points are copies, there are fewer centers, the radius is 0, and so is the lower bound. `placement` says among which
+    /// centers to compare: the bound holds for both.
     ///
     /// ```
     /// use taut_certify::Placement;

@@ -1,10 +1,10 @@
 //! Leaves of rows in any dimension, where each row is looked at on its own.
 //!
-//! *Idea.* In many dimensions neighbours are hardly nearer than others, so a leaf is no more than some rows that follow each
+//! *Idea.* In many dimensions neighbors are hardly nearer than others, so a leaf is no more than some rows that follow each
 //! other. Each row knows how many chosen points it was compared with, and the nearest of them. A row that is nearer than
 //! the farthest point can be is left alone. Where the nearest point chosen is a, a point c at |a − c| ≥ 2|x − a| is no
 //! nearer: |x − c| ≥ |a − c| − |x − a|.
-//! *Trap.* A row is compared with eight chosen points at once, with the row in the place of the centre: (x − c)² and (c − x)²
+//! *Trap.* A row is compared with eight chosen points at once, with the row in the place of the center: (x − c)² and (c − x)²
 //! are the same number, so the values are those of a pass over the rows.
 //! *Reference.* Elkan, Using the triangle inequality to accelerate k-means, ICML 2003.
 

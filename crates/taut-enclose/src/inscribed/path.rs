@@ -1,6 +1,6 @@
 //! Newton steps along the central path of the inscribed ellipsoid, and what its multipliers prove.
 //!
-//! *Formula.* Minimise −ln det(1 + S) − μΣ ln Dᵢ, Dᵢ = (sᵢ − ãᵢ′w)² − |(1 + S)ãᵢ|², over symmetric S and w, in the frame of
+//! *Formula.* Minimize −ln det(1 + S) − μΣ ln Dᵢ, Dᵢ = (sᵢ − ãᵢ′w)² − |(1 + S)ãᵢ|², over symmetric S and w, in the frame of
 //! the current ellipsoid: its Hessian at S = 0, w = 0 is the metric of steps. After each step the frame moves along.
 //! At the minimum λᵢ = 2μsᵢ/Dᵢ satisfy Σλᵢãᵢ = 0 and Σλᵢãᵢãᵢ′/sᵢ = 1, so the gap is about Σλᵢ(sᵢ − |ãᵢ|) ≤ 2nμ.
 //! *Trap.* Where the ellipsoid is thin, rounding G moves its short axes by what is left of the long ones across them. So the
@@ -59,7 +59,7 @@ pub(super) fn follow(
         let Some((step, length)) = newton(&views, dim, mu) else { break Stop::Rounding };
         steps += 1;
         let moved = take(&mut center, &mut axes, &views, &step, length, mu, dim);
-        orthogonalise(&mut axes, dim);
+        orthogonalize(&mut axes, dim);
         views = view(&center, &axes);
         if mu <= last_mu {
             at_last += 1;
@@ -228,7 +228,7 @@ fn take(
 }
 
 /// Turns the frame so that the columns of G are orthogonal: rotations of two columns at a time, after Jacobi.
-pub(super) fn orthogonalise(axes: &mut [f64], dim: usize) {
+pub(super) fn orthogonalize(axes: &mut [f64], dim: usize) {
     let largest = axes.iter().fold(0.0f64, |m, g| m.max(g.abs()));
     for _ in 0..SWEEPS_MAX {
         let mut is_orthogonal = true;

@@ -1,12 +1,12 @@
 //! An interior point of a polytope, or the proof that there is none, or that it has no end.
 //!
-//! *Trap.* The programmes are solved in `f64` to some 1e-8, so that what the solver says proves nothing. A point is measured
+//! *Trap.* The programs are solved in `f64` to some 1e-8, so that what the solver says proves nothing. A point is measured
 //! again, a ray is brought to the faces it runs along and measured again, and multipliers of Farkas are moved by
 //! [`no_room`] to where their sum is 0 exactly, with a bound on what moving them costs. What remains is undecided.
-//! *Bounded.* With unit normals âᵢ, minimise |Σλᵢâᵢ|² over λ ≥ 1. If the sum is 0 and the normals span the space, no ray fits
+//! *Bounded.* With unit normals âᵢ, minimize |Σλᵢâᵢ|² over λ ≥ 1. If the sum is 0 and the normals span the space, no ray fits
 //! (Stiemke's theorem). Else v = −Σλᵢâᵢ has âᵢ′v ≤ 0 for all i by the conditions of the minimum: a ray. Where the normals do not
 //! span, what is orthogonal to all of them is one.
-//! *Interior.* The largest ball inside, a linear programme; if its radius is not positive, its multipliers are those of
+//! *Interior.* The largest ball inside, a linear program; if its radius is not positive, its multipliers are those of
 //! Farkas: Σλᵢâᵢ = 0 and Σλᵢbᵢ ≤ 0.
 
 use clarabel::algebra::CscMatrix;
@@ -34,7 +34,7 @@ const RADIUS_RATIO_MIN: f64 = 1e-9;
 /// A ball of which it is proved that it has no larger radius than this, offsets being 1 at most, counts as none.
 const PROVED_RADIUS_MIN: f64 = 1e-6;
 
-/// A centre, and the half axes of an ellipsoid around it inside, along the axes of coordinates.
+/// A center, and the half axes of an ellipsoid around it inside, along the axes of coordinates.
 pub(super) struct Interior {
     pub(super) center: Vec<f64>,
     pub(super) half_axes: Vec<f64>,
@@ -254,7 +254,7 @@ fn dense(rows: usize, columns: usize, values: Vec<f64>) -> CscMatrix<f64> {
     CscMatrix::new(rows, columns, starts, places, values)
 }
 
-/// The solution and the multipliers of a conic programme, as good as they are: callers prove what they take from them.
+/// The solution and the multipliers of a conic program, as good as they are: callers prove what they take from them.
 fn conic(
     quadratic: &CscMatrix<f64>,
     objective: &[f64],

@@ -9,7 +9,7 @@ use super::{Center, DoubleDouble};
 /// Eight points side by side.
 type Eight = [f64; 8];
 
-/// A linear map by rows, r × d, and the centre it is taken from.
+/// A linear map by rows, r × d, and the center it is taken from.
 #[derive(Clone, Copy)]
 pub(crate) struct Map<'a> {
     pub(crate) matrix: &'a [f64],

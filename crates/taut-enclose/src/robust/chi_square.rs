@@ -1,6 +1,6 @@
 //! The χ² distribution, and the factors by which scatters are made consistent at the normal distribution.
 //!
-//! *Idea.* With d degrees of freedom, P(χ² ≤ x) is the regularised incomplete gamma function P(d/2, x/2): a series of
+//! *Idea.* With d degrees of freedom, P(χ² ≤ x) is the regularized incomplete gamma function P(d/2, x/2): a series of
 //! positive terms to the left of its bulk, a continued fraction to the right.
 //! *Reference.* Croux, Haesbroeck, J. Multivariate Analysis 71, 1999, for the consistency; Pison, Van Aelst, Willems,
 //! Metrika 55, 2002, for small samples: their formulas with the coefficients their simulations gave.
@@ -77,7 +77,7 @@ pub(super) fn quantile(p: f64, d: usize) -> f64 {
     x
 }
 
-/// By what the covariance of the part `kept` of normal points, those nearest the centre, falls short: its inverse.
+/// By what the covariance of the part `kept` of normal points, those nearest the center, falls short: its inverse.
 pub(super) fn consistency(kept: f64, d: usize) -> f64 {
     if kept >= 1.0 {
         return 1.0;

@@ -1,6 +1,6 @@
 //! C-steps: from a metric to the h rows nearest in it, to the metric these say, until nothing changes.
 //!
-//! *Guarantee.* Each step that changes the rows lowers what is minimised, det S or the volume of the ellipsoid
+//! *Guarantee.* Each step that changes the rows lowers what is minimized, det S or the volume of the ellipsoid
 //! ([`enclosing`]), so the steps end, at rows that are the h nearest in their own metric. That is a local optimum under
 //! C-steps and no more: finding the least determinant or volume of all is NP-hard.
 //! *Reference.* Rousseeuw, Van Driessen, Technometrics 41, 1999, theorem 1.

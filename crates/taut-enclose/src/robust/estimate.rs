@@ -1,4 +1,4 @@
-//! Mean and covariance of the rows kept, as a centre and a whitener, and the passes that find them.
+//! Mean and covariance of the rows kept, as a center and a whitener, and the passes that find them.
 //!
 //! *Idea.* S is never formed: M, lower triangular, stands for M′M = S⁻¹. A pass takes moments of y = M(x − c) for the
 //! rows kept; their covariance C = LL′ replaces M by L⁻¹M. Near the end C is nearly the identity, so neither units,

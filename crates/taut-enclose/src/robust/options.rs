@@ -8,7 +8,7 @@ use crate::Error;
 /// How to estimate. Write `RobustOptions { method: RobustMethod::Mve, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobustOptions<'a> {
-    /// What is to be minimised. Default [`RobustMethod::Mcd`].
+    /// What is to be minimized. Default [`RobustMethod::Mcd`].
     pub method: RobustMethod,
     /// About which part α of the points is kept; the answer bears that the others are anything. `None`, the default, is
     /// 0.5 for `mcd` and `mve`, 0.9 for `trim`.

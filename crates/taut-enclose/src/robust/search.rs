@@ -19,7 +19,7 @@ use super::border::Border;
 use super::concentrate::{Criterion, Found, Raw, concentrate, estimate, from_ranking};
 use super::estimate::{Estimate, Look};
 use super::flat::Flat;
-use super::starts::{START_COUNT, Standardised};
+use super::starts::{START_COUNT, Standardized};
 use crate::Error;
 use crate::ellipsoid::survey::Survey;
 
@@ -142,7 +142,7 @@ fn ends_on_sample(
     part: usize,
 ) -> Result<Vec<(Found, u64)>, Error> {
     let simplices = best_simplices(sample, dim, part)?;
-    let points = Standardised::of(sample, dim);
+    let points = Standardized::of(sample, dim);
     let silent = Monitor::silent();
     (0..START_COUNT + simplices.len())
         .into_par_iter()
@@ -243,7 +243,7 @@ fn keep_least(list: &mut Vec<(u64, u64)>, size: usize) {
 /// 2⁶⁴ over the golden ratio.
 pub(super) const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// The finaliser of SplitMix64 (Steele, Lea, Flood 2014).
+/// The finalizer of SplitMix64 (Steele, Lea, Flood 2014).
 pub(super) fn mix(h: u64) -> u64 {
     let h = (h ^ (h >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     let h = (h ^ (h >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);

@@ -211,7 +211,7 @@ fn add_radii<T: Scalar>(balls: &Points<'_, T>, reaches: &mut [f64]) {
     }
 }
 
-/// The face of the cube around the centre towards which a row lies.
+/// The face of the cube around the center towards which a row lies.
 fn face<T: Scalar>(row: &[T], center: &Center) -> Face {
     let mut face = (0, false);
     let mut largest = -1.0;

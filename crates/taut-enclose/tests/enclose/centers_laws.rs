@@ -1,4 +1,4 @@
-//! Laws that centres obey, inputs at the edges, and the optima of real places.
+//! Laws that centers obey, inputs at the edges, and the optima of real places.
 
 use centers::judge;
 use proptest::prelude::*;
@@ -55,7 +55,7 @@ fn cloud() -> impl Strategy<Value = (Vec<f64>, usize)> {
 proptest! {
     #![proptest_config(seeded(40))]
 
-    /// More centres are never worse, nor is leaving out more.
+    /// More centers are never worse, nor is leaving out more.
     #[test]
     fn the_radius_falls_with_k_and_outliers((values, dim) in cloud()) {
         let n = (values.len() / dim) as u64;
@@ -249,9 +249,9 @@ fn logs_are_followed() {
     }
 }
 
-/// Corners of a triangle around a point of weight 3, which draws the centre to itself.
+/// Corners of a triangle around a point of weight 3, which draws the center to itself.
 #[test]
-fn a_weight_draws_the_centre() {
+fn a_weight_draws_the_center() {
     let rows = [0.0, 0.0, 3.0, 4.0, 0.0, 1.0];
     let options = CentersOptions { weights: true, ..fine() };
     let points = Points::new(&rows, 3).unwrap();

@@ -44,7 +44,7 @@ fn many(n: usize, columns: usize) -> Vec<f64> {
 }
 
 #[test]
-fn free_centres() {
+fn free_centers() {
     let plain = CentersOptions { assignment: true, ..Default::default() };
     let plane = many(150_000, 2);
     let found = same_centers("tree", &plane, 2, Items::Points, 6, plain);
@@ -73,7 +73,7 @@ fn long_searches() {
 }
 
 #[test]
-fn centres_among_the_rows() {
+fn centers_among_the_rows() {
     let rows =
         CentersOptions { placement: Placement::Rows, assignment: true, ..Default::default() };
     let values: Vec<f64> = generate(Distribution::Uniform, 3000, 2, 3).unwrap();

@@ -18,7 +18,7 @@ fn seeded(cases: u32) -> Config {
     Config { cases, rng_seed: RngSeed::Fixed(8), failure_persistence: None, ..Config::default() }
 }
 
-/// Centres by one pass and a measuring one.
+/// Centers by one pass and a measuring one.
 fn streamed(options: CoverOptions) -> CentersOptions<'static> {
     CentersOptions { method: CentersMethod::Stream(options), ..Default::default() }
 }
@@ -183,7 +183,7 @@ fn scaled(rows: &[Vec<f64>], by: f64) -> Vec<Vec<f64>> {
 }
 
 #[test]
-fn few_different_points_are_all_centres() {
+fn few_different_points_are_all_centers() {
     let mut cover = Cover::new(1, 3, &CoverOptions::default()).unwrap();
     assert!(cover.is_empty());
     for value in [4.0, 4.0, 1.0, -0.0, 0.0, 4.0, 1.0] {
@@ -334,7 +334,7 @@ fn summaries_that_do_not_belong_together_are_refused() {
         lift(&ends, found, &points),
         Err(Error::Input(InputError::Option { name: "found", .. }))
     ));
-    // Two points of three, and two centres: nothing is proved of the third.
+    // Two points of three, and two centers: nothing is proved of the third.
     let points = Points::new(&[1.0, 2.0, 4.0], 1).unwrap();
     let one = Summary::of(&points, 0, 2).unwrap();
     let wrong = one.solve(2, Placement::Free, &points, silent);

@@ -45,7 +45,7 @@ fn numbers(found: &Found) -> Vec<Mutation> {
     for at in 0..dim {
         let size = deviation(at).max(1e-3);
         for part in [1e-5, -1e-5, 1.0, -3.0, f64::NAN] {
-            all.push(mutation(format!("centre {at} by {part}"), move |found| {
+            all.push(mutation(format!("center {at} by {part}"), move |found| {
                 found.answer.center[at] += part * size;
             }));
         }
@@ -127,7 +127,7 @@ fn others(found: &Found) -> Vec<Mutation> {
         mutation("one less kept", |f| f.certificate.kept -= 1),
         mutation("nothing kept", |f| f.certificate.kept = 0),
         mutation("hash", |f| f.certificate.points_hash.0 ^= 1),
-        mutation("no centre", |f| f.answer.center.clear()),
+        mutation("no center", |f| f.answer.center.clear()),
         mutation("a row of the matrix", |f| _ = f.answer.matrix.pop()),
         mutation("a row of the factor", |f| _ = f.answer.factor.pop()),
         mutation("a number of the factor", |f| _ = f.answer.factor[0].pop()),
@@ -376,7 +376,7 @@ fn an_ellipsoid_grown_or_shrunk_is_refused_at_any_size() {
 }
 
 #[test]
-fn tails_of_centres_are_small() {
+fn tails_of_centers_are_small() {
     let values = contaminated(80, 2, 20, 6.0, 12);
     for method in RobustMethod::ALL {
         let found = solve("tail", &values, 2, &by(method));
@@ -384,7 +384,7 @@ fn tails_of_centres_are_small() {
         let center = forged.answer.center.clone();
         forged.answer.center = vec![1e6, -1e6];
         forged.answer.center_tail = vec![center[0] - 1e6, center[1] + 1e6];
-        let refusal = refused("a centre in its tail", &forged, &values, 2);
+        let refusal = refused("a center in its tail", &forged, &values, 2);
         assert!(matches!(refusal, Violation::Number { .. }), "{method}: {refusal}");
     }
 }

@@ -1,7 +1,7 @@
 //! Object File Format: `OFF`, the counts, then vertices and faces, a line each.
 //!
 //! Letters before `OFF` say what a vertex has after its coordinates, in this order: `N` a normal, `C` a color, and
-//! first of all letters but last of all values `ST` a place in a texture, which is passed over. Colours of three or four
+//! first of all letters but last of all values `ST` a place in a texture, which is passed over. Colors of three or four
 //! values are read without the letter too, as many programs write them so.
 //! *Reference.* Geomview manual, section OFF.
 

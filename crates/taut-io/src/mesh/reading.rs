@@ -19,7 +19,7 @@ use crate::{Content, Error, Format};
 /// [`Content::Surface`] asks for triangles and vertices. Vertices keep their order, used or not; of stl, corners with equal
 /// coordinates are one vertex. A polygon of more than three corners becomes the fan of triangles around its first corner,
 /// which is right where the polygon is convex. Normals and colors are kept where each vertex has one, and only one; all else
-/// that files hold of edges, faces, textures, materials and opacity is passed over. Colours that are full at 1 are brought to
+/// that files hold of edges, faces, textures, materials and opacity is passed over. Colors that are full at 1 are brought to
 /// 255.
 ///
 /// # Errors

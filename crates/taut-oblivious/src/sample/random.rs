@@ -2,7 +2,7 @@
 //!
 //! *Idea.* xoshiro256++, whose state is filled from the seed and the number of the node by a bijective mixer. Nodes have
 //! streams of their own, so that it does not matter which of them is drawn first, or where.
-//! *Trap.* `x mod n` favours small numbers; a product of 128 bits and a rare second draw do not.
+//! *Trap.* `x mod n` favors small numbers; a product of 128 bits and a rare second draw do not.
 //! *References.* D. Blackman, S. Vigna, *Scrambled linear pseudorandom number generators*, TOMS 47(4), 2021;
 //! D. Lemire, *Fast random integer generation in an interval*, TOMACS 29(1), 2019.
 

@@ -3,7 +3,7 @@
 //! *Problem.* n records of w bytes in a file, a key in each, a limit on memory.
 //! *Idea.* Read what fits, sort it, write it as a run; then merge all runs at once. All runs stand in one file, so three
 //! files are open however many runs there are. If so many runs come together that their blocks would be tiny,
-//! neighbouring runs are merged into longer ones first.
+//! neighboring runs are merged into longer ones first.
 //! *Guarantee.* Stable: the output is a function of the input and the place of the key, whatever the memory and the
 //! threads. Each byte is read twice and written twice while there are at most some memory / 256 KiB runs of nine tenths of
 //! the memory, 240 GB for 256 MiB (below 16 MiB of memory some 60 runs); a file that fits is read and written once. The
@@ -67,7 +67,7 @@ pub struct Multiset {
     /// Number of records.
     pub records: u64,
     /// Sum of the hashes of all records, modulo 2¹²⁸. Two multisets that differ agree in it by chance only, as far as
-    /// hashes are random numbers; it is no defence against somebody who means to deceive.
+    /// hashes are random numbers; it is no defense against somebody who means to deceive.
     pub hash: u128,
 }
 

@@ -128,7 +128,7 @@ impl TestCurve {
 }
 
 impl TruthCurves {
-    /// The edges between neighbouring points: curve, number of the first point, and length, divided by f unless `plain`.
+    /// The edges between neighboring points: curve, number of the first point, and length, divided by f unless `plain`.
     fn edges(&self, plain: bool) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         self.loops.iter().enumerate().flat_map(move |(curve, points)| {
             let (n, features) = (points.len(), &self.features[curve]);

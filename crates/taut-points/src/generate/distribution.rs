@@ -30,7 +30,7 @@ pub enum Distribution {
         /// Half the thickness t ≥ 0; 1e-8 makes the hardest instances for a minimum enclosing ball.
         thickness: f64,
     },
-    /// Normal clouds around centres that are uniform in the unit cube; point i belongs to cloud i mod count.
+    /// Normal clouds around centers that are uniform in the unit cube; point i belongs to cloud i mod count.
     Clusters {
         /// Number of clouds, at least 1.
         count: u64,
@@ -119,7 +119,7 @@ impl Distribution {
         ("poisson", "each coordinate Poisson with mean 1: a lattice with many ties"),
         ("sphere", "uniform on the unit sphere"),
         ("shell", "uniform in direction, 1 ± T from the origin"),
-        ("clusters", "normal clouds around K centres in the unit cube"),
+        ("clusters", "normal clouds around K centers in the unit cube"),
         ("clouds", "the same, but of widths from 1e-5 to 1e-2"),
         ("simplex", "vertices of a regular simplex with unit edges, then points inside"),
         ("polygon", "K points at equal angles on the unit circle, in turn"),

@@ -106,7 +106,7 @@ pub(super) fn finish(
     if is_surface && !facets.is_outward {
         outward::turn(cells, &mut facets.triangles, &found);
     }
-    // What labels say of points holds where these are when they are labelled.
+    // What labels say of points holds where these are when they are labeled.
     let mut unused = unused(&facets, sites, is_surface && changes.elsewhere.is_none());
     if let Some(copies) = changes.copies {
         // Points that met when they were moved are no copies where they were given.

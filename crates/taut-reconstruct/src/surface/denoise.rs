@@ -1,10 +1,10 @@
 //! Noise taken out of points before a surface is sought: outliers left out, the others moved towards the sheet they are around.
 //!
-//! *Idea.* An outlier is a point whose neighbours are much farther from it than theirs are from them. Each other point is moved along the
-//! normal of its nearest neighbours onto the paraboloid that fits them best, a few times over.
-//! *Guarantee.* A function of the points: neighbours come in the order of their distances, equal ones in that of their coordinates.
+//! *Idea.* An outlier is a point whose neighbors are much farther from it than theirs are from them. Each other point is moved along the
+//! normal of its nearest neighbors onto the paraboloid that fits them best, a few times over.
+//! *Guarantee.* A function of the points: neighbors come in the order of their distances, equal ones in that of their coordinates.
 //! O(n log n).
-//! *Trap.* Edges are rounded by about the distance of the neighbours, and thin plates pulled together; hence never by default. Planes
+//! *Trap.* Edges are rounded by about the distance of the neighbors, and thin plates pulled together; hence never by default. Planes
 //! in the place of paraboloids, motion by mean curvature, shrink the bunny by two thousandths of its diagonal in four rounds: more
 //! than the noise.
 //! *Reference.* Cazals and Pouget, *Estimating differential quantities using polynomial fitting of osculating jets*, Comput. Aided Geom.
@@ -20,7 +20,7 @@ use super::neighbors::of_neighbors;
 use super::spheres::{Point, dot, minus};
 use crate::Error;
 
-/// A point must be this many times farther from its neighbours than they are from theirs for an outlier.
+/// A point must be this many times farther from its neighbors than they are from theirs for an outlier.
 const OUTLIER_DISTANCE_RATIO: f64 = 3.0;
 
 /// Points after the pre-pass.
@@ -94,7 +94,7 @@ pub(super) fn firsts(points: &[Point]) -> Vec<u32> {
     first
 }
 
-/// By point, whether its neighbours are much farther from it than theirs from them.
+/// By point, whether its neighbors are much farther from it than theirs from them.
 fn outliers(points: &[Point], neighbors: usize) -> Result<Vec<bool>, Error> {
     let distances: Vec<(f64, Vec<u32>)> = of_neighbors(points, neighbors, |_, near| {
         let sum: f64 = near.iter().map(|near| near.distance2.sqrt()).sum();

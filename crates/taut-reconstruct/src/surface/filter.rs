@@ -1,7 +1,7 @@
 //! Which facets of a triangulation can be part of a surface.
 //!
 //! *Problem.* Of the 14 facets a sample point has, two are triangles of the surface.
-//! *Idea.* The shrunk equatorial sphere of a facet, its smallest sphere shrunk by 1 − ε about its centre, is to be empty. The two
+//! *Idea.* The shrunk equatorial sphere of a facet, its smallest sphere shrunk by 1 − ε about its center, is to be empty. The two
 //! vertices opposite are asked; for ε = 0 that is the Gabriel property. Beside that, facets may be limited in size.
 //! *Guarantee.* All signs are exact.
 //! *Trap.* For ε > 0 two vertices are not all sites: where one of them lies inside the equatorial sphere by a hair and makes a flat

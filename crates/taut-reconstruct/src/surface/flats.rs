@@ -3,14 +3,14 @@
 //! *Problem.* Four points nearly on one circle, as every square of a grid has, make a cell without volume within or upon a face. All
 //! spheres through the circle are in one pencil, and that of the cell is somewhere between those of the cells beyond its facets: it
 //! divides the angle between them, and where they meet in an angle that says "opposite", two smaller ones say "same".
-//! *Idea.* A flat cell that says "same" to all its neighbours, and not surely to all, has the sphere of one of them for its own: of the one
-//! most like it. One of its sides is then as one cell with that neighbour, and the facets of the other side say what the two that are no
+//! *Idea.* A flat cell that says "same" to all its neighbors, and not surely to all, has the sphere of one of them for its own: of the one
+//! most like it. One of its sides is then as one cell with that neighbor, and the facets of the other side say what the two that are no
 //! flat cells have to say to each other. Where such cells are beside each other, as polygons on a circle have them, they take what their
-//! neighbour took, along the surest tree: each looks to its surest neighbour, and so do groups that only look at each other, until
+//! neighbor took, along the surest tree: each looks to its surest neighbor, and so do groups that only look at each other, until
 //! they look out.
 //! *Guarantee.* A function of the points: what is equally sure is ordered by the numbers of facets. O(n + f log f) for f such cells.
 //! *Trap.* A cell that is flat but whose corners are far from any circle has a sphere as large as a half-space, and much to say; but so
-//! have its neighbours.
+//! have its neighbors.
 
 use std::cmp::Reverse;
 
@@ -134,7 +134,7 @@ fn ends(ways: &[Way]) -> Vec<Way> {
     ends.into_iter().map(|end| end.unwrap_or(Way::End)).collect()
 }
 
-/// Whether a cell says "same" to all its neighbours, though not surely to one of them.
+/// Whether a cell says "same" to all its neighbors, though not surely to one of them.
 fn divides(cell: u32, ties: &Ties) -> bool {
     let least = ties.of_cell(cell).map(Tie::signed).into_iter().min();
     least.is_some_and(|least| (0..SURE_STRENGTH).contains(&least))

@@ -1,7 +1,7 @@
 //! Surfaces through samples of space.
 //!
 //! *Problem.* Points were sampled from the boundary of bodies, or from sheets. Find the surface that has them for its vertices.
-//! *Idea.* Do not grow the surface: label the cells of the Delaunay triangulation. How the spheres of two neighbouring cells meet says
+//! *Idea.* Do not grow the surface: label the cells of the Delaunay triangulation. How the spheres of two neighboring cells meet says
 //! whether they are of one medium or on two sides of the surface, and how surely (`strengths`); the strongest spanning tree of what is
 //! said labels all cells (`tree`); small parts that the facets around them object to are turned over (`flips`); the surface is where
 //! the labels change (`border`), and where that is no surface, single cells are (`repair`).
@@ -23,7 +23,7 @@ mod filter;
 mod flats;
 mod flips;
 mod islands;
-mod labelled;
+mod labeled;
 mod lanes;
 mod looks;
 mod media;
@@ -57,7 +57,7 @@ use answer::{Facets, Sites, finish};
 use cells::Cells;
 use changes::Changes;
 use denoise::{Denoised, denoise};
-use labelled::surface_of_labels;
+use labeled::surface_of_labels;
 use scaled::Scale;
 use thesis::{ThesisOptions, thesis_surface};
 

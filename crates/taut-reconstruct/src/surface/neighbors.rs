@@ -14,7 +14,7 @@ use taut_oblivious::kdtree::{KdTree, Nearest};
 use super::spheres::Point;
 use crate::Error;
 
-/// For each point something of its nearest neighbours, the nearest first and itself among them, on all threads.
+/// For each point something of its nearest neighbors, the nearest first and itself among them, on all threads.
 pub(super) fn of_neighbors<R: Send>(
     points: &[Point],
     count: usize,

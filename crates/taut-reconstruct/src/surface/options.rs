@@ -24,7 +24,7 @@ pub struct SurfaceOptions<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SurfaceMethod {
-    /// Cells labelled inside or outside by a signed spanning tree.
+    /// Cells labeled inside or outside by a signed spanning tree.
     Tree(SurfaceMode),
     /// The advancing front of the thesis. Joggled points are others than those given, and refused: for them there is
     /// [`thesis_surface_of_points`](crate::thesis::thesis_surface_of_points).
@@ -120,7 +120,7 @@ choice! { "mode", SurfaceMode {
 pub struct Denoise {
     /// How many nearest points, itself among them, say where the sheet of a point is. From 4 to 1000, default 24.
     pub neighbors: usize,
-    /// How many times each point is moved onto the paraboloid that fits its neighbours best; 0 moves none and leaves out outliers
+    /// How many times each point is moved onto the paraboloid that fits its neighbors best; 0 moves none and leaves out outliers
     /// alone. At most 100, default 2.
     pub iterations: u32,
     /// Where the vertices of the surface are; default [`Positions::Projected`].

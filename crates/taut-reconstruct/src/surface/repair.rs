@@ -1,7 +1,7 @@
 //! Vertices at which the border is no surface, or is not at all, put right by turning a few cells over.
 //!
 //! *Idea.* Around a vertex of a surface the cells inside hang together by facets, and so do those outside. Where they do not, a cell, two
-//! neighbours, or a whole part of the star changes sides: the change that leaves the fewest parts too many at all vertices it
+//! neighbors, or a whole part of the star changes sides: the change that leaves the fewest parts too many at all vertices it
 //! touches, and of those the one that the strengths of the facets object to least.
 //! *Guarantee.* Each change lowers the number of parts too many, so it ends. A cell changes only to a side that it has a facet with,
 //! so no island arises. Vertices are taken in the order of their numbers, cells in the order of their sites, and sums are exact: the
@@ -20,7 +20,7 @@ use super::stars::{Star, Stars};
 pub(super) type Strength<'a> = &'a dyn Fn(u32, usize) -> i64;
 
 /// A star is repaired if it has at most this many cells. Samples of surfaces have stars of twenty cells, random ones of
-/// a hundred; a vertex with more is far from all surfaces around it, as the centre of a ball is, and its star would
+/// a hundred; a vertex with more is far from all surfaces around it, as the center of a ball is, and its star would
 /// take the square of its size.
 const STAR_CELLS_MAX: usize = 512;
 
@@ -136,7 +136,7 @@ impl Bench<'_> {
         best.map(|(_, _, change)| change)
     }
 
-    /// The changes worth a look: cells of the star, pairs of neighbours one of which is in it, and its parts of one label.
+    /// The changes worth a look: cells of the star, pairs of neighbors one of which is in it, and its parts of one label.
     fn changes(&self, inside: &[bool], Around { star, labels, .. }: &Around) -> Vec<Vec<u32>> {
         let may = |cell: u32| self.ghosts_may || !self.cells.is_ghost(cell);
         let mut changes: Vec<Vec<u32>> = star.cells.iter().map(|&cell| vec![cell]).collect();

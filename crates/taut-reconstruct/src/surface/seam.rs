@@ -1,15 +1,15 @@
-//! Sheets with one side, put together from two labellings.
+//! Sheets with one side, put together from two labelings.
 //!
 //! *Problem.* Labels give every sheet two sides. Where it has one, as a Möbius band, they contradict what some facets surely say, all the
 //! way across the sheet: a patch is missing there, and a membrane goes through.
 //! *Idea.* Any sheet has two sides for those who do not walk around it. So the cells at the points of the patch, and at those some rings
-//! around it, are labelled once more, by the strongest tree of the facets between them alone. Both surfaces are alike
+//! around it, are labeled once more, by the strongest tree of the facets between them alone. Both surfaces are alike
 //! all around the patch. At the points of triangles that only one of them has, as far as these hang together with
 //! the patch, the second surface is taken, and everywhere else the first.
 //! *Guarantee.* All triangles at a point are of one of the two, so it is as good a point of a surface as it is there. The result is taken
 //! only if it has one side, and no more points that are none of a surface than what labels give. A function of the points.
 //! *Trap.* The first surface is to be repaired before, though repair makes one with two sides of what is around the patch: without that 7
-//! of 21 random bands kept holes or defects. The second is not to be: repair would run along the border of what is labelled, where every
+//! of 21 random bands kept holes or defects. The second is not to be: repair would run along the border of what is labeled, where every
 //! point looks like a defect. Noise has facets overruled, too: where patches are many and everywhere, no rings get around them.
 
 use std::cmp::Reverse;

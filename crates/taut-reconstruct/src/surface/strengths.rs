@@ -1,9 +1,9 @@
 //! How strongly each facet says that the cells on both sides are of one medium, or that a surface is between them.
 //!
-//! *Idea.* s = (r² + q² − d²)/(2rq) for spheres of radii r and q whose centres are d apart is the cosine of the angle between them, but
+//! *Idea.* s = (r² + q² − d²)/(2rq) for spheres of radii r and q whose centers are d apart is the cosine of the angle between them, but
 //! for its sign: near 1 they are nearly one, which cells deep within a body or deep outside are; near −1 they barely meet, which they
 //! do through the facets of a surface that is sampled well. On the hull the sphere outside is a half-space, and s = −h/r with the
-//! height h of the centre within the hull; between two ghosts it is the cosine between the normals of their facets. It does not change
+//! height h of the center within the hull; between two ghosts it is the cosine between the normals of their facets. It does not change
 //! with scale.
 //! *Guarantee.* s is a function of the points, to the last bit: spheres and normals are formed with sites in the order of their numbers.
 
@@ -214,7 +214,7 @@ fn near(one: Sphere, other: Sphere) -> f64 {
 /// The same where one is much larger than the other, from the corners of their common facet in the order of sites.
 #[cold]
 fn far(one: Sphere, other: Sphere, [a, b, c]: [Point; 3]) -> f64 {
-    // With the radius c of the circle of the facet, and the heights of the centres over it, s = (c² + hk)/(rq).
+    // With the radius c of the circle of the facet, and the heights of the centers over it, s = (c² + hk)/(rq).
     let (r, q) = (one.radius, other.radius);
     let normal = cross(minus(b, a), minus(c, a));
     let size = dot(normal, normal).sqrt();

@@ -42,7 +42,7 @@ impl Bond {
     }
 }
 
-/// A labelling of cells and the tree it comes from.
+/// A labeling of cells and the tree it comes from.
 pub(super) struct Labels {
     pub(super) inside: Vec<bool>,
     /// For each cell the facets obeyed, one bit each.
@@ -133,7 +133,7 @@ fn strongest_of(cell: u32, ties: &Ties, cells: &Cells) -> u32 {
     let [a, b, c, d] = own;
     let most = a.max(b).max(c.max(d));
     let facets = (0..4).filter(|&i| own[i] == most).map(|i| cell << 2 | i as u32);
-    // Few cells have two facets of one strength; all others need not know their neighbours.
+    // Few cells have two facets of one strength; all others need not know their neighbors.
     let alike = own.iter().filter(|&&tie| tie == most).count();
     match alike {
         1 => {

@@ -61,7 +61,7 @@ fn summary(points: &[Point], options: &ThesisOptions) -> (usize, Option<u64>, us
 
 #[test]
 fn smooth_surfaces_come_out_right() {
-    for priority in [Priority::CircumcentreDistance, Priority::Circumradius, Priority::EmptyBall] {
+    for priority in [Priority::CircumcenterDistance, Priority::Circumradius, Priority::EmptyBall] {
         let options = ThesisOptions { priority, ..Default::default() };
         for n in [20, 100, 3000] {
             assert_eq!(summary(&sphere(n), &options), (1, Some(0), 0, 0, 0), "{n} {priority:?}");

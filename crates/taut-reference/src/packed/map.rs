@@ -3,7 +3,7 @@
 //! *Problem.* Keep entries in order under insertion and deletion, and still in memory as a sorted array has them, so that
 //! ranges are read at the speed of memory.
 //! *Idea.* An array with gaps, in leaves of 64 slots whose entries are packed to the left. A leaf that is full, or too
-//! empty, is spread together with its neighbours: over the smallest window around it that is within the bounds of its
+//! empty, is spread together with its neighbors: over the smallest window around it that is within the bounds of its
 //! level (see `density`). Leaves are found by their least keys (see `separators`).
 //! *Guarantee.* Order always; all leaves but the last hold 8 to 64 of 64 entries, the whole array is 3/8 to 3/4 full, up to
 //! one leaf; O(log² n) moves an insertion or deletion on average and O(1 + log² n / B) blocks wherever windows are spread

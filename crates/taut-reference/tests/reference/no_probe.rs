@@ -1,6 +1,6 @@
 //! A probe that does not record costs nothing: the machine code says so.
 //!
-//! All of `src/algorithms/` is compiled by itself with all optimisations, for `NoProbe`; once as it is, and once with
+//! All of `src/algorithms/` is compiled by itself with all optimizations, for `NoProbe`; once as it is, and once with
 //! every line that tells a probe of something left blank. Nine functions in ten must have the same instructions, in the
 //! same order; where the compiler, seeing another source, puts blocks or spills otherwise, the number of instructions
 //! must be the same within 2 %, and within 0.5 % in all. A probe that records must add 2 % at least, in all. And a

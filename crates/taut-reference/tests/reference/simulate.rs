@@ -325,7 +325,7 @@ fn what_is_no_cache_is_refused_by_name() {
 /// Accesses per second, the best of some runs: `cargo test --release -p taut-oblivious --test simulate -- --ignored
 /// --nocapture` shows them.
 #[test]
-#[ignore = "a measurement: run it alone and optimised"]
+#[ignore = "a measurement: run it alone and optimized"]
 fn accesses_per_second() {
     use std::time::Instant;
     use taut_reference::algorithms::{MatrixSizes, mergesort_instrumented, multiply_instrumented};

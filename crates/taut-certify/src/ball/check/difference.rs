@@ -1,4 +1,4 @@
-//! One row minus the centre, scaled, to twice the precision of `f64`, and the square of its length.
+//! One row minus the center, scaled, to twice the precision of `f64`, and the square of its length.
 
 use taut_points::Scalar;
 
@@ -24,7 +24,7 @@ pub(super) fn underflow(count: usize) -> f64 {
 /// (p − c)·2ᵏ = high + low, coordinate by coordinate; kept and filled again for one row after the other.
 pub(super) struct Difference {
     pub(super) high: Vec<f64>,
-    /// Off by at most U times its own size: with a tail of the centre it is the rounded sum of two errors.
+    /// Off by at most U times its own size: with a tail of the center it is the rounded sum of two errors.
     pub(super) low: Vec<f64>,
 }
 
@@ -33,7 +33,7 @@ impl Difference {
         Difference { high: vec![0.0; dim], low: vec![0.0; dim] }
     }
 
-    /// Takes the difference of `row` and the centre of `ball`.
+    /// Takes the difference of `row` and the center of `ball`.
     pub(super) fn fill<T: Scalar>(&mut self, row: &[T], ball: &Ball, scale: Scale) {
         let parts = self.high.iter_mut().zip(&mut self.low);
         let coordinates = parts.zip(row.iter().zip(&ball.center));

@@ -10,8 +10,8 @@
 //! rounded and the answer is optimal, all of this is exactly 0.
 //! *Trap.* Any multipliers prove a lower bound, so those below 2⁻²⁰⁰, whose products could underflow, count as 0.
 //!
-//! *The centre.* That c is the combination p̄ is no part of the proof, but part of what the certificate states; without
-//! this, damage to a coordinate of the centre could hide, as moving it raises R to second order only. |M/W|, with its
+//! *The center.* That c is the combination p̄ is no part of the proof, but part of what the certificate states; without
+//! this, damage to a coordinate of the center could hide, as moving it raises R to second order only. |M/W|, with its
 //! bound, must not exceed what writing c down costs, coordinate by coordinate:
 //! - without a tail, 4u(|cⱼ| + R): half an ulp of cⱼ is at most u|cⱼ|, the rest is for the sum Σλᵢpᵢ;
 //! - with a tail, 4uR + 8u²|cⱼ|: half an ulp of the tail is at most u²|cⱼ|, the rest is for the sum Σλᵢ(pᵢ − c₀) about

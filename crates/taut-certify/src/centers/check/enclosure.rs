@@ -1,11 +1,11 @@
 //! Whether every row that counts lies in one of the balls, decided exactly; and whether the rows are those the certificate
 //! speaks of.
 //!
-//! *Problem.* For each of n rows, some centre c with w·|p − c| + r ≤ R; in one pass.
-//! *Idea.* The centre that held the row before is asked first, then those that are not too far along some axis
+//! *Problem.* For each of n rows, some center c with w·|p − c| + r ≤ R; in one pass.
+//! *Idea.* The center that held the row before is asked first, then those that are not too far along some axis
 //! ([`Halves`]). What plain arithmetic leaves open is decided in whole numbers, by [`compare`].
-//! *Assignment.* Where it is given, the centre named for a row must be the nearest but for what a sum in `f64` may be off
-//! by, |p − c| ≤ |p − c'|·(1 + (d + 32)u) + 4ur for every other c': which of centres that are equally near by rounding is
+//! *Assignment.* Where it is given, the center named for a row must be the nearest but for what a sum in `f64` may be off
+//! by, |p − c| ≤ |p − c'|·(1 + (d + 32)u) + 4ur for every other c': which of centers that are equally near by rounding is
 //! the first, depends on the order of a sum. Rows left out are assigned like others.
 //! *Guarantee.* No row is misjudged by R, so the first row found outside does not depend on threads.
 
@@ -39,7 +39,7 @@ impl<'a> Enclosure<'a> {
         Enclosure { answer, kind, scale, kappa: kappa(dim), halves }
     }
 
-    /// Reads all rows once; returns those of the core-set and those that are centres.
+    /// Reads all rows once; returns those of the core-set and those that are centers.
     pub(super) fn check(
         &self,
         source: &dyn PointSource,
@@ -85,7 +85,7 @@ impl<'a> Enclosure<'a> {
         Ok(problem)
     }
 
-    /// `held_by` is the centre that held the row before, and becomes the one that holds this.
+    /// `held_by` is the center that held the row before, and becomes the one that holds this.
     #[inline(always)]
     fn row<T: Scalar>(
         &self,
@@ -121,7 +121,7 @@ impl<'a> Enclosure<'a> {
         }
         let reach = rho / item.weight;
         if reach == 0.0 {
-            // Not even the least number: nothing but the very place of the centre.
+            // Not even the least number: nothing but the very place of the center.
             let is_same = |center: usize| is_same_place(item.position, &centers[center]);
             return self.find(item.position, 0.0, is_same, held_by, meter);
         }
@@ -146,7 +146,7 @@ impl<'a> Enclosure<'a> {
         Ok(false)
     }
 
-    /// Whether some centre, of all that are so near and perhaps of others, passes a test; the one that did last is asked
+    /// Whether some center, of all that are so near and perhaps of others, passes a test; the one that did last is asked
     /// first.
     #[inline(always)]
     fn find<T: Scalar>(
@@ -172,7 +172,7 @@ impl<'a> Enclosure<'a> {
         Ok(found.is_some())
     }
 
-    /// The centre to which an item is assigned, if it is the nearest.
+    /// The center to which an item is assigned, if it is the nearest.
     fn assigned<T: Scalar>(
         &self,
         row: u64,
@@ -200,7 +200,7 @@ impl<'a> Enclosure<'a> {
         })
     }
 
-    /// How far the item reaches from the centre next to it, for people to read.
+    /// How far the item reaches from the center next to it, for people to read.
     fn outside<T: Scalar>(&self, row: u64, item: &Item<'_, T>) -> CentersViolation {
         let reach = |center: &Vec<f64>| item.weight * distance(item.position, center) + item.radius;
         let mut nearest = (0, f64::INFINITY);
@@ -273,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_that_have_to_be_centres_are_compared_plainly() {
+    fn rows_that_have_to_be_centers_are_compared_plainly() {
         let centers: Vec<Vec<f64>> =
             (0..300).map(|i| vec![f64::from(i * i % 307), f64::from(i) * 0.1 - 3.0]).collect();
         let rows: Vec<f64> = centers.iter().rev().cycle().take(3000).flatten().copied().collect();

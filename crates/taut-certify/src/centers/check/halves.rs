@@ -1,13 +1,13 @@
-//! The centres, halved again and again along their widest axis, so that few are asked for each row.
+//! The centers, halved again and again along their widest axis, so that few are asked for each row.
 //!
-//! *Cost.* O(dk log k) to build. In few dimensions a row asks O(log k) of k centres that lie evenly; in many, all.
+//! *Cost.* O(dk log k) to build. In few dimensions a row asks O(log k) of k centers that lie evenly; in many, all.
 
-/// Up to this many centres are asked one by one.
+/// Up to this many centers are asked one by one.
 const LEAF_SIZE: usize = 8;
 
-/// Centres that lie on two sides of a gap along an axis, or few of them.
+/// Centers that lie on two sides of a gap along an axis, or few of them.
 struct Node {
-    /// Which of the centres, in their order here.
+    /// Which of the centers, in their order here.
     first: usize,
     end: usize,
     /// Where they are parted; `None` for few.
@@ -23,7 +23,7 @@ struct Parting {
     other: usize,
 }
 
-/// All centres.
+/// All centers.
 pub(super) struct Halves {
     order: Vec<usize>,
     nodes: Vec<Node>,
@@ -67,7 +67,7 @@ impl Halves {
         self.nodes[node].parting = Some(Parting { axis, low, high, other });
     }
 
-    /// The first centre that passes a test, of all that are at most so far from a place, and perhaps of others; those on
+    /// The first center that passes a test, of all that are at most so far from a place, and perhaps of others; those on
     /// the side of the place come first.
     #[inline(always)]
     pub(super) fn find<T: Copy + Into<f64>>(

@@ -4,7 +4,7 @@
 //! case whose group no ball holds is refuted there and then; of every other the log says how it goes on.
 //! *Guarantee.* All cases are gone through, or the log is refused. No recursion: the depth is what the log makes it.
 //! *Cost.* For each branch, a test for each group, and the item added to each group that takes it. An item that the deepest
-//! centre of its group has room for leaves nothing to be kept, another the centre and the multipliers before it: a number
+//! center of its group has room for leaves nothing to be kept, another the center and the multipliers before it: a number
 //! for each coordinate and two for each multiplier, of which there are at most d + 1. [`UNDO_BYTES_MAX`] bytes are granted.
 
 use super::super::CentersViolation;

@@ -1,6 +1,6 @@
-//! Balls with their centres at rows of the input: which items each row is near enough to.
+//! Balls with their centers at rows of the input: which items each row is near enough to.
 //!
-//! *Idea.* A row is as good a centre as the set of items less than ρ from it. One more pass over the rows finds these
+//! *Idea.* A row is as good a center as the set of items less than ρ from it. One more pass over the rows finds these
 //! sets; rows with the same set are one place. A group of items is held by a ball just when some place is near to all of
 //! them, which is the intersection of sets of places, one for each item.
 //! *Guarantee.* Whether an item is less than ρ from a row is decided exactly.

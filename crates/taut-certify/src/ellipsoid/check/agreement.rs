@@ -6,7 +6,7 @@
 //! to about 1 first: squares of entries 1e154 apart have no place in one matrix.
 //! *Log-volume.* log κᵣ − log|det F|, for flat sets log κᵣ − log|det FBᵀ|. A triangular F has the product of its
 //! diagonal as determinant. For any other, with PF = LU in `f64` and X, Y the inverses of L, U as found in `f64`, the
-//! matrix T = XPFY is nearly I, and det F = ± det T/(det X·det Y): T is formed and factorised in doubled precision.
+//! matrix T = XPFY is nearly I, and det F = ± det T/(det X·det Y): T is formed and factorized in doubled precision.
 //! The log-volume must be that up to 32u times the sum of the sizes of all logarithms it is made of, plus r.
 //! *Trap.* Rows and columns of F may differ by a hundred orders of magnitude: pivots are compared with their rows.
 

@@ -121,7 +121,7 @@ impl<'a> Enclosure<'a> {
         left_out.iter().for_each(|&row| panel.forget(row));
         let threshold = panel.measure(self.frame);
         found.widen(panel.extents());
-        // Rows of the panel that need a look of their own; the centre, which stands for those left out, is inside.
+        // Rows of the panel that need a look of their own; the center, which stands for those left out, is inside.
         for row in panel.beyond(threshold) {
             found.take(first + row as u64, self.excess(&values[row * dim..][..dim]))?;
         }

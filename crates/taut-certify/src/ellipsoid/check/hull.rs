@@ -110,7 +110,7 @@ impl<'a> HullTest<'a> {
         length(&self.off(&offset)) <= allowed
     }
 
-    /// The root of the trace of (I − BᵀB)S(I − BᵀB), times s: how far the item reaches off its own centre at most.
+    /// The root of the trace of (I − BᵀB)S(I − BᵀB), times s: how far the item reaches off its own center at most.
     fn thickness(&self, item: &Item<'_>, frame: &Frame<'_>) -> f64 {
         let dim = frame.dim;
         let entry = |j: usize, k: usize| item.shape::<f64>(j.max(k), j.min(k), [frame.scale; 2]);

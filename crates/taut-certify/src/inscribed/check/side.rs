@@ -71,7 +71,7 @@ impl Side {
     /// The same half-space divided by the power 2ᵏ that brings |ã| to [1, 2), and k; `None` where |ã| is not known.
     ///
     /// Errors are at least the least normal number, so a length that is known is far above what underflows.
-    pub(super) fn normalised(&self) -> Option<(i32, Side)> {
+    pub(super) fn normalized(&self) -> Option<(i32, Side)> {
         let length = self.length.rounded();
         let is_known = length > LEAST_KNOWN * self.normal_error && length.is_finite();
         if !is_known {

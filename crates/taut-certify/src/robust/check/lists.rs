@@ -29,7 +29,7 @@ pub(super) fn check(
             number("the distance from the hull", hull.distance, hull.distance >= 0.0)?;
         }
     }
-    center.iter().try_for_each(|&value| number("the centre", value, true))?;
+    center.iter().try_for_each(|&value| number("the center", value, true))?;
     structure::tail(&answer.ellipsoid())?;
     number("the log-volume", answer.log_volume, true)?;
     number("the log-determinant", answer.log_det, true)?;

@@ -9,8 +9,8 @@
 //! *Bound.* O and N are formed in double-double, where each is off by less than 2⁻⁹³ of its largest monomial there can be (no more than
 //! 24 of them, 14 operations of 8u² on the way of each), and then rounded. f is off by what that makes of the farthest point of the
 //! box, and by a few roundings of each share.
-//! *Trap.* A sphere through four points almost on a circle is hardly determined: its centre, as rounded, may lie anywhere. The bound of
-//! f is not touched by that, as no centre is formed.
+//! *Trap.* A sphere through four points almost on a circle is hardly determined: its center, as rounded, may lie anywhere. The bound of
+//! f is not touched by that, as no center is formed.
 
 use super::tree::Area;
 use crate::arithmetic::{DoubleDouble, U};

@@ -4,7 +4,7 @@
 //! *Idea.* Let all common vertices be ends of an edge of one triangle, its third vertex on one side of the line of that edge as seen
 //! along the axis, and the other vertices of the other triangle strictly on the other side. What the triangles share is then seen
 //! on the line, where the other triangle has nothing but the hull of the common vertices.
-//! *Why.* Neighbours in one plane, which leave the sign of a determinant in space to whole numbers, are separated by their edges in
+//! *Why.* Neighbors in one plane, which leave the sign of a determinant in space to whole numbers, are separated by their edges in
 //! that plane: two coordinates tell them apart, with bits to spare.
 
 use super::meet::Face;

@@ -7,7 +7,7 @@
 //! > D = N·r − |r|²·O
 //!
 //! is positive when q lies inside the circumsphere, negative outside. N and O belong to the simplex and serve for all its
-//! neighbours. The cofactor of lᵢ is the orientation of the simplex with q in place of aᵢ, that of |r|² is −O.
+//! neighbors. The cofactor of lᵢ is the orientation of the simplex with q in place of aᵢ, that of |r|² is −O.
 //! *Triangles in space.* In a plane that does not stand upright on the first two coordinates, minors of those two serve
 //! for the orientation, as projecting the plane to them is affine; only the squares l and |r|² need all three.
 

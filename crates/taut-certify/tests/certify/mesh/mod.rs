@@ -273,7 +273,7 @@ pub(crate) fn hull_of(simplices: &[u32], width: usize) -> Vec<u32> {
     boundary(&rows(simplices, width)).into_iter().flatten().collect()
 }
 
-/// Neighbours by a map of all facets.
+/// Neighbors by a map of all facets.
 pub(crate) fn neighbors_of(simplices: &[u32], width: usize) -> Vec<u32> {
     let rows = rows(simplices, width);
     let mut sides: BTreeMap<Vec<u32>, Vec<usize>> = BTreeMap::new();

@@ -38,7 +38,7 @@ pub(crate) fn is_empty(places: &[Point], sites: &[u32], triangle: [u32; 3], apex
     }
     let others = || sites.iter().map(|&row| exact(&places[row as usize]));
     let circle = |q: &Vector| {
-        // The centre by the weights of its corners.
+        // The center by the weights of its corners.
         let weight = |p: &Vector, q: &Vector, r: &Vector| {
             let square = |p: &Vector, q: &Vector| dot(&minus(p, q), &minus(p, q));
             square(q, r) * (square(p, q) + square(p, r) - square(q, r))
@@ -59,7 +59,7 @@ pub(crate) fn is_empty(places: &[Point], sites: &[u32], triangle: [u32; 3], apex
             if !sites.contains(&row) {
                 return false;
             }
-            // The centre x solves 2(p − a)·x = |p|² − |a|² for the three others, by Cramer's rule.
+            // The center x solves 2(p − a)·x = |p|² − |a|² for the three others, by Cramer's rule.
             let d = exact(&places[row as usize]);
             let lines = [b, c, &d].map(|p| minus(p, a));
             let right = [b, c, &d].map(|p| (dot(p, p) - dot(a, a)) / Q::from_integer(2.into()));

@@ -52,7 +52,7 @@ impl Constrained {
         Constrained { triangles, marks, pieces, splits }
     }
 
-    /// The triangles with their neighbours, ghosts included.
+    /// The triangles with their neighbors, ghosts included.
     pub fn triangles(&self) -> &[Simplex<3>] {
         &self.triangles
     }

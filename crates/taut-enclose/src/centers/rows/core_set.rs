@@ -1,4 +1,4 @@
-//! A few items, and for each of them the rows at which a centre has it within less than a radius.
+//! A few items, and for each of them the rows at which a center has it within less than a radius.
 
 use taut_points::{Monitor, ReadError};
 
@@ -77,7 +77,7 @@ impl<'s> CoreSet<'s> {
         self.fits.push(fits);
     }
 
-    /// The rows at which a centre has this item.
+    /// The rows at which a center has this item.
     pub(super) fn words(&self, item: usize) -> &Words {
         &self.words[item]
     }

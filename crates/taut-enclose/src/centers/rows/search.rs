@@ -1,6 +1,6 @@
 //! Whether k balls of less than a radius hold all items: a tree over X, which grows where X is held and something else is not.
 //!
-//! *Idea.* Depth first; a node is [`State`]. Where X is held, each cluster takes one of its rows as centre, and all
+//! *Idea.* Depth first; a node is [`State`]. Where X is held, each cluster takes one of its rows as center, and all
 //! items are measured: either the radius is enough, or the farthest item joins X and the node is looked at again. What
 //! was refuted stays refuted. When X has grown and the tree as well, it starts anew, as the new items may refute it sooner.
 
@@ -70,7 +70,7 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Measures all items from a centre for each cluster. The farthest that is not left out, unless the radius is enough.
+    /// Measures all items from a center for each cluster. The farthest that is not left out, unless the radius is enough.
     fn measure(&mut self) -> Option<usize> {
         let (state, core) = (&*self.state, &*self.state.core);
         let mut counts = vec![true; core.sites.len()];

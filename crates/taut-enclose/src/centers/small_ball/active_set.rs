@@ -279,7 +279,7 @@ impl ActiveSet {
         self.shares.fill(1.0);
     }
 
-    /// The radius that the shares prove, of the support alone; sets the centre.
+    /// The radius that the shares prove, of the support alone; sets the center.
     fn proved<P: Position>(&mut self, items: &ItemSet<P>) -> f64 {
         self.center.clear();
         self.center.resize(self.dim, 0.0);

@@ -20,7 +20,7 @@ pub(super) struct Found {
     pub(super) outside: Vec<(f64, Touch)>,
 }
 
-/// Asks every item for its farthest point from the centre in the metric of M.
+/// Asks every item for its farthest point from the center in the metric of M.
 pub(super) fn pass(
     framed: &Framed,
     widths: &[f64],

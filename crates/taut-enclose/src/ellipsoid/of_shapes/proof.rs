@@ -92,7 +92,7 @@ impl Base {
     }
 }
 
-/// The largest |y|² of an ellipsoid given by its matrix and centre.
+/// The largest |y|² of an ellipsoid given by its matrix and center.
 fn square(shape: &[f64], center: &[f64]) -> f64 {
     let rank = center.len();
     let (lambda, vectors) = eigen(&mut shape.to_vec(), rank);

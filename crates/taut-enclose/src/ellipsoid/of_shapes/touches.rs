@@ -102,6 +102,6 @@ pub(super) fn first_pool(framed: &Framed, axes: Vec<Axes>) -> (Pool, Touches) {
     for at in chosen {
         pool.push(at as u64, &points[at], 1.0);
     }
-    pool.normalise();
+    pool.normalize();
     (pool, Touches { list })
 }

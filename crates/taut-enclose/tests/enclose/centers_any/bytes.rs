@@ -1,4 +1,4 @@
-//! Items and options made of any bytes: centres are found, and judged by the checker. Shared with the fuzz target.
+//! Items and options made of any bytes: centers are found, and judged by the checker. Shared with the fuzz target.
 
 use taut_certify::{Items, Placement};
 use taut_enclose::{CentersMethod, CentersOptions, CoverOptions, Error, centers};

@@ -2,7 +2,7 @@
 //! adding one point after the other.
 #![allow(unreachable_pub)] // included by a test binary
 
-/// A centre and a radius.
+/// A center and a radius.
 #[derive(Clone, Copy, Debug)]
 pub struct Circle {
     pub center: [f64; 2],

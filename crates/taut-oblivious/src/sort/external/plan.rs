@@ -165,12 +165,12 @@ impl Run {
     }
 }
 
-/// Neighbouring runs, and the longer one that they are merged to.
+/// Neighboring runs, and the longer one that they are merged to.
 pub(super) type Step = (Vec<Run>, Run);
 
 /// The merges after which few enough runs are left to be merged at once, and those runs.
 ///
-/// From the front, as many neighbours as can be merged at once, until that is enough; if it is not, what came of it is
+/// From the front, as many neighbors as can be merged at once, until that is enough; if it is not, what came of it is
 /// gone through again. Longer runs are written behind the shorter ones, which stay.
 pub(super) fn steps(mut left: Vec<Run>, plan: &Plan) -> (Vec<Step>, Vec<Run>) {
     let (fan_in, mut steps) = (plan.fan_in(), vec![]);

@@ -37,7 +37,7 @@ pub struct CurveSample {
 pub struct EpsilonSample {
     /// The points, n × 2, in a random order.
     pub points: Vec<f64>,
-    /// The rows of neighbours along the curves, the lesser first, ascending.
+    /// The rows of neighbors along the curves, the lesser first, ascending.
     pub edges: Vec<[u32; 2]>,
 }
 

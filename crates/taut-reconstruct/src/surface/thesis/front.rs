@@ -2,7 +2,7 @@
 //!
 //! *Problem.* Choose from the candidates triangles that make a surface.
 //! *Idea.* As Prim's algorithm grows a minimum spanning tree: all edges of one triangle only wait in a queue, by the distance of the
-//! circumcentres of that triangle and the best candidate; those whose candidate is on slivers come after all others. The first edge
+//! circumcenters of that triangle and the best candidate; those whose candidate is on slivers come after all others. The first edge
 //! gets its candidate, unless that would spoil the surface. What can no longer be added, candidates at an edge with two triangles
 //! and at a vertex with a closed fan, is deleted.
 //! *Guarantee.* No edge has more than two triangles, and both run along it in opposite directions. No two triangles meet but in common

@@ -21,7 +21,7 @@ pub struct ThesisOptions {
     pub sliver_angle: f64,
     /// Two triangles do not make a smaller dihedral angle, in radians. Range [0, π/2], default π/4.
     pub forbidden_angle: f64,
-    /// What the front prefers. Default [`Priority::CircumcentreDistance`].
+    /// What the front prefers. Default [`Priority::CircumcenterDistance`].
     pub priority: Priority,
     /// How far it goes. Default [`Extent::Front`].
     pub extent: Extent,
@@ -55,9 +55,9 @@ impl Default for ThesisOptions {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Priority {
-    /// Distance of its circumcentre from that of the triangle at the edge, as the thesis' program has it.
+    /// Distance of its circumcenter from that of the triangle at the edge, as the thesis' program has it.
     #[default]
-    CircumcentreDistance,
+    CircumcenterDistance,
     /// Circumradius, as in the thesis' Lemma 4.4.1.
     Circumradius,
     /// Radius of the smallest empty ball that touches it: Cohen-Steiner and Da, The Visual Computer 20, 2004.
@@ -65,8 +65,8 @@ pub enum Priority {
 }
 
 choice! { "priority", Priority {
-    CircumcentreDistance = "circumcentre-distance",
-        "a circumcentre near that of the triangle before";
+    CircumcenterDistance = "circumcentre-distance",
+        "a circumcenter near that of the triangle before";
     Circumradius = "circumradius", "a small circle";
     EmptyBall = "empty-ball", "a small empty ball";
 }}

@@ -2,7 +2,7 @@
 //!
 //! *Problem.* Triangle t has an edge that no other triangle of the surface has. Which candidate continues it?
 //! *Idea.* Turn about the edge from t towards its normal, cell by cell. Candidates that make a dihedral angle of at least π/4 with t are
-//! kept, in the order in which they come. From the one whose circumcentre is nearest to that of t, go back towards t for as long as the
+//! kept, in the order in which they come. From the one whose circumcenter is nearest to that of t, go back towards t for as long as the
 //! next one is less than π/12 away: that is the topmost of a system of slivers.
 //! *Guarantee.* The order is exact, as it is that of the cells. Angles and distances are `f64`, ties go to the smaller site.
 //! *Trap.* Candidates of equal rank are many where points lie on circles; an order by an angle that was computed would be arbitrary

@@ -1,6 +1,6 @@
 //! Facets and their spheres in fractions, by other formulas than those of the predicates.
 //!
-//! The spheres through a, b and c have their centres on a line, C + s·n. A point p is not inside the one at s if
+//! The spheres through a, b and c have their centers on a line, C + s·n. A point p is not inside the one at s if
 //! 2s·n·(p − C) ≤ |p − C|² − R²: so the empty ones are an interval of s, and at its ends lie the spheres of the cells.
 
 use num_bigint::BigInt;

@@ -53,7 +53,7 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
     let chosen = |bit: u8| wish & bit != 0;
     let thesis = ThesisOptions {
         alpha: if chosen(1) { AlphaFilter::Circumradius(1.5) } else { AlphaFilter::None },
-        priority: if chosen(2) { Priority::EmptyBall } else { Priority::CircumcentreDistance },
+        priority: if chosen(2) { Priority::EmptyBall } else { Priority::CircumcenterDistance },
         extent: if chosen(4) { Extent::Restarts } else { Extent::Front },
         pinches: if chosen(8) { Pinches::Peel } else { Pinches::Keep },
         ..ThesisOptions::default()

@@ -26,7 +26,7 @@ impl Problem<'_> {
         self.columns - usize::from(self.weights || self.items == Items::Balls)
     }
 
-    /// The reach of an item from a centre.
+    /// The reach of an item from a center.
     pub(super) fn reach(&self, item: usize, center: &[f64]) -> f64 {
         let row = self.row(item);
         // By the largest difference, as hypot does, so that no square overflows.
@@ -46,7 +46,7 @@ impl Problem<'_> {
         }
     }
 
-    /// The radius that the rows with these numbers have as centres.
+    /// The radius that the rows with these numbers have as centers.
     fn radius(&self, centers: &[usize]) -> f64 {
         let nearest = |item| {
             let reaches = centers.iter().map(|&c| self.reach(item, self.row(c)));

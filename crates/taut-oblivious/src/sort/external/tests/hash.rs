@@ -26,7 +26,7 @@ fn differ(a: [u64; 2], b: [u64; 2]) -> bool {
 }
 
 #[test]
-fn no_two_bits_of_neighbouring_words_cancel() {
+fn no_two_bits_of_neighboring_words_cancel() {
     for seed in 0..if cfg!(miri) { 1 } else { 2000 } {
         let words = record(seed);
         let (before, k) = (lanes(&words), (seed / 4 % 2) as usize);
